@@ -14,7 +14,6 @@ from collections.abc import Iterator
 from contextlib import suppress
 from importlib import import_module
 from pathlib import Path
-from zlib import crc32
 
 for name in ("OPENBLAS", "OMP", "NUMBA"):
     os.environ.setdefault(f"{name}_NUM_THREADS", "1")
@@ -64,25 +63,6 @@ def plain_figures() -> Iterator[None]:
     with plt.rc_context(
         {"savefig.dpi": 30, "figure.constrained_layout.use": False}
     ):
-        yield
-
-
-@pytest.fixture(scope="session", autouse=True)
-def fixed_code_version(
-    tmp_path_factory: pytest.TempPathFactory,
-) -> Iterator[None]:
-    """Parse no code for the records of campaigns, which takes seconds."""
-    folder = tmp_path_factory.mktemp("code")
-
-    def version(modules: tuple[str, ...]) -> str:
-        return f"{crc32(repr(modules).encode()):012x}"
-
-    with pytest.MonkeyPatch.context() as patch:
-        for module in ("campaign", "claim_campaign", "code_version"):
-            place = f"stepaside.studies.{module}.code_version"
-            patch.setattr(place, version)
-        place = "stepaside.studies.code_version.cache_folder"
-        patch.setattr(place, lambda: folder)
         yield
 
 

@@ -1,4 +1,3 @@
-# modules: games/duel report/duel_figure cli/duel
 # %% [markdown]
 # # Your first duel
 #

@@ -1,4 +1,3 @@
-# modules: games/served_duel cli/play cli/serve
 # %% [markdown]
 # # On a robot
 #

@@ -1,4 +1,3 @@
-# modules: games/duel strategies report/duel_figure
 # %% [markdown]
 # # Your own evader in 15 lines
 #

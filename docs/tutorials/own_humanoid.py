@@ -1,4 +1,3 @@
-# modules: fitting games/duel cli/robot
 # %% [markdown]
 # # A humanoid of yours
 #

@@ -1,4 +1,3 @@
-# modules: games/duel cli/robustness report/duel_figure
 # %% [markdown]
 # # People
 #

@@ -1,4 +1,3 @@
-# modules: games/duel report/duel_figure cli/room
 # %% [markdown]
 # # Rooms
 #

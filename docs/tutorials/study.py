@@ -1,4 +1,3 @@
-# modules: studies cli/study
 # %% [markdown]
 # # A study with a sweep and a figure
 #

@@ -1,4 +1,3 @@
-# modules: envs strategies/learned games/duel
 # %% [markdown]
 # # Train an evader
 #

@@ -74,16 +74,6 @@ def test_shards_merged_give_the_table_of_the_whole(
     assert json.loads(again.stdout)["done"] == 6
 
 
-def test_tables_have_a_row_per_case(tmp_path: Path, study: Path) -> None:
-    polars = pytest.importorskip("polars")
-    file = tmp_path / "games.parquet"
-    answer = call("study", study, "--workers", "1", "--output", file)
-    assert answer.exit_code == 0, answer.output
-    frame = polars.read_parquet(file)
-    assert frame["seed"].to_list() == [*range(3), *range(3)]
-    assert (tmp_path / "games" / "records").is_dir()
-
-
 @pytest.mark.parametrize("bad", ["0/4", "5/4", "1", "a/b", "1/0", "-1/4"])
 def test_an_invalid_shard_is_refused(study: Path, bad: str) -> None:
     answer = call("study", study, f"--shard={bad}")
@@ -97,7 +87,7 @@ def test_merging_a_folder_without_records_is_refused(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize(
-    "bad", ["", "nothing", "pool:3", "mpi:x", "dask:", "no.such:module"]
+    "bad", ["", "nothing", "processes:3", "dask:", "no.such:module"]
 )
 def test_an_unknown_executor_is_refused(study: Path, bad: str) -> None:
     answer = call("study", study, f"--executor={bad}")

@@ -13,6 +13,7 @@ from stepaside.cli.run_output import SavedRun
 from stepaside.cli.terminal import resume_message
 from stepaside.core.atomic_output import atomic_draft
 from stepaside.games.outcome import Outcome
+from stepaside.studies.study import Study, run_study
 
 
 @click.command()
@@ -118,15 +119,14 @@ def test_a_campaign_interrupted_anywhere_names_its_records(
         raise KeyboardInterrupt
 
     monkeypatch.setattr("stepaside.games.game_file.load_game", interrupt)
-    records = tmp_path / "records"
-    records.mkdir()
     if recorded:
-        (records / "a.jsonl").write_text("{}\n")
+        study = Study("games", [1], lambda case: {"case": case}, str)
+        run_study(study, tmp_path / "games.sqlite")
     (tmp_path / "game.toml").write_text("")
     result = CliRunner().invoke(
         main, ["games", f"{tmp_path}/game.toml", f"--output={tmp_path}"]
     )
     assert result.exit_code == 130
-    kept = f"finished cases are saved in {records}; run the same command"
+    kept = f"finished cases are saved in {tmp_path}; run the same command"
     assert (kept in result.stderr) == recorded
     assert ("nothing is saved" in result.stderr) != recorded

@@ -7,9 +7,9 @@ from typing import Any
 import pytest
 from click.testing import CliRunner, Result
 
-from stepaside.cli import progress
 from stepaside.cli.main import COMMANDS, main
 from stepaside.cli.tables import format_value, label_of, unit_of
+from stepaside.core import progress
 from stepaside.games import match
 
 pytestmark = pytest.mark.usefixtures("blank_figures", "inline_workers")

@@ -2,6 +2,8 @@
 
 import json
 import pickle
+import sqlite3
+import sys
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from pathlib import Path
@@ -19,8 +21,8 @@ from stepaside.cli.duel import print_duel
 from stepaside.envs import game_v0  # registers the environments, too
 from stepaside.games.duel import run_duels
 from stepaside.games.served_duel import serve_duel
-from stepaside.studies.campaign import run_study
 from stepaside.studies.duel_campaign import duel_study
+from stepaside.studies.study import run_study
 
 SHORT = sa.DuelSettings(duration=1.2, start=sa.StartSettings(distance=0.7))
 OPEN: dict[str, Any] = {"level": "unicycle", "arenas": 4, "duration": 8.0}
@@ -90,14 +92,14 @@ def test_a_step_takes_the_same_time_in_games_and_tournaments(
     own = own_evader(tmp_path / "own.py", turn=0.0)
     words = ("tournament", "--evader", own, "--room", "open", "--workers", 1)
     command(*words, "--seeds", "0:1", "--duration", 10, "--output", output)
-    (records,) = (output / "records").iterdir()
-    record = json.loads(records.read_text())["record"]
+    with sqlite3.connect(output / "tournament.sqlite") as table:
+        walked, lasted = table.execute(
+            "SELECT walked_m, survived_s FROM results"
+        ).fetchone()
     file.write_text(GAME.replace("1.0", "10.0") + f'strategy = "{own}"')
     blue = answer("game", file, "--level", "steps")["results"][1]
     speed = blue["path_m"] / (10.0 - blue["moved_at_s"])
-    assert speed == pytest.approx(
-        record["walked_m"] / record["survived_s"], rel=0.05
-    )
+    assert speed == pytest.approx(walked / lasted, rel=0.05)
 
 
 def test_a_served_duel_moves_robots_on_learned_legs(tmp_path: Path) -> None:
@@ -241,11 +243,6 @@ def test_discrete_headings_are_evenly_spaced_on_the_circle(
     np.testing.assert_allclose(turns, 2.0 * np.pi / number)
 
 
-@pytest.mark.xfail(
-    strict=True,
-    raises=sa.StepAsideError,
-    reason="a study takes strategies by name only, even without a store",
-)
 def test_a_study_in_this_process_takes_a_strategy_object() -> None:
     run = run_study(duel_study(replace(SHORT, evader_strategy=Own()), [1]))
     assert [record["outcome"] for record in run.records()] == ["completed"]
@@ -290,12 +287,11 @@ def test_duels_that_had_finished_survive_an_interruption() -> None:
     assert second.outcome is sa.Outcome.INTERRUPTED
 
 
-@pytest.mark.xfail(
-    strict=True, reason="a study shows its progress in commands only"
-)
 def test_a_study_in_python_shows_its_progress(
-    capfd: pytest.CaptureFixture[str],
+    capfd: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
 ) -> None:
+    """On a terminal a bar, as the commands do."""
+    monkeypatch.setattr(sys.stderr, "isatty", lambda: True, raising=False)
     run_study(duel_study(SHORT, [1]))
     assert "1/1" in capfd.readouterr().err
 
@@ -315,14 +311,11 @@ def test_a_folder_without_a_whole_record_is_not_merged(
 ) -> None:
     output = tmp_path / "out"
     answer("games", file, "--seeds", "0:2", "--output", output)
-    (records,) = (output / "records").iterdir()
-    records.write_text(records.read_text().replace("{", "{x"))
+    (output / "games.sqlite").write_text("no records")
     done = command("merge", output, "--output", tmp_path / "whole")
     assert done.exit_code == 2
-    assert done.stderr.splitlines()[-1] == (
-        "stepaside: OUTPUT must have a valid record, got none"
-    )
-    assert not list((tmp_path / "whole").rglob("*.jsonl"))
+    assert "must be a SQLite file with records" in done.stderr
+    assert not (tmp_path / "whole").exists()
 
 
 def test_games_are_written_to_any_path(file: Path, tmp_path: Path) -> None:

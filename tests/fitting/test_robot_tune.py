@@ -28,7 +28,6 @@ from stepaside.robots.description import (
     RobotDescription,
     load_robot,
 )
-from stepaside.studies.result_store import ResultStore
 
 CALM = JointStrain(0.1, "knee", 0.4, "hip", 0.0, 0.001)
 
@@ -115,9 +114,7 @@ def search(
         return walked(trial, off, falls=bool(trial.control.feedback))
 
     monkeypatch.setattr(tuning, "walk_trial", walk)
-    return GaitSearch(
-        own, None, None if kept is None else ResultStore(kept)
-    ).run(), len(walks)
+    return GaitSearch(own, None, kept).run(), len(walks)
 
 
 def test_a_search_combines_helpful_changes(

@@ -6,10 +6,12 @@ here alone, so that a new name of a command changes one line.
 
 import json
 import os
+import sqlite3
 import subprocess
 import sys
 import tomllib
 from collections.abc import Sequence
+from contextlib import closing
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -290,6 +292,23 @@ def study(file: Path, output: Path, *words: object, **process: Any) -> Output:
     return stepaside("study", file, *kept, *words, **process)
 
 
+def table_in(output: Path) -> Path:
+    """The file with the table of a study in its folder of results."""
+    return output / "study.sqlite"
+
+
+def records_in(output: Path) -> int:
+    """How many cases of a study are stored in its folder so far."""
+    if not table_in(output).exists():
+        return 0
+    with closing(sqlite3.connect(table_in(output))) as table:
+        has = "SELECT 1 FROM sqlite_master WHERE name = 'results'"
+        if not table.execute(has).fetchone():
+            return 0
+        (number,) = table.execute("SELECT COUNT(*) FROM results").fetchone()
+    return int(number)
+
+
 def start_study(
     file: Path, output: Path, **environment: str
 ) -> "subprocess.Popen[str]":
@@ -311,8 +330,8 @@ def merge(output: Path, *parts: Path) -> Output:
 
 def frame_of_duels(settings: Any, seeds: Sequence[int]) -> Any:
     """Play duels as a study in Python; return the data frame."""
-    from stepaside.studies.campaign import run_study
     from stepaside.studies.duel_campaign import duel_study
+    from stepaside.studies.study import run_study
 
     return run_study(duel_study(settings, seeds)).to_frame()
 

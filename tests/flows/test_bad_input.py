@@ -88,9 +88,9 @@ def test_what_is_bad_is_refused_in_python(
 
 
 def test_joining_only_damaged_results_is_refused(tmp_path: Path) -> None:
-    records = tmp_path / "part" / "records"
-    records.mkdir(parents=True)
-    (records / "a.jsonl").write_text("{}\nhalf a li")
+    part = tmp_path / "part" / "study.sqlite"
+    part.parent.mkdir()
+    part.write_text("half a li")
     calls.stepaside(
         *("merge", tmp_path / "part", "--output", tmp_path / "all"), status=2
     )

@@ -14,7 +14,6 @@ from stepaside.cli import reproduce_figures
 from stepaside.cli.main import main
 from stepaside.core import worker_pool as workers
 from stepaside.studies import claim_campaign as reproduce
-from stepaside.studies.campaign import CodeStamp, code_stamp
 from stepaside.studies.claim_jobs import JOBS
 from stepaside.studies.claims import (
     Claim,
@@ -22,7 +21,7 @@ from stepaside.studies.claims import (
     ClaimRow,
     Readings,
 )
-from stepaside.studies.result_store import ResultStore
+from stepaside.studies.results_version import RESULTS
 
 NAN, INF = float("nan"), float("inf")
 
@@ -55,7 +54,7 @@ def claim(relation: Any = "=", key: str = "it") -> Claim:
 def test_verdict(
     relation: Any, values: tuple[float, ...], holds: bool
 ) -> None:
-    row = ClaimRow("a.it", claim(relation), values, "v")
+    row = ClaimRow("a.it", claim(relation), values)
     assert row.holds is holds
     assert row.to_json()["verdict"] == ("holds" if holds else "fails")
 
@@ -71,14 +70,12 @@ class Bench:
         self.settings = "as they are"
         self.stop_at: int | None = None
         self.jobs = {
-            "seeded": self.job("seeded", ("planning",), True),
-            "once": self.job("once", ("theory/unicycle",), False),
+            "seeded": self.job("seeded", True),
+            "once": self.job("once", False),
         }
 
-    def job(
-        self, name: str, modules: tuple[str, ...], seeded: bool
-    ) -> ClaimJob:
-        """Return a job that depends on some modules."""
+    def job(self, name: str, seeded: bool) -> ClaimJob:
+        """Return a job that notes its measurements."""
 
         def measure(seed: int) -> Readings:
             if seed == self.stop_at:
@@ -89,8 +86,6 @@ class Bench:
         return ClaimJob(
             (claim(),),
             measure,
-            modules,
-            ("numpy",),
             lambda _: self.settings if seeded else "",
             seeded,
         )
@@ -106,7 +101,7 @@ def bench(monkeypatch: pytest.MonkeyPatch) -> Bench:
 def again(bench: Bench, folder: Path, *seeds: int) -> list[tuple[str, int]]:
     """Run the campaign on a folder; return what it measured."""
     bench.measured.clear()
-    reproduce.reproduce(ResultStore(folder), seeds)
+    reproduce.reproduce(folder / "kept.sqlite", seeds)
     return sorted(bench.measured)
 
 
@@ -116,7 +111,7 @@ ALL = [("once", 0), ("seeded", 1), ("seeded", 2)]
 def test_stored_reading_is_not_measured_again(
     bench: Bench, tmp_path: Path
 ) -> None:
-    store = ResultStore(tmp_path)
+    store = tmp_path / "kept.sqlite"
     rows = reproduce.reproduce(store, (1, 2))
     assert sorted(bench.measured) == ALL
     assert [row["name"] for row in rows] == ["seeded.it", "once.it"]
@@ -125,22 +120,6 @@ def test_stored_reading_is_not_measured_again(
     assert reproduce.reproduce(store, (1, 2)) == rows
     assert again(bench, tmp_path, 1, 2, 3) == [("seeded", 3)]
     assert reproduce.reproduce(None, (1, 2)) == rows
-
-
-def test_changed_module_affects_only_jobs_that_depend_on_it(
-    bench: Bench, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    versions = {("planning",): "a", ("theory/unicycle",): "b"}
-    monkeypatch.setattr(
-        reproduce,
-        "code_stamp",
-        lambda modules, libraries: CodeStamp(versions[modules], {}),
-    )
-    assert again(bench, tmp_path, 1, 2) == ALL
-    versions["planning",] = "c"
-    assert again(bench, tmp_path, 1, 2) == [("seeded", 1), ("seeded", 2)]
-    rows = reproduce.reproduce(ResultStore(tmp_path), (1, 2))
-    assert [row["version"] for row in rows] == ["c", "b"]
 
 
 def test_changed_settings_are_measured_again(
@@ -157,7 +136,7 @@ def test_interrupted_campaign_keeps_finished_readings(
 ) -> None:
     bench.stop_at = 2
     with pytest.raises(KeyboardInterrupt):
-        reproduce.reproduce(ResultStore(tmp_path), (1, 2, 3))
+        reproduce.reproduce(tmp_path / "kept.sqlite", (1, 2, 3))
     assert bench.measured == [("once", 0), ("seeded", 1)]
     bench.stop_at = None
     assert again(bench, tmp_path, 1, 2, 3) == [("seeded", 2), ("seeded", 3)]
@@ -169,7 +148,7 @@ def test_missing_reading_stays_missing_and_fails(
     job = replace(bench.jobs["once"], measure=lambda _: {"it": NAN})
     monkeypatch.setattr(reproduce, "JOBS", {"once": job})
     for _ in range(2):
-        (row,) = reproduce.reproduce(ResultStore(tmp_path), (1,))
+        (row,) = reproduce.reproduce(tmp_path / "kept.sqlite", (1,))
         assert (row["verdict"], row["measured"]) == ("fails", None)
 
 
@@ -179,7 +158,7 @@ def test_worker_process_measures_the_same(
     monkeypatch.setattr(reproduce, "JOBS", {"path": JOBS["path"]})
     here = reproduce.reproduce(None, (1,))
     with ProcessPoolExecutor(1, get_context("spawn")) as executor:
-        there = reproduce.reproduce(ResultStore(tmp_path), (1,), executor)
+        there = reproduce.reproduce(tmp_path / "kept.sqlite", (1,), executor)
     assert there == here
 
 
@@ -200,16 +179,12 @@ def test_command_prints_rows_and_writes_the_page(
     for row in rows:
         assert row["measured"] is not None
         assert (row["runs"], row["spread"]) == (1, 0.0)
-        job = JOBS["path"]
-        stamp = code_stamp(job.modules, job.libraries)
-        assert row["version"] == stamp.version
         assert row["verdict"] == "holds"
     stored = json.loads((tmp_path / "claims.json").read_text())
     assert stored["rows"] == rows
     assert (stored["seed"], stored["runs"]) == (1, 10)
-    job = stored["jobs"]["path"]
-    assert job["version"] == rows[0]["version"]
-    assert "'single_support': 0.425" in job["settings"]
+    assert stored["results"] == RESULTS
+    assert "'single_support': 0.425" in stored["settings"]["path"]
     html = (tmp_path / "claims.html").read_text()
     first = html.split("</table>")[0]
     assert first.count("<tr>") == len(rows) + 1

@@ -18,7 +18,7 @@ def test_measured_value_is_the_mean_of_all_runs(
 ) -> None:
     """Whether the claim holds or not; with the standard deviation."""
     claim = Claim("x", "is one", "I", "steps", 1.0, "m", 0.1)
-    row = ClaimRow("job.x", claim, tuple(values), "1")
+    row = ClaimRow("job.x", claim, tuple(values))
     assert row.measured == pytest.approx(fmean(values))
     spread = stdev(values) if len(values) > 1 else 0.0
     assert row.spread == pytest.approx(spread, abs=1e-9)

@@ -5,8 +5,6 @@ import os
 import signal
 import subprocess
 import sys
-from collections.abc import Iterator
-from concurrent.futures import Executor, Future
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
@@ -19,67 +17,35 @@ from stepaside.cli.duels import duels
 from stepaside.games.duel_settings import DuelSettings, StartSettings
 from stepaside.sim.push import Push
 from stepaside.strategies import Evasion
-from stepaside.studies import duel_campaign as campaign
-from stepaside.studies import duel_record
-from stepaside.studies.campaign import CodeStamp, run_study
-from stepaside.studies.duel_campaign import duel_study
-from stepaside.studies.duel_record import FIELDS, play_record, settings_hash
+from stepaside.studies.duel_record import play_record, settings_hash
 from stepaside.studies.duel_statistics import (
     certificate_row,
     proportion,
     summarise_duels,
     value_row,
 )
-from stepaside.studies.result_store import ResultStore
+from stepaside.studies.study import count_records
 
 SETTINGS = DuelSettings(duration=120.0)
-NOW = CodeStamp("new", {"mujoco": "1"})
 
 
 def made(seed: int, **changes: Any) -> dict[str, Any]:
     """Record of a duel that was not played."""
-    return (
-        dict.fromkeys(FIELDS)
-        | {
-            "seed": seed,
-            "outcome": "completed",
-            "message": "",
-            "distance_m": 0.9 + 0.01 * seed,
-            "relative_orientation_deg": 90.0,
-            "pursuer_radius_m": 0.64,
-            "evader_radius_m": 0.63,
-            "converged_at_s": 10.0 * seed,
-            "min_distance_m": 0.5,
-            "evading_min_distance_m": 0.5,
-            "certified_m": None,
-            "digest": f"d{seed}",
-            "wall_s": 1.0,
-            **NOW._asdict(),
-        }
-        | changes
-    )
-
-
-class Here(Executor):
-    """Plays at once, in this process; counts."""
-
-    def __init__(self) -> None:
-        self.seeds: list[int] = []
-
-    def submit(self, fn: Any, /, *args: Any, **kwargs: Any) -> Future[Any]:
-        """Play now."""
-        self.seeds += args[1]
-        future: Future[Any] = Future()
-        future.set_result(fn(*args, **kwargs))
-        return future
-
-
-@pytest.fixture
-def quick(monkeypatch: pytest.MonkeyPatch) -> Iterator[Here]:
-    """Nothing is played: a duel's record is made from its seed."""
-    monkeypatch.setattr(duel_record, "play_record", lambda s: made(s.seed))
-    monkeypatch.setattr(campaign, "code_stamp", lambda *_: NOW)
-    yield Here()
+    return {
+        "seed": seed,
+        "outcome": "completed",
+        "message": "",
+        "distance_m": 0.9 + 0.01 * seed,
+        "relative_orientation_deg": 90.0,
+        "pursuer_radius_m": 0.64,
+        "evader_radius_m": 0.63,
+        "converged_at_s": 10.0 * seed,
+        "min_distance_m": 0.5,
+        "evading_min_distance_m": 0.5,
+        "certified_m": None,
+        "digest": f"d{seed}",
+        "wall_s": 1.0,
+    } | changes
 
 
 def test_a_record_holds_the_figures_of_its_duel() -> None:
@@ -113,14 +79,6 @@ def test_only_a_certified_start_has_a_certified_distance() -> None:
         assert record["certified_m"] is None
 
 
-def test_recorded_duels_are_not_repeated(quick: Here, tmp_path: Path) -> None:
-    store = ResultStore(tmp_path)
-    run_study(duel_study(SETTINGS, range(3)), store, quick)
-    run = run_study(duel_study(SETTINGS, range(5)), store, quick)
-    assert quick.seeds == [0, 1, 2, 3, 4] and run.reused == 3
-    assert [r["seed"] for r in run.records()] == [0, 1, 2, 3, 4]
-
-
 def test_an_edited_strategy_file_changes_the_key(tmp_path: Path) -> None:
     """By its file's content; and pushes, which came later, count if any."""
     file = tmp_path / "own.py"
@@ -135,16 +93,6 @@ def test_an_edited_strategy_file_changes_the_key(tmp_path: Path) -> None:
     assert settings_hash(own) not in (before, after)
     pushed = replace(SETTINGS, pushes=(Push(1.0, 2.0, 0.0),))
     assert settings_hash(pushed) != settings_hash(SETTINGS)
-
-
-def test_records_of_other_settings_are_not_these(
-    quick: Here, tmp_path: Path
-) -> None:
-    store = ResultStore(tmp_path)
-    for settings in (replace(SETTINGS, duration=60.0), SETTINGS):
-        run_study(duel_study(settings, [1]), store, quick)
-    assert quick.seeds == [1, 1]
-    assert len(store.read()) == 2
 
 
 def test_mean_interval_and_worst_seed_are_known_ones() -> None:
@@ -237,7 +185,7 @@ def test_the_command_writes_records_summary_and_figure(
     found = json.loads(answer.stdout)
     assert found["seeds"] == "5:7" and found["summary"]["duels"] == 2
     assert found == json.loads((folder / "summary.json").read_text())
-    assert len(ResultStore(folder / "records").read()) == 2
+    assert count_records(folder / "duels.sqlite") == 2
     assert (folder / "duels.png").stat().st_size > 1000
     table = CliRunner().invoke(duels, [*line, "--output", str(folder)])
     assert "completed" in table.output and "2 of 2" in table.output

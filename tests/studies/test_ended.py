@@ -4,13 +4,10 @@ import signal
 import subprocess
 import sys
 import threading
-from collections.abc import Callable
-from pathlib import Path
 from time import sleep
 
 import pytest
 
-from stepaside.cli import reproduce_figures
 from stepaside.core.signal_handling import interruptible
 from stepaside.core.worker_pool import worker_pool
 
@@ -20,33 +17,6 @@ def test_sigterm_is_ctrl_c_while_a_command_runs() -> None:
     with pytest.raises(KeyboardInterrupt), interruptible():
         signal.raise_signal(signal.SIGTERM)
     assert signal.getsignal(signal.SIGTERM) == before
-
-
-def test_figures_are_redrawn_if_they_or_their_settings_change(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    drawn: list[str] = []
-
-    def draw(name: str) -> Callable[..., None]:
-        def drawer(file: Path, *_: object) -> None:
-            drawn.append(name)
-            file.write_text(name)
-
-        return drawer
-
-    for name in ("game", "sweep", "duel"):
-        monkeypatch.setattr(reproduce_figures, f"_draw_{name}", draw(name))
-    reproduce_figures.draw_figures(tmp_path, 1)
-    assert sorted(drawn) == ["duel", "game", "sweep"]
-    reproduce_figures.draw_figures(tmp_path, 1)
-    assert len(drawn) == 3
-    (tmp_path / "sweep.png").write_text("torn")
-    (tmp_path / "fig2.png").unlink()
-    reproduce_figures.draw_figures(tmp_path, 1)
-    assert sorted(drawn[3:]) == ["game", "sweep"]
-    reproduce_figures.draw_figures(tmp_path, 1, duration=1.0)
-    assert drawn[5:] == ["duel"]
-    assert (tmp_path / "sweep.png").read_text() == "sweep"
 
 
 def mask(_: int) -> tuple[bool, bool]:

@@ -4,9 +4,7 @@ import json
 import shutil
 import subprocess
 import sys
-from itertools import cycle
 from pathlib import Path
-from typing import Any
 
 import pytest
 from click.testing import CliRunner
@@ -14,9 +12,6 @@ from click.testing import CliRunner
 from stepaside import DuelSettings, run_duel
 from stepaside.cli.main import main
 from stepaside.robots.description import load_robot
-from stepaside.studies import duel_record as duels
-from stepaside.studies import tournament_record as tournament
-from stepaside.studies.result_store import ResultStore
 
 STRATEGY = """
 import os, sys
@@ -175,48 +170,7 @@ def test_a_model_without_the_robot_is_refused(
     assert result.output.startswith("stepaside: ")
 
 
-def with_gaps(store: ResultStore) -> dict[str, str]:
-    """Take another field out of each record, with right checksums.
-
-    Returns:
-        The missing field by key of the record; every field is missing once.
-    """
-    records = store.read()
-    fields = sorted({field for record in records.values() for field in record})
-    assert len(records) >= len(fields)
-    gaps = dict(zip(records, cycle(fields), strict=False))
-    shutil.rmtree(store.folder)
-    with store.writer() as writer:
-        for key, record in records.items():
-            left = {k: v for k, v in record.items() if k != gaps[key]}
-            writer.append([(key, left)])
-    return gaps
-
-
 CAMPAIGNS: dict[str, tuple[str, ...]] = {
     "duels": ("duels", "--seeds", "1:25", "--duration", "0.05"),
     "tournament": ("tournament", "--seeds", "1:4", "--duration", "1"),
 }
-
-
-@pytest.mark.parametrize("name", CAMPAIGNS)
-def test_a_record_without_a_field_is_made_again(
-    tmp_path: Path, name: str, inline_workers: None
-) -> None:
-    folder = tmp_path / "kept"
-    words = [*CAMPAIGNS[name], "--workers", "1", "--output", str(folder)]
-
-    def run() -> Any:
-        result = CliRunner().invoke(main, [*words, "--json"])
-        assert result.exit_code == 0, result.output
-        return json.loads(result.stdout)
-
-    run()
-    store = ResultStore(folder / "records")
-    gaps = with_gaps(store)
-    run()
-    again = store.read()
-    assert again.keys() == gaps.keys()
-    for key, field in gaps.items():
-        if field in (*duels.FIELDS, *tournament.FIELDS, "version"):
-            assert field in again[key], field

@@ -11,9 +11,7 @@ from stepaside.core.poses import wrap_angle
 from stepaside.games.walk_settings import WalkSettings
 from stepaside.locomotion.policy.legs_settings import LegsSettings
 from stepaside.planning import PRESETS
-from stepaside.studies import people_campaign as campaign
 from stepaside.studies import person_encounters as study
-from stepaside.studies.campaign import CodeStamp, run_study
 from stepaside.studies.people_campaign import people_study
 from stepaside.studies.people_statistics import (
     passing_rows,
@@ -24,7 +22,6 @@ from stepaside.studies.person_encounters import (
     base_settings,
     encounters,
 )
-from stepaside.studies.result_store import ResultStore
 
 WALK = WalkSettings(seed=3, gait=PRESETS["fast"])
 BASE = base_settings(WALK)
@@ -99,27 +96,6 @@ def test_people_approach_from_their_bearing(bearing: int) -> None:
     # Time enough to walk past the robot, and as far again as is asked.
     way = settings.duration * 0.8
     assert way == pytest.approx(start.distance + study.PAST)
-
-
-def test_recorded_encounters_are_not_repeated(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    met: list[str] = []
-
-    def play(each: Encounter) -> dict[str, Any]:
-        met.append(each.key)
-        return record(closest_m=each.speed)
-
-    monkeypatch.setattr(campaign, "play_encounter", play)
-    store = ResultStore(tmp_path)
-    first = run_study(people_study(grid(seeds=1)), store)
-    again = run_study(people_study(grid(seeds=2)), store)
-    assert len(first) == 8 and again.reused == 8
-    assert len(again) == 16 == len(met) and len(set(met)) == 16
-    other = CodeStamp("another", {})
-    monkeypatch.setattr(campaign, "code_stamp", lambda *_: other)
-    run_study(people_study(grid(seeds=1)), store)
-    assert len(met) == 24
 
 
 def results_of(

@@ -12,23 +12,21 @@ from stepaside.sim.body_settings import BODIES
 from stepaside.sim.physics_settings import PhysicsSettings
 from stepaside.studies import push_limits as limits
 from stepaside.studies import robustness_campaign as robustness
-from stepaside.studies.campaign import CodeStamp, run_study
 from stepaside.studies.push_limits import (
     limit_of,
     next_strength,
     outcomes_of,
     push_cases,
 )
-from stepaside.studies.result_store import ResultStore
-from stepaside.studies.robustness_campaign import push_study, robustness_study
+from stepaside.studies.robustness_campaign import push_study
 from stepaside.studies.robustness_trial import (
     RobustnessTrial,
     control_of,
     push_time,
     settings_of,
-    trials,
     with_noise,
 )
+from stepaside.studies.study import run_study
 
 TRIAL = RobustnessTrial("friction", 0.3, "", 0.0, 5, "measured", "hardware")
 PUSH = RobustnessTrial("push", 1.2, "left", 0.25, 5, "closed-form", "ideal")
@@ -91,33 +89,6 @@ def test_a_push_comes_at_its_phase_of_a_walk_under_way() -> None:
     assert walk.duration == push.time + 4.0
 
 
-def test_recorded_trials_are_not_repeated(
-    monkeypatch: pytest.MonkeyPatch, tmp_path: Path
-) -> None:
-    asked = survives(monkeypatch, lambda trial: trial.strength < 1.5)
-    grid = list(trials(["backlash"], ["mpc"], "ideal", seeds=2))
-    store = ResultStore(tmp_path)
-    run_study(robustness_study(grid[:4]), store)
-    assert asked == grid[:4]
-    run = run_study(robustness_study(grid), store)
-    assert asked == grid and run.reused == 4
-    for trial, record in run.items():
-        assert record["survived"] is (trial.strength < 1.5)
-
-
-def test_results_of_other_code_are_made_again(
-    monkeypatch: pytest.MonkeyPatch, tmp_path: Path
-) -> None:
-    asked = survives(monkeypatch, lambda trial: True)
-    store = ResultStore(tmp_path)
-    for stamp in ("1", "1", "2"):
-        monkeypatch.setattr(
-            robustness, "code_stamp", lambda *_, v=stamp: CodeStamp(v, {})
-        )
-        run_study(robustness_study([TRIAL]), store)
-    assert len(asked) == 2
-
-
 @pytest.mark.parametrize(
     ("outcomes", "limit", "following"),
     [
@@ -148,7 +119,7 @@ def test_search_finds_every_limit_to_a_tenth_with_few_walks(
         monkeypatch, lambda t: t.strength <= truth[t.direction] + 1e-9
     )
     cases = list(push_cases(["mpc"], "ideal", phases=1))
-    store = ResultStore(tmp_path)
+    store = tmp_path / "kept.sqlite"
     found = run_study(push_study(cases), store)
     for case, record in found.items():
         limit = truth[case.direction]
@@ -158,25 +129,3 @@ def test_search_finds_every_limit_to_a_tenth_with_few_walks(
     again = run_study(push_study(cases), store)
     assert list(again.records()) == list(found.records())
     assert len(asked) == number  # nothing was walked again
-
-
-def test_one_store_holds_trials_and_searches_of_all_kinds(
-    monkeypatch: pytest.MonkeyPatch, tmp_path: Path
-) -> None:
-    asked = survives(monkeypatch, lambda t: t.strength < 1.0)
-    store = ResultStore(tmp_path)
-    cases = list(push_cases(["mpc"], "ideal", phases=1))
-    run_study(push_study(cases), store)
-    number = len(asked)
-    others = [
-        *push_cases(["measured"], "ideal", phases=1),
-        *push_cases(["mpc"], "ideal", phases=2, seed=2),
-    ]
-    run_study(push_study(others), store)
-    run_study(robustness_study([TRIAL, PUSH]), store)
-    assert {t.method for t in asked[number:]} == {
-        "measured",
-        "mpc",
-        *(TRIAL.method, PUSH.method),
-    }
-    assert run_study(push_study(cases), store).reused == len(cases)

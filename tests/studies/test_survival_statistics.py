@@ -22,8 +22,8 @@ from stepaside.studies.survival_statistics import (
     push_bound_at,
     push_survival_rows,
     survival_rows,
-    wilson_interval,
 )
+from stepaside.studies.tabulation import wilson_interval
 
 TRIAL = RobustnessTrial("backlash", 1.0, "", 0.0, 1, "mpc", "ideal")
 MIRRORED = {"left": "right", "right": "left"}

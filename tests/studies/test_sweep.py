@@ -10,7 +10,7 @@ from stepaside.core.errors import ConfigurationError
 from stepaside.games.duel_settings import DuelSettings
 from stepaside.strategies.bound_cache import pursuit_bound
 from stepaside.studies import tournament_record
-from stepaside.studies.campaign import run_study
+from stepaside.studies.study import run_study
 from stepaside.studies.sweep import (
     Sweep,
     load_sweep,

@@ -1,7 +1,6 @@
 """Test tournaments: games, records, rows, figures and the command."""
 
 import json
-from concurrent.futures import ThreadPoolExecutor
 from dataclasses import replace
 from math import cos, pi, sin
 from pathlib import Path
@@ -19,10 +18,8 @@ from stepaside.core.poses import wrap_angles
 from stepaside.games.outcome import Outcome
 from stepaside.strategies import StepGame
 from stepaside.strategies import bound_cache as tables
-from stepaside.studies import tournament_campaign as campaign
 from stepaside.studies import tournament_record as studied
-from stepaside.studies.campaign import CodeStamp, run_study
-from stepaside.studies.result_store import ResultStore
+from stepaside.studies.study import count_records, run_study
 from stepaside.studies.tournament_campaign import tournament_study
 from stepaside.studies.tournament_record import play_record, play_track
 from stepaside.studies.tournament_rows import tournament_rows
@@ -118,26 +115,6 @@ def test_the_bound_is_that_of_the_start() -> None:
     assert away < 0.8  # it walks into the pursuer first
 
 
-def test_recorded_games_are_not_repeated(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    store = ResultStore(tmp_path)
-    first = run_study(tournament_study(SETTINGS, PAIRINGS, range(2)), store)
-    study = tournament_study(SETTINGS, PAIRINGS, range(3))
-    with ThreadPoolExecutor(2) as executor:
-        again = run_study(study, store, executor)
-    assert again.reused == 4 and len(again) == 6
-    assert list(first.records()) == [
-        record for (_, seed), record in again.items() if seed < 2
-    ]
-    other = tournament_study(replace(SETTINGS, angle=0.5), PAIRINGS, [0])
-    assert run_study(other, store).reused == 0
-    stamp = CodeStamp("another", {})
-    monkeypatch.setattr(campaign, "code_stamp", lambda *_: stamp)
-    once_more = tournament_study(SETTINGS, PAIRINGS[:1], [0])
-    assert run_study(once_more, store).reused == 0
-
-
 def record(**changes: Any) -> dict[str, Any]:
     return {
         "evader": "aside", "pursuer": "pure", "seed": 0,
@@ -174,14 +151,11 @@ def test_the_command_plays_draws_and_goes_on(tmp_path: Path) -> None:
     rows = json.loads(one.stdout)["rows"]
     assert [row["evader"] for row in rows] == ["aside", "look-ahead"]
     assert all(row["games"] == 2 for row in rows)
-    kept = ResultStore(folder / "records").read()
-    assert len(kept) == 4
+    assert count_records(folder / "tournament.sqlite") == 4
     paths = tmp_path / "worst.png"
     two = call(*words, "--seeds", "0:3", "--paths", str(paths))
     assert two.exit_code == 0 and "look-ahead" in two.output
-    entries = list(ResultStore(folder / "records").entries())
-    assert len(entries) == 6  # two games were added
-    assert kept.items() <= {e.key: e.record for e in entries}.items()
+    assert count_records(folder / "tournament.sqlite") == 6
     assert figure.stat().st_size > 0 and paths.stat().st_size > 0
     summary = json.loads((folder / "summary.json").read_text("utf-8"))
     assert summary["rows"][0]["games"] == 3
@@ -218,7 +192,7 @@ def test_humanoids_play_by_the_same_words() -> None:
     settings = replace(SETTINGS, level="physics", game=StepGame(duration=1.0))
     found = play_record(settings, ("aside", "pure"), 3)
     in_steps = play_record(SETTINGS, ("aside", "pure"), 3)
-    assert set(in_steps) - set(found) == {"clearance_m", "searched"}
+    assert set(in_steps) - set(found) == {"clearance_m"}
     assert found["outcome"] == "survived" and found["touched"] == []
     assert found["survived_s"] == pytest.approx(1.0)
     assert found["bound_m"] == pytest.approx(in_steps["bound_m"], abs=0.02)
@@ -246,6 +220,5 @@ def test_a_duel_that_is_stopped_is_no_game_and_stops_the_others(
     monkeypatch.setattr("stepaside.games.duel.run_duel", cut_short)
     settings = replace(SETTINGS, level="physics", game=StepGame(duration=1.0))
     study = tournament_study(settings, [("aside", "pure")], [3, 4])
-    store = ResultStore(tmp_path)
-    assert run_study(study, store).interrupted
-    assert len(played) == 1 and not store.read()
+    run = run_study(study, tmp_path / "kept.sqlite")
+    assert run.interrupted and len(played) == 1 and not run.finished

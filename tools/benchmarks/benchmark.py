@@ -54,7 +54,7 @@ def main() -> None:
             ours = figures[f"plan_20_steps{suffix}_us"]
             figures[f"drake_over_plan{suffix}"] = figures[drake] / ours
     settings = {"seed": 1, "duration_s": arguments.duration}
-    head = header(settings, libraries=LIBRARIES)
+    head = header(settings)
     own = machine()
     write_result(arguments.output, head, machine=own, figures=figures)
     history = arguments.output.with_name("benchmark-history.jsonl")

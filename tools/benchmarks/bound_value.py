@@ -146,9 +146,7 @@ def main() -> None:
         "refinement": refinement(rows),
         "barrier": barrier,
     }
-    head = header(
-        {"cells": cells, "games": GAMES}, modules=MODULES, libraries=LIBRARIES
-    )
+    head = header({"cells": cells, "games": GAMES})
     write_result(arguments.output, head, machine=machine(), **found)
     for name, table in boxes.items():
         print(name, *table, sep="\n")

@@ -86,7 +86,7 @@ def main() -> None:
         "seeds": [seeds.start, seeds.stop],
         "duration_s": 120.0,
     }
-    head = header(settings, libraries=LIBRARIES)
+    head = header(settings)
     jobs = {str(seed): Seen(kind, seed) for seed in seeds}
     found = gather(output, head, jobs, play, arguments.workers)
     rows = list(found.values())

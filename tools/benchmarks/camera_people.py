@@ -97,10 +97,7 @@ def main() -> None:
         "speed_m_s": speed,
         "seeds": [seeds.start, seeds.stop],
     }
-    libraries = ["mujoco", "numpy", "opencv-python-headless"]
-    head = header(
-        settings, modules=("studies/people_statistics",), libraries=libraries
-    )
+    head = header(settings)
     rows = gather(output, head, jobs, play_encounter, arguments.workers)
     found = {
         name: [(each, rows[each.key]) for each in group]

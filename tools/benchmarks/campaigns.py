@@ -2,7 +2,7 @@
 
 Core-hours per thousand duels of 120 s by kind, and memory per worker; the
 scaling from one worker process to two; and the cost of the parent per case,
-with a million trivial cases on the pool and on Dask::
+with a million trivial cases on processes and on Dask::
 
     python tools/benchmarks/campaigns.py
 
@@ -21,15 +21,12 @@ from benchmark_options import ask, machine
 from duels import KINDS
 
 from stepaside.games.duel_settings import DuelSettings
-from stepaside.studies.campaign import CodeStamp, Study, run_study
-from stepaside.studies.duel_campaign import MODULES
 from stepaside.studies.duel_record import play_seed
-from stepaside.studies.executors import open_engine
-from stepaside.studies.records import Record
+from stepaside.studies.executors import open_executor
 from stepaside.studies.result_files import header, write_result
-from stepaside.studies.result_store import ResultStore
+from stepaside.studies.study import Study, run_study
+from stepaside.studies.tabulation import Record
 
-STAMP = CodeStamp("", {})
 WHOLE = 120.0  # duration of the duels that are counted, in [s]
 MIB = 1024.0  # kibibytes, the unit of the kernel for memory
 
@@ -53,15 +50,14 @@ def measure_nothing(case: int) -> Record:
 
 def study_of(name: str, cases: Sequence[int], measure: Any) -> Study[int]:
     """Return a study that stores nothing for later."""
-    return Study(name, cases, measure, str, lambda case: STAMP)
+    return Study(name, cases, measure, str)
 
 
 def cost_of(kind: str, duels: int, duration: float) -> dict[str, Any]:
     """Return the cost of one kind of duel, in one worker."""
     settings = replace(KINDS[kind], duration=duration)
     study = study_of(kind, range(duels + 1), partial(measure_duel, settings))
-    with open_engine(workers=1) as engine:
-        records = list(run_study(study, None, engine).records())
+    records = list(run_study(study, workers=1).records())
     warm = records[1:]  # the first one compiles
     seconds = sum(record["cpu_s"] for record in warm) / len(warm)
     return {
@@ -81,10 +77,10 @@ def scaling(duels: int, duration: float) -> dict[str, Any]:
     for workers in (1, 2):
         warm = study_of("warm", range(4), partial(measure_duel, settings))
         study = study_of("all", range(duels), partial(measure_duel, settings))
-        with open_engine(workers=workers) as engine:
-            run_study(warm, None, engine)
+        with open_executor("processes", workers) as executor:
+            run_study(warm, executor=executor)
             began = perf_counter()
-            run_study(study, None, engine)
+            run_study(study, executor=executor)
             walls.append(perf_counter() - began)
     return {
         "duels": duels,
@@ -96,9 +92,9 @@ def scaling(duels: int, duration: float) -> dict[str, Any]:
 
 def _parent(executor: str, cases: int) -> dict[str, Any]:
     study = study_of("trivial", range(cases), measure_nothing)
-    with open_engine(executor, 2) as engine:
+    with open_executor(executor, 2) as opened:
         began, busy = perf_counter(), process_time()
-        run = run_study(study, ResultStore.temporary(), engine)
+        run = run_study(study, executor=opened)
     assert run.completed
     return {
         "executor": executor,
@@ -136,7 +132,9 @@ def main() -> None:
     duels, duration = arguments.duels, arguments.duration
     kinds = [cost_of(kind, duels, duration) for kind in KINDS]
     scaled = scaling(10 * duels, duration / 10.0)
-    parents = [parent_cost(name, arguments.cases) for name in ("pool", "dask")]
+    parents = [
+        parent_cost(name, arguments.cases) for name in ("processes", "dask")
+    ]
     settings = {
         "duels": duels,
         "duration_s": duration,
@@ -144,7 +142,7 @@ def main() -> None:
     }
     write_result(
         arguments.output,
-        header(settings, modules=MODULES),
+        header(settings),
         machine=machine(),
         kinds=kinds,
         scaling=scaled,

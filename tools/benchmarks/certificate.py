@@ -10,7 +10,6 @@ from math import pi, radians
 import numpy as np
 from benchmark_options import ask
 
-from stepaside.studies.code_version import UNICYCLES
 from stepaside.studies.result_files import header, write_result
 from stepaside.theory.unicycle.certificate import certify
 from stepaside.theory.unicycle.relative_coordinates import RelativeStart
@@ -54,7 +53,7 @@ def main() -> None:
         "starts": COUNT,
         "seed": SEED,
     }
-    head = header(settings, modules=UNICYCLES, libraries=("numpy",))
+    head = header(settings)
     write_result(output, head, rows=rows)
 
 

@@ -82,9 +82,7 @@ def main() -> None:
     arguments = ask(__doc__, "chauffeur.json").parse_args()
     rows = [row_of(ratio) for ratio in RATIOS]
     head = header(
-        {"cells": list(CELLS), "games": GAMES, "capture_share": SHARE},
-        modules=MODULES,
-        libraries=LIBRARIES,
+        {"cells": list(CELLS), "games": GAMES, "capture_share": SHARE}
     )
     write_result(arguments.output, head, machine=machine(), rows=rows)
     print(*rows, sep="\n")

@@ -121,12 +121,7 @@ def main() -> None:
     asked.add_argument("--mpe2", action="store_true")
     given = asked.parse_args()
     figures = measure(given.games, given.steps, mpe2=given.mpe2)
-    libraries = ("numpy", "numba", "gymnasium", "pettingzoo")
-    head = header(
-        {"games": given.games, "steps": given.steps},
-        modules=("envs/vector_duel", "envs/duel_v0"),
-        libraries=libraries + (("mpe2",) if given.mpe2 else ()),
-    )
+    head = header({"games": given.games, "steps": given.steps})
     write_result(given.output, head, machine=machine(), figures=figures)
     for name, value in figures.items():
         print(f"{name}: {value:.3g}")

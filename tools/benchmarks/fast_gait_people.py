@@ -20,10 +20,9 @@ from stepaside.planning import PRESETS
 from stepaside.sim.body_settings import BODIES
 from stepaside.sim.person_settings import PersonSettings
 from stepaside.strategies import Evasion
-from stepaside.studies.duel_campaign import MODULES, duel_study
-from stepaside.studies.records import Record
+from stepaside.studies.duel_campaign import duel_study
 from stepaside.studies.result_files import header, write_result
-from stepaside.studies.result_store import ResultStore
+from stepaside.studies.tabulation import Record
 
 FAST = DuelSettings(
     duration=16.0,
@@ -82,12 +81,11 @@ def main() -> None:
     rows: list[Record] = []
     for kind in asked.kinds:
         study = duel_study(KINDS[kind], asked.seeds)
-        store = ResultStore(asked.records / kind)
-        run = complete(study, store, asked.workers)
+        file = asked.records / f"{kind}.sqlite"
+        run = complete(study, file, asked.workers)
         rows.append(row_of(kind, list(run.records())))
     seeds = [asked.seeds.start, asked.seeds.stop]
-    libraries = ["mujoco", "numpy", "opencv-python-headless"]
-    head = header({"seeds": seeds}, modules=MODULES, libraries=libraries)
+    head = header({"seeds": seeds})
     write_result(asked.output, head, rows=rows)
 
 

@@ -39,7 +39,6 @@ from stepaside.locomotion.policy.response_file import (
 )
 from stepaside.robots.description import load_robot
 from stepaside.sim.body_settings import BODIES
-from stepaside.studies.code_version import PHYSICS
 from stepaside.studies.result_files import header, write_result
 
 DURATION = 120.0  # of a duel, in [s]
@@ -89,8 +88,7 @@ def main() -> None:
             "seeds": [asked.seeds.start, asked.seeds.stop],
             "duel_s": DURATION,
             "speed_m_s": asked.speed,
-        },
-        modules=(*PHYSICS, "fitting/legs_measurement"),
+        }
     )
     description, legs = (
         load_robot(asked.robot),

@@ -38,7 +38,6 @@ from stepaside.sim.camera_settings import (
     depth_camera_of,
 )
 from stepaside.sim.person_settings import PersonSettings
-from stepaside.studies.code_version import PHYSICS
 from stepaside.studies.result_files import header, write_result
 from stepaside.theory.chauffeur.chauffeur_game import guaranteed_distance
 
@@ -207,8 +206,7 @@ def main() -> None:
             "duration_s": DURATION,
             "strategy": "matador",
             "seed": asked.seed,
-        },
-        modules=PHYSICS,
+        }
     )
     where = str(asked.robot), str(asked.network), asked.sensing, cameras
     known = {}

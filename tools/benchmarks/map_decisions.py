@@ -181,7 +181,7 @@ def main() -> None:
     asked = ask(__doc__, "map-decisions.json")
     asked.add_argument("--games", type=int, default=40)
     arguments = asked.parse_args()
-    head = header({"games": arguments.games}, modules=MODULES)
+    head = header({"games": arguments.games})
     measure(RECIPES[0], 2.2, 2)  # import all code
     rows = [
         measure(recipe, fine, arguments.games)

@@ -109,9 +109,7 @@ def main() -> None:
             "capture_m": GAME.capture,
             "duration_s": GAME.duration,
             "cells": CELLS,
-        },
-        modules=("strategies/strategy_game", "strategies/robust_evasion"),
-        libraries=("numba", "numpy"),
+        }
     )
     jobs = {
         f"{pursuer}-{evader}-{seed}": OpenGame(evader, pursuer, seed)

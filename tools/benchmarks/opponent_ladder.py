@@ -26,10 +26,9 @@ from stepaside.strategies.search.beam_search import beam_search
 from stepaside.strategies.search.pursuer_model import BeamRules, PursuerModel
 from stepaside.strategies.strategy_game import StepGame
 from stepaside.studies.result_files import header, write_result
-from stepaside.studies.result_store import ResultStore
 from stepaside.studies.tournament_campaign import tournament_study
 from stepaside.studies.tournament_rows import tournament_rows
-from stepaside.studies.tournament_settings import MODULES, TournamentSettings
+from stepaside.studies.tournament_settings import TournamentSettings
 
 ROOM, OPEN = RoomRecipe(), RoomRecipe(None, None)
 WIDTH = 4000  # states of the offline search
@@ -37,7 +36,7 @@ EVADERS = ("look-ahead", "robust")
 IN_ROOM = (
     *("pure-x0.7", "pure", "pure-x2", "pure-x3", "pure-x4"),
     *("pure-v0.8", "pure-v1.1", "pure-v1.3", "sharp", "herding", "lead"),
-    *("optimal", "noisy", "stop-and-wait", "searched-1"),
+    *("optimal", "noisy", "stop-and-wait"),
 )
 IN_OPEN = ("pure", "pure-v1.1", "pure-v1.3", "sharp", "optimal")
 IN_PHYSICS = (
@@ -110,14 +109,11 @@ def main() -> None:
     asked.add_argument("--workers", type=int)
     asked.add_argument("--records", type=Path, default=Path("runs/ladder"))
     arguments = asked.parse_args()
-    store = ResultStore(arguments.records)
     head = header(
         {
             "seeds": f"{arguments.seeds.start}:{arguments.seeds.stop}",
             "width": WIDTH,
-        },
-        modules=MODULES,
-        libraries=("numba", "numpy"),
+        }
     )
     worlds: dict[str, Any] = {}
     for world, settings, text in (
@@ -130,7 +126,9 @@ def main() -> None:
         for pursuer, seeds in pursuers_of(text, arguments.seeds).items():
             pairings = [(evader, pursuer) for evader in EVADERS]
             study = tournament_study(settings, pairings, seeds)
-            run = complete(study, store, arguments.workers)
+            run = complete(
+                study, arguments.records / "games.sqlite", arguments.workers
+            )
             records = list(run.records())
             made = tournament_rows(records, settings.game)
             if pursuer in MODELS and world == "3 x 3 m":

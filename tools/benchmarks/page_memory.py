@@ -20,7 +20,6 @@ from benchmark_options import ask, machine
 from websockets.exceptions import WebSocketException
 from websockets.sync.client import ClientConnection, connect
 
-from stepaside.studies.code_version import PHYSICS
 from stepaside.studies.result_files import header, write_result
 
 PORT = 8751
@@ -115,11 +114,7 @@ def main() -> None:
         "at_once": AT_ONCE,
         "hears_s": HEARS,
     }
-    head = header(
-        settings,
-        modules=(*PHYSICS, "report"),
-        libraries=("mujoco", "numpy", "viser", "websockets"),
-    )
+    head = header(settings)
     write_result(arguments.output, head, machine=machine(), memory=found)
 
 

@@ -101,7 +101,7 @@ def main() -> None:
         "seeds": {name: [s.start, s.stop] for name, s in each.items()},
         "duration_s": DURATION,
     }
-    head = header(settings, libraries=libraries)
+    head = header(settings)
     rows = gather(output, head, jobs, play, arguments.workers)
     walks = {
         name: together([rows[f"{name}/{seed}"] for seed in each[name]])

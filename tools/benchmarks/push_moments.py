@@ -28,7 +28,6 @@ from stepaside.planning import (
 )
 from stepaside.planning.push_bound import push_bound
 from stepaside.planning.steady_gait import steady_plan
-from stepaside.studies.push_results import MODULES
 from stepaside.studies.result_files import header, read_result, write_result
 from stepaside.studies.robustness_trial import (
     DIRECTIONS,
@@ -191,7 +190,7 @@ def main() -> None:
     parser.add_argument("--pushes", type=Path, default=RESULTS / "pushes.json")
     asked = parser.parse_args()
     trials = trials_above(asked.pushes)
-    head = header({"walks": len(trials)}, modules=MODULES)
+    head = header({"walks": len(trials)})
     rows = [follow(trial) for trial in trials]
     write_result(asked.output, head, rows=rows)
 

@@ -17,7 +17,6 @@ from benchmark_options import ask, machine
 from click.testing import CliRunner
 
 from stepaside.cli.main import main as stepaside
-from stepaside.studies.code_version import PHYSICS
 from stepaside.studies.result_files import header, write_result
 
 GIF = (
@@ -59,11 +58,7 @@ def main() -> None:
             print(kind, files[kind], flush=True)
     write_result(
         arguments.output,
-        header(
-            {"seed": arguments.seed, "duration_s": 120.0},
-            modules=(*PHYSICS, "report"),
-            libraries=("mujoco", "numpy", "av"),
-        ),
+        header({"seed": arguments.seed, "duration_s": 120.0}),
         machine=machine(),
         files=files,
     )

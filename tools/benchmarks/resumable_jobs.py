@@ -1,6 +1,5 @@
 """Parallel jobs that can be interrupted and continued."""
 
-import shutil
 import sys
 from collections.abc import Callable, Mapping, Sequence
 from functools import partial
@@ -9,17 +8,8 @@ from pathlib import Path
 from typing import Any, TypeVar
 
 import numpy as np
-from tqdm import tqdm
 
-from stepaside.studies.campaign import (
-    CampaignProgress,
-    CodeStamp,
-    Study,
-    StudyRun,
-    run_study,
-)
-from stepaside.studies.executors import Engine, open_engine
-from stepaside.studies.result_store import ResultStore
+from stepaside.studies.study import Study, StudyRun, run_study
 
 Row = dict[str, Any]
 Job = TypeVar("Job")
@@ -27,39 +17,21 @@ C = TypeVar("C")
 
 
 def complete(
-    study: Study[C],
-    store: ResultStore | None,
-    workers: int | None = None,
+    study: Study[C], file: Path | None, workers: int | None = None
 ) -> StudyRun[C]:
     """Run a study to its end, with a progress bar.
 
     Args:
         study: Study.
-        store: Store of its records; None for a temporary one.
+        file: SQLite file of its records; None for a temporary one.
         workers: Number of processes; all cores by default, 0 for this one.
 
     Raises:
         KeyboardInterrupt: After Ctrl-C; finished cases are stored.
         OutputError: If a record cannot be stored.
     """
-    if workers == 0:
-        return _complete(study, store, Engine.of(None))
-    with open_engine(workers=workers) as engine:
-        return _complete(study, store, engine)
-
-
-def _complete(
-    study: Study[C],
-    store: ResultStore | None,
-    engine: Engine,
-) -> StudyRun[C]:
-    with tqdm(total=len(study.cases), disable=None) as bar:
-
-        def report(progress: CampaignProgress) -> None:
-            bar.initial, bar.n = progress.reused, progress.finished
-            bar.refresh()
-
-        run = run_study(study, store, engine, report)
+    executor = None if workers == 0 else "processes"
+    run = run_study(study, file, executor=executor, workers=workers or None)
     if run.failure is not None:
         raise run.failure
     if run.interrupted:
@@ -78,8 +50,8 @@ def gather(
 
     Args:
         output: File of results to be written. Finished jobs are recorded in a
-            folder with the suffix ``.part``. They are reused if job, version,
-            libraries and the code of the command are the same, and deleted by
+            file with the suffix ``.sqlite``. They are reused if job, results
+            version and the code of the command are the same, and deleted by
             :func:`finished`.
         head: Header of the results.
         jobs: Arguments by name; their ``repr`` must be unique.
@@ -91,7 +63,6 @@ def gather(
         Results in the order of the jobs.
     """
     script = Path(sys.argv[0]).read_bytes()
-    stamp = CodeStamp(head["version"], head["libraries"])
 
     def key_of(case: tuple[str, Job]) -> str:
         name, job = case
@@ -103,10 +74,8 @@ def gather(
         list(jobs.items()),
         partial(_do, do),
         key_of,
-        lambda case: stamp,
-        ("row",),
     )
-    run = complete(study, ResultStore(part_of(output)), workers)
+    run = complete(study, part_of(output), workers)
     return {name: record["row"] for (name, _), record in run.items()}
 
 
@@ -116,12 +85,12 @@ def _do(do: Callable[[Job], Row], case: tuple[str, Job]) -> Row:
 
 def finished(output: Path) -> None:
     """Delete the records of finished jobs, once the results are written."""
-    shutil.rmtree(part_of(output), ignore_errors=True)
+    part_of(output).unlink(missing_ok=True)
 
 
 def part_of(output: Path) -> Path:
-    """Return the folder of the records."""
-    return output.with_suffix(".part")
+    """Return the file of the records."""
+    return output.with_suffix(".sqlite")
 
 
 def spread(values: Sequence[float | None]) -> dict[str, float | int | None]:

@@ -23,7 +23,6 @@ from stepaside.games.duel_settings import DuelSettings
 from stepaside.games.robot_settings import with_robot
 from stepaside.games.run_archive import results_of
 from stepaside.robots.description import FILE
-from stepaside.studies.code_version import PHYSICS
 from stepaside.studies.result_files import header, write_result
 
 SEED, DURATION = 7, 120.0
@@ -266,8 +265,6 @@ def main() -> None:
         names = [h.name for h in HUMANOIDS if h.name in rows]
         head = header(
             {"seed": SEED, "duration_s": DURATION},
-            modules=(*PHYSICS, "fitting"),
-            libraries=("mujoco", "numpy"),
             command="python tools/benchmarks/robots.py FOLDER...",
         )
         write_result(

@@ -4,7 +4,7 @@ Runs tournaments at the level of steps and writes the results::
 
     python tools/benchmarks/room_evaders.py --seeds 1000:1300 --small 1000:1050
 
-Games recorded in a folder (``--records``) are not repeated. No setting of an
+Games recorded in a file (``--records``) are not repeated. No setting of an
 evader was tuned on seeds from 1000 on.
 """
 
@@ -14,13 +14,12 @@ from typing import Any
 from benchmark_options import ask, machine, seeds_of
 
 from stepaside.arena import RoomRecipe
-from stepaside.studies.campaign import run_study
-from stepaside.studies.executors import open_engine
+from stepaside.studies.executors import open_executor
 from stepaside.studies.result_files import header, write_result
-from stepaside.studies.result_store import ResultStore
+from stepaside.studies.study import run_study
 from stepaside.studies.tournament_campaign import tournament_study
 from stepaside.studies.tournament_rows import tournament_rows
-from stepaside.studies.tournament_settings import MODULES, TournamentSettings
+from stepaside.studies.tournament_settings import TournamentSettings
 from stepaside.studies.tournament_strategies import EVADERS
 
 WORLDS = {
@@ -48,15 +47,14 @@ def main() -> None:
     asked.add_argument("--workers", type=int)
     asked.add_argument("--records", type=Path)
     arguments = asked.parse_args()
-    store = arguments.records and ResultStore(arguments.records)
-    with open_engine(workers=arguments.workers) as engine:
+    with open_executor("processes", arguments.workers) as executor:
 
         def rows(
             recipe: RoomRecipe, pairings: list[tuple[str, str]], seeds: range
         ) -> list[dict[str, Any]]:
             settings = TournamentSettings(room=recipe)
             study = tournament_study(settings, pairings, seeds)
-            run = run_study(study, store, engine)
+            run = run_study(study, arguments.records, executor=executor)
             if not run.completed:
                 raise run.failure or KeyboardInterrupt
             return tournament_rows(list(run.records()), settings.game)
@@ -93,7 +91,7 @@ def main() -> None:
         "seeds": f"{arguments.seeds.start}:{arguments.seeds.stop}",
         "small": f"{arguments.small.start}:{arguments.small.stop}",
     }
-    head = header(told, modules=MODULES, libraries=("numba", "numpy"))
+    head = header(told)
     write_result(
         arguments.output,
         head,

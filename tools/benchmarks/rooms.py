@@ -129,7 +129,7 @@ def main() -> None:
         "seeds": [arguments.seeds.start, arguments.seeds.stop],
         "duration_s": arguments.duration,
     }
-    head = header(settings, modules=("studies/tournament_physics",))
+    head = header(settings)
     jobs = {
         f"{arguments.strategy} {arguments.map} {seed}": Played(
             arguments.strategy, arguments.map, seed, arguments.duration

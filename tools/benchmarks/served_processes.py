@@ -16,7 +16,6 @@ from typing import Any
 
 from benchmark_options import machine
 
-from stepaside.studies.code_version import PHYSICS
 from stepaside.studies.result_files import header, write_result
 
 PRIORITY = 10  # priority of the real-time scheduler; the lowest is 1
@@ -99,5 +98,5 @@ def write_rows(arguments: Namespace, rows: Iterable[dict[str, Any]]) -> None:
         "duration_s": arguments.duration,
         "real_time_priority": URGENT,
     }
-    head = header(settings, modules=(*PHYSICS, "drivers"))
+    head = header(settings)
     write_result(arguments.output, head, rows=kept, machine=machine())

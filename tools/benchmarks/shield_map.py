@@ -322,11 +322,7 @@ def main() -> None:
     asked.add_argument("--workers", type=int, default=0)
     arguments = asked.parse_args()
     robots = paper_robots() | learned_legs(arguments)
-    head = header(
-        {"games": arguments.games},
-        modules=MODULES,
-        libraries=("numpy", "numba"),
-    )
+    head = header({"games": arguments.games})
     batches: dict[str, GameBatch] = {}
     for name, robot in robots.items():
         batches |= batches_of(name, robot, arguments.games)

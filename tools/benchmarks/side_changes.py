@@ -13,7 +13,6 @@ from typing import Any
 import numpy as np
 from benchmark_options import ask
 
-from stepaside.studies.code_version import UNICYCLES
 from stepaside.studies.result_files import header, write_result
 from stepaside.theory.unicycle.basins import random_starts
 from stepaside.theory.unicycle.batch import play_games
@@ -80,7 +79,7 @@ def main() -> None:
         "near_units": NEAR,
         "far_units": FAR,
     }
-    head = header(settings, modules=UNICYCLES, libraries=("numpy", "numba"))
+    head = header(settings)
     rows = [row_of(key, counts[key], ends[key]) for key in sorted(ends)]
     write_result(asked.output, head, rows=rows)
 

@@ -21,7 +21,6 @@ from playwright.sync_api import sync_playwright
 
 from stepaside.games import DuelSettings
 from stepaside.report.viewer.live_page import Page
-from stepaside.studies.code_version import PHYSICS
 from stepaside.studies.result_files import header, write_result
 
 PORT = 8741
@@ -129,11 +128,7 @@ def main() -> None:
     settings = {"seed": 7, "minutes": arguments.minutes, "cycles": CYCLES}
     write_result(
         arguments.output,
-        header(
-            settings,
-            modules=(*PHYSICS, "report"),
-            libraries=("mujoco", "numpy", "viser"),
-        ),
+        header(settings),
         machine=machine(),
         live=live,
         memory=memory,

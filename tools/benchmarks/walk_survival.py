@@ -9,9 +9,7 @@ from benchmark_options import ask
 from resumable_jobs import Row, complete, finished, part_of
 
 from stepaside.studies.push_limits import push_cases
-from stepaside.studies.push_results import MODULES
 from stepaside.studies.result_files import header, write_result
-from stepaside.studies.result_store import ResultStore
 from stepaside.studies.robustness_campaign import push_study, robustness_study
 from stepaside.studies.robustness_trial import METHODS, STRENGTHS, trials
 from stepaside.studies.survival_statistics import (
@@ -53,8 +51,8 @@ def main() -> None:
         "seeds": arguments.seeds,
         "phases": arguments.phases,
     }
-    head = header(settings, modules=MODULES)
-    part = ResultStore(part_of(arguments.output))
+    head = header(settings)
+    part = part_of(arguments.output)
     walks = complete(robustness_study(grid), part, arguments.workers)
     searches = complete(push_study(cases), part, arguments.workers)
     limits = limit_rows(searches.items())
@@ -63,7 +61,7 @@ def main() -> None:
     write_result(
         arguments.output,
         head,
-        trials=len(walks) + pushed,
+        trials=walks.finished + pushed,
         by=by_strength(rows),
         survival=rows,
         limits=limits,

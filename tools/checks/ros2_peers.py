@@ -429,12 +429,7 @@ def main() -> int:
         found.append({"name": name.capitalize(), **own, "rows": rows})
     settings = {"walked_s": WALKED, "enough": peer.ENOUGH}
     names = " ".join(entry.partition("=")[0] for entry in arguments.pythons)
-    head = header(
-        settings,
-        modules=MODULES,
-        libraries=LIBRARIES,
-        command=f"make ros2-peers ROS2='{names}'",
-    )
+    head = header(settings, command=f"make ros2-peers ROS2='{names}'")
     write_result(arguments.output, head, distributions=found)
     passed = all(r["passed"] for each in found for r in each["rows"])
     return 0 if passed else 1

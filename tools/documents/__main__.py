@@ -1,13 +1,13 @@
 """Update the generated parts of README and docs/ from docs/results/.
 
 ``make figures`` runs this; ``--check`` changes nothing and reports what is out
-of date; ``--versions`` reports results made with other code.
+of date; ``--versions`` reports results of another results version.
 """
 
 import sys
 from argparse import ArgumentParser
 
-from stepaside.studies.result_files import is_current
+from stepaside.studies.results_version import RESULTS
 
 from .document import complaints, documents, remade
 from .pictures import IMAGES, PICTURES, draw_picture, drawn_from
@@ -63,12 +63,12 @@ def measured(name: str, store: Store) -> bool:
 
 
 def old_results(store: Store) -> list[str]:
-    """Return messages about results made with other code, with commands."""
+    """Return messages about results of another version, with commands."""
     results = {name: store.result(name) for name in store.names()}
     return [
-        f"{name}: made with other code; again by: {result['command']}"
+        f"{name}: made with another version; again by: {result['command']}"
         for name, result in results.items()
-        if not is_current(result)
+        if result.get("results") != RESULTS
     ]
 
 

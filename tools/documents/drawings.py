@@ -1,5 +1,6 @@
 """Drawing functions of the generated figures."""
 
+import json
 from pathlib import Path
 
 import numpy as np
@@ -52,19 +53,9 @@ def survival_on_hardware(store: Store, file: Path) -> None:
 def many_duels(store: Store, file: Path) -> None:
     """Draw the distributions of the values of many duels, by kind."""
     from stepaside.report.duels_figure import draw_duels
-    from stepaside.studies.result_store import ResultStore
 
     groups = {}
     for kind in ("ideal", "hardware", "cameras"):
-        result = store.result(f"duels-{kind}")
-        seeds = range(*result["settings"]["seeds"])
-        own = "/" + result["records"]["settings"]
-        records = ResultStore(
-            store.folder / result["records"]["folder"]
-        ).read()
-        groups[kind] = [
-            record
-            for key, record in records.items()
-            if key.endswith(own) and record["seed"] in seeds
-        ]
+        lines = (store.folder / f"duels-{kind}.jsonl").read_text("utf-8")
+        groups[kind] = [json.loads(line) for line in lines.splitlines()]
     draw_duels(groups, store.result("duels-ideal")["summary"], file)

@@ -2,7 +2,7 @@
 
 ``make docs-run`` runs this. A tutorial is a script in the percent format of
 jupytext; its outputs are the notebook beside it. The notebook stores
-fingerprints of the script and of the code that it ran, by which ``make docs``
+a fingerprint of the script and the results version, by which ``make docs``
 refuses outputs that are older than either.
 """
 
@@ -17,12 +17,11 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import Any
 
-from stepaside.studies.code_version import DIGITS, code_version
+from stepaside.studies.results_version import RESULTS
 
 from .store import ROOT
 
 TUTORIALS = ROOT / "docs" / "tutorials"
-MODULES = "# modules: "  # line of a script: where the code it runs begins
 TIMEOUT = 900  # of a cell, in [s]
 PNG = "image/png"
 OBJECT = "<matplotlib."  # beginning of what such an object shows
@@ -59,22 +58,9 @@ def fingerprint(script: Path) -> dict[str, str]:
     """Return what the outputs of a tutorial depend on."""
     text = script.read_text(encoding="utf-8")
     return {
-        "script": sha256(text.encode()).hexdigest()[:DIGITS],
-        "code": code_version(modules_of(script)),
+        "script": sha256(text.encode()).hexdigest()[:12],
+        "results": RESULTS,
     }
-
-
-def modules_of(script: Path) -> tuple[str, ...]:
-    """Return the modules that a tutorial says it runs.
-
-    Raises:
-        ValueError: If the script does not name them.
-    """
-    text = script.read_text(encoding="utf-8")
-    lines = [x for x in text.splitlines() if x.startswith(MODULES)]
-    if len(lines) != 1:
-        raise ValueError(f"{script.name} needs one line '{MODULES}...'")
-    return tuple(lines[0].removeprefix(MODULES).split())
 
 
 def complaint(script: Path) -> str | None:
@@ -89,7 +75,7 @@ def complaint(script: Path) -> str | None:
     stored = nbformat.read(file, as_version=4).metadata.get(KEY, {})
     for kind, wanted in fingerprint(script).items():
         if stored.get(kind) != wanted:
-            return f"{name}: its outputs are older than its {kind}; {again}"
+            return f"{name}: its outputs are of another {kind}; {again}"
     return None
 
 

@@ -8,16 +8,13 @@ from typing import Any, NamedTuple, TypeVar
 
 import click
 
-from ..core.atomic_output import check_file, check_folder
-from ..studies.executors import POOL, SPECIFICATIONS, check_executor
-from ..studies.result_store import ResultStore
-from ..studies.result_table import TABLES
+from ..core.atomic_output import check_folder
+from ..studies.executors import PROCESSES, SPECIFICATIONS, check_executor
 from .options.common_options import workers_option
 from .options.parameter_types import TextType
 from .output_files import note_records, saved_text
 from .terminal import exit_interrupted
 
-RECORDS = "records"  # folder of the records in an output folder
 C = TypeVar("C")
 
 
@@ -54,7 +51,7 @@ executor_option = partial(
     click.option,
     "--executor",
     type=ExecutorType(),
-    default=POOL,
+    default=PROCESSES,
     show_default=True,
     help=f"Where cases run: {SPECIFICATIONS}; see docs/campaigns.md.",
 )
@@ -73,28 +70,19 @@ class CampaignOptions(NamedTuple):
     Attributes:
         workers: Number of processes; all cores if None.
         executor: Specification of the executor; see
-            :func:`~stepaside.studies.executors.open_engine`.
+            :func:`~stepaside.studies.executors.open_executor`.
         shard: Number of the shard, from 1, and number of shards.
         output: Folder of results; None to store nothing.
-        table: File of the table of all records.
     """
 
     workers: int | None = None
-    executor: str = POOL
+    executor: str = PROCESSES
     shard: tuple[int, int] | None = None
     output: Path | None = None
-    table: Path | None = None
 
-    @property
-    def store(self) -> ResultStore | None:
-        """Store of the records; None if nothing is stored."""
-        return None if self.output is None else ResultStore(self.records)
-
-    @property
-    def records(self) -> Path:
-        """Folder of the records."""
-        assert self.output is not None
-        return self.output / RECORDS
+    def file_of(self, study: str) -> Path | None:
+        """Return the file of the records of a study; None to store none."""
+        return None if self.output is None else self.output / f"{study}.sqlite"
 
     def with_default(self, output: Path) -> "CampaignOptions":
         """Return the options with an output folder if there was none.
@@ -106,7 +94,7 @@ class CampaignOptions(NamedTuple):
             return self
         check_folder(output, new=False)
         made = self._replace(output=output)
-        note_records(made.records)
+        note_records(output)
         return made
 
     @property
@@ -119,28 +107,13 @@ class CampaignOptions(NamedTuple):
         return cases if self.shard is None else -(-cases // self.shard[1])
 
 
-class _FolderOrTable(click.Path):
-    """Folder of results; with the suffix of a table, the file of a table."""
-
-    def convert(
-        self,
-        value: Any,
-        param: click.Parameter | None,
-        ctx: click.Context | None,
-    ) -> Any:
-        """Return the path; a file that is not a table is refused."""
-        if Path(value).suffix.lower() in TABLES:
-            return Path(value)
-        return super().convert(value, param, ctx)
-
-
 def campaign_options(
     output_help: str,
 ) -> Callable[[Callable[..., Any]], Callable[..., Any]]:
     """Add the options of a campaign, passed as ``campaign``.
 
     Args:
-        output_help: First sentences of the help of ``--output``.
+        output_help: Help of ``--output``.
     """
 
     def decorate(function: Callable[..., Any]) -> Callable[..., Any]:
@@ -153,15 +126,11 @@ def campaign_options(
             output: Path | None,
             **values: Any,
         ) -> Any:
-            table = None
-            if output is not None and output.suffix.lower() in TABLES:
-                table, output = output, output.with_suffix("")
-                check_file(table, overwrite=True)
             if output is not None:
                 check_folder(output, new=False)
-            campaign = CampaignOptions(workers, executor, shard, output, table)
+            campaign = CampaignOptions(workers, executor, shard, output)
             if output is not None:
-                note_records(campaign.records)
+                note_records(output)
             try:
                 return function(*args, campaign=campaign, **values)
             except KeyboardInterrupt:
@@ -169,9 +138,8 @@ def campaign_options(
 
         output_option = click.option(
             "--output",
-            type=_FolderOrTable(file_okay=False, path_type=Path),
-            help=f"{output_help} With the suffix {' or '.join(TABLES)}: file "
-            "of a table of all records, beside such a folder.",
+            type=click.Path(file_okay=False, path_type=Path),
+            help=output_help,
         )
         for option in (
             output_option,

@@ -1,15 +1,13 @@
 """Execution of campaigns, with progress and messages about records."""
 
-from contextlib import nullcontext
 from typing import TYPE_CHECKING, TypeVar
 
+from ..core.progress import show_progress
 from .campaign_options import CampaignOptions
-from .progress import show_progress
 from .terminal import echo, exit_interrupted, resume_message
 
 if TYPE_CHECKING:
-    from ..studies.campaign import CampaignProgress, Study, StudyRun
-    from ..studies.result_store import ResultStore
+    from ..studies.study import Study, StudyProgress, StudyRun
 
 C = TypeVar("C")
 
@@ -33,30 +31,28 @@ def run_campaign(
     Returns:
         The results; see :func:`finish_campaign`.
     """
-    from ..studies.campaign import run_study
-    from ..studies.executors import POOL, Engine, open_engine
-    from ..studies.result_table import write_table
+    from ..studies.executors import PROCESSES
+    from ..studies.study import run_study
 
-    if campaign.shard is not None:
-        study = study.shard(*campaign.shard)
-    store = campaign.store
-    with (
-        show_progress(study.name, len(study.cases), unit) as bar,
-        nullcontext(Engine.of(None))
-        if campaign.executor == POOL
-        and (len(study.cases) <= few or (few and campaign.workers == 1))
-        else open_engine(campaign.executor, campaign.workers) as engine,
-    ):
+    number = campaign.share(len(study.cases))
+    inline = campaign.executor == PROCESSES and (
+        len(study.cases) <= few or (few and campaign.workers == 1)
+    )
+    with show_progress(study.name, number, unit) as bar:
 
-        def report(progress: "CampaignProgress") -> None:
+        def report(progress: "StudyProgress") -> None:
             bar.initial, bar.n = progress.reused, progress.finished
             bar.refresh()
 
-        run = run_study(study, store, engine, report, report_loss)
-    report_invalid_lines(run.store)
-    if campaign.table is not None and run.failure is None:
-        write_table(run.records(), campaign.table)
-    return run
+        return run_study(
+            study,
+            campaign.file_of(study.name),
+            executor=None if inline else campaign.executor,
+            workers=None if inline else campaign.workers,
+            shard=campaign.shard or (1, 1),
+            report=report,
+            warn=lambda message: echo(message, err=True),
+        )
 
 
 def finish_campaign(
@@ -71,23 +67,5 @@ def finish_campaign(
     if run.failure is not None:
         raise run.failure
     if run.interrupted:
-        done = f"{run.finished} of {len(run.study.cases)} {unit}"
-        exit_interrupted(
-            resume_message(done, campaign.output and campaign.records)
-        )
-
-
-def report_loss(message: str) -> None:
-    """Print that a worker was lost."""
-    echo(f"stepaside: {message}", err=True)
-
-
-def report_invalid_lines(store: "ResultStore") -> None:
-    """Print which files have lines that are no records."""
-    for file, number in store.invalid_lines.items():
-        echo(
-            f"stepaside: {number} incomplete or foreign "
-            f"{'line' if number == 1 else 'lines'} of {file} ignored; the "
-            "records are computed again",
-            err=True,
-        )
+        done = f"{run.finished} of {run.total} {unit}"
+        exit_interrupted(resume_message(done, run.file))

@@ -129,7 +129,6 @@ def _result(
     settings: DuelSettings, seeds: range, records: list[dict[str, Any]]
 ) -> dict[str, Any]:
     from ..games.configuration_file import json_settings
-    from ..studies.duel_campaign import versions_of
     from ..studies.duel_statistics import summarise_duels
     from ..studies.result_files import header
 
@@ -137,7 +136,6 @@ def _result(
     del entries["seed"]  # the result has an entry for all seeds
     return {
         **header(entries),
-        "played_by": versions_of(records),
         "seeds": f"{seeds.start}:{seeds.stop}",
         "summary": summarise_duels(settings, records),
     }

@@ -86,7 +86,7 @@ def games(
         announce_effort(what, number * share, campaign.workers)
     run = run_campaign(study, campaign, "games", few=1)
     result = _result(settings, seeds, list(run.records()))
-    if campaign.output is not None and len(run) and campaign.is_whole:
+    if campaign.output is not None and run.finished and campaign.is_whole:
         summary = campaign.output / SUMMARY
         attempt(lambda: result.update(write_result(summary, result)))
     if as_json:
@@ -101,13 +101,13 @@ def _result(
     settings: "GameSettings", seeds: range, records: list[dict[str, Any]]
 ) -> dict[str, Any]:
     from ..games.configuration_file import json_settings
-    from ..studies.game_campaign import LIBRARIES, MODULES, game_rows
+    from ..studies.game_campaign import game_rows
     from ..studies.result_files import header
 
     entries = json_settings(settings)
     del entries["seed"]  # the result has an entry for all seeds
     return {
-        **header(entries, modules=MODULES, libraries=LIBRARIES),
+        **header(entries),
         "seeds": f"{seeds.start}:{seeds.stop}",
         "rows": game_rows(records),
     }

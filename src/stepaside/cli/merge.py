@@ -6,8 +6,6 @@ import click
 
 from ..core.atomic_output import check_folder
 from ..core.errors import ConfigurationError
-from .campaign_options import RECORDS
-from .campaign_reports import report_invalid_lines
 from .output_files import has_records
 from .terminal import echo
 
@@ -32,25 +30,20 @@ def merge(outputs: tuple[Path, ...], output: Path) -> None:
     The command that ran the shards, with this output and without --shard,
     then prints the results of all cases, and runs those that are missing.
     """
-    from ..studies.result_store import ResultStore, merge_stores
+    from ..studies.study import merge_results
 
+    files = [sorted(each.glob("*.sqlite")) for each in outputs]
     for each in outputs:
-        if not has_records(each / RECORDS):
+        if not has_records(each):
             raise ConfigurationError(
                 f"OUTPUT must be a folder of results, got {each}, which has "
                 "no records"
             )
     check_folder(output, new=False)
-    whole = ResultStore(output / RECORDS)
-    stores = [ResultStore(each / RECORDS) for each in outputs]
-    if output.resolve() not in (each.resolve() for each in outputs):
-        stores.append(whole)  # of an earlier merging
-    found = any(True for store in stores for _ in store.entries())
-    number = merge_stores(stores, whole) if found else 0
-    for store in stores:
-        report_invalid_lines(store)
-    if not found:
-        raise ConfigurationError("OUTPUT must have a valid record, got none")
+    number = 0
+    for name in dict.fromkeys(file.name for f in files for file in f):
+        parts = [each / name for each in outputs if (each / name).is_file()]
+        number += merge_results(parts, output / name)
     echo(
         f"{number} records in {output}; run the command of the shards with "
         f"--output {output} and without --shard for their results"

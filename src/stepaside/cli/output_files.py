@@ -74,8 +74,10 @@ def note_records(folder: Path) -> None:
 
 
 def has_records(folder: Path) -> bool:
-    """Return whether a folder holds records of a campaign."""
-    return any(folder.glob("*.jsonl"))
+    """Return whether a folder holds records of studies."""
+    from ..studies.study import count_records
+
+    return any(count_records(file) for file in folder.glob("*.sqlite"))
 
 
 def saved_text(

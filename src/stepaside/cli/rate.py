@@ -111,7 +111,6 @@ def rate(
         role_of,
         score_rows,
     )
-    from ..studies.tournament_settings import TournamentSettings
 
     rated = [(name, role_of(name, role)) for name in dict.fromkeys(strategies)]
     study = rating_study(rated, games, duration)
@@ -124,13 +123,7 @@ def rate(
     campaign = CampaignOptions(workers)
     run = run_campaign(study, campaign, "games", few=FEW)
     rows = rating_rows(list(run.records()))
-    modules, libraries = TournamentSettings().depends
-    settings = {"games": games, "duration_s": duration}
-    head = header(
-        settings,
-        modules=(*modules, "studies/strategy_rating"),
-        libraries=libraries,
-    )
+    head = header({"games": games, "duration_s": duration})
     result: dict[str, Any] = {
         **head,
         "rows": rows,

@@ -43,8 +43,8 @@ SKIPPED = (
     "measure the paper's game on its learned legs.",
 )
 @campaign_options(
-    "Folder of the report. Measurements in it are reused if code, settings "
-    "and libraries are the same.  [default: runs/reproduce]"
+    "Folder of the report. Measurements in it are reused if settings and "
+    "results version are the same.  [default: runs/reproduce]"
 )
 @json_option
 def reproduce(
@@ -106,14 +106,20 @@ def _write_all(
         rows: Rows of all claims.
     """
     from ..report.claims_page import write_page
-    from ..studies.claim_campaign import provenance
+    from ..studies.claim_campaign import settings_of_jobs
     from ..studies.paper_figures import paper_figures
+    from ..studies.results_version import RESULTS, library_versions
     from .reproduce_figures import draw_figures, turns_shown
 
     seed, runs, legs_robot = given
     figures = draw_figures(output, seed)
-    jobs = provenance(seed, legs_robot)
-    made = {"seed": seed, "runs": runs, "jobs": jobs}
+    made = {
+        "seed": seed,
+        "runs": runs,
+        "results": RESULTS,
+        "libraries": library_versions(),
+        "settings": settings_of_jobs(seed, legs_robot),
+    }
     with atomic_draft(output / "claims.json") as draft:
         text = json.dumps(made | {"rows": rows}, indent=1, allow_nan=False)
         draft.write_text(text + "\n", encoding="utf-8")

@@ -1,11 +1,7 @@
-"""Figures of ``stepaside reproduce``, redrawn when their code changes."""
+"""Figures of ``stepaside reproduce``."""
 
 from collections.abc import Callable
-from hashlib import sha256
 from pathlib import Path
-from typing import Any
-
-DRAWN_WITH = ("matplotlib", "mujoco", "numpy")
 
 
 def draw_figures(
@@ -14,8 +10,7 @@ def draw_figures(
     """Draw counterparts of Fig. 2 and Fig. 5, and a sweep over strategies.
 
     Args:
-        folder: Folder of the figures; figures whose code, settings and
-            libraries have not changed are not redrawn.
+        folder: Folder of the figures.
         seed: Seed of the duel.
         duration: Simulated time of the duel, in [s].
         marks: Number of simulated games along each line of the sweep.
@@ -23,60 +18,27 @@ def draw_figures(
     Returns:
         Caption and file name of each figure.
     """
-    from ..studies.code_version import code_version, library_versions
-    from ..studies.result_store import ResultStore
-    from ..studies.unicycle_claims import FIG_2, START
-    from .campaign_options import RECORDS
-
-    games = f"{FIG_2!r}; {START!r}"
-    figures: list[tuple[str, str, Callable[[Path], None], Any, Any]] = [
+    figures: list[tuple[str, str, Callable[[Path], None]]] = [
         (
             "fig2.png",
             "Unicycles under (1)-(4), in the manner of Fig. 2",
             _draw_game,
-            games,
-            ("studies/unicycle_claims", "report/unicycle_figures"),
         ),
         (
             "sweep.png",
             "The circle over angle and ratios: theory as lines, simulation "
             "as marks",
             lambda file: _draw_sweep(file, marks),
-            f"{games}; {marks} marks",
-            ("studies/unicycle_claims", "report/unicycle_sweep"),
         ),
         (
             f"duel-seed{seed}.png",
             "Two NAOs in physics, in the manner of Fig. 5",
             lambda file: _draw_duel(file, seed, duration),
-            f"seed {seed}, {duration} s",
-            ("games/duel", "report/duel_figure"),
         ),
     ]
-    store = ResultStore(folder / RECORDS)
-    recorded = store.read()
-    with store.writer() as writer:
-        for name, _, draw, settings, modules in figures:
-            key = f"figure/{name}"
-            inputs = {
-                "settings": settings,
-                "version": code_version(modules),
-                "libraries": library_versions(DRAWN_WITH),
-            }
-            picture = {"picture": _fingerprint(folder / name)}
-            if recorded.get(key) != inputs | picture:
-                draw(folder / name)
-                picture = {"picture": _fingerprint(folder / name)}
-                writer.append([(key, inputs | picture)])
-    return [(caption, name) for name, caption, *_ in figures]
-
-
-def _fingerprint(file: Path) -> str | None:
-    """Return a hash of a file; None if it does not exist."""
-    try:
-        return sha256(file.read_bytes()).hexdigest()[:12]
-    except OSError:
-        return None
+    for name, _, draw in figures:
+        draw(folder / name)
+    return [(caption, name) for name, caption, _ in figures]
 
 
 def turns_shown() -> tuple[float, float]:

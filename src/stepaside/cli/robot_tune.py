@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     from ..fitting.gait_search import RatedCandidate, SearchResult
     from ..robots.description import RobotDescription
 
-RECORDS = "tune"
+RECORDS = "tune.sqlite"
 
 
 @click.command("tune")
@@ -34,7 +34,7 @@ def tune(
     Varies servo gains, support durations, stride, foot spacing, lean, ZMP
     position, CoM height and feedback in short simulated walks on all cores.
     The best gait is written to the description with its measurements. Walks
-    are recorded in FOLDER/tune, so that an interrupted search can be
+    are recorded in FOLDER/tune.sqlite, so that an interrupted search can be
     continued with the same command.
     """
     from ..fitting.description_edit import rewrite_description
@@ -77,12 +77,10 @@ def _search(
 ) -> "SearchResult":
     """Search with a progress bar on standard error."""
     from ..fitting.gait_search import GaitSearch
-    from ..studies.executors import open_engine
-    from ..studies.result_store import ResultStore
+    from ..studies.executors import open_executor
 
-    store = ResultStore(records)
     with (
-        open_engine(executor, workers) as engine,
+        open_executor(executor, workers) as opened,
         show_progress("tune", unit="gaits") as bar,
     ):
 
@@ -91,7 +89,7 @@ def _search(
             bar.set_postfix_str(f"unsteadiness {least:.2f}")
 
         try:
-            return GaitSearch(description, engine, store, report).run()
+            return GaitSearch(description, opened, records, report).run()
         except KeyboardInterrupt:
             exit_interrupted(resume_message(f"{bar.n} gaits", records))
 

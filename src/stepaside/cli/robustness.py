@@ -44,7 +44,7 @@ from .terminal import echo, exit_interrupted, print_json, resume_message
 
 if TYPE_CHECKING:
     from ..locomotion.policy.legs_settings import LegsSettings
-    from ..studies.campaign import StudyRun
+    from ..studies.study import StudyRun
 
 
 def progress_text(answer: dict[str, Any]) -> str:

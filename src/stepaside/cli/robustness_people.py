@@ -14,7 +14,7 @@ from .terminal import echo
 if TYPE_CHECKING:
     from ..games.walk_settings import WalkSettings
     from ..locomotion.policy.legs_settings import LegsSettings
-    from ..studies.campaign import StudyRun
+    from ..studies.study import StudyRun
 
 
 @dataclass(frozen=True, slots=True)
@@ -86,7 +86,7 @@ def meet_people(
             drawn_study(base, sensing, request.number), campaign, "games"
         )
         return {
-            "planned": len(drawn.study.cases),
+            "planned": drawn.total,
             "done": drawn.finished,
             "reactions": reaction_rows(drawn.items()),
         }, drawn
@@ -99,7 +99,7 @@ def meet_people(
     run = run_campaign(people_study(list(grid)), campaign, "games")
     found = list(run.items())
     return {
-        "planned": len(run.study.cases),
+        "planned": run.total,
         "done": run.finished,
         "clearance_m": base.strategy.clearance,
         "people": people_rows(found),

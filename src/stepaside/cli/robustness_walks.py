@@ -9,7 +9,7 @@ from .progress import SIMULATED, announce_effort
 
 if TYPE_CHECKING:
     from ..games.walk_settings import WalkSettings
-    from ..studies.campaign import StudyRun
+    from ..studies.study import StudyRun
 
 WALK = 20.0  # duration of a trial, in [s]
 PUSHES = 8  # typical number of walks in the search for one push limit
@@ -95,8 +95,8 @@ def summarise_walks(
         "robot": settings.robot,
         "mass_kg": mass_of(settings.robot),
         "planned": {
-            "trials": len(runs.trials.study.cases),
-            "push_limits": len(runs.limits.study.cases),
+            "trials": runs.trials.total,
+            "push_limits": runs.limits.total,
         },
         "done": {
             "trials": runs.trials.finished,
@@ -122,10 +122,9 @@ def write_walks(
     from ..report.robustness_figure import draw_limits, draw_survival
     from ..studies.push_results import pushes_result
     from ..studies.result_files import header, write_result
-    from ..studies.robustness_campaign import MODULES
     from ..studies.robustness_trial import UNITS
 
-    head = header(request.settings(), modules=MODULES)
+    head = header(request.settings())
     write_result(output / "survival.json", head, **answer)
     draw_survival(answer["survival"], UNITS, output / "survival.png")
     limits = answer["limits"]
@@ -146,9 +145,8 @@ def run_walks(
     grid: list[Any], cases: list[Any], campaign: CampaignOptions
 ) -> WalkRuns:
     """Run the trials and the searches for push limits, with progress."""
-    from ..studies.campaign import StudyRun
-    from ..studies.result_store import ResultStore
     from ..studies.robustness_campaign import push_study, robustness_study
+    from ..studies.study import StudyRun
 
     walks = campaign.share(len(grid) + PUSHES * len(cases))
     announce_effort(
@@ -160,4 +158,4 @@ def run_walks(
     searches = push_study(cases)
     if trials.completed:
         return WalkRuns(trials, run_campaign(searches, campaign, "limits"))
-    return WalkRuns(trials, StudyRun(searches, ResultStore.temporary()))
+    return WalkRuns(trials, StudyRun(searches))

@@ -46,25 +46,19 @@ def study(
     settings, over all seeds.
     """
     from ..studies.result_files import header, write_result
-    from ..studies.sweep import (
-        LIBRARIES,
-        MODULES,
-        load_sweep,
-        sweep_rows,
-        sweep_study,
-    )
+    from ..studies.sweep import load_sweep, sweep_rows, sweep_study
 
     sweep = load_sweep(file)
     run = run_campaign(sweep_study(sweep), campaign, "cases", few=1)
     rows = sweep_rows(sweep, run.items(), values)
     settings = {"game": sweep.game, "settings": sweep.base}
     result: dict[str, Any] = {
-        **header(settings, modules=MODULES, libraries=LIBRARIES),
-        "planned": len(run.study.cases),
+        **header(settings),
+        "planned": run.total,
         "done": run.finished,
         "rows": rows,
     }
-    if campaign.output is not None and len(run) and campaign.is_whole:
+    if campaign.output is not None and run.finished and campaign.is_whole:
         summary = campaign.output / SUMMARY
         attempt(lambda: result.update(write_result(summary, result)))
     if as_json:

@@ -32,7 +32,7 @@ from .tables import interval, number, percent, print_columns
 from .terminal import echo, print_json
 
 if TYPE_CHECKING:
-    from ..studies.campaign import StudyRun
+    from ..studies.study import StudyRun
     from ..studies.tournament_campaign import Game
 
 
@@ -51,11 +51,6 @@ def print_rows(rows: list[dict[str, Any]]) -> None:
         [_cells(row) for row in rows],
         left=(0, 1),
     )
-    for row in rows:
-        if row["searched"]:
-            echo(
-                f"{row['pursuer']} against {row['evader']}: {row['searched']}"
-            )
 
 
 def _cells(row: dict[str, Any]) -> list[str]:
@@ -82,9 +77,6 @@ def _cells(row: dict[str, Any]) -> list[str]:
 SOLVES = (
     "stepaside: computing the bound table first, once per machine; about "
     "half a minute"
-)
-SEARCHES = (
-    "stepaside: searching pursuers first, once per evader; up to some minutes"
 )
 SUMMARY = "summary.json"
 FEW = 20  # games of unicycles that need no worker processes
@@ -124,8 +116,7 @@ def _levels() -> tuple[str, ...]:
     help="Strategy of a pursuer: pure (the paper's), pure-xRATIO (with RATIO "
     "times the evader's gain), sharp (turns by the whole bearing, up to the "
     "maximum), herding (aims halfway between the evader and the centre of "
-    "the room), lead, optimal, noisy, stop-and-wait, searched-SEED (found by "
-    "a search against the evader, which takes minutes once; not in physics), "
+    "the room), lead, optimal, noisy, stop-and-wait, "
     "any of them with -vRATIO (RATIO times the evader's speed; not in "
     "physics), FILE.py:NAME or FILE.onnx; repeatable.  [default: pure]",
 )
@@ -208,7 +199,6 @@ def tournament(
         EVADERS,
         evader_of,
         pursuer_of,
-        search_seed_of,
         speed_ratio_of,
     )
 
@@ -220,13 +210,10 @@ def tournament(
     for name in evaders:
         evader_of(name, alpha)
     for name in pursuers:
-        searched = search_seed_of(name) is not None
-        if not searched:
-            pursuer_of(name)
-        if level == "physics" and (searched or speed_ratio_of(name) != 1.0):
+        pursuer_of(name)
+        if level == "physics" and speed_ratio_of(name) != 1.0:
             raise ConfigurationError(
-                "pursuer must be without -vRATIO and not searched-SEED at "
-                f"level physics, got {name}"
+                f"pursuer must be without -vRATIO at level physics, got {name}"
             )
     arena = _arena(room, recipe)
     game = StepGame(duration=duration)
@@ -243,7 +230,7 @@ def tournament(
     run = _run(settings, pairings, seeds, campaign)
     result = _result(settings, seeds, list(run.records()))
     output = campaign.output
-    if output is not None and len(run) and campaign.is_whole:
+    if output is not None and run.finished and campaign.is_whole:
         from ..studies.result_files import write_result
 
         summary = output / SUMMARY
@@ -292,12 +279,9 @@ def _run(
     from ..strategies.bound_cache import is_pursuit_bound_cached
     from ..studies.tournament_campaign import tournament_study
     from ..studies.tournament_record import CELLS
-    from ..studies.tournament_strategies import search_seed_of
 
     if not is_pursuit_bound_cached(CELLS):
         echo(SOLVES, err=True)
-    if any(search_seed_of(pursuer) is not None for _, pursuer in pairings):
-        echo(SEARCHES, err=True)
     study = tournament_study(settings, pairings, seeds)
     few = 0 if settings.level == "physics" else FEW
     return run_campaign(study, campaign, "games", few=few)
@@ -309,9 +293,8 @@ def _result(
     from ..studies.result_files import header
     from ..studies.tournament_rows import tournament_rows
 
-    modules, libraries = settings.depends
     return {
-        **header(settings.entries(), modules=modules, libraries=libraries),
+        **header(settings.entries()),
         "seeds": f"{seeds.start}:{seeds.stop}",
         "rows": tournament_rows(records, settings.game),
     }

@@ -2,8 +2,6 @@
 
 EXTRAS = {  # as in ``pyproject.toml``, with the names of the modules
     "dask": ("distributed",),
-    "mpi": ("mpi4py",),
-    "slurm": ("dask_jobqueue",),
     "tables": ("polars",),
     "export": ("rosbags",),
     "learn": ("gymnasium", "pettingzoo"),

@@ -17,11 +17,8 @@ from typing import Any, NamedTuple
 
 from ..robots.description import RobotDescription
 from ..robots.tree_cache import digest_of
-from ..studies.campaign import Study, code_stamp, run_study
-from ..studies.code_version import LIBRARIES
-from ..studies.executors import Engine
-from ..studies.records import Record
-from ..studies.result_store import ResultStore
+from ..studies.study import Study, StudyProgress, run_study
+from ..studies.tabulation import Record
 from .gait_candidates import Candidate
 from .walk_trials import FALLEN, PATHS, WalkTrialResult, walk_trial
 
@@ -31,7 +28,6 @@ LEAST_IMPROVEMENT = 0.02  # of the score, for a change to be adopted
 BATCH = 4  # candidates at a time, independent of the number of workers
 ONE_PATH_MORE = 0.9 / len(PATHS)  # score of one more path before a fall
 STEADY = 1.0  # unsteadiness below which a robot walks
-MODULES = ("fitting/walk_trials", "fitting/gait_candidates")
 INFEASIBLE = FALLEN + 2.0  # unsteadiness of changes that are not feasible
 
 
@@ -75,8 +71,8 @@ class GaitSearch:
     def __init__(
         self,
         description: RobotDescription,
-        executor: Executor | Engine | None,
-        store: ResultStore | None,
+        executor: Executor | None,
+        file: Path | None,
         report: Callable[[int, int, float], None] | None = None,
     ) -> None:
         """Load the results of an earlier search for the same robot.
@@ -84,14 +80,14 @@ class GaitSearch:
         Args:
             description: Robot description.
             executor: Executor of the walks.
-            store: Store of the ratings; None to store nothing.
+            file: SQLite file of the ratings; None to store nothing.
             report: Called with the number of candidates that are rated, the
                 number by the end of the round, and the least unsteadiness so
                 far.
         """
         self._own, self._executor = description, executor
         self._report = report
-        self._store = store or ResultStore.temporary()
+        self._file = file
         self._digest = _digest_of(description)
         self._rated: dict[Candidate, RatedCandidate] = {}
         self._expected = 1
@@ -147,10 +143,10 @@ class GaitSearch:
             candidates,
             partial(_walk_all, self._own, bound),
             self._key,
-            lambda candidate: code_stamp(MODULES, LIBRARIES),
-            ("walks",),
         )
-        run = run_study(study, self._store, self._executor)
+        run = run_study(
+            study, self._file, executor=self._executor, report=_say_nothing
+        )
         for candidate, record in run.items():
             self._add(candidate, record["walks"])
         if run.failure is not None:
@@ -168,6 +164,10 @@ class GaitSearch:
 
     def _key(self, candidate: Candidate) -> str:
         return json.dumps([self._digest, candidate.to_json()], sort_keys=True)
+
+
+def _say_nothing(progress: StudyProgress) -> None:
+    """Leave the progress to the search."""
 
 
 def _walk_all(

@@ -32,13 +32,8 @@ measurement.
 """
 MADE = """## How this page was made
 
-`stepaside reproduce --seed {seed} --runs {runs}`, which measures again what
-depends on code, settings or libraries that have changed. `claims.json` holds
-the same rows. The version is a fingerprint of the code that a row depends on,
-less comments.
-
-| measured | version | libraries |
-|---|---|---|
+`stepaside reproduce --seed {seed} --runs {runs}`, results version
+`{results}`, with {libraries}. `claims.json` holds the same rows.
 """
 STYLE = (
     "body{font-family:sans-serif;margin:2rem auto;max-width:75rem;"
@@ -66,7 +61,7 @@ def markdown_page(
         beside: Rows about the paper's figures: figure, quantity, value in
             the paper, its source, value measured here.
         figures: Pairs of a caption and the name of a file beside the page.
-        made: First seed, runs, and version and libraries of each job.
+        made: First seed, number of runs, results version, libraries.
     """
     held = sum(row["verdict"] == "holds" for row in rows)
     lines = [
@@ -79,8 +74,9 @@ def markdown_page(
     lines += ["", FIGURES + "\n".join(_line(row) for row in beside)]
     for caption, file in figures:
         lines += ["", f"![{caption}]({file})", "", f"*{caption}*"]
-    lines += ["", MADE.format(**made) + "\n".join(_jobs(made["jobs"]))]
-    return "\n".join(lines) + "\n"
+    with_what = ", ".join(f"{k} {v}" for k, v in made["libraries"].items())
+    lines += ["", MADE.format(**dict(made) | {"libraries": with_what})]
+    return "\n".join(lines)
 
 
 def write_page(
@@ -138,18 +134,6 @@ def _cells(row: Mapping[str, Any]) -> tuple[str, ...]:
         row["verdict"],
         row["as_printed"] or "",
     )
-
-
-def _jobs(jobs: Mapping[str, Any]) -> list[str]:
-    """Return the rows of versions; jobs of one version share a row."""
-    groups: dict[tuple[str, str], list[str]] = {}
-    for name, job in jobs.items():
-        libraries = ", ".join(f"{k} {v}" for k, v in job["libraries"].items())
-        groups.setdefault((job["version"], libraries), []).append(name)
-    return [
-        _line((", ".join(names), f"`{version}`", libraries))
-        for (version, libraries), names in groups.items()
-    ]
 
 
 def _line(cells: Sequence[str]) -> str:

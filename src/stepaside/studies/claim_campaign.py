@@ -5,23 +5,14 @@ from collections.abc import Callable, Sequence
 from concurrent.futures import Executor
 from hashlib import sha256
 from math import isfinite, nan
+from pathlib import Path
 from typing import Any, NamedTuple
 
-from .campaign import (
-    CampaignProgress,
-    CodeStamp,
-    Study,
-    StudyRun,
-    code_stamp,
-    run_study,
-)
 from .claim_jobs import JOBS
 from .claims import ClaimJob, ClaimRow
-from .code_version import code_version, library_versions
-from .executors import Engine
 from .legs_claims import NAME, learned_legs_job
-from .records import Record
-from .result_store import ResultStore
+from .study import Study, StudyProgress, StudyRun, run_study
+from .tabulation import Record
 
 
 class ClaimTrial(NamedTuple):
@@ -73,8 +64,6 @@ def claim_study(seeds: Sequence[int], legs: str = "") -> Study[ClaimTrial]:
         sorted(trials, key=lambda trial: trial.seed),
         run_trial,
         key_of,
-        stamp_of,
-        ("readings",),
     )
 
 
@@ -89,12 +78,6 @@ def key_of(trial: ClaimTrial) -> str:
     return f"{trial.job}/{trial.seed}/{digest}"
 
 
-def stamp_of(trial: ClaimTrial) -> CodeStamp:
-    """Return the present versions on which the readings of a run depend."""
-    job = _job_of(trial)
-    return code_stamp(job.modules, job.libraries)
-
-
 def _job_of(trial: ClaimTrial) -> ClaimJob:
     return learned_legs_job(trial.legs) if trial.legs else JOBS[trial.job]
 
@@ -103,10 +86,8 @@ def run_trial(trial: ClaimTrial) -> Record:
     """Measure the claims of a job once; NaN and inf become null."""
     found = _job_of(trial).measure(trial.seed)
     return {
-        "readings": {
-            name: value if isfinite(value) else None
-            for name, value in found.items()
-        }
+        name: value if isfinite(value) else None
+        for name, value in found.items()
     }
 
 
@@ -120,31 +101,28 @@ def claim_rows(run: StudyRun[ClaimTrial]) -> list[dict[str, Any]]:
         readings[trial.job].append(
             {
                 name: nan if value is None else float(value)
-                for name, value in record["readings"].items()
+                for name, value in record.items()
             }
         )
     rows: list[ClaimRow] = []
     for name in (*JOBS, NAME):
         if name in trials:
-            version = stamp_of(trials[name]).version
-            job = _job_of(trials[name])
-            rows += job.rows(name, readings[name], version)
+            rows += _job_of(trials[name]).rows(name, readings[name])
     return [row.to_json() for row in rows]
 
 
 def reproduce(
-    store: ResultStore | None,
+    file: Path | str | None,
     seeds: Sequence[int],
-    executor: Executor | Engine | None = None,
-    report: Callable[[CampaignProgress], None] | None = None,
+    executor: Executor | str | None = None,
+    report: Callable[[StudyProgress], None] | None = None,
 ) -> list[dict[str, Any]]:
-    """Measure every claim; readings in the store are reused.
+    """Measure every claim; readings in the file are reused.
 
     Args:
-        store: Store of the readings; None stores nothing.
+        file: SQLite file of the readings; None stores nothing.
         seeds: Seeds of the physical runs.
-        executor: Any executor of ``concurrent.futures``; None measures in
-            this process.
+        executor: As of :func:`~stepaside.studies.study.run_study`.
         report: Called with the progress.
 
     Returns:
@@ -154,7 +132,7 @@ def reproduce(
         OutputError: If readings cannot be stored.
         KeyboardInterrupt: After Ctrl-C.
     """
-    run = run_study(claim_study(seeds), store, executor, report)
+    run = run_study(claim_study(seeds), file, executor=executor, report=report)
     if run.failure is not None:
         raise run.failure
     if run.interrupted:
@@ -162,13 +140,9 @@ def reproduce(
     return claim_rows(run)
 
 
-def provenance(seed: int, legs: str = "") -> dict[str, dict[str, Any]]:
-    """Return version, libraries and settings of each job, for one seed."""
+def settings_of_jobs(seed: int, legs: str = "") -> dict[str, str]:
+    """Return the settings of each job, for one seed."""
     return {
-        name: {
-            "version": code_version(job.modules),
-            "libraries": library_versions(job.libraries),
-            "settings": job.settings(seed if job.seeded else 0),
-        }
+        name: job.settings(seed if job.seeded else 0)
         for name, job in jobs_of(legs).items()
     }

@@ -12,7 +12,6 @@ from . import physics_measurements as read
 from . import planner_claims as planner
 from . import unicycle_claims as unicycle
 from .claims import Claim, ClaimJob, Readings
-from .code_version import LIBRARIES
 from .evasion_measurements import (
     TOURNAMENTS,
     measure_evading,
@@ -20,31 +19,20 @@ from .evasion_measurements import (
     room_settings,
 )
 
-# Modules that take readings; claims and tolerances are not part of them.
-GAMES = ("studies/unicycle_claims",)
-PLANS = ("studies/planner_claims",)
-BALANCE = ("studies/balance_claims",)
-DUELS = ("studies/physics_measurements",)
-EVADING = ("studies/evasion_measurements",)
-
 
 def _game(
     claims: tuple[Claim, ...], measure: Callable[[], Readings]
 ) -> ClaimJob:
     """Return a job on unicycles; its settings are constants of the code."""
-    return ClaimJob(claims, lambda _: measure(), GAMES, ("numpy", "scipy"))
+    return ClaimJob(claims, lambda _: measure())
 
 
 def _plan(
-    claims: tuple[Claim, ...],
-    measure: Callable[[], Readings],
-    modules: tuple[str, ...],
+    claims: tuple[Claim, ...], measure: Callable[[], Readings]
 ) -> ClaimJob:
     """Return a job on the planner, with the gait of Sec. IV."""
     settings = repr(asdict(planner.GAIT))
-    return ClaimJob(
-        claims, lambda _: measure(), modules, ("numpy",), lambda _: settings
-    )
+    return ClaimJob(claims, lambda _: measure(), lambda _: settings)
 
 
 def _duel(
@@ -57,9 +45,7 @@ def _duel(
     def settings_text(seed: int) -> str:
         return "; ".join(dump_configuration(each(seed)) for each in settings)
 
-    return ClaimJob(
-        claims, measure, DUELS, LIBRARIES, settings_text, seeded=True
-    )
+    return ClaimJob(claims, measure, settings_text, seeded=True)
 
 
 JOBS: dict[str, ClaimJob] = {
@@ -67,10 +53,10 @@ JOBS: dict[str, ClaimJob] = {
     "saturated": _game(unicycle.SATURATED, unicycle.read_saturated),
     "strategies": _game(unicycle.STRATEGIES, unicycle.read_strategies),
     "sampled": _game(unicycle.SAMPLED, unicycle.read_sampled),
-    "path": _plan(planner.PATH, planner.read_path, PLANS),
-    "footsteps": _plan(planner.FOOTSTEPS, planner.read_footsteps, PLANS),
-    "com": _plan(balance.COM, balance.read_com, BALANCE),
-    "timing": _plan(balance.TIMING, balance.read_timing, BALANCE),
+    "path": _plan(planner.PATH, planner.read_path),
+    "footsteps": _plan(planner.FOOTSTEPS, planner.read_footsteps),
+    "com": _plan(balance.COM, balance.read_com),
+    "timing": _plan(balance.TIMING, balance.read_timing),
     "humanoids": _duel(
         physics.HUMANOIDS, read.measure_humanoids, read.circle_settings
     ),
@@ -89,16 +75,12 @@ JOBS: dict[str, ClaimJob] = {
     "evading": ClaimJob(
         evading.EVADING,
         measure_evading,
-        EVADING,
-        ("numba", "numpy"),
         lambda _: repr(TOURNAMENTS),
         seeded=True,
     ),
     "rooms": ClaimJob(
         evading.ROOM,
         measure_room,
-        EVADING,
-        ("mujoco", "numba", "numpy"),
         lambda seed: dump_configuration(room_settings(seed)),
         seeded=True,
     ),

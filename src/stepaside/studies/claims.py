@@ -88,13 +88,11 @@ class ClaimRow:
         name: Job and key of the claim, as in ``footsteps.stepsize``.
         claim: The claim.
         values: Measured value of each run.
-        version: Fingerprint of the code that the values depend on.
     """
 
     name: str
     claim: Claim
     values: tuple[float, ...]
-    version: str
 
     @property
     def measured(self) -> float:
@@ -133,7 +131,6 @@ class ClaimRow:
             "least": min(finite, default=None),
             "greatest": max(finite, default=None),
             "runs": len(self.values),
-            "version": self.version,
             "verdict": "holds" if self.holds else "fails",
             "as_printed": claim.as_printed,
         }
@@ -146,9 +143,6 @@ class ClaimJob:
     Attributes:
         claims: The claims.
         measure: Function from a seed to a reading for each claim.
-        modules: Modules or folders that the readings depend on; see
-            :func:`~stepaside.studies.code_version.code_version`.
-        libraries: Libraries that the readings depend on.
         settings: Function from a seed to the settings, as text; empty by
             default.
         seeded: Whether the readings depend on the seed; if not, one run is
@@ -157,13 +151,11 @@ class ClaimJob:
 
     claims: tuple[Claim, ...]
     measure: Callable[[int], Readings]
-    modules: tuple[str, ...]
-    libraries: tuple[str, ...]
     settings: Callable[[int], str] = lambda _: ""
     seeded: bool = False
 
     def rows(
-        self, name: str, runs: Sequence[Mapping[str, float]], version: str
+        self, name: str, runs: Sequence[Mapping[str, float]]
     ) -> list[ClaimRow]:
         """Return one row per claim from the readings of runs."""
         return [
@@ -171,7 +163,6 @@ class ClaimJob:
                 f"{name}.{claim.key}",
                 claim,
                 tuple(run[claim.key] for run in runs),
-                version,
             )
             for claim in self.claims
         ]

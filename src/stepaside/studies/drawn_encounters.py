@@ -11,12 +11,10 @@ from ..core.random_streams import named_generator
 from ..games.configuration_file import settings_entries
 from ..games.duel_evaluation import template_closest_approach
 from ..games.duel_settings import DuelSettings
-from .campaign import Study, code_stamp
-from .code_version import LIBRARIES
-from .person_encounters import FIELDS, LADDER, Encounter, play_encounter
-from .records import Record
+from .person_encounters import LADDER, Encounter, play_encounter
+from .study import Study
+from .tabulation import Record
 
-MODULES = ("studies/drawn_encounters",)
 LEAST = np.array([0.5, -180.0, -0.6, 0.8])  # speed [m/s], bearing [deg],
 MOST = np.array([1.4, 180.0, 0.6, 3.0])  # offset [m], change at [m]
 TURNING = 0.6, 1.4  # offset of people who turn, to either side, in [m]
@@ -116,8 +114,6 @@ def drawn_study(
         ],
         play_drawn,
         lambda drawn: drawn.key,
-        lambda drawn: code_stamp(MODULES, LIBRARIES),
-        (*FIELDS, "reaction", "is_hard", "cause"),
     )
 
 

@@ -19,28 +19,7 @@ from ..strategies.registry import file_of
 from ..theory.unicycle.certificate import certify
 from ..theory.unicycle.relative_coordinates import RelativeStart
 from ..theory.unicycle.unicycle_game import make_game
-from .records import Record
-
-FIELDS = (  # of every record
-    "seed",
-    "outcome",
-    "message",
-    "duration_s",
-    "start_distance_m",
-    "pursuer_radius_m",
-    "evader_radius_m",
-    "distance_m",
-    "relative_orientation_deg",
-    "converged_at_s",
-    "min_distance_m",
-    "triggered_at_s",
-    "triggered_at_distance_m",
-    "min_zmp_margin_m",
-    "max_com_velocity_jump_m_s",
-    "evading_min_distance_m",
-    "certified_m",
-    "digest",
-)
+from .tabulation import Record
 
 
 def settings_hash(settings: DuelSettings) -> str:

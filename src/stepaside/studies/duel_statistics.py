@@ -7,9 +7,8 @@ import numpy as np
 
 from ..games.duel_circle import circle_of_theory
 from ..games.duel_settings import DuelSettings
-from .survival_statistics import half_interval, wilson_interval
+from .tabulation import Record, half_interval, wilson_interval
 
-Record = dict[str, Any]
 BEFORE = 2.0 / 3.0  # of a duel; means are taken over the rest
 OUTCOMES = ("completed", "fall", "contact")  # reported even if there are none
 # Value of a record, the theoretical value to compare with, and the worst end

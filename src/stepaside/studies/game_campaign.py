@@ -17,26 +17,10 @@ from ..games.game_settings import GameSettings
 from ..games.outcome import Outcome
 from ..games.run import MatchRun
 from ..strategies.registry import file_of
-from .campaign import Study, code_stamp
 from .case_grid import CaseGrid
 from .duel_statistics import proportion
-from .records import Record
-
-MODULES = ("studies/game_campaign",)  # which plays and records a game
-LIBRARIES = ("mujoco", "numpy")
-FIELDS = (  # of every record
-    "pursuers",
-    "evaders",
-    "seed",
-    "outcome",
-    "message",
-    "duration_s",
-    "captured_at_s",
-    "closest_m",
-    "fallen",
-    "touched",
-    "crowd",
-)
+from .study import Study
+from .tabulation import Record
 
 TeamGame = tuple[str, str, int]
 """Strategies of all pursuers and of all evaders, and the seed of a game."""
@@ -62,9 +46,6 @@ def game_study(
         CaseGrid(pursuers, evaders, seeds),
         partial(play_case, settings),
         lambda case: f"{own}/{'/'.join(map(str, case))}",
-        lambda case: code_stamp(MODULES, LIBRARIES),
-        FIELDS,
-        ("wall_s",),
     )
 
 

@@ -11,7 +11,6 @@ from ..games.outcome import Outcome
 from ..games.robot_settings import LEGS_GAIT, with_robot
 from ..locomotion.policy.response_file import digest_of
 from .claims import Claim, ClaimJob, Readings
-from .code_version import LIBRARIES
 
 NAME = "learned-legs"
 RADIUS = 4.0 * LEGS_GAIT["speed"] / (pi * LEGS_GAIT["gain"])
@@ -118,8 +117,6 @@ def learned_legs_job(robot: str) -> ClaimJob:
     return ClaimJob(
         CLAIMS,
         lambda seed: measure_circle(legs_settings(robot, seed)),
-        ("studies/legs_claims",),
-        LIBRARIES,
         settings_text,
         seeded=True,
     )

@@ -2,17 +2,13 @@
 
 from collections.abc import Sequence
 
-from .campaign import Study, code_stamp
-from .code_version import LIBRARIES
 from .duel_campaign import TOGETHER
 from .person_encounters import (
-    FIELDS,
     Encounter,
     play_encounter,
     play_encounters,
 )
-
-MODULES = ("studies/person_encounters",)  # which plays an encounter
+from .study import Study
 
 
 def people_study(encounters: Sequence[Encounter]) -> Study[Encounter]:
@@ -23,9 +19,6 @@ def people_study(encounters: Sequence[Encounter]) -> Study[Encounter]:
         encounters,
         play_encounter,
         lambda encounter: encounter.key,
-        lambda encounter: code_stamp(MODULES, LIBRARIES),
-        FIELDS,
-        (),
         play_encounters if legs else None,
         TOGETHER if legs else 1,
     )

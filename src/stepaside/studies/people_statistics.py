@@ -9,8 +9,7 @@ from ..planning import GaitSettings
 from ..theory.unicycle.lateral_evasion import lateral_clearance
 from .drawn_encounters import DrawnEncounter
 from .person_encounters import Encounter
-from .records import Record
-from .survival_statistics import wilson_interval
+from .tabulation import Record, wilson_interval
 
 SEEN_AT = 3.5  # distance at which a depth camera detects people, in [m]
 

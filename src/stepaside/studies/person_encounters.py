@@ -22,7 +22,7 @@ from ..sim.crowd_motion import REACTIONS
 from ..sim.person_settings import PersonSettings
 from ..strategies import DashEvasion, Evasion
 from ..strategies.shield_settings import ShieldSettings
-from .records import Record
+from .tabulation import Record
 
 SPEEDS = (0.3, 0.6, 1.0, 1.4)  # of people, in [m/s]
 BEARINGS = (0, 45, -90, 135, 180)  # from which they approach, in [deg]
@@ -52,14 +52,6 @@ LATE = 1.5  # before contact, during which a change of course is late, in [s]
 CHANGE = 0.5  # least change of velocity relative to the speed
 RESTING = 0.1  # speed below which a person is at rest, in [m/s]
 SAME = 0.05  # by which closest approaches may differ, in [m]
-FIELDS = (  # of every record
-    "outcome",
-    "duration_s",
-    "triggered_at_s",
-    "triggered_at_distance_m",
-    "closest_m",
-    "theory_closest_m",
-)
 
 
 @dataclass(frozen=True, slots=True)

@@ -3,8 +3,8 @@
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
 
-from .records import Record
 from .robustness_trial import DIRECTIONS, RobustnessTrial, run_trial
+from .tabulation import Record
 
 # In [N s] for NAO; see :func:`.robustness_trial.push_scale`.
 RESOLUTION = 0.1  # to which a limit is found

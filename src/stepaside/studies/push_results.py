@@ -11,10 +11,6 @@ from .robustness_trial import mass_of
 from .settings_diff import changes_of
 from .survival_statistics import DEFAULT, PUSH, foot_reach, summarise_limits
 
-MODULES = (
-    "studies/survival_statistics",
-)  # which finds the limits and their bounds
-
 
 def pushes_result(
     rows: Sequence[dict[str, Any]],
@@ -60,7 +56,7 @@ def pushes_result(
             f"--body {body} --phases {phases} --seed {seed}"
         )
     )
-    return header(settings, modules=MODULES, command=command) | {
+    return header(settings, command) | {
         "summary": summarise_limits(rows),
         "rows": list(rows),
     }

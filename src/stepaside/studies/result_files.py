@@ -1,4 +1,4 @@
-"""Result files: measurements with their command, code version and settings.
+"""Result files: measurements with their command, results version and settings.
 
 A result is one JSON object. Measuring programs write it; tables and figures
 are made from it.
@@ -14,36 +14,29 @@ from typing import Any
 
 from ..core.atomic_output import atomic_draft
 from ..core.errors import ConfigurationError
-from .code_version import LIBRARIES, PHYSICS, code_version, library_versions
+from .results_version import RESULTS, library_versions
 
 # Entries of every result before the measured values.
-HEADER = ("command", "modules", "version", "libraries", "settings")
+HEADER = ("command", "libraries", "settings")
 DIGITS = 6  # significant digits of numbers in a result
 
 
 def header(
-    settings: Mapping[str, Any],
-    *,
-    modules: tuple[str, ...] = PHYSICS,
-    libraries: Sequence[str] = LIBRARIES,
-    command: str | None = None,
+    settings: Mapping[str, Any], command: str | None = None
 ) -> dict[str, Any]:
-    """Return the header of a result: its command, version and settings.
+    """Return the header of a result.
 
     Args:
         settings: Settings of the measurement: seeds, durations, numbers.
-        modules: Modules or packages that the result depends on.
-        libraries: Libraries that it depends on.
         command: Command that repeats it; that of this process by default.
 
     Returns:
-        The entries of ``HEADER``.
+        The entries of ``HEADER``, and the results version.
     """
     return {
         "command": running_command() if command is None else command,
-        "modules": list(modules),
-        "version": code_version(modules),
-        "libraries": library_versions(libraries),
+        "results": RESULTS,
+        "libraries": library_versions(),
         "settings": dict(settings),
     }
 
@@ -122,16 +115,6 @@ def read_result(file: Path) -> dict[str, Any]:
             f"{file.name} is not a result, it lacks {', '.join(missing)}"
         )
     return dict(result)
-
-
-def is_current(result: Mapping[str, Any]) -> bool:
-    """Return whether a result is of the present version of its modules."""
-    try:
-        return bool(
-            result["version"] == code_version(tuple(result["modules"]))
-        )
-    except FileNotFoundError:  # of modules that were moved
-        return False
 
 
 def _relative(word: str) -> str:

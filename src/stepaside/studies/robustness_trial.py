@@ -17,8 +17,8 @@ from ..robots.description import load_robot
 from ..robots.forward_kinematics import ForwardKinematics
 from ..sim.body_settings import BODIES, BodySettings
 from ..sim.push import Push
-from .records import Record
 from .settings_diff import OWN, changed_walk
+from .tabulation import Record
 
 DIRECTIONS = {"left": 90.0, "right": -90.0, "forward": 0.0, "backward": 180.0}
 STRENGTHS: dict[str, tuple[float, ...]] = {

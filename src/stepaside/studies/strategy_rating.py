@@ -13,11 +13,10 @@ from ..core.errors import ConfigurationError
 from ..planning import Direction
 from ..strategies.bound_cache import pursuit_bound
 from ..strategies.strategy_game import StepGame
-from .campaign import Study, code_stamp
 from .case_grid import CaseGrid
-from .records import Record
-from .survival_statistics import half_interval, wilson_interval
-from .tournament_record import CELLS, FIELDS, play_record
+from .study import Study
+from .tabulation import Record, half_interval, wilson_interval
+from .tournament_record import CELLS, play_record
 from .tournament_settings import TournamentSettings
 from .tournament_strategies import EVADERS, PURSUERS, evader_of, pursuer_of
 
@@ -90,15 +89,11 @@ def rating_study(
         for opponent in OPPONENTS[role]
     ]
     roles = dict(strategies)
-    modules, libraries = TournamentSettings().depends
     return Study(
         "rate",
         CaseGrid(trials, range(games)),
         partial(_play, roles, duration),
         lambda case: "/".join(map(str, (duration, *case[0], case[1]))),
-        lambda case: code_stamp(modules, libraries),
-        (*FIELDS, "strategy", "opponent", "world", "role"),
-        ("decision_s", "longest_decision_s"),
     )
 
 

@@ -3,19 +3,16 @@
 from collections import defaultdict
 from collections.abc import Iterable, Sequence
 from functools import cache
-from math import radians, sqrt
+from math import radians
 from typing import Any
 
 import numpy as np
-from scipy.special import stdtrit
 
-from ..core.poses import Array
 from ..games.walk_settings import WalkSettings
 from ..planning import Direction, Foot, ManeuverPlanner
 from ..planning.push_bound import FootReach, push_bound
 from ..planning.steady_gait import steady_plan
 from .push_limits import limit_of, outcomes_of
-from .records import Record
 from .robustness_trial import (
     DIRECTIONS,
     STRENGTHS,
@@ -24,33 +21,10 @@ from .robustness_trial import (
     push_scale,
     walk_of,
 )
+from .tabulation import Record, wilson_interval
 
-CONFIDENCE = 1.959964  # standard deviations of a 95 % interval
 PUSH = 0.1  # duration of a push, in [s]
 DEFAULT = WalkSettings()
-
-
-def wilson_interval(survived: int, number: int) -> tuple[float, float]:
-    """Return the 95 % interval of a proportion, after Wilson (1927)."""
-    if number == 0:
-        return 0.0, 1.0
-    z, n = CONFIDENCE, number
-    share = survived / n
-    middle = (share + z * z / (2 * n)) / (1 + z * z / n)
-    half = z / (1 + z * z / n)
-    half *= sqrt(share * (1 - share) / n + z * z / (4 * n * n))
-    return max(0.0, middle - half), min(1.0, middle + half)
-
-
-def half_interval(values: Array) -> float:
-    """Return half of the 95 % interval of a mean, by Student's t.
-
-    It is 0 for a single value.
-    """
-    n = len(values)
-    if n < 2:
-        return 0.0
-    return float(stdtrit(n - 1, 0.975) * values.std(ddof=1) / sqrt(n))
 
 
 def survival_rows(

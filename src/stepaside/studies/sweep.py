@@ -20,17 +20,13 @@ from ..games.configuration_file import (
     parse_settings,
 )
 from ..strategies.registry import file_of
-from .campaign import Study, code_stamp
 from .case_grid import CaseGrid
-from .records import Record
-from .survival_statistics import half_interval
+from .study import MOST_CASES, Study
 from .sweep_games import GAMES, SweepGame
+from .tabulation import Record, half_interval
 
-MODULES = ("studies/sweep_games",)  # which play the games
-LIBRARIES = ("mujoco", "numba", "numpy", "scipy")
 SEED = "seed"
 SECTIONS = ("game", "settings", "grid", "cases")
-MOST_CASES = 10_000_000  # they take 8 bytes each
 SPACING = ("first", "last", "number")  # of evenly spaced values
 
 Case = tuple[Any, ...]
@@ -147,9 +143,6 @@ def sweep_study(sweep: Sweep) -> Study[Case]:
         sweep.cases,
         partial(_play_case, sweep),
         key_of,
-        lambda case: code_stamp(MODULES, LIBRARIES),
-        ("outcome",),
-        ("wall_s", "decision_s", "longest_decision_s"),
     )
 
 

@@ -16,7 +16,7 @@ from ..theory.unicycle.adaptive_simulation import simulate
 from ..theory.unicycle.relative_coordinates import RelativeStart
 from ..theory.unicycle.unicycle_game import MOVE_ASIDE, make_game
 from .duel_record import play_record as play_duel
-from .records import Record
+from .tabulation import Record, flat
 from .tournament_record import play_record as play_pairing
 from .tournament_settings import TournamentSettings
 
@@ -100,7 +100,7 @@ def _play_walk(settings: WalkSettings) -> Record:
         "outcome": run.outcome.value,
         "message": run.message,
         "duration_s": run.duration,
-        **asdict(run.summary),
+        **flat(asdict(run.summary)),
     }
 
 

@@ -4,11 +4,10 @@ from collections.abc import Sequence
 from functools import partial
 
 from ..strategies.bound_cache import pursuit_bound
-from . import tournament_record as games
-from .campaign import Study, code_stamp
 from .case_grid import CaseGrid
-from .records import Record
-from .tournament_record import FIELDS, Pairing, play_record
+from .study import Study
+from .tabulation import Record
+from .tournament_record import CELLS, Pairing, play_record
 from .tournament_settings import TournamentSettings
 
 Game = tuple[Pairing, int]
@@ -28,10 +27,7 @@ def tournament_study(
         seeds: Seeds of the games of each pairing.
     """
     own = settings.fingerprint()
-    # Solved and searched once here, not in each worker.
-    pursuit_bound(games.CELLS)
-    for pairing in pairings:
-        games.search_of(settings, pairing)
+    pursuit_bound(CELLS)  # solved once here, not in each worker
 
     def key_of(game: Game) -> str:
         pairing, seed = game
@@ -42,9 +38,6 @@ def tournament_study(
         CaseGrid(pairings, seeds),
         partial(_play, settings),
         key_of,
-        lambda game: code_stamp(*settings.depends),
-        FIELDS,
-        ("decision_s", "longest_decision_s"),
     )
 
 

@@ -10,15 +10,13 @@ from ..core.convex import grown_hull_area
 from ..core.poses import Array, wrap_angle, wrap_angles
 from ..strategies.bound_cache import pursuit_bound
 from ..strategies.strategy_game import StepGame, StrategyTrack
-from .pursuer_search import SearchedPursuer, searched_pursuer
-from .records import Record
+from .tabulation import Record
 from .tournament_games import FEEDBACK, play_game
 from .tournament_settings import HUMANOIDS, TournamentSettings
 from .tournament_strategies import (
     SIGHT,
     evader_of,
     pursuer_of,
-    search_seed_of,
     speed_ratio_of,
 )
 
@@ -26,21 +24,6 @@ if TYPE_CHECKING:
     from ..games.run import DuelRun
     from .tournament_physics import DuelPaths
 
-FIELDS = (  # of every record
-    "evader",
-    "pursuer",
-    "seed",
-    "outcome",
-    "survived_s",
-    "closest_m",
-    "bound_m",
-    "floor_m2",
-    "walked_m",
-    "turning_rad_s",
-    "unseen",
-    "decision_s",
-    "longest_decision_s",
-)
 CELLS = 64  # of the value table of the bound
 
 Pairing = tuple[str, str]
@@ -93,25 +76,13 @@ def play_track(
 ) -> tuple[Room, StrategyTrack]:
     """Play one game at level "steps" or "unicycle"; return its track."""
     evader, pursuer = pairing
-    searched = search_of(settings, pairing)
     return play_game(
         settings,
         evader_of(evader, settings.angle),
-        searched.pursuer if searched else pursuer_of(pursuer),
+        pursuer_of(pursuer),
         seed,
         speed_ratio_of(pursuer),
     )
-
-
-def search_of(
-    settings: TournamentSettings, pairing: Pairing
-) -> SearchedPursuer | None:
-    """Return the pursuer that was searched for a pairing, if it names one."""
-    evader, pursuer = pairing
-    seed = search_seed_of(pursuer)
-    if seed is None:
-        return None
-    return searched_pursuer(settings, evader, speed_ratio_of(pursuer), seed)
 
 
 def play_record(
@@ -143,7 +114,6 @@ def _step_values(
     seconds = (len(distances) - 1) * game.period
     seconds /= FEEDBACK if settings.level == "unicycle" else 1
     clear = float(track.clearances.min())
-    searched = search_of(settings, pairing)
     return {
         "outcome": str(track.outcome),
         "survived_s": seconds,
@@ -156,7 +126,6 @@ def _step_values(
         "unseen": float((np.abs(track.bearings) > SIGHT).mean()),
         "decision_s": track.decision,
         "longest_decision_s": track.longest_decision,
-        "searched": searched.text if searched else None,
     }
 
 

@@ -8,7 +8,7 @@ import numpy as np
 
 from ..strategies.strategy_game import StepGame
 from ..theory.unicycle.circles import find_circle
-from .survival_statistics import half_interval, wilson_interval
+from .tabulation import half_interval, wilson_interval
 from .tournament_strategies import gain_ratio_of
 
 Record = dict[str, Any]
@@ -26,8 +26,8 @@ def tournament_rows(
 
     Returns:
         For each pairing: proportions with 95 % intervals after Wilson, means
-        with 95 % intervals, the seeds of the worst games, the parameters of
-        a searched pursuer, the capture distance, and the distance on the
+        with 95 % intervals, the seeds of the worst games, the capture
+        distance, and the distance on the
         paper's circle.
     """
     game = game or StepGame()
@@ -112,7 +112,6 @@ def _row(records: Sequence[Record]) -> Record:
         "longest_decision_ms": 1e3
         * float(max(r["longest_decision_s"] for r in records)),
         "worst_seeds": [r["seed"] for r in order[:5]],
-        "searched": records[0].get("searched"),
     }
 
 

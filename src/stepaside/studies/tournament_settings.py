@@ -21,7 +21,6 @@ ERROR = ConfigurationError
 HUMANOIDS = "physics"
 LEVELS = ("steps", "unicycle", HUMANOIDS)
 MAPS = ("given", "seen", "none")
-MODULES = ("studies/tournament_record",)  # which play and record a game
 
 
 @dataclass(frozen=True)
@@ -87,13 +86,6 @@ class TournamentSettings:
             "game": asdict(self.game),
             "angle_rad": self.angle,
         } | physics
-
-    @property
-    def depends(self) -> tuple[tuple[str, ...], tuple[str, ...]]:
-        """Modules and libraries on which the games depend."""
-        if self.level == HUMANOIDS:
-            return MODULES, ("mujoco", "numba", "numpy")
-        return MODULES, ("numba", "numpy")
 
     def fingerprint(self) -> str:
         """Return a fingerprint of all settings."""

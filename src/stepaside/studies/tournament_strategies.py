@@ -41,8 +41,6 @@ _WITH_GAIN = re.compile(r"pure-x(?P<ratio>\d+(?:\.\d*)?)", re.ASCII)
 """The paper's pursuer with RATIO times the evader's gain."""
 _WITH_SPEED = re.compile(r"(?P<rest>.+)-v(?P<ratio>\d+(?:\.\d*)?)", re.ASCII)
 """Any pursuer with RATIO times the evader's speed."""
-_SEARCHED = re.compile(r"searched-(?P<seed>\d{1,9})", re.ASCII)
-"""The pursuer that a search with a seed found against the evader."""
 
 
 def evader_of(name: str, angle: float = pi / 2) -> Strategy:
@@ -59,8 +57,7 @@ def evader_of(name: str, angle: float = pi / 2) -> Strategy:
 def pursuer_of(name: str) -> Strategy:
     """Return the pursuer of a name, pure-xRATIO, or of a file.
 
-    The suffix -vRATIO of :func:`speed_ratio_of` is left out. A pursuer of
-    :func:`search_seed_of` depends on the evader and has no strategy here.
+    The suffix -vRATIO of :func:`speed_ratio_of` is left out.
 
     Raises:
         ConfigurationError: If there is none.
@@ -80,13 +77,6 @@ def speed_ratio_of(name: str) -> float:
     """Return the speed of a pursuer over the evader's; 1 without -vRATIO."""
     found = _WITH_SPEED.fullmatch(name)
     return float(found["ratio"]) if found else 1.0
-
-
-def search_seed_of(name: str) -> int | None:
-    """Return the seed of a pursuer searched-SEED; None for any other."""
-    with_speed = _WITH_SPEED.fullmatch(name)
-    found = _SEARCHED.fullmatch(with_speed["rest"] if with_speed else name)
-    return int(found["seed"]) if found else None
 
 
 def pursuer_strategy(name: str) -> str:

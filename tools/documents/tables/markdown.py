@@ -2,7 +2,7 @@
 
 from collections.abc import Iterable, Sequence
 
-from stepaside.studies.survival_statistics import wilson_interval
+from stepaside.studies.tabulation import wilson_interval
 
 NONE = "-"  # shown for missing values
 

@@ -1,0 +1,103 @@
+"""Progress of long work, on standard error."""
+
+import sys
+from time import monotonic
+from types import TracebackType
+from typing import Any
+
+PERIOD = 10.0  # between two lines if standard error is not a terminal, in [s]
+
+
+def show_progress(
+    name: str,
+    total: float | None = None,
+    unit: str = "",
+    *,
+    bar_format: str | None = None,
+    quiet: bool = False,
+) -> Any:
+    """Return a progress display on standard error.
+
+    Args:
+        name: Name of the work, one word.
+        total: Size of the work, in its unit; None if not known yet.
+        unit: Unit of the work; empty for a fraction of 1.
+        bar_format: Format of the bar, for tqdm.
+        quiet: Whether to print lines instead of a bar on a terminal, too.
+
+    Returns:
+        Context manager with ``n`` and ``total``, which may be set, and
+        ``update``, ``refresh`` and ``set_postfix_str`` of a tqdm bar.
+    """
+    if quiet or not sys.stderr.isatty():
+        return PlainProgress(name, total, unit)
+    from tqdm import tqdm
+
+    return tqdm(desc=name, total=total, unit=unit, bar_format=bar_format)
+
+
+class PlainProgress:
+    """Progress as one line every few seconds, for logs and pipes.
+
+    Attributes:
+        n: Finished work, in its unit.
+        initial: Part of it that was finished before, and took no time.
+        total: Total work; None if not known yet.
+    """
+
+    def __init__(self, name: str, total: float | None, unit: str) -> None:
+        """Start at zero."""
+        self.n: float = 0
+        self.initial: float = 0
+        self.total = total
+        self._name, self._unit, self._postfix = name, unit, ""
+        self._began = self._printed = monotonic()
+
+    def __enter__(self) -> "PlainProgress":
+        """Return the display; print nothing yet."""
+        return self
+
+    def __exit__(
+        self,
+        kind: type[BaseException] | None,
+        error: BaseException | None,
+        trace: TracebackType | None,
+    ) -> None:
+        """Print nothing: the result follows."""
+
+    def update(self, more: float = 1) -> None:
+        """Add finished work."""
+        self.n += more
+        self.refresh()
+
+    def set_postfix_str(self, text: str) -> None:
+        """Append a text to each line."""
+        self._postfix = f", {text}"
+        self.refresh()
+
+    def refresh(self) -> None:
+        """Print a line if the last one is older than the period."""
+        now = monotonic()
+        if now - self._printed < PERIOD:
+            return
+        self._printed = now
+        elapsed = now - self._began
+        done = f"{self.n:.0f}"
+        remaining = ""
+        if self.total:
+            fraction = self.n / self.total
+            done = f"{100.0 * fraction:.0f} %"
+            if self._unit:
+                done += f", {self.n:.0f} of {self.total:.0f} {self._unit}"
+            if self.n > self.initial:
+                pace = elapsed / (self.n - self.initial)
+                seconds = pace * (self.total - self.n)
+                remaining = f", about {seconds:.0f} s left"
+        elif self._unit:
+            done += f" {self._unit}"
+        print(
+            f"stepaside: {self._name}: {done}{self._postfix}; "
+            f"{elapsed:.0f} s so far{remaining}",
+            file=sys.stderr,
+            flush=True,
+        )

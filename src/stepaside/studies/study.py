@@ -1,0 +1,562 @@
+"""Studies: cases, measured on any executor, and their records in SQLite."""
+
+import json
+import sqlite3
+import sys
+import weakref
+from array import array
+from collections import Counter
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from concurrent.futures import (
+    FIRST_COMPLETED,
+    BrokenExecutor,
+    Executor,
+    Future,
+    wait,
+)
+from contextlib import contextmanager
+from dataclasses import dataclass
+from math import ceil
+from pathlib import Path
+from time import perf_counter
+from typing import Any, Generic, NamedTuple, TypeVar
+
+from ..core.errors import CampaignError, ConfigurationError, OutputError
+from ..core.progress import show_progress
+from ..core.worker_pool import cancel_pending
+from .executors import is_loss, open_executor, workers_of
+from .results_version import RESULTS, library_versions
+from .tabulation import Record, to_frame
+
+C = TypeVar("C")
+MOST_CASES = 10_000_000  # of a study; they take 9 bytes each
+BLOCK_TIME = 0.5  # aimed at for a block of cases, in [s]
+LARGEST_BLOCK = 1000  # cases
+GROWTH = 4  # largest ratio of the sizes of successive blocks
+WINDOW = 4  # blocks submitted at a time, for each worker
+ATTEMPTS = 3  # for a case whose worker is lost
+BUSY = 60.0  # time in which another process must finish writing, in [s]
+SCHEMA = """
+CREATE TABLE IF NOT EXISTS records (
+    key TEXT, results TEXT, number INTEGER, libraries TEXT, record TEXT,
+    PRIMARY KEY (key, results)
+)
+"""
+
+
+@dataclass(frozen=True)
+class Study(Generic[C]):
+    """Cases, and the function that measures one of them.
+
+    Attributes:
+        name: Name of the study, one word.
+        cases: Cases in the order of the results. Each is a value that can be
+            pickled. A long list need not be in memory: a ``range`` or a
+            :class:`~stepaside.studies.case_grid.CaseGrid` computes its items.
+        measure: Function from a case to its record, a flat dictionary of
+            values for JSON. It must be importable in a worker process, and
+            depend neither on other cases nor on the executor.
+        key_of: Returns the key of a case: a text that tells apart all cases
+            with different results. Not called where nothing is stored.
+        measure_together: Function from several cases to their records, equal
+            to those of ``measure``; None to measure one after the other.
+        together: Number of cases that are measured together.
+    """
+
+    name: str
+    cases: Sequence[C]
+    measure: Callable[[C], Record]
+    key_of: Callable[[C], str]
+    measure_together: Callable[[list[C]], list[Record]] | None = None
+    together: int = 1
+
+
+class StudyProgress(NamedTuple):
+    """Progress of a study.
+
+    Attributes:
+        finished: Number of cases with a record.
+        reused: Number of those that were recorded before it began.
+        total: Number of cases.
+    """
+
+    finished: int
+    reused: int
+    total: int
+
+
+class StudyRun(Generic[C]):
+    """Results of a study, as far as it is finished.
+
+    Attributes:
+        study: The study.
+        file: SQLite file of the records; None if they are temporary. Its
+            table ``results`` has a row for each record of the study.
+        total: Number of cases; of a shard, those of the shard.
+        finished: Number of those with a record.
+        reused: Number of those that were recorded before.
+        interrupted: Whether Ctrl-C ended the study.
+        failure: Error on writing a record, which ended the study.
+    """
+
+    def __init__(
+        self,
+        study: Study[C],
+        file: Path | str | None = None,
+        shard: tuple[int, int] = (1, 1),
+    ) -> None:
+        """Find the records of a study in a file.
+
+        Args:
+            study: Study.
+            file: SQLite file, which need not exist yet.
+            shard: Number of the shard, from 1, and number of shards; every
+                so manieth case belongs to one.
+
+        Raises:
+            ConfigurationError: If there are too many cases, or if the file
+                has no records of a study.
+            OutputError: If it cannot be written.
+        """
+        number, of = shard
+        if len(study.cases) > MOST_CASES:
+            raise ConfigurationError(
+                f"a study must have at most {MOST_CASES} cases, got "
+                f"{len(study.cases)}"
+            )
+        self.study, self.file = study, None if file is None else Path(file)
+        self.interrupted = False
+        self.failure: OutputError | None = None
+        self._base = _opened(self.file)
+        self._columns = dict.fromkeys(_columns_of(self._base))
+        weakref.finalize(self, self._base.close)
+        done = self._find()
+        own = range(number - 1, len(study.cases), of)
+        self._missing = array("q", (n for n in own if not done[n]))
+        self._next = 0
+        self.total = len(own)
+        self.finished = self.reused = self.total - len(self._missing)
+
+    def _find(self) -> bytearray:
+        """Return whether each case has a record; number the records."""
+        cases, key_of = self.study.cases, self.study.key_of
+        done = bytearray(len(cases))
+        if self.file is None:
+            return done
+        found = dict(
+            self._base.execute(
+                "SELECT key, number FROM records WHERE results = ?", [RESULTS]
+            )
+        )
+        if not found:
+            return done
+        changed: list[tuple[int | None, str, str]] = []
+        for number, case in enumerate(cases):
+            key = key_of(case)
+            if key in found:
+                done[number] = 1
+                if found.pop(key) != number:
+                    changed.append((number, key, RESULTS))
+        for key, old in found.items():
+            if old is not None:
+                changed.append((None, key, RESULTS))
+        if changed:
+            with _writing(self.file), self._base:
+                self._base.executemany(
+                    "UPDATE records SET number = ? WHERE key = ? "
+                    "AND results = ?",
+                    changed,
+                )
+        return done
+
+    @property
+    def completed(self) -> bool:
+        """Whether every case has a record."""
+        return self.finished == self.total
+
+    def items(self) -> Iterator[tuple[C, Record]]:
+        """Yield the finished cases and their records, in order of cases."""
+        for number, text in self._base.execute(
+            "SELECT number, record FROM records WHERE results = ? AND number "
+            "IS NOT NULL ORDER BY number",
+            [RESULTS],
+        ):
+            yield self.study.cases[number], json.loads(text)
+
+    def records(self) -> Iterator[Record]:
+        """Yield the records of the finished cases, in order of cases."""
+        return (record for _, record in self.items())
+
+    def to_frame(self, library: str = "polars") -> Any:
+        """Return the records as a data frame, one row per case.
+
+        Args:
+            library: "polars" or "pandas".
+        """
+        return to_frame(self.records(), library)
+
+    def take(self, most: int) -> list[int]:
+        """Return the numbers of the next cases without a record."""
+        numbers = self._missing[self._next : self._next + most].tolist()
+        self._next += len(numbers)
+        return numbers
+
+    @property
+    def left(self) -> int:
+        """Number of cases without a record that were not taken yet."""
+        return len(self._missing) - self._next
+
+    def add(self, numbers: Iterable[int], block: "_BlockResult") -> None:
+        """Store the records of a block.
+
+        Raises:
+            OutputError: If they cannot be written; then none of them is.
+        """
+        cases, key_of = self.study.cases, self.study.key_of
+        stored = self.file is not None
+        rows = [
+            (
+                key_of(cases[number]) if stored else str(number),
+                *(RESULTS, number, block.libraries, text),
+            )
+            for number, text in zip(numbers, block.records, strict=False)
+        ]
+        names = [c for c in block.columns if c not in self._columns]
+        with _writing(self.file), self._base:
+            self._base.executemany(
+                "INSERT OR REPLACE INTO records VALUES (?, ?, ?, ?, ?)", rows
+            )
+            if names:
+                self._columns |= dict.fromkeys(names)
+                _make_table(self._base, self._columns)
+        self.finished += len(rows)
+
+
+def merge_results(parts: Iterable[Path], whole: Path) -> int:
+    """Join the records of files in another one.
+
+    Args:
+        parts: Files of shards, or of other parts of a study; they stay.
+        whole: File to write; what it has stays, too.
+
+    Returns:
+        Number of records in the file.
+
+    Raises:
+        ConfigurationError: If a file has no records of a study.
+        OutputError: If the file cannot be written.
+    """
+    base = _opened(whole)
+    try:
+        columns = dict.fromkeys(_columns_of(base))
+        for part in parts:
+            with _reading(part):
+                base.execute("ATTACH ? AS part", [str(part)])
+                columns |= dict.fromkeys(_columns_of(base, "part"))
+                with _writing(whole), base:
+                    base.execute(
+                        "INSERT OR IGNORE INTO records SELECT * FROM "
+                        "part.records"
+                    )
+                base.execute("DETACH part")
+        with _writing(whole), base:
+            _make_table(base, columns)
+        (number,) = base.execute("SELECT COUNT(*) FROM records").fetchone()
+    finally:
+        base.close()
+    return int(number)
+
+
+def count_records(file: Path) -> int:
+    """Return the number of records in a file; 0 if it does not exist."""
+    if not file.is_file():
+        return 0
+    base = _opened(file)
+    try:
+        (number,) = base.execute("SELECT COUNT(*) FROM records").fetchone()
+    finally:
+        base.close()
+    return int(number)
+
+
+def _opened(file: Path | None) -> sqlite3.Connection:
+    """Open a file of records, or a temporary one."""
+    with _reading(file):
+        if file is not None:
+            with _writing(file):
+                file.parent.mkdir(parents=True, exist_ok=True)
+        base = sqlite3.connect(file or "", BUSY, check_same_thread=False)
+        with _writing(file), base:
+            base.execute(SCHEMA)
+        return base
+
+
+def _columns_of(base: sqlite3.Connection, schema: str = "main") -> list[str]:
+    """Return the names of the values in the table of results."""
+    return [r[1] for r in base.execute(f"PRAGMA {schema}.table_info(results)")]
+
+
+def _make_table(base: sqlite3.Connection, columns: Iterable[str]) -> None:
+    """Make the table of results: a view of the records, by value."""
+    values = []
+    for name in columns:
+        column = '"' + name.replace('"', '""') + '"'
+        path = name.replace("'", "''")
+        values.append(f"json_extract(record, '$.\"{path}\"') AS {column}")
+    base.execute("DROP VIEW IF EXISTS results")
+    base.execute(
+        f"CREATE VIEW results AS SELECT {', '.join(values)} FROM records "
+        f"WHERE results = '{RESULTS}' AND number IS NOT NULL ORDER BY number"
+    )
+
+
+@contextmanager
+def _writing(file: Path | None) -> Iterator[None]:
+    """Raise errors on writing a file as :class:`OutputError`."""
+    try:
+        yield
+    except (sqlite3.OperationalError, OSError) as error:
+        raise OutputError(
+            f"{file or 'a temporary file'} could not be written: {error}"
+        ) from error
+
+
+@contextmanager
+def _reading(file: Path | None) -> Iterator[None]:
+    """Raise errors of a foreign file as :class:`ConfigurationError`."""
+    try:
+        yield
+    except sqlite3.DatabaseError as error:
+        raise ConfigurationError(
+            f"{file} must be a SQLite file with records of a study: {error}"
+        ) from error
+
+
+class _BlockResult(NamedTuple):
+    """Answer of a worker: records up to the first case that failed."""
+
+    results: str
+    libraries: str
+    elapsed: float
+    columns: list[str]
+    records: list[str]
+    error: BaseException | None = None
+
+
+def measure_block(
+    measure: Callable[[C], Record],
+    measure_together: Callable[[list[C]], list[Record]] | None,
+    together: int,
+    cases: list[C],
+) -> _BlockResult:
+    """Measure cases one after the other, or some together, in a worker."""
+    began, error = perf_counter(), None
+    columns: dict[str, None] = {}
+    texts: list[str] = []
+    try:
+        for first in range(0, len(cases), together):
+            group = cases[first : first + together]
+            for record in (
+                [measure(case) for case in group]
+                if measure_together is None
+                else measure_together(group)
+            ):
+                texts.append(json.dumps(record, allow_nan=False))
+                columns |= dict.fromkeys(record)
+    except BaseException as raised:
+        error = raised
+    elapsed = perf_counter() - began
+    libraries = json.dumps(library_versions())
+    return _BlockResult(
+        RESULTS, libraries, elapsed, list(columns), texts, error
+    )
+
+
+def run_study(
+    study: Study[C],
+    file: Path | str | None = None,
+    *,
+    executor: Executor | str | None = None,
+    workers: int | None = None,
+    shard: tuple[int, int] = (1, 1),
+    report: Callable[[StudyProgress], None] | None = None,
+    warn: Callable[[str], None] | None = None,
+) -> StudyRun[C]:
+    """Measure the cases of a study that have no record in a file yet.
+
+    The records do not depend on the executor, on the order in which cases
+    are finished, nor on how often the study was interrupted. A record counts
+    if it was made with the results version of this program.
+
+    Args:
+        study: Study.
+        file: SQLite file of the records, extended after each block of cases;
+            None for a temporary one.
+        executor: Name of an executor, see
+            :func:`~stepaside.studies.executors.open_executor`, or any
+            executor of ``concurrent.futures``. By default cases are measured
+            in this process, or in processes if ``workers`` is given.
+        workers: Number of processes; all cores by default.
+        shard: Number of the shard, from 1, and number of shards.
+        report: Called after each block, instead of showing the progress on
+            standard error.
+        warn: Called with a message when a worker is lost and its cases are
+            submitted again, instead of printing it.
+
+    Returns:
+        The results. After Ctrl-C, or if a record cannot be written, they are
+        partial, and say so.
+
+    Raises:
+        ConfigurationError: If there are too many cases, there is no such
+            executor, or the file has no records of a study.
+        CampaignError: If workers are lost again and again, or if one has
+            another results version.
+    """
+    if executor is None and workers is not None:
+        executor = "processes"
+    run = StudyRun(study, file, shard)
+    work = _Work(run, warn or (lambda text: print(text, file=sys.stderr)))
+    if report is not None:
+        work.complete(executor, workers, report)
+        return run
+    with show_progress(study.name, run.total, "cases") as bar:
+
+        def show(progress: StudyProgress) -> None:
+            bar.initial, bar.n = progress.reused, progress.finished
+            bar.refresh()
+
+        work.complete(executor, workers, show)
+    return run
+
+
+class _Work(Generic[C]):
+    """Submits the missing cases of a run in blocks, a few at a time."""
+
+    def __init__(self, run: StudyRun[C], warn: Callable[[str], None]) -> None:
+        self._run, self._warn = run, warn
+        self._again: list[list[int]] = []
+        self._flying: dict[Future[_BlockResult], list[int]] = {}
+        self._lost: Counter[int] = Counter()
+        self._size = 1
+
+    def complete(
+        self,
+        executor: Executor | str | None,
+        workers: int | None,
+        report: Callable[[StudyProgress], None],
+    ) -> None:
+        """Run until no case is missing, or until the study is stopped."""
+        run = self._run
+        report(StudyProgress(run.finished, run.reused, run.total))
+        while not run.completed:
+            try:
+                with open_executor(executor, workers) as opened:
+                    self._use(opened, report)
+            except BrokenExecutor as error:
+                if not isinstance(executor, str):
+                    raise self._failure(error) from error
+            except KeyboardInterrupt:
+                run.interrupted = True
+                return
+            except OutputError as error:
+                run.failure = error
+                return
+
+    def _use(
+        self, executor: Executor, report: Callable[[StudyProgress], None]
+    ) -> None:
+        """Run on an executor until nothing is missing, or it breaks."""
+        run, workers = self._run, workers_of(executor)
+        try:
+            while self._submit(executor, workers) or self._flying:
+                done = wait(self._flying, return_when=FIRST_COMPLETED).done
+                for future in done:
+                    self._take(future)
+                report(StudyProgress(run.finished, run.reused, run.total))
+        except BrokenExecutor as error:
+            self._lose(list(self._flying), error)
+            raise
+        except BaseException as error:
+            cancel_pending(executor, self._flying)
+            for future, numbers in self._flying.items():
+                whole = future.done() and not future.cancelled()
+                if whole and not future.exception():
+                    if not isinstance(error, OutputError | CampaignError):
+                        run.add(numbers, future.result())
+            raise
+
+    def _submit(self, executor: Executor, workers: int) -> bool:
+        """Fill the window of blocks; return whether anything is left."""
+        study, window = self._run.study, max(1, WINDOW * workers)
+        while len(self._flying) < window:
+            numbers = self._again.pop() if self._again else self._next(workers)
+            if not numbers:
+                return False
+            cases = [study.cases[number] for number in numbers]
+            try:
+                future = executor.submit(
+                    measure_block,
+                    study.measure,
+                    study.measure_together,
+                    study.together,
+                    cases,
+                )
+            except BrokenExecutor:
+                self._again.append(numbers)
+                raise
+            self._flying[future] = numbers
+        return True
+
+    def _next(self, workers: int) -> list[int]:
+        """Take the next block of cases."""
+        share = ceil(self._run.left / (2 * max(workers, 1)))
+        size = max(self._size, self._run.study.together)
+        return self._run.take(max(1, min(size, share)))
+
+    def _take(self, future: Future[_BlockResult]) -> None:
+        """Store the answer of a worker."""
+        try:
+            result = future.result()
+        except BaseException as error:
+            if not is_loss(error):
+                raise
+            self._lose([future], error)
+            return
+        numbers = self._flying.pop(future)
+        if result.results != RESULTS:
+            raise CampaignError(
+                "workers must have the results version of this process, got "
+                f"{result.results} there and {RESULTS} here; their records "
+                "are not used"
+            )
+        self._run.add(numbers, result)
+        if result.error is not None:
+            raise result.error
+        mean = max(result.elapsed, 1e-6) / len(numbers)
+        self._size = round(
+            min(BLOCK_TIME / mean, GROWTH * self._size, LARGEST_BLOCK)
+        )
+
+    def _lose(
+        self, futures: list[Future[_BlockResult]], error: BaseException
+    ) -> None:
+        """Note the blocks of lost workers, to submit them again."""
+        blocks = [self._flying.pop(future) for future in futures]
+        self._again += blocks
+        lost = [number for block in blocks for number in block]
+        self._lost.update(lost)
+        if max((self._lost[number] for number in lost), default=0) >= ATTEMPTS:
+            raise self._failure(error) from error
+        self._warn(
+            f"stepaside: a worker was lost; {len(lost)} cases in progress are "
+            "submitted again"
+        )
+
+    def _failure(self, error: BaseException) -> CampaignError:
+        run = self._run
+        return CampaignError(
+            f"workers were lost while measuring {run.study.name} "
+            f"({type(error).__name__}), possibly out of memory; "
+            f"{run.finished} of {run.total} results are saved"
+        )

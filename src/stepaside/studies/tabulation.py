@@ -1,0 +1,165 @@
+"""Tables of records: shares and means with their intervals, data frames."""
+
+import json
+from collections.abc import Iterable, Mapping, Sequence
+from math import sqrt
+from typing import Any
+
+import numpy as np
+from scipy.special import stdtrit
+
+from ..core.errors import ConfigurationError
+from ..core.poses import Array
+
+Record = dict[str, Any]
+"""Measured values of one case by name, as values for JSON."""
+NORMAL = 1.959964  # standard deviations of a 95 % interval
+
+
+def tabulate(
+    records: Iterable[Mapping[str, Any]],
+    by: Sequence[str],
+    values: Sequence[str],
+) -> list[Record]:
+    """Tabulate values over groups of records.
+
+    Args:
+        records: Records of a study.
+        by: Names of the values that tell groups apart.
+        values: Names of the values to tabulate. A text or a truth value
+            becomes shares; a number its mean.
+
+    Returns:
+        One row for each group, in the order of its first record: the values
+        of ``by``; ``number``, that of its records; and for each value a
+        dictionary. Of a mean: ``number`` of records that have the value,
+        ``mean``, ``half``, half of its 95 % interval by Student's t, least
+        ``min``, ``median`` and greatest ``max``. Of a truth value: ``count``,
+        ``share`` and its 95 % interval ``low`` to ``high`` after Wilson. Of
+        a text: these for each text that occurs. None without any value.
+
+    Raises:
+        ConfigurationError: If no record has one of the values.
+    """
+    groups: dict[str, list[Mapping[str, Any]]] = {}
+    for record in records:
+        key = json.dumps([record.get(name) for name in by])
+        groups.setdefault(key, []).append(record)
+    for name in (*by, *values):
+        if groups and not any(name in r for g in groups.values() for r in g):
+            names = dict.fromkeys(n for g in groups.values() for n in g[0])
+            raise ConfigurationError(
+                f"value must be one of {', '.join(names)}, got {name!r:.40}"
+            )
+    rows = []
+    for group in groups.values():
+        row: Record = {name: group[0].get(name) for name in by}
+        row["number"] = len(group)
+        for name in values:
+            row[name] = _statistics([record.get(name) for record in group])
+        rows.append(row)
+    return rows
+
+
+def _statistics(found: list[Any]) -> Any:
+    """Return the statistics of a value over the records of a group."""
+    present = [value for value in found if value is not None]
+    if not present:
+        return None
+    if all(isinstance(value, bool) for value in present):
+        return share_of(sum(present), len(present))
+    if any(isinstance(value, str) for value in present):
+        return {
+            text: share_of(found.count(text), len(found))
+            for text in dict.fromkeys(present)
+        }
+    return mean_of(present)
+
+
+def share_of(count: int, number: int) -> Record:
+    """Return a share of a number of cases, with its 95 % interval."""
+    low, high = wilson_interval(count, number)
+    share = count / number if number else None
+    return {"count": count, "share": share, "low": low, "high": high}
+
+
+def mean_of(values: Sequence[float]) -> Record:
+    """Return the mean of values, with half of its 95 % interval."""
+    each = np.asarray(values, dtype=np.float64)
+    return {
+        "number": len(each),
+        "mean": float(each.mean()),
+        "half": half_interval(each),
+        "min": float(each.min()),
+        "median": float(np.median(each)),
+        "max": float(each.max()),
+    }
+
+
+def wilson_interval(count: int, number: int) -> tuple[float, float]:
+    """Return the 95 % interval of a proportion, after Wilson (1927)."""
+    if number == 0:
+        return 0.0, 1.0
+    z, n = NORMAL, number
+    share = count / n
+    middle = (share + z * z / (2 * n)) / (1 + z * z / n)
+    half = z / (1 + z * z / n)
+    half *= sqrt(share * (1 - share) / n + z * z / (4 * n * n))
+    return max(0.0, middle - half), min(1.0, middle + half)
+
+
+def half_interval(values: Array) -> float:
+    """Return half of the 95 % interval of a mean, by Student's t.
+
+    It is 0 for a single value.
+    """
+    n = len(values)
+    if n < 2:
+        return 0.0
+    return float(stdtrit(n - 1, 0.975) * values.std(ddof=1) / sqrt(n))
+
+
+def flat(record: Mapping[str, Any]) -> Record:
+    """Return a record without nested dictionaries; names get dots."""
+    found: Record = {}
+    for name, value in record.items():
+        if isinstance(value, Mapping):
+            for inner, one in flat(value).items():
+                found[f"{name}.{inner}"] = one
+        else:
+            found[name] = value
+    return found
+
+
+def to_frame(
+    records: Iterable[Mapping[str, Any]], library: str = "polars"
+) -> Any:
+    """Return records as a data frame, one row each.
+
+    Lists become JSON text; a value that a record lacks is null.
+
+    Args:
+        records: Records.
+        library: "polars" or "pandas", which must be installed.
+
+    Raises:
+        ConfigurationError: If it is neither.
+    """
+    rows = [
+        {
+            name: json.dumps(value) if isinstance(value, list) else value
+            for name, value in record.items()
+        }
+        for record in records
+    ]
+    if library == "pandas":
+        import pandas
+
+        return pandas.DataFrame(rows)
+    if library != "polars":
+        raise ConfigurationError(
+            f"library must be polars or pandas, got {library!r:.40}"
+        )
+    import polars
+
+    return polars.DataFrame(rows, infer_schema_length=None, strict=False)
