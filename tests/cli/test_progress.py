@@ -88,7 +88,10 @@ def test_campaigns_announce_their_size(
     wanted: str,
     capsys: pytest.CaptureFixture[str],
     monkeypatch: pytest.MonkeyPatch,
+    tmp_path: Path,
 ) -> None:
+    monkeypatch.chdir(tmp_path)
+
     def begin(*_: object) -> None:
         raise Reached
 

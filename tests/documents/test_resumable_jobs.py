@@ -1,6 +1,5 @@
 """Test that long measurements go on where they were stopped."""
 
-import json
 import sys
 from pathlib import Path
 from typing import Any
@@ -51,20 +50,6 @@ def test_what_was_done_is_not_done_again(tmp_path: Path) -> None:
     stopped(output)
     assert list(run(output, work)) == ["a", "b", "c"]
     assert 1 not in work.done and 2 in work.done
-
-
-def test_a_line_that_was_cut_off_is_done_again(tmp_path: Path) -> None:
-    output, work = tmp_path / "x.json", Work()
-    whole = run(output, Work())
-    (file,) = part_of(output).iterdir()
-    text = file.read_text()
-    lost = JOBS[json.loads(text.splitlines()[-1])["key"][0]]
-    file.write_text(text[:-5])
-    assert run(output, work) == whole
-    assert work.done == [lost]
-    work.done.clear()
-    assert run(output, work) == whole
-    assert work.done == []
 
 
 def test_nothing_is_left_when_results_are_written(tmp_path: Path) -> None:

@@ -200,11 +200,6 @@ def test_a_study_in_python_is_a_data_frame(
     assert frame["min_distance_m"].to_list() == pytest.approx(closest)
 
 
-@pytest.mark.xfail(
-    strict=True,
-    reason="a study in Python refuses an own strategy object where it has "
-    "no folder, although its duels can be played",
-)
 def test_a_study_in_python_takes_an_own_strategy_object() -> None:
     settings = sa.DuelSettings(duration=0.2, evader_strategy=HalfBack())
     frame = calls.frame_of_duels(settings, [settings.seed])

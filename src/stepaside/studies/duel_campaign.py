@@ -22,8 +22,15 @@ def duel_study(settings: DuelSettings, seeds: Sequence[int]) -> Study[int]:
     Raises:
         ConfigurationError: If there is no strategy with a given name.
     """
-    check_strategy_names(settings)
-    own = cache(lambda: settings_hash(settings))
+    names = settings.evader_strategy, settings.pursuer_strategy
+    if all(isinstance(name, str) for name in names):
+        check_strategy_names(settings)
+
+    @cache
+    def own() -> str:
+        check_strategy_names(settings)  # objects cannot be stored
+        return settings_hash(settings)
+
     legs = any(settings.robot_of(each).legs.walks for each in settings.robots)
     return Study(
         "duels",
