@@ -184,6 +184,8 @@ def _digest(function: FunctionType) -> str:
             if id(value) not in seen:
                 seen.add(id(value))
                 add_code(value.__code__, value.__globals__)
+                for kind in value.__annotations__.values():
+                    add(kind)  # fields are found by their number
         elif isinstance(value, type):
             parts.append(repr(getattr(value, "__members__", value.__name__)))
             parts.append(repr(getattr(value, "_fields", ())))
