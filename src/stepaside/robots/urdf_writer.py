@@ -15,7 +15,8 @@ import numpy as np
 from ..core.player_colours import Colour
 from ..core.poses import Array
 from .description import RobotDescription
-from .urdf_elements import rotation_of, urdf_tree
+from .torso_frame import matrix_of
+from .urdf_elements import urdf_tree
 
 UNLIMITED = 1e6  # effort of a motor without a limit, in [N m]
 VISIBLE_GROUP = 2  # geoms of higher groups are not drawn
@@ -89,7 +90,7 @@ def _add_body(
     mass = float(model.body_mass[body])
     if mass > 0.0:
         inertial = ElementTree.SubElement(link, "inertial")
-        axes = rotation_of(model.body_iquat[body])
+        axes = matrix_of(model.body_iquat[body])
         _add_origin(inertial, model.body_ipos[body] - anchor, axes)
         ElementTree.SubElement(inertial, "mass", value=_text(mass))
         x, y, z = (_text(value) for value in model.body_inertia[body])
@@ -111,7 +112,7 @@ def _add_shapes(
     geom: int,
     anchor: Array,
 ) -> None:
-    axes = rotation_of(model.geom_quat[geom])
+    axes = matrix_of(model.geom_quat[geom])
     position = model.geom_pos[geom] - anchor
     material = model.geom_matid[geom]
     rgba = model.geom_rgba[geom] if material < 0 else model.mat_rgba[material]
