@@ -159,7 +159,12 @@ def _disk_cache() -> Any:
 
         def load_overload(self, signature: Any, context: Any) -> Any:
             load: Any = super().load_overload
-            found = load(signature, context)
+            try:
+                found = load(signature, context)
+            except (AttributeError, ImportError):  # a type has been renamed
+                flush: Any = self.flush
+                flush()
+                found = None
             if found is None:
                 _tell_once("compiling for this machine, once: some seconds")
             return found
