@@ -11,9 +11,9 @@ import numpy as np
 
 from ..core.errors import ModelError
 from ..core.poses import Array
+from ..core.rotations import rotation_of
 from .description import RobotDescription
 from .head import depth_camera_name, load_head
-from .torso_frame import matrix_of
 
 BASE = "base_link"
 SOLES = ("l_sole", "r_sole")  # as in REP 120
@@ -159,7 +159,7 @@ def _frames_of(
 
 def _site_frame(model: mujoco.MjModel, name: str, site: int) -> UrdfJoint:
     link = link_name(model, int(model.site_bodyid[site]))
-    axes = matrix_of(model.site_quat[site])
+    axes = rotation_of(model.site_quat[site])
     return _fixed(link, name, model.site_pos[site].copy(), axes)
 
 

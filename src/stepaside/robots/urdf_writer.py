@@ -5,8 +5,7 @@ cylinder with two spheres, an ellipsoid a row of spheres, and any other shape,
 such as a mesh, its bounding box. Joint angles mean the same as in the model.
 """
 
-from collections.abc import Iterator
-from math import asin, atan2
+from collections.abc import Iterable, Iterator
 from xml.etree import ElementTree
 
 import mujoco
@@ -14,8 +13,8 @@ import numpy as np
 
 from ..core.player_colours import Colour
 from ..core.poses import Array
+from ..core.rotations import angles_of, rotation_of
 from .description import RobotDescription
-from .torso_frame import matrix_of
 from .urdf_elements import urdf_tree
 
 UNLIMITED = 1e6  # effort of a motor without a limit, in [N m]
@@ -90,7 +89,7 @@ def _add_body(
     mass = float(model.body_mass[body])
     if mass > 0.0:
         inertial = ElementTree.SubElement(link, "inertial")
-        axes = matrix_of(model.body_iquat[body])
+        axes = rotation_of(model.body_iquat[body])
         _add_origin(inertial, model.body_ipos[body] - anchor, axes)
         ElementTree.SubElement(inertial, "mass", value=_text(mass))
         x, y, z = (_text(value) for value in model.body_inertia[body])
@@ -112,7 +111,7 @@ def _add_shapes(
     geom: int,
     anchor: Array,
 ) -> None:
-    axes = matrix_of(model.geom_quat[geom])
+    axes = rotation_of(model.geom_quat[geom])
     position = model.geom_pos[geom] - anchor
     material = model.geom_matid[geom]
     rgba = model.geom_rgba[geom] if material < 0 else model.mat_rgba[material]
@@ -203,21 +202,13 @@ def _add_origin(
     parent: ElementTree.Element, position: Array, axes: Array
 ) -> None:
     """Add an origin with roll, pitch and yaw about fixed axes."""
-    pitch = asin(max(-1.0, min(1.0, -float(axes[2, 0]))))
-    if abs(float(axes[2, 0])) > 1.0 - 1e-12:  # gimbal lock: yaw is free
-        roll = 0.0
-        yaw = atan2(-float(axes[0, 1]), float(axes[1, 1]))
-    else:
-        roll = atan2(float(axes[2, 1]), float(axes[2, 2]))
-        yaw = atan2(float(axes[1, 0]), float(axes[0, 0]))
-    ElementTree.SubElement(
-        parent, "origin", xyz=_texts(position), rpy=_texts([roll, pitch, yaw])
-    )
+    rpy = _texts(angles_of(axes))
+    ElementTree.SubElement(parent, "origin", xyz=_texts(position), rpy=rpy)
 
 
 def _text(value: float) -> str:
     return f"{float(value):.12g}"
 
 
-def _texts(values: Array | list[float]) -> str:
+def _texts(values: Array | Iterable[float]) -> str:
     return " ".join(_text(0.0 if abs(v) < 1e-12 else v) for v in values)
