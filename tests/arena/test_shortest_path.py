@@ -117,10 +117,10 @@ def test_pursuer_goes_around_a_pillar(side: int) -> None:
         pose_in_map=here,
         obstacles_in_map=ObstacleSet((placed,)),
     )
-    intent, _ = Pursuit().decide(known, None)
+    intent, _ = Pursuit().decide(known, Pursuit().begin())
     assert side * intent.heading > 0.3
     free = Knowledge(0.0, 0.4, 1.5, LIMITS, pose_in_map=here)
-    assert Pursuit().decide(free, None)[0].heading == 0.4
+    assert Pursuit().decide(free, Pursuit().begin())[0].heading == 0.4
 
 
 def test_pursuer_turns_at_its_full_rate_around_a_pillar() -> None:
@@ -135,7 +135,7 @@ def test_pursuer_turns_at_its_full_rate_around_a_pillar() -> None:
         pose_in_map=here,
         obstacles_in_map=ObstacleSet((pillar,)),
     )
-    intent, _ = Pursuit().decide(known, None)
+    intent, _ = Pursuit().decide(known, Pursuit().begin())
     corner = first_waypoint(
         ObstacleSet((pillar,)), (0.0, 0.0), (1.5, 0.0), RADIUS
     )
@@ -157,7 +157,7 @@ def test_pursuer_with_a_free_line_of_sight_avoids_a_pillar_ahead() -> None:
         pose_in_map=here,
         obstacles_in_map=ObstacleSet((pillar,)),
     )
-    intent, _ = Pursuit().decide(shut, None)
+    intent, _ = Pursuit().decide(shut, Pursuit().begin())
     assert intent.heading == pytest.approx(-pi / 2)
     away = Disc(0.55, 0.0, 0.15)
     free = Knowledge(
@@ -168,7 +168,7 @@ def test_pursuer_with_a_free_line_of_sight_avoids_a_pillar_ahead() -> None:
         pose_in_map=here,
         obstacles_in_map=ObstacleSet((away,)),
     )
-    assert Pursuit().decide(free, None)[0].heading == other
+    assert Pursuit().decide(free, Pursuit().begin())[0].heading == other
 
 
 def test_solids_of_a_room_have_the_clearance_of_each() -> None:

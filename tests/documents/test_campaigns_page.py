@@ -30,7 +30,7 @@ def test_queries_of_a_tournament_run(
     monkeypatch.setattr(tournament_record, "CELLS", 16)
     pursuit_bound.cache_clear()
     line = "tournament --seeds 0:2 --duration 4 --workers 1 --output"
-    words = [*line.split(), "runs/games", "--evader", "aside"]
+    words = [*line.split(), "runs/games", "--evader", "optimal"]
     answer = CliRunner().invoke(main, [*words, "--evader", "look-ahead"])
     pursuit_bound.cache_clear()
     assert answer.exit_code == 0, answer.output

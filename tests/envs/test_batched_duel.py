@@ -46,7 +46,7 @@ SENSES = ("distance", "bearing", "bearing_rate", "closing_speed", "moving")
 PAIRS: dict[str, tuple[Strategy, Strategy, Any]] = {
     "paper": (Pursuit(), Evasion(), None),
     "triggered": (
-        Pursuit(gain_ratio=3.0),
+        Pursuit(gain=3.0),
         Evasion(0.6, safety_radius=0.7, release_distance=0.9),
         ROOM,
     ),
@@ -55,7 +55,7 @@ PAIRS: dict[str, tuple[Strategy, Strategy, Any]] = {
         Evasion(saturated=True, safety_radius=1e6),
         None,
     ),
-    "standing": (Pursuit(gain_ratio=np.inf), StandStill(), ROOM),
+    "standing": (Pursuit(gain=np.inf), StandStill(), ROOM),
     "learned": (Pursuit(), learned((*SENSES, "clearances"), 23), ROOM),
 }
 

@@ -11,6 +11,8 @@ import pytest
 from flows import calls
 from flows.own_strategies import FILE, HalfBack
 
+ASIDE = "evasion(safety_radius=100)"
+
 SPEED = 0.1  # [m/s], of unicycles and of NAO's template
 STRIDE, STEP = 0.04, 0.547  # [m], [s], of NAO
 
@@ -122,21 +124,21 @@ def test_a_network_of_two_outputs_is_the_file_of_the_same_law(
 
 def test_a_rating_compares_by_the_same_games() -> None:
     """Who stands is caught; the best possible is that of the starts."""
-    card = calls.rate_evaders(own("Still"), "aside", games=2)
+    card = calls.rate_evaders(own("Still"), ASIDE, games=2)
     rows = {
         (row["strategy"], row["world"], row["opponent"]): row
         for row in card["rows"]
     }
-    caught = rows[own("Still"), "open floor", "pure"]
+    caught = rows[own("Still"), "open floor", "pursuit"]
     assert caught["survived"] == 0.0
     assert 0.35 - STRIDE <= caught["mean_closest_m"] <= 0.35
     assert caught["mean_regret_m"] > 0.5
     for (name, world, opponent), row in rows.items():
-        other = rows["aside", world, opponent]
-        if name != "aside" and row["mean_regret_m"] is not None:
+        other = rows[ASIDE, world, opponent]
+        if name != ASIDE and row["mean_regret_m"] is not None:
             assert sum(best_of(row)) == pytest.approx(sum(best_of(other)))
     assert [score["strategy"] for score in card["scores"]] == [
-        "aside",
+        ASIDE,
         own("Still"),
     ]
     for score in card["scores"]:

@@ -17,6 +17,8 @@ from flows.calls import (
 )
 from flows.circles import PACE, apart, arc, circle
 
+ASIDE = "evasion(safety_radius=100)"
+
 START = (0.92, radians(-40.0), radians(40.0))  # [m], [rad], [rad]
 SECONDS = 32.0
 FILE = f"""
@@ -139,7 +141,7 @@ def test_an_episode_is_the_game_of_the_tournament() -> None:
     pytest.importorskip("pettingzoo")
     table = summary(
         *("tournament", "--level", "steps", "--room", "open"),
-        *("--evader", "aside", "--pursuer", "pure", "--seeds", "3:4"),
+        *("--evader", ASIDE, "--pursuer", "pursuit", "--seeds", "3:4"),
         *("--duration", 60, "--workers", 1),
     )
     (row,) = table["rows"]

@@ -8,6 +8,8 @@ import pytest
 from flows import calls
 from flows.own_strategies import FILE
 
+ASIDE = "evasion(safety_radius=100)"
+
 STRIDE, CAPTURE = 0.04, 0.35  # [m]
 STILL, STRAIGHT = f"{FILE}:Still", f"{FILE}:Straight"
 NORMAL = 1.959964  # two-sided quantile of 95 % of a normal distribution
@@ -25,14 +27,14 @@ def wilson(number: int, of: int) -> tuple[float, float]:
 def test_a_tournament_tells_how_each_game_ended() -> None:
     """Who stands is caught, who walks straight on meets a wall."""
     rows = calls.tournament(
-        [STILL, STRAIGHT, "aside"],
-        ["pure"],
+        [STILL, STRAIGHT, ASIDE],
+        ["pursuit"],
         room="3x3",
         seeds="0:3",
         duration=60.0,
     )
     still, straight, aside = rows
-    assert [row["evader"] for row in rows] == [STILL, STRAIGHT, "aside"]
+    assert [row["evader"] for row in rows] == [STILL, STRAIGHT, ASIDE]
     assert [row["captured"] for row in rows] == [1.0, 0.0, 0.0]
     assert [row["touched_obstacle"] for row in rows] == [0.0, 1.0, 0.0]
     assert [row["survived"] for row in rows] == [0.0, 0.0, 1.0]

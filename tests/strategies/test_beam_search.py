@@ -8,7 +8,6 @@ import pytest
 from stepaside.arena import NO_OBSTACLES, Room, RoomRecipe
 from stepaside.core.poses import Pose
 from stepaside.strategies import (
-    HerdingPursuit,
     Pursuit,
     StepGame,
     Strategy,
@@ -40,11 +39,11 @@ START = np.array([0.5, 0.2, 0.3, -0.5, -0.1, 0.9])
     ("model", "pursuer"),
     [
         (PursuerModel(), Pursuit()),
-        (PursuerModel(3.0), Pursuit(gain_ratio=3.0)),
-        (SHARP, Pursuit(gain_ratio=inf)),
-        (PursuerModel(1.0, inward=1.0), HerdingPursuit()),
+        (PursuerModel(3.0), Pursuit(gain=3.0)),
+        (SHARP, Pursuit(gain=inf)),
+        (PursuerModel(1.0, inward=1.0), Pursuit(pull=1.0)),
     ],
-    ids=["pure", "x3", "sharp", "herding"],
+    ids=["pursuit", "x3", "sharp", "herding"],
 )
 def test_model_walks_as_the_strategy_does(
     model: PursuerModel, pursuer: Strategy

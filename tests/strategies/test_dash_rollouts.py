@@ -50,7 +50,7 @@ def test_someone_who_passes_is_unseen_while_behind() -> None:
     paths = np.broadcast_to([HERE.x, HERE.y], (41, 9, 2))
     headings = headings_at(now, HERE, standing, AT_ONCE)
     start = HERE.compose(Pose(2.0, 1.0, pi))
-    passer = Opponent(start.x, start.y, start.theta, 1.0, inf)
+    passer = Opponent(start.x, start.y, start.theta, 1.0)
     ahead, behind = (Sector(middle, 0.5 * pi - 1e-6) for middle in (0.0, pi))
     for views in ((ahead,), (behind,)):
         shares = unseen_shares(paths, headings, passer, views)
@@ -99,36 +99,31 @@ def test_the_greatest_velocity_is_on_the_edge_of_the_set() -> None:
 
 @pytest.mark.parametrize("offset", [0.0, 0.7])
 def test_a_straight_opponent_passes_at_its_offset(offset: float) -> None:
-    opponent = Opponent(-4.0, offset, 0.0, 1.4, inf)
+    opponent = Opponent(-4.0, offset, 0.0, 1.4)
     stands = np.zeros((61, 1, 2))
-    found = closest_approaches(stands, opponent, NO_FEINT, 0.0)
+    found = closest_approaches(stands, opponent, inf, NO_FEINT, 0.0)
     assert found[0] == pytest.approx(offset, abs=0.5 * 1.4 * STEP)
 
 
 def test_an_opponent_cannot_turn_within_its_radius() -> None:
     """A point that stands beside it, inside its circle, is not reached."""
     radius, aside = 2.0, 1.2
-    opponent = Opponent(0.0, 0.0, 0.0, 1.0, radius)
+    opponent = Opponent(0.0, 0.0, 0.0, 1.0)
     stands = np.zeros((21, 1, 2))
     stands[..., 1] = aside
-    found = closest_approaches(stands, opponent, NO_FEINT, 0.0)
+    found = closest_approaches(stands, opponent, radius, NO_FEINT, 0.0)
     assert found[0] == pytest.approx(aside, abs=0.5 * STEP**2)
-    assert (
-        closest_approaches(
-            stands, replace(opponent, turning_radius=0.3), NO_FEINT, 0.0
-        )[0]
-        < 0.2
-    )
+    assert closest_approaches(stands, opponent, 0.3, NO_FEINT, 0.0)[0] < 0.2
 
 
 def test_feints_only_reduce_the_worst_case() -> None:
-    opponent = Opponent(-3.0, 0.2, 0.1, 1.4, 2.5)
+    opponent = Opponent(-3.0, 0.2, 0.1, 1.4)
     dashes = make_dashes(12, HERE, WITH_LAG, 0.6)
     pose = Pose(0.0, 0.0, 0.0)
     paths = roll_out(pose, STILL, dashes, WITH_LAG, 4.0)
-    plain = closest_approaches(paths, opponent, NO_FEINT, 0.6)
+    plain = closest_approaches(paths, opponent, 2.5, NO_FEINT, 0.6)
     feints = np.array([0.0, 1.0, -1.0])
-    worst = closest_approaches(paths, opponent, feints, 0.6)
+    worst = closest_approaches(paths, opponent, 2.5, feints, 0.6)
     assert (worst <= plain).all()
     assert (worst < plain - 0.01).any()
 
@@ -138,10 +133,10 @@ def test_mirrored_games_mirror_the_values() -> None:
     pose = Pose(0.0, 0.0, 0.0)
     dashes = make_dashes(count, pose, WITH_LAG, 0.6)
     paths = roll_out(pose, STILL, dashes, WITH_LAG, 4.0)
-    left = Opponent(-3.0, 0.3, 0.1, 1.4, 2.5)
+    left = Opponent(-3.0, 0.3, 0.1, 1.4)
     right = replace(left, y=-left.y, course=-left.course)
     one, other = (
-        closest_approaches(paths, each, np.array([0.0, 1.0, -1.0]), 0.6)
+        closest_approaches(paths, each, 2.5, np.array([0.0, 1.0, -1.0]), 0.6)
         for each in (left, right)
     )
     mirrored = 1 + (-np.arange(count)) % count

@@ -2,6 +2,8 @@
 
 import os
 import sys
+from dataclasses import replace
+from math import pi
 from pathlib import Path
 from typing import Any
 
@@ -20,8 +22,12 @@ from stepaside.games.duel_settings import StartSettings
 from stepaside.games.outcome import Outcome
 from stepaside.planning import Direction
 from stepaside.strategies import (
+    Evasion,
+    LookAhead,
+    Pursuit,
     load_strategy,
 )
+from stepaside.strategies.registry import check_strategy_name
 
 OWN = '''
 from dataclasses import dataclass
@@ -124,8 +130,69 @@ def test_a_file_may_define_a_class_a_value_or_a_factory(
 
 
 @pytest.mark.parametrize(
+    ("name", "factor"),
+    [
+        ("Timid(factor=0.3)", 0.3),
+        ("timid(factor=1)", 1),
+        ("picky(factor=.7)", 0.7),
+    ],
+)
+def test_a_strategy_of_a_file_takes_arguments(
+    file: Path, name: str, factor: float
+) -> None:
+    strategy: Any = load_strategy(f"{file}:{name}")
+    assert strategy.factor == factor
+
+
+def test_names_take_arguments() -> None:
+    assert load_strategy("pursuit(gain=2, sway=90deg)") == Pursuit(
+        gain=2, sway=pi / 2
+    )
+    assert load_strategy("pursuit(gain=inf)") == load_strategy("sharp")
+    assert load_strategy("noisy( seed = 3 )") == Pursuit(
+        gain=2.0, noise=0.5, seed=3
+    )
+    own = Evasion(safety_radius=1.5)
+    assert load_strategy("evasion(angle=1)", own) == replace(own, angle=1)
+    assert load_strategy("look-ahead(pieces=(1, 2), turns=3)") == LookAhead(
+        (1, 2), 3
+    )
+
+
+@pytest.mark.parametrize(
     ("name", "message"),
     [
+        ("pursut", "must be one of .*got 'pursut'; did you mean pursuit?"),
+        ("pursuit(gian=2)", "got 'gian'; did you mean gain?"),
+        (
+            "pursuit(gain=-1)",
+            r"gain must lie in \(0, 1000\] or inf \[1\], got",
+        ),
+        ("pursuit(gain=yes)", r"gain must lie in .*got 'yes'"),
+        ("pursuit(gain=true)", r"gain must lie in .*got True"),
+        ("pursuit(2)", "must have arguments like gain=2, got '2'"),
+        ("evasion(angle=200deg)", r"angle must lie in \[0, 3.14159\] \[rad\]"),
+        ("look-ahead(pieces=3)", "pieces must be a tuple of at most 7"),
+        ("look-ahead(pieces=(0,))", "pieces.* must be an integer in"),
+        ("robust(width=2.5)", "width must be an integer in"),
+        ("net.onnx(gain=2)", "net.onnx must have no arguments, got gain"),
+    ],
+)
+def test_names_and_arguments_are_refused_by_rule(
+    name: str, message: str
+) -> None:
+    for check in (load_strategy, check_strategy_name):
+        with pytest.raises(ConfigurationError, match=message):
+            check(name)
+
+
+@pytest.mark.parametrize(
+    ("name", "message"),
+    [
+        (
+            "Timid(far=1)",
+            r"Timid\(far=1\) must make a strategy, got TypeError",
+        ),
         ("Mute", r"decide must return \(Intent, memory\), got 0.3"),
         ("Moody", "the same knowledge and memory must give the same intent"),
         ("Broken", "must return .*, got ZeroDivisionError"),
@@ -150,7 +217,9 @@ def test_an_invalid_strategy_is_refused_in_one_line(
 ) -> None:
     with pytest.raises(ConfigurationError, match=message) as caught:
         load_strategy(f"{file}:{name}")
-    assert str(caught.value).startswith(f"strategy {file}:{name}: ")
+    assert str(caught.value).startswith(
+        f"strategy {file}:{name.partition('(')[0]}: "
+    )
     assert "\n" not in str(caught.value)
 
 

@@ -1,5 +1,6 @@
 """Test the pursuers beside the paper's."""
 
+from dataclasses import replace
 from math import atan2, cos, hypot, inf, pi, sin
 from typing import Any
 
@@ -9,9 +10,7 @@ import pytest
 from stepaside.core.poses import Pose, wrap_angle
 from stepaside.strategies import (
     Evasion,
-    HerdingPursuit,
     Knowledge,
-    LeadPursuit,
     Limits,
     OptimalPursuit,
     Pursuit,
@@ -20,47 +19,64 @@ from stepaside.strategies import (
     Walk,
     play_strategies,
 )
-from stepaside.strategies.opponent_track import (
-    Trace,
-    direction_of_motion,
-    note,
-)
 
 NAO = Limits(0.1, 0.2, 0.04, 0.4)
 START = (Pose(0.0, 0.0, 0.4), Pose(1.2, 0.3, 2.0))
 ASIDE = Evasion(safety_radius=100.0)
 
 
-def test_direction_of_motion_is_exact_on_a_circle() -> None:
-    """Its turn of a step is taken to go on: exact for a steady turn."""
-    trace: Trace = ()
-    assert direction_of_motion(trace) is None
+def turning_evader() -> list[Knowledge]:
+    """Return the sightings of an evader on a circle, a step apart."""
+    seen = []
     for n in range(5):
         theta = 0.3 + 0.1 * n
-        x, y = np.sin(theta), -np.cos(theta)
-        pose = Pose(5.0, 1.0, 0.7)
-        sight = float(np.arctan2(y - 1.0, x - 5.0))
-        trace = note(
-            trace,
+        x, y = sin(theta) - 5.0, -cos(theta) - 1.0
+        seen.append(
             Knowledge(
                 0.4 * n,
-                wrap_angle(sight - 0.7),
-                hypot(x - 5.0, y - 1.0),
+                wrap_angle(atan2(y, x) - 0.7),
+                hypot(x, y),
                 NAO,
-                pose_in_map=pose,
-            ),
+                pose_in_map=Pose(5.0, 1.0, 0.7),
+            )
         )
+    return seen
+
+
+def test_a_lead_points_ahead_along_the_tangent_of_a_circle() -> None:
+    """The course is exact for a steady turn, from three sightings on."""
+    pursuer = Pursuit(lead=0.4)
+    memory = pursuer.begin()
+    for n, seen in enumerate(turning_evader()):
+        intent, memory = pursuer.decide(seen, memory)
+        theta, reach = 0.3 + 0.1 * n, 0.4 * seen.distance
+        x = sin(theta) + reach * cos(theta) - 5.0
+        y = -cos(theta) + reach * sin(theta) - 1.0
         if n > 1:
-            assert direction_of_motion(trace) == pytest.approx(theta, abs=1e-9)
+            aim = wrap_angle(atan2(y, x) - 0.7)
+            assert intent.heading == pytest.approx(aim, abs=1e-9)
 
 
-def test_without_a_lead_it_is_the_pursuer_of_the_paper() -> None:
-    game = StepGame(duration=20.0)
-    paths = [
-        play_strategies(pursuer, ASIDE, START, game=game).pursuer
-        for pursuer in (Pursuit(), LeadPursuit(0.0))
+def test_without_parameters_it_is_the_pursuer_of_the_paper() -> None:
+    for bearing in (-2.0, 0.1, 1.5):
+        assert heading(Pursuit(), known(bearing)) == bearing
+
+
+def test_sway_adds_a_periodic_error() -> None:
+    swaying = Pursuit(sway=0.3, period=8.0)
+    for time, error in ((0.0, 0.0), (2.0, 0.3), (4.0, 0.0), (6.0, -0.3)):
+        seen = replace(known(0.4), time=time)
+        assert heading(swaying, seen) == pytest.approx(0.4 + error)
+
+
+def test_noise_depends_on_seed_and_step_alone() -> None:
+    noisy, other = Pursuit(noise=0.5), Pursuit(noise=0.5, seed=1)
+    errors = [
+        [heading(each, replace(known(0.0), time=0.4 * n)) for n in range(200)]
+        for each in (noisy, noisy, other)
     ]
-    np.testing.assert_allclose(paths[1], paths[0], atol=1e-9)
+    assert errors[0] == errors[1] != errors[2]
+    assert np.std(errors[0]) == pytest.approx(0.5, rel=0.2)
 
 
 def test_lead_pursuit_intercepts_where_pure_pursuit_trails() -> None:
@@ -70,7 +86,7 @@ def test_lead_pursuit_intercepts_where_pure_pursuit_trails() -> None:
     game = StepGame(duration=40.0)
     pure, led = (
         play_strategies(pursuer, walker, starts, game=game).distances[-1]
-        for pursuer in (Pursuit(), LeadPursuit(0.5))
+        for pursuer in (Pursuit(), Pursuit(lead=0.5))
     )
     assert led < pure - 0.1
 
@@ -105,14 +121,14 @@ def test_a_gain_multiplies_the_bearing_up_to_the_largest_turn(
     ratio: float, bearing: float
 ) -> None:
     wanted = min(max(ratio * bearing, -pi), pi)
-    found = heading(Pursuit(gain_ratio=ratio), known(bearing))
+    found = heading(Pursuit(gain=ratio), known(bearing))
     assert found == (bearing if ratio == 1.0 else pytest.approx(wanted))
 
 
 @pytest.mark.parametrize("bearing", [-2.5, -0.251, -0.1, 0.0, 0.2, 0.5, pi])
 def test_a_sharp_pursuer_turns_by_the_clipped_bearing(bearing: float) -> None:
     """A step turns by kappa = 0.08 of the heading, by 0.08 pi at most."""
-    turn = 0.08 * heading(Pursuit(gain_ratio=inf), known(bearing))
+    turn = 0.08 * heading(Pursuit(gain=inf), known(bearing))
     assert turn == pytest.approx(min(max(bearing, -0.08 * pi), 0.08 * pi))
 
 
@@ -122,27 +138,24 @@ def test_greater_gains_end_on_the_closer_circle_of_theory() -> None:
     for ratio in (1.5, 2.0, 3.0):
         rate = 0.5 * pi / (1.0 / (0.2 * ratio) + 1.0 / 0.2)
         theory = 0.2 * sin(rate / (0.2 * ratio)) / rate
-        track = play_strategies(
-            Pursuit(gain_ratio=ratio), ASIDE, START, game=game
-        )
+        track = play_strategies(Pursuit(gain=ratio), ASIDE, START, game=game)
         assert track.distances[-1] == pytest.approx(theory, rel=0.01)
 
 
-@pytest.mark.parametrize("center", [(0.0, 0.0), (-1.3, 0.6)])
 @pytest.mark.parametrize("pose", [(0.7, -0.3, 1.0), (-0.5, 1.1, -2.9)])
 def test_herding_bisects_the_bearings_of_evader_and_center(
-    center: tuple[float, float], pose: tuple[float, float, float]
+    pose: tuple[float, float, float],
 ) -> None:
     x, y, theta = pose
-    middle = wrap_angle(atan2(center[1] - y, center[0] - x) - theta)
-    strategy = HerdingPursuit(center)
+    middle = wrap_angle(atan2(-y, -x) - theta)
+    strategy = Pursuit(pull=1.0)
     for bearing in (-2.0, -0.6, 0.3, 1.7, 3.0):
         aside = wrap_angle(middle - bearing)
         found = heading(strategy, known(bearing, 0.8, pose_in_map=Pose(*pose)))
         wanted = wrap_angle(bearing + 0.5 * aside)
         assert wrap_angle(found - wanted) == pytest.approx(0.0, abs=1e-9)
     # In the middle of the room there is nothing to keep it from.
-    there = Pose(*center, theta)
+    there = Pose(0.0, 0.0, theta)
     assert heading(strategy, known(0.4, pose_in_map=there)) == pytest.approx(
         0.4
     )
@@ -157,7 +170,7 @@ def test_herding_turns_with_the_room() -> None:
         for x, y, theta in START
     )
     one, other = (
-        play_strategies(HerdingPursuit(), ASIDE, (a, b), game=game).pursuer
+        play_strategies(Pursuit(pull=1.0), ASIDE, (a, b), game=game).pursuer
         for a, b in (START, turned)
     )
     x, y = one[:, :2].T

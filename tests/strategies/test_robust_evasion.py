@@ -8,10 +8,8 @@ import numpy as np
 import pytest
 
 from stepaside.arena import Disc, Room, RoomRecipe
-from stepaside.core.errors import ConfigurationError
 from stepaside.core.poses import Pose, wrap_angle
 from stepaside.strategies import (
-    HerdingPursuit,
     Knowledge,
     Limits,
     Pursuit,
@@ -20,7 +18,6 @@ from stepaside.strategies import (
     Strategy,
     play_strategies,
 )
-from stepaside.strategies.irregular_pursuit import NoisyPursuit, WaitingPursuit
 from stepaside.strategies.opponent_models import (
     MODELS,
     SWAYING_SIGHT,
@@ -40,7 +37,6 @@ from stepaside.strategies.search.pursuer_model import (
     model_turn,
 )
 from stepaside.studies.tournament_settings import TournamentSettings
-from stepaside.studies.tournament_strategies import pursuer_of, speed_ratio_of
 
 RULES = BeamRules(0.04, 0.08, 0.08 * pi, 0.35, 0.2, 1, 1)
 LIMITS = Limits(0.1, 0.2, 0.04, 0.4)
@@ -343,7 +339,7 @@ def survival(
 
 
 def test_herding_is_survived_in_a_room() -> None:
-    assert survival(RobustEvasion(), HerdingPursuit(), 1000, 90.0) > 89.0
+    assert survival(RobustEvasion(), Pursuit(pull=1.0), 1000, 90.0) > 89.0
 
 
 def test_sharp_pursuer_needs_0_8_of_the_time_of_an_offline_search() -> None:
@@ -356,7 +352,7 @@ def test_sharp_pursuer_needs_0_8_of_the_time_of_an_offline_search() -> None:
         room.solid_set.packed,
         RULES._replace(width=1000, horizon=450),
     )
-    sharp = Pursuit(gain_ratio=inf)
+    sharp = Pursuit(gain=inf)
     online = survival(RobustEvasion(), sharp, 1000, 180.0)
     assert 0.8 * 0.4 * len(path) < online < 180.0
 
@@ -370,7 +366,7 @@ def test_faster_pursuer_of_the_paper_is_survived_on_an_open_floor() -> None:
 
 
 def test_same_knowledge_gives_the_same_game() -> None:
-    noisy = NoisyPursuit(seed=3)
+    noisy = Pursuit(gain=2.0, noise=0.5, seed=3)
     tracks = [
         play_strategies(
             noisy,
@@ -387,7 +383,7 @@ def test_same_knowledge_gives_the_same_game() -> None:
 
 def test_waiting_pursuer_stands_and_goes_on() -> None:
     track = play_strategies(
-        WaitingPursuit(3.9, 2.05),
+        Pursuit(walking=3.9, waiting=2.05),
         RobustEvasion(width=10, horizon=10),
         ROOMS.arena(1004)[1],
         game=StepGame(duration=12.0),
@@ -395,15 +391,6 @@ def test_waiting_pursuer_stands_and_goes_on() -> None:
     moved = np.hypot(*np.diff(track.pursuer[:, :2], axis=0).T)
     assert (moved[10:15] == 0.0).all() and (moved[:10] > 0.03).all()
     assert (moved[15:25] > 0.03).all()
-
-
-def test_speed_of_a_pursuer_is_in_its_name() -> None:
-    assert speed_ratio_of("sharp-v1.3") == 1.3
-    assert speed_ratio_of("pure-x2-v0.8") == 0.8
-    assert speed_ratio_of("stop-and-wait") == 1.0
-    assert pursuer_of("pure-x2-v0.8") == Pursuit(gain_ratio=2.0)
-    with pytest.raises(ConfigurationError, match="RATIO of -vRATIO must"):
-        pursuer_of("pure-v30")
 
 
 def test_pursuer_walks_at_its_speed() -> None:

@@ -62,7 +62,7 @@ def test_the_pursuer_heads_for_the_evader_at_any_bearing() -> None:
     assert heading(Pursuit(), 0.4) == 0.4
     assert heading(Pursuit(), -0.4) == -0.4
     for distance in (0.01, 100.0):
-        intent, _ = Pursuit().decide(known(0.0, distance), None)
+        intent, _ = Pursuit().decide(known(0.0, distance), Pursuit().begin())
         assert intent == Intent(0.0, 1.0, True)
 
 

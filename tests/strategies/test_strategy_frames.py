@@ -1,6 +1,5 @@
 """Test strategies by laws: invariance to frames, and times of sightings."""
 
-from dataclasses import replace
 from math import atan2, cos, hypot, inf, pi, sin
 from typing import Any
 
@@ -15,21 +14,15 @@ from stepaside.strategies import (
     Evasion,
     Intent,
     Knowledge,
-    LeadPursuit,
     Limits,
     LookAhead,
-    OptimalEvasion,
     OptimalPursuit,
     Pursuit,
 )
 from stepaside.strategies.approach import Approach
 from stepaside.strategies.decision_maker import TemplatePlayer
 from stepaside.strategies.look_ahead import predict_poses
-from stepaside.strategies.opponent_track import (
-    Trace,
-    direction_of_motion,
-    note,
-)
+from stepaside.strategies.opponent_track import OpponentTrack
 from stepaside.strategies.search import PlayerPair
 from stepaside.strategies.strategy_game import StepGame, play_strategies
 
@@ -41,12 +34,14 @@ MOVED = st.builds(Pose, METRES, METRES, ANGLE)
 SOLIDS = (Disc(0.9, 0.5, 0.2), Box(-0.4, 0.7, 0.5, 0.3, 0.4))
 STRATEGIES: dict[str, Any] = {
     "pursuit": Pursuit(),
-    "lead": LeadPursuit(),
+    "lead": Pursuit(lead=0.5),
     "optimal pursuit": OptimalPursuit(cells=16),
     "evasion": Evasion(angle=1.0, safety_radius=1e6),
     "evasion in time": Evasion(trigger="time", contact_time=20.0),
     "look-ahead": LookAhead(cells=16),
-    "optimal": OptimalEvasion(cells=16),
+    "optimal": LookAhead(
+        pieces=(1,), turns=15, tail=0, cells=16, obstacles=False
+    ),
 }
 
 
@@ -151,33 +146,12 @@ def test_a_game_in_steps_has_no_preferred_direction(name: str) -> None:
     )
 
 
-@given(MOVED, MOVED, st.floats(0.05, 1.5), st.floats(0.0, 0.6))
-def test_an_old_sighting_refers_to_its_own_time(
-    own: Pose, other: Pose, apart: float, age: float
-) -> None:
-    """It counts as it would have counted then."""
-    then: Trace = ()
-    late: Trace = ()
-    for i in range(4):
-        there = other.compose(Pose(0.05 * i, 0.0, 0.0))
-        here = own.compose(Pose(0.0, 0.01 * i, 0.1 * i))
-        now = apart * i
-        spread = 0.05 * (i % 2)
-        then = note(then, known(here, there, now, spread=spread))
-        seen = known(here, there, now + age * (i % 2), age * (i % 2))
-        late = note(late, replace(seen, spread=spread))
-    assert len(then) == len(late)
-    for one, two in zip(then, late, strict=True):
-        assert one == pytest.approx(two, abs=1e-9)
-    assert (then[-1].own_x, then[-1].own_y) == pytest.approx(here[:2])
-
-
 @given(MOVED, ANGLE, st.floats(0.5, 2.0), st.floats(0.0, 1.5))
 def test_lead_pursuit_points_ahead_of_a_straight_walk(
     own: Pose, way: float, distance: float, lead: float
 ) -> None:
     """At a point of its way, as far ahead as a share of the distance."""
-    strategy = LeadPursuit(lead)
+    strategy = Pursuit(lead=lead)
     memory = strategy.begin()
     away = Pose(own.x, own.y, own.theta + 0.7)
     last = away.compose(Pose(distance, 0.0, 0.0))
@@ -199,15 +173,15 @@ def test_the_heading_of_a_turning_opponent_is_the_tangent(
     start: Pose, turn: float, step: float
 ) -> None:
     """On a circle it is half a turn ahead of the chord to there."""
-    trace: Trace = ()
+    track = OpponentTrack(STEP)
     pose, half = start, 0.5 * turn
     chord = Pose(step * cos(half), step * sin(half), turn)
     for i in range(3):
-        trace = note(trace, known(Pose(5.0, 5.0, 0.0), pose, STEP * i))
+        track = track.note(STEP * i, pose[:2])
         last, pose = pose, pose.compose(chord)
-    found = direction_of_motion(trace)
-    assert found is not None
-    assert wrap_angle(found - last.theta) == pytest.approx(0.0, abs=1e-6)
+    assert track.course is not None
+    off = wrap_angle(track.course - last.theta)
+    assert off == pytest.approx(0.0, abs=1e-6)
 
 
 @given(MOVED, MOVED, ANGLE, st.floats(0.0, 3.0))

@@ -11,7 +11,6 @@ import pytest
 from stepaside.arena import Box, ObstacleSet
 from stepaside.core.player_identity import PlayerIdentity, Role
 from stepaside.core.poses import Pose
-from stepaside.strategies.assignment import assign
 from stepaside.strategies.goal_walk import GoalWalk
 from stepaside.strategies.knowledge import Knowledge, Limits, OtherPlayer
 from stepaside.strategies.pursuit import Pursuit
@@ -25,6 +24,7 @@ from stepaside.strategies.team_pursuit import (
     AssignedPursuit,
     CyclicPursuit,
     Pincer,
+    assign,
     keep_apart,
 )
 from stepaside.strategies.velocity_set import BodyVelocity, VelocitySet
@@ -124,7 +124,7 @@ def test_the_pincer_closes_from_both_sides() -> None:
 
 
 def test_pursuers_turn_away_from_teammates_that_are_near() -> None:
-    intent, _ = Pursuit().decide(known("r1", b1=(2.0, 0.0)), None)
+    intent, _ = Pursuit().decide(known("r1", b1=(2.0, 0.0)), Pursuit().begin())
     for side in (1.0, -1.0):
         near = known("r1", r2=(0.4, 0.4 * side), b1=(2.0, 0.0))
         assert keep_apart(near, intent).heading * side < -0.1

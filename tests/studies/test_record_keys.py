@@ -21,6 +21,8 @@ from stepaside.studies.push_results import pushes_result
 from stepaside.studies.tournament_campaign import tournament_study
 from stepaside.studies.tournament_settings import TournamentSettings
 
+ASIDE = "evasion(safety_radius=100)"
+
 FEEDBACK = ControlSettings("closed-form", True)  # with which methods differ
 PERSON = DuelSettings(pursuer="person", control=FEEDBACK)
 ROOM = Room(3.0, 3.0, (Disc(0.5, 0.0, 0.2),))
@@ -122,7 +124,7 @@ def test_the_reaction_of_a_person_changes_the_key_of_a_duel() -> None:
 
 @pytest.mark.parametrize("level", ["steps", "physics"])
 def test_every_setting_of_a_tournament_changes_its_key(level: str) -> None:
-    pairing = ("aside", "pure")
+    pairing = (ASIDE, "pursuit")
     for room in (RoomRecipe(doors=1, discs=1), ROOM):
         settings = TournamentSettings(level=level, room=room)
         others: dict[str, Any] = {
@@ -133,6 +135,7 @@ def test_every_setting_of_a_tournament_changes_its_key(level: str) -> None:
             "room.starts": [(Pose(-0.6, 0.0, 0.0), Pose(-0.6, 1.0, 0.0))],
             "room.moving": [],
             "game.largest_turn": [0.2],
+            "game.pursuer_speed_ratio": [] if level == "physics" else [1.1],
         }
         if isinstance(room, RoomRecipe):
             others |= {"room.doors": [2]}
@@ -142,7 +145,7 @@ def test_every_setting_of_a_tournament_changes_its_key(level: str) -> None:
             assert key not in keys, name
             keys.add(key)
     own = game_key(settings, pairing, 1)
-    for other in (("aside", "lead"), ("saturated", "pure")):
+    for other in ((ASIDE, "lead"), ("optimal", "pursuit")):
         assert game_key(settings, other, 1) != own
     assert game_key(settings, pairing, 2) != own
 

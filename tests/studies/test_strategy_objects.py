@@ -87,7 +87,7 @@ def test_an_object_of_the_registry_is_recorded_by_its_name(name: str) -> None:
     evasion = Evasion(angle=1.2)
     for player in ("evader_strategy", "pursuer_strategy"):
         named: dict[str, Any] = {"strategy": evasion, player: name}
-        given = named | {player: STRATEGIES[name](evasion)}
+        given = named | {player: load_strategy(name, evasion)}
         assert replace(SHORT, **given) == replace(SHORT, **named)
 
 

@@ -15,13 +15,15 @@ from stepaside.studies.strategy_rating import (
     score_rows,
 )
 
+ASIDE = "evasion(safety_radius=100)"
+
 
 def record(closest: float, **changes: Any) -> dict[str, Any]:
     return {
-        "strategy": "aside",
+        "strategy": ASIDE,
         "role": "evader",
         "world": "open floor",
-        "opponent": "pure",
+        "opponent": "pursuit",
         "outcome": "survived",
         "closest_m": closest,
         "bound_m": 1.0,
@@ -47,11 +49,11 @@ def test_scores_put_the_best_of_each_role_first() -> None:
     records = [
         record(0.5),
         record(0.8, strategy="optimal"),
-        record(0.6, strategy="lead", role="pursuer", opponent="aside"),
-        record(0.4, strategy="sharp", role="pursuer", opponent="aside"),
+        record(0.6, strategy="lead", role="pursuer", opponent=ASIDE),
+        record(0.4, strategy="sharp", role="pursuer", opponent=ASIDE),
     ]
     scores = score_rows(rating_rows(records))
-    order = ["optimal", "aside", "sharp", "lead"]
+    order = ["optimal", ASIDE, "sharp", "lead"]
     assert [row["strategy"] for row in scores] == order
     assert scores[2]["score_m"] == pytest.approx(-0.4)
     assert scores[2]["mean_regret_m"] is None
@@ -59,13 +61,13 @@ def test_scores_put_the_best_of_each_role_first() -> None:
 
 def test_the_command_writes_a_card_and_a_figure(tmp_path: Path) -> None:
     card, figure = tmp_path / "card.json", tmp_path / "card.png"
-    words = ["rate", "aside", "--games", "1", "--duration", "4", "--json"]
+    words = ["rate", ASIDE, "--games", "1", "--duration", "4", "--json"]
     words += ["--output", str(card), "--figure", str(figure)]
     done = CliRunner().invoke(main, words)
     assert done.exit_code == 0, done.stderr
     result = json.loads(card.read_text(encoding="utf-8"))
     assert len(result["rows"]) == len(WORLDS) * len(OPPONENTS["evader"])
-    assert result["scores"][0]["strategy"] == "aside"
+    assert result["scores"][0]["strategy"] == ASIDE
     assert result["settings"] == {"games": 1, "duration_s": 4.0}
     assert figure.stat().st_size > 1000
     assert json.loads(done.stdout)["output"] == str(card)

@@ -124,14 +124,14 @@ def test_rows_are_over_seeds(tmp_path: Path) -> None:
     game = "tournament"
     settings.game.duration = 4.0
     [grid]
-    evader = ["aside", "look-ahead"]
+    evader = ["optimal", "look-ahead"]
     seed = "0:3"
     """
     sweep = sweep_of(tmp_path, text)
     run = run_study(sweep_study(sweep))
     rows = sweep_rows(sweep, run.items(), ["closest_m", "survived_s"])
     assert [row["settings"] for row in rows] == [
-        {"evader": "aside"},
+        {"evader": "optimal"},
         {"evader": "look-ahead"},
     ]
     for row, records in zip(

@@ -25,9 +25,11 @@ from stepaside.studies.tournament_record import play_record, play_track
 from stepaside.studies.tournament_rows import tournament_rows
 from stepaside.studies.tournament_settings import TournamentSettings
 
+ASIDE = "evasion(safety_radius=100)"
+
 SHORT = StepGame(duration=16.0)
 SETTINGS = TournamentSettings(room=RoomRecipe(discs=1), game=SHORT)
-PAIRINGS = [("aside", "pure"), ("look-ahead", "pure")]
+PAIRINGS = [(ASIDE, "pursuit"), ("look-ahead", "pursuit")]
 
 
 @pytest.fixture(scope="module", autouse=True)
@@ -117,7 +119,7 @@ def test_the_bound_is_that_of_the_start() -> None:
 
 def record(**changes: Any) -> dict[str, Any]:
     return {
-        "evader": "aside", "pursuer": "pure", "seed": 0,
+        "evader": ASIDE, "pursuer": "pursuit", "seed": 0,
         "outcome": "survived", "survived_s": 180.0, "closest_m": 0.8,
         "bound_m": 1.0, "floor_m2": 2.0, "turning_rad_s": 0.1, "unseen": 0.0,
         "decision_s": 1e-3, "longest_decision_s": 2e-3,
@@ -128,7 +130,7 @@ def record(**changes: Any) -> dict[str, Any]:
 def test_the_circle_of_a_gain_balances_both_players(ratio: float) -> None:
     """V cos a = v cos u, and both turn at the rate of the line of sight."""
     game = replace(SHORT, speed=0.3, gain=0.7)
-    (row,) = tournament_rows([record(pursuer=f"pure-x{ratio}")], game)
+    (row,) = tournament_rows([record(pursuer=f"pursuit(gain={ratio})")], game)
     pursuer_gain = ratio * 0.7
     a = 0.5 * pi / (1.0 + pursuer_gain / 0.7)  # a + b = alpha, kp a = ke b
     distance = 2.0 * 0.3 * sin(a) / (pursuer_gain * a)
@@ -142,14 +144,14 @@ def call(*words: str) -> Result:
 def test_the_command_plays_draws_and_goes_on(tmp_path: Path) -> None:
     folder, figure = tmp_path / "games", tmp_path / "front.svg"
     words = (
-        *("--evader", "aside", "--evader", "look-ahead", "--discs", "1"),
+        *("--evader", ASIDE, "--evader", "look-ahead", "--discs", "1"),
         *("--duration", "8", "--output", str(folder), "--workers", "1"),
         *("--overwrite", "--figure", str(figure)),
     )
     one = call(*words, "--seeds", "0:2", "--json")
     assert one.exit_code == 0, one.output
     rows = json.loads(one.stdout)["rows"]
-    assert [row["evader"] for row in rows] == ["aside", "look-ahead"]
+    assert [row["evader"] for row in rows] == [ASIDE, "look-ahead"]
     assert all(row["games"] == 2 for row in rows)
     assert count_records(folder / "tournament.sqlite") == 4
     paths = tmp_path / "worst.png"
@@ -169,9 +171,9 @@ def test_sharp_and_herding_capture_a_survivor_of_the_papers_pursuer() -> None:
             str(play_track(settings, ("look-ahead", pursuer), seed)[1].outcome)
             for seed in range(1000, 1004)
         ].count("survived")
-        for pursuer in ("pure", "sharp", "herding")
+        for pursuer in ("pursuit", "sharp", "herding")
     }
-    assert survived["pure"] == 4
+    assert survived["pursuit"] == 4
     assert survived["sharp"] == 0 and survived["herding"] <= 1
 
 
@@ -181,7 +183,7 @@ def test_a_room_from_a_file_is_played(tmp_path: Path) -> None:
         "width=4.0\ndepth=4.0\npursuer={x=0,y=0}\nevader={x=1,y=0,theta=3}\n",
         encoding="utf-8",
     )
-    words = ("--room", str(file), "--evader", "aside", "--seeds", "5")
+    words = ("--room", str(file), "--evader", ASIDE, "--seeds", "5")
     answer = call(*words, "--duration", "8", "--json")
     room = json.loads(answer.stdout)["settings"]["room"]
     assert room["width"] == 4.0 and room["evader"]["theta"] == 3.0
@@ -190,8 +192,8 @@ def test_a_room_from_a_file_is_played(tmp_path: Path) -> None:
 def test_humanoids_play_by_the_same_words() -> None:
     """A second of a duel: the figures are those that steps have as well."""
     settings = replace(SETTINGS, level="physics", game=StepGame(duration=1.0))
-    found = play_record(settings, ("aside", "pure"), 3)
-    in_steps = play_record(SETTINGS, ("aside", "pure"), 3)
+    found = play_record(settings, (ASIDE, "pursuit"), 3)
+    in_steps = play_record(SETTINGS, (ASIDE, "pursuit"), 3)
     assert set(in_steps) - set(found) == {"clearance_m"}
     assert found["outcome"] == "survived" and found["touched"] == []
     assert found["survived_s"] == pytest.approx(1.0)
@@ -219,6 +221,6 @@ def test_a_duel_that_is_stopped_is_no_game_and_stops_the_others(
 
     monkeypatch.setattr("stepaside.games.duel.run_duel", cut_short)
     settings = replace(SETTINGS, level="physics", game=StepGame(duration=1.0))
-    study = tournament_study(settings, [("aside", "pure")], [3, 4])
+    study = tournament_study(settings, [(ASIDE, "pursuit")], [3, 4])
     run = run_study(study, tmp_path / "kept.sqlite")
     assert run.interrupted and len(played) == 1 and not run.finished

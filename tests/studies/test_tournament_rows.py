@@ -11,6 +11,8 @@ from scipy.stats import t
 from reference_statistics import is_wilson
 from stepaside.studies.tournament_rows import tournament_rows
 
+ASIDE = "evasion(safety_radius=100)"
+
 OUTCOMES = ("survived", "captured", "contact", "touched", "fell")
 MEANS = {
     "survived_s": ("mean_survival_s", 1.0),
@@ -32,8 +34,8 @@ def games(draw: st.DrawFn) -> list[dict[str, Any]]:
     return [
         {name: draw(each) for name in (*MEANS, "longest_decision_s")}
         | {
-            "evader": draw(st.sampled_from(["aside", "look-ahead"])),
-            "pursuer": "pure",
+            "evader": draw(st.sampled_from([ASIDE, "look-ahead"])),
+            "pursuer": "pursuit",
             "seed": seed,
             "outcome": outcome,
             "contact": outcome == "contact",

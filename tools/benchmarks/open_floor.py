@@ -12,21 +12,21 @@ from functools import cache
 from math import atan2, hypot, pi
 
 from benchmark_options import ask, machine, seeds_of
+from names import name_and_speed
 from resumable_jobs import Row, finished, gather
 
 from stepaside.arena import draw_any_start
 from stepaside.core.poses import wrap_angle
+from stepaside.strategies import load_strategy
 from stepaside.strategies.strategy_game import StepGame, play_strategies
 from stepaside.studies.result_files import header, write_result
-from stepaside.studies.tournament_strategies import (
-    evader_of,
-    pursuer_of,
-    speed_ratio_of,
-)
 from stepaside.theory.bound import Bound, Grid, solve_bound, two_car_game
 
 EVADERS = ("look-ahead", "robust")
-PURSUERS = ("pure", "pure-x3", "sharp", "optimal", "pure-v1.1", "sharp-v1.1")
+PURSUERS = (
+    *("pursuit", "pursuit(gain=3)", "sharp", "optimal-pursuit"),
+    *("pursuit@1.1", "sharp@1.1"),  # at that speed, over the evader's
+)
 NEAR, FAR = 0.5, 9.5  # of the grid, in turning radii
 CELLS = 24
 GAME = StepGame()
@@ -39,7 +39,7 @@ class OpenGame:
 
     Attributes:
         evader: Name of the evader.
-        pursuer: Name of the pursuer.
+        pursuer: Name of the pursuer, with @RATIO at another speed.
         seed: Seed of the start.
     """
 
@@ -78,10 +78,10 @@ def value_of(seed: int, speed_ratio: float) -> float:
 
 def play(game: OpenGame) -> Row:
     """Play a game and return whether the evader survived."""
-    ratio = speed_ratio_of(game.pursuer)
+    name, ratio = name_and_speed(game.pursuer)
     track = play_strategies(
-        pursuer_of(game.pursuer),
-        evader_of(game.evader),
+        load_strategy(name),
+        load_strategy(game.evader),
         draw_any_start(game.seed),
         game=StepGame(pursuer_speed_ratio=ratio),
     )
@@ -120,7 +120,7 @@ def main() -> None:
     games = gather(arguments.output, head, jobs, play, arguments.workers)
     rows = []
     for pursuer in arguments.pursuers:
-        ratio = speed_ratio_of(pursuer)
+        _, ratio = name_and_speed(pursuer)
         values = {seed: value_of(seed, ratio) for seed in seeds}
         for evader in EVADERS:
             own = [

@@ -7,17 +7,20 @@ Results are written::
     python tools/benchmarks/opponent_ladder.py --records runs/ladder
     python tools/benchmarks/opponent_ladder.py --in-room sharp,noisy:20
 
-NAME:N plays the first N of the seeds only. Games and searches recorded in a
+NAME@RATIO is a pursuer of RATIO times the evader's speed, NAME:N plays the
+first N of the seeds only. Games and searches recorded in a
 folder (``--records``) are not repeated, and an interrupted run continues. The
 rank of the beam was chosen on seeds 1000 to 1006.
 """
 
+from dataclasses import replace
 from math import pi
 from pathlib import Path
 from typing import Any, NamedTuple
 
 import numpy as np
 from benchmark_options import ask, machine, seeds_of
+from names import name_and_speed
 from resumable_jobs import complete, gather
 
 from stepaside.arena import RoomRecipe
@@ -34,21 +37,24 @@ ROOM, OPEN = RoomRecipe(), RoomRecipe(None, None)
 WIDTH = 4000  # states of the offline search
 EVADERS = ("look-ahead", "robust")
 IN_ROOM = (
-    *("pure-x0.7", "pure", "pure-x2", "pure-x3", "pure-x4"),
-    *("pure-v0.8", "pure-v1.1", "pure-v1.3", "sharp", "herding", "lead"),
-    *("optimal", "noisy", "stop-and-wait"),
+    *("pursuit(gain=0.7)", "pursuit", "pursuit(gain=2)", "pursuit(gain=3)"),
+    *("pursuit(gain=4)", "pursuit@0.8", "pursuit@1.1", "pursuit@1.3"),
+    *("sharp", "herding", "lead", "optimal-pursuit", "noisy"),
+    "stop-and-wait",
 )
-IN_OPEN = ("pure", "pure-v1.1", "pure-v1.3", "sharp", "optimal")
+IN_OPEN = (
+    *("pursuit", "pursuit@1.1", "pursuit@1.3", "sharp", "optimal-pursuit"),
+)
 IN_PHYSICS = (
-    *("sharp:20", "herding:20", "pure:20", "pure-x3:20"),
+    *("sharp:20", "herding:20", "pursuit:20", "pursuit(gain=3):20"),
     *("stop-and-wait:20", "noisy:20"),
 )
 PHYSICS = TournamentSettings("physics", ROOM, StepGame(duration=60.0))
 MODELS = {  # of pursuers that capture somebody
-    "pure-x3": PursuerModel(3.0),
-    "pure-x4": PursuerModel(4.0),
-    "pure-v1.1": PursuerModel(speed=1.1),
-    "pure-v1.3": PursuerModel(speed=1.3),
+    "pursuit(gain=3)": PursuerModel(3.0),
+    "pursuit(gain=4)": PursuerModel(4.0),
+    "pursuit@1.1": PursuerModel(speed=1.1),
+    "pursuit@1.3": PursuerModel(speed=1.3),
     "sharp": PursuerModel(1.0 / 0.08),
     "herding": PursuerModel(inward=1.0),
 }
@@ -124,13 +130,16 @@ def main() -> None:
         rows: list[dict[str, Any]] = []
         offline: dict[str, list[float]] = {}
         for pursuer, seeds in pursuers_of(text, arguments.seeds).items():
-            pairings = [(evader, pursuer) for evader in EVADERS]
-            study = tournament_study(settings, pairings, seeds)
+            name, ratio = name_and_speed(pursuer)
+            game = replace(settings.game, pursuer_speed_ratio=ratio)
+            played = replace(settings, game=game)
+            pairings = [(evader, name) for evader in EVADERS]
+            study = tournament_study(played, pairings, seeds)
             run = complete(
                 study, arguments.records / "games.sqlite", arguments.workers
             )
             records = list(run.records())
-            made = tournament_rows(records, settings.game)
+            made = tournament_rows(records, game)
             if pursuer in MODELS and world == "3 x 3 m":
                 duration = settings.game.duration
                 jobs = {
@@ -148,6 +157,7 @@ def main() -> None:
                 ]
             searched = seeds[: len(offline.get(pursuer, []))]
             for row in made:
+                row["pursuer"] = pursuer
                 row["survival_in_searched_rooms_s"] = [
                     record["survived_s"]
                     for record in records

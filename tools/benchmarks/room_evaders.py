@@ -20,7 +20,7 @@ from stepaside.studies.study import run_study
 from stepaside.studies.tournament_campaign import tournament_study
 from stepaside.studies.tournament_rows import tournament_rows
 from stepaside.studies.tournament_settings import TournamentSettings
-from stepaside.studies.tournament_strategies import EVADERS
+from stepaside.studies.tournament_strategies import ASIDE, EVADERS
 
 WORLDS = {
     "open floor": RoomRecipe(None, None),
@@ -28,13 +28,14 @@ WORLDS = {
     "3 x 3 m, 3 discs": RoomRecipe(discs=3),
 }
 SIZES = (1.8, 2.0, 2.2, 2.5, 3.0, 4.0, 6.0)  # sides of square rooms, in [m]
-IN_SMALL = ("look-ahead", "aside")
+IN_SMALL = ("look-ahead", ASIDE)
 PURSUERS = (
-    *("pure", "pure-x1.5", "pure-x2", "pure-x2.5", "pure-x2.8", "pure-x3"),
-    *("pure-x4", "sharp", "herding", "lead", "optimal"),
+    "pursuit",
+    *(f"pursuit(gain={gain:g})" for gain in (1.5, 2, 2.5, 2.8, 3, 4)),
+    *("sharp", "herding", "lead", "optimal-pursuit"),
 )
 MET = (  # room and evader that play against all pursuers
-    *(("open floor", "aside"), ("open floor", "look-ahead")),
+    *(("open floor", ASIDE), ("open floor", "look-ahead")),
     *(("3 x 3 m", "look-ahead"), ("3 x 3 m, 3 discs", "look-ahead")),
 )
 
@@ -59,9 +60,9 @@ def main() -> None:
                 raise run.failure or KeyboardInterrupt
             return tournament_rows(list(run.records()), settings.game)
 
-        pure = [(name, "pure") for name in EVADERS]
+        papers = [(name, "pursuit") for name in EVADERS]
         worlds = {
-            name: rows(recipe, pure, arguments.seeds)
+            name: rows(recipe, papers, arguments.seeds)
             for name, recipe in WORLDS.items()
         }
         opponents = [
@@ -81,7 +82,7 @@ def main() -> None:
                 "size_m": size,
                 "rows": rows(
                     RoomRecipe(size, size),
-                    [(name, "pure") for name in IN_SMALL],
+                    [(name, "pursuit") for name in IN_SMALL],
                     arguments.small,
                 ),
             }

@@ -61,7 +61,7 @@ def print_scores(result: dict[str, Any]) -> None:
 @click.option(
     "--role",
     type=NameType(_roles),
-    help="Role of the strategies, where a name has two, like optimal.",
+    help="Role of the strategies, where their direction does not tell it.",
 )
 @click.option(
     "--games",
@@ -96,9 +96,9 @@ def rate(
 ) -> None:
     """Rate strategies against a fixed suite of opponents and worlds.
 
-    STRATEGY is an evader or a pursuer of `stepaside tournament`, FILE.py:NAME
-    or FILE.onnx. Games are played in steps: on an open floor, there with any
-    headings, in rooms of 3 m, and in such rooms with three discs. The regret
+    STRATEGY is a name, with arguments or without, FILE.py:NAME or FILE.onnx.
+    Games are played in steps: on an open floor, there with any headings, in
+    rooms of 3 m, and in such rooms with three discs. The regret
     is the best closest approach of any evader on an open floor, from the same
     start against the paper's pursuer, less the closest approach reached;
     contact with an obstacle counts as zero.

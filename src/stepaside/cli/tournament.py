@@ -1,7 +1,6 @@
 """``stepaside tournament``: evaders against pursuers in random rooms."""
 
 from dataclasses import replace
-from math import pi
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -20,9 +19,9 @@ from .options.common_options import (
     json_option,
 )
 from .options.parameter_types import (
-    ANGLE,
     ArenaType,
     NameType,
+    NumberType,
     OutputFile,
 )
 from .options.settings_options import refuse_options, takes
@@ -104,21 +103,25 @@ def _levels() -> tuple[str, ...]:
     "evaders",
     multiple=True,
     metavar="NAME",
-    help="Strategy of an evader: robust, look-ahead, aside, saturated, alpha, "
-    "optimal, FILE.py:NAME or FILE.onnx; repeatable.  "
-    "[default: all]",
+    help="Strategy of an evader: a name, with arguments like "
+    "evasion(angle=45deg), FILE.py:NAME or FILE.onnx; repeatable.  "
+    "[default: robust, look-ahead, optimal, and evasion of the paper, always "
+    "triggered: aside, saturated and at 45deg]",
 )
 @click.option(
     "--pursuer",
     "pursuers",
     multiple=True,
     metavar="NAME",
-    help="Strategy of a pursuer: pure (the paper's), pure-xRATIO (with RATIO "
-    "times the evader's gain), sharp (turns by the whole bearing, up to the "
-    "maximum), herding (aims halfway between the evader and the centre of "
-    "the room), lead, optimal, noisy, stop-and-wait, "
-    "any of them with -vRATIO (RATIO times the evader's speed; not in "
-    "physics), FILE.py:NAME or FILE.onnx; repeatable.  [default: pure]",
+    help="Strategy of a pursuer, likewise, like pursuit(gain=2), sharp or "
+    "herding; repeatable.  [default: pursuit]",
+)
+@click.option(
+    "--pursuer-speed",
+    type=NumberType("1"),
+    default=1.0,
+    show_default=True,
+    help="Speed of the pursuers over that of the evaders; not in physics.",
 )
 @click.option(
     "--room",
@@ -138,12 +141,6 @@ def _levels() -> tuple[str, ...]:
 @seeds_option(
     default="0:100",
     help="Range of seeds, one room each; END is excluded.",
-)
-@click.option(
-    "--alpha",
-    type=ANGLE,
-    default=pi / 4,
-    help="Evasion angle of the evader alpha [rad].  [default: 45deg]",
 )
 @click.option(
     "--map",
@@ -172,11 +169,11 @@ def tournament(
     level: str,
     evaders: tuple[str, ...],
     pursuers: tuple[str, ...],
+    pursuer_speed: float,
     room: Any,
     recipe: RoomRecipe,
     duration: float,
     seeds: range,
-    alpha: float,
     map: str,  # noqa: A002 (the option)
     campaign: CampaignOptions,
     figure: str | None,
@@ -193,31 +190,21 @@ def tournament(
     of its row. To continue an interrupted tournament, run it again with the
     same folder.
     """
+    from ..strategies import load_strategy
     from ..strategies.strategy_game import StepGame
     from ..studies.tournament_settings import TournamentSettings
-    from ..studies.tournament_strategies import (
-        EVADERS,
-        evader_of,
-        pursuer_of,
-        speed_ratio_of,
-    )
+    from ..studies.tournament_strategies import EVADERS
 
-    evaders, pursuers = evaders or tuple(EVADERS), pursuers or ("pure",)
-    if "alpha" not in evaders:
-        refuse_options({"alpha"}, "--evader alpha")
-    if level != "physics":
+    evaders, pursuers = evaders or EVADERS, pursuers or ("pursuit",)
+    if level == "physics":
+        refuse_options({"pursuer_speed"}, f"--level steps, got {level}")
+    else:
         refuse_options({"map"}, f"--level physics, got {level}")
-    for name in evaders:
-        evader_of(name, alpha)
-    for name in pursuers:
-        pursuer_of(name)
-        if level == "physics" and speed_ratio_of(name) != 1.0:
-            raise ConfigurationError(
-                f"pursuer must be without -vRATIO at level physics, got {name}"
-            )
+    for name in (*evaders, *pursuers):
+        load_strategy(name)
     arena = _arena(room, recipe)
-    game = StepGame(duration=duration)
-    settings = TournamentSettings(level, arena, game, alpha, map)
+    game = StepGame(duration=duration, pursuer_speed_ratio=pursuer_speed)
+    settings = TournamentSettings(level, arena, game, map)
     settings.arena(seeds[0])  # raises if the room cannot be generated
     pairings = [(e, p) for p in pursuers for e in evaders]
     number = campaign.share(len(pairings) * len(seeds))

@@ -8,7 +8,7 @@ from ..core.poses import ALL_AROUND, Pose, Sector
 from ..perception.measurement import Measurement, Sighting
 from ..planning import Foot, GaitSettings
 from ..planning.template_path import pose_beside_foot
-from ..strategies.decision_maker import DecisionMaker
+from ..strategies.decision_maker import DecisionMaker, turned
 from ..strategies.knowledge import (
     ON_THE_SPOT,
     Intent,
@@ -16,7 +16,7 @@ from ..strategies.knowledge import (
     OtherPlayer,
     limits_of,
 )
-from ..strategies.opponent_rates import FloorVelocity
+from ..strategies.opponent_track import OpponentTrack
 from ..strategies.strategy import Strategy
 from ..strategies.velocity_set import VelocitySet
 from .clearance.surroundings import OpenFloor, Surroundings
@@ -89,7 +89,7 @@ class StrategyRunner(DecisionMaker):
         self._spacing = gait.foot_spacing
         self._target_id = 0
         self._in_sight: tuple[Sighting, ...] = ()
-        self._velocities: dict[str, FloorVelocity] = {}
+        self._tracks: dict[str, OpponentTrack] = {}
         self._sightings: dict[str, tuple[float, Pose, float, float]] = {}
 
     def note_players(self, in_sight: PlayersInSight | None) -> None:
@@ -199,7 +199,6 @@ class StrategyRunner(DecisionMaker):
         return self.observe(
             now,
             template,
-            sight,
             sighting._replace(bearing=sight - template.theta),
             pose_odometry_in_map=self._surroundings.pose_odometry_in_map,
             moving=moving,
@@ -226,19 +225,15 @@ class StrategyRunner(DecisionMaker):
         """
         assert sighting.identity is not None
         x, y = self._position_of(sighting)
-        estimate = self._velocities.setdefault(
-            sighting.identity.name, FloorVelocity(self.limits.step_duration)
-        )
-        velocity = estimate.note(sighting.time, x, y)
-        if velocity is not None:
-            turned = Pose(0.0, 0.0, -template.theta)
-            velocity = turned.compose(Pose(*velocity, 0.0))[:2]
+        name, step = sighting.identity.name, self.limits.step_duration
+        track = self._tracks.get(name) or OpponentTrack(step)
+        self._tracks[name] = track = track.note(sighting.time, (x, y))
         u, v, _ = template.inverse().compose(Pose(x, y, 0.0))
         return OtherPlayer(
             sighting.identity,
             atan2(v, u),
             hypot(u, v),
-            velocity,
+            turned(track.velocity, -template.theta),
             max(0.0, now - sighting.time),
             sighting.spread,
         )

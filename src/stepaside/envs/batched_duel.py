@@ -59,7 +59,7 @@ def rules_of(game: StepGame) -> BatchRules:
         game.capture,
         game.body_radius,
         len(game.decision_times),
-        # Of strategies.opponent_rates, in decisions.
+        # Of strategies.opponent_track, in decisions.
         floor(2.25 * parts + 1e-9),
         ceil(0.75 * parts + 1e-9),
     )
@@ -71,8 +71,10 @@ def law_of(strategy: Strategy) -> BatchLaw:
     Raises:
         ConfigurationError: If it has none that the kernel knows.
     """
-    if type(strategy) is Pursuit:
-        return BatchLaw(PURSUES, strategy.saturated, strategy.gain_ratio)
+    if isinstance(strategy, Pursuit):
+        saturated, gain = strategy.saturated, strategy.gain
+        if strategy == Pursuit(saturated, strategy.body_radius, gain):
+            return BatchLaw(PURSUES, saturated, gain)
     if type(strategy) is Evasion and strategy.trigger != "time":
         return BatchLaw(
             EVADES,
@@ -86,7 +88,7 @@ def law_of(strategy: Strategy) -> BatchLaw:
         return BatchLaw(STANDS)
     raise ConfigurationError(
         "opponent of many games must be evasion with the trigger distance, "
-        "pursuit, pursuit-xRATIO, sharp, stand or FILE.onnx, got a "
+        "pursuit of any gain, sharp, stand or FILE.onnx, got a "
         f"{type(strategy).__name__}; others play in vectorization_mode "
         "'sync' or 'async'"
     )

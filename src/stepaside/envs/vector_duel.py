@@ -57,8 +57,8 @@ class VectorDuel(VectorEnv[Batch, Any, Any]):
         Args:
             num_envs: Number of games.
             role: Role of the player, "pursuer" or "evader".
-            opponent: Strategy of the opponent: evasion, pursuit,
-                pursuit-xRATIO, sharp, stand, FILE.onnx, or such a strategy.
+            opponent: Strategy of the opponent: evasion, pursuit of any
+                gain, sharp, stand, FILE.onnx, or such a strategy.
             render_mode: None: many games are not drawn.
             settings: Fields of :class:`.EnvironmentSettings`.
 

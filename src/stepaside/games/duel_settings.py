@@ -49,8 +49,8 @@ SENSING = ("ideal", "cameras", "lidar")
 PLAYERS = PURSUER, EVADER = ("pursuer", "evader")
 PURSUIT = "pursuit"  # of the paper, like EVASION
 STRATEGY_NAMES = (
-    f"{', '.join(STRATEGIES)}, pursuit-xRATIO, FILE.py:NAME for your own, or "
-    "FILE.onnx for a learned one"
+    f"{', '.join(STRATEGIES)}, with arguments like pursuit(gain=2), "
+    "FILE.py:NAME for your own, or FILE.onnx for a learned one"
 )
 
 

@@ -4,7 +4,7 @@ from dataclasses import fields
 from typing import Any, NamedTuple
 
 from ..core.errors import ConfigurationError, shown
-from ..strategies import STRATEGIES, Evasion, Strategy
+from ..strategies import STRATEGIES, Evasion, Strategy, load_strategy
 from .implied_settings import EVASION
 
 
@@ -111,8 +111,8 @@ def _base(strategy: Any) -> Evasion:
 
 def _name(played: Strategy, evasion: Evasion) -> str | None:
     """Return the name in the registry of an equal strategy, or None."""
-    for name, make in STRATEGIES.items():
-        made = make(evasion)
+    for name in STRATEGIES:
+        made = load_strategy(name, evasion)
         if type(made) is type(played) and made == played:
             return name
     return None

@@ -4,19 +4,13 @@ from .dash_evasion import DashEvasion as DashEvasion
 from .evasion import Evasion as Evasion
 from .evasion import EvasionMemory as EvasionMemory
 from .goal_walk import GoalWalk as GoalWalk
-from .herding import HerdingPursuit as HerdingPursuit
-from .irregular_pursuit import NoisyPursuit as NoisyPursuit
-from .irregular_pursuit import WaitingPursuit as WaitingPursuit
 from .knowledge import STAND as STAND
 from .knowledge import Intent as Intent
 from .knowledge import Knowledge as Knowledge
 from .knowledge import Limits as Limits
-from .lead_pursuit import LeadPursuit as LeadPursuit
 from .learned import LearnedStrategy as LearnedStrategy
 from .look_ahead import LookAhead as LookAhead
-from .optimal_evasion import OptimalEvasion as OptimalEvasion
-from .optimal_pursuit import OptimalPursuit as OptimalPursuit
-from .parametric_pursuit import ParametricPursuit as ParametricPursuit
+from .pursuit import OptimalPursuit as OptimalPursuit
 from .pursuit import Pursuit as Pursuit
 from .registry import STRATEGIES as STRATEGIES
 from .registry import load_strategy as load_strategy
@@ -32,7 +26,6 @@ from .team_pursuit import AssignedPursuit as AssignedPursuit
 from .team_pursuit import CyclicPursuit as CyclicPursuit
 from .team_pursuit import Pincer as Pincer
 from .teleoperation import TeleoperatedPursuit as TeleoperatedPursuit
-from .wary_evasion import WaryEvasion as WaryEvasion
 
 __all__ = [
     "AssignedPursuit",
@@ -41,17 +34,12 @@ __all__ = [
     "Evasion",
     "EvasionMemory",
     "GoalWalk",
-    "HerdingPursuit",
     "Intent",
     "Knowledge",
-    "LeadPursuit",
     "LearnedStrategy",
     "Limits",
     "LookAhead",
-    "NoisyPursuit",
-    "OptimalEvasion",
     "OptimalPursuit",
-    "ParametricPursuit",
     "Pincer",
     "Pursuit",
     "RobustEvasion",
@@ -65,9 +53,7 @@ __all__ = [
     "TeamEvasion",
     "TeleoperatedPursuit",
     "UnicycleMatch",
-    "WaitingPursuit",
     "Walk",
-    "WaryEvasion",
     "load_strategy",
     "play_strategies",
 ]

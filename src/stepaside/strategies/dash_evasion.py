@@ -6,13 +6,9 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ..core.errors import (
-    ConfigurationError,
-    check_not_negative,
-    check_positive,
-    check_within,
-)
 from ..core.poses import ALL_AROUND, Array, Pose, Sector, wrap_angle
+from ..core.ranges import Range
+from ..core.setting import check_settings, setting
 from .dash_rollouts import (
     STEP,
     Dashes,
@@ -25,46 +21,34 @@ from .dash_rollouts import (
     unseen_shares,
 )
 from .knowledge import STAND, Intent, Knowledge, Limits
+from .opponent_track import OpponentTrack, opponent_position
 from .strategy import BackwardStrategy
 from .velocity_set import STILL, BodyVelocity, VelocitySet, respond
 
 INTERVAL = 0.08  # between comparisons of a standing robot, in [s]
-WINDOW = 0.6  # of the fit of the opponent's velocity, in [s]
-SPACING = 0.03  # least time between sightings of the fit, in [s]
+# Positions of the last 0.6 s at most every 0.03 s, which show a velocity
+# once they span 0.3 s.
+TRACK = OpponentTrack(0.4, span=1.5, spacing=0.075)
 STILL_OPPONENT = 0.1  # speed below which it is expected to stand, in [m/s]
 HEADING_GAIN = 3.0  # of turning the body along the dash, in [1/s]
 LATER = 0.6  # after which the second set of dashes begins, in [s]
 FEINT = 0.6  # time for which a chaser may turn away first, in [s]
 EFFORT = 0.05  # gain for which a robot begins to walk, or waits, in [m]
 SURPLUS = 0.02  # value of clearance beyond what is enough, per metre
-CHANGE = 0.3  # half the gain for which the opposite dash is better, in [m]
 # Loss while the opponent is out of view all the time, in [m]: more than the
 # two ends of one dash differ by on a T1, 0.1 m.
 UNSEEN = 0.3
-CHASER_RADIUS = 2.5  # turning radius of a person who chases, in [m]
+MOST = 100.0
+POSITIVE = Range(0.0, 1e9, "m", "a length", above=True, also=(inf,))
 NO_FEINT = np.zeros(1)
 FEINTS = np.array([0.0, 1.0, -1.0])
-
-
-class TimedPosition(NamedTuple):
-    """Position of the opponent at one time.
-
-    Attributes:
-        time: Time, in [s].
-        x: Position in the map, in [m].
-        y: Likewise.
-    """
-
-    time: float
-    x: float
-    y: float
 
 
 class DashMemory(NamedTuple):
     """Memory of an evader that dashes.
 
     Attributes:
-        trace: Last positions of the opponent, the oldest first.
+        track: Last positions of the opponent.
         time: Time of the last decision, in [s].
         velocity: Own velocity at that time, by the response of the legs.
         command: Velocity that was desired since then.
@@ -73,7 +57,7 @@ class DashMemory(NamedTuple):
         compared: Time at which dashes were last compared, in [s].
     """
 
-    trace: tuple[TimedPosition, ...] = ()
+    track: OpponentTrack = TRACK
     time: float = 0.0
     velocity: BodyVelocity = STILL
     command: BodyVelocity = STILL
@@ -94,53 +78,76 @@ class DashEvasion(BackwardStrategy):
 
     An opponent with infinite turning radius keeps its course. Another one
     steers at the robot, at once or after turning fully to either side, and
-    the worst of these counts.
-
-    Attributes:
-        turning_radius: Assumed turning radius of the opponent, in [m].
-        enough: Closest approach beyond which no more is gained, in [m].
-        clearance: Closest approach at which a standing robot need not move,
-            in [m].
-        contact_time: A standing robot begins if the opponent could be nearer
-            than the clearance within this time, in [s].
-        horizon: Duration of a rollout, in [s].
-        directions: Number of directions of dashes.
-        effort: Gain for which a robot walks instead of standing, in [m].
-        change: Half the gain for which the opposite dash is better, in [m].
+    the worst of these counts. With a doubt a dash is worth the closest
+    approach of an opponent who keeps its course, and a share of that of one
+    who steers: so the robot leaves the path to the side on which it also has
+    room if the person turns. With an alertness it begins to compare dashes
+    when the person could be near soon, even one who would pass.
     """
 
-    turning_radius: float = inf
-    enough: float = 1.2
-    clearance: float = 0.8
-    contact_time: float = 1.8
-    horizon: float = 6.0
-    directions: int = 24
-    effort: float = EFFORT
-    change: float = CHANGE
+    turning_radius: float = setting(
+        inf, "Assumed turning radius of the opponent", POSITIVE
+    )
+    enough: float = setting(
+        1.2, "Closest approach beyond which no more is gained", POSITIVE
+    )
+    clearance: float = setting(
+        0.8,
+        "Closest approach at which a standing robot need not move",
+        POSITIVE,
+    )
+    contact_time: float = setting(
+        1.8,
+        "A standing robot begins if the opponent could be nearer than the "
+        "clearance within this time",
+        Range(0.0, MOST, "s", "a time ahead", above=True),
+    )
+    horizon: float = setting(
+        6.0,
+        "Duration of a rollout",
+        Range(0.5, 20.0, "s", "decisions take longer"),
+    )
+    directions: int = setting(
+        24,
+        "Directions of dashes",
+        Range(4, 360, "1", "decisions take longer", whole=True),
+    )
+    effort: float = setting(
+        EFFORT,
+        "Gain for which a robot walks instead of standing",
+        Range(0.0, MOST, "m", "a distance"),
+    )
+    change: float = setting(
+        0.3,
+        "Half the gain for which the opposite dash is better",
+        Range(0.0, MOST, "m", "a distance"),
+    )
+    doubt: float = setting(
+        inf,
+        "Weight of an opponent who steers, relative to one who walks "
+        "straight {unit}; inf for the former alone",
+        Range(0.0, MOST, "1", "a share", also=(inf,)),
+    )
+    alertness: float = setting(
+        0.0,
+        "Time in which the opponent could be within the clearance, from "
+        "which on dashes are compared",
+        Range(0.0, MOST, "s", "a time ahead"),
+    )
 
     def __post_init__(self) -> None:
         """Validate the settings."""
-        error = ConfigurationError
-        for name in ("turning_radius", "enough", "clearance"):
-            if not getattr(self, name) > 0.0:
-                raise error(
-                    f"{name} must be > 0 [m], got {getattr(self, name)}"
-                )
-        check_positive(self.contact_time, "contact_time", "s", error)
-        check_within(self.horizon, 0.5, 20.0, "horizon", "s", error)
-        check_within(self.directions, 4, 360, "directions", "1", error)
-        check_not_negative(self.effort, "effort", "m", error)
-        check_not_negative(self.change, "change", "m", error)
+        check_settings(self)
 
     def begin(self) -> DashMemory:
         """Return the memory before the first sighting."""
         # Compiles the rollouts now instead of at the first decision.
-        someone = Opponent(1.0, 0.0, 0.0, 0.0, self.turning_radius)
+        someone = Opponent(1.0, 0.0, 0.0, 0.0)
         still = VelocitySet((0.0, 1.0), (0.0, 1.0), (-1.0, 1.0))
         pose = Pose(0.0, 0.0, 0.0)
         dashes = make_dashes(self.directions, pose, still, LATER)
         paths = roll_out(pose, STILL, dashes, still, 0.1)
-        closest_approaches(paths, someone, FEINTS, FEINT)
+        closest_approaches(paths, someone, inf, NO_FEINT, FEINT)
         return DashMemory()
 
     def decide(
@@ -151,8 +158,9 @@ class DashEvasion(BackwardStrategy):
             knowledge.limits
         )
         now = knowledge.time
-        trace = _note(memory.trace, knowledge)
-        opponent = self._extrapolate(trace, now)
+        seen = now - knowledge.age
+        track = memory.track.note(seen, opponent_position(knowledge))
+        opponent = extrapolate(track, now)
         pose = knowledge.step_start_in_map or knowledge.pose_in_map
         velocity = STILL
         if knowledge.moving:
@@ -160,7 +168,7 @@ class DashEvasion(BackwardStrategy):
             velocity = respond(
                 memory.velocity, memory.command, velocities.lags, passed
             )
-        stands = DashMemory(trace, now, velocity, compared=memory.compared)
+        stands = DashMemory(track, now, velocity, compared=memory.compared)
         if memory.angle is None:
             # A standing robot decides at every tick.
             waits = now - memory.compared < INTERVAL - 1e-9
@@ -178,7 +186,7 @@ class DashEvasion(BackwardStrategy):
             return STAND, stands._replace(compared=now)
         command = _dash_velocity(pose.theta, angle, heading, velocities)
         return Intent(velocity=command), DashMemory(
-            trace, now, velocity, command, angle, now
+            track, now, velocity, command, angle, now
         )
 
     def _is_near(self, pose: Pose, opponent: Opponent) -> bool:
@@ -187,10 +195,13 @@ class DashEvasion(BackwardStrategy):
         A first test, cheap enough for every tick of a standing robot.
         """
         x, y = opponent.x - pose.x, opponent.y - pose.y
-        distance = hypot(x, y)
-        if distance > self.clearance + self.contact_time * opponent.speed:
+        distance, speed = hypot(x, y), opponent.speed
+        alert = self.alertness * speed
+        if alert > 0.0 and distance < self.clearance + alert:
+            return True
+        if distance > self.clearance + self.contact_time * speed:
             return False
-        if self.turning_radius < inf:
+        if self.turning_radius < inf and self.doubt == inf:
             return True
         u, v = cos(opponent.course), sin(opponent.course)
         along = -(x * u + y * v)
@@ -261,52 +272,35 @@ class DashEvasion(BackwardStrategy):
             paths: Positions along each dash. Shape (steps + 1, n, 2).
             opponent: The opponent.
         """
-        straight = self.turning_radius == inf
-        least = closest_approaches(
-            paths, opponent, NO_FEINT if straight else FEINTS, FEINT
-        )
+        radius = self.turning_radius
+        steering = self._worth(paths, opponent, radius)
+        if self.doubt == inf or radius == inf:
+            return steering
+        straight = self._worth(paths, opponent, inf)
+        found: Array = (straight + self.doubt * steering) / (1.0 + self.doubt)
+        return found
+
+    def _worth(self, paths: Array, opponent: Opponent, radius: float) -> Array:
+        """Return the value of each dash against one turning radius [m]."""
+        feints = NO_FEINT if radius == inf else FEINTS
+        least = closest_approaches(paths, opponent, radius, feints, FEINT)
         value: Array = np.minimum(least, self.enough + SURPLUS * least)
         return value
 
-    def _extrapolate(
-        self, trace: tuple[TimedPosition, ...], now: float
-    ) -> Opponent:
-        """Return the opponent at a time, by a line through its positions."""
-        rows = np.array(trace)
-        times = rows[:, 0] - now
-        last = trace[-1]
-        if times[-1] - times[0] < 0.5 * WINDOW:
-            return Opponent(last.x, last.y, 0.0, 0.0, self.turning_radius)
-        centred = times - times.mean()
-        u, v = centred @ rows[:, 1:] / (centred @ centred)
-        speed = hypot(u, v)
-        age = -float(times[-1])
-        return Opponent(
-            last.x + age * u,
-            last.y + age * v,
-            atan2(v, u),
-            speed if speed > STILL_OPPONENT else 0.0,
-            self.turning_radius,
-        )
 
-
-def _note(
-    trace: tuple[TimedPosition, ...], knowledge: Knowledge
-) -> tuple[TimedPosition, ...]:
-    """Add the position of the opponent, and forget old ones."""
-    time = knowledge.time - knowledge.age
-    pose = knowledge.pose_in_map
-    sight = pose.theta + knowledge.bearing
-    seen = TimedPosition(
-        time,
-        pose.x + knowledge.distance * cos(sight),
-        pose.y + knowledge.distance * sin(sight),
+def extrapolate(track: OpponentTrack, now: float) -> Opponent:
+    """Return the opponent at a time, by a line through its positions."""
+    last, velocity = track.rows[-1], track.velocity
+    if velocity is None:
+        return Opponent(last.x, last.y, 0.0, 0.0)
+    u, v = velocity
+    age, speed = now - last.time, hypot(u, v)
+    return Opponent(
+        last.x + age * u,
+        last.y + age * v,
+        atan2(v, u),
+        speed if speed > STILL_OPPONENT else 0.0,
     )
-    kept = [each for each in trace if time - WINDOW <= each.time < time]
-    # The newest is replaced if it is too close to the one before.
-    if len(kept) > 1 and kept[-1].time - kept[-2].time < SPACING:
-        kept.pop()
-    return (*kept, seen)
 
 
 def _dash_velocity(

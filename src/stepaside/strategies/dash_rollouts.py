@@ -40,15 +40,12 @@ class Opponent:
         y: Likewise.
         course: Direction of motion in the map, in [rad].
         speed: Speed, in [m/s].
-        turning_radius: Smallest turning radius, in [m]; infinite for one who
-            walks straight.
     """
 
     x: float
     y: float
     course: float
     speed: float
-    turning_radius: float
 
 
 def make_dashes(
@@ -213,7 +210,11 @@ def unseen_shares(
 
 
 def closest_approaches(
-    paths: Array, opponent: Opponent, feints: Array, feint_duration: float
+    paths: Array,
+    opponent: Opponent,
+    turning_radius: float,
+    feints: Array,
+    feint_duration: float,
 ) -> Array:
     """Return the worst closest approach of some paths.
 
@@ -223,6 +224,8 @@ def closest_approaches(
     Args:
         paths: Positions of the robot, in [m]. Shape (steps + 1, n, 2).
         opponent: Opponent at first.
+        turning_radius: Its smallest turning radius, in [m]; infinite for one
+            who walks straight.
         feints: Sides to which it turns first: 1 left, -1 right, 0 none.
             Shape (m,).
         feint_duration: How long it does, in [s].
@@ -230,7 +233,7 @@ def closest_approaches(
     Returns:
         Smallest distance over time and feints, in [m]. Shape (n,).
     """
-    most = opponent.speed / opponent.turning_radius  # turning rate, [rad/s]
+    most = opponent.speed / turning_radius  # turning rate, [rad/s]
     place = opponent.x, opponent.y, opponent.course
     least = np.empty(paths.shape[1])
     _compiled(_fill_least_distances)(

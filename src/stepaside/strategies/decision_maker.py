@@ -9,7 +9,7 @@ from ..core.player_identity import PlayerIdentity
 from ..core.poses import Pose, wrap_angle
 from ..perception.measurement import Sighting
 from .knowledge import Intent, Knowledge, Limits, OtherPlayer
-from .opponent_rates import FloorVelocity, SightRates
+from .opponent_track import OpponentTrack
 from .strategy import Strategy, evaluate_strategy
 
 ORIGIN = Pose(0.0, 0.0, 0.0)
@@ -51,9 +51,7 @@ class DecisionMaker:
 
     def reset_rates(self) -> None:
         """Forget the motion of the opponent."""
-        period = self.limits.step_duration
-        self._rates = SightRates(period)
-        self._velocity = FloorVelocity(period)
+        self._track = OpponentTrack(self.limits.step_duration)
 
     def adopt(self, strategy: Strategy) -> None:
         """Replace the strategy from the next decision on.
@@ -70,7 +68,6 @@ class DecisionMaker:
         self,
         now: float,
         pose_template_in_odometry: Pose,
-        sight_in_odometry: float,
         sighting: Sighting,
         *,
         pose_odometry_in_map: Pose = ORIGIN,
@@ -83,7 +80,6 @@ class DecisionMaker:
         Args:
             now: Time of the decision, in [s].
             pose_template_in_odometry: Pose of the template at the sighting.
-            sight_in_odometry: Direction of the line of sight, in [rad].
             sighting: The sighting, with its bearing from the template.
             pose_odometry_in_map: Pose of odometry in the frame of the
                 obstacles.
@@ -93,10 +89,13 @@ class DecisionMaker:
         """
         time, bearing, distance = sighting[:3]
         bearing, age = wrap_angle(bearing), max(0.0, now - time)
-        rates = self._rates.note(time, sight_in_odometry, distance)
-        velocity = self._velocity_in(
-            pose_template_in_odometry, time, sighting.bearing, distance
-        )
+        pose = pose_template_in_odometry
+        ahead = Pose(distance * cos(bearing), distance * sin(bearing), 0.0)
+        position = pose.compose(ahead)[:2]
+        self._track = track = self._track.note(time, position, pose)
+        velocity = None
+        if self._estimates_velocity:
+            velocity = turned(track.velocity, -pose.theta)
         others = self._others(now, pose_template_in_odometry)
         if not others and sighting.identity is not None:
             others = (
@@ -110,8 +109,8 @@ class DecisionMaker:
             bearing=bearing,
             distance=distance,
             limits=self.limits,
-            bearing_rate=rates.bearing_rate,
-            closing_speed=rates.closing_speed,
+            bearing_rate=track.bearing_rate,
+            closing_speed=track.closing_speed,
             age=age,
             pose_in_map=pose_odometry_in_map.compose(
                 pose_template_in_odometry
@@ -151,21 +150,15 @@ class DecisionMaker:
         intent, self.memory = self.preview(knowledge)
         return intent
 
-    def _velocity_in(
-        self, pose: Pose, time: float, bearing: float, distance: float
-    ) -> tuple[float, float] | None:
-        """Return the opponent's velocity in the axes of a pose, in [m/s]."""
-        if not self._estimates_velocity:
-            return None
-        position = pose.compose(
-            Pose(distance * cos(bearing), distance * sin(bearing), 0.0)
-        )
-        velocity = self._velocity.note(time, position.x, position.y)
-        if velocity is None:
-            return None
-        to_pose = Pose(0.0, 0.0, -pose.theta)
-        vx, vy, _ = to_pose.compose(Pose(*velocity, 0.0))
-        return vx, vy
+
+def turned(
+    velocity: tuple[float, float] | None, angle: float
+) -> tuple[float, float] | None:
+    """Return a velocity [m/s] turned by an angle [rad]; None for none."""
+    if velocity is None:
+        return None
+    (u, v), c, s = velocity, cos(angle), sin(angle)
+    return c * u - s * v, s * u + c * v
 
 
 class TemplatePlayer(DecisionMaker):
@@ -214,7 +207,6 @@ class TemplatePlayer(DecisionMaker):
         return self.observe(
             time,
             self.pose,
-            self.pose.theta + bearing,
             Sighting(time, bearing, hypot(x, y)),
             moving=self.moving,
             obstacles=self.obstacles,

@@ -1,22 +1,20 @@
 """Receding-horizon search over turning sequences."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import lru_cache
-from math import cos, inf, pi, radians, sin
+from math import atan2, cos, hypot, inf, pi, radians, sin
 from typing import NamedTuple
 
 import numpy as np
 
-from ..core.errors import (
-    ConfigurationError,
-    check_not_negative,
-    check_positive,
-    check_within,
-)
-from ..core.poses import Pose
+from ..arena import NO_OBSTACLES
+from ..core.errors import ConfigurationError, shown
+from ..core.poses import Pose, wrap_angle
+from ..core.ranges import Range
+from ..core.setting import check_settings, setting
 from .bound_cache import pursuit_table
 from .knowledge import ON_THE_SPOT, STAND, Intent, Knowledge, Limits
-from .opponent_track import Trace, note, pursuer_heading
+from .opponent_track import OpponentTrack, track_of_steps
 from .search import (
     NO_VALUE,
     CandidateManeuvers,
@@ -25,27 +23,45 @@ from .search import (
     StepRules,
 )
 from .search.candidate_maneuvers import DEEPEST
-from .search.step_motion import half_turn, step_both
+from .search.step_motion import half_turn, pursue, step_both
 from .strategy import BackwardStrategy
 
 
-def poses_at_sighting(trace: Trace, heading: float) -> PlayerPair:
-    """Return the poses of both players at the last sighting, in odometry.
+def poses_at_sighting(track: OpponentTrack, rules: StepRules) -> PlayerPair:
+    """Return the poses of both players at the last sighting, in the map.
+
+    The pursuer of eqs. (1)-(2) is simulated along the sightings, and its
+    initial heading is fitted to its last position. A pursuer that has not
+    moved is assumed to face the own robot.
 
     Args:
-        trace: At least one sighting.
-        heading: Heading of the pursuer in odometry, in [rad].
+        track: At least one sighting.
+        rules: Model of its steps.
     """
-    seen = trace[-1]
+    rows = track.rows[-SIGHTINGS:]
+    first, last = rows[0], rows[-1]
+    own = last.own
+    begin = end = atan2(own.y - last.y, own.x - last.x)
+    dx, dy = last.x - first.x, last.y - first.y
+    least = MIN_MOTION * (len(rows) - 1) * rules.pursuer_stride
+    if len(rows) > 1 and hypot(dx, dy) >= least:
+        way = begin = atan2(dy, dx)
+        for _ in range(5):
+            x, y, c, s = first.x, first.y, cos(begin), sin(begin)
+            for row in rows[:-1]:
+                seen = row.own
+                x, y, c, s = pursue(
+                    PlayerPair(
+                        *(seen.x, seen.y, cos(seen.theta), sin(seen.theta)),
+                        *(x, y, c, s),
+                    ),
+                    rules,
+                )
+            end = atan2(s, c)
+            begin += wrap_angle(way - atan2(y - first.y, x - first.x))
     return PlayerPair(
-        seen.own_x,
-        seen.own_y,
-        cos(seen.own_theta),
-        sin(seen.own_theta),
-        seen.x,
-        seen.y,
-        cos(heading),
-        sin(heading),
+        *(own.x, own.y, cos(own.theta), sin(own.theta)),
+        *(last.x, last.y, cos(end), sin(end)),
     )
 
 
@@ -77,12 +93,14 @@ def predict_poses(
     )
 
 
-ERROR = ConfigurationError
 MARGIN = 0.005  # in addition to the required clearance, in [m]
 PENALTY = 60.0  # per metre of missing clearance: 1 cm costs 0.6 m
 MAP_ERROR_COST = 0.5  # of missing clearance as large as the map error, [m]
 SPOT_STEPS = 12  # on the spot: 12.5 of the sharpest make half a turn
 MAX_STEPS = 400  # of a maneuver
+STEPS = Range(1, MAX_STEPS, "1", "decisions take longer", whole=True)
+SIGHTINGS = 3  # a step apart: over two steps the sway cancels
+MIN_MOTION = 0.3  # per step, in strides, that determines a heading
 GAIN = 1e-6  # of a maneuver over the present one to replace it, in [m]
 TABLE_PIECES = 3  # used if a value table gives the cost-to-go
 
@@ -92,14 +110,14 @@ class LookAheadMemory(NamedTuple):
 
     Attributes:
         evading: Whether it evades.
-        trace: Sightings of the pursuer.
+        track: Sightings of the pursuer.
         plan: Turns of the planned steps, in [rad].
         planned: Time of the first of them, in [s].
         spot: Number of initial steps that turn on the spot.
     """
 
     evading: bool = False
-    trace: Trace = ()
+    track: OpponentTrack | None = None
     plan: tuple[float, ...] = ()
     planned: float = 0.0
     spot: int = 0
@@ -125,70 +143,80 @@ class LookAhead(BackwardStrategy):
     An inaccurate map changes from step to step: with a map error a plan is
     kept until another is better by that error, and missing clearance costs
     less.
-
-    Attributes:
-        pieces: Number of steps of each piece.
-        turns: Number of turns tried per piece, evenly spaced up to the
-            largest.
-        tail: Number of steps of the law after the pieces.
-        angle: Strategy alpha of the law, in [rad].
-        enough: Distance to the pursuer beyond which no more is gained if
-            there are obstacles, in [m]; without obstacles more is better.
-        body_radius: Least distance of the own centre to obstacles, in [m].
-        largest_error: Largest desired heading, in [rad]; pi is the most of
-            the paper's law.
-        sight: Largest bearing at which the pursuer is visible, in [rad].
-        lead: Assumed lead of the pursuer; see
-            :class:`~stepaside.strategies.search.StepRules`.
-        safety_radius: Distance at which evasion begins, in [m].
-        tight: Distance to the pursuer below which maneuvers that begin with
-            a turn on the spot are tried too, with obstacles, in [m].
-        cells: Number of cells along each axis of the value table that gives,
-            without obstacles, the cost-to-go after the last piece; 0 uses
-            the law instead.
     """
 
     pieces: tuple[int, ...] = (2, 4, 8, 12, 16)
-    turns: int = 7
-    tail: int = 10
-    angle: float = pi / 2
-    enough: float = 0.8
-    body_radius: float = 0.2
-    largest_error: float = pi
-    sight: float = radians(148.0)
-    lead: float = 0.0
-    safety_radius: float = inf
-    tight: float = 0.5
-    cells: int = 64
+    turns: int = setting(
+        7,
+        "Turns tried per piece, evenly spaced up to the largest",
+        Range(1, 99, "1", "decisions take longer", whole=True),
+    )
+    tail: int = setting(
+        10,
+        "Steps of the law after the pieces",
+        Range(0, MAX_STEPS, "1", "decisions take longer", whole=True),
+    )
+    angle: float = setting(
+        pi / 2,
+        "Strategy alpha of the law",
+        Range(0.0, pi, "rad", "the sign is given by the side"),
+    )
+    enough: float = setting(
+        0.8,
+        "Distance to the pursuer beyond which no more is gained if there are "
+        "obstacles {unit}; without obstacles more is better",
+        Range(0.0, 1e9, "m", "it keeps a distance", above=True, also=(inf,)),
+    )
+    body_radius: float = setting(
+        0.2,
+        "Least distance of the own centre to obstacles",
+        Range(0.0, 10.0, "m", "the size of a body"),
+    )
+    largest_error: float = setting(
+        pi,
+        "Largest desired heading",
+        Range(0.01, pi, "rad", "pi is the most of the paper's law"),
+    )
+    sight: float = setting(
+        radians(148.0),
+        "Largest bearing at which the pursuer is visible",
+        Range(0.1, pi, "rad", "half a turn"),
+    )
+    lead: float = setting(
+        0.0,
+        "Assumed lead of the pursuer, over the distance",
+        Range(0.0, 10.0, "1", "as of a pursuer"),
+    )
+    safety_radius: float = setting(
+        inf,
+        "Distance at which evasion begins",
+        Range(0.0, 1e9, "m", "inf: always", above=True, also=(inf,)),
+    )
+    tight: float = setting(
+        0.5,
+        "Distance to the pursuer below which maneuvers that begin with a "
+        "turn on the spot are tried too, with obstacles",
+        Range(0.0, 1e9, "m", "a distance"),
+    )
+    cells: int = setting(
+        64,
+        "Cells along each axis of the value table that gives, without "
+        "obstacles, the cost-to-go after the last piece; 0 uses the law",
+        Range(16, 200, "1", "accuracy, and time to solve", False, True, (0,)),
+    )
+    obstacles: bool = setting(True, "Avoid obstacles")
 
     def __post_init__(self) -> None:
         """Validate the settings."""
-        if len(self.pieces) > DEEPEST - 1 or min(self.pieces, default=1) < 1:
-            raise ERROR(
-                f"pieces must be at most {DEEPEST - 1}, of >= 1 steps [1] "
-                f"each, got {self.pieces}"
+        check_settings(self)
+        pieces = self.pieces
+        if not isinstance(pieces, tuple) or len(pieces) > DEEPEST - 1:
+            raise ConfigurationError(
+                f"pieces must be a tuple of at most {DEEPEST - 1} numbers of "
+                f"steps [1], got {shown(pieces)}"
             )
-        steps = sum(self.pieces) + self.tail
-        if self.tail < 0 or not 1 <= steps <= MAX_STEPS:
-            raise ERROR(
-                f"pieces and tail must have 1 to {MAX_STEPS} steps [1] "
-                f"together, got {steps}"
-            )
-        check_within(self.turns, 1, 99, "turns", "1", ERROR)
-        check_within(self.angle, 0.0, pi, "angle", "rad", ERROR)
-        check_positive(self.enough, "enough", "m", ERROR)
-        check_not_negative(self.tight, "tight", "m", ERROR)
-        check_not_negative(self.body_radius, "body_radius", "m", ERROR)
-        error = self.largest_error
-        check_within(error, 0.01, pi, "largest_error", "rad", ERROR)
-        check_within(self.sight, 0.1, pi, "sight", "rad", ERROR)
-        check_within(self.lead, 0.0, 10.0, "lead", "1", ERROR)
-        if not self.safety_radius > 0.0:
-            raise ERROR(
-                f"safety_radius must be > 0 [m], got {self.safety_radius}"
-            )
-        if self.cells != 0:
-            check_within(self.cells, 16, 200, "cells", "1", ERROR)
+        for each in (*pieces, sum(pieces) + self.tail):
+            STEPS.check(each, "each of pieces, and pieces and tail together,")
 
     def begin(self) -> LookAheadMemory:
         """Return the memory before the first sighting."""
@@ -200,13 +228,15 @@ class LookAhead(BackwardStrategy):
         """Begin the maneuver with the largest closest approach."""
         from .search.turn_search import look_ahead  # imports Numba
 
+        if not self.obstacles:
+            knowledge = replace(knowledge, obstacles_in_map=NO_OBSTACLES)
         limits = knowledge.limits
         rules = step_rules(limits, self.lead)
-        trace = note(memory.trace, knowledge)
+        track = track_of_steps(memory.track, knowledge)
         near = knowledge.distance < self.safety_radius
         if not (memory.evading or near):
-            return STAND, LookAheadMemory(False, trace)
-        both = poses_at_sighting(trace, pursuer_heading(trace, rules))
+            return STAND, LookAheadMemory(False, track)
+        both = poses_at_sighting(track, rules)
         if knowledge.step_start_in_map is not None:
             both = predict_poses(both, knowledge, knowledge.step_start_in_map)
         bounded = bool(knowledge.obstacles_in_map)
@@ -239,12 +269,12 @@ class LookAhead(BackwardStrategy):
             intent = Intent(heading, ON_THE_SPOT)
         elif bounded and self._touches(both, turn, rules, knowledge):
             # A turn on the spot needs no room; standing would block for good.
-            return Intent(heading, ON_THE_SPOT), LookAheadMemory(True, trace)
+            return Intent(heading, ON_THE_SPOT), LookAheadMemory(True, track)
         else:
             intent = Intent(heading)
         ahead = best.turns[: best.spot + sum(self.pieces)]
         return intent, LookAheadMemory(
-            True, trace, tuple(ahead.tolist()), knowledge.time, best.spot
+            True, track, tuple(ahead.tolist()), knowledge.time, best.spot
         )
 
     def _maneuvers(

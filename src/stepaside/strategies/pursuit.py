@@ -1,39 +1,60 @@
-"""Pursuit: head for the evader (paper, Sec. II-A)."""
+"""Pursuit: head for the evader (paper, Sec. II-A), and variations of it."""
 
-from dataclasses import dataclass
-from math import atan2, cos, inf, pi, sin
-from typing import Any
+from dataclasses import dataclass, replace
+from math import atan2, cos, hypot, inf, pi, sin, tau
+from typing import Any, ClassVar, NamedTuple
 
 import numpy as np
 
 from ..arena import BODY_RADIUS
 from ..arena.shortest_path import first_waypoint
 from ..core.poses import wrap_angle
-from ..core.ranges import Range
+from ..core.random_streams import named_generator
+from ..core.ranges import SEEDS, Range
 from ..core.setting import check_settings, setting
 from ..planning import Direction
 from ..theory import laws
 from .approach import correcting_heading
-from .knowledge import Intent, Knowledge, Limits
+from .bound_cache import cars_bound
+from .knowledge import STAND, Intent, Knowledge, Limits
+from .opponent_track import OpponentTrack, track_of_steps
 
 FREE_STRIDES = 3.0  # straight ahead that allow turning by (2)
 DETOUR = 1e-3  # angle between target and evader that is a detour, [rad]
+NEAR = 1e-6  # distance from the centre at which it has no bearing, in [m]
+
+
+class PursuitMemory(NamedTuple):
+    """Memory of a pursuer.
+
+    Attributes:
+        side: Side of the present detour, 1 left or -1 right; 0 for none.
+        track: Track of the evader, if its course is needed.
+    """
+
+    side: int = 0
+    track: OpponentTrack | None = None
 
 
 @dataclass(frozen=True, slots=True)
 class Pursuit:
-    """The paper's pursuer: head for the evader.
+    """The paper's pursuer: head for the evader; and a family around it.
 
     With known obstacles it heads for the first vertex of the shortest path.
+    With a pull it heads between the evader and the centre of the room, which
+    is the origin of a known room, else the own initial pose; at 1 for the
+    bisector of both bearings, so that it drives the evader to the walls. With
+    a lead it heads for a point ahead of the evader on its course.
     """
 
+    direction: ClassVar = Direction.FORWARD
     saturated: bool = setting(False, "Turn by eq. (6) instead of eq. (8)")
     body_radius: float = setting(
         BODY_RADIUS,
         "Clearance of the path from obstacles",
         Range(0.0, 10.0, "m", "a body has a radius", above=True),
     )
-    gain_ratio: float = setting(
+    gain: float = setting(
         1.0,
         "Steering gain over that of the gait {unit}. Turns are limited to "
         "what eq. (2) gives at the gait's gain, k pi: inf turns by the whole "
@@ -42,36 +63,116 @@ class Pursuit:
             0.0, 1e3, "1", "it turns to the evader", above=True, also=(inf,)
         ),
     )
+    pull: float = setting(
+        0.0,
+        "Weight of the direction of the centre of the room; that of the "
+        "evader has weight 1",
+        Range(-10.0, 10.0, "1", "beyond, it forgets the evader"),
+    )
+    lead: float = setting(
+        0.0,
+        "Distance of its target ahead of the evader, over the distance "
+        "between the players",
+        Range(0.0, 10.0, "1", "beyond, it forgets the evader"),
+    )
+    sway: float = setting(
+        0.0,
+        "Amplitude of a periodic error of its bearing",
+        Range(0.0, pi, "rad", "half a turn"),
+    )
+    period: float = setting(
+        10.0,
+        "Period of that error",
+        Range(0.1, 1e3, "s", "it is periodic"),
+    )
+    noise: float = setting(
+        0.0,
+        "Standard deviation of a random error of its bearing in each step",
+        Range(0.0, 10.0, "rad", "more than a turn is no bearing"),
+    )
+    seed: int = setting(0, "Seed of the random errors", SEEDS)
+    walking: float = setting(
+        10.0,
+        "Time for which it pursues before it waits",
+        Range(0.0, 1e6, "s", "it pursues", above=True),
+    )
+    waiting: float = setting(
+        0.0,
+        "Time for which it stands again and again",
+        Range(0.0, 1e6, "s", "0 never waits"),
+    )
 
     def __post_init__(self) -> None:
         """Validate the settings."""
         check_settings(self)
 
-    @property
-    def direction(self) -> Direction:
-        """Forward, eq. (1)."""
-        return Direction.FORWARD
-
-    def begin(self) -> int | None:
-        """Return the side of the detour: none yet."""
-        return None
+    def begin(self) -> PursuitMemory:
+        """Return the memory before the first sighting."""
+        return PursuitMemory()
 
     def decide(
-        self, knowledge: Knowledge, memory: int | None
-    ) -> tuple[Intent, int | None]:
-        """Head for the evader by eq. (2), or along the path to it."""
-        bearing, side = knowledge.bearing, None
-        if knowledge.obstacles_in_map:
-            bearing = self._path_bearing(knowledge, memory or 0)
-            aside = wrap_angle(bearing - knowledge.bearing)
+        self, knowledge: Knowledge, memory: PursuitMemory
+    ) -> tuple[Intent, PursuitMemory]:
+        """Head for the target by eq. (2), or along the path to it."""
+        if self.lead:
+            track = track_of_steps(memory.track, knowledge)
+            memory = memory._replace(track=track)
+        if knowledge.time % (self.walking + self.waiting) >= self.walking:
+            return STAND, memory
+        seen, side = self._aimed(knowledge, memory.track), 0
+        bearing = seen.bearing
+        if seen.obstacles_in_map:
+            bearing = self._path_bearing(seen, memory.side)
+            aside = wrap_angle(bearing - seen.bearing)
             if abs(aside) > DETOUR:
                 side = 1 if aside > 0.0 else -1
-            if side is not None or self._is_blocked(knowledge):
-                # By (2) it would turn too slowly and walk into the obstacle.
-                return Intent(
-                    correcting_heading(bearing, knowledge.limits)
-                ), side
-        return Intent(self._heading(bearing, knowledge.limits)), side
+        memory = memory._replace(side=side)
+        if side or self._is_blocked(seen):
+            # By (2) it would turn too slowly and walk into the obstacle.
+            return Intent(correcting_heading(bearing, seen.limits)), memory
+        return Intent(self._heading(bearing, seen.limits)), memory
+
+    def _aimed(
+        self, knowledge: Knowledge, track: OpponentTrack | None
+    ) -> Knowledge:
+        """Return the knowledge with the target as the opponent."""
+        course = track.course if track else None
+        if course is not None:
+            ahead = course - knowledge.pose_in_map.theta
+            reach = self.lead * knowledge.distance
+            x = knowledge.distance * cos(knowledge.bearing)
+            y = knowledge.distance * sin(knowledge.bearing)
+            x, y = x + reach * cos(ahead), y + reach * sin(ahead)
+            knowledge = replace(
+                knowledge, bearing=atan2(y, x), distance=hypot(x, y)
+            )
+        x, y, theta = knowledge.pose_in_map
+        inward = hypot(x, y)
+        if self.pull and inward > NEAR:
+            sight, away = theta + knowledge.bearing, knowledge.distance
+            dx = cos(sight) - self.pull * x / inward
+            dy = sin(sight) - self.pull * y / inward
+            # The target divides the way from the evader to the centre.
+            way = away * inward / (inward + abs(self.pull) * away)
+            knowledge = replace(
+                knowledge,
+                bearing=wrap_angle(atan2(dy, dx) - theta),
+                distance=hypot(dx, dy) * way,
+            )
+        error = self._error(knowledge)
+        if error:
+            bearing = wrap_angle(knowledge.bearing + error)
+            knowledge = replace(knowledge, bearing=bearing)
+        return knowledge
+
+    def _error(self, knowledge: Knowledge) -> float:
+        """Return the error of its bearing at a time, in [rad]."""
+        error = self.sway * sin(tau * knowledge.time / self.period)
+        if self.noise:
+            step = round(knowledge.time / knowledge.limits.step_duration)
+            stream = named_generator(self.seed, f"noisy-pursuit/{step}")
+            error += min(max(self.noise * stream.normal(), -pi), pi)
+        return error
 
     def _heading(self, bearing: float, limits: Limits) -> float:
         """Return the desired heading of eq. (2) at the own gain, in [rad].
@@ -79,11 +180,13 @@ class Pursuit:
         A step turns by a fraction of it, which depends on the gait.
         """
         share = limits.gain * limits.stride / limits.speed
-        ratio = min(self.gain_ratio, max(1.0, 1.0 / share))
+        ratio = min(self.gain, max(1.0, 1.0 / share))
         return min(max(ratio * laws.pursuit_heading(bearing), -pi), pi)
 
     def _is_blocked(self, knowledge: Knowledge) -> bool:
         """Return whether the next straight steps violate the clearance."""
+        if not knowledge.obstacles_in_map:
+            return False
         x, y, theta = knowledge.pose_in_map
         ahead = FREE_STRIDES * knowledge.limits.stride
         path = [(x, y), (x + ahead * cos(theta), y + ahead * sin(theta))]
@@ -103,6 +206,48 @@ class Pursuit:
             knowledge.obstacles_in_map, (x, y), evader, self.body_radius, side
         )
         return wrap_angle(atan2(v - y, u - x) - theta)
+
+
+@dataclass(frozen=True, slots=True)
+class OptimalPursuit:
+    """Pursuer with the smallest closest approach to an optimal evader.
+
+    The evader may turn as fast as the pursuer; the floor is open.
+    """
+
+    direction: ClassVar = Direction.FORWARD
+    saturated: ClassVar = False
+    cells: int = setting(
+        64,
+        "Cells along each axis of the value table of two identical cars",
+        Range(16, 200, "1", "accuracy, and time to solve", whole=True),
+    )
+
+    def __post_init__(self) -> None:
+        """Validate the settings."""
+        check_settings(self)
+
+    def begin(self) -> OpponentTrack | None:
+        """Return no track."""
+        return None
+
+    def decide(
+        self, knowledge: Knowledge, memory: OpponentTrack | None
+    ) -> tuple[Intent, OpponentTrack]:
+        """Turn as the table says, once the course of the evader is known."""
+        track = track_of_steps(memory, knowledge)
+        if track.course is None:
+            return Intent(knowledge.bearing), track
+        limits = knowledge.limits
+        unit = limits.speed / (pi * limits.gain)  # tightest radius, in [m]
+        # The evader is a car that faces against its direction of motion.
+        sight = knowledge.pose_in_map.theta + knowledge.bearing
+        turn = cars_bound(self.cells).pursuer_turn(
+            knowledge.distance / unit,
+            knowledge.bearing,
+            wrap_angle(sight - track.course),
+        )
+        return Intent(pi * float(turn)), track
 
 
 class PursuitVariant:

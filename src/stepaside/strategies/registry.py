@@ -1,19 +1,22 @@
-"""Registry of strategies: by name, and from user files.
+"""Strategies by name with arguments, and from files of users.
 
-The module of a strategy is imported when it is made.
+A name is written as a call: ``pursuit``, ``pursuit(gain=2)``,
+``evasion(angle=45deg)``, ``FILE.py:NAME(near=1.2)``. The module of a strategy
+is imported when the strategy is made.
 """
 
 import re
-from collections.abc import Callable, Mapping
-from dataclasses import fields, is_dataclass
-from math import inf
+from ast import literal_eval
+from collections.abc import Mapping
+from dataclasses import fields, is_dataclass, replace
+from difflib import get_close_matches
+from math import inf, radians
 from pathlib import Path
 from types import FunctionType, ModuleType
-from typing import Any
+from typing import Any, NamedTuple
 
 from .. import strategies
-from ..core.errors import ConfigurationError
-from ..core.setting import ranges_of
+from ..core.errors import ConfigurationError, StepAsideError
 from ..core.user_file import (
     FAILURES,
     FILE_AND_NAME,
@@ -24,56 +27,76 @@ from .evasion import Evasion
 from .strategy import Strategy
 from .strategy_validation import validate_strategy
 
-
-def _matador() -> Strategy:
-    """Return the dash evader against a person who chases the robot.
-
-    A chaser comes back: there is nothing to gain by standing, and after a
-    feint the opposite direction is the better one.
-    """
-    from .dash_evasion import CHASER_RADIUS, DashEvasion
-
-    return DashEvasion(
-        CHASER_RADIUS,
-        enough=inf,
-        clearance=1.0,
-        contact_time=6.0,
-        effort=0.0,
-        change=0.1,
-    )
-
-
-STRATEGIES: Mapping[str, Callable[[Evasion], Strategy]] = {
-    "evasion": lambda evasion: evasion,
-    "look-ahead": lambda evasion: strategies.LookAhead(),
-    "robust": lambda evasion: strategies.RobustEvasion(),
-    "optimal": lambda evasion: strategies.OptimalEvasion(),
-    "step-aside": lambda evasion: strategies.DashEvasion(),
-    "matador": lambda evasion: _matador(),
-    "wary": lambda evasion: strategies.WaryEvasion(),
-    "pursuit": lambda evasion: strategies.Pursuit(),
-    "sharp": lambda evasion: strategies.Pursuit(gain_ratio=inf),
-    "herding": lambda evasion: strategies.HerdingPursuit(),
-    "lead": lambda evasion: strategies.LeadPursuit(),
-    "noisy": lambda evasion: strategies.NoisyPursuit(),
-    "stop-and-wait": lambda evasion: strategies.WaitingPursuit(),
-    "optimal-pursuit": lambda evasion: strategies.OptimalPursuit(),
-    "cyclic": lambda evasion: strategies.CyclicPursuit(),
-    "assigned": lambda evasion: strategies.AssignedPursuit(),
-    "pincer": lambda evasion: strategies.Pincer(),
-    "team-evasion": lambda evasion: strategies.TeamEvasion(),
-    "goal": lambda evasion: strategies.GoalWalk(),
-    "stand": lambda evasion: strategies.StandStill(),
-    "walk": lambda evasion: strategies.Walk(),
+STRATEGIES: Mapping[str, tuple[str, Mapping[str, Any]]] = {
+    "evasion": ("Evasion", {}),
+    "look-ahead": ("LookAhead", {}),
+    "robust": ("RobustEvasion", {}),
+    "optimal": (
+        "LookAhead",
+        {"pieces": (1,), "turns": 15, "tail": 0, "obstacles": False},
+    ),
+    "step-aside": ("DashEvasion", {}),
+    "matador": (
+        "DashEvasion",
+        {
+            "turning_radius": 2.5,
+            "enough": inf,
+            "clearance": 1.0,
+            "contact_time": 6.0,
+            # A chaser comes back: there is nothing to gain by standing, and
+            # after a feint the opposite direction is the better one.
+            "effort": 0.0,
+            "change": 0.1,
+        },
+    ),
+    "wary": (
+        "DashEvasion",
+        {
+            "turning_radius": 2.5,
+            "clearance": 1.0,
+            "contact_time": 3.5,
+            "doubt": 0.5,
+            "alertness": 1.5,
+        },
+    ),
+    "pursuit": ("Pursuit", {}),
+    "sharp": ("Pursuit", {"gain": inf}),
+    "herding": ("Pursuit", {"pull": 1.0}),
+    "lead": ("Pursuit", {"lead": 0.5}),
+    "noisy": ("Pursuit", {"gain": 2.0, "noise": 0.5}),
+    "stop-and-wait": ("Pursuit", {"waiting": 5.0}),
+    "optimal-pursuit": ("OptimalPursuit", {}),
+    "cyclic": ("CyclicPursuit", {}),
+    "assigned": ("AssignedPursuit", {}),
+    "pincer": ("Pincer", {}),
+    "team-evasion": ("TeamEvasion", {}),
+    "goal": ("GoalWalk", {}),
+    "stand": ("StandStill", {}),
+    "walk": ("Walk", {}),
 }
-"""Factory of each named strategy, given the settings of the paper's evader."""
+"""Class of each named strategy, and its arguments."""
 
-OF_EVASION = ("evasion",)  # strategies that use them
+OF_EVASION = ("evasion",)  # strategies that use settings of an Evasion
+OTHERS = "FILE.py:NAME or FILE.onnx"
 _OBJECT = re.compile(r"object [\w.<>]+\(.*\)", re.DOTALL)
-_WITH_GAIN = re.compile(r"pursuit-x(?P<ratio>\d+(?:\.\d*)?)", re.ASCII)
-"""The paper's pursuer with another gain than its gait's."""
+_CALL = re.compile(r"(?P<name>[^()]+)\((?P<arguments>.*)\)", re.DOTALL)
+_COMMA = re.compile(r",(?![^(\[]*[)\]])")  # not one within a tuple
+_WORDS = {"inf": inf, "true": True, "false": False, "none": None}
 _NETWORK = re.compile(r"(?P<file>.+\.onnx)", re.DOTALL)
-"""A learned strategy."""
+
+
+class _Named(NamedTuple):
+    """Parts of the name of a strategy.
+
+    Attributes:
+        name: Name without arguments.
+        arguments: Arguments by name.
+        file: Its file; None for one of :data:`STRATEGIES`.
+    """
+
+    name: str
+    arguments: dict[str, Any]
+    file: Path | None
 
 
 def describe_strategy(strategy: str | Strategy) -> str:
@@ -110,35 +133,22 @@ def is_described(name: str) -> bool:
 def check_strategy_name(
     name: str, what: str = "strategy", *, recorded: bool = False
 ) -> None:
-    """Check the name of a strategy, without opening a file.
+    """Check a name with its arguments, without opening a file.
 
     Args:
-        name: One of :data:`STRATEGIES`, pursuit-xRATIO (the pursuer of the
-            paper with RATIO times the gain of its gait), FILE.py:NAME, or
-            FILE.onnx.
+        name: One of :data:`STRATEGIES` or FILE.py:NAME, with arguments or
+            without, or FILE.onnx.
         what: Name of the setting, for the message.
         recorded: Whether text of :func:`describe_strategy` is valid, too.
 
     Raises:
-        ConfigurationError: If the name is invalid.
+        ConfigurationError: If the name or an argument is invalid.
     """
     if recorded and is_described(name):
         return
-    if name in STRATEGIES:
-        return
-    if with_gain := _WITH_GAIN.fullmatch(name):
-        ranges_of(strategies.Pursuit)["gain_ratio"].check(
-            float(with_gain["ratio"]), f"RATIO of {what} pursuit-xRATIO"
-        )
-        return
-    if _NETWORK.fullmatch(name):
-        return
-    found = FILE_AND_NAME.fullmatch(name)
-    if not (found and found["name"].isidentifier()):
-        raise ConfigurationError(
-            f"{what} must be one of {', '.join(STRATEGIES)}, "
-            f"pursuit-xRATIO, FILE.py:NAME or FILE.onnx, got {name!r}"
-        )
+    named = _parse(name, what)
+    if named.arguments and named.file is None:
+        _make(named, Evasion(), what)
 
 
 def load_strategy(
@@ -147,12 +157,13 @@ def load_strategy(
     """Load a strategy by name, or check a strategy object.
 
     Args:
-        name: One of :data:`STRATEGIES`, pursuit-xRATIO, FILE.py:NAME, or
-            FILE.onnx, a learned strategy. In a Python file NAME is a
-            strategy, or a class or function without required arguments that
-            returns one. The file is executed. A strategy object is returned
-            as it is.
-        evasion: Settings of the paper's evader; its defaults if not given.
+        name: One of :data:`STRATEGIES` or FILE.py:NAME, with arguments or
+            without, or FILE.onnx, a learned strategy. In a Python file NAME
+            is a strategy, or a class or function that returns one, given the
+            arguments. The file is executed. A strategy object is returned as
+            it is.
+        evasion: Settings of the paper's evader that arguments replace; its
+            defaults if not given.
 
     Returns:
         The strategy; user code has passed a few trial decisions.
@@ -169,19 +180,15 @@ def load_strategy(
             "given as a Python object, which a configuration cannot make "
             "again; give its FILE.py:NAME, or the object from Python"
         )
-    check_strategy_name(name)
-    if with_gain := _WITH_GAIN.fullmatch(name):
-        return strategies.Pursuit(gain_ratio=float(with_gain["ratio"]))
-    if _NETWORK.fullmatch(name):
+    named = _parse(name)
+    if named.file is None:
+        return _make(named, evasion or Evasion())
+    if _NETWORK.fullmatch(named.name):
         from .learned import load_learned_strategy
 
-        learned = load_learned_strategy(name)
-        validate_strategy(learned, name)
-        return learned
-    found = FILE_AND_NAME.fullmatch(name)
-    if found is None:
-        return STRATEGIES[name](evasion or Evasion())
-    made = _create(found["file"], found["name"])
+        made: Any = load_learned_strategy(named.file)
+    else:
+        made = _create(named)
     validate_strategy(made, name)
     strategy: Strategy = made
     return strategy
@@ -189,23 +196,101 @@ def load_strategy(
 
 def absolute_name(name: str) -> str:
     """Return the name with an absolute file path."""
-    file = file_of(name)
-    if file is None:
+    named = _parse(name)
+    if named.file is None:
         return name
-    found = FILE_AND_NAME.fullmatch(name)
-    path = str(file.resolve())
-    return f"{path}:{found['name']}" if found else path
+    rest = name[len(named.name) :]
+    found = FILE_AND_NAME.fullmatch(named.name)
+    own = f":{found['name']}" if found else ""
+    return f"{named.file.resolve()}{own}{rest}"
 
 
 def file_of(name: str) -> Path | None:
     """Return the file of a strategy; None for one of :data:`STRATEGIES`."""
-    found = FILE_AND_NAME.fullmatch(name) or _NETWORK.fullmatch(name)
-    return None if found is None else Path(found["file"]).expanduser()
+    return _parse(name).file
 
 
-def _create(path: str, name: str) -> Any:
+def _parse(text: str, what: str = "strategy") -> _Named:
+    """Return the parts of the name of a strategy.
+
+    Raises:
+        ConfigurationError: If the name is unknown, or no call.
+    """
+    call = None if _NETWORK.fullmatch(text) else _CALL.fullmatch(text)
+    name = call["name"].strip() if call else text
+    arguments: dict[str, Any] = {}
+    for each in filter(
+        str.strip, _COMMA.split(call["arguments"] if call else "")
+    ):
+        key, is_pair, value = (part.strip() for part in each.partition("="))
+        if not (is_pair and key.isidentifier() and value):
+            raise ConfigurationError(
+                f"{what} {name} must have arguments like gain=2, got {each!r}"
+            )
+        arguments[key] = _value(value)
+    if name in STRATEGIES:
+        return _Named(name, arguments, None)
+    found = FILE_AND_NAME.fullmatch(name)
+    network = _NETWORK.fullmatch(name)
+    if network and arguments:
+        raise ConfigurationError(
+            f"{what} {name} must have no arguments, got {', '.join(arguments)}"
+        )
+    if network or (found and found["name"].isidentifier()):
+        file = (network or found)["file"]  # type: ignore[index]
+        return _Named(name, arguments, Path(file).expanduser())
+    near = get_close_matches(name, STRATEGIES, 1)
+    hint = f"; did you mean {near[0]}?" if near else ""
+    raise ConfigurationError(
+        f"{what} must be one of {', '.join(STRATEGIES)}, {OTHERS}, "
+        f"got {text!r:.80}{hint}"
+    )
+
+
+def _value(text: str) -> Any:
+    """Return the value of an argument: a number, a word, a tuple or text."""
+    if text.lower() in _WORDS:
+        return _WORDS[text.lower()]
+    try:
+        if text.endswith("deg"):
+            return radians(float(text.removesuffix("deg")))
+        return literal_eval(text)
+    except (ValueError, SyntaxError):
+        return text
+
+
+def _make(named: _Named, evasion: Evasion, what: str = "strategy") -> Strategy:
+    """Return a strategy of the table.
+
+    Raises:
+        ConfigurationError: If an argument is unknown or out of range.
+    """
+    kind, values = STRATEGIES[named.name]
+    made = getattr(strategies, kind)
+    known = [each.name for each in fields(made)]
+    for key in named.arguments:
+        if key not in known:
+            near = get_close_matches(key, known, 1)
+            hint = f"; did you mean {near[0]}?" if near else ""
+            raise ConfigurationError(
+                f"{what} {named.name} must have arguments of "
+                f"{', '.join(known) or 'none'}, got {key!r}{hint}"
+            )
+    try:
+        if named.name in OF_EVASION:
+            return replace(evasion, **named.arguments)
+        strategy: Strategy = made(**{**values, **named.arguments})
+    except (StepAsideError, TypeError) as error:
+        raise ConfigurationError(f"{what} {named.name}: {error}") from error
+    return strategy
+
+
+def _create(named: _Named) -> Any:
     """Return the strategy that a name in a file denotes, created if needed."""
-    where = f"strategy {path}:{name}"
+    found = FILE_AND_NAME.fullmatch(named.name)
+    assert found is not None
+    path, name, given = found["file"], found["name"], named.arguments
+    where = f"strategy {named.name}"
     loaded = load_user_file(path, where)
     if not hasattr(loaded, name):
         available = ", ".join(_strategies_in(loaded)) or "no strategy"
@@ -213,18 +298,20 @@ def _create(path: str, name: str) -> Any:
             f"{where}: the file has no {name}, but {available}"
         )
     thing = getattr(loaded, name)
-    if not isinstance(thing, type) and hasattr(thing, "decide"):
+    is_made = not isinstance(thing, type) and hasattr(thing, "decide")
+    if is_made and not given:
         return thing
-    if not callable(thing):
+    if not (callable(thing) or (is_made and is_dataclass(thing))):
         raise ConfigurationError(
             f"{where}: must be a strategy, or a class or function that makes "
             f"one, got {shown_briefly(thing)}"
         )
     try:
-        return thing()
+        return replace(thing, **given) if is_made else thing(**given)
     except FAILURES as error:
+        shown = ", ".join(f"{key}={value!r}" for key, value in given.items())
         raise ConfigurationError(
-            f"{where}: {name}() must make a strategy, got "
+            f"{where}: {name}({shown}) must make a strategy, got "
             f"{type(error).__name__}: {error}"
         ) from error
 

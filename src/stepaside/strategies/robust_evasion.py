@@ -9,14 +9,14 @@ import numpy as np
 
 from ..arena.obstacles import PackedObstacles
 from ..core.constants import CAPTURE_DISTANCE
-from ..core.errors import ConfigurationError, check_positive, check_within
 from ..core.poses import Array, Pose, wrap_angle
+from ..core.ranges import Range
+from ..core.setting import check_settings, setting
 from .knowledge import ON_THE_SPOT, Intent, Knowledge
 from .opponent_models import ASSUMED, MODELS, ModelFit
 from .search.pursuer_model import BeamRules, PursuerModel
 from .strategy import BackwardStrategy
 
-ERROR = ConfigurationError
 MARGIN = 0.005  # in addition to the required clearance, in [m]
 SWAY = 0.03  # by which the torsos of walkers, which lead their reference
 # points by 2 cm and sway, are nearer to each other than these, in [m]
@@ -65,27 +65,34 @@ class RobustEvasion(BackwardStrategy):
     search looks for the game that survives longest, and the plan that
     survives longest against all, in the mean by their weights, is walked. It
     backs away, turns on the spot and goes around obstacles.
-
-    Attributes:
-        width: Number of states that the search follows.
-        horizon: Number of steps that it looks ahead against the greatest
-            number of models; against fewer it looks further, by the same
-            number of steps in all, unless the players are walkers.
-        capture: Distance at which the evader counts as captured, in [m].
-        body_radius: Least distance of the own centre to obstacles, in [m].
     """
 
-    width: int = 200
-    horizon: int = 75
-    capture: float = CAPTURE_DISTANCE
-    body_radius: float = 0.2
+    width: int = setting(
+        200,
+        "States that the search follows",
+        Range(1, 10_000, "1", "decisions take longer", whole=True),
+    )
+    horizon: int = setting(
+        75,
+        "Steps that it looks ahead against the greatest number of models; "
+        "against fewer it looks further, by the same number of steps in all, "
+        "unless the players are walkers",
+        Range(1, 1000, "1", "decisions take longer", whole=True),
+    )
+    capture: float = setting(
+        CAPTURE_DISTANCE,
+        "Distance at which the evader counts as captured",
+        Range(0.0, 100.0, "m", "a distance", above=True),
+    )
+    body_radius: float = setting(
+        0.2,
+        "Least distance of the own centre to obstacles",
+        Range(0.0, 10.0, "m", "a body has a radius", above=True),
+    )
 
     def __post_init__(self) -> None:
         """Validate the settings."""
-        check_within(self.width, 1, 10_000, "width", "1", ERROR)
-        check_within(self.horizon, 1, 1000, "horizon", "1", ERROR)
-        check_positive(self.capture, "capture", "m", ERROR)
-        check_positive(self.body_radius, "body_radius", "m", ERROR)
+        check_settings(self)
 
     def begin(self) -> RobustMemory:
         """Return the memory before the first sighting."""

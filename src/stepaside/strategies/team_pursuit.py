@@ -6,10 +6,9 @@ from typing import Any
 
 import numpy as np
 
-from ..core.poses import wrap_angle
+from ..core.poses import Array, wrap_angle
 from ..core.ranges import Range
 from ..core.setting import check_settings, setting
-from .assignment import assign
 from .knowledge import STAND, Intent, Knowledge
 from .pursuit import Pursuit, PursuitVariant
 
@@ -119,6 +118,27 @@ class Pincer(_TeamPursuit):
             )
         intent, memory = self.pursuit.decide(knowledge, memory)
         return keep_apart(knowledge, intent), memory
+
+
+def assign(costs: Array) -> tuple[int, ...]:
+    """Return the column of each row of the assignment of least total cost.
+
+    With more rows than columns every column is used, and none more than
+    once more often than another.
+
+    Args:
+        costs: Cost of each pair. Shape (rows, columns).
+    """
+    from scipy.optimize import linear_sum_assignment
+
+    rows, columns = costs.shape
+    least = rows // columns  # uses of each column; some have one more
+    slots = (least + 1) * columns
+    square = np.zeros((slots, slots))  # rows below leave their slot unused
+    square[:rows] = np.tile(costs, least + 1)
+    square[rows:, : least * columns] = 1.0 + slots * np.abs(costs).max()
+    _, taken = linear_sum_assignment(square)
+    return tuple((taken[:rows] % columns).tolist())
 
 
 def fellows_of(knowledge: Knowledge) -> dict[str, Point]:

@@ -18,6 +18,7 @@ from .evasion_claims import DURATION
 from .tournament_physics import clearance, outcome_of, players_touched
 from .tournament_record import bound_of, play_track
 from .tournament_settings import TournamentSettings
+from .tournament_strategies import ASIDE
 
 GAMES_PER_SEED = 5  # of each evader in each setting
 GAME = StepGame(duration=120.0)
@@ -25,7 +26,7 @@ TOURNAMENTS = {
     "open": TournamentSettings(room=RoomRecipe(None, None), game=GAME),
     "room": TournamentSettings(room=RoomRecipe(discs=3), game=GAME),
 }
-EVADERS = ("aside", "look-ahead")
+EVADERS = (ASIDE, "look-ahead")
 
 
 @dataclass(frozen=True, slots=True)
@@ -65,7 +66,7 @@ def play(seed: int) -> PlayedGames:
         {
             name: {
                 evader: tuple(
-                    play_track(tournament, (evader, "pure"), each)[1]
+                    play_track(tournament, (evader, "pursuit"), each)[1]
                     for each in seeds
                 )
                 for evader in EVADERS
@@ -81,11 +82,11 @@ def read_evading(played: PlayedGames) -> Readings:
     clear = min(float(g.clearances.min()) for g in ahead)
     decisions = [g.decision for g in ahead]
     return {
-        "farther": played.closest("look-ahead") / played.closest("aside"),
+        "farther": played.closest("look-ahead") / played.closest(ASIDE),
         "best": played.closest("look-ahead") / played.bound,
         "survives": played.survived("look-ahead"),
         "clear": clear - GAME.body_radius,
-        "aside": played.survived("look-ahead") - played.survived("aside"),
+        "aside": played.survived("look-ahead") - played.survived(ASIDE),
         "decision": 1e3 * float(np.mean(decisions)),
     }
 

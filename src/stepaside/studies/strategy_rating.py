@@ -11,6 +11,7 @@ import numpy as np
 from ..arena import Room, RoomRecipe, draw_any_start
 from ..core.errors import ConfigurationError
 from ..planning import Direction
+from ..strategies import load_strategy
 from ..strategies.bound_cache import pursuit_bound
 from ..strategies.strategy_game import StepGame
 from .case_grid import CaseGrid
@@ -18,12 +19,12 @@ from .study import Study
 from .tabulation import Record, half_interval, wilson_interval
 from .tournament_record import CELLS, play_record
 from .tournament_settings import TournamentSettings
-from .tournament_strategies import EVADERS, PURSUERS, evader_of, pursuer_of
+from .tournament_strategies import ALPHA, ASIDE
 
 ROLES = ("evader", "pursuer")
 OPPONENTS = {
-    "evader": ("pure", "pure-x2", "sharp", "lead"),
-    "pursuer": ("aside", "alpha", "optimal"),
+    "evader": ("pursuit", "pursuit(gain=2)", "sharp", "lead"),
+    "pursuer": (ASIDE, ALPHA, "optimal"),
 }
 """Opponents of each role."""
 ANY_HEADING = "any heading"
@@ -34,7 +35,7 @@ WORLDS: dict[str, RoomRecipe | None] = {
     "3 x 3 m, 3 discs": RoomRecipe(discs=3),
 }
 """Rooms of the suite; "any heading" is an open floor, too."""
-THE_PAPERS = "pure"  # the pursuer that the bound holds against
+THE_PAPERS = "pursuit"  # the pursuer that the bound holds against
 EARLIEST_CAPTURE = 0.02  # with any heading capture ends no game, in [m]
 
 RatedGame = tuple[tuple[str, str, str], int]
@@ -45,8 +46,8 @@ def role_of(name: str, role: str | None = None) -> str:
     """Return the role in which a strategy is rated.
 
     Args:
-        name: Name of a strategy in a tournament, or a file.
-        role: The role, if the name does not decide.
+        name: Name of a strategy, or a file.
+        role: The role, if its direction does not decide.
 
     Raises:
         ConfigurationError: If there is no such strategy of that role.
@@ -55,16 +56,11 @@ def role_of(name: str, role: str | None = None) -> str:
         raise ConfigurationError(
             f"role must be one of {', '.join(ROLES)}, got {role!r:.40}"
         )
-    if role is None and name in EVADERS:
-        role = "evader"
-    if role is None and name in PURSUERS:
-        role = "pursuer"
-    if role is None:
-        loaded = (pursuer_of if name.startswith("pure-x") else evader_of)(name)
-        backward = loaded.direction is Direction.BACKWARD
-        return "evader" if backward else "pursuer"
-    (evader_of if role == "evader" else pursuer_of)(name)
-    return role
+    loaded = load_strategy(name)
+    if role is not None:
+        return role
+    backward = loaded.direction is Direction.BACKWARD
+    return "evader" if backward else "pursuer"
 
 
 def rating_study(

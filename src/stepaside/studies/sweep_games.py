@@ -2,7 +2,6 @@
 
 from collections.abc import Callable, Mapping
 from dataclasses import asdict, dataclass, field
-from math import pi
 from typing import Any, NamedTuple
 
 from ..arena import RoomRecipe
@@ -32,17 +31,15 @@ class PairingSettings:
         level: Level of simulation; see :class:`TournamentSettings`.
         room: Recipe of the random room.
         game: Rules of the game.
-        angle: Angle of the evader "alpha", in [rad].
         map: Map of the humanoids.
     """
 
     evader: str = "look-ahead"
-    pursuer: str = "pure"
+    pursuer: str = "pursuit"
     seed: int = 0
     level: str = "steps"
     room: RoomRecipe = field(default_factory=RoomRecipe)
     game: StepGame = field(default_factory=StepGame)
-    angle: float = pi / 4
     map: str = "given"
 
 
@@ -109,7 +106,6 @@ def _play_pairing(settings: PairingSettings) -> Record:
         settings.level,
         settings.room,
         settings.game,
-        settings.angle,
         settings.map,
     )
     pairing = settings.evader, settings.pursuer

@@ -1,10 +1,10 @@
 """Games of a tournament without physics."""
 
-from dataclasses import asdict
+from dataclasses import replace
 
 from ..arena import Room
 from ..strategies import Strategy
-from ..strategies.strategy_game import StepGame, StrategyTrack, play_strategies
+from ..strategies.strategy_game import StrategyTrack, play_strategies
 from .tournament_settings import TournamentSettings
 
 FEEDBACK = 8  # decisions per step at level "unicycle"
@@ -15,7 +15,6 @@ def play_game(
     evader: Strategy,
     pursuer: Strategy,
     seed: int,
-    speed_ratio: float = 1.0,
 ) -> tuple[Room, StrategyTrack]:
     """Play one game at level "steps" or "unicycle"; return its track.
 
@@ -24,15 +23,8 @@ def play_game(
         evader: Strategy of the evader.
         pursuer: Strategy of the pursuer.
         seed: Seed of the room.
-        speed_ratio: Speed of the pursuer over that of the evader.
     """
     room, starts = settings.arena(seed)
     unicycles = settings.level == "unicycle"
-    game = StepGame(
-        **asdict(settings.game)
-        | {
-            "decisions": FEEDBACK if unicycles else 1,
-            "pursuer_speed_ratio": speed_ratio,
-        }
-    )
+    game = replace(settings.game, decisions=FEEDBACK if unicycles else 1)
     return room, play_strategies(pursuer, evader, starts, room=room, game=game)

@@ -1,6 +1,5 @@
 """Tournament games in physics, as duels of two humanoids."""
 
-from collections.abc import Callable, Mapping
 from dataclasses import replace
 from math import isfinite
 from typing import Any, NamedTuple
@@ -18,16 +17,10 @@ from ..games.trajectory import Trajectory
 from ..robots.description import load_robot
 from ..sim.camera_settings import SceneSettings
 from ..sim.outline_measurement import measure_outline
-from ..strategies import Evasion
-from .tournament_strategies import ALWAYS, SIGHT, pursuer_strategy
+from ..strategies import Evasion, load_strategy
+from .tournament_strategies import SIGHT
 
 SEEN = "seen"
-PAPER: Mapping[str, Callable[[float], Evasion]] = {
-    "aside": lambda angle: Evasion(safety_radius=ALWAYS),
-    "saturated": lambda angle: Evasion(saturated=True, safety_radius=ALWAYS),
-    "alpha": lambda angle: Evasion(angle, safety_radius=ALWAYS),
-}
-"""Evaders of the paper, as strategies of a duel, by the angle of "alpha"."""
 OUTCOMES = {Outcome.COMPLETED: "survived", Outcome.FALL: "fell"}
 
 
@@ -38,7 +31,6 @@ def duel_settings(
     *,
     seed: int,
     duration: float,
-    angle: float,
     source: str,
 ) -> DuelSettings:
     """Return the settings of a duel between two entrants.
@@ -49,17 +41,17 @@ def duel_settings(
         starts: Initial poses of pursuer and evader in the world.
         seed: Seed of the duel.
         duration: Duration of the game, in [s].
-        angle: Angle of the evader "alpha", in [rad].
         source: Source of their map; "seen" implies cameras.
     """
     evader, pursuer = pairing
-    own = PAPER.get(evader)
+    played = load_strategy(evader)
+    paper = played if isinstance(played, Evasion) else None
     return DuelSettings(
         seed=seed,
         duration=duration,
-        strategy=Evasion(safety_radius=ALWAYS) if own is None else own(angle),
-        evader_strategy=evader if own is None else "evasion",
-        pursuer_strategy=pursuer_strategy(pursuer),
+        strategy=paper or Evasion(),
+        evader_strategy="evasion" if paper else evader,
+        pursuer_strategy=pursuer,
         sensing="cameras" if source == SEEN else "ideal",
         room=SceneSettings(plan=replace(room, starts=starts)),
         map=MapSettings(source=source),

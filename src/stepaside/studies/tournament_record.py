@@ -8,17 +8,13 @@ import numpy as np
 from ..arena import Room
 from ..core.convex import grown_hull_area
 from ..core.poses import Array, wrap_angle, wrap_angles
+from ..strategies import load_strategy
 from ..strategies.bound_cache import pursuit_bound
 from ..strategies.strategy_game import StepGame, StrategyTrack
 from .tabulation import Record
 from .tournament_games import FEEDBACK, play_game
 from .tournament_settings import HUMANOIDS, TournamentSettings
-from .tournament_strategies import (
-    SIGHT,
-    evader_of,
-    pursuer_of,
-    speed_ratio_of,
-)
+from .tournament_strategies import SIGHT
 
 if TYPE_CHECKING:
     from ..games.run import DuelRun
@@ -62,7 +58,6 @@ def _play_humanoids(
             starts,
             seed=seed,
             duration=settings.game.duration,
-            angle=settings.angle,
             source=settings.map,
         )
     )
@@ -78,10 +73,9 @@ def play_track(
     evader, pursuer = pairing
     return play_game(
         settings,
-        evader_of(evader, settings.angle),
-        pursuer_of(pursuer),
+        load_strategy(evader),
+        load_strategy(pursuer),
         seed,
-        speed_ratio_of(pursuer),
     )
 
 

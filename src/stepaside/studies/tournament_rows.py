@@ -9,7 +9,7 @@ import numpy as np
 from ..strategies.strategy_game import StepGame
 from ..theory.unicycle.circles import find_circle
 from .tabulation import half_interval, wilson_interval
-from .tournament_strategies import gain_ratio_of
+from .tournament_strategies import gain_of
 
 Record = dict[str, Any]
 
@@ -45,18 +45,19 @@ def tournament_rows(
 def circle_distance(game: StepGame, pursuer: str) -> float | None:
     """Return the distance on the paper's circle for a pursuer.
 
-    The evader uses strategy "aside" with the gain of the game. If this
-    distance is at most the capture distance, that strategy is captured.
+    The evader moves aside, with the gain of the game. If this distance is at
+    most the capture distance, it is captured.
 
     Args:
         game: Rules of the games.
         pursuer: Name of the pursuer in a tournament.
 
     Returns:
-        Distance, in [m]; None for a pursuer that does not steer by eq. (2).
+        Distance, in [m]; None for a pursuer that does not steer by eq. (2),
+        or of another speed.
     """
-    ratio = gain_ratio_of(pursuer)
-    if ratio is None:
+    ratio = gain_of(pursuer)
+    if ratio is None or game.pursuer_speed_ratio != 1.0:
         return None
     circle = find_circle(
         game.speed,

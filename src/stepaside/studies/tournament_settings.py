@@ -3,7 +3,6 @@
 import json
 from dataclasses import asdict, dataclass, field
 from hashlib import sha256
-from math import pi
 from typing import Any
 
 from ..arena import (
@@ -13,7 +12,7 @@ from ..arena import (
     generate_room,
     room_to_entries,
 )
-from ..core.errors import ConfigurationError, check_within
+from ..core.errors import ConfigurationError
 from ..core.poses import Pose
 from ..strategies.strategy_game import StepGame
 
@@ -32,14 +31,12 @@ class TournamentSettings:
             "physics", with simulated humanoids.
         room: Recipe of a random room per seed, or one room for all seeds.
         game: Rules. At level "physics" only the duration is used.
-        angle: Angle of the evader "alpha", in [rad].
         map: Map of the humanoids: "given", "seen" or "none".
     """
 
     level: str = "steps"
     room: RoomRecipe | Room = field(default_factory=RoomRecipe)
     game: StepGame = field(default_factory=StepGame)
-    angle: float = pi / 4
     map: str = "given"
 
     def __post_init__(self) -> None:
@@ -63,7 +60,12 @@ class TournamentSettings:
                 f"level must be {HUMANOIDS!r} in a room with moving boxes, "
                 f"got {self.level!r}"
             )
-        check_within(self.angle, 0.0, pi, "angle", "rad", ERROR)
+        ratio = self.game.pursuer_speed_ratio
+        if ratio != 1.0 and self.level == HUMANOIDS:
+            raise ERROR(
+                "game.pursuer_speed_ratio must be 1 [1] at level "
+                f"{HUMANOIDS}, got {ratio}"
+            )
 
     def arena(self, seed: int) -> tuple[Room, tuple[Pose, Pose]]:
         """Return the room of a seed, and the initial poses in it."""
@@ -84,7 +86,6 @@ class TournamentSettings:
             if isinstance(room, Room)
             else asdict(room),
             "game": asdict(self.game),
-            "angle_rad": self.angle,
         } | physics
 
     def fingerprint(self) -> str:
