@@ -22,7 +22,7 @@ TICK = 0.004
 WITH_MUJOCO = [
     f"stepaside.robots.{name}"
     for name in (
-        *("tree_compiler", "torso_frame", "inertia_repair"),
+        *("geom_points", "tree_compiler", "torso_frame", "inertia_repair"),
         *("mesh_files", "model_overlay", "model_reader"),
         *("urdf_writer", "urdf_elements"),
     )

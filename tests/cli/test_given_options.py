@@ -244,7 +244,7 @@ def test_walk_file_has_its_own_entries(tmp_path: Path) -> None:
     assert ahead.pushes == (Push(1.0, 2.0, pi / 2),)
     refused = run(f"duel --config {file}")
     assert refused.exit_code == 2
-    assert "unknown entry backward, bearing" in refused.stderr
+    assert "unknown entry bearing, backward" in refused.stderr
 
 
 def test_pushes_are_replaced_or_removed_and_name_the_player(
@@ -291,7 +291,7 @@ def test_a_file_that_lacks_what_it_must_say_is_refused(
     for text, message in (
         ("[[pushes]]\nimpulse = 1.0\ntime = 1.0", "missing entry pushes"),
         ("control.method = 'mind'", "one of closed-form, measured, mpc"),
-        ("pushes = 3", "pushes must be a tuple, got 3"),
+        ("pushes = 3", "pushes must be an array, got 3"),
     ):
         file.write_text(text, encoding="utf-8")
         refused = run(f"walk --config {file}")

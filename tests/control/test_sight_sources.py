@@ -14,10 +14,10 @@ from stepaside.control.sight_sources import (
 )
 from stepaside.core.constants import GRAVITY
 from stepaside.core.poses import Array, Pose
+from stepaside.core.rotations import rotation
 from stepaside.locomotion.zmp.current_step import CurrentStep, resting_step
 from stepaside.perception.measurement import Sighting
 from stepaside.planning import Foot
-from stepaside.robots.head import rotation
 
 TICK = 0.004
 FRAME = Pose(1.0, -2.0, 0.7)

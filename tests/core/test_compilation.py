@@ -71,6 +71,38 @@ def test_a_changed_callee_is_compiled_again(kind: str, tmp_path: Path) -> None:
         assert said == str([found] * 3) and "compiling" in told
 
 
+RECORD = """
+from typing import NamedTuple
+from stepaside.core.compilation import compiled
+
+class Pair(NamedTuple):
+    one: float
+    other: float
+
+@compiled
+def first(pair: Pair) -> float:
+    return pair.one
+"""
+
+
+def test_functions_of_a_record_are_compiled_again_when_its_fields_move(
+    tmp_path: Path,
+) -> None:
+    (tmp_path / "caller.py").write_text(
+        "from callee import Pair, first\nprint(first(Pair(one=1, other=2)))"
+    )
+    callee, cache = tmp_path / "callee.py", tmp_path / "cache"
+    callee.write_text(RECORD)
+    assert run(tmp_path, cache)[0] == "1"
+    assert run(tmp_path, cache) == ("1", "")
+    moved = "    other: float\n    one: float\n"
+    callee.write_text(
+        RECORD.replace("    one: float\n    other: float\n", moved)
+    )
+    said, told = run(tmp_path, cache)
+    assert said == "1" and "compiling" in told
+
+
 def test_without_a_folder_to_write_to_it_compiles_and_says_so(
     tmp_path: Path,
 ) -> None:

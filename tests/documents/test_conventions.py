@@ -13,11 +13,11 @@ import numpy as np
 import pytest
 
 import stepaside
+from stepaside.core.rotations import rotation
 from stepaside.perception.attitude import AttitudeFilter
 from stepaside.perception.camera_model import CameraModel
 from stepaside.planning import Direction, Foot
 from stepaside.planning.path import UnicycleTrajectory
-from stepaside.robots.head import rotation
 
 ROOT = Path(stepaside.__file__).parent
 PAGE = (ROOT.parents[1] / "docs" / "conventions.md").read_text("utf-8")

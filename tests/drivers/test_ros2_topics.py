@@ -16,6 +16,7 @@ pytest.importorskip("cyclonedds")
 
 from stepaside.core.errors import ConfigurationError  # noqa: E402
 from stepaside.core.poses import Pose  # noqa: E402
+from stepaside.core.rotations import rotation  # noqa: E402
 from stepaside.drivers.ros2 import dds_domain as domain  # noqa: E402
 from stepaside.drivers.ros2.dds_domain import DdsParticipant, take_messages  # noqa: E402
 from stepaside.drivers.ros2.messages import (  # noqa: E402
@@ -60,7 +61,6 @@ from stepaside.drivers.ros2.topics import (  # noqa: E402
 from stepaside.drivers.velocity.velocity_body import REST, VelocityCommand  # noqa: E402
 from stepaside.perception.measurement import Sighting  # noqa: E402
 from stepaside.report.export.recorded_transforms import rotate  # noqa: E402
-from stepaside.robots.head import rotation  # noqa: E402
 
 from velocity_fakes import SimulatedUnicycle, until  # isort: skip  # noqa: E402
 

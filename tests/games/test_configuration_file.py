@@ -100,17 +100,31 @@ def test_integers_are_converted_to_floats_but_not_conversely() -> None:
     assert given.start.distance == 1.0
     assert isinstance(given.start.distance, float)
     for entries in ({"seed": 1.5}, {"seed": "2"}, {"duration": "1"}):
-        with pytest.raises(ConfigurationError, match="here: .* must be"):
+        with pytest.raises(ConfigurationError, match="here: .* must (be|lie)"):
             parse_settings(DuelSettings, entries, "here")
 
 
 @pytest.mark.parametrize(
     ("entries", "message"),
     [
-        ({"weather": 1, "mood": 2}, "here: unknown entry mood, weather"),
-        ({"physics": {"tock": 1.0}}, "here: unknown entry tock"),
-        ({"physics": {"tick": "x"}}, "physics.tick must be a float, got 'x'"),
+        (
+            {"weather": 1, "mood": 2},
+            "here: unknown entry weather, mood; there are",
+        ),
+        (
+            {"physics": {"tock": 1.0}},
+            "unknown entry physics.tock; did you mean tick",
+        ),
+        (
+            {"physics": {"tick": "x"}},
+            r"physics.tick must lie in .* \[s\], got 'x'",
+        ),
         ({"duration": -1.0}, "duration must lie in"),
+        ({"seed": True}, "seed must be an integer in .*, got True"),
+        ({"physics": {"friction": float("nan")}}, "physics.friction .*nan"),
+        ({"pushes": [{"impulse": -1}]}, "pushes 1.impulse .*pushes 1.time"),
+        ({"seed": -1, "duration": 0}, "seed must .*; duration must"),
+        ({"physics": {"tick": 0.0031}}, "physics: tick must be a whole"),
     ],
 )
 def test_errors_in_a_configuration_are_named(

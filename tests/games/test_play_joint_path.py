@@ -1,6 +1,6 @@
 """Test the trajectory of a robot by its own odometry."""
 
-from math import atan2, pi
+from math import atan2
 
 import mujoco
 import numpy as np
@@ -11,7 +11,6 @@ from stepaside.core.poses import Array, Pose, wrap_angle
 from stepaside.games.play_joint_path import (
     MIN_FOOT_FORCE,
     OdometryPath,
-    _quaternion,
 )
 from stepaside.games.play_rows import PlayedRows
 from stepaside.games.trajectory import Trajectory
@@ -54,19 +53,6 @@ def shown(track: Trajectory) -> mujoco.MjData:
     mujoco.mj_kinematics(model, data)
     mujoco.mj_comPos(model, data)
     return data
-
-
-@pytest.mark.parametrize("seed", range(10))
-def test_a_quaternion_is_the_rotation_of_its_angles(seed: int) -> None:
-    """Yaw, then pitch, then roll, as in SciPy."""
-    angles = np.random.default_rng(seed).uniform(-pi, pi, 3) * [1, 0.5, 1]
-    roll, pitch, yaw = angles.tolist()
-    w, *vector = _quaternion(roll, pitch, yaw)
-    found = Rotation.from_quat([*vector, w])
-    wanted = Rotation.from_euler("ZYX", [yaw, pitch, roll])
-    np.testing.assert_allclose(
-        found.as_matrix(), wanted.as_matrix(), atol=1e-12
-    )
 
 
 @pytest.mark.parametrize("foot", Foot)

@@ -9,12 +9,13 @@ import mujoco
 import numpy as np
 import pytest
 
+from stepaside.core.rotations import rotation
 from stepaside.games.sight_evaluation import FrameCounts, SightEvaluator
 from stepaside.perception.camera_model import CameraModel
 from stepaside.perception.images import ColourImage, DepthImage, SonarEcho
 from stepaside.perception.measurement import Sighting
 from stepaside.perception.pipeline import FrameReport
-from stepaside.robots.head import Mount, rotation
+from stepaside.robots.head import Mount
 
 CAMERA = CameraModel.of_field_of_view(80, 60, radians(60.0), radians(45.0))
 PERIOD = 0.1

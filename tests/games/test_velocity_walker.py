@@ -8,11 +8,11 @@ import pytest
 
 from commanded_robots import commanded_robots
 from stepaside.core.poses import Pose, wrap_angle
+from stepaside.core.rotations import rotation
 from stepaside.drivers.velocity.velocity_body import REST, VelocityCommand
 from stepaside.games.duel_settings import DuelSettings, StartSettings
 from stepaside.games.velocity_walker import VelocityWalker
 from stepaside.locomotion.zmp.control_settings import STABILISED
-from stepaside.robots.head import rotation
 from stepaside.sim.body_settings import BODIES
 
 SETTINGS = DuelSettings(

@@ -7,12 +7,12 @@ import numpy as np
 import pytest
 
 from stepaside.core.poses import Array
+from stepaside.core.rotations import rotation
 from stepaside.locomotion.zmp.state_estimator import (
     BodyState,
     StateEstimator,
 )
 from stepaside.perception.measurement import Measurement
-from stepaside.robots.head import rotation
 from stepaside.robots.leg_kinematics import BodyReference
 
 ETA, TICK = 6.0, 0.004

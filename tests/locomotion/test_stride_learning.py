@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 
 from stepaside.core.poses import Pose
+from stepaside.core.rotations import rotation
 from stepaside.locomotion.zmp.current_step import CurrentStep, resting_step
 from stepaside.locomotion.zmp.stride_learning import (
     StrideLearning,
@@ -15,7 +16,6 @@ from stepaside.locomotion.zmp.stride_learning import (
 from stepaside.planning import Foot, GaitSettings
 from stepaside.planning.swing import swing_progress
 from stepaside.robots.forward_kinematics import MeasuredPosture
-from stepaside.robots.head import rotation
 from stepaside.robots.leg_kinematics import BodyReference
 
 GAIT = GaitSettings()

@@ -7,8 +7,8 @@ import pytest
 
 from stepaside.core.constants import GRAVITY
 from stepaside.core.poses import Array
+from stepaside.core.rotations import rotation
 from stepaside.perception.attitude import CALIBRATION, AttitudeFilter
-from stepaside.robots.head import rotation
 
 TICK = 0.004
 GAIN, BIAS_GAIN = 0.5, 0.06  # [1/s], [1/s^2]

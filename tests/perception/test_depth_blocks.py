@@ -5,11 +5,11 @@ from math import radians
 import numpy as np
 import pytest
 
+from stepaside.core.rotations import rotation
 from stepaside.perception.camera_model import CameraModel
 from stepaside.perception.camera_pose import CameraPose
 from stepaside.perception.depth_detector import DepthScene, detect_obstacles
 from stepaside.perception.images import DepthImage
-from stepaside.robots.head import rotation
 
 NEAR, FAR = 0.8, 3.5
 ACROSS = 40.0 / np.tan(radians(29.0))  # focal lengths, in pixels

@@ -6,11 +6,11 @@ import numpy as np
 import pytest
 
 from stepaside.core.poses import Array
+from stepaside.core.rotations import rotation
 from stepaside.perception.camera_model import CameraModel
 from stepaside.perception.camera_pose import CameraPose
 from stepaside.perception.depth_detector import DepthScene, detect_obstacles
 from stepaside.perception.images import DepthImage
-from stepaside.robots.head import rotation
 from synthetic_depth import Post, draw
 
 CAMERA = CameraModel.of_field_of_view(80, 60, radians(58.0), radians(45.0))

@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 
 from stepaside.core.poses import Array, wrap_angle
+from stepaside.core.rotations import rotation
 from stepaside.perception.camera_model import CameraModel
 from stepaside.perception.camera_pose import CameraPose
 from stepaside.perception.colour_detector import RED, ColourDetection
@@ -33,7 +34,6 @@ from stepaside.perception.observations import (
     observe_trim,
 )
 from stepaside.perception.track import Observation, TargetTrack
-from stepaside.robots.head import rotation
 
 CAMERA = CameraModel(640, 480, 550.0, 560.0)
 PIXELS = np.zeros((8, 8, 3), dtype=np.uint8)

@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 from stepaside.core.poses import Pose, wrap_angle
+from stepaside.core.rotations import rotation
 from stepaside.perception.measurement import Measurement
-from stepaside.robots.head import rotation
 from synthetic_cameras import (
     HEAD,
     JOINTS,

@@ -8,11 +8,12 @@ import numpy as np
 import pytest
 
 from stepaside.core.poses import Array, Pose
+from stepaside.core.rotations import rotation
 from stepaside.robots.body_pose import BodyKinematics
 from stepaside.robots.description import load_robot
 from stepaside.robots.description_types import FOOT_FORCES
 from stepaside.robots.forward_kinematics import ForwardKinematics
-from stepaside.robots.head import load_head, rotation
+from stepaside.robots.head import load_head
 from stepaside.robots.robot_tree import LinkFrame
 from stepaside.robots.tree_cache import load_tree
 

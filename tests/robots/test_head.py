@@ -7,44 +7,11 @@ import numpy as np
 import pytest
 
 from stepaside.core.errors import ModelError
-from stepaside.core.poses import Array
 from stepaside.robots.description import load_robot
-from stepaside.robots.head import (
-    HeadDescription,
-    load_head,
-    rotation,
-)
+from stepaside.robots.head import HeadDescription, load_head
 
 NAO = load_robot("nao")
 HEAD = load_head(NAO)
-
-
-def about(axis: int, angle: float) -> Array:
-    """Rotation about one axis, from its definition."""
-    c, s = cos(angle), sin(angle)
-    turn = np.eye(3)
-    i, j = [(1, 2), (2, 0), (0, 1)][axis]
-    turn[i, i], turn[j, j] = c, c
-    turn[i, j], turn[j, i] = -s, s
-    return turn
-
-
-@pytest.mark.parametrize(
-    "angles", [(0.3, 0.0, 0.0), (0.0, -0.4, 0.0), (0.0, 0.0, 2.0), (1, 2, 3)]
-)
-def test_a_rotation_rolls_then_pitches_then_yaws(
-    angles: tuple[float, float, float],
-) -> None:
-    roll, pitch, yaw = angles
-    expected = about(2, yaw) @ about(1, pitch) @ about(0, roll)
-    np.testing.assert_allclose(rotation(*angles), expected, atol=1e-15)
-
-
-def test_signs_of_angles_are_those_of_a_robot() -> None:
-    """Left ear up, nose down, turned to the left."""
-    assert rotation(0.1, 0.0, 0.0)[2, 1] > 0.0
-    assert rotation(0.0, 0.1, 0.0)[2, 0] < 0.0
-    assert rotation(0.0, 0.0, 0.1)[1, 0] > 0.0
 
 
 def test_cameras_point_forward_and_slightly_down() -> None:

@@ -122,7 +122,7 @@ def test_in_motion_the_torques_are_those_of_mujoco() -> None:
     """While the CoM sways by 0.5 m/s^2 and rises: links as point masses."""
     kinematics, loads = loads_of(STILL)
     zmp, share = (AHEAD, 0.01), 0.6
-    postures, torques, at_rest = [], [], []
+    postures, torques, at_rest = [], [], np.zeros(0)
     for i in range(200):
         phase = 8.0 * TICK * i
         x, _, z = STILL.com

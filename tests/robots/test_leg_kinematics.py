@@ -8,8 +8,8 @@ import pytest
 
 from stepaside.core.errors import ReachError
 from stepaside.core.poses import Array
+from stepaside.core.rotations import rotation
 from stepaside.robots.description import load_robot
-from stepaside.robots.head import rotation
 from stepaside.robots.leg_kinematics import ROWS, BodyReference, LegKinematics
 
 NAO = load_robot("nao")

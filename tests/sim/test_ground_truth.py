@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from stepaside.core.poses import Pose
-from stepaside.robots.head import rotation
+from stepaside.core.rotations import rotation
 from stepaside.sim.ground_truth import TrueRobotState, torsos_apart
 
 

@@ -10,11 +10,11 @@ import pytest
 
 from stepaside.core.errors import ConfigurationError
 from stepaside.core.poses import Array, Pose
+from stepaside.core.rotations import rotation
 from stepaside.games.duel import Duel
 from stepaside.games.duel_settings import DuelSettings, StartSettings
 from stepaside.games.floor_player import FloorPlayer, PathSteering
 from stepaside.games.walker import SimulatedPlayer
-from stepaside.robots.head import rotation
 from stepaside.sim.pedestrian_appearance import FIGURES, HIP
 from stepaside.sim.person_body import (
     PARTS,

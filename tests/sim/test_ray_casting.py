@@ -8,8 +8,9 @@ import numpy as np
 import pytest
 
 from stepaside.core.poses import Array
+from stepaside.core.rotations import rotation
 from stepaside.perception.camera_model import CameraModel
-from stepaside.robots.head import Mount, rotation
+from stepaside.robots.head import Mount
 from stepaside.sim.camera_settings import DepthSettings, SonarSettings
 from stepaside.sim.ray_casting import (
     DepthCaster,

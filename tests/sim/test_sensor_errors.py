@@ -28,13 +28,16 @@ def imu(
     sensors: SensorErrors, gyro: Array, force: Array
 ) -> tuple[Array, Array]:
     """Return the readings of gyro and accelerometer."""
-    turn, specific_force, _ = sensors.readings(gyro, force, np.zeros(8))
+    turn, specific_force, _, _ = sensors.readings(
+        gyro, force, gyro, np.zeros(8)
+    )
     return turn, specific_force
 
 
 def feet(sensors: SensorErrors, forces: Array) -> Array:
     """Return the readings of the foot sensors."""
-    return sensors.readings(np.zeros(3), np.zeros(3), forces)[2]
+    zero = np.zeros(3)
+    return sensors.readings(zero, zero, zero, forces)[3]
 
 
 def test_without_errors_sensors_are_exact() -> None:

@@ -204,8 +204,8 @@ def test_sensor_errors_use_the_generator_of_the_robot() -> None:
     body = BodySettings(**effects)
     other = SensorErrors(body, named_generator(5, "sensors/second"))
     truth, seen = plain.read(), robot.read()
-    turn, force, loads = other.readings(
-        truth.gyro, truth.accelerometer, truth.foot_forces
+    turn, force, _, loads = other.readings(
+        truth.gyro, truth.accelerometer, truth.gyro, truth.foot_forces
     )
     np.testing.assert_allclose(seen.gyro, turn)
     np.testing.assert_allclose(seen.accelerometer, force)

@@ -7,21 +7,19 @@ import numpy as np
 import pytest
 
 from stepaside.core.errors import PlanError
-from stepaside.theory.chauffeur import (
+from stepaside.core.poses import Array
+from stepaside.theory.value import (
     ChauffeurGame,
-    ChauffeurTable,
     SpeedEllipse,
+    ValueTable,
     solve_chauffeur,
 )
-from stepaside.theory.chauffeur.chauffeur_checks import (
-    check_chauffeur_barrier,
-    play_chauffeur,
-)
-from stepaside.theory.chauffeur.chauffeur_game import (
+from stepaside.theory.value.chauffeur import barrier_of, standing_table
+from stepaside.theory.value.checks import barrier_offsets, play
+from stepaside.theory.value.closed_forms import (
     chauffeur_barrier,
     guaranteed_distance,
 )
-from stepaside.theory.chauffeur.sampled_value import decide, standing_table
 
 RATIO = 0.643
 CELLS = 60
@@ -31,9 +29,12 @@ def game_of(ratio: float, radius: float = 1.0) -> ChauffeurGame:
     return ChauffeurGame(1.0, radius, SpeedEllipse.disc(ratio))
 
 
+GAME = game_of(RATIO)
+
+
 @pytest.fixture(scope="module")
-def table() -> ChauffeurTable:
-    return solve_chauffeur(game_of(RATIO), CELLS)
+def table() -> ValueTable:
+    return solve_chauffeur(GAME, CELLS)
 
 
 def test_closed_form_is_continuous_and_has_its_limits() -> None:
@@ -51,7 +52,7 @@ def test_closed_form_is_continuous_and_has_its_limits() -> None:
 def test_straight_run_against_a_full_turn_grazes_the_capture_circle() -> None:
     """Play barrier points forwards, in coordinates of the floor."""
     capture = 0.15
-    line = chauffeur_barrier(game_of(RATIO), capture, 7)
+    line = chauffeur_barrier(RATIO, capture, 7)
     side = np.arccos(RATIO)
     ends = np.linspace(0.0, _closing_time(capture), 7)
     for (ahead, left), t in zip(line, ends, strict=True):
@@ -73,64 +74,77 @@ def _closing_time(capture: float) -> float:
     return float(t[np.argmax(side <= 0.0)])
 
 
-@pytest.mark.parametrize("ratio", [0.36, 0.8, 0.95])
+@pytest.mark.parametrize("ratio", [0.36, 0.5, 0.643, 0.8, 0.95])
 def test_grid_agrees_with_the_closed_form(ratio: float) -> None:
     """In both regimes; the solver knows the formula only as a cap."""
-    found = solve_chauffeur(game_of(ratio), CELLS).guaranteed
-    assert found == pytest.approx(guaranteed_distance(ratio), rel=0.006)
-
-
-def test_longer_periods_guarantee_less(table: ChauffeurTable) -> None:
-    longer = solve_chauffeur(game_of(RATIO), CELLS, period=0.9).guaranteed
-    assert table.period < 0.9
-    assert longer < table.guaranteed
-    assert table.guaranteed == pytest.approx(
-        guaranteed_distance(RATIO), rel=0.006
-    )
+    found = solve_chauffeur(game_of(ratio), CELLS).rules.outside
+    assert found == pytest.approx(guaranteed_distance(ratio), rel=0.005)
 
 
 def test_barrier_of_the_table_is_within_a_third_of_a_cell(
-    table: ChauffeurTable,
+    table: ValueTable,
 ) -> None:
     for capture in (0.1, 0.15):
-        found = check_chauffeur_barrier(table, capture)
-        assert np.abs(found.errors).max() < 0.33 * found.spacing
+        off = barrier_offsets(table, barrier_of(GAME, capture), capture)
+        off = np.abs(off) / table.grid.spacing
+        assert off.max() < 0.35 and off.mean() < 0.06
 
 
 def test_value_is_no_larger_than_the_guarantee_and_the_distance(
-    table: ChauffeurTable,
+    table: ValueTable,
 ) -> None:
-    x, y = table.plane.axes()
-    assert (table.values <= np.hypot(x[:, None], y) + 1e-12).all()
-    assert table.values.max() <= 1.02 * table.guaranteed
-    assert table.value(50.0, 20.0) == table.guaranteed
+    assert (table.values <= table.grid.distances(np.inf) + 1e-12).all()
+    assert table.values.max() <= table.rules.outside
+    assert table.value((50.0, 20.0, 0.0)) == table.rules.outside
 
 
+@pytest.mark.parametrize("reacts", [False, True])
 def test_simulated_evader_keeps_what_the_table_guarantees(
-    table: ChauffeurTable,
+    table: ValueTable, reacts: bool
 ) -> None:
     """Against the answer of the table, and a car that reacts faster."""
     starts = np.random.default_rng(5).uniform(
-        [-0.4, -0.9], [1.2, 0.9], (60, 2)
+        [-0.4, -0.9, 0.0], [1.2, 0.9, 0.0], (60, 3)
     )
-    expected = table.value(*starts.T)
-    for pursuer in ("optimal", "direct"):
-        closest = play_chauffeur(table, starts, duration=6.0, pursuer=pursuer)
-        assert (closest - expected).min() > -0.02 * table.guaranteed
+    step = GAME.period / 8
+
+    def pursuer(poses: Array, chosen: Array) -> Array:
+        if not reacts:
+            turns: Array = GAME.turns[table.decisions(poses)[:, 1]]
+            return turns
+        aim = np.arctan2(poses[:, 1], poses[:, 0])
+        ahead = np.ones_like(aim)
+        turn = np.clip(aim / step, -1.0, 1.0)
+        return np.column_stack([ahead, 0.0 * aim, turn])
+
+    closest = play(
+        starts,
+        lambda poses: GAME.twists[table.best_motion(poses)],
+        pursuer,
+        period=GAME.period,
+        duration=6.0,
+        faces=True,
+        reacts=reacts,
+    )
+    kept = closest - table.value(starts)
+    assert kept.min() > -0.02 * table.rules.outside
+    # Who is caught by an optimal pursuer cannot keep more.
+    near = table.value(starts) < 0.95 * table.rules.outside
+    if not reacts:
+        assert np.median(kept[near]) < 0.05 * table.rules.outside
 
 
-def test_lengths_scale_with_the_turning_radius(table: ChauffeurTable) -> None:
+def test_lengths_scale_with_the_turning_radius(table: ValueTable) -> None:
     wide = solve_chauffeur(
         ChauffeurGame(1.4, 2.5, SpeedEllipse.disc(1.4 * RATIO)), CELLS
     )
-    np.testing.assert_allclose(wide.values, table.values, atol=1e-9)
-    assert wide.guaranteed == pytest.approx(2.5 * table.guaranteed)
+    np.testing.assert_allclose(wide.values, 2.5 * table.values, atol=1e-5)
 
 
 def test_ellipse_lies_between_its_discs() -> None:
     ellipse = SpeedEllipse(0.6, 0.6, 0.4)
     found = [
-        solve_chauffeur(ChauffeurGame(1.0, 1.0, each), 24).guaranteed
+        solve_chauffeur(ChauffeurGame(1.0, 1.0, each), 24).rules.outside
         for each in (
             SpeedEllipse.disc(ellipse.smallest),
             ellipse,
@@ -149,22 +163,22 @@ def test_boundary_of_a_set_has_its_three_speeds() -> None:
 
 
 def test_standing_never_helps_and_long_standing_is_contact(
-    table: ChauffeurTable,
+    table: ValueTable,
 ) -> None:
     values = [
-        standing_table(table, count * table.period).values
+        standing_table(table, GAME, count * GAME.period).values
         for count in (0, 1, 2, 4)
     ]
     for before, after in zip(values, values[1:], strict=False):
         assert (after <= before).all() and after.mean() < before.mean()
-    late = standing_table(table, 0.8)
-    assert float(late.value(0.5, 0.0)) < 0.02 < float(table.value(0.5, 0.0))
+    late, ahead = standing_table(table, GAME, 0.8), (0.5, 0.0, 0.0)
+    assert float(late.value(ahead)) < 0.02 < float(table.value(ahead))
 
 
-def test_evader_straight_ahead_leaves_the_axis(table: ChauffeurTable) -> None:
-    velocity, _ = decide(table, np.array([0.45]), np.array([0.0]))
-    assert abs(velocity[0, 1]) > 0.5 * RATIO
-    assert np.hypot(*velocity[0]) == pytest.approx(RATIO)
+def test_evader_straight_ahead_leaves_the_axis(table: ValueTable) -> None:
+    velocity = GAME.twists[table.best_motion((0.45, 0.0, 0.0))]
+    assert abs(velocity[1]) > 0.5 * RATIO
+    assert np.hypot(*velocity[:2]) == pytest.approx(RATIO)
 
 
 @pytest.mark.parametrize("speed", [1.0, 1.4])
@@ -175,12 +189,12 @@ def test_evader_that_is_as_fast_is_refused(speed: float) -> None:
 
 def test_barrier_without_a_closed_form_is_refused() -> None:
     with pytest.raises(PlanError, match="barrier is known for one speed"):
-        chauffeur_barrier(game_of(0.95), 0.2)
+        barrier_of(game_of(0.95), 0.2)
     ellipse = replace(game_of(0.5), velocities=SpeedEllipse(0.5, 0.5, 0.4))
     with pytest.raises(PlanError, match="barrier is known for one speed"):
-        chauffeur_barrier(ellipse, 0.05)
+        barrier_of(ellipse, 0.05)
     with pytest.raises(PlanError, match="capture must lie in"):
-        chauffeur_barrier(game_of(0.5), 0.2)
+        barrier_of(game_of(0.5), 0.2)
     assert sqrt(1.0 - 0.25) + 0.5 * pi / 6 - 1.0 == pytest.approx(
         guaranteed_distance(0.5)
     )

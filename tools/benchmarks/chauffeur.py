@@ -11,19 +11,17 @@ import numpy as np
 from benchmark_options import ask, machine
 
 from stepaside.core.errors import PlanError
+from stepaside.core.poses import Array
 from stepaside.studies.result_files import header, write_result
-from stepaside.theory.chauffeur import (
+from stepaside.theory.value import (
     ChauffeurGame,
     SpeedEllipse,
+    ValueTable,
     solve_chauffeur,
 )
-from stepaside.theory.chauffeur.chauffeur_checks import (
-    check_chauffeur_barrier,
-    play_chauffeur,
-)
+from stepaside.theory.value.chauffeur import barrier_of
+from stepaside.theory.value.checks import barrier_offsets, play
 
-MODULES = ("theory/chauffeur",)
-LIBRARIES = ("numpy", "numba")
 RATIOS = (0.2, 0.36, 0.5, 0.643, 0.8, 0.95)
 CELLS = (30, 60, 120)
 SHARE = 0.7  # capture distance of the barrier, of the guaranteed one
@@ -42,39 +40,61 @@ def row_of(ratio: float) -> dict[str, Any]:
         row["grids"].append(
             {
                 "cells": cells,
-                "guaranteed": table.guaranteed,
-                "error": table.guaranteed / closed - 1.0,
+                "guaranteed": table.rules.outside,
+                "error": table.rules.outside / closed - 1.0,
                 "seconds": table.seconds,
             }
         )
     row["barrier"] = None
     try:
-        found = check_chauffeur_barrier(table, SHARE * closed)
+        poses = barrier_of(game, SHARE * closed)
     except PlanError:
         pass  # no closed form in the second regime
     else:
-        off = np.abs(found.errors) / found.spacing
+        off = np.abs(barrier_offsets(table, poses, SHARE * closed))
+        off /= table.grid.spacing
         row["barrier"] = {
             "mean_cells": float(off.mean()),
             "worst_cells": float(off.max()),
         }
-    starts = np.random.default_rng(17).uniform(
-        [-ratio, -1.5 * ratio], [2.0 * ratio, 1.5 * ratio], (GAMES, 2)
-    )
-    expected = table.value(*starts.T)
     row["played"] = {
-        pursuer: float(
-            (
-                play_chauffeur(
-                    table, starts, duration=DURATION, pursuer=pursuer
-                )
-                - expected
-            ).min()
-            / closed
-        )
+        pursuer: float(played(game, table, pursuer).min() / closed)
         for pursuer in ("optimal", "direct")
     }
     return row
+
+
+def played(game: ChauffeurGame, table: ValueTable, pursuer: str) -> Array:
+    """Return closest approaches of the table's evader less its values.
+
+    The pursuer answers as the table does, or turns straight at the evader
+    within a period.
+    """
+    ratio, direct = game.ratio, pursuer == "direct"
+    starts = np.random.default_rng(17).uniform(
+        [-ratio, -1.5 * ratio, 0.0], [2.0 * ratio, 1.5 * ratio, 0.0],
+        (GAMES, 3),
+    )  # fmt: skip
+
+    def answer(poses: Array, chosen: Array) -> Array:
+        if not direct:
+            turns: Array = game.turns[table.decisions(poses)[:, 1]]
+            return turns
+        aim = np.arctan2(poses[:, 1], poses[:, 0])
+        turn = np.clip(8.0 * aim / game.period, -1.0, 1.0)
+        return np.column_stack([np.ones_like(aim), 0.0 * aim, turn])
+
+    closest = play(
+        starts,
+        lambda poses: game.twists[table.best_motion(poses)],
+        answer,
+        period=game.period,
+        duration=DURATION,
+        faces=True,
+        reacts=direct,
+    )
+    found: Array = closest - table.value(starts)
+    return found
 
 
 def main() -> None:

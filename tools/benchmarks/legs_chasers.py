@@ -39,7 +39,7 @@ from stepaside.sim.camera_settings import (
 )
 from stepaside.sim.person_settings import PersonSettings
 from stepaside.studies.result_files import header, write_result
-from stepaside.theory.chauffeur.chauffeur_game import guaranteed_distance
+from stepaside.theory.value.closed_forms import guaranteed_distance
 
 RADII = (2.5, 4.0, 8.0)  # of the turns of people, in [m]
 DIRECTIONS = 12

@@ -10,7 +10,7 @@ from .tables import print_table, scalar_rows
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from ..theory.chauffeur import ChauffeurGame, ChauffeurTable
+    from ..theory.value import ChauffeurGame, ValueTable
     from .bound_options import BoundOptions
 
 RADIUS = 2.5  # of a person's turns by default, in [m]
@@ -28,8 +28,8 @@ def person_report(
         figure: File of the figure, or None.
         quiet: Whether to print lines instead of a progress bar.
     """
-    from ..theory.chauffeur import solve_chauffeur
-    from ..theory.chauffeur.sampled_value import standing_table
+    from ..theory.value import solve_chauffeur
+    from ..theory.value.chauffeur import standing_table
 
     game = _game(options)
     capture = CONTACT if options.capture is None else options.capture
@@ -46,7 +46,7 @@ def person_report(
                 progress=_scaled(bar, count**2 / work),
             )
             tables.append((count, table))
-    standing = standing_table(table, response)
+    standing = standing_table(table, game, response)
     result = _values(game, capture, tables) | {
         "response_s": response,
         "start_ahead_m": _reach(standing, capture),
@@ -54,7 +54,8 @@ def person_report(
     if figure is not None:
         from ..report.chauffeur_figure import draw_chauffeur
 
-        if attempt(lambda: draw_chauffeur(table, standing, capture, figure)):
+        drawn = game, table, standing, capture, figure
+        if attempt(lambda: draw_chauffeur(*drawn)):
             result["figure"] = figure
     return result
 
@@ -66,7 +67,7 @@ def _scaled(bar: Any, share: float) -> "Callable[[float], object]":
 
 def _game(options: "BoundOptions") -> "ChauffeurGame":
     """Return the game of the options."""
-    from ..theory.chauffeur import ChauffeurGame, SpeedEllipse
+    from ..theory.value import ChauffeurGame, SpeedEllipse
 
     speed = options.evader_speed
     radius = options.person_turning_radius
@@ -84,62 +85,63 @@ def _game(options: "BoundOptions") -> "ChauffeurGame":
 def _values(
     game: "ChauffeurGame",
     capture: float,
-    tables: "list[tuple[int, ChauffeurTable]]",
+    tables: "list[tuple[int, ValueTable]]",
 ) -> dict[str, Any]:
     """Return what the tables say, coarsest first, as values for JSON."""
     table = tables[-1][1]
     closed = game.guaranteed_distance
-    found = table.guaranteed
-    coarse = [each.guaranteed for _, each in tables[:-1]]
+    found = table.rules.outside
+    coarse = [each.rules.outside for _, each in tables[:-1]]
     result: dict[str, Any] = {
         "game": asdict(game),
-        "period_s": table.period,
+        "period_s": game.period,
         "seconds": table.seconds,
         "guaranteed_m": found,
-        "guaranteed_by_cells": {n: t.guaranteed for n, t in tables},
+        "guaranteed_by_cells": {n: t.rules.outside for n, t in tables},
         "grid_error_m": abs(found - coarse[-1]) if coarse else None,
         "closed_form_m": closed,
         "capture_m": capture,
         "avoidable": capture < found,
         "barrier_reach_m": _reach(table, capture),
     }
-    return result | _barrier(table, capture)
+    return result | _barrier(game, table, capture)
 
 
-def _barrier(table: "ChauffeurTable", capture: float) -> dict[str, Any]:
+def _barrier(
+    game: "ChauffeurGame", table: "ValueTable", capture: float
+) -> dict[str, Any]:
     """Compare the barrier with the closed form, where there is one."""
     import numpy as np
 
     from ..core.errors import PlanError
-    from ..theory.chauffeur.chauffeur_checks import check_chauffeur_barrier
+    from ..theory.value.chauffeur import barrier_of
+    from ..theory.value.checks import barrier_offsets
 
-    if not capture < table.guaranteed:
+    if not capture < table.rules.outside:
         return {}
     try:
-        errors = check_chauffeur_barrier(table, capture)
+        poses = barrier_of(game, capture)
     except PlanError:
         return {}
+    off = np.abs(barrier_offsets(table, poses, capture))
     return {
-        "barrier_error_mean_m": float(np.abs(errors.errors).mean()),
-        "barrier_error_worst_m": float(np.abs(errors.errors).max()),
-        "grid_spacing_m": errors.spacing,
+        "barrier_error_mean_m": float(off.mean()),
+        "barrier_error_worst_m": float(off.max()),
+        "grid_spacing_m": table.grid.spacing,
     }
 
 
-def _reach(table: "ChauffeurTable", capture: float) -> float | None:
+def _reach(table: "ValueTable", capture: float) -> float | None:
     """Return the distance up to which contact threatens, in [m].
 
     None if it threatens from everywhere.
     """
-    if capture >= table.guaranteed:
+    if capture >= table.rules.outside:
         return None
     import numpy as np
 
-    x, y = table.plane.axes()
-    radius = table.game.turning_radius
-    threatened = table.values * radius < capture
-    reach = radius * np.hypot(x[:, None], y)[threatened]
-    return float(reach.max(initial=capture))
+    far = table.grid.distances(np.inf)
+    return float(far[table.values < capture].max(initial=capture))
 
 
 def print_person_bound(result: dict[str, Any]) -> None:

@@ -42,6 +42,7 @@ def inspect(
     driven: tuple[str, ...] = ()
     legs: tuple[str, ...] = ()
     entries: dict[str, Any] = {}
+    published: dict[str, dict[str, float]] = {}
     if robot is not None:
         from ..robots.description import load_robot
         from ..robots.tree_cache import load_tree
@@ -50,11 +51,13 @@ def inspect(
         tree = load_tree(description)
         motors, driven = tree.motors, tree.driven_joints
         legs, entries = description.legs, description.locomotion
+        published = description.published
     reading = read_contract(
         loaded,
         motors=motors,
         legs=legs,
         entries=entries,
+        published=published,
         convention=legs_contract,
     )
     findings = examine(reading, loaded, driven)

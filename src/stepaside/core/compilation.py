@@ -159,7 +159,12 @@ def _disk_cache() -> Any:
 
         def load_overload(self, signature: Any, context: Any) -> Any:
             load: Any = super().load_overload
-            found = load(signature, context)
+            try:
+                found = load(signature, context)
+            except (AttributeError, ImportError):  # a type has been renamed
+                flush: Any = self.flush
+                flush()
+                found = None
             if found is None:
                 _tell_once("compiling for this machine, once: some seconds")
             return found
@@ -184,6 +189,8 @@ def _digest(function: FunctionType) -> str:
             if id(value) not in seen:
                 seen.add(id(value))
                 add_code(value.__code__, value.__globals__)
+                for kind in value.__annotations__.values():
+                    add(kind)  # fields are found by their number
         elif isinstance(value, type):
             parts.append(repr(getattr(value, "__members__", value.__name__)))
             parts.append(repr(getattr(value, "_fields", ())))

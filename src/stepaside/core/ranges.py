@@ -44,13 +44,14 @@ class Range(NamedTuple):
             StepAsideError: Of class ``error``, with name, range, unit and
                 value.
         """
-        if self.holds(value):
-            return
+        if not self.holds(value):
+            raise error(f"{name} must {self.rule}, got {shown(value)}")
+
+    @property
+    def rule(self) -> str:
+        """The rule for messages, like ``lie in [0, 1] [m]``."""
         kind = "be an integer" if self.whole else "lie"
-        raise error(
-            f"{name} must {kind} in {self.text} [{self.unit}], "
-            f"got {shown(value)}"
-        )
+        return f"{kind} in {self.text} [{self.unit}]"
 
     def holds(self, value: object) -> bool:
         """Return whether a value is permitted."""

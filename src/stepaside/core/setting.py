@@ -1,15 +1,36 @@
 """Settings: each is described once, at its field.
 
-Checks, command-line options, comments of configuration files and the page of
-settings all derive from this description.
+The checks of constructors, the reading of files, command-line options,
+comments of configuration files and the page of settings all derive from this
+description and from the type of the field.
 """
 
-from collections.abc import Collection, Mapping
-from dataclasses import MISSING, dataclass, field, fields, is_dataclass
+from collections.abc import Callable, Collection, Mapping
+from dataclasses import (
+    MISSING,
+    dataclass,
+    field,
+    fields,
+    is_dataclass,
+    replace,
+)
+from difflib import get_close_matches
+from enum import Enum
 from functools import cache
-from numbers import Integral
-from types import NoneType
-from typing import Any, Literal, TypeVar, get_args, get_origin
+from math import isfinite
+from pathlib import Path
+from types import NoneType, UnionType
+from typing import (
+    Any,
+    Literal,
+    NamedTuple,
+    TypeVar,
+    Union,
+    cast,
+    get_args,
+    get_origin,
+    get_type_hints,
+)
 
 from .errors import ConfigurationError, StepAsideError, as_number, shown
 from .ranges import Range
@@ -27,7 +48,8 @@ class Setting:
         meaning: What it sets, without final period. ``{unit}`` marks the
             place of the unit, which otherwise follows at the end; counts
             need none.
-        range: Range of a number; None for any other value.
+        range: Range of a number, or of each number of an array or a table;
+            None for any finite one.
         names: Permitted texts; empty if any is.
         presets: Values by the name that an option takes instead.
         words: Special values by their word on the command line.
@@ -35,6 +57,7 @@ class Setting:
         needs: Path and value of another setting without which this one, or
             this section, has no effect; an empty value stands for any but
             None.
+        count: Least and greatest number of entries of an array.
     """
 
     meaning: str
@@ -44,6 +67,7 @@ class Setting:
     words: Mapping[str, Any] | None = None
     default_text: str = ""
     needs: tuple[str, str] | None = None
+    count: tuple[int, int] | None = None
 
     @property
     def text(self) -> str:
@@ -70,37 +94,20 @@ def setting(
     default: T,
     meaning: str,
     range: Range | None = None,  # noqa: A002 (the term of the field)
-    *,
-    names: Collection[str] = (),
-    presets: Mapping[Any, T] | None = None,
-    words: Mapping[str, T] | None = None,
-    default_text: str = "",
-    needs: tuple[str, str] | None = None,
+    **more: Any,
 ) -> T:
     """Declare a field of a dataclass of settings.
 
     Args:
         default: Default value, or ``REQUIRED``.
-        meaning: As in :class:`Setting`, like all further arguments.
+        meaning: Meaning.
         range: Range of a number.
-        names: Permitted texts; those of a ``Literal`` need not be given.
-        presets: Values by name.
-        words: Words for special values.
-        default_text: Default shown in the help.
-        needs: Condition.
+        more: Further attributes of :class:`Setting`.
     """
-    described = Setting(
-        meaning,
-        range,
-        tuple(names),
-        presets,
-        words,
-        default_text,
-        needs,
-    )
     kind: dict[str, Any] = {"default": default}
-    if isinstance(default, list):
+    if isinstance(default, list | dict):
         kind = {"default_factory": default.copy}
+    described = Setting(meaning, range, **more)
     made: T = field(**kind, metadata={_KEY: described})
     return made
 
@@ -113,8 +120,7 @@ def settings_of(kind: type[Any]) -> Mapping[str, Setting]:
         if described is None:
             continue
         if get_origin(each.type) is Literal:
-            names = {"names": get_args(each.type)}
-            described = Setting(**vars(described) | names)
+            described = replace(described, names=get_args(each.type))
         found[each.name] = described
     return found
 
@@ -128,63 +134,277 @@ def ranges_of(kind: type[Any]) -> dict[str, Range]:
     }
 
 
+class _Entry(NamedTuple):
+    """Field of a dataclass or a named tuple."""
+
+    hint: Any
+    described: Setting
+    default: Any  # MISSING if it is required
+
+
+@cache
+def _entries(kind: Any) -> dict[str, _Entry]:
+    hints = get_type_hints(kind)
+    if not is_dataclass(kind):  # a named tuple
+        defaults = kind._field_defaults
+        return {
+            name: _Entry(hints[name], _PLAIN, defaults.get(name, MISSING))
+            for name in kind._fields
+        }
+    found = {}
+    for each in fields(kind):
+        default = each.default
+        if each.default_factory is not MISSING:
+            default = each.default_factory()
+        described = each.metadata.get(_KEY, _PLAIN)
+        if each.init:
+            found[each.name] = _Entry(hints[each.name], described, default)
+    return found
+
+
+_PLAIN = Setting("")
+Readers = Mapping[type[Any], Callable[[Any], Any]]
+
+
+class EntryReader:
+    """Reader of values by the types and descriptions of fields.
+
+    Integers become floats where the type is float, arrays tuples, tables
+    dataclasses or named tuples. A boolean is not a number, and a number is
+    finite unless its range permits infinity.
+
+    Attributes:
+        problems: What does not fit: path, rule, unit and value of each.
+    """
+
+    def __init__(
+        self, readers: Readers | None = None, *, ignoring: bool = False
+    ) -> None:
+        """Begin without problems.
+
+        Args:
+            readers: Functions that read some classes from tables.
+            ignoring: Whether unknown entries are ignored.
+        """
+        self.problems: list[str] = []
+        self._readers, self._ignoring = readers or {}, ignoring
+
+    def read(
+        self,
+        value: Any,
+        hint: Any,
+        path: str,
+        described: Setting = _PLAIN,
+        base: Any = None,
+    ) -> Any:
+        """Return a value as a type; note a problem where it does not fit.
+
+        Args:
+            value: The value.
+            hint: The type.
+            path: Path, for messages.
+            described: Description of the field.
+            base: Value that holds for entries that a table omits.
+        """
+        origin, args = get_origin(hint), get_args(hint)
+        if hint is Any:
+            return value
+        if origin in (Union, UnionType):
+            return self._read_any(value, args, path, described, base)
+        if origin is Literal or described.names:
+            return self._read_name(value, path, described.names or args)
+        if hint in self._readers:
+            return self._read_other(value, hint, path)
+        if is_dataclass(hint) or hasattr(hint, "_fields"):
+            return self.read_table(value, hint, path, base)
+        if origin in (tuple, list):
+            return self._read_array(value, hint, path, described)
+        if origin in (dict, Mapping):
+            if not isinstance(value, Mapping):
+                return self._note(path, "be a table", value)
+            return {
+                name: self.read(each, args[1], _joined(path, name), described)
+                for name, each in value.items()
+            }
+        return self._read_scalar(value, hint, path, described)
+
+    def read_table(
+        self, value: Any, kind: Any, path: str, base: Any = None
+    ) -> Any:
+        """Return a dataclass or a named tuple; see :meth:`read`."""
+        if isinstance(value, kind):
+            return value
+        entries, before = _entries(kind), len(self.problems)
+        if not is_dataclass(kind) and isinstance(value, list | tuple):
+            value = dict(zip(entries, value, strict=False))
+        if not isinstance(value, Mapping):
+            return self._note(path, "be a table", value)
+        if not self._ignoring:
+            self._note_unknown(value, entries, path)
+        values = {}
+        for name, (hint, described, default) in entries.items():
+            own = getattr(base, name) if isinstance(base, kind) else default
+            if name in value:
+                values[name] = self.read(
+                    value[name], hint, _joined(path, name), described, own
+                )
+            elif own is MISSING:
+                self.problems.append(f"missing entry {_joined(path, name)}")
+        if len(self.problems) > before:
+            return None
+        try:
+            if isinstance(base, kind) and is_dataclass(base):
+                return replace(cast(Any, base), **values)
+            return kind(**values)
+        except StepAsideError as error:
+            text = f"{error}"
+            if path and not text.startswith(path.rpartition(".")[2]):
+                text = f"{path}: {text}"
+            self.problems.append(text)
+        return None
+
+    def _note(self, path: str, rule: str, value: Any) -> None:
+        self.problems.append(f"{path} must {rule}, got {shown(value)}")
+
+    def _note_unknown(
+        self, value: Mapping[str, Any], entries: Collection[str], path: str
+    ) -> None:
+        unknown = [name for name in value if name not in entries]
+        if not unknown:
+            return
+        near = [x for u in unknown for x in get_close_matches(u, entries, 1)]
+        self.problems.append(
+            f"unknown entry {', '.join(_joined(path, u) for u in unknown)}"
+            + (
+                f"; did you mean {' or '.join(near)}?"
+                if near
+                else f"; there are {', '.join(entries)}"
+            )
+        )
+
+    def _read_any(
+        self,
+        value: Any,
+        hints: tuple[Any, ...],
+        path: str,
+        described: Setting,
+        base: Any,
+    ) -> Any:
+        """Return a value as the first of several types that fits."""
+        if value is None and NoneType in hints:
+            return None
+        first: list[str] = []
+        before = len(self.problems)
+        for hint in hints:
+            if hint is NoneType:
+                continue
+            found = self.read(value, hint, path, described, base)
+            if len(self.problems) == before:
+                return found
+            first = first or self.problems[before:]
+            del self.problems[before:]
+        self.problems += first
+        return None
+
+    def _read_name(self, value: Any, path: str, names: Collection[str]) -> Any:
+        if isinstance(value, str) and value in names:
+            return value
+        return self._note(path, f"be one of {', '.join(names)}", value)
+
+    def _read_other(self, value: Any, kind: type[Any], path: str) -> Any:
+        if isinstance(value, kind):
+            return value
+        try:
+            return self._readers[kind](value)
+        except StepAsideError as error:
+            self.problems.append(f"{path}: {error}")
+        return None
+
+    def _read_array(
+        self, value: Any, hint: Any, path: str, described: Setting
+    ) -> Any:
+        kind, kinds = get_origin(hint), get_args(hint)
+        if kind is list or kinds[-1] is ...:
+            low, high = described.count or (0, None)
+        else:
+            low, high = len(kinds), len(kinds)
+        if not isinstance(value, list | tuple):
+            return self._note(path, "be an array", value)
+        size = len(value)
+        if size < low or high is not None and size > high:
+            count = f"{low}" if low == high else f"{low} to {high}"
+            return self._note(path, f"have {count} entries", size)
+        if kind is list or kinds[-1] is ...:
+            kinds = (kinds[0],) * size
+        return kind(
+            self.read(each, inner, f"{path} {number}", described)
+            for number, (each, inner) in enumerate(
+                zip(value, kinds, strict=True), start=1
+            )
+        )
+
+    def _read_scalar(
+        self, value: Any, kind: Any, path: str, described: Setting
+    ) -> Any:
+        if kind in (int, float):
+            return self._read_number(value, kind, path, described.range)
+        if kind is Path and isinstance(value, str):
+            value = Path(value)
+        elif issubclass(kind, Enum) and value in {each.value for each in kind}:
+            return kind(value)
+        protocol = getattr(kind, "_is_protocol", False)  # not in a file
+        if protocol or not isinstance(value, kind):
+            expected = _TYPE_NAMES.get(kind, f"a {kind.__name__}")
+            return self._note(path, f"be {expected}", value)
+        if "\0" in str(value):  # not valid in a file name
+            return self._note(path, "have no null character", value)
+        return value
+
+    def _read_number(
+        self, value: Any, kind: Any, path: str, range: Range | None
+    ) -> Any:
+        number = as_number(value, whole=kind is int)
+        if range is None:
+            if number is not None and isfinite(number):
+                return number
+            rule = "be an integer" if kind is int else "be a finite number"
+            return self._note(path, rule, value)
+        if not range.holds(value):
+            return self._note(path, range.rule, value)
+        return number
+
+
+_TYPE_NAMES = {bool: "true or false", str: "text"}
+
+
+def _joined(path: str, name: str) -> str:
+    return f"{path}.{name}" if path else name
+
+
 def check_settings(
     settings: Any,
     error: type[StepAsideError] = ConfigurationError,
     *,
     prefix: str = "",
 ) -> None:
-    """Check ranges, names and types of settings.
-
-    Numbers of other types, as of NumPy, are converted to Python numbers.
+    """Check types, ranges and names of settings, and convert numbers.
 
     Args:
-        settings: Dataclass of settings. Attributes without range or names
-            must have the type of their default: bool, text or a section.
+        settings: Dataclass of settings.
         error: Class of the error.
         prefix: Prefix of each name in messages, like ``person.``.
 
     Raises:
-        StepAsideError: Of class ``error``.
+        StepAsideError: Of class ``error``; names everything that does not
+            fit.
     """
-    for name, described, default in _checks(type(settings)):  # type: ignore[arg-type]
-        value, called = getattr(settings, name), f"{prefix}{name}"
-        if described.range is not None:
-            described.range.check(value, called, error)
-            if type(value) not in (int, float, NoneType):  # NumPy, Fraction
-                number = as_number(value, whole=isinstance(value, Integral))
-                object.__setattr__(settings, name, number)
-        elif described.names:
-            if value not in described.names and value is not default:
-                raise error(
-                    f"{called} must be one of {', '.join(described.names)}, "
-                    f"got {shown(value)}"
-                )
-        elif isinstance(default, bool | str) or is_dataclass(default):
-            _check_type(value, type(default), called, error)
-
-
-def _check_type(
-    value: object, kind: type, name: str, error: type[StepAsideError]
-) -> None:
-    if not isinstance(value, kind):
-        expected = _TYPE_NAMES.get(kind, f"a {kind.__name__}")
-        raise error(f"{name} must be {expected}, got {shown(value)}")
-    if isinstance(value, str) and "\0" in value:  # not valid in a file name
-        raise error(
-            f"{name} must be text without a null character, got {shown(value)}"
-        )
-
-
-_TYPE_NAMES = {bool: "true or false", str: "text"}
-
-
-@cache
-def _checks(kind: type[Any]) -> tuple[tuple[str, Setting, Any], ...]:
-    """Return name, description and default of every setting."""
-    described = settings_of(kind)
-    return tuple(
-        (each.name, described[each.name], each.default)
-        for each in fields(kind)
-        if each.name in described
-    )
+    reader, kind = EntryReader(), cast(Any, type(settings))
+    for name, (hint, described, _) in _entries(kind).items():
+        if described is _PLAIN:
+            continue
+        value = getattr(settings, name)
+        read = reader.read(value, hint, f"{prefix}{name}", described)
+        if read is not value and not reader.problems:
+            object.__setattr__(settings, name, read)
+    if reader.problems:
+        raise error("; ".join(reader.problems))

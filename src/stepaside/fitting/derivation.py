@@ -35,6 +35,7 @@ from .motor_data import (
     plausible_torques,
     published_speeds,
     published_torques,
+    published_values,
 )
 from .sole_detection import check_size
 from .standing_posture import knee_limits, reach_of, standing_of, stiff_joints
@@ -146,8 +147,9 @@ def derive(
     mesh_folders = [path for path in mesh_folders if path.is_dir()]
     analysis = analyse_model(model, mesh_folders)
     _check_legs(analysis)
+    published = read_model(model)
     torques = plausible_torques(
-        published_torques(read_model(model)), analysis.mass, analysis.length
+        published_torques(published), analysis.mass, analysis.length
     )
     speeds = published_speeds(model)
     sole = shared_sole(analysis)
@@ -186,6 +188,7 @@ def derive(
         },
         game=game_of_size(size, gait),
         body=dict(MODEL_BODY) if torques else {},
+        published=published_values(published),
     )
     return DerivedDescription(
         description,

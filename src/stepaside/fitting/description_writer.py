@@ -69,6 +69,7 @@ def write_description(derived: DerivedDescription) -> str:
                 *_control(derived),
                 *_body(derived),
                 *_overlay(derived),
+                *_published(derived),
             ]
         )
         + "\n"
@@ -164,6 +165,23 @@ def _body(derived: DerivedDescription) -> list[str]:
         "model are those at the joint, which applies the gains it is sent."
     )
     return [*_comment(comment), *_table("body", body)]
+
+
+def _published(derived: DerivedDescription) -> list[str]:
+    """Return gains and posture of the model, of use to walking policies."""
+    published = derived.description.published
+    if not published:
+        return []
+    comment = (
+        "Gains [N m/rad, N m s/rad] and posture [rad] of the model, for "
+        "walking policies that do not bring their own."
+    )
+    tables = (
+        line
+        for name, values in published.items()
+        for line in _table(f"published.{name}", values)
+    )
+    return [*_comment(comment), *tables]
 
 
 def _missing_meshes(derived: DerivedDescription) -> list[str]:

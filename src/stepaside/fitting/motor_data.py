@@ -29,6 +29,7 @@ DEFAULT_TORQUE = 1.5  # unpublished torque limit, by m g z
 IMPLAUSIBLE_TORQUE = 10.0  # by m g times the length of the legs
 IMPLAUSIBLE_SPEED = 100.0  # in [rad/s]
 DEFAULT_SPEED = 12.0  # unpublished speed limit, in [rad/s]
+KEYS = "knees_bent", "stand", "standing", "home"  # of a standing robot
 NAME = re.compile(r"""\bname\s*=\s*["']([^"']*)["']""")
 SPEED = re.compile(r"""\bvelocity\s*=\s*["']\s*(\d+\.?\d*|\.\d+)\s*["']""")
 
@@ -54,6 +55,44 @@ def published_torques(spec: mujoco.MjSpec) -> dict[str, float]:
         if high > 0.0:
             found[actuator.target] = high
     return found
+
+
+def published_values(spec: mujoco.MjSpec) -> dict[str, dict[str, float]]:
+    """Return the gains and the posture in a model, by joint.
+
+    Returns:
+        Those that it has of ``stiffness``, in [N m/rad], and ``damping``, in
+        [N m s/rad], of its position actuators, that of the joint included;
+        and ``default_posture``, in [rad], of its keyframe of a standing
+        robot, else of its first.
+    """
+    joints = [joint for joint in spec.joints if joint.name]
+    passive = {x.name: float(np.ravel(x.damping)[0]) for x in joints}
+    stiffness, damping = {}, {}
+    for actuator in spec.actuators:
+        gain, bias = float(actuator.gainprm[0]), actuator.biasprm
+        if gain > 0.0 and float(bias[1]) == -gain:
+            name = actuator.target
+            stiffness[name] = gain
+            damping[name] = passive.get(name, 0.0) - float(bias[2])
+    posture, at = {}, 0
+    keys = {key.name: key.qpos for key in spec.keys if len(key.qpos)}
+    chosen = next((k for k in KEYS if k in keys), next(iter(keys), None))
+    kinds = mujoco.mjtJoint
+    for joint in spec.joints if chosen is not None else ():
+        if joint.type in (kinds.mjJNT_HINGE, kinds.mjJNT_SLIDE):
+            posture[joint.name] = float(keys[chosen][at])
+        at += {kinds.mjJNT_FREE: 7, kinds.mjJNT_BALL: 4}.get(joint.type, 1)
+    found = {
+        "stiffness": stiffness,
+        "damping": damping,
+        "default_posture": posture,
+    }
+    return {
+        name: {joint: round(value, 6) for joint, value in table.items()}
+        for name, table in found.items()
+        if table
+    }
 
 
 def plausible_torques(

@@ -14,13 +14,12 @@ from stat import S_ISREG
 from typing import IO, Any, NoReturn, TypeVar
 from zipfile import ZIP_DEFLATED, ZIP_STORED, ZipFile, ZipInfo
 
-import dacite
 import numpy as np
 from numpy.lib import format as npy
 
+from ..core.entries import read_entries
 from ..core.errors import ConfigurationError
 from ..core.poses import Array
-from .configuration_file import HOOKS
 
 T = TypeVar("T")
 
@@ -84,11 +83,8 @@ def parse_object(kind: type[T], plain: Any, source: str) -> T:
         ConfigurationError: If an entry is missing or of the wrong type;
             names the entry.
     """
-    config = dacite.Config(type_hooks=HOOKS, cast=[tuple])
-    try:
-        return dacite.from_dict(kind, check_object(plain, source), config)
-    except (dacite.DaciteError, TypeError, AttributeError) as error:
-        raise ConfigurationError(f"{source}: {error}") from error
+    entries = check_object(plain, source)
+    return read_entries(kind, entries, source, ignoring=True)
 
 
 def read_arrays(file: Path, known: frozenset[str]) -> dict[str, Array]:

@@ -1,16 +1,12 @@
 """Game files: the players of a game and its rules, as TOML."""
 
 from dataclasses import replace
-from pathlib import Path
 from typing import Any
 
+from ..core.entries import load_entries
 from ..core.errors import AnyPath, ConfigurationError, as_path, shown
 from ..robots.description import load_robot
-from .configuration_file import (
-    load_entries,
-    open_entries,
-    parse_settings,
-)
+from .configuration_file import parse_settings
 from .game_settings import GameSettings, PlayerSettings
 from .player_names import MOST_PLAYERS
 from .robot_settings import (
@@ -50,7 +46,7 @@ def load_game(path: AnyPath, **changes: Any) -> GameSettings:
             invalid, or a robot does not exist.
     """
     file = as_path(path, "path")
-    return parse_game(load_entries(Path(file)) | changes, str(file))
+    return parse_game(load_entries(file) | changes, str(file))
 
 
 def parse_game(entries: dict[str, Any], source: str) -> GameSettings:
@@ -70,7 +66,7 @@ def parse_game(entries: dict[str, Any], source: str) -> GameSettings:
             f"{shown(listed)}"
         )
     players = [
-        open_entries(_player(each, f"{source}, player {number}"))
+        _player(each, f"{source}, player {number}")
         for number, entry in enumerate(listed, start=1)
         for each in _copies(entry, f"{source}, player {number}")
     ]

@@ -6,12 +6,12 @@ import numpy as np
 
 from ..core.errors import ConfigurationError
 from ..core.poses import Array, Pose
+from ..core.rotations import quaternion_of, rotation
 from ..perception.attitude import AttitudeFilter
 from ..planning import GaitSettings
 from ..robots.body_pose import SpatialTorsoPose, torso_pose_on_foot
 from ..robots.description import RobotDescription
 from ..robots.forward_kinematics import ForwardKinematics, MeasuredPosture
-from ..robots.head import rotation
 from .play_rows import PlayedRows
 from .trajectory import Trajectory
 
@@ -174,7 +174,7 @@ class OdometryPath:
             known[follower] = known.get(leader, 0.0)
         joints = [known.get(name, 0.0) for name in self._tree.joints]
         roll, pitch = self._tilts[row].tolist()
-        quaternion = _quaternion(roll, pitch, body.heading_in_odometry)
+        quaternion = quaternion_of(roll, pitch, body.heading_in_odometry)
         return np.array([*body.position_in_odometry, *quaternion, *joints])
 
     def _zmp(
@@ -231,18 +231,3 @@ def estimate_tilts(rows: PlayedRows) -> Array:
         attitude.update(gyro[row], force[row], (0.0, 0.0), duration)
         tilts[row] = attitude.roll, attitude.pitch
     return tilts
-
-
-def _quaternion(
-    roll: float, pitch: float, yaw: float
-) -> tuple[float, float, float, float]:
-    """Return the quaternion (w, x, y, z) of Rz(yaw) Ry(pitch) Rx(roll)."""
-    (cr, sr), (cp, sp), (cy, sy) = (
-        (cos(0.5 * a), sin(0.5 * a)) for a in (roll, pitch, yaw)
-    )
-    return (
-        cr * cp * cy + sr * sp * sy,
-        sr * cp * cy - cr * sp * sy,
-        cr * sp * cy + sr * cp * sy,
-        cr * cp * sy - sr * sp * cy,
-    )

@@ -1,27 +1,79 @@
-"""Roll and pitch of the torso from gyro and accelerometer."""
+"""Direction of gravity in the torso frame, from gyro and accelerometer."""
 
-from math import atan2, cos, hypot, isnan, sin, tan
+from math import asin, atan2, cos, hypot, sin, sqrt
 
+import numpy as np
+
+from ..core.compilation import bound, compiled
 from ..core.constants import GRAVITY
 from ..core.poses import Array
 
 CALIBRATION = 1.0  # standing time to estimate the gyro bias, in [s]
 
 
-class AttitudeFilter:
-    """Complementary filter of roll and pitch with a gyro bias estimate.
+@compiled
+def attitude_step(
+    up: Array,
+    bias: Array,
+    rate: Array,
+    turning: Array,
+    gyro: Array,
+    force: Array,
+    acceleration: Array,
+    gains: Array,
+) -> None:
+    """Update direction, bias, rate and turn; see :class:`AttitudeFilter`.
 
-    The gyro is integrated. The accelerometer, less the known acceleration of
-    the pendulum, measures the direction of gravity and corrects the angles
-    and, more slowly, the bias.
+    ``acceleration`` is the known one along the heading and to the left;
+    ``gains`` are the time step, the gain of the correction, and that of the
+    bias.
+    """
+    x, y, z = up[0], up[1], up[2]
+    p, q = gyro[0] - bias[0], gyro[1] - bias[1]
+    r = gyro[2] if gyro[2] == gyro[2] else 0.0  # a gyro with two axes
+    cp = max(sqrt(y * y + z * z), 1e-9)
+    sr, cr, sp = y / cp, z / cp, -x
+    ax, ay = acceleration[0], acceleration[1]
+    fx = (force[0] - cp * ax) / GRAVITY
+    fy = (force[1] - sr * sp * ax - cr * ay) / GRAVITY
+    fz = (force[2] - cr * sp * ax + sr * ay) / GRAVITY
+    felt = force[0] ** 2 + force[1] ** 2 + force[2] ** 2
+    seen = 1.0 if felt > 1.0 else 0.0  # not in free fall
+    ex, ey, ez = fy * z - fz * y, fz * x - fx * z, fx * y - fy * x
+    duration, correction = gains[0], seen * gains[1]
+    share = seen * duration * gains[2]
+    bias[0] -= share * ex
+    bias[1] -= share * ey
+    a, b, c = p + correction * ex, q + correction * ey, r + correction * ez
+    u = x + duration * (y * c - z * b)
+    v = y + duration * (z * a - x * c)
+    w = z + duration * (x * b - y * a)
+    length = sqrt(u * u + v * v + w * w)
+    up[0], up[1], up[2] = u / length, v / length, w / length
+    rate[0], rate[1], rate[2] = p, q, r
+    y, z = 0.5 * (y + up[1]), 0.5 * (z + up[2])
+    turning[0] = (q * y + r * z) / max(y * y + z * z, 1e-9)
+
+
+class AttitudeFilter:
+    r"""Complementary filter of the upward direction in the torso frame.
+
+    The direction :math:`u` turns by the gyro, and towards the specific force
+    :math:`f`, less a known acceleration, by :math:`k \, (f \times u) / g`.
+    The cross product leaves out the component of the acceleration along
+    :math:`u`, so that vertical impacts that coincide with a swing of the torso
+    do not tilt the estimate. The bias of the gyro follows from the same error,
+    except about the axis near the vertical, where gravity shows none.
+
+    The heading turns by the rate of the yaw angle, not by that about the axis
+    of the torso: of a torso that rolls and pitches in step they differ in the
+    mean.
 
     Attributes:
-        roll: Angle about the x axis of the torso, in [rad].
-        pitch: Angle about its y axis, in [rad].
-        rate: Angular velocity in the torso frame, bias removed, in [rad/s].
-        bias: Bias of the gyro about the x and y axes, in [rad/s].
-        gains: Gains of the corrections of angles, in [1/s], and of the bias,
-            in [1/s^2].
+        up: Upward unit vector in the torso frame. Shape (3,).
+        turning: Rate of the heading, in [rad/s]. Shape (1,).
+        gains: Gains of the corrections of direction, in [1/s], and of the
+            bias, in [1/s^2].
     """
 
     def __init__(
@@ -34,24 +86,49 @@ class AttitudeFilter:
         """Start uncalibrated, for a robot that stands still.
 
         Args:
-            correction: Gain of the angle correction, in [1/s].
-            bias_correction: Gain of the bias correction, in [1/s^2].
+            correction: Gain of the direction, in [1/s].
+            bias_correction: Gain of the bias, in [1/s^2].
             calibration: Standing time to estimate the bias, in [s]; 0 for a
                 robot that starts upright and moves at once.
         """
         self._calibration = calibration
         self.gains = correction, bias_correction
-        self.roll = self.pitch = 0.0
-        self.rate = (0.0, 0.0, 0.0)
-        self.bias = [0.0, 0.0]
+        self.up, self.turning = np.array([0.0, 0.0, 1.0]), np.zeros(1)
+        self._bias, self._rate = np.zeros(2), np.zeros(3)
+        self._readings = np.zeros(3), np.zeros(3), np.zeros(2)
+        self._given = np.array([0.0, *self.gains])
+        self._step = bound(
+            *(attitude_step, self.up, self._bias, self._rate, self.turning),
+            *(*self._readings, self._given),
+        )
         self._time_standing = 0.0
-        self._sum = [0.0] * 5
-        self._count = 0
+        self._sum, self._count = np.zeros(5), 0
 
     @property
     def ready(self) -> bool:
         """Whether the bias is calibrated."""
         return self._time_standing >= self._calibration
+
+    @property
+    def roll(self) -> float:
+        """Angle about the x axis of the torso, in [rad]."""
+        return atan2(self.up[1], self.up[2])
+
+    @property
+    def pitch(self) -> float:
+        """Angle about its y axis, in [rad]."""
+        return -asin(min(1.0, max(-1.0, self.up.item(0))))
+
+    @property
+    def rate(self) -> tuple[float, float, float]:
+        """Angular velocity in the torso frame, bias removed, in [rad/s]."""
+        x, y, z = self._rate.tolist()
+        return x, y, z
+
+    def lean(self, roll: float, pitch: float) -> None:
+        """Set the direction by roll and pitch, in [rad]."""
+        c = cos(pitch)
+        self.up[:] = -sin(pitch), c * sin(roll), c * cos(roll)
 
     def _calibrate(
         self, gyro: Array, specific_force: Array, duration: float
@@ -61,12 +138,10 @@ class AttitudeFilter:
         if self._time_standing < 0.3 * self._calibration:
             return  # the robot still settles after its start
         self._count += 1
-        readings = (*gyro.tolist()[:2], *specific_force.tolist())
-        self._sum = [a + b for a, b in zip(self._sum, readings, strict=True)]
-        wx, wy, fx, fy, fz = (value / self._count for value in self._sum)
-        self.bias = [wx, wy]
-        self.roll = atan2(fy, fz)
-        self.pitch = atan2(-fx, hypot(fy, fz))
+        self._sum += np.concatenate((gyro[:2], specific_force))
+        wx, wy, fx, fy, fz = (self._sum / self._count).tolist()
+        self._bias[:] = wx, wy
+        self.lean(atan2(fy, fz), atan2(-fx, hypot(fy, fz)))
 
     def update(
         self,
@@ -75,11 +150,13 @@ class AttitudeFilter:
         acceleration: tuple[float, float],
         duration: float,
     ) -> None:
-        """Update the angles with one reading of the IMU.
+        """Update the direction with one reading of the IMU.
 
         Args:
-            gyro: Angular velocity in the torso frame, in [rad/s].
+            gyro: Angular velocity in the torso frame, in [rad/s]; NaN about
+                the vertical from a gyro with two axes. Shape (3,).
             specific_force: Accelerometer in the torso frame, in [m/s^2].
+                Shape (3,).
             acceleration: Known acceleration of the torso along its heading
                 and to its left, in [m/s^2].
             duration: Time since the last reading, in [s].
@@ -87,27 +164,7 @@ class AttitudeFilter:
         if not self.ready:
             self._calibrate(gyro, specific_force, duration)
             return
-        wx, wy, wz = gyro.tolist()
-        wz = 0.0 if isnan(wz) else wz  # a gyro with two axes
-        wx, wy = wx - self.bias[0], wy - self.bias[1]
-        self.rate = wx, wy, wz
-        roll, pitch = self.roll, self.pitch
-        sr, cr = sin(roll), cos(roll)
-        roll += duration * (wx + tan(pitch) * (sr * wy + cr * wz))
-        pitch += duration * (cr * wy - sr * wz)
-        fx, fy, fz = specific_force.tolist()
-        # Linear in the readings, so that landing impacts, whose mean is zero,
-        # leave no error.
-        ax, ay = acceleration
-        sr, cr, sp, cp = sin(roll), cos(roll), sin(pitch), cos(pitch)
-        error_pitch = -(fx - (cp * ax - sp * GRAVITY)) / GRAVITY
-        expected = sr * sp * ax + cr * ay + sr * cp * GRAVITY
-        error_roll = (fy - expected) / GRAVITY
-        if fx * fx + fy * fy + fz * fz > 1.0:
-            gain, bias_gain = self.gains
-            roll += gain * duration * error_roll
-            pitch += gain * duration * error_pitch
-            step = bias_gain * duration
-            self.bias[0] -= step * error_roll
-            self.bias[1] -= step * error_pitch
-        self.roll, self.pitch = roll, pitch
+        felt, force, known = self._readings
+        felt[:], force[:], known[:] = gyro, specific_force, acceleration
+        self._given[0], self._given[1:] = duration, self.gains
+        self._step()

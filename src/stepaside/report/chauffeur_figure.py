@@ -5,8 +5,8 @@ from typing import Any
 import numpy as np
 from matplotlib.lines import Line2D
 
-from ..theory.chauffeur import ChauffeurTable
-from ..theory.chauffeur.chauffeur_game import guaranteed_distance
+from ..theory.value import ChauffeurGame, ValueTable
+from ..theory.value.closed_forms import guaranteed_distance
 from .figure_style import EVADER, PURSUER, add_common_legend, new_figure, save
 
 POINTS = 201  # along each side of the map
@@ -14,14 +14,16 @@ RADII = (0.5, 12.0)  # turning radii of the person in the figure, in [m]
 
 
 def draw_chauffeur(
-    table: ChauffeurTable,
-    standing: ChauffeurTable,
+    game: ChauffeurGame,
+    table: ValueTable,
+    standing: ValueTable,
     capture: float,
     path: str,
 ) -> None:
     """Draw the guaranteed distance around a person, and its requirement.
 
     Args:
+        game: The game.
         table: Table of the game.
         standing: Table of an evader that stands for its response time.
         capture: Contact distance, in [m].
@@ -30,8 +32,7 @@ def draw_chauffeur(
     figure = new_figure(9.6, 4.4)
     around, agile = figure.subplots(1, 2)
     _draw_map(around, table, standing, capture)
-    draw_agility(agile, table.game.pursuer_speed, capture)
-    game = table.game
+    draw_agility(agile, game.pursuer_speed, capture)
     agile.plot(game.velocities.smallest, game.turning_radius, "o", c=EVADER)
     further = {
         "contact can be forced": Line2D([], [], color="w", lw=2.0),
@@ -76,22 +77,21 @@ def draw_agility(ax: Any, pursuer_speed: float, capture: float) -> None:
 
 
 def _draw_map(
-    ax: Any, table: ChauffeurTable, standing: ChauffeurTable, capture: float
+    ax: Any, table: ValueTable, standing: ValueTable, capture: float
 ) -> None:
     """Draw the guaranteed distance around the person."""
-    x, y = table.plane.axes()
-    radius = table.game.turning_radius
-    inside = standing.values < 0.97 * standing.values.max()
+    x, y, _ = table.grid.axes()
+    inside = standing.values[:, :, 0] < 0.97 * standing.values.max()
     ahead = np.linspace(x[0], 1.5 * x[inside.any(axis=1)].max(), POINTS)
     left = np.linspace(-y[-1], y[-1], POINTS)
-    ahead, left = radius * ahead, radius * left
-    values = table.value(ahead[:, None], left)
+    poses = np.stack(np.broadcast_arrays(ahead[:, None], left, 0.0), axis=-1)
+    values = table.value(poses)
     image = ax.pcolormesh(
         left, ahead, values, vmin=0.0, cmap="cividis", rasterized=True
     )
     ax.figure.colorbar(image, ax=ax, label="guaranteed distance [m]")
     ax.contour(left, ahead, values, [capture], colors="w", linewidths=2.0)
-    stood = standing.value(ahead[:, None], left)
+    stood = standing.value(poses)
     ax.contour(
         left, ahead, stood, [capture],
         colors="w", linewidths=1.5, linestyles="--",

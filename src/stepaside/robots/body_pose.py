@@ -1,15 +1,16 @@
 """Pose of torso and head in odometry, from encoders and torso tilt."""
 
 from dataclasses import dataclass
-from math import atan2, cos, sin
+from math import atan2
 from typing import NamedTuple
 
 import numpy as np
 
 from ..core.poses import Array, Pose
+from ..core.rotations import rotation
 from .description import RobotDescription
 from .forward_kinematics import ForwardKinematics, MeasuredPosture
-from .head import HeadDescription, rotation
+from .head import HeadDescription
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -73,8 +74,7 @@ def torso_pose_on_foot(
     # Torso heading = foot heading - foot yaw relative to the levelled torso.
     ahead = lean @ posture.axes_feet_in_torso[foot, :, 0]
     heading = support.theta - atan2(ahead[1], ahead[0])
-    c, s = cos(heading), sin(heading)
-    axes = np.array([[c, -s, 0.0], [s, c, 0.0], [0.0, 0.0, 1.0]]) @ lean
+    axes = rotation(*tilt, heading)
     place = -(axes @ posture.positions_feet_in_torso[foot])
     place[0] += support.x
     place[1] += support.y
@@ -146,8 +146,7 @@ class BodyKinematics:
         posture = self.forward.posture(joints)
         x, y, _ = posture.positions_feet_in_torso.mean(axis=0).tolist()
         low = float(posture.positions_feet_in_torso[:, 2].min())
-        c, s = cos(frame.theta), sin(frame.theta)
-        axes = np.array([[c, -s, 0.0], [s, c, 0.0], [0.0, 0.0, 1.0]])
+        axes = rotation(0.0, 0.0, frame.theta)
         place = np.array([frame.x, frame.y, 0.0]) - axes @ [x, y, low]
         torso = SpatialTorsoPose(place, axes, frame.theta)
         return self._with_head(time, joints, posture, torso)

@@ -52,6 +52,8 @@ class RobotDescription:
         overlay: Elements that are added to the model when it is read.
         locomotion: Walking policy of the robot and its contract; see
             :mod:`stepaside.locomotion.policy.contract_reader`. Optional.
+        published: Gains and posture that its model publishes, by joint, for
+            policies that do not bring their own. Optional.
         body: Errors of its body that differ from NAO's, in the bodies other
             than the ideal one; see :class:`.BodySettings`. Optional.
         lean: Roll of the torso with the CoM over one foot, in [rad], which
@@ -82,6 +84,7 @@ class RobotDescription:
     overlay: Overlay = NO_OVERLAY
     locomotion: dict[str, Any] = field(default_factory=dict)
     body: dict[str, Any] = field(default_factory=dict)
+    published: dict[str, dict[str, float]] = field(default_factory=dict)
     lean: float = 0.0
 
     @property

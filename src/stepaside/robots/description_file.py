@@ -182,6 +182,15 @@ OPTIONAL: dict[str, Callable[[str, object], Any]] = {
     "control": _table,
     "locomotion": _table,
     "body": _table,
+    "published": _fields(
+        dict,
+        {},
+        {
+            "stiffness": _by_name(_not_negative),
+            "damping": _by_name(_not_negative),
+            "default_posture": _by_name(_number),
+        },
+    ),
     "game": _by_name(_number),
     "sensors": _fields(
         SensorNames,

@@ -9,23 +9,10 @@ import numpy as np
 
 from ..core.errors import ModelError
 from ..core.poses import Array
+from ..core.rotations import rotation
 from .description import RobotDescription
 
 FILE = "head.toml"
-
-
-def rotation(roll: float, pitch: float, yaw: float) -> Array:
-    """Return Rz(yaw) Ry(pitch) Rx(roll), angles in [rad]. Shape (3, 3)."""
-    cr, sr = np.cos(roll), np.sin(roll)
-    cp, sp = np.cos(pitch), np.sin(pitch)
-    cy, sy = np.cos(yaw), np.sin(yaw)
-    return np.array(
-        [
-            [cy * cp, cy * sp * sr - sy * cr, cy * sp * cr + sy * sr],
-            [sy * cp, sy * sp * sr + cy * cr, sy * sp * cr - cy * sr],
-            [-sp, cp * sr, cp * cr],
-        ]
-    )
 
 
 @dataclass(frozen=True, slots=True, eq=False)

@@ -1,6 +1,6 @@
 """Joint motion generation by Newton's method (paper, Sec. III-A)."""
 
-from math import cos, remainder, sin, tau
+from math import remainder, tau
 from typing import NamedTuple
 
 import numpy as np
@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 from ..core.compilation import bound
 from ..core.errors import ModelError, ReachError
 from ..core.poses import Array
+from ..core.rotations import quaternion_of
 from .body_reference import BodyReference
 from .description import RobotDescription
 from .joint_tree import place_frames
@@ -144,9 +145,7 @@ class LegKinematics:
         Shape (7 + joints,).
         """
         n = len(self.legs.free)
-        half, tilt = 0.5 * self.state[n + 3], 0.5 * self.state[n + 5]
-        c, s, r, t = cos(half), sin(half), cos(tilt), sin(tilt)
-        turned = (c * r, c * t + 0.0, s * t + 0.0, s * r)
+        turned = quaternion_of(self.state[n + 5], 0.0, self.state[n + 3])
         joints = self.legs.angles(self.state[:n])
         return np.array([*self.state[n : n + 3], *turned, *joints])
 

@@ -13,10 +13,11 @@ import numpy as np
 
 from ..core.errors import ModelError
 from ..core.poses import Array
+from ..core.rotations import rotation_of
 from .description_types import Overlay, SensorNames, ServoGains, SoleFrame
 from .inertia_repair import repair_inertias
 from .mesh_files import resolve_meshes
-from .torso_frame import matrix_of, rotate_torso_frame
+from .torso_frame import rotate_torso_frame
 
 IMU = "stepaside_imu"
 THICKNESS = 0.15  # of a sole's box, as a fraction of its width
@@ -206,7 +207,7 @@ def _add_sole(
             geom.contype = geom.conaffinity = 0
     back, front, right, left = outline.tolist()
     place, turn = np.array(sole.place), np.array(sole.turn)
-    axes = matrix_of(turn)
+    axes = rotation_of(turn)
     half = 0.5 * np.array([front - back, left - right, 0.0])
     half[2] = 0.5 * THICKNESS * (left - right)
     middle = np.array([0.5 * (front + back), 0.5 * (left + right), half[2]])

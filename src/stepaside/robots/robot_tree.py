@@ -148,15 +148,12 @@ class RobotTree:
 
     def to_json(self) -> dict[str, Any]:
         """Return entries for JSON, which :meth:`from_json` reads."""
-        return {
-            "links": [link._asdict() for link in self.links],
-            "bodies": {n: f._asdict() for n, f in self.bodies.items()},
-            "sites": {n: f._asdict() for n, f in self.sites.items()},
-            "motors": list(self.motors),
-            "servos": [list(servo) for servo in self.servos],
-            "followers": self.followers,
-            "size": list(self.size),
-        }
+        entries = {f.name: getattr(self, f.name) for f in fields(self)}
+        entries["links"] = [link._asdict() for link in self.links]
+        for kind in ("bodies", "sites"):
+            frames = entries[kind].items()
+            entries[kind] = {name: frame._asdict() for name, frame in frames}
+        return entries
 
     @classmethod
     def from_json(cls, entries: dict[str, Any]) -> "RobotTree":
@@ -166,52 +163,29 @@ class RobotTree:
             ModelError: If an entry is missing or ill-typed.
         """
         try:
-            values = {f.name: entries[f.name] for f in fields(cls)}
-            values["links"] = tuple(
-                Link(**{**x, "axis": _triple(x["axis"])})._replace(
-                    origin=_triple(x["origin"]), com=_triple(x["com"])
-                )
-                for x in values["links"]
-            )
+            values = {f.name: _tuples(entries[f.name]) for f in fields(cls)}
+            values["links"] = tuple(Link(**x) for x in values["links"])
             for kind in ("bodies", "sites"):
-                values[kind] = {n: _frame(x) for n, x in values[kind].items()}
-            values["motors"] = tuple(values["motors"])
-            values["servos"] = tuple(
-                Servo(float(s), float(d)) for s, d in values["servos"]
-            )
-            height, radius, (low, high) = values["size"]
-            values["size"] = BodySize(height, radius, (low, high))
+                frames = values[kind].items()
+                values[kind] = {n: LinkFrame(**frame) for n, frame in frames}
+            values["servos"] = tuple(Servo(*x) for x in values["servos"])
+            values["size"] = BodySize(*values["size"])
             return cls(**values)
-        except (KeyError, TypeError, ValueError, AttributeError) as error:
+        except (KeyError, TypeError, AttributeError) as error:
             raise ModelError(f"not a robot tree: {error!r}") from error
 
 
-def _triple(numbers: Any) -> Triple:
-    x, y, z = (float(number) for number in numbers)
-    return x, y, z
-
-
-def _frame(entries: Any) -> LinkFrame:
-    x, y, z = (_triple(row) for row in entries["axes"])
-    return LinkFrame(
-        int(entries["link"]), _triple(entries["place"]), (x, y, z)
-    )
+def _tuples(entry: Any) -> Any:
+    """Return an entry of JSON with tuples in place of lists."""
+    if isinstance(entry, list):
+        return tuple(map(_tuples, entry))
+    if isinstance(entry, dict):
+        return {name: _tuples(value) for name, value in entry.items()}
+    return entry
 
 
 def write_tree(tree: RobotTree, digest: str, version: int) -> str:
     """Return the text of a tree file, one link or frame per line."""
-    entries = tree.to_json()
-    lines = [f'{{"version": {version},', f' "digest": "{digest}",']
-    links = ",\n  ".join(json.dumps(link) for link in entries["links"])
-    lines.append(f' "links": [\n  {links}],')
-    for kind in ("bodies", "sites"):
-        rows = ",\n  ".join(
-            f"{json.dumps(name)}: {json.dumps(frame)}"
-            for name, frame in entries[kind].items()
-        )
-        lines.append(f' "{kind}": {{\n  {rows}}},')
-    lines.append(f' "motors": {json.dumps(entries["motors"])},')
-    lines.append(f' "servos": {json.dumps(entries["servos"])},')
-    lines.append(f' "followers": {json.dumps(entries["followers"])},')
-    lines.append(f' "size": {json.dumps(entries["size"])}}}')
-    return "\n".join(lines) + "\n"
+    entries = {"version": version, "digest": digest} | tree.to_json()
+    lines = [f' "{name}": {json.dumps(x)}' for name, x in entries.items()]
+    return "{\n" + ",\n".join(lines).replace("}, ", "},\n  ") + "\n}\n"

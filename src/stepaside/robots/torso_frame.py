@@ -4,6 +4,7 @@ import mujoco
 import numpy as np
 
 from ..core.poses import Array
+from ..core.rotations import rotation_of
 
 IDENTITY = (1.0, 0.0, 0.0, 0.0)
 
@@ -36,27 +37,14 @@ def rotate_torso_frame(
 
 def _rotate_inertia(root: mujoco.MjsBody, quaternion: Array) -> None:
     """Express CoM and inertia of a body in a rotated frame."""
-    root.ipos[:] = rotate_vector(quaternion, np.array(root.ipos))
+    root.ipos[:] = rotation_of(quaternion) @ np.array(root.ipos)
     if np.isnan(np.array(root.fullinertia)).any():
         product = np.zeros(4)
         mujoco.mju_mulQuat(product, quaternion, np.array(root.iquat))
         root.iquat[:] = product
         return
-    axes = matrix_of(quaternion)
+    axes = rotation_of(quaternion)
     xx, yy, zz, xy, xz, yz = np.array(root.fullinertia).tolist()
     full = np.array([[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]])
     rotated = axes @ full @ axes.T
     root.fullinertia[:] = rotated[[0, 1, 2, 0, 0, 1], [0, 1, 2, 1, 2, 2]]
-
-
-def matrix_of(quaternion: Array) -> Array:
-    """Return the rotation matrix of a quaternion. Shape (3, 3)."""
-    axes = np.zeros(9)
-    mujoco.mju_quat2Mat(axes, quaternion / np.linalg.norm(quaternion))
-    return axes.reshape(3, 3)
-
-
-def rotate_vector(quaternion: Array, vector: Array) -> Array:
-    """Rotate a vector by a quaternion, within its frame. Shape (3,)."""
-    rotated: Array = matrix_of(quaternion) @ vector
-    return rotated

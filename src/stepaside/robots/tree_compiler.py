@@ -24,6 +24,8 @@ KINDS = {
     int(mujoco.mjtJoint.mjJNT_HINGE): HINGE,
     int(mujoco.mjtJoint.mjJNT_SLIDE): SLIDE,
 }
+ZERO = (0.0, 0.0, 0.0)
+TORSO = Link("", -1, "", ZERO, ZERO, 0.0, 0.0, 0.0, 0.0, ZERO)
 DECIMALS = 14  # to which numbers are rounded: 0 and 1 become exact
 
 
@@ -59,19 +61,21 @@ class _TreeExtractor:
             )
         self._origin = data.xpos[torso].copy()
         self._axes = data.xmat[torso].reshape(3, 3).copy()
-        self._links: list[Link] = []
-        self._anchors: list[Array] = []
+        self._links, self._anchors = [TORSO], [np.zeros(3)]
         self._link_of_body: dict[int, int] = {}
 
     def tree(self) -> RobotTree:
         """Extract links, frames and motors."""
         model = self._model
-        for body in range(self._torso, model.nbody):
+        self._add_mass(self._torso, 0)
+        for body in range(self._torso + 1, model.nbody):
             parent = int(model.body_parentid[body])
-            if body == self._torso:
-                self._add_torso()
-            elif parent in self._link_of_body:
-                self._add_body(body, self._link_of_body[parent])
+            if parent in self._link_of_body:
+                link = self._link_of_body[parent]
+                first = int(model.body_jntadr[body])
+                for i in range(int(model.body_jntnum[body])):
+                    link = self._add_joint(first + i, link)
+                self._add_mass(body, link)
         bodies = {
             model.body(b).name: self._frame(
                 link, self._data.xpos[b], self._data.xmat[b]
@@ -109,24 +113,6 @@ class _TreeExtractor:
             return Servo(0.0, 0.0)
         return Servo(gain, -float(by_speed))
 
-    def _add_torso(self) -> None:
-        zero = (0.0, 0.0, 0.0)
-        self._anchors.append(np.zeros(3))
-        self._links.append(
-            Link("", -1, "", zero, zero, 0.0, 0.0, 0.0, 0.0, zero)
-        )
-        self._link_of_body[self._torso] = 0
-        self._add_mass(self._torso, 0)
-
-    def _add_body(self, body: int, link: int) -> None:
-        """Add a link for each joint of a body, or weld it to its parent."""
-        model = self._model
-        start = int(model.body_jntadr[body])
-        for joint in range(start, start + int(model.body_jntnum[body])):
-            link = self._add_joint(joint, link)
-        self._link_of_body[body] = link
-        self._add_mass(body, link)
-
     def _add_joint(self, joint: int, parent: int) -> int:
         model, data = self._model, self._data
         name = model.joint(joint).name
@@ -150,15 +136,15 @@ class _TreeExtractor:
                 float(model.qpos0[model.jnt_qposadr[joint]]),
                 low,
                 high,
-                0.0,
-                (0.0, 0.0, 0.0),
+                *(0.0, ZERO),
             )
         )
         self._anchors.append(anchor)
         return len(self._links) - 1
 
     def _add_mass(self, body: int, link: int) -> None:
-        """Lump the mass of a body into its link."""
+        """Weld a body to a link."""
+        self._link_of_body[body] = link
         mass = float(self._model.body_mass[body])
         com = self._to_torso(self._data.xipos[body]) - self._anchors[link]
         old = self._links[link]

@@ -11,6 +11,7 @@ import numpy as np
 
 from ..core.errors import ModelError
 from ..core.poses import Array
+from ..core.rotations import rotation_of
 from .description import RobotDescription
 from .head import depth_camera_name, load_head
 
@@ -93,6 +94,9 @@ def urdf_tree(
     Raises:
         ModelError: If it has a joint that URDF cannot express.
     """
+    data = mujoco.MjData(model)
+    data.qpos[:] = 0.0
+    mujoco.mj_kinematics(model, data)
     none, torso = np.zeros(3), model.body(description.torso).id
     links = [
         UrdfLink(BASE, None, none),
@@ -103,12 +107,15 @@ def urdf_tree(
     for body in range(torso + 1, model.nbody):
         parent = parents.get(int(model.body_parentid[body]))
         if parent is not None:
-            added = _joints_of(model, body, parent)
+            added = _joints_of(model, data, body, parent)
             links += [UrdfLink(joint.child, -1, none) for joint in added[:-1]]
-            own = UrdfLink(added[-1].child, body, _anchor_of(model, body))
-            links.append(own)
+            count, anchor = int(model.body_jntnum[body]), none
+            if count > 0:
+                last = int(model.body_jntadr[body]) + count - 1
+                anchor = model.jnt_pos[last].copy()
+            parents[body] = UrdfLink(added[-1].child, body, anchor)
+            links.append(parents[body])
             joints += added
-            parents[body] = own
     anchors = {link.name: link.anchor for link in links}
     for frame in _frames_of(description, model):
         position = frame.position - anchors[frame.parent]
@@ -157,47 +164,43 @@ def _site_frame(model: mujoco.MjModel, name: str, site: int) -> UrdfJoint:
 
 
 def _joints_of(
-    model: mujoco.MjModel, body: int, parent: UrdfLink
+    model: mujoco.MjModel, data: mujoco.MjData, body: int, parent: UrdfLink
 ) -> list[UrdfJoint]:
     """Return the joints of a body; several hinges get links between them.
+
+    Args:
+        model: Compiled model.
+        data: Its state with all joints at 0.
+        body: Index of the body.
+        parent: Link of its parent.
 
     Raises:
         ModelError: If one is a ball or a free joint.
     """
-    position = model.body_pos[body] - parent.anchor
-    axes = rotation_of(model.body_quat[body])
-    own = link_name(model, body)
+    before = data.xmat[parent.body].reshape(3, 3)
+    place = data.xpos[parent.body] + before @ parent.anchor
+    axes, own = data.xmat[body].reshape(3, 3), link_name(model, body)
     first, count = int(model.body_jntadr[body]), int(model.body_jntnum[body])
     if count == 0:
-        return [_fixed(parent.name, own, position, axes)]
+        position = before.T @ (data.xpos[body] - place)
+        return [_fixed(parent.name, own, position, before.T @ axes)]
     joints: list[UrdfJoint] = []
-    link, anchor = parent.name, np.zeros(3)
+    link = parent.name
     for index in range(first, first + count):
         name, kind = model.joint(index).name, _kind_of(model, index)
         child = own if index == first + count - 1 else f"{name}_link"
-        position = position + axes @ (model.jnt_pos[index] - anchor)
-        axis = model.jnt_axis[index].copy()
-        zero = float(model.qpos0[model.jnt_qposadr[index]])
-        if kind == "prismatic":
-            position = position - axes @ (zero * axis)
-        else:
-            axes = axes @ _about(axis, -zero)
+        anchor, axis = data.xanchor[index], data.xaxis[index]
+        if kind == "prismatic":  # the anchor is that before it slides
+            anchor = anchor - model.qpos0[model.jnt_qposadr[index]] * axis
+        position, turned = before.T @ (anchor - place), before.T @ axes
         joints.append(
-            UrdfJoint(name, kind, link, child, position, axes, index, axis)
+            UrdfJoint(
+                *(name, kind, link, child, position, turned, index),
+                axes.T @ axis,
+            )
         )
-        link, anchor = child, model.jnt_pos[index]
-        position, axes = np.zeros(3), np.eye(3)
+        link, place, before = child, anchor, axes
     return joints
-
-
-def _anchor_of(model: mujoco.MjModel, body: int) -> Array:
-    """Return the origin of a body's link in the body, in [m]."""
-    count = int(model.body_jntnum[body])
-    if count == 0:
-        return np.zeros(3)
-    last = int(model.body_jntadr[body]) + count - 1
-    anchor: Array = model.jnt_pos[last].copy()
-    return anchor
 
 
 def _kind_of(model: mujoco.MjModel, joint: int) -> str:
@@ -219,19 +222,6 @@ def _kind_of(model: mujoco.MjModel, joint: int) -> str:
 
 def _fixed(parent: str, child: str, position: Array, axes: Array) -> UrdfJoint:
     return UrdfJoint(f"{child}_fixed", "fixed", parent, child, position, axes)
-
-
-def rotation_of(quaternion: Array) -> Array:
-    """Return the axes of a unit quaternion (w, x, y, z). Shape (3, 3)."""
-    matrix = np.zeros(9)
-    mujoco.mju_quat2Mat(matrix, quaternion)
-    return matrix.reshape(3, 3)
-
-
-def _about(axis: Array, angle: float) -> Array:
-    quaternion = np.zeros(4)
-    mujoco.mju_axisAngle2Quat(quaternion, axis, angle)
-    return rotation_of(quaternion)
 
 
 def link_name(model: mujoco.MjModel, body: int) -> str:

@@ -5,8 +5,7 @@ cylinder with two spheres, an ellipsoid a row of spheres, and any other shape,
 such as a mesh, its bounding box. Joint angles mean the same as in the model.
 """
 
-from collections.abc import Iterator
-from math import asin, atan2
+from collections.abc import Iterable, Iterator
 from xml.etree import ElementTree
 
 import mujoco
@@ -14,8 +13,9 @@ import numpy as np
 
 from ..core.player_colours import Colour
 from ..core.poses import Array
+from ..core.rotations import angles_of, rotation_of
 from .description import RobotDescription
-from .urdf_elements import rotation_of, urdf_tree
+from .urdf_elements import urdf_tree
 
 UNLIMITED = 1e6  # effort of a motor without a limit, in [N m]
 VISIBLE_GROUP = 2  # geoms of higher groups are not drawn
@@ -202,21 +202,13 @@ def _add_origin(
     parent: ElementTree.Element, position: Array, axes: Array
 ) -> None:
     """Add an origin with roll, pitch and yaw about fixed axes."""
-    pitch = asin(max(-1.0, min(1.0, -float(axes[2, 0]))))
-    if abs(float(axes[2, 0])) > 1.0 - 1e-12:  # gimbal lock: yaw is free
-        roll = 0.0
-        yaw = atan2(-float(axes[0, 1]), float(axes[1, 1]))
-    else:
-        roll = atan2(float(axes[2, 1]), float(axes[2, 2]))
-        yaw = atan2(float(axes[1, 0]), float(axes[0, 0]))
-    ElementTree.SubElement(
-        parent, "origin", xyz=_texts(position), rpy=_texts([roll, pitch, yaw])
-    )
+    rpy = _texts(angles_of(axes))
+    ElementTree.SubElement(parent, "origin", xyz=_texts(position), rpy=rpy)
 
 
 def _text(value: float) -> str:
     return f"{float(value):.12g}"
 
 
-def _texts(values: Array | list[float]) -> str:
+def _texts(values: Array | Iterable[float]) -> str:
     return " ".join(_text(0.0 if abs(v) < 1e-12 else v) for v in values)

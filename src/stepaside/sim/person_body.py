@@ -1,11 +1,12 @@
 """Body of a person in a world."""
 
-from math import cos, hypot, pi, sin
+from math import hypot, pi, sin
 
 import mujoco
 
 from ..core.player_colours import Colour
 from ..core.poses import Pose
+from ..core.rotations import quaternion_of
 from .ground_truth import FloorTruth
 from .pedestrian_appearance import FIGURES, HIP, PedestrianModel
 from .world import CONTACT_BITS, FLOOR_BIT, World
@@ -106,7 +107,7 @@ def set_person_pose(
         index = parts[part]
         place = frame.compose(Pose(size * x, size * y, 0.0))
         data.mocap_pos[index] = place.x, place.y, size * z
-        data.mocap_quat[index] = _quaternion(frame.theta, pitch)
+        data.mocap_quat[index] = quaternion_of(0.0, pitch, frame.theta)
 
 
 class PersonBody:
@@ -140,10 +141,3 @@ class PersonBody:
         self.truth.move(pose)
         data, walked = self.world.data, self._walked
         set_person_pose(data, self._parts, pose, walked, self._figure)
-
-
-def _quaternion(heading: float, pitch: float) -> tuple[float, ...]:
-    """Return the quaternion of a heading followed by a pitch."""
-    ch, sh = cos(0.5 * heading), sin(0.5 * heading)
-    cp, sp = cos(0.5 * pitch), sin(0.5 * pitch)
-    return ch * cp, -sh * sp, ch * sp, sh * cp

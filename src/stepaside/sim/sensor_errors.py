@@ -214,7 +214,8 @@ class SensorErrors:
         # Noise of coming readings; drawn together as if one by one.
         self._noise: Iterator[Array] = iter(())
         self._gains = 1.0 + body.force_gain_error * generator.uniform(-1, 1, 8)
-        self._imu: deque[tuple[Array, Array]] = deque(
+        self._last: tuple[float, Array] | None = None
+        self._imu: deque[tuple[Array, Array, Array]] = deque(
             maxlen=body.imu_delay_cycles + 1
         )
 
@@ -228,19 +229,36 @@ class SensorErrors:
         steps *= step
         return steps
 
+    def velocities(self, exact: Array, angles: Array, now: float) -> Array:
+        """Return joint velocities as encoders give them, in [rad/s].
+
+        They are the change of the quantised angles since the last reading.
+
+        Args:
+            exact: True velocities, at the first reading. Shape (joints,).
+            angles: Quantised angles, in [rad]. Shape (joints,).
+            now: Time, in [s].
+        """
+        last, self._last = self._last, (now, angles)
+        if self._body.encoder_step == 0.0 or last is None or now <= last[0]:
+            return exact
+        changed: Array = (angles - last[1]) / (now - last[0])
+        return changed
+
     def readings(
-        self, gyro: Array, force: Array, foot_forces: Array
-    ) -> tuple[Array, Array, Array]:
+        self, gyro: Array, force: Array, latest: Array, foot_forces: Array
+    ) -> tuple[Array, Array, Array, Array]:
         """Return readings of IMU and feet with their errors.
 
         Args:
             gyro: True angular velocity, in [rad/s]. Shape (3,).
             force: True specific force, in [m/s^2]. Shape (3,).
+            latest: True angular velocity at this instant. Shape (3,).
             foot_forces: True normal forces, in [N]. Shape (8,).
 
         Returns:
-            Noisy and delayed angular velocity and specific force, and noisy
-            normal forces, at least zero.
+            Noisy and delayed angular velocity, specific force and latest
+            angular velocity, and noisy normal forces, at least zero.
         """
         noise = next(self._noise, None)
         if noise is None:
@@ -250,7 +268,8 @@ class SensorErrors:
         readings = np.concatenate((gyro, force))
         readings += self._imu_bias
         readings += noise[:6]
-        self._imu.append((readings[:3], readings[3:]))
+        latest = latest + readings[:3] - gyro
+        self._imu.append((readings[:3], readings[3:], latest))
         noisy = foot_forces * self._gains
         noisy += noise[6:]
         return *self._imu[0], np.maximum(noisy, 0.0, out=noisy)

@@ -284,7 +284,9 @@ class SimulatedRobot:
             )
         self.world.update_sensors()
         angles = self._qpos_view[self._qpos].copy()
-        latest = None
+        velocities = latest = None
+        if self._dofs is not None:
+            velocities = self._qvel_view[self._dofs].copy()
         if self._strapdown is not None:
             gyro, specific_force, latest = self._strapdown.read()
         elif self._imu is None:
@@ -297,9 +299,13 @@ class SimulatedRobot:
         forces = self._sensordata[self._force_span].copy()
         if self._errors is not None:
             angles = self._errors.encoders(angles)
-            gyro, specific_force, forces = self._errors.readings(
-                gyro, specific_force, forces
+            if velocities is not None:
+                velocities = self._errors.velocities(velocities, angles, now)
+            present = gyro if latest is None else latest
+            gyro, specific_force, noisy, forces = self._errors.readings(
+                gyro, specific_force, present, forces
             )
+            latest = None if latest is None else noisy
         return Measurement(
             now,
             angles,
@@ -309,7 +315,7 @@ class SimulatedRobot:
             first,
             percepts,
             place,
-            None if self._dofs is None else self._qvel_view[self._dofs].copy(),
+            velocities,
             seen,
             latest,
         )

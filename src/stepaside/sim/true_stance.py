@@ -1,11 +1,12 @@
 """True stance of a robot: velocity, tilt and sole poses."""
 
-from math import asin, atan2
+from math import atan2
 from typing import NamedTuple
 
 import mujoco
 
 from ..core.poses import Pose
+from ..core.rotations import angles_of
 from ..robots.description import RobotDescription
 
 
@@ -46,10 +47,9 @@ class StanceWatch:
         data, torso = self._data, self._torso
         mujoco.mj_subtreeVel(self._model, data)
         vx, vy, _ = data.subtree_linvel[torso].tolist()
-        frame = data.xmat[torso].tolist()
         left, right = (self._pose(sole) for sole in self._soles)
-        tilt = atan2(frame[7], frame[8]), -asin(max(-1.0, min(1.0, frame[6])))
-        return TrueStance((vx, vy), tilt, left, right)
+        roll, pitch, _ = angles_of(data.xmat[torso].reshape(3, 3))
+        return TrueStance((vx, vy), (roll, pitch), left, right)
 
     def _pose(self, site: int) -> Pose:
         x, y, _ = self._data.site_xpos[site].tolist()

@@ -12,10 +12,10 @@ from typing import Any
 
 import numpy as np
 
+from ..core.entries import load_entries
 from ..core.errors import ConfigurationError
 from ..games.configuration_file import (
     json_settings,
-    load_entries,
     over,
     parse_settings,
 )

@@ -278,3 +278,20 @@ def test_malformed_metadata_are_named(tmp_path: Path) -> None:
     path = constant_policy(tmp_path / "a.onnx", kp="stiff")
     with pytest.raises(PolicyError, match="metadata entry 'kp'"):
         read(path)
+
+
+def test_the_model_fills_in_what_is_missing(tmp_path: Path) -> None:
+    """Never in place of what the network brings."""
+    path = constant_policy(tmp_path / "a.onnx")
+    values = dict(zip((*JOINTS, "arm"), (0.1, 0.2, 0.3, 0.4), strict=True))
+    reading = read_contract(
+        PolicyNetwork(path),
+        motors=JOINTS,
+        legs=JOINTS,
+        entries={},
+        published={"default_posture": values, "stiffness": values},
+    )
+    contract = reading.contract()
+    assert contract.default_posture == (0.1, 0.2, 0.3)
+    assert reading.sources["default_posture"] == "model"
+    assert contract.stiffness == (40.0, 50.0, 20.0)

@@ -22,8 +22,8 @@ def up_at(roll: float, pitch: float) -> Array:
 def standing(up: Array, velocity: Array = NONE) -> GravityFilter:
     """Filter of a robot that has stood for a second."""
     found = GravityFilter(velocity, TICK)
-    while not found.ready:
-        found.update(NONE, GRAVITY * up)
+    while not found.knows:
+        found.take(NONE, GRAVITY * up)
     return found
 
 
@@ -37,9 +37,9 @@ def test_a_standing_robot_knows_its_tilt(roll: float, pitch: float) -> None:
 def test_a_robot_that_sways_before_it_is_ready_knows_its_tilt() -> None:
     """A policy may not rest in its default posture."""
     found, angle = GravityFilter(NONE, TICK), 0.0
-    while not found.ready:
+    while not found.knows:
         force = GRAVITY * up_at(0.0, angle)
-        found.update(np.array([0.0, 0.3, 0.0]), force)
+        found.take(np.array([0.0, 0.3, 0.0]), force)
         angle += 0.3 * TICK
         assert found.tilt[1] == pytest.approx(angle, abs=2e-3)
 
@@ -52,7 +52,7 @@ def test_the_tilt_follows_the_gyro(axis: int) -> None:
     for i in range(1, 126):
         angle = i * TICK
         up = up_at(angle, 0.0) if axis == 0 else up_at(0.0, angle)
-        found.update(rate, GRAVITY * up)
+        found.take(rate, GRAVITY * up)
     assert found.tilt[axis] == pytest.approx(0.5, abs=2e-3)
 
 
@@ -64,7 +64,7 @@ def test_a_turn_about_the_vertical_leaves_the_tilt() -> None:
         turned = np.array(
             [c * up[0] - s * up[1], s * up[0] + c * up[1], up[2]]
         )
-        found.update(np.array([0.0, 0.0, 1.0]), GRAVITY * turned)
+        found.take(np.array([0.0, 0.0, 1.0]), GRAVITY * turned)
     np.testing.assert_allclose(found.up, turned, atol=0.01)
 
 
@@ -72,7 +72,7 @@ def test_a_constant_gyro_bias_is_learned() -> None:
     up = up_at(0.0, 0.0)
     found, bias = standing(up), np.array([0.01, -0.02, 0.0])
     for _ in range(round(120.0 / TICK)):
-        found.update(bias, GRAVITY * up)
+        found.take(bias, GRAVITY * up)
     assert found.tilt == pytest.approx((0.0, 0.0), abs=1e-4)
 
 
@@ -91,7 +91,7 @@ def test_the_heading_of_a_torso_that_rolls_and_pitches_stays(
         p, q = np.subtract((roll, pitch), last) / TICK
         middle = 0.5 * (roll + last[0])
         gyro = np.array([p, q * np.cos(middle), -q * np.sin(middle)])
-        found.update(gyro, GRAVITY * up_at(roll, pitch))
+        found.take(gyro, GRAVITY * up_at(roll, pitch))
         turned += TICK * found.turning.item(0)
         about_axis += TICK * gyro.item(2)
     assert abs(about_axis) > 1.0
@@ -107,7 +107,7 @@ def test_vertical_impacts_leave_the_tilt() -> None:
         pitch, rate = 0.05 * np.sin(phase), 0.05 * 4.0 * np.pi * np.cos(phase)
         up = up_at(0.0, pitch)
         force = (GRAVITY + 5.0 * np.sin(phase)) * up
-        found.update(np.array([0.0, rate, 0.0]), force)
+        found.take(np.array([0.0, rate, 0.0]), force)
         errors.append(found.tilt[1] - pitch)
     assert abs(np.mean(errors[-1000:])) < 2e-3
 
@@ -116,7 +116,7 @@ def test_a_known_acceleration_is_no_tilt() -> None:
     """On a circle to the left, at 1 m/s and 1 rad/s."""
     found = standing(up_at(0.0, 0.0), np.array([1.0, 0.0, 0.0]))
     rate, force = np.array([0.0, 0.0, 1.0]), np.array([0.0, 1.0, GRAVITY])
-    found.update(rate, GRAVITY * up_at(0.0, 0.0))
+    found.take(rate, GRAVITY * up_at(0.0, 0.0))
     for _ in range(1000):
-        found.update(rate, force)
+        found.take(rate, force)
     assert found.tilt == pytest.approx((0.0, 0.0), abs=1e-9)

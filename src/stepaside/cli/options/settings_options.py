@@ -16,8 +16,9 @@ import click
 from click.core import ParameterSource
 
 from ...arena import Room, RoomRecipe
+from ...core.entries import load_entries
 from ...core.setting import REQUIRED, Setting, settings_of
-from ...games.configuration_file import load_entries, parse_settings
+from ...games.configuration_file import parse_settings
 from ...games.robot_settings import (
     body_of_robot,
     with_legs,

@@ -14,8 +14,8 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from ...core.errors import ConfigurationError, ModelError
+from ...core.rotations import rotation
 from ...perception.measurement import Sighting
-from ...robots.head import rotation
 from ..joint.joint_robot import JointReport, JointRobot, JointTarget
 from .league_messages import Expression, MessageSocket, parse_expressions
 

@@ -6,9 +6,9 @@ from itertools import pairwise
 import numpy as np
 
 from ...core.poses import Pose, wrap_angle
+from ...core.rotations import rotation
 from ...perception.pipeline import Perception
 from ...robots.body_pose import BodyPose
-from ...robots.head import rotation
 from ..cameras.robot_camera import CameraMount, PosedCamera, colour_image
 from .adapter_body import AdapterBody
 from .velocity_body import VelocityCommand, VelocityReport

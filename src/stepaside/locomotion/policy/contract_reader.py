@@ -34,6 +34,7 @@ OWN_ENTRY = "stepaside_contract"
 """Metadata entry with such entries as JSON."""
 
 FOLDER = Path(__file__).parent / "conventions"
+NOTHING: Mapping[str, Mapping[str, float]] = {}
 MALFORMED = AttributeError, KeyError, RecursionError, TypeError, ValueError
 PERIODS = 0.002, 0.1  # plausible control periods, in [s]
 ANGLE = 3.2  # greatest plausible default angle, in [rad]
@@ -171,6 +172,7 @@ def read_contract(
     motors: Sequence[str],
     legs: Sequence[str],
     entries: Mapping[str, Any],
+    published: Mapping[str, Mapping[str, float]] = NOTHING,
     convention: str = "",
 ) -> ContractReading:
     """Collect the contract of a network.
@@ -180,6 +182,8 @@ def read_contract(
         motors: Actuated joints of the robot, in the order of its model.
         legs: Leg joints of the robot, in the order of its description.
         entries: Entries of ``[locomotion]`` of the robot description.
+        published: Gains and posture of the robot's model, by joint, which
+            fill in what is missing.
         convention: Name of the convention; empty to recognise it.
 
     Raises:
@@ -213,6 +217,11 @@ def read_contract(
             reading.put("joints", tuple(names), f"assumed: {words} in order")
     if used is not None:
         _put_robot_values(reading, used)
+    joints = reading.values.get("joints", ())
+    for key, values in published.items():
+        own = {name: values[name] for name in joints if name in values}
+        if key not in reading.values and len(own) == len(joints) > 0:
+            reading.put(key, own, "model")
     _spread(reading)
     _drop_unobserved_velocity(reading, network)
     return reading

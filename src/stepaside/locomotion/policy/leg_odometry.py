@@ -6,6 +6,7 @@ import numpy as np
 
 from ...core.compilation import bound, compiled
 from ...core.poses import Array, Pose
+from ...core.rotations import rotation
 from ...perception.measurement import Measurement
 from ...planning import Foot
 from ...robots.forward_kinematics import ForwardKinematics
@@ -154,7 +155,7 @@ class LegOdometry:
         left, right = self._loads[0].reshape(2, 4).sum(axis=1).tolist()
         side = Foot.LEFT if left >= right else Foot.RIGHT
         i = 0 if side is Foot.LEFT else 1
-        level = _tilted(*self._tilt)
+        level = rotation(*self._tilt, 0.0)
         ahead = level @ self._axes[i, :, 0]
         place = level @ (self._feet[i] - self._com)
         yaw = atan2(ahead[1], ahead[0])
@@ -187,7 +188,7 @@ class LegOdometry:
     def _loads_by_height(self) -> Array:
         """Return weights of the corners of both soles by their height."""
         self._forward.run()
-        up = _tilted(*self._tilt)[2]
+        up = rotation(*self._tilt, 0.0)[2]
         height = self._feet @ up
         corners = self._corners.reshape(2, 4, 2)
         slopes = up @ self._axes[:, :, :2]
@@ -195,11 +196,3 @@ class LegOdometry:
         above = heights.reshape(8) - heights.min()
         weights: Array = np.exp(-above / CONTACT)
         return weights
-
-
-def _tilted(roll: float, pitch: float) -> Array:
-    """Return the rotation from the torso to its level frame."""
-    sr, cr, sp, cp = sin(roll), cos(roll), sin(pitch), cos(pitch)
-    return np.array(
-        [[cp, sp * sr, sp * cr], [0.0, cr, -sr], [-sp, cp * sr, cp * cr]]
-    )

@@ -36,6 +36,7 @@ def load_policy(
         motors=tree.motors,
         legs=description.legs,
         entries=description.locomotion,
+        published=description.published,
         convention=legs.contract,
     )
     return check_contract(reading, network, tree.driven_joints), network

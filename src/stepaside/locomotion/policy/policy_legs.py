@@ -134,7 +134,7 @@ class PolicyLegs:
     @property
     def ready(self) -> bool:
         """Whether it has stood long enough to know where up is."""
-        return self._gravity.ready
+        return self._gravity.knows
 
     @property
     def velocities(self) -> VelocitySet:
@@ -175,7 +175,7 @@ class PolicyLegs:
             self.intended = self.velocities.nearest(velocity)
             self._intended[:] = self.intended
         gravity = self._gravity
-        gravity.update(measurement.gyro, measurement.accelerometer)
+        gravity.take(measurement.gyro, measurement.accelerometer)
         if measurement.tilt is not None:
             gravity.adopt(measurement.tilt)
         self.tilt = gravity.tilt

@@ -1,5 +1,6 @@
 """Games on a grid: the distance that a robot can keep from an opponent."""
 
+from .chauffeur import ChauffeurGame, SpeedEllipse, solve_chauffeur
 from .pose_grid import PoseGrid, sub_poses
 from .shield_game import PersonModel, ShieldGame
 from .shield_solver import solve_shield
@@ -8,12 +9,15 @@ from .solver import PursuerLaw, solve_game
 from .table import ValueTable
 
 __all__ = [
+    "ChauffeurGame",
     "PersonModel",
     "PoseGrid",
     "PursuerLaw",
     "ShieldGame",
     "ShieldTable",
+    "SpeedEllipse",
     "ValueTable",
+    "solve_chauffeur",
     "solve_game",
     "solve_shield",
     "sub_poses",

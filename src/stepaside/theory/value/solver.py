@@ -16,7 +16,7 @@ schemes that advance less than a cell at a time smooth them out.
 """
 
 from collections.abc import Callable
-from math import ceil, inf, log, pi
+from math import ceil, inf, log
 from time import perf_counter
 from typing import Any, NamedTuple
 
@@ -64,7 +64,7 @@ def solve_game(
     sag: float = 0.0,
     coarse: int = 1,
     outside: Callable[[Array], float] = rising,
-    reach: float = 0.0,
+    reach: float = inf,
     progress: Callable[[float], object] | None = None,
 ) -> ValueTable:
     """Compute the distance that a robot can keep from every state.
@@ -83,8 +83,7 @@ def solve_game(
             the best is then refined by halving.
         outside: Returns the value outside the grid from the values of the
             nodes; zero ends the solution, since nothing can be kept.
-        reach: Distance up to which a change is taken to matter for others, in
-            [m]; at least that by which a state moves in a period.
+        reach: Distance from changes within which values may change, in [m].
         progress: Called with fractions of the work done since the last call.
 
     Returns:
@@ -108,7 +107,6 @@ def solve_game(
         grid, outside(v), sag=sag, cubic=cubic, coarse=coarse, law=answers
     )
     replies = no_answer() if isinstance(answers, PursuerLaw) else answers
-    reach = max(reach, reach_of(motions, answers, grid) + disturbance)
     guesses = np.zeros((*grid.shape, 2), np.int32)
     changes, active = np.zeros(grid.shape[:2]), (v < most).any(axis=2)
     active, after = near(active, grid, reach), v
@@ -161,25 +159,10 @@ def no_answer() -> Array:
     return np.zeros((1, PARTS, 3))
 
 
-def reach_of(
-    motions: Array, answers: Array | PursuerLaw, grid: PoseGrid
-) -> float:
-    """Return how far a state moves at most in a period, in [m].
-
-    A turn of the opponent moves far states by more than near ones.
-    """
-    if isinstance(answers, PursuerLaw):
-        way = answers.speed * answers.period
-        turn = answers.gain * pi * answers.period
-    else:
-        way = float(np.hypot(answers[..., 0], answers[..., 1]).max())
-        turn = float(np.abs(answers[..., 2]).max())
-    own = float(np.hypot(motions[..., 0], motions[..., 1]).max())
-    return own + way + turn * grid.farthest
-
-
 def near(marked: Any, grid: PoseGrid, reach: float) -> Any:
     """Return the columns that have a marked one within a reach, in [m]."""
+    if reach == inf:
+        return np.ones_like(marked)
     width = ceil(reach / grid.spacing) + 2
     for _ in range(2):  # along x, then along y
         total = np.cumsum(marked, axis=0, dtype=np.int64)
@@ -197,7 +180,7 @@ def step_back(
     rules: OutcomeRules,
     grid: PoseGrid,
     start: Array,
-    reach: float = 0.0,
+    reach: float = inf,
 ) -> Array:
     """Return the values a motion before those at its end.
 
@@ -212,7 +195,6 @@ def step_back(
     """
     found = start.copy()
     guesses = np.zeros((*grid.shape, 2), np.int32)
-    reach = max(reach, reach_of(motions, answers, grid))
     active = near((after < after.max()).any(axis=2), grid, reach)
     changes = np.zeros(grid.shape[:2])
     relax(found, after, guesses, active, motions, answers, rules, changes)

@@ -1,16 +1,16 @@
 """Table of a solved game: values and decisions of both players."""
 
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
-from numpy.typing import ArrayLike
+from numpy.typing import ArrayLike, NDArray
 
 from ...core.brief_repr import brief_repr
 from ...core.poses import Array
 from .outcomes import OutcomeRules, choose_all, look_up_all
 from .pose_grid import PoseGrid
 
+Numbers = NDArray[np.int64]
 TIE = 1e-3  # weight of the value after a period where it decides nothing
 
 
@@ -51,7 +51,7 @@ class ValueTable:
         """
         return interpolated(self.values, poses, self.rules)
 
-    def best_motion(self, poses: ArrayLike) -> Any:
+    def best_motion(self, poses: ArrayLike) -> Numbers:
         """Return the number of the motion that keeps the largest distance.
 
         Where it does not matter, the value after it decides.
@@ -59,9 +59,10 @@ class ValueTable:
         Args:
             poses: As in :meth:`value`.
         """
-        return self.decisions(poses)[..., 0]
+        chosen: Numbers = self.decisions(poses)[..., 0]
+        return chosen
 
-    def decisions(self, poses: ArrayLike) -> Any:
+    def decisions(self, poses: ArrayLike) -> Numbers:
         """Return the numbers of best motions and of answers to them.
 
         Args:

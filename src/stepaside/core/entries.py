@@ -1,0 +1,129 @@
+"""Files of entries: TOML and JSON, read into dataclasses and written."""
+
+import json
+import tomllib
+from collections.abc import Callable, Collection, Mapping
+from dataclasses import fields, is_dataclass
+from enum import Enum
+from pathlib import Path
+from typing import Any, TypeVar
+
+from .errors import ConfigurationError, StepAsideError
+from .regular_files import check_regular
+from .setting import EntryReader, Readers
+
+S = TypeVar("S")
+ERROR = ConfigurationError
+MAX_CHARACTERS = 2**20  # of a file
+
+
+def load_entries(
+    path: Path, error: type[StepAsideError] = ERROR
+) -> dict[str, Any]:
+    """Read the nested entries of a TOML file, or of one with suffix .json.
+
+    Raises:
+        StepAsideError: Of class ``error``, if the file cannot be read.
+    """
+    try:
+        check_regular(path)
+        with path.open("rb") as file:
+            text = file.read(MAX_CHARACTERS + 1).decode("utf-8-sig")
+    except (OSError, UnicodeDecodeError) as cause:
+        reason = getattr(cause, "strerror", None) or str(cause)
+        raise error(f"{path}: {reason.lower()}") from cause
+    read = json.loads if path.suffix.lower() == ".json" else tomllib.loads
+    return parse_entries(text, str(path), error, read)
+
+
+def parse_entries(
+    text: str,
+    source: str,
+    error: type[StepAsideError] = ERROR,
+    read: Callable[[str], Any] = tomllib.loads,
+) -> dict[str, Any]:
+    """Parse text into nested entries.
+
+    Args:
+        text: TOML, or what ``read`` parses.
+        source: Origin of the text, for messages.
+        error: Class of the error.
+        read: Parser.
+    """
+    if len(text) > MAX_CHARACTERS:
+        raise error(f"{source} must have at most {MAX_CHARACTERS} characters")
+    try:
+        entries = read(text)
+    except RecursionError as cause:
+        raise error(f"{source} is nested too deep") from cause
+    except ValueError as cause:  # or an integer of too many digits
+        raise error(f"{source}: {cause}") from cause
+    if not isinstance(entries, dict):
+        raise error(f"{source} must hold one object, got {entries!r:.40}")
+    return entries
+
+
+def read_entries(
+    kind: type[S],
+    entries: Mapping[str, Any],
+    source: str,
+    *,
+    base: S | None = None,
+    readers: Readers | None = None,
+    aside: Collection[str] = (),
+    ignoring: bool = False,
+    error: type[StepAsideError] = ERROR,
+) -> S:
+    """Turn nested entries into a dataclass.
+
+    Types, ranges, units and names are those of its fields; see
+    :func:`~.setting.setting`.
+
+    Args:
+        kind: The dataclass.
+        entries: Sections and values.
+        source: Where they come from, for messages.
+        base: Value that holds for omitted entries, in sections as well; by
+            default the defaults of the class.
+        readers: Functions that read some classes, such as rooms.
+        aside: Entries that are ignored, as they belong to something else.
+        ignoring: Whether all unknown entries are ignored.
+        error: Class of the error.
+
+    Raises:
+        StepAsideError: Of class ``error``; names every entry that is
+            unknown, missing, of the wrong type or out of its range.
+    """
+    left = set(aside) - {field.name for field in fields(kind)}  # type: ignore[arg-type]
+    own = {name: value for name, value in entries.items() if name not in left}
+    reader = EntryReader(readers, ignoring=ignoring)
+    made: S = reader.read_table(own, kind, "", base)
+    if reader.problems:
+        raise error(f"{source}: {'; '.join(reader.problems)}")
+    return made
+
+
+def to_entries(value: Any, writers: Readers | None = None) -> Any:
+    """Return a value as nested entries, without those that are None.
+
+    Args:
+        value: Dataclass, or a value in one.
+        writers: Functions that write some classes, such as rooms.
+    """
+    if writers and type(value) in writers:
+        return writers[type(value)](value)
+    if is_dataclass(value) and not isinstance(value, type):
+        value = {f.name: getattr(value, f.name) for f in fields(value)}
+    elif hasattr(value, "_asdict"):
+        value = value._asdict()
+    if isinstance(value, Mapping):
+        return {
+            name: to_entries(each, writers)
+            for name, each in value.items()
+            if each is not None
+        }
+    if isinstance(value, list | tuple):
+        return [to_entries(each, writers) for each in value]
+    if isinstance(value, Path):
+        return str(value)
+    return value.value if isinstance(value, Enum) else value
