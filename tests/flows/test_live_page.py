@@ -137,7 +137,6 @@ def test_a_driven_robot_turns_and_halts_as_it_is_told(
     way: str, sign: float, fresh: Page
 ) -> None:
     fresh.play(2.0)
-    began = fresh.time
     fresh.press("Turn", way)
     fresh.play(4.0)
     assert f"Driven by hand**: the pursuer walks to the {way}" in fresh.texts
@@ -148,13 +147,9 @@ def test_a_driven_robot_turns_and_halts_as_it_is_told(
     fresh.play(2.0)
     assert "Driven by hand**: the pursuer halts" in fresh.texts
     fresh.press("Stop driving")
-    passed = fresh.time - began
     assert "Not driven: the pursuer follows its own" in fresh.texts
     fresh.play(3.0)
-    *_, score = re.findall(r"([\d.]+) s \| .* \| released", fresh.texts)
-    assert float(score) == pytest.approx(passed, abs=0.9)
-    run = fresh.save()
-    path = run.tracks["pursuer"].torso
+    path = fresh.save().tracks["pursuer"].torso
     rest, released = len(heading) + 75, len(heading) + 100
     assert np.ptp(path[rest:released, :2], axis=0).max() < 0.01
     assert sign * (path[-1, 2] - path[released, 2]) < -0.05  # back, and on

@@ -129,7 +129,7 @@ def test_a_live_duel_can_be_watched_pushed_and_driven(browser: Any) -> None:
             page,
             lambda: (p := mind.state.plan) is not None and p.bearing > 0.8,
         )
-        page.get_by_text("the evader survived").wait_for()
+        page.get_by_text("walks to the left").first.wait_for()
 
         press(page, "Pause")
         until(page, lambda: not session.running)
@@ -156,58 +156,6 @@ def test_a_live_duel_can_be_watched_pushed_and_driven(browser: Any) -> None:
     finally:
         live.close()
     assert threading.active_count() < 50
-
-
-def test_a_robot_is_pulled_with_the_pointer(
-    browser: Any,
-) -> None:
-    from stepaside.report.viewer.live_page import Page
-
-    live = Page(DuelSettings(), port=8771)
-    live.start()
-    session = live.session
-    pursuer = session.match.players[0]
-    assert isinstance(pursuer, SimulatedPlayer)
-    try:
-        page = open_page(browser, width=900)
-        page.goto(f"http://127.0.0.1:{live.server.get_port()}")
-        page.get_by_text("standing").first.wait_for()
-        # By the evader's view the pursuer is in the middle.
-        box = page.locator("canvas").first.bounding_box()
-        x = box["x"] + 0.5 * box["width"]
-        y = box["y"] + 0.5 * box["height"]
-
-        def pulled() -> bool:
-            """Pull, until the camera is where it shall be.
-
-            A pull that meets no robot turns the camera, which stays so while
-            the robots stand: another camera and back sets it right. What the
-            pointer meets is where it was drawn last.
-            """
-            with looking(page):
-                for camera in ("top", "player's view"):
-                    press(page, camera)
-                    page.wait_for_timeout(50)
-                page.evaluate(FRAMES)
-                page.mouse.move(x, y)
-                page.mouse.down()
-                page.mouse.move(x + 20, y, steps=2)
-                page.mouse.move(x + 60, y, steps=2)
-                page.mouse.up()
-                page.evaluate(FRAMES)
-            return pursuer.robot.pusher is not None
-
-        until(page, pulled)
-        page.get_by_text("pushed the pursuer by").wait_for()
-        session.step(0.05)
-        settle(page, session)
-        pusher = pursuer.robot.pusher
-        assert pusher is not None
-        # To the right of who faces it, which is to its own left.
-        until(page, lambda: pusher.impulse[1] > 0.1)
-        page.close()
-    finally:
-        live.close()
 
 
 def settle(page: Any, session: LiveSession) -> None:

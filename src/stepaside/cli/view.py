@@ -31,7 +31,6 @@ class ViewOptions(NamedTuple):
         port: First port to try.
         opens: Whether to open a browser.
         run: Whether the simulation starts at once.
-        demo: Whether the page is for an audience.
         serve_for: Time after which to stop, in [s]; None for no limit.
     """
 
@@ -39,7 +38,6 @@ class ViewOptions(NamedTuple):
     port: int
     opens: bool
     run: bool
-    demo: bool
     serve_for: float | None
 
 
@@ -60,11 +58,6 @@ OWN = {*ViewOptions._fields, "seed"}
     show_default=True,
     help="Start the simulation immediately, or paused.",
 )
-@click.option(
-    "--demo/--no-demo",
-    help="Show large text and no controls, and play one game after the other "
-    "with the next seeds, for an audience.",
-)
 @serve_for_option("--duration")
 @takes_settings(DuelSettings, DUEL, without=("duration",))
 def view(settings: DuelSettings, **options: Any) -> None:
@@ -80,7 +73,7 @@ def view(settings: DuelSettings, **options: Any) -> None:
         played = _game_of(given.file)
     from ..report.viewer.live_page import Page
 
-    page = Page(played, port=given.port, demo=given.demo)
+    page = Page(played, port=given.port)
     with closing(page):
         page.session.running = given.run
         _serve(page, given)

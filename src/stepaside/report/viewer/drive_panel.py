@@ -2,7 +2,7 @@
 
 from collections.abc import Callable
 from dataclasses import replace
-from math import inf, radians
+from math import radians
 
 import viser
 
@@ -11,13 +11,11 @@ from ...games.duel_settings import PLAYERS, PURSUER, DuelSettings
 from ...games.match import Match
 from ...games.walker import RobotPlayer
 from ...strategies import Strategy, TeleoperatedPursuit
-from .live_match import LiveSettings, safety_radii
+from .live_match import LiveSettings
 from .live_session import LiveSession
-from .scoreboard import Scoreboard
 
 DIRECTIONS = {"left": 90, "right": -90, "forward": 0, "backward": 180}  # [deg]
 TURNS = {"left": 1.0, "straight": 0.0, "right": -1.0}
-SLOW_MOTION = 0.25  # factor of the speed at a closest approach
 
 
 def add_push(
@@ -69,7 +67,7 @@ def drivable(settings: LiveSettings) -> tuple[str, ...]:
 
 
 class DrivePanel:
-    """Teleoperation of one robot, with a scoreboard."""
+    """Teleoperation of one robot."""
 
     def __init__(self, gui: viser.GuiApi, session: LiveSession) -> None:
         """Add the controls to a page, which needs a robot to drive.
@@ -83,7 +81,6 @@ class DrivePanel:
         self._own: Strategy | None = None  # of the driven robot
         names = drivable(session.settings)
         duel = names == (PURSUER,)
-        self._score = Scoreboard(*(() if duel else ("the others",)))
         with gui.add_folder("Drive the pursuer" if duel else "Drive a robot"):
             gui.add_markdown(
                 f"{'Catch the evader' if duel else 'Walk'} with the buttons "
@@ -99,10 +96,6 @@ class DrivePanel:
             self._release_button = gui.add_button(
                 "Stop driving", disabled=True
             )
-            self._slow_motion = gui.add_checkbox(
-                "Slow motion at the closest approach", True
-            )
-            self._score_text = gui.add_markdown("")
 
         @self._choice.on_update
         def _(_: object) -> None:
@@ -137,27 +130,11 @@ class DrivePanel:
         """End teleoperation, since another game has begun."""
         self._own = None
         self._set_hand(None)
-        self._score.end("reset")
 
-    def show(self, time: float, distance: float) -> None:
-        """Show the score, and set slow motion at a closest approach.
-
-        Args:
-            time: Simulated time, in [s].
-            distance: Between the players, in [m].
-        """
-        session = self._session
-        self._score.update(time, distance)
-        if session.outcome is not None and self._hand is not None:
+    def show(self) -> None:
+        """End teleoperation at the end of the game."""
+        if self._session.outcome is not None and self._hand is not None:
             self._set_hand(None)
-            self._score.end(session.outcome.value)
-        radii = safety_radii(session.settings)
-        radius = min(radii.values(), default=inf)
-        close = self._slow_motion.value and self._score.is_close(radius)
-        session.slow_motion = SLOW_MOTION if close else 1.0
-        text = self._score.text()
-        if self._score_text.content != text:
-            self._score_text.content = text
 
     def _drive(
         self, *, turn: float | None = None, going: bool | None = None
@@ -169,7 +146,6 @@ class DrivePanel:
         hand = self._hand
         if hand is None:
             hand = TeleoperatedPursuit(going=True)
-            self._score.begin(self._session.match.world.time)
         if turn is not None:
             hand = replace(hand, turn=turn)
         if going is not None:
@@ -182,7 +158,6 @@ class DrivePanel:
         """Return the robot to its own strategy."""
         name = self._session.driven
         self._set_hand(None)
-        self._score.end("released")
         self._session.record_command(released=True)
         if name:
             self._adopt(name, None)

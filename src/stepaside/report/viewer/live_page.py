@@ -2,7 +2,6 @@
 
 import logging
 import threading
-from dataclasses import replace
 from math import inf, isfinite
 from pathlib import Path
 from time import perf_counter, sleep
@@ -16,8 +15,6 @@ from ...games.game_settings import GameSettings
 from ..palette import THEMES
 from ..text_escaping import for_markdown
 from .camera_panel import CameraPanel
-from .demo_caption import DemoCaption, is_over
-from .dragging import PushDragging
 from .drive_panel import DrivePanel, add_push, named
 from .duel_panel import DuelPanel
 from .game_panel import GamePanel
@@ -32,7 +29,6 @@ from .live_match import (
 from .live_session import LiveSession, LiveSnapshot
 from .page_layout import arrange_panels
 from .page_server import Notices, open_server
-from .plot_history import MAX_POSES, PERIOD, BodyPoses
 from .plots import Plots
 from .run_saving import RunSaver
 from .scene_bodies import SceneBodies
@@ -66,15 +62,12 @@ class Page:
         settings: LiveSettings,
         *,
         port: int,
-        demo: bool = False,
     ) -> None:
         """Serve a game, which is paused at first.
 
         Args:
             settings: Settings of the game.
             port: First port to try.
-            demo: Whether the page is for an audience: large text, panels
-                minimised, one game after the other with the next seeds.
 
         Raises:
             StepAsideError: If the address cannot be used or the settings are
@@ -112,10 +105,6 @@ class Page:
         with layout.layers:
             self._add_layers()
         self._reset_cameras()
-        colours = self.session.colours
-        self._caption = DemoCaption(gui, colours) if demo else None
-        if demo:
-            layout.controls.minimize()
         self._saving = RunSaver(Path("runs"))
         self._publisher = threading.Thread(target=self._publish, daemon=True)
 
@@ -132,19 +121,16 @@ class Page:
         scene.configure_default_lights(cast_shadow=True)
         self.server.initial_camera.position = (-0.5, -1.6, 1.3)
         self.server.initial_camera.look_at = (0.5, 0.0, 0.2)
-        self._dragging = PushDragging(scene, self.session, self._notify)
         self._bodies = self._add_bodies()
         return SceneLayers(scene), ViewerClients(
             self.server, room_of(self.session.settings)
         )
 
     def _add_bodies(self) -> SceneBodies:
-        """Add the bodies of the game, whose robots can be dragged."""
+        """Add the bodies of the game."""
         model = self.session.match.world.model
         bodies = SceneBodies(self.server.scene, model)
         bodies.add_labels(model, self.session.names)
-        for player in self.session.names:
-            self._dragging.add(player, bodies.meshes_of(model, player))
         self._shown = stage_of(self.session.settings)
         return bodies
 
@@ -168,13 +154,6 @@ class Page:
             ("step", "reset", "save"),
         )
         speed = gui.add_dropdown("Speed", SPEEDS, initial_value="1")
-        self._back: Any = gui.add_slider(
-            "Look back [s]",
-            min=0.0,
-            max=MAX_POSES * PERIOD,
-            step=PERIOD,
-            initial_value=0.0,
-        )
         camera = gui.add_button_group("Camera", CAMERAS)
         self._follow = gui.add_dropdown(
             "Follow",
@@ -303,26 +282,16 @@ class Page:
         if is_new:
             self.layers.clear()
             self._reset_cameras()
-        past = self._past(snapshot.time)
         with self.server.atomic():
-            if past is not None:
-                self.layers.clear()
-                self._bodies.move(past[1], past[2])
-            else:
-                self._bodies.move(snapshot.positions, snapshot.quaternions)
-                draw_session(self.layers, session)
+            self._bodies.move(snapshot.positions, snapshot.quaternions)
+            draw_session(self.layers, session)
         self._aim(snapshot)
         self._play.label = "Pause" if session.running else "Start"
-        text = self._text(snapshot, None if past is None else past[0])
+        text = self._text(snapshot)
         if self._status.content != text:
             self._status.content = text
-        if self._caption is not None:
-            self._caption.show(snapshot, self._outlook(snapshot))
-            if is_over(snapshot, ended=session.outcome is not None):
-                seed = session.settings.seed + 1
-                session.reset(replace(session.settings, seed=seed))
         if self._drive is not None:
-            self._drive.show(snapshot.time, snapshot.distance)
+            self._drive.show()
 
     def _aim(self, snapshot: LiveSnapshot) -> None:
         """Move the cameras that are not free."""
@@ -336,19 +305,12 @@ class Page:
             [float(seen[name].com[2]) for name in order],
         )
 
-    def _text(self, snapshot: LiveSnapshot, past: float | None) -> str:
-        """Return the status text.
-
-        Args:
-            snapshot: State of the game.
-            past: Time of the bodies that are shown instead, in [s].
-        """
-        session, speed, text = self.session, "", ""
+    def _text(self, snapshot: LiveSnapshot) -> str:
+        """Return the status text."""
+        session, speed = self.session, ""
         if session.running and session.real_time_factor > 0.0:
             speed = f", {session.real_time_factor:.1f} x real time"
-        if past is not None:
-            text = f"**looking back**: the bodies at {past:.1f} s\n\n"
-        text += (
+        text = (
             f"{self._state(snapshot)}\n\n{self._outlook(snapshot)}\n\n"
             f"{snapshot.time:.1f} s simulated{speed}"
         )
@@ -387,14 +349,6 @@ class Page:
             self._bodies.remove()
             self._bodies = self._add_bodies()
             self._viewers.show_room(room_of(settings))
-
-    def _past(self, now: float) -> BodyPoses | None:
-        """Return the poses to show instead of the present ones, if any."""
-        back = float(self._back.value)
-        if back <= 0.0:
-            return None
-        with self.session.lock:
-            return self.session.trail.poses_at(now - back)
 
     def _outlook(self, snapshot: LiveSnapshot) -> str:
         """Return what is expected next, as text."""

@@ -83,7 +83,6 @@ class LiveSession:
         match: The game that is played.
         running: Whether simulated time passes.
         speed: Simulated time per wall-clock time; inf for no limit.
-        slow_motion: Factor of that speed, 1 except near a closest approach.
         outcome: Outcome of the game; None while it is played.
         error: Message of an error in the loop; None if there was none.
         trail: Recent history of the game.
@@ -108,7 +107,6 @@ class LiveSession:
         self.lock = threading.RLock()
         self.running = False
         self.speed = 1.0
-        self.slow_motion = 1.0
         self.real_time_factor = 0.0
         self.error: str | None = None
         self._requests: deque[Callable[[], None]] = deque()
@@ -314,7 +312,7 @@ class LiveSession:
                 if now - measured > 0.5:
                     self.real_time_factor = simulated / (now - measured)
                     measured, simulated = now, 0.0
-                due += tick / (self.speed * self.slow_motion)
+                due += tick / self.speed
                 if due < now - MAX_DELAY:
                     due = now
                 elif due > now + 0.002:

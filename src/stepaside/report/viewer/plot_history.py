@@ -8,7 +8,7 @@ import mujoco
 import numpy as np
 from numpy.typing import NDArray
 
-from ...core.poses import Array, Pose
+from ...core.poses import Pose
 from ...games.approach_forecast import CourseApproach, estimate_approach
 from ...games.duel_circle import angle_between
 from ...games.match import Match
@@ -27,10 +27,8 @@ MAX_SAMPLES = 6000  # of the plots
 MAX_OFFSETS = 100  # samples of the offset
 MAX_TRACE = 1500  # points of a trace
 MAX_STEPS = 100  # of each player
-MAX_POSES = 1200  # of all bodies, to look back
 AXES = ("x [m]", "y [m]", "z [m]")
 HINGE = mujoco.mjtJoint.mjJNT_HINGE
-BodyPoses = tuple[float, Array, Array]
 Footprint = tuple[Foot, Pose]  # and its landing pose in the world
 
 
@@ -51,8 +49,6 @@ class PlotHistory:
         signals: Further quantities of every sample in ``history``, in the
             order of ``labels``. Each of shape (labels,).
         labels: Names of these quantities, with units; empty at first.
-        poses: Time [s] and positions (bodies, 3) and quaternions (bodies, 4)
-            of all bodies at the last samples.
         frames: Newest image of each camera with its detections, by player
             and camera.
     """
@@ -70,7 +66,6 @@ class PlotHistory:
         self.steps: dict[str, deque[Footprint]] = {}
         self.signals: deque[NDArray[np.float32]] = deque(maxlen=MAX_SAMPLES)
         self.labels: tuple[str, ...] = ()
-        self.poses: deque[BodyPoses] = deque(maxlen=MAX_POSES)
         self.frames: dict[str, FrameReport] = {}
 
     def before(self, match: Match) -> None:
@@ -96,16 +91,6 @@ class PlotHistory:
             if snapshot.zmp is not None and np.isfinite(snapshot.zmp[0]):
                 self._trace(f"{snapshot.name}/ZMP", snapshot.zmp)
 
-    def poses_at(self, time: float) -> BodyPoses | None:
-        """Return the poses of all bodies at the sample nearest to a time.
-
-        Args:
-            time: Simulated time, in [s].
-        """
-        return min(
-            self.poses, key=lambda poses: abs(poses[0] - time), default=None
-        )
-
     def _note_step(self, player: Player, begun: StepStarted) -> None:
         """Store where the footstep of a step will be."""
         odometry = true_odometry(player)
@@ -116,9 +101,6 @@ class PlotHistory:
     def _record_signals(self, match: Match, snapshots: list[Snapshot]) -> None:
         """Record poses, joint angles, CoM and ZMP of a sample."""
         data, model = match.world.data, match.world.model
-        self.poses.append(
-            (match.world.time, data.xpos.copy(), data.xquat.copy())
-        )
         joints = [j for j in range(model.njnt) if model.jnt_type[j] == HINGE]
         values: list[float] = []
         for snapshot in snapshots:

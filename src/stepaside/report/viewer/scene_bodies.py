@@ -71,7 +71,6 @@ class SceneBodies:
                 look = geom.colour, geom.casts_shadow
                 looks[geom.body][look].append(shape_of(geom))
         self._frames: dict[int, viser.FrameHandle] = {}
-        self._meshes = defaultdict[int, list[viser.MeshHandle]](list)
         self._heights = BodyHeights(geoms)
         self._labels: dict[tuple[int, ...], viser.LabelHandle] = {}
         for body, colours in looks.items():
@@ -81,7 +80,7 @@ class SceneBodies:
                 colours.items()
             ):
                 vertices, faces = join_meshes(meshes)
-                mesh = scene.add_mesh_simple(
+                scene.add_mesh_simple(
                     f"{name}/{number}",
                     vertices,
                     faces,
@@ -89,7 +88,6 @@ class SceneBodies:
                     cast_shadow=casts_shadow,
                     receive_shadow=False,
                 )
-                self._meshes[body].append(mesh)
         self._scene = scene
 
     def add_labels(
@@ -124,18 +122,6 @@ class SceneBodies:
             for body in self._frames
             if model.body(body).name.startswith(f"{player}/")
         ]
-
-    def meshes_of(
-        self, model: mujoco.MjModel, player: str
-    ) -> list[viser.MeshHandle]:
-        """Return all meshes of a player.
-
-        Args:
-            model: Model of the bodies.
-            player: Name of the player.
-        """
-        bodies = self._bodies_of(model, player)
-        return [mesh for body in bodies for mesh in self._meshes[body]]
 
     def move(self, positions: Array, quaternions: Array) -> None:
         """Move all bodies and labels.
