@@ -10,11 +10,7 @@ import pytest
 from stepaside.core.poses import Array
 from stepaside.core.random_streams import named_generator
 from stepaside.sim.body_settings import BodySettings
-from stepaside.sim.sensor_errors import (
-    AveragedImu,
-    SensorErrors,
-    perturb_masses,
-)
+from stepaside.sim.sensor_errors import SensorErrors, perturb_masses
 
 TURN = np.array([0.3, -0.2, 0.1])
 FORCE = np.array([1.0, 2.0, 9.0])
@@ -131,32 +127,6 @@ def test_foot_noise_has_the_set_deviation_and_stays_positive() -> None:
     free = np.array([feet(sensors, np.zeros(8)) for _ in range(999)])
     assert free.min() == 0.0
     np.testing.assert_allclose((free == 0.0).mean(), 0.5, atol=0.03)
-
-
-def test_an_averaged_imu_gives_the_mean_since_its_last_reading() -> None:
-    values = np.zeros(9)
-    data: Any = SimpleNamespace(sensordata=values)
-    imu = AveragedImu(data, slice(1, 4), slice(5, 8))
-
-    def step(turn: float, force: float) -> None:
-        values[1:4], values[5:8] = turn, force
-        imu.before_step(0.0)
-
-    step(1.0, 10.0)
-    step(3.0, 14.0)
-    turn, force = imu.read()
-    np.testing.assert_allclose(turn, 2.0)
-    np.testing.assert_allclose(force, 12.0)
-    step(5.0, 20.0)
-    turn, force = imu.read()
-    np.testing.assert_allclose(turn, 5.0)
-    np.testing.assert_allclose(force, 20.0)
-    values[1:4], values[5:8] = 7.0, 8.0
-    turn, force = imu.read()  # no step since: the present moment
-    np.testing.assert_allclose(turn, 7.0)
-    np.testing.assert_allclose(force, 8.0)
-    step(1.0, 2.0)
-    np.testing.assert_allclose(imu.read()[0], 1.0)
 
 
 def part(name: str, mass: float = 2.0) -> SimpleNamespace:

@@ -156,8 +156,7 @@ def place_on_legs(
         setup.body,
         SensorSetup(
             generator=named_generator(setup.seed, f"sensors/{setup.name}"),
-            averages_imu=True,
-            integrates_imu=not setup.body.has_sensor_errors,
+            integrates_imu=True,
             sights=() if sensing is None else sensing.sights,
             eyes=None if sensing is None else sensing.eyes,
             truth=truth,

@@ -153,7 +153,7 @@ def place_robot(
         setup.body,
         SensorSetup(
             generator=named_generator(setup.seed, f"sensors/{setup.name}"),
-            averages_imu=bool(setup.control.feedback),
+            integrates_imu=bool(setup.control.feedback),
             sights=() if sensing is None else sensing.sights,
             eyes=None if sensing is None else sensing.eyes,
             truth=truth or setup.true_state_in(world),

@@ -81,40 +81,11 @@ def strapdown(
         out[6 + i] = p * mount[0, i] + q * mount[1, i] + r * mount[2, i]
 
 
-class AveragedImu:
-    """Gyro and accelerometer averaged between readings.
-
-    One sample per control tick would alias landing impacts, which causes an
-    error of half a degree in the estimated tilt.
-    """
-
-    def __init__(
-        self, data: mujoco.MjData, gyro: slice, accelerometer: slice
-    ) -> None:
-        """Average two sensors of a world."""
-        self._gyro: Array = data.sensordata[gyro]  # views
-        self._accelerometer: Array = data.sensordata[accelerometer]
-        # Sums of gyro and accelerometer, and their number.
-        self._sums = np.zeros(7)
-
-    def before_step(self, time: float) -> None:
-        """Add the readings of the last physics step."""
-        self._sums[:3] += self._gyro
-        self._sums[3:6] += self._accelerometer
-        self._sums[6] += 1.0
-
-    def read(self) -> tuple[Array, Array]:
-        """Return the means since the last call, in [rad/s] and [m/s^2]."""
-        if self._sums[6] == 0.0:
-            self.before_step(0.0)
-        means = self._sums[:6] / self._sums[6]
-        self._sums.fill(0.0)
-        return means[:3], means[3:]
-
-
 class StrapdownImu:
     """Gyro and accelerometer that integrate between readings.
 
+    One sample per control tick would alias landing impacts, which causes an
+    error of half a degree in the estimated tilt.
     The means follow from the change of orientation and velocity of the torso
     over the whole interval, as an IMU with delta angles and delta velocities
     gives them. Nothing has to be read in between.
@@ -137,13 +108,15 @@ class StrapdownImu:
         self._clock, self._out = np.zeros(1), np.zeros(9)
         self._last = np.zeros(17)  # time, quaternion, axes, velocity
         self._last[0] = -1.0
+        mount = np.zeros(9)
+        mujoco.mju_quat2Mat(mount, model.site_quat[site])
         self._integrate = bound(
             strapdown,
             data.qpos[at + 3 : at + 7],  # views
             data.qvel[dof : dof + 3],
             data.qvel[dof + 3 : dof + 6],
             model.site_pos[site].copy(),
-            axes_of(model.site_quat[site].tolist()),
+            mount.reshape(3, 3),
             model.opt.gravity.copy(),
             *(self._clock, self._last, self._out),
         )
@@ -160,21 +133,6 @@ class StrapdownImu:
         self._integrate()
         found = self._out.copy()
         return found[:3], found[3:6], found[6:]
-
-
-def axes_of(quaternion: list[float]) -> Array:
-    """Return the rotation matrix of a unit quaternion (w, x, y, z)."""
-    w, x, y, z = quaternion
-    xx, yy, zz = x * x, y * y, z * z
-    xy, xz, yz = x * y, x * z, y * z
-    wx, wy, wz = w * x, w * y, w * z
-    return np.array(
-        [
-            [1 - 2 * (yy + zz), 2 * (xy - wz), 2 * (xz + wy)],
-            [2 * (xy + wz), 1 - 2 * (xx + zz), 2 * (yz - wx)],
-            [2 * (xz - wy), 2 * (yz + wx), 1 - 2 * (xx + yy)],
-        ]
-    )
 
 
 BLOCK = 64  # readings whose noise is drawn together

@@ -40,14 +40,19 @@ def set_joint_gains(
 
 
 @compiled
-def write_targets(
-    targets: Array, target: Array, reach: Array, lead: Array, sent: Array
+def take_targets(
+    wanted: Array,
+    target: Array,
+    change: Array,
+    reach: Array,
+    lead: Array,
+    sent: Array,
 ) -> None:
-    """Send targets, limited in speed, with their velocity fed forward."""
-    for j in range(targets.shape[0]):
-        change = max(min(targets[j] - target[j], reach[j]), -reach[j])
-        target[j] += change
-        sent[j] = change * lead[j] + target[j]
+    """Begin a cycle: send targets, limited in speed, with their velocity."""
+    for j in range(wanted.shape[0]):
+        target[j] += change[j]
+        change[j] = max(min(wanted[j] - target[j], reach[j]), -reach[j])
+        sent[j] = target[j] + change[j] + lead[j] * change[j]
 
 
 @compiled
@@ -120,15 +125,14 @@ class IdealServos:
         if not feedforward:
             self.lead = np.zeros(actuators.size)
             self.reach = np.full(actuators.size, np.inf)
-        self._back = -self.reach
         self._target = np.zeros(actuators.size)
         self._range = model.actuator_forcerange[self._ctrl]
         self._full = self._range[:, 1].copy()
         self._wanted = np.zeros(actuators.size)
-        self._write = bound(
-            write_targets,
-            *(self._wanted, self._target, self.reach),
-            *(self.lead, self._sent),
+        self._change = np.zeros(actuators.size)
+        self._take = bound(
+            *(take_targets, self._wanted, self._target, self._change),
+            *(self.reach, self.lead, self._sent),
         )
 
     def soften(self, stiffness: Array) -> None:
@@ -138,19 +142,13 @@ class IdealServos:
 
     def reset(self, targets: Array) -> None:
         """Set targets, in [rad], without motion towards them."""
-        self._target[:] = targets
-        self._sent[:] = targets
+        self._target[:] = self._sent[:] = targets
+        self._change.fill(0.0)
 
     def write(self, targets: Array) -> None:
         """Set new targets, in [rad]. Shape (joints,)."""
         self._wanted[:] = targets
-        self._write()
-
-    def _limited(self, targets: Array) -> Array:
-        change = targets - self._target
-        np.minimum(change, self.reach, out=change)
-        np.maximum(change, self._back, out=change)
-        return change
+        self._take()
 
 
 class RealisticServos(IdealServos):
@@ -207,7 +205,6 @@ class RealisticServos(IdealServos):
         self._slope = self._stall / self._no_load
         self._pending: deque[Array] = deque()
         self._delay = body.delay_cycles
-        self._change = np.zeros(actuators.size)
         # Time since the targets, period of the physics, control period.
         self._clock = np.array([0.0, model.opt.timestep, cycle])
         self._step = bound(
@@ -228,13 +225,11 @@ class RealisticServos(IdealServos):
         """Set targets, in [rad], without motion towards them."""
         super().reset(targets)
         self._pending = deque([targets] * self._delay)
-        self._change.fill(0.0)
 
     def write(self, targets: Array) -> None:
         """Queue new targets, in [rad]. Shape (joints,)."""
-        self._target += self._change
         self._pending.append(targets)
-        self._change[:] = self._limited(self._pending.popleft())
+        super().write(self._pending.popleft())
         self._clock[0] = 0.0
 
     def before_step(self, time: float) -> None:

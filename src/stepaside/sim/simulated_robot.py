@@ -22,7 +22,7 @@ from .push import Push, ScheduledPush
 from .push_forces import PushApplier
 from .robot_sensor_log import RobotSensorLog, SensorAddresses
 from .robot_state_log import RobotStateLog, centers_of_pressure
-from .sensor_errors import AveragedImu, SensorErrors, StrapdownImu
+from .sensor_errors import SensorErrors, StrapdownImu
 from .servos import (
     IdealServos,
     JointGains,
@@ -80,11 +80,9 @@ class SensorSetup:
     Attributes:
         generator: Random generator of errors and noise; None for exact
             sensors.
-        averages_imu: Whether the IMU averages between readings, as real ones
-            do, instead of sampling.
-        integrates_imu: Whether it gives the change of orientation and
-            velocity between readings, as far as it is on the body with the
-            free joint.
+        integrates_imu: Whether the IMU gives the change of orientation and
+            velocity between readings, as real ones do, instead of samples, as
+            far as it is on the body with the free joint.
         sights: Ideal lines of sight to all other players, if any.
         eyes: Cameras and sonars, if any.
         truth: True state of the robot, if it exists already.
@@ -92,7 +90,6 @@ class SensorSetup:
     """
 
     generator: np.random.Generator | None = None
-    averages_imu: bool = False
     integrates_imu: bool = False
     sights: tuple[IdealLineOfSight, ...] = ()
     eyes: SensorSuite | Lidar | None = None
@@ -175,14 +172,10 @@ class SimulatedRobot:
         self.truth = setup.truth or TrueRobotState(model, data, root.name)
         self._stance = StanceWatch(model, data, name, description)
         self.place = IdealPose(self.truth) if setup.knows_pose else None
-        self._imu: AveragedImu | None = None
-        self._strapdown: StrapdownImu | None = None
+        self._imu: StrapdownImu | None = None
         site = self._imu_site(description.sensors.gyro)
         if setup.integrates_imu and model.site_bodyid[site] == root.id:
-            self._strapdown = StrapdownImu(model, data, root.id, site)
-        elif setup.averages_imu:
-            self._imu = AveragedImu(data, self._gyro, self._accelerometer)
-            world.before_step.append(self._imu.before_step)
+            self._imu = StrapdownImu(model, data, root.id, site)
 
     def _make_servos(
         self,
@@ -287,15 +280,11 @@ class SimulatedRobot:
         velocities = latest = None
         if self._dofs is not None:
             velocities = self._qvel_view[self._dofs].copy()
-        if self._strapdown is not None:
-            gyro, specific_force, latest = self._strapdown.read()
-        elif self._imu is None:
-            gyro, specific_force = (
-                self._gyro_view.copy(),
-                self._accelerometer_view.copy(),
-            )
+        if self._imu is not None:
+            gyro, specific_force, latest = self._imu.read()
         else:
-            gyro, specific_force = self._imu.read()
+            gyro = self._gyro_view.copy()
+            specific_force = self._accelerometer_view.copy()
         forces = self._sensordata[self._force_span].copy()
         if self._errors is not None:
             angles = self._errors.encoders(angles)
