@@ -48,8 +48,8 @@ def test_unknown_robot_names_the_known_ones() -> None:
     [
         ("l_sole_center", "l_toe", "no site 'l_toe'; there are .*l_sole"),
         ('"LHipRoll"', '"LHipRol"', "no joint 'LHipRol'"),
-        ("accent =", "acent =", "unknown entry 'acent'"),
-        ('torso = "torso" ', "", "entry 'torso' is missing"),
+        ("accent =", "acent =", "unknown entry acent; did you mean accent"),
+        ('torso = "torso" ', "", "missing entry torso"),
         ("HeadYaw =", "Neck =", "no actuator 'Neck'"),
         ('torso = "torso"', 'torso = "trunk"', "no body 'trunk'"),
         ("r_sole_center", "r_toe", "foot of NAO: there is no site 'r_toe'"),

@@ -73,14 +73,16 @@ def rewritten(folder: Path, old: str, new: str) -> HeadDescription:
     [
         ("[coupling]", "[copling]", "coupling"),
         ("pitch_min =", "pitch_mn =", "pitch_min"),
-        ("pitch = 8.0", 'pitch = "down"', "real number"),
+        ("pitch = 8.0", 'pitch = "down"', r"depth.pitch must .* \[deg\]"),
+        ("pitch = 8.0", "pitch = 8.0\ntilt = 1", "unknown entry depth.tilt"),
         ("[sonar.left]", "[sonar.left", "head.toml"),
-        ("turn = [-0.00478508, ", "turn = [", "rotation"),
-        ("yaw = 180.0", "", "yaw"),
-        ("yaw = 180.0", 'yaw = "back"', "real number"),
-        ("[-0.075, 0.0, 0.1]", "[-0.075, 0.1]", "three numbers"),
-        ("[-0.075, 0.0, 0.1]", "[-0.075, nan, 0.1]", "three numbers"),
-        ("[0.026, 0.124, 0.029]", "[0.026, 0.124]", "three numbers"),
+        ("turn = [-0.00478508, ", "turn = [", "left.turn must have 3"),
+        ("[rear]", "[[rear]]\ntilt = 1", "unknown entry rear 1.tilt"),
+        ("yaw = 180.0", "", "missing entry rear.yaw"),
+        ("yaw = 180.0", 'yaw = "back"', r"rear.yaw must .* \[deg\]"),
+        ("[-0.075, 0.0, 0.1]", "[-0.075, 0.1]", "rear.place must have 3"),
+        ("[-0.075, 0.0, 0.1]", "[-0.075, nan, 0.1]", "rear.place 2 .*nan"),
+        ("[0.026, 0.124, 0.029]", "[0.026, 0.124]", "housing must have 3"),
     ],
 )
 def test_a_wrong_head_is_refused_by_its_file(

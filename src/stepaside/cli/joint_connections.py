@@ -131,7 +131,9 @@ def _open_robot(
         check_joint_camera(type(robot), connection)
     motors = motors_of(description, tick=robot.tick, crouch={})
     servos = description.overlay.servos.items()
-    own = own_gains(robot, motors, {name: servo[:2] for name, servo in servos})
+    own = own_gains(
+        robot, motors, {name: (x.stiffness, x.damping) for name, x in servos}
+    )
     gains = None
     if legs.walks:
         contract, _ = load_policy(legs, description)

@@ -98,7 +98,7 @@ def _joint_check(
     motors = motors_of(description, tick=robot.tick, crouch={})
     servos = description.overlay.servos.items()
     gains = own_gains(
-        robot, motors, {name: servo[:2] for name, servo in servos}
+        robot, motors, {name: (x.stiffness, x.damping) for name, x in servos}
     )
     warning = MOVES.format(round(PER_JOINT * motors.count))
     guardian = _guardian(connection, warning, lambda: connect_releaser(make))

@@ -293,7 +293,7 @@ class EntryReader:
         """Return a value as the first of several types that fits."""
         if value is None and NoneType in hints:
             return None
-        first: list[str] = []
+        told: list[str] = []
         before = len(self.problems)
         for hint in hints:
             if hint is NoneType:
@@ -301,9 +301,11 @@ class EntryReader:
             found = self.read(value, hint, path, described, base)
             if len(self.problems) == before:
                 return found
-            first = first or self.problems[before:]
+            own = self.problems[before:]
+            if not told or not own[0].startswith(f"{path} must"):
+                told = own  # of the type whose shape fits
             del self.problems[before:]
-        self.problems += first
+        self.problems += told
         return None
 
     def _read_name(self, value: Any, path: str, names: Collection[str]) -> Any:

@@ -5,8 +5,7 @@ from dataclasses import asdict, dataclass, replace
 from math import hypot, log
 
 from ..games.robot_settings import settings_from_description
-from ..robots.description import RobotDescription
-from ..robots.description_file import LEAN_LIMIT
+from ..robots.description import LEAN_LIMIT, RobotDescription
 from .derivation import LEAST_SPACING
 from .walk_trials import PATHS, WalkTrial, control_with
 
@@ -108,7 +107,8 @@ class Candidate:
             changed["swing_profile"] = "even"
         control = control_with(settings.control, bool(self.feedback))
         servos = {
-            name: gains._replace(
+            name: replace(
+                gains,
                 stiffness=float(f"{self.stiffness * gains.stiffness:.3g}"),
                 damping=float(f"{self.stiffness * gains.damping:.3g}"),
             )

@@ -3,89 +3,129 @@
 from __future__ import annotations
 
 from collections.abc import Collection, Iterable
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from importlib.resources import files
 from os.path import normpath
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from ..core.brief_repr import brief_repr
+from ..core.entries import load_entries, read_entries
 from ..core.errors import AnyPath, ModelError, as_path
 from ..core.player_colours import Colour
-from .description_file import read_entries
+from ..core.ranges import Range
+from ..core.setting import REQUIRED, check_settings, setting
 from .description_types import NO_OVERLAY, Overlay, ReferencePoint, SensorNames
 
 if TYPE_CHECKING:
     import mujoco
 
 FILE = "robot.toml"
+PUBLISHED = ("stiffness", "damping", "default_posture")
+LEAN_LIMIT = 0.3  # greatest lean of a torso, in [rad]
 REMEDY = "`stepaside robot init` writes an overlay that adds what is missing"
 
 
 @dataclass(frozen=True, slots=True)
 class RobotDescription:
-    """Description of a humanoid robot.
-
-    Attributes:
-        folder: Folder of the description.
-        name: Display name.
-        model: File of the MuJoCo model, relative to the folder.
-        torso: Body that carries the free joint.
-        left_foot: Site at the sole under the left ankle: the foot frame.
-        right_foot: Site at the sole under the right ankle.
-        accent: Material whose colour tells robots apart; empty to colour
-            the torso.
-        legs: Leg joints.
-        standing: Joint angles of the standing posture, by joint, in [rad].
-        speed_limits: Speed limit of each actuated joint, in [rad/s].
-        working_limits: Joint ranges of inverse kinematics, by joint, in
-            [rad], narrower than those of the model, so that knees stay
-            bent. Optional.
-        gait: Gait settings, as the ``gait`` of a configuration; the paper's
-            values by default.
-        sole: Outline of the soles, likewise.
-        control: Control settings, likewise.
-        game: Distances of games, and the unit of pushes; see
-            :class:`stepaside.games.robot_settings.RobotGameSettings`.
-        sensors: Names of the sensors in the model.
-        place: Reference point and reach.
-        overlay: Elements that are added to the model when it is read.
-        locomotion: Walking policy of the robot and its contract; see
-            :mod:`stepaside.locomotion.policy.contract_reader`. Optional.
-        published: Gains and posture that its model publishes, by joint, for
-            policies that do not bring their own. Optional.
-        body: Errors of its body that differ from NAO's, in the bodies other
-            than the ideal one; see :class:`.BodySettings`. Optional.
-        lean: Roll of the torso with the CoM over one foot, in [rad], which
-            relieves the roll joint of that hip; 0 to 0.3.
-    """
+    """Description of a humanoid robot: its folder, and its ``robot.toml``."""
 
     __repr__ = brief_repr
 
     folder: Path
-    name: str
-    model: str
-    torso: str
-    left_foot: str
-    right_foot: str
-    accent: str
-    legs: tuple[str, ...]
-    standing: dict[str, float]
-    speed_limits: dict[str, float]
-    working_limits: dict[str, tuple[float, float]] = field(
-        default_factory=dict
+    name: str = setting(REQUIRED, "Display name")
+    model: str = setting(
+        REQUIRED, "File of the MuJoCo model, relative to the folder"
     )
-    gait: dict[str, Any] = field(default_factory=dict)
-    sole: dict[str, float] = field(default_factory=dict)
-    control: dict[str, Any] = field(default_factory=dict)
-    game: dict[str, float] = field(default_factory=dict)
-    sensors: SensorNames = SensorNames()
-    place: ReferencePoint = ReferencePoint()
-    overlay: Overlay = NO_OVERLAY
-    locomotion: dict[str, Any] = field(default_factory=dict)
-    body: dict[str, Any] = field(default_factory=dict)
-    published: dict[str, dict[str, float]] = field(default_factory=dict)
-    lean: float = 0.0
+    torso: str = setting(REQUIRED, "Body that carries the free joint")
+    left_foot: str = setting(
+        REQUIRED, "Site at the sole under the left ankle: the foot frame"
+    )
+    right_foot: str = setting(
+        REQUIRED, "Site at the sole under the right ankle"
+    )
+    accent: str = setting(
+        REQUIRED,
+        "Material whose colour tells robots apart; empty to colour the torso",
+    )
+    legs: tuple[str, ...] = setting(REQUIRED, "Leg joints")
+    standing: dict[str, float] = setting(
+        REQUIRED,
+        "Joint angles of the standing posture, by joint",
+        Range(-100.0, 100.0, "rad", "some turns"),
+    )
+    speed_limits: dict[str, float] = setting(
+        REQUIRED,
+        "Speed limit of each actuated joint",
+        Range(0.0, 1e6, "rad/s", "above zero", above=True),
+    )
+    working_limits: dict[str, tuple[float, float]] = setting(
+        dict[str, tuple[float, float]](),
+        "Joint ranges of inverse kinematics, by joint, narrower than those "
+        "of the model, so that knees stay bent",
+        Range(-100.0, 100.0, "rad", "some turns"),
+    )
+    gait: dict[str, Any] = setting(
+        dict[str, Any](),
+        "Gait, as in a configuration; the paper's values by default",
+    )
+    sole: dict[str, float] = setting(
+        dict[str, float](), "Outline of the soles, likewise"
+    )
+    control: dict[str, Any] = setting(
+        dict[str, Any](), "Walking control, likewise"
+    )
+    game: dict[str, float] = setting(
+        dict[str, float](),
+        "Distances of games, and units of pushes; see "
+        ":class:`stepaside.games.robot_settings.RobotGameSettings`",
+    )
+    sensors: SensorNames = setting(
+        SensorNames(), "Names of the sensors in the model"
+    )
+    place: ReferencePoint = setting(
+        ReferencePoint(), "Reference point and reach"
+    )
+    overlay: Overlay = setting(
+        NO_OVERLAY, "Elements that are added to the model when it is read"
+    )
+    locomotion: dict[str, Any] = setting(
+        dict[str, Any](),
+        "Walking policy and its contract; see "
+        ":mod:`stepaside.locomotion.policy.contract_reader`",
+    )
+    body: dict[str, Any] = setting(
+        dict[str, Any](),
+        "Errors of its body that differ from NAO's, in the bodies other than "
+        "the ideal one; see :class:`.BodySettings`",
+    )
+    published: dict[str, dict[str, float]] = setting(
+        dict[str, dict[str, float]](),
+        "Gains and posture that its model publishes, by joint, for policies "
+        f"that do not bring their own: {', '.join(PUBLISHED)}",
+    )
+    lean: float = setting(
+        0.0,
+        "Roll of the torso with the CoM over one foot, which relieves the "
+        "roll joint of that hip",
+        Range(0.0, LEAN_LIMIT, "rad", "beyond, it bows"),
+    )
+
+    def __post_init__(self) -> None:
+        """Check ranges, and the order of the working limits."""
+        check_settings(self, ModelError)
+        for name in self.published:
+            if name not in PUBLISHED:
+                raise ModelError(
+                    f"unknown entry published.{name}; there are "
+                    f"{', '.join(PUBLISHED)}"
+                )
+        for name, (low, high) in self.working_limits.items():
+            if not low < high:
+                raise ModelError(
+                    f"working_limits.{name} must be [low, high] with "
+                    f"low < high [rad], got [{low}, {high}]"
+                )
 
     @property
     def path(self) -> Path:
@@ -307,4 +347,13 @@ def load_robot(robot: AnyPath) -> RobotDescription:
             f"robot must be one of {', '.join(known_robots())} or a folder "
             f"with a {FILE}, got {str(robot)!r}"
         )
-    return RobotDescription(folder=folder, **read_entries(folder / FILE))
+    file = folder / FILE
+    entries = load_entries(file, ModelError)
+    if "folder" in entries:
+        raise ModelError(f"{file}: unknown entry folder")
+    return read_entries(
+        RobotDescription,
+        entries | {"folder": folder},
+        str(file),
+        error=ModelError,
+    )

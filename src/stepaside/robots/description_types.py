@@ -1,100 +1,135 @@
 """Value types of a robot description."""
 
-from collections.abc import Mapping
-from dataclasses import dataclass, field
-from typing import NamedTuple
+from dataclasses import dataclass
+
+from ..core.errors import ModelError
+from ..core.ranges import Range
+from ..core.setting import REQUIRED, check_settings, setting
 
 FOOT_FORCES = tuple(
     f"{side}_fsr_{place}"
     for side in "lr"
     for place in ("front_left", "front_right", "rear_left", "rear_right")
 )
+Place = tuple[float, float, float]
+Quaternion = tuple[float, float, float, float]  # (w, x, y, z), of any length
+MOST = 1e6  # far above every gain and torque of a robot
+
+
+def _above_zero(unit: str) -> Range:
+    return Range(0.0, MOST, unit, "above zero", above=True)
+
+
+def _at_least_zero(unit: str) -> Range:
+    return Range(0.0, MOST, unit, "not negative")
 
 
 @dataclass(frozen=True, slots=True)
 class SensorNames:
-    """Names of a robot's sensors in its model.
+    """Names of a robot's sensors in its model."""
 
-    Attributes:
-        gyro: Gyroscope, in the axes of the torso.
-        accelerometer: Accelerometer, in the axes of the torso.
-        feet: Touch sensors, and their sites of the same names: four under
-            the left foot, then four under the right one, each in the order
-            front left, front right, rear left, rear right.
-    """
+    gyro: str = setting("gyro", "Gyroscope, in the axes of the torso")
+    accelerometer: str = setting(
+        "accelerometer", "Accelerometer, in the axes of the torso"
+    )
+    feet: tuple[str, ...] = setting(
+        FOOT_FORCES,
+        "Touch sensors, and their sites of the same names: four under the "
+        "left foot, then four under the right one, each in the order front "
+        "left, front right, rear left, rear right",
+        count=(8, 8),
+    )
 
-    gyro: str = "gyro"
-    accelerometer: str = "accelerometer"
-    feet: tuple[str, ...] = FOOT_FORCES
+    def __post_init__(self) -> None:
+        """Check names."""
+        check_settings(self, ModelError, prefix="sensors.")
 
 
 @dataclass(frozen=True, slots=True)
 class ReferencePoint:
     """Reference point of the torso, and reach of the body around it.
 
-    Attributes:
-        forward: Sagittal coordinate of the reference point in the torso
-            frame, in [m]: the point midway between the hips.
-        reach: Radius around the reference point that contains the whole
-            standing robot with arms stretched, in [m]. Robots farther apart
-            than the sum of their reaches cannot touch.
+    Robots farther apart than the sum of their reaches cannot touch.
     """
 
-    forward: float = 0.0
-    reach: float = 1.0
+    forward: float = setting(
+        0.0,
+        "Sagittal coordinate of the point midway between the hips in the "
+        "torso frame",
+        Range(-10.0, 10.0, "m", "within the body"),
+    )
+    reach: float = setting(
+        1.0,
+        "Radius around the reference point that contains the whole standing "
+        "robot with arms stretched",
+        _above_zero("m"),
+    )
+
+    def __post_init__(self) -> None:
+        """Check ranges."""
+        check_settings(self, ModelError, prefix="place.")
 
 
-class ServoGains(NamedTuple):
-    """Position servo of one joint.
+@dataclass(frozen=True, slots=True)
+class ServoGains:
+    """Position servo of one joint."""
 
-    Attributes:
-        stiffness: Proportional gain, in [N m/rad].
-        damping: Derivative gain, in [N m s/rad], which includes the damping
-            of the joint.
-        torque: Torque limit, in [N m].
-        armature: Reflected rotor inertia, in [kg m^2]; 0 to keep that of
-            the model.
-    """
+    stiffness: float = setting(
+        REQUIRED, "Proportional gain", _above_zero("N m/rad")
+    )
+    damping: float = setting(
+        REQUIRED,
+        "Derivative gain, which includes the damping of the joint",
+        _at_least_zero("N m s/rad"),
+    )
+    torque: float = setting(REQUIRED, "Torque limit", _above_zero("N m"))
+    armature: float = setting(
+        0.0,
+        "Reflected rotor inertia {unit}; 0 to keep that of the model",
+        _at_least_zero("kg m^2"),
+    )
 
-    stiffness: float
-    damping: float
-    torque: float
-    armature: float = 0.0
+    def __post_init__(self) -> None:
+        """Check ranges."""
+        check_settings(self, ModelError)
 
 
-class SoleFrame(NamedTuple):
-    """Foot frame at the sole, under the ankle.
+@dataclass(frozen=True, slots=True)
+class SoleFrame:
+    """Foot frame at the sole, under the ankle."""
 
-    Attributes:
-        body: Body of the foot.
-        place: Origin in the frame of that body, in [m].
-        turn: Orientation in the frame of that body, as a quaternion
-            (w, x, y, z).
-    """
-
-    body: str
-    place: tuple[float, float, float]
-    turn: tuple[float, float, float, float]
+    body: str = setting(REQUIRED, "Body of the foot")
+    place: Place = setting(REQUIRED, "Origin in the frame of that body [m]")
+    turn: Quaternion = setting(
+        REQUIRED, "Orientation in the frame of that body, (w, x, y, z)"
+    )
 
 
 @dataclass(frozen=True, slots=True)
 class Overlay:
-    """Elements that are added to a published model when it is read.
+    """Elements that are added to a published model when it is read."""
 
-    Attributes:
-        soles: Left and right foot frame; empty for no overlay.
-        servos: Servo of each actuated joint.
-        meshes: Additional folders in which mesh files are looked up by
-            name.
-        turn: Orientation of the published torso in axes (forward, left,
-            up), as a quaternion (w, x, y, z), for a model whose torso has
-            other axes.
-    """
+    soles: tuple[SoleFrame, ...] = setting(
+        (), "Left and right foot frame; none without an overlay"
+    )
+    servos: dict[str, ServoGains] = setting(
+        dict[str, ServoGains](), "Servo of each actuated joint"
+    )
+    meshes: tuple[str, ...] = setting(
+        (), "Additional folders in which mesh files are looked up by name"
+    )
+    turn: Quaternion = setting(
+        (1.0, 0.0, 0.0, 0.0),
+        "Orientation of the published torso in axes forward, left, up, "
+        "(w, x, y, z), for a model whose torso has other axes",
+    )
 
-    soles: tuple[SoleFrame, ...] = ()
-    servos: Mapping[str, ServoGains] = field(default_factory=dict)
-    meshes: tuple[str, ...] = ()
-    turn: tuple[float, float, float, float] = (1.0, 0.0, 0.0, 0.0)
+    def __post_init__(self) -> None:
+        """Check that there are two soles, unless there is no overlay."""
+        if len(self.soles) != 2 and (self.soles or self.servos):
+            raise ModelError(
+                f"overlay.soles must have 2 entries, got {len(self.soles)}"
+            )
 
 
 NO_OVERLAY = Overlay()

@@ -1,16 +1,18 @@
 """Head of a robot: its joints, cameras and sonars."""
 
-import tomllib
 from dataclasses import dataclass
 from math import radians
-from typing import Any
 
 import numpy as np
 
+from ..core.entries import load_entries, read_entries
 from ..core.errors import ModelError
 from ..core.poses import Array
+from ..core.ranges import Range
 from ..core.rotations import rotation
+from ..core.setting import REQUIRED, setting
 from .description import RobotDescription
+from .description_types import Place
 
 FILE = "head.toml"
 
@@ -92,60 +94,112 @@ class HeadDescription:
         return self.depth
 
 
+ANGLE = Range(-180.0, 180.0, "deg", "half a turn")
+
+
+@dataclass(frozen=True)
+class _CameraEntries:
+    """Camera on the head in ``head.toml``."""
+
+    place: Place = setting(REQUIRED, "Place in the frame of the body [m]")
+    pitch: float = setting(REQUIRED, "Pitch, positive downward", ANGLE)
+
+    def mount(self, yaw: float | None = None) -> Mount:
+        """Return the mount; a yaw, in [deg], is of one on the torso."""
+        turn = rotation(0.0, radians(self.pitch), radians(yaw or 0.0))
+        return Mount(np.array(self.place), turn, yaw is not None)
+
+
+@dataclass(frozen=True)
+class _DepthEntries(_CameraEntries):
+    """Depth camera on the head."""
+
+    housing: Place = setting(REQUIRED, "Depth, width and height [m]")
+
+
+@dataclass(frozen=True)
+class _RearEntries(_DepthEntries):
+    """Depth camera on the torso."""
+
+    yaw: float = setting(REQUIRED, "Yaw, positive leftward", ANGLE)
+
+
+@dataclass(frozen=True)
+class _SonarEntries:
+    """Sonar in ``head.toml``, on the torso."""
+
+    place: Place = setting(REQUIRED, "Place in the frame of the torso [m]")
+    turn: Place = setting(REQUIRED, "Roll, pitch and yaw [rad]")
+
+
+@dataclass(frozen=True)
+class _CouplingEntries:
+    """Pitch limits by yaw in ``head.toml``."""
+
+    yaw: tuple[float, ...] = setting(REQUIRED, "Yaw, ascending", ANGLE)
+    pitch_min: tuple[float, ...] = setting(REQUIRED, "Least pitch", ANGLE)
+    pitch_max: tuple[float, ...] = setting(REQUIRED, "Greatest pitch", ANGLE)
+
+    def __post_init__(self) -> None:
+        """Check that there are as many limits as yaws."""
+        if not len(self.yaw) == len(self.pitch_min) == len(self.pitch_max):
+            raise ModelError(
+                "coupling: yaw, pitch_min and pitch_max must have as many "
+                f"entries, got {len(self.yaw)}, {len(self.pitch_min)} and "
+                f"{len(self.pitch_max)}"
+            )
+
+
+@dataclass(frozen=True)
+class _HeadEntries:
+    """Entries of ``head.toml``."""
+
+    body: str = setting(REQUIRED, "Body that carries the cameras")
+    yaw: str = setting(REQUIRED, "Yaw joint")
+    pitch: str = setting(REQUIRED, "Pitch joint")
+    coupling: _CouplingEntries = setting(REQUIRED, "Pitch limits by yaw")
+    top: _CameraEntries = setting(REQUIRED, "Colour camera")
+    depth: _DepthEntries = setting(REQUIRED, "Depth camera")
+    camera: str = setting("upper_camera", "Colour camera in the model")
+    rear: _RearEntries | tuple[_RearEntries, ...] = setting(
+        (), "Depth cameras on the torso"
+    )
+    sonar: dict[str, _SonarEntries] = setting(
+        dict[str, _SonarEntries](), "Sonars by name"
+    )
+
+
 def load_head(description: RobotDescription) -> HeadDescription:
     """Read ``head.toml`` in the folder of a robot description.
 
     Raises:
-        ModelError: If there is none, or an entry is missing or ill-typed.
+        ModelError: If there is none, or entries do not fit.
     """
     path = description.folder / FILE
-    try:
-        entries = tomllib.loads(path.read_text(encoding="utf-8-sig"))
-        table = entries["coupling"]
-        rear = entries.get("rear", [])
-        rear = [rear] if isinstance(rear, dict) else rear
-        return HeadDescription(
-            entries["body"],
-            description.torso,
-            entries["yaw"],
-            entries["pitch"],
-            entries.get("camera", "upper_camera"),
-            np.radians([table[k] for k in ("yaw", "pitch_min", "pitch_max")]),
-            _camera(entries["top"]),
-            (
-                _camera(entries["depth"]),
-                *(_camera(each, on_torso=True) for each in rear),
-            ),
-            tuple(map(_housing, (entries["depth"], *rear))),
-            {
-                name: Mount(_vector(s["place"]), rotation(*s["turn"]), True)
-                for name, s in entries.get("sonar", {}).items()
-            },
-        )
-    except OSError as error:
+    if not path.is_file():
         raise ModelError(
             f"{description.name} has no cameras: {path} is missing; "
             "without it sensing must be ideal"
-        ) from error
-    except (KeyError, TypeError, ValueError) as error:
-        raise ModelError(f"{path}: {error!r}") from error
-
-
-def _camera(entries: dict[str, Any], *, on_torso: bool = False) -> Mount:
-    pitch = radians(entries["pitch"])
-    yaw = radians(entries["yaw"]) if on_torso else 0.0
-    turn = rotation(0.0, pitch, yaw)
-    return Mount(_vector(entries["place"]), turn, on_torso)
-
-
-def _housing(entries: dict[str, Any]) -> tuple[float, float, float]:
-    depth, width, height = _vector(entries["housing"]).tolist()
-    return depth, width, height
-
-
-def _vector(entry: Any) -> Array:
-    """Return three numbers. Shape (3,)."""
-    vector = np.array(entry, dtype=np.float64)
-    if vector.shape != (3,) or not np.isfinite(vector).all():
-        raise ValueError(f"needs three numbers [m], got {entry}")
-    return vector
+        )
+    own = read_entries(
+        _HeadEntries,
+        load_entries(path, ModelError),
+        str(path),
+        error=ModelError,
+    )
+    rear = own.rear if isinstance(own.rear, tuple) else (own.rear,)
+    return HeadDescription(
+        own.body,
+        description.torso,
+        own.yaw,
+        own.pitch,
+        own.camera,
+        np.radians([*vars(own.coupling).values()]),
+        own.top.mount(),
+        (own.depth.mount(), *(each.mount(each.yaw) for each in rear)),
+        (own.depth.housing, *(each.housing for each in rear)),
+        {
+            name: Mount(np.array(each.place), rotation(*each.turn), True)
+            for name, each in own.sonar.items()
+        },
+    )

@@ -1,0 +1,134 @@
+"""Test that a description is read whole, and refused entry by entry."""
+
+import tomllib
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
+
+import pytest
+import tomli_w
+
+from stepaside.core.errors import ModelError
+from stepaside.robots.description import RobotDescription, load_robot
+
+FEET = [f"foot_{i}" for i in range(8)]
+TEXT = f"""
+name = "Toy"
+model = "toy.xml"
+torso = "trunk"
+left_foot = "l"
+right_foot = "r"
+legs = ["left", "right"]
+standing = {{ knee = 0.5, hip = -1 }}
+speed_limits = {{ knee = 4.0 }}
+accent = "red"
+working_limits = {{ knee = [-0.1, 2] }}
+gait = {{ stride = 0.05 }}
+sole = {{ back = -0.05, front = 0.1 }}
+control = {{ method = "mpc" }}
+game = {{ distance = 2.0 }}
+sensors = {{ gyro = "g", accelerometer = "a", feet = {FEET} }}
+place = {{ forward = -0.02, reach = 0.9 }}
+[overlay]
+meshes = ["meshes"]
+turn = [0.5, 0.5, -0.5, 0.5]
+soles = [
+  {{ body = "left", place = [1, 2, 3], turn = [1, 0, 0, 0.5] }},
+  {{ body = "right", place = [1, -2, 3], turn = [1, 0, 0, 0] }},
+]
+[overlay.servos.knee]
+stiffness = 50.0
+damping = 0
+torque = 7.0
+armature = 0.01
+"""
+
+
+Way = list[str | int]
+
+
+def way_of(name: str) -> Way:
+    return [int(part) if part.isdigit() else part for part in name.split(".")]
+
+
+def at(entries: Any, way: Way) -> Any:
+    for part in way:
+        entries = entries[part]
+    return entries
+
+
+def read(folder: Path, entries: dict[str, Any]) -> RobotDescription:
+    (folder / "robot.toml").write_text(tomli_w.dumps(entries))
+    return load_robot(folder)
+
+
+def told(folder: Path, name: str, value: Any) -> str:
+    """Message about a description with one changed value."""
+    entries, (*way, last) = tomllib.loads(TEXT), way_of(name)
+    at(entries, way)[last] = value
+    with pytest.raises(ModelError) as refused:
+        read(folder, entries)
+    return str(refused.value)
+
+
+@pytest.mark.parametrize(
+    ("name", "value", "message"),
+    [
+        ("name", 1, "name must be text, got 1"),
+        ("legs", "left", "legs must be an array, got 'left'"),
+        ("legs", ["left", 1], "legs 2 must be text, got 1"),
+        ("standing.knee", "bent", "[rad], got 'bent'"),
+        ("standing.knee", True, "standing.knee must lie in [-100, 100] [rad]"),
+        ("standing.knee", float("nan"), "[rad], got nan"),
+        ("speed_limits.knee", 0.0, "speed_limits.knee must lie in (0, 1e+06]"),
+        ("working_limits.knee", [1, 1], "[low, high] with low < high [rad]"),
+        ("working_limits.knee", [1], "working_limits.knee must have 2"),
+        ("sole.back", float("inf"), "sole.back must be a finite number"),
+        ("lean", 0.4, "lean must lie in [0, 0.3] [rad], got 0.4"),
+        ("gait", 1, "gait must be a table"),
+        ("sensors.feet", ["a"], "sensors.feet must have 8 entries, got 1"),
+        ("place.reach", 0, "place.reach must lie in (0, 1e+06] [m], got 0"),
+        ("place.raech", 0, "unknown entry place.raech; did you mean reach?"),
+        ("overlay.servos.knee.stiffness", 0, "knee.stiffness must lie in (0"),
+        ("overlay.servos.knee.torque", 0, "[N m], got 0"),
+        ("overlay.servos.knee.damping", -1, "[N m s/rad], got -1"),
+        ("overlay.servos.knee.armature", -1, "[kg m^2], got -1"),
+        ("overlay.soles", [], "overlay.soles must have 2 entries, got 0"),
+        ("published", {"friction": {"knee": 1}}, "unknown entry published.fr"),
+        ("colour", "red", "unknown entry colour; there are folder, name, "),
+        ("folder", "/", "unknown entry folder"),
+    ],
+)
+def test_an_entry_that_does_not_fit_is_refused_by_path(
+    name: str, value: Any, message: str, tmp_path: Path
+) -> None:
+    said = told(tmp_path, name, value)
+    assert message in said and "robot.toml" in said
+
+
+def test_constructors_keep_the_ranges_of_the_file(tmp_path: Path) -> None:
+    robot = read(tmp_path, tomllib.loads(TEXT))
+    assert robot.standing == {"knee": 0.5, "hip": -1.0}
+    assert robot.overlay.soles[0].place == (1.0, 2.0, 3.0)
+    with pytest.raises(ModelError, match="lean must lie in"):
+        replace(robot, lean=0.4)
+    with pytest.raises(ModelError, match="torque must lie in"):
+        replace(robot.overlay.servos["knee"], torque=-1.0)
+
+
+def test_required_and_optional_entries_of_a_description(
+    tmp_path: Path,
+) -> None:
+    whole = tomllib.loads(TEXT)
+    optional = "working_limits gait sole control game sensors place overlay"
+    for name in whole:
+        rest = {key: value for key, value in whole.items() if key != name}
+        if name in optional.split():
+            read(tmp_path, rest)
+            continue
+        with pytest.raises(ModelError, match=f"missing entry {name}"):
+            read(tmp_path, rest)
+    servo = {"stiffness": 1.0, "damping": 1.0}
+    assert "missing entry overlay.servos.knee.torque" in told(
+        tmp_path, "overlay.servos.knee", servo
+    )
