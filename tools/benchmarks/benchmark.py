@@ -2,8 +2,7 @@
 
 Both sides of every ratio are timed here, on one core; processor times. Drake's
 planner and cameras are skipped if they are not installed (``pip install
-.[bench,vision]``). Figures are appended to the history beside the results, and
-what became slower since the last run on this machine is printed::
+.[bench,vision]``)::
 
     python tools/benchmarks/benchmark.py
 """
@@ -15,7 +14,6 @@ os.environ.setdefault("NUMBA_NUM_THREADS", "1")
 
 from benchmark_options import ask, machine
 from duel import measure_camera_duel, measure_duel
-from history import append_run, changes_since_last
 from map_decisions import RECIPES, measure
 from mpc import measure_mpc
 from planner import measure_planner
@@ -55,19 +53,9 @@ def main() -> None:
             figures[f"drake_over_plan{suffix}"] = figures[drake] / ours
     settings = {"seed": 1, "duration_s": arguments.duration}
     head = header(settings)
-    own = machine()
-    write_result(arguments.output, head, machine=own, figures=figures)
-    history = arguments.output.with_name("benchmark-history.jsonl")
-    changes = changes_since_last(history, figures, own)
-    append_run(history, head["version"], figures, own)
+    write_result(arguments.output, head, machine=machine(), figures=figures)
     for name, value in figures.items():
         print(f"{name}: {value:.3g}")
-    for change in changes:
-        if change.is_regression:
-            print(
-                f"slower by {change.slowdown:.2f}: {change.name} was "
-                f"{change.before:.3g}, is {change.now:.3g}"
-            )
 
 
 if __name__ == "__main__":

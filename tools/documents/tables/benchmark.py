@@ -96,59 +96,6 @@ def all_rows(result: Mapping[str, Any]) -> str:
     )
 
 
-def integrators(result: Mapping[str, Any]) -> str:
-    """List differences of walks from the finest time step, by integrator."""
-    cases = result["cases"]
-    variants = list(next(iter(cases.values())))
-    rows = []
-    for name in variants[1:]:
-        found = [case[name] for case in cases.values()]
-        rows.append(
-            (
-                name.replace("-", ", ").replace("ms", " ms"),
-                *(
-                    f"{number(1e3 * own['final_m'], 1)} mm, "
-                    f"{number(1e3 * own['turn_rad'], 0)} mrad"
-                    for own in found
-                ),
-                f"{sum(own['falls'] for own in found)}",
-            )
-        )
-    return table(("integrator", *cases, "falls"), rows)
-
-
-def warp(result: Mapping[str, Any]) -> str:
-    """List rates of duels on processor cores and on a GPU."""
-    processor, gpu = result["processor"], result["warp"]
-    two = next(row["rate"] for row in processor if row["threads"] == 2)
-    rows = [
-        (f"`mujoco.batch`, threads: {row['threads']}", row, "")
-        for row in processor
-    ]
-    for row in gpu:
-        away = [after["median_m"] for after in row["after"].values()]
-        rows.append(
-            (
-                f"MuJoCo Warp, duels at once: {row['worlds']}",
-                row,
-                f"{number(1e3 * max(away), 3)} mm",
-            )
-        )
-    return table(
-        ("", "simulated s per s", "duels of 60 s per h", "times", "away"),
-        [
-            (
-                what,
-                _three_digits(row["rate"]),
-                _three_digits(60.0 * row["rate"]),
-                _three_digits(row["rate"] / two),
-                away,
-            )
-            for what, row, away in rows
-        ],
-    )
-
-
 def headlines(result: Mapping[str, Any]) -> str:
     """Return the values that the README shows."""
     figures = result["figures"]
@@ -185,8 +132,3 @@ def headlines(result: Mapping[str, Any]) -> str:
             ),
         ],
     )
-
-
-def _three_digits(value: float) -> str:
-    """Format a number with three significant digits, such as 61,800."""
-    return f"{float(f'{value:.3g}'):,.10g}"

@@ -45,21 +45,3 @@ def outcomes(result: Mapping[str, Any]) -> str:
             for row in result["summary"]
         ],
     )
-
-
-def map_decisions(result: Mapping[str, Any]) -> str:
-    """List the time of a decision by size of the map."""
-    parts = ("look-ahead", "pursuit", "guard")
-    return table(
-        ("polygons", *(f"{part} [ms]" for part in parts), "longest [ms]"),
-        [
-            (
-                interval(row["polygons"][0], row["polygons"][1], 0),
-                *(number(row[part]["median_ms"], 2) for part in parts),
-                ", ".join(
-                    number(row[part]["longest_ms"], 1) for part in parts
-                ),
-            )
-            for row in result["rows"]
-        ],
-    )
