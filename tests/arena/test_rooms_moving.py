@@ -82,7 +82,9 @@ def test_moving_box_survives_a_round_trip_through_a_file(
         "moving = [{x = 0, y = 0, width = 1, depth = 1, to = [1, 'a']}]\n",
         encoding="utf-8",
     )
-    with pytest.raises(ConfigurationError, match="moving 1: to y must be"):
+    with pytest.raises(
+        ConfigurationError, match=r"moving 1.to 2 must lie .* \[m\]"
+    ):
         load_room(file)
 
 

@@ -5,7 +5,6 @@ from math import ceil
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from ..core.errors import ConfigurationError
 from ..core.poses import Array, Pose
@@ -17,7 +16,6 @@ BODY_RADIUS = 0.20  # of a player among obstacles, in [m]
 PLAYERS = ("pursuer", "evader")
 CELL = 0.02  # of the grid for paths and areas, in [m]
 MOST_CELLS = 4_000_000
-Cells = NDArray[np.bool_]
 
 
 def path_exists(
@@ -39,6 +37,8 @@ def path_exists(
     """
     if _straight(room, start, end, radius):
         return True
+    from scipy.ndimage import label
+
     low, high = _extent(room, np.array([start, end]), radius)
     cell = max(CELL, float(np.sqrt(np.prod(high - low) / MOST_CELLS)))
     counts = [ceil(side / cell) + 1 for side in (high - low).tolist()]
@@ -46,34 +46,14 @@ def path_exists(
     y = low[1] + cell * np.arange(counts[1])
     grid = np.stack(np.meshgrid(x, y, indexing="ij"), axis=-1)
     free = room.clearance(grid.reshape(-1, 2)) >= radius - 1e-9
-    reached = np.zeros(counts, dtype=np.bool_)
     free = free.reshape(counts)
     first, last = (
         tuple(np.rint((np.array(point) - low) / cell).astype(int).tolist())
         for point in (start, end)
     )
-    reached[first] = free[first] = free[last] = True
-    while not reached[last]:
-        before = int(reached.sum())
-        # Flood whole rows at once: few sweeps suffice even around corners.
-        for axis in (0, 1):
-            reached = _flood_rows(reached, free, axis)
-        if int(reached.sum()) == before:
-            return False
-    return True
-
-
-def _flood_rows(reached: Cells, free: Cells, axis: int) -> Cells:
-    """Extend reached cells along an axis up to the next occupied cells."""
-    reached = np.moveaxis(reached, axis, 1)
-    free = np.moveaxis(free, axis, 1)
-    walls = np.cumsum(~free, axis=1)
-    # Free cells of one run share the number of occupied cells before them.
-    runs = walls + np.arange(len(walls))[:, None] * (walls.shape[1] + 1)
-    run_reached = np.zeros(int(runs.max()) + 1, dtype=np.bool_)
-    run_reached[runs[reached & free]] = True
-    flooded: Cells = np.moveaxis(run_reached[runs] & free, 1, axis)
-    return flooded
+    free[first] = free[last] = True
+    areas, _ = label(free)
+    return bool(areas[first] == areas[last])
 
 
 def _straight(

@@ -5,11 +5,10 @@ from math import hypot
 
 import numpy as np
 
-from ..core.errors import check_within
-from .polygon_checks import ERROR, check_coordinate
-from .shapes import Box, Polygon, hull
-
-MAX_SPEED = 0.2  # up to which robots can keep clear of a box, in [m/s]
+from ..core.errors import ConfigurationError
+from ..core.ranges import Range
+from ..core.setting import REQUIRED, check_settings, setting
+from .shapes import BEARING, COORDINATE, SIDE, Box, Point, Polygon, hull
 
 
 @dataclass(frozen=True, slots=True)
@@ -17,39 +16,28 @@ class MovingBox:
     """Box that moves to a point and back, periodically.
 
     It moves along a straight line at constant speed and does not turn.
-
-    Attributes:
-        x: Initial x of its centre in the room, in [m].
-        y: Initial y of its centre in the room, in [m].
-        width: Side along its heading, in [m].
-        depth: Side across its heading, in [m].
-        to: Point (x, y) where its centre turns back, in [m].
-        speed: Speed, in [m/s].
-        heading: Direction of its width, in [rad].
     """
 
-    x: float
-    y: float
-    width: float
-    depth: float
-    to: tuple[float, float]
-    speed: float = 0.05
-    heading: float = 0.0
+    x: float = setting(REQUIRED, "Initial x of its centre", COORDINATE)
+    y: float = setting(REQUIRED, "Initial y of its centre", COORDINATE)
+    width: float = setting(REQUIRED, "Side along its heading", SIDE)
+    depth: float = setting(REQUIRED, "Side across its heading", SIDE)
+    to: Point = setting(
+        REQUIRED, "Point (x, y) where its centre turns back", COORDINATE
+    )
+    speed: float = setting(
+        0.05,
+        "Speed",
+        Range(1e-3, 0.2, "m/s", "robots keep clear of a slow box"),
+    )
+    heading: float = setting(0.0, "Direction of its width", BEARING)
 
     def __post_init__(self) -> None:
         """Validate the box, its speed and its path."""
-        if len(self.to) != 2:
-            raise ERROR(
-                f"moving box to must be a pair x, y [m], got {self.to!r:.40}"
-            )
-        for value, name in zip(self.to, ("to x", "to y"), strict=True):
-            check_coordinate(value, f"moving box {name}")
-        check_within(
-            self.speed, 1e-3, MAX_SPEED, "moving box speed", "m/s", ERROR
-        )
+        check_settings(self, prefix="moving box ")
         Box(self.x, self.y, self.width, self.depth, self.heading)
         if not self.length > 1e-3:
-            raise ERROR(
+            raise ConfigurationError(
                 "moving box to must be at least 0.001 [m] from x, y, "
                 f"got {self.length:g}"
             )

@@ -1,45 +1,11 @@
-"""Validation of coordinates and of the corners of polygons."""
+"""Validation of the corners of polygons."""
 
-from collections.abc import Sequence
 from math import atan2, hypot, tau
 
-from ..core.errors import ConfigurationError, check_finite, check_within
+from ..core.errors import ConfigurationError
 
-ERROR = ConfigurationError
-FARTHEST = 1000.0  # largest magnitude of a coordinate, in [m]
 SMALLEST = 1e-3  # least radius or edge, in [m]
-MOST_CORNERS = 64
 Corners = tuple[tuple[float, float], ...]
-
-
-def check_coordinate(value: float, name: str) -> None:
-    """Raise unless a coordinate in [m] is finite and within 1000 m."""
-    check_finite(value, name, "m", ERROR)
-    check_within(value, -FARTHEST, FARTHEST, name, "m", ERROR)
-
-
-def parse_corners(corners: object) -> Corners:
-    """Return corners as pairs of finite numbers, or raise."""
-    if not isinstance(corners, Sequence) or isinstance(corners, str):
-        raise ERROR(f"polygon corners must be a list, got {corners!r:.40}")
-    if not 3 <= len(corners) <= MOST_CORNERS:
-        raise ERROR(
-            f"polygon must have 3 to {MOST_CORNERS} corners [1], "
-            f"got {len(corners)}"
-        )
-    for corner in corners:
-        if not isinstance(corner, Sequence) or len(corner) != 2:
-            raise ERROR(
-                f"polygon corner must be a pair x, y [m], got {corner!r:.40}"
-            )
-        for name, value in zip("xy", corner, strict=True):
-            if not isinstance(value, int | float):
-                raise ERROR(
-                    f"polygon corner {name} must be a number [m], "
-                    f"got {value!r:.40}"
-                )
-            check_coordinate(value, f"polygon corner {name}")
-    return tuple((float(x), float(y)) for x, y in corners)
 
 
 def check_convex(corners: Corners) -> Corners:
@@ -87,4 +53,4 @@ def _refusal(rule: str, corners: Corners) -> ConfigurationError:
     """Return the error for a rule that a polygon breaks."""
     text = ", ".join(f"({x:g}, {y:g})" for x, y in corners)
     text = text if len(text) <= 80 else f"{text[:77]}..."
-    return ERROR(f"polygon must {rule}, got corners {text}")
+    return ConfigurationError(f"polygon must {rule}, got corners {text}")

@@ -6,12 +6,13 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ..core.errors import ConfigurationError, check_bearing, check_within
+from ..core.errors import ConfigurationError
 from ..core.poses import Array, Pose
+from ..core.ranges import Range
+from ..core.setting import REQUIRED, check_settings, setting
 from .moving_box import MovingBox
 from .obstacles import Obstacle, ObstacleSet
-from .polygon_checks import check_coordinate
-from .shapes import WALL, Box
+from .shapes import BEARING, COORDINATE, WALL, Box
 
 ERROR = ConfigurationError
 Solids = tuple[Obstacle, ...]
@@ -19,33 +20,48 @@ SIDES = ("east", "north", "west", "south")
 KINDS = ("disc", "box", "polygon")  # of obstacles, in the order of files
 SMALLEST, LARGEST = 0.5, 100.0  # of a room, in [m]
 MAX_COUNT = 500  # of obstacles, of doors and of moving boxes
+EXTENT = Range(SMALLEST, LARGEST, "m", "from a cupboard to a hall")
 
 
 @dataclass(frozen=True, slots=True)
 class Door:
-    """Gap in a wall.
+    """Gap in a wall."""
 
-    Attributes:
-        side: Wall of the door: "east" is at positive x, "north" at
-            positive y.
-        at: Position of its middle along x or y, from the middle of the
-            wall, in [m].
-        width: Width, in [m].
-    """
-
-    side: str
-    at: float = 0.0
-    width: float = 0.6
+    side: str = setting(
+        REQUIRED,
+        "Wall of the door: east is at positive x, north at positive y",
+        names=SIDES,
+    )
+    at: float = setting(
+        0.0,
+        "Position of its middle along x or y, from the middle of the wall",
+        COORDINATE,
+    )
+    width: float = setting(
+        0.6, "Width", Range(0.05, LARGEST, "m", "to the largest wall")
+    )
 
     def __post_init__(self) -> None:
         """Validate side, position and width."""
-        if self.side not in SIDES:
-            raise ERROR(
-                f"door side must be one of {', '.join(SIDES)}, "
-                f"got {self.side!r:.40}"
-            )
-        check_coordinate(self.at, "door at")
-        check_within(self.width, 0.05, LARGEST, "door width", "m", ERROR)
+        check_settings(self, prefix="door ")
+
+
+@dataclass(frozen=True)
+class InitialPose:
+    """Pose in a room at which a player starts."""
+
+    x: float = setting(REQUIRED, "x", COORDINATE)
+    y: float = setting(REQUIRED, "y", COORDINATE)
+    theta: float = setting(0.0, "Heading", BEARING)
+
+    def __post_init__(self) -> None:
+        """Validate the ranges."""
+        check_settings(self, prefix="start ")
+
+    @property
+    def pose(self) -> Pose:
+        """The pose."""
+        return Pose(self.x, self.y, self.theta)
 
 
 @dataclass(frozen=True)
@@ -54,41 +70,33 @@ class Room:
 
     The origin is in the middle. Walls stand around the floor, so all of
     width and depth is free. Without width and depth there are no walls.
-
-    Attributes:
-        width: Width of the floor, along x, in [m]; None for no walls.
-        depth: Depth of the floor, along y, in [m]; None for no walls.
-        obstacles: Obstacles at rest, which may touch each other. They are
-            sorted as in files: discs, then boxes, then polygons.
-        doors: Gaps in the walls; the floor continues beyond them.
-        starts: Initial poses of pursuer and evader in the room, or None.
-        moving: Boxes that move back and forth.
     """
 
-    width: float | None = None
-    depth: float | None = None
-    obstacles: tuple[Obstacle, ...] = ()
-    doors: tuple[Door, ...] = ()
-    starts: tuple[Pose, Pose] | None = None
-    moving: tuple[MovingBox, ...] = ()
+    width: float | None = setting(None, "Width of the floor, along x", EXTENT)
+    depth: float | None = setting(None, "Depth of the floor, along y", EXTENT)
+    obstacles: tuple[Obstacle, ...] = setting(
+        (),
+        "Obstacles at rest, which may touch each other; sorted as in files: "
+        "discs, then boxes, then polygons",
+        count=(0, MAX_COUNT),
+    )
+    doors: tuple[Door, ...] = setting(
+        (),
+        "Gaps in the walls; the floor continues beyond them",
+        count=(0, MAX_COUNT),
+    )
+    starts: tuple[Pose, Pose] | None = setting(
+        None, "Initial poses of pursuer and evader in the room"
+    )
+    moving: tuple[MovingBox, ...] = setting(
+        (), "Boxes that move back and forth", count=(0, MAX_COUNT)
+    )
 
     def __post_init__(self) -> None:
         """Validate sizes, doors, obstacles and initial poses."""
         if (self.width is None) != (self.depth is None):
             raise ERROR("a room must have both width and depth, or neither")
-        for name in ("width", "depth"):
-            value = getattr(self, name)
-            if value is not None:
-                check_within(
-                    value, SMALLEST, LARGEST, f"room {name}", "m", ERROR
-                )
-        for name in ("obstacles", "doors", "moving"):
-            count = len(getattr(self, name))
-            if count > MAX_COUNT:
-                raise ERROR(
-                    f"a room must have at most {MAX_COUNT} {name} [1], "
-                    f"got {count}"
-                )
+        check_settings(self, prefix="room ")
         self._check_doors()
         ordered = sorted(self.obstacles, key=lambda o: KINDS.index(o.kind))
         object.__setattr__(self, "obstacles", tuple(ordered))
@@ -102,9 +110,7 @@ class Room:
                     f"got one at ({x:g}, {y:g})"
                 )
         for pose in self.starts or ():
-            check_coordinate(pose.x, "start x")
-            check_coordinate(pose.y, "start y")
-            check_bearing(pose.theta, "start theta", ERROR)
+            InitialPose(*pose)
 
     def _check_doors(self) -> None:
         if self.doors and not self.has_walls:

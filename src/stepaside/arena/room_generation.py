@@ -12,7 +12,6 @@ from ..core.ranges import Range
 from ..core.setting import check_settings, setting
 from .free_space import BODY_RADIUS, path_exists
 from .obstacles import Obstacle, clearance_between
-from .polygon_checks import check_coordinate
 from .room import LARGEST, MAX_COUNT, SIDES, SMALLEST, Door, Room
 from .shapes import Box, Disc, Polygon
 
@@ -236,7 +235,6 @@ def _draw_door(
         if reach < 0.0:
             continue
         door = Door(side, reach * random.uniform(-1.0, 1.0), recipe.door_width)
-        check_coordinate(door.at, "door at")
         if all(
             other.side != side or abs(other.at - door.at) > recipe.door_width
             for other in doors

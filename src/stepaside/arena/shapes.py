@@ -2,53 +2,43 @@
 
 from dataclasses import dataclass
 from functools import cached_property
-from math import cos, hypot, sin, tau
+from math import atan2, cos, hypot, sin, tau
 from typing import ClassVar
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from ..core.convex import convex_hull
-from ..core.errors import check_bearing, check_within
 from ..core.poses import Array, Pose, wrap_angle
+from ..core.ranges import Range
+from ..core.setting import REQUIRED, check_settings, setting
 from .hull_set import RoundedHull, rounded_hull
 from .obstacles import Obstacle
-from .polygon_checks import (
-    ERROR,
-    FARTHEST,
-    SMALLEST,
-    check_convex,
-    check_coordinate,
-    parse_corners,
-)
+from .polygon_checks import SMALLEST, check_convex
 
+FARTHEST = 1000.0  # largest coordinate or side, in [m]
+COORDINATE = Range(-FARTHEST, FARTHEST, "m", "from the origin of the room")
+SIDE = Range(SMALLEST, FARTHEST, "m", "from a pin to a hall")
+BEARING = Range(-tau, tau, "rad", "a turn")
+MOST_CORNERS = 64
+Point = tuple[float, float]
 WALL = 0.1  # thickness of a wall, in [m]
 CIRCLE_CORNERS = 72  # of the polygon that a disc is drawn as
 
 
 @dataclass(frozen=True)
 class Disc(Obstacle):
-    """Round obstacle: a pillar, a bin; in the frame of its room or map.
+    """Round obstacle: a pillar, a bin; in the frame of its room or map."""
 
-    Attributes:
-        x: x of its centre, in [m].
-        y: y of its centre, in [m].
-        radius: Radius, in [m].
-    """
-
-    x: float
-    y: float
-    radius: float
+    x: float = setting(REQUIRED, "x of its centre", COORDINATE)
+    y: float = setting(REQUIRED, "y of its centre", COORDINATE)
+    radius: float = setting(REQUIRED, "Radius", SIDE)
 
     kind: ClassVar[str] = "disc"
 
     def __post_init__(self) -> None:
         """Validate centre and radius."""
-        check_coordinate(self.x, "disc x")
-        check_coordinate(self.y, "disc y")
-        check_within(
-            self.radius, SMALLEST, FARTHEST, "disc radius", "m", ERROR
-        )
+        check_settings(self, prefix="disc ")
 
     @cached_property
     def hull(self) -> RoundedHull:
@@ -73,19 +63,23 @@ class Disc(Obstacle):
 class Polygon(Obstacle):
     """Convex polygonal obstacle: a table.
 
-    Attributes:
-        corners: Corners (x, y) in the frame of its room or map, in order
-            along the edge, in [m]; stored counter-clockwise.
+    Its corners are stored counter-clockwise.
     """
 
-    corners: tuple[tuple[float, float], ...]
+    corners: tuple[Point, ...] = setting(
+        REQUIRED,
+        "Corners (x, y) in the frame of its room or map, in order along the "
+        "edge",
+        COORDINATE,
+        count=(3, MOST_CORNERS),
+    )
 
     kind: ClassVar[str] = "polygon"
 
     def __post_init__(self) -> None:
         """Validate that the polygon is simple, convex and not degenerate."""
-        corners = check_convex(parse_corners(self.corners))
-        object.__setattr__(self, "corners", corners)
+        check_settings(self, prefix="polygon ")
+        object.__setattr__(self, "corners", check_convex(self.corners))
 
     @cached_property
     def hull(self) -> RoundedHull:
@@ -100,34 +94,21 @@ class Polygon(Obstacle):
 
 @dataclass(frozen=True)
 class Box(Obstacle):
-    """Rectangular obstacle: a crate, a wall.
+    """Rectangular obstacle in the frame of its room or map: a crate."""
 
-    Attributes:
-        x: x of its centre in the frame of its room or map, in [m].
-        y: y of its centre in the same frame, in [m].
-        width: Side along its heading, in [m].
-        depth: Side across its heading, in [m].
-        heading: Direction of its width, in [rad].
-    """
-
-    x: float
-    y: float
-    width: float
-    depth: float
-    heading: float = 0.0
+    x: float = setting(REQUIRED, "x of its centre", COORDINATE)
+    y: float = setting(REQUIRED, "y of its centre", COORDINATE)
+    width: float = setting(REQUIRED, "Side along its heading", SIDE)
+    depth: float = setting(REQUIRED, "Side across its heading", SIDE)
+    heading: float = setting(0.0, "Direction of its width", BEARING)
 
     kind: ClassVar[str] = "box"
 
     def __post_init__(self) -> None:
         """Validate centre, sides, heading and corners."""
-        check_coordinate(self.x, "box x")
-        check_coordinate(self.y, "box y")
-        check_within(self.width, SMALLEST, FARTHEST, "box width", "m", ERROR)
-        check_within(self.depth, SMALLEST, FARTHEST, "box depth", "m", ERROR)
-        check_bearing(self.heading, "box heading", ERROR)
-        for name, values in zip("xy", self.points.T.tolist(), strict=True):
-            for value in values:
-                check_coordinate(value, f"box corner {name}")
+        check_settings(self, prefix="box ")
+        for value in self.points.ravel().tolist():
+            COORDINATE.check(value, "box corner")
 
     @cached_property
     def hull(self) -> RoundedHull:
@@ -150,31 +131,40 @@ class Box(Obstacle):
         return Box(x, y, self.width, self.depth, wrap_angle(heading))
 
 
-def wall_between(
-    start: tuple[float, float],
-    end: tuple[float, float],
-    thickness: float = WALL,
-) -> Box:
-    """Return the wall whose centre line runs from one point to another.
+@dataclass(frozen=True)
+class CentreLine:
+    """Centre line of a wall in a room file."""
 
-    Args:
-        start: First end (x, y) of the centre line in the room, in [m].
-        end: Second end (x, y) of the centre line in the room, in [m].
-        thickness: Thickness, in [m].
+    start: Point = setting(REQUIRED, "First end (x, y)", COORDINATE)
+    end: Point = setting(REQUIRED, "Second end (x, y)", COORDINATE)
+    thickness: float = setting(WALL, "Thickness", SIDE)
+
+    def __post_init__(self) -> None:
+        """Validate ends, thickness and length."""
+        check_settings(self, prefix="wall ")
+        SIDE.check(self.length, "wall length")
+
+    @property
+    def length(self) -> float:
+        """Length, in [m]."""
+        return hypot(self.end[0] - self.start[0], self.end[1] - self.start[1])
+
+    @property
+    def box(self) -> Box:
+        """The wall."""
+        x, y = (0.5 * np.add(self.start, self.end)).tolist()
+        (a, b), (c, d) = self.start, self.end
+        heading = atan2(d - b, c - a)
+        return Box(x, y, self.length, self.thickness, heading)
+
+
+def wall_between(start: Point, end: Point, thickness: float = WALL) -> Box:
+    """Return the wall whose centre line runs between two points, in [m].
 
     Raises:
         ConfigurationError: If a value is out of its range.
     """
-    for name, (x, y) in (("start", start), ("end", end)):
-        check_coordinate(x, f"wall {name} x")
-        check_coordinate(y, f"wall {name} y")
-    check_within(thickness, SMALLEST, FARTHEST, "wall thickness", "m", ERROR)
-    along = np.subtract(end, start)
-    length = hypot(*along)
-    check_within(length, SMALLEST, FARTHEST, "wall length", "m", ERROR)
-    heading = float(np.arctan2(along[1], along[0]))
-    x, y = 0.5 * np.add(start, end)
-    return Box(float(x), float(y), length, thickness, heading)
+    return CentreLine(start, end, thickness).box
 
 
 def hull(points: ArrayLike) -> Polygon:

@@ -66,7 +66,7 @@ def parse_entries(
 def read_entries(
     kind: type[S],
     entries: Mapping[str, Any],
-    source: str,
+    source: str = "",
     *,
     base: S | None = None,
     readers: Readers | None = None,
@@ -99,7 +99,8 @@ def read_entries(
     reader = EntryReader(readers, ignoring=ignoring)
     made: S = reader.read_table(own, kind, "", base)
     if reader.problems:
-        raise error(f"{source}: {'; '.join(reader.problems)}")
+        text = "; ".join(reader.problems)
+        raise error(f"{source}: {text}" if source else text)
     return made
 
 

@@ -206,6 +206,10 @@ class EntryReader:
             described: Description of the field.
             base: Value that holds for entries that a table omits.
         """
+        range = described.range
+        if hint is float and type(value) is float and range:  # most often
+            if range.low < value <= range.high:
+                return value
         origin, args = get_origin(hint), get_args(hint)
         if hint is Any:
             return value
