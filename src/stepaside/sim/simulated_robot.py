@@ -20,8 +20,7 @@ from .ground_truth import TrueRobotState
 from .ideal_sensors import IdealLineOfSight, IdealPose
 from .push import Push, ScheduledPush
 from .push_forces import PushApplier
-from .robot_sensor_log import RobotSensorLog, SensorAddresses
-from .robot_state_log import RobotStateLog, centers_of_pressure
+from .robot_log import RobotLog, centers_of_pressure, sensor_log, state_log
 from .sensor_errors import SensorErrors, StrapdownImu
 from .servos import (
     IdealServos,
@@ -29,7 +28,7 @@ from .servos import (
     RealisticServos,
     set_joint_gains,
 )
-from .true_stance import StanceWatch, TrueStance
+from .true_stance import TrueStance, true_stance
 from .world import World, transform_free_joint
 
 EMPTY = np.empty(0)
@@ -170,7 +169,8 @@ class SimulatedRobot:
         self._torso = root.id
         self.pusher: PushApplier | None = None
         self.truth = setup.truth or TrueRobotState(model, data, root.name)
-        self._stance = StanceWatch(model, data, name, description)
+        feet = description.left_foot, description.right_foot
+        self._soles = [model.site(f"{name}/{foot}").id for foot in feet]
         self.place = IdealPose(self.truth) if setup.knows_pose else None
         self._imu: StrapdownImu | None = None
         site = self._imu_site(description.sensors.gyro)
@@ -339,7 +339,8 @@ class SimulatedRobot:
     @property
     def stance(self) -> TrueStance:
         """True stance at this instant."""
-        return self._stance.read()
+        world = self.world
+        return true_stance(world.model, world.data, self._torso, self._soles)
 
     @property
     def pushes(self) -> tuple[ScheduledPush, ...]:
@@ -364,9 +365,9 @@ class SimulatedRobot:
         x, y = centers_of_pressure(forces[None], corners[None])[0].tolist()
         return x, y
 
-    def state_log(self) -> RobotStateLog:
+    def state_log(self) -> RobotLog:
         """Return an empty log of the true state."""
-        return RobotStateLog(
+        return state_log(
             self.world,
             self.truth,
             self.qpos_slice,
@@ -374,17 +375,12 @@ class SimulatedRobot:
             self._corner_sites,
         )
 
-    def sensor_log(self) -> RobotSensorLog:
+    def sensor_log(self) -> RobotLog:
         """Return an empty log of exact sensor values and joint efforts."""
-        return RobotSensorLog(
-            self.world.data,
-            self._stance,
-            SensorAddresses(
-                self._dof_slice,
-                self._gyro,
-                self._accelerometer,
-                self._force_addresses,
-            ),
+        return sensor_log(
+            *(self.world.model, self.world.data, self._torso),
+            *(self._dof_slice, self._gyro, self._accelerometer),
+            self._force_addresses,
         )
 
     def close(self) -> None:

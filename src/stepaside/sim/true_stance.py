@@ -1,13 +1,12 @@
 """True stance of a robot: velocity, tilt and sole poses."""
 
-from math import atan2
+from collections.abc import Sequence
+from math import asin, atan2
 from typing import NamedTuple
 
 import mujoco
 
 from ..core.poses import Pose
-from ..core.rotations import angles_of
-from ..robots.description import RobotDescription
 
 
 class TrueStance(NamedTuple):
@@ -26,32 +25,29 @@ class TrueStance(NamedTuple):
     right_sole: Pose
 
 
-class StanceWatch:
-    """Reader of the true stance of one robot."""
+def true_stance(
+    model: mujoco.MjModel,
+    data: mujoco.MjData,
+    torso: int,
+    soles: Sequence[int],
+) -> TrueStance:
+    """Return the stance of a robot at this instant.
 
-    def __init__(
-        self,
-        model: mujoco.MjModel,
-        data: mujoco.MjData,
-        name: str,
-        description: RobotDescription,
-    ) -> None:
-        """Read the robot with a name."""
-        self._model, self._data = model, data
-        self._torso = model.body(f"{name}/{description.torso}").id
-        feet = description.left_foot, description.right_foot
-        self._soles = [model.site(f"{name}/{foot}").id for foot in feet]
+    Args:
+        model: Model of the world.
+        data: Its state.
+        torso: Body of the torso.
+        soles: Sites at the left and the right sole.
+    """
+    mujoco.mj_subtreeVel(model, data)
+    vx, vy, _ = data.subtree_linvel[torso].tolist()
+    frame = data.xmat[torso].tolist()
+    tilt = atan2(frame[7], frame[8]), -asin(max(-1.0, min(1.0, frame[6])))
+    left, right = (_pose(data, sole) for sole in soles)
+    return TrueStance((vx, vy), tilt, left, right)
 
-    def read(self) -> TrueStance:
-        """Return the stance at this instant."""
-        data, torso = self._data, self._torso
-        mujoco.mj_subtreeVel(self._model, data)
-        vx, vy, _ = data.subtree_linvel[torso].tolist()
-        left, right = (self._pose(sole) for sole in self._soles)
-        roll, pitch, _ = angles_of(data.xmat[torso].reshape(3, 3))
-        return TrueStance((vx, vy), (roll, pitch), left, right)
 
-    def _pose(self, site: int) -> Pose:
-        x, y, _ = self._data.site_xpos[site].tolist()
-        frame = self._data.site_xmat[site]
-        return Pose(x, y, atan2(frame[3], frame[0]))
+def _pose(data: mujoco.MjData, site: int) -> Pose:
+    x, y, _ = data.site_xpos[site].tolist()
+    frame = data.site_xmat[site]
+    return Pose(x, y, atan2(frame[3], frame[0]))

@@ -20,7 +20,7 @@ from ...games.run_archive import load_run
 from ...robots.description import RobotDescription, load_robot
 from ...robots.urdf_elements import UrdfTree, urdf_tree
 from ...robots.urdf_writer import urdf_of
-from ...sim.robot_state_log import centers_of_pressure
+from ...sim.robot_log import centers_of_pressure
 
 BEYOND = (
     "joint velocities and efforts, IMU, foot forces, DCM, planned footsteps, "
