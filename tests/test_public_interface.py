@@ -135,7 +135,6 @@ WRITERS: dict[str, tuple[str, Callable[[Any], Any]]] = {
     ),
     "Bound.save": ("bound.npz", lambda p: a_bound().save(p)),
     "LearnedStrategy.save": ("one.onnx", lambda p: a_network().save(p)),
-    "NetworkGraph.save": ("one.onnx", lambda p: a_network().network.save(p)),
 }
 
 

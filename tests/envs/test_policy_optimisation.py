@@ -126,7 +126,4 @@ def test_a_pursuer_learns_to_approach_a_standing_evader() -> None:
     assert strategy.intents(observation[None]).shape == (1, 2)
     # The same seed gives the same policy.
     again = PolicyOptimiser(games(), settings, seed=1).train()
-    np.testing.assert_array_equal(
-        again.network.evaluate(observation[None]),
-        strategy.network.evaluate(observation[None]),
-    )
+    assert again.network == strategy.network

@@ -235,9 +235,7 @@ class PolicyOptimiser:
             (layers[n].copy(), layers[n + 1].copy())
             for n in range(0, len(layers), 2)
         ]
-        metadata = self._contract.metadata()
-        network = dense_network(pairs, metadata=metadata)
-        return LearnedStrategy(network, self._contract)
+        return LearnedStrategy(dense_network(pairs), self._contract)
 
     def train(
         self, report: Callable[[TrainingProgress], None] | None = None

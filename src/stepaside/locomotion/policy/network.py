@@ -11,8 +11,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...core.errors import PolicyError
+from ...core.onnx_sessions import check_readable, open_session
 from ...core.poses import Array
-from ...core.regular_files import check_regular
 
 Memory = tuple[NDArray[np.floating[Any]], ...]  # states of one walker
 KINDS: Mapping[str, type[np.floating[Any]]] = {
@@ -99,18 +99,14 @@ class PolicyNetwork:
         """
         self.path = path
         try:
-            check_regular(path)
-            path.open("rb").close()
-        except OSError as error:
-            raise PolicyError(
-                f"legs: cannot read {path}: {error.strerror}"
-            ) from error
+            check_readable(path)
+        except PolicyError as error:
+            raise PolicyError(f"legs: {error}") from error
         try:
-            self._session = _session_of(str(path))
-        except Exception as error:  # no common base in ONNX Runtime
+            self._session = open_session(str(path))
+        except PolicyError as error:
             raise PolicyError(
-                f"legs: {path} is not an ONNX network: "
-                + " ".join(str(error).split())
+                f"legs: {path} is not an ONNX network: {error}"
             ) from error
         ports = self._session.get_inputs(), self._session.get_outputs()
         self.metadata: Mapping[str, str] = dict(
@@ -185,7 +181,7 @@ class PolicyNetwork:
     def _batched(self) -> Any:
         """Session for many walkers; None if it would give other bits."""
         with suppress(Exception):
-            batched = _session_of(_with_free_batch(self.path))
+            batched = open_session(_with_free_batch(self.path))
             if self._gives_equal_bits(batched):
                 return batched
         return None
@@ -293,22 +289,6 @@ class _BoundArrays:
             for key, array in zip(keys, arrays, strict=True):
                 place = array.__array_interface__["data"][0]
                 bind(key, "cpu", 0, array.dtype.type, array.shape, place)
-
-
-def _session_of(network: str | bytes) -> Any:
-    """Return a session of ONNX Runtime on one thread.
-
-    Args:
-        network: Path or content of the file.
-    """
-    import onnxruntime
-
-    options = onnxruntime.SessionOptions()
-    options.intra_op_num_threads = options.inter_op_num_threads = 1
-    options.log_severity_level = 4  # errors are raised, not printed
-    return onnxruntime.InferenceSession(
-        network, options, providers=["CPUExecutionProvider"]
-    )
 
 
 def _with_free_batch(path: Path) -> bytes:

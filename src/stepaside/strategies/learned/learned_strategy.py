@@ -1,15 +1,23 @@
 """Strategy that a network decides."""
 
 from dataclasses import dataclass, field
-from math import pi
+from math import isfinite, pi
+from typing import ClassVar
 
 import numpy as np
 
+from ...core.atomic_output import atomic_draft
 from ...core.errors import AnyPath, ConfigurationError, PolicyError, as_path
 from ...core.poses import Array
 from ...planning import Direction
 from ..knowledge import STAND, Intent, Knowledge
-from .network_graph import NetworkGraph, Tensor, read_network
+from .decision_network import (
+    OpenNetwork,
+    Tensor,
+    open_network,
+    read_network,
+    with_metadata,
+)
 from .observation_terms import observe
 from .strategy_contract import StrategyContract, contract_of
 
@@ -19,12 +27,13 @@ class LearnedStrategy:
     """Strategy whose intent is the output of a network.
 
     Attributes:
-        network: The network.
+        network: Content of an ONNX file, as of :func:`dense_network`.
         contract: What it reads and what its outputs mean.
         name: Name for messages, such as the file.
     """
 
-    network: NetworkGraph = field(repr=False)
+    saturated: ClassVar = False
+    network: bytes = field(repr=False)
     contract: StrategyContract
     name: str = "network"
 
@@ -34,13 +43,13 @@ class LearnedStrategy:
         Raises:
             PolicyError: If the sizes differ.
         """
-        width = self.contract.observation_width
-        if self.network.width not in (None, width):
+        width, network = self.contract.observation_width, self._open
+        if network.width not in (None, width):
             raise PolicyError(
                 f"the observation must have {width} values for the terms "
-                f"{', '.join(self.contract.terms)}, got {self.network.width}"
+                f"{', '.join(self.contract.terms)}, got {network.width}"
             )
-        made = self.network.evaluate(np.zeros((1, width)))
+        made = network.evaluate(np.zeros((1, width)))
         expected = (1, self.contract.action_width)
         if made.shape != expected:
             raise PolicyError(
@@ -49,14 +58,13 @@ class LearnedStrategy:
             )
 
     @property
+    def _open(self) -> OpenNetwork:
+        return open_network(self.network)
+
+    @property
     def direction(self) -> Direction:
         """Direction of driving, from the contract."""
         return self.contract.direction
-
-    @property
-    def saturated(self) -> bool:
-        """False: it turns by (8)."""
-        return False
 
     def begin(self) -> None:
         """Return the memory: none."""
@@ -69,8 +77,16 @@ class LearnedStrategy:
         Raises:
             PolicyError: If an output is NaN or infinite.
         """
-        observation = observe(knowledge, self.contract.terms)
-        heading, speed = self.intents(observation[None])[0].tolist()
+        seen = observe(knowledge, self.contract.terms)[None]
+        outputs = self._open.evaluate(seen)[0].tolist()
+        if not all(map(isfinite, outputs)):
+            self.intents(seen)  # names the output
+        headings = self.contract.headings
+        if headings:
+            heading = headings[outputs.index(max(outputs))]
+            return STAND if heading is None else Intent(heading), memory
+        heading, speed = outputs
+        heading, speed = min(max(heading, -pi), pi), min(speed, 1.0)
         return Intent(heading, speed) if speed > 0.0 else STAND, memory
 
     def intents(self, observations: Tensor) -> Array:
@@ -85,7 +101,7 @@ class LearnedStrategy:
         Raises:
             PolicyError: If an output is NaN or infinite.
         """
-        outputs = self.network.evaluate(observations).astype(np.float64)
+        outputs = self._open.evaluate(observations).astype(np.float64)
         if not np.isfinite(outputs).all():
             column = int(np.argwhere(~np.isfinite(outputs))[0][1])
             raise PolicyError(f"output {column} of {self.name} must be finite")
@@ -100,16 +116,9 @@ class LearnedStrategy:
 
     def save(self, path: AnyPath) -> None:
         """Write the network with its contract as an ONNX file."""
-        graph = self.network
-        entries = {**graph.metadata, **self.contract.metadata()}
-        NetworkGraph(
-            graph.nodes,
-            graph.constants,
-            graph.input,
-            graph.output,
-            graph.width,
-            entries,
-        ).save(path)
+        content = with_metadata(self.network, self.contract.metadata())
+        with atomic_draft(as_path(path, "path")) as draft:
+            draft.write_bytes(content)
 
 
 def load_learned_strategy(path: AnyPath) -> LearnedStrategy:
@@ -121,8 +130,7 @@ def load_learned_strategy(path: AnyPath) -> LearnedStrategy:
     file = as_path(path, "path").expanduser()
     try:
         network = read_network(file)
-        return LearnedStrategy(
-            network, contract_of(network.metadata), file.name
-        )
+        contract = contract_of(open_network(network).metadata)
+        return LearnedStrategy(network, contract, file.name)
     except PolicyError as error:
         raise ConfigurationError(f"strategy {path}: {error}") from error

@@ -1,0 +1,48 @@
+"""Sessions of ONNX Runtime on one thread."""
+
+from pathlib import Path
+from typing import Any
+
+from .errors import PolicyError
+from .extras import install_hint
+from .regular_files import check_regular
+
+
+def open_session(network: str | bytes) -> Any:
+    """Return a session of a network.
+
+    Args:
+        network: Path or content of an ONNX file.
+
+    Raises:
+        PolicyError: If the runtime cannot read it, with its own reason.
+        ModuleNotFoundError: Without the extra that brings ONNX Runtime.
+    """
+    try:
+        import onnxruntime
+    except ModuleNotFoundError as error:
+        raise ModuleNotFoundError(
+            install_hint(error), name=error.name
+        ) from error
+    options = onnxruntime.SessionOptions()
+    options.intra_op_num_threads = options.inter_op_num_threads = 1
+    options.log_severity_level = 4  # errors are raised, not printed
+    try:
+        return onnxruntime.InferenceSession(
+            network, options, providers=["CPUExecutionProvider"]
+        )
+    except Exception as error:  # no common base in ONNX Runtime
+        raise PolicyError(" ".join(str(error).split())) from error
+
+
+def check_readable(path: Path) -> None:
+    """Check that a file of a network can be read.
+
+    Raises:
+        PolicyError: If not.
+    """
+    try:
+        check_regular(path)
+        path.open("rb").close()
+    except OSError as error:
+        raise PolicyError(f"cannot read {path}: {error.strerror}") from error
