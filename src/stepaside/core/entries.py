@@ -99,8 +99,7 @@ def read_entries(
     reader = EntryReader(readers, ignoring=ignoring)
     made: S = reader.read_table(own, kind, "", base)
     if reader.problems:
-        text = "; ".join(reader.problems)
-        raise error(f"{source}: {text}" if source else text)
+        raise error(f"{source}: {reader.text}" if source else reader.text)
     return made
 
 

@@ -189,6 +189,13 @@ class EntryReader:
         self.problems: list[str] = []
         self._readers, self._ignoring = readers or {}, ignoring
 
+    @property
+    def text(self) -> str:
+        """The problems in one line, at most five of them."""
+        more = len(self.problems) - 5
+        listed = [*self.problems[:5], *([f"{more} more"] if more > 0 else [])]
+        return "; ".join(listed)
+
     def read(
         self,
         value: Any,
@@ -240,6 +247,9 @@ class EntryReader:
             return value
         entries, before = _entries(kind), len(self.problems)
         if not is_dataclass(kind) and isinstance(value, list | tuple):
+            if len(value) > len(entries):
+                rule = f"have {len(entries)} entries"
+                return self._note(path, rule, len(value))
             value = dict(zip(entries, value, strict=False))
         if not isinstance(value, Mapping):
             return self._note(path, "be a table", value)
@@ -413,4 +423,4 @@ def check_settings(
         if read is not value and not reader.problems:
             object.__setattr__(settings, name, read)
     if reader.problems:
-        raise error("; ".join(reader.problems))
+        raise error(reader.text)

@@ -7,10 +7,14 @@ states them for one network, so that one runtime serves all.
 
 from dataclasses import dataclass
 from math import inf, pi
-from typing import Literal, NamedTuple, get_args
+from typing import Literal, NamedTuple
 
 from ...core.errors import PolicyError
+from ...core.ranges import Range
+from ...core.setting import REQUIRED, check_settings, setting
 
+GAIN = "no motor is stiffer"
+NOT_FINITE = (inf,)
 HistoryOrder = Literal["term", "frame"]
 Standing = Literal["runs", "holds", "silent"]
 
@@ -52,25 +56,40 @@ OF_CLOCK = frozenset({"sin_phase", "cos_phase"})
 
 @dataclass(frozen=True, slots=True)
 class PhaseClock:
-    """Clock of the gait that a policy observes.
+    """Clock of the gait that a policy observes."""
 
-    Attributes:
-        period: Duration of a gait cycle, in [s].
-        offsets: Phase of each foot when the robot starts to walk, in [rad].
-        standing: Behaviour while the command is zero: the clock "runs",
-            "holds" all phases at pi and starts anew with the next command,
-            or is "silent": sine and cosine are zero.
-        settling: Time for which the clock still runs when the command has
-            become zero, in [s]: the robot steps on the spot before it stands.
-        spread: Largest change of the frequency by the last output of the
-            network, in [1/s]; 0 for a network without such an output.
-    """
+    period: float = setting(
+        REQUIRED,
+        "Duration of a gait cycle",
+        Range(0.0, 100.0, "s", "above zero", above=True),
+    )
+    offsets: tuple[float, ...] = setting(
+        (0.0, pi),
+        "Phase of each foot when the robot starts to walk",
+        Range(-100.0, 100.0, "rad", "some turns"),
+    )
+    standing: Standing = setting(
+        "runs",
+        "Behaviour while the command is zero: the clock runs; holds all "
+        "phases at pi and starts anew with the next command; or is silent: "
+        "sine and cosine are zero",
+    )
+    settling: float = setting(
+        0.0,
+        "Time for which the clock still runs when the command has become "
+        "zero {unit}: the robot steps on the spot before it stands",
+        Range(0.0, 100.0, "s", "not negative"),
+    )
+    spread: float = setting(
+        0.0,
+        "Largest change of the frequency by the last output of the network "
+        "{unit}; 0 for a network without such an output",
+        Range(0.0, 100.0, "1/s", "not negative"),
+    )
 
-    period: float
-    offsets: tuple[float, ...] = (0.0, pi)
-    standing: Standing = "runs"
-    settling: float = 0.0
-    spread: float = 0.0
+    def __post_init__(self) -> None:
+        """Check the ranges."""
+        check_settings(self, PolicyError, prefix="clock.")
 
 
 class CommandRanges(NamedTuple):
@@ -94,56 +113,88 @@ class PolicyContract:
     Joint targets are :math:`q^* = q_0 + s a` with the default posture
     :math:`q_0`, the scale :math:`s` and the action :math:`a`; the body applies
     the torque :math:`k_p (q^* - q) - k_d \dot q`.
-
-    Attributes:
-        convention: Name of the convention, a file of ``conventions``.
-        joints: Joints in the order of actions and observations.
-        terms: Terms of the observation, in order.
-        default_posture: Joint angles at action zero, in [rad].
-        stiffness: Gain :math:`k_p` of each joint, in [N m/rad].
-        damping: Gain :math:`k_d` of each joint, in [N m s/rad].
-        action_scale: Factor on each action, in [rad].
-        action_clip: Largest magnitude of an action; inf for none.
-        observes_clipped: Whether the previous action is observed after
-            clipping.
-        action_filter: Share of the previous joint targets in the new ones, in
-            [0, 1).
-        history: Number of past observations in the input, the present one
-            included; the oldest is first.
-        history_order: Whether the input holds the history term by term or
-            frame by frame.
-        period: Control period, in [s].
-        clock: Clock of the gait; None if the policy observes none.
-        command_ranges: Ranges of the commands.
-        command_rate: Largest change of a command, in its unit per second;
-            inf for none.
     """
 
-    convention: str
-    joints: tuple[str, ...]
-    terms: tuple[ObservationTerm, ...]
-    default_posture: tuple[float, ...]
-    stiffness: tuple[float, ...]
-    damping: tuple[float, ...]
-    action_scale: tuple[float, ...]
-    action_clip: float = inf
-    observes_clipped: bool = True
-    action_filter: float = 0.0
-    history: int = 1
-    history_order: HistoryOrder = "term"
-    period: float = 0.02
-    clock: PhaseClock | None = None
-    command_ranges: CommandRanges = CommandRanges()
-    command_rate: float = inf
+    convention: str = setting(
+        REQUIRED, "Name of the convention, a file of ``conventions``"
+    )
+    joints: tuple[str, ...] = setting(
+        REQUIRED, "Joints in the order of actions and observations"
+    )
+    terms: tuple[ObservationTerm, ...] = setting(
+        REQUIRED, "Terms of the observation, in order"
+    )
+    default_posture: tuple[float, ...] = setting(
+        REQUIRED, "Joint angles at action zero [rad]"
+    )
+    stiffness: tuple[float, ...] = setting(
+        REQUIRED,
+        "Gain :math:`k_p` of each joint",
+        Range(0.0, 1e6, "N m/rad", GAIN),
+    )
+    damping: tuple[float, ...] = setting(
+        REQUIRED,
+        "Gain :math:`k_d` of each joint",
+        Range(0.0, 1e6, "N m s/rad", GAIN),
+    )
+    action_scale: tuple[float, ...] = setting(
+        REQUIRED, "Factor on each action [rad]"
+    )
+    action_clip: float = setting(
+        inf,
+        "Largest magnitude of an action; inf for none",
+        Range(0.0, 1e9, "1", "not negative", also=NOT_FINITE),
+    )
+    observes_clipped: bool = setting(
+        True, "Whether the previous action is observed after clipping"
+    )
+    action_filter: float = setting(
+        0.0,
+        "Share of the previous joint targets in the new ones",
+        Range(0.0, 0.999, "1", "below 1, at which nothing moves"),
+    )
+    history: int = setting(
+        1,
+        "Number of past observations in the input, the present one "
+        "included; the oldest is first",
+        Range(1, 1000, "1", "the present one", whole=True),
+    )
+    history_order: HistoryOrder = setting(
+        "term",
+        "Whether the input holds the history term by term or frame by frame",
+    )
+    period: float = setting(
+        0.02, "Control period", Range(0.0, 10.0, "s", "above zero", above=True)
+    )
+    clock: PhaseClock | None = setting(
+        None, "Clock of the gait; None if the policy observes none"
+    )
+    command_ranges: CommandRanges = setting(
+        CommandRanges(), "Ranges of the commands"
+    )
+    command_rate: float = setting(
+        inf,
+        "Largest change of a command, in its unit per second; inf for none",
+        Range(0.0, 1e9, "1/s", "above zero", above=True, also=NOT_FINITE),
+    )
 
     def __post_init__(self) -> None:
-        """Check names, numbers and ranges of entries.
+        """Check entries by themselves, and that they fit together.
 
         Raises:
             PolicyError: If a term is unknown, an entry does not fit the
                 number of joints, or a value is out of its range.
         """
-        self._check_ranges()
+        check_settings(self, PolicyError)
+        twice = [x for x in self.joints if self.joints.count(x) > 1]
+        if twice:
+            raise PolicyError(f"joints must be named once each, got {twice}")
+        for axis, (low, high) in self.command_ranges._asdict().items():
+            if not low <= 0.0 <= high or low == high:
+                raise PolicyError(
+                    f"command_ranges.{axis} must ascend and contain 0, got "
+                    f"[{low}, {high}]"
+                )
         for name in PER_JOINT:
             given = len(getattr(self, name))
             if given != len(self.joints):
@@ -166,41 +217,6 @@ class PolicyContract:
                     f"the scale of {term.name!r} must have 1 or "
                     f"{self.width_of(term)} values, got {len(term.scale)}"
                 )
-
-    def _check_ranges(self) -> None:
-        """Check values by themselves."""
-        orders, standings = get_args(HistoryOrder), get_args(Standing)
-        clock = self.clock or PhaseClock(1.0)
-        settling, spread = clock.settling, clock.spread
-        share, rate = self.action_filter, self.command_rate
-        twice = [x for x in self.joints if self.joints.count(x) > 1]
-        rules = [
-            ("joints", twice, not twice, "be named once each"),
-            ("history", self.history, self.history >= 1, "be >= 1"),
-            ("period", self.period, self.period > 0.0, "be > 0 [s]"),
-            ("action_filter", share, 0.0 <= share < 1.0, "lie in [0, 1)"),
-            ("command_rate", rate, rate > 0.0, "be > 0 [1/s]"),
-            ("clock.period", clock.period, clock.period > 0.0, "be > 0 [s]"),
-            ("clock.settling", settling, settling >= 0.0, "be >= 0 [s]"),
-            ("clock.spread", spread, spread >= 0.0, "be >= 0 [1/s]"),
-        ]
-        for name, word, words in (
-            ("history_order", self.history_order, orders),
-            ("clock.standing", clock.standing, standings),
-        ):
-            rule = f"be one of {', '.join(words)}"
-            rules.append((name, word, word in words, rule))
-        for axis, limits in self.command_ranges._asdict().items():
-            low, high = limits
-            holds = low <= 0.0 <= high and low < high
-            name = f"command_ranges.{axis}"
-            rules.append((name, limits, holds, "ascend and contain 0"))
-        for name in ("stiffness", "damping"):
-            least = min(getattr(self, name), default=0.0)
-            rules.append((name, least, least >= 0.0, "be >= 0"))
-        for name, value, holds, rule in rules:
-            if not holds:
-                raise PolicyError(f"{name} must {rule}, got {value}")
 
     def width_of(self, term: ObservationTerm) -> int:
         """Return the number of values of a term."""

@@ -18,17 +18,16 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from ...core.errors import PolicyError
+from ...core.setting import EntryReader
 from .contract import (
     PER_JOINT,
     CommandRanges,
+    HistoryOrder,
     ObservationTerm,
     PhaseClock,
     PolicyContract,
 )
 from .network import PolicyNetwork
-
-ENTRIES = (*(each.name for each in fields(PolicyContract)), "network")
-"""Entries of ``[locomotion]`` in a robot description."""
 
 OWN_ENTRY = "stepaside_contract"
 """Metadata entry with such entries as JSON."""
@@ -106,6 +105,44 @@ def conventions() -> Mapping[str, Convention]:
     }
 
 
+class TermEntry(NamedTuple):
+    """Term of an observation with its scale and clip."""
+
+    name: str
+    scale: float | tuple[float, ...] = 1.0
+    clip: float = inf
+
+
+ByJoint = float | tuple[float, ...] | dict[str, float]
+
+
+@dataclass(frozen=True)
+class LocomotionEntries:
+    """Entries of ``[locomotion]`` in a robot description.
+
+    Those of :class:`.PolicyContract`; values of joints also as one for all,
+    or by joint.
+    """
+
+    network: str | None = None
+    convention: str | None = None
+    joints: tuple[str, ...] | None = None
+    terms: tuple[str | TermEntry, ...] | None = None
+    default_posture: ByJoint | None = None
+    stiffness: ByJoint | None = None
+    damping: ByJoint | None = None
+    action_scale: ByJoint | None = None
+    action_clip: float | None = None
+    observes_clipped: bool | None = None
+    action_filter: float | None = None
+    history: int | None = None
+    history_order: HistoryOrder | None = None
+    period: float | None = None
+    clock: PhaseClock | None = None
+    command_ranges: CommandRanges | None = None
+    command_rate: float | None = None
+
+
 class Finding(NamedTuple):
     """One remark about a contract.
 
@@ -137,10 +174,20 @@ class ContractReading:
         self.values[name], self.sources[name] = value, source
 
     def put_entries(self, entries: Mapping[str, Any], source: str) -> None:
-        """Set values of entries as in ``[locomotion]``."""
-        for key, value in entries.items():
-            if key not in ("network", "convention"):
-                self.put(key, _from_entry(key, value), source)
+        """Set values of entries as in ``[locomotion]``.
+
+        Raises:
+            PolicyError: If one is unknown or of another type.
+        """
+        reader = EntryReader()
+        own = reader.read_table(entries, LocomotionEntries, "locomotion")
+        if reader.problems:
+            raise PolicyError(reader.text)
+        for key in entries:
+            if key == "terms":
+                self.put(key, tuple(map(_term, own.terms)), source)
+            elif key not in ("network", "convention"):
+                self.put(key, getattr(own, key), source)
 
     @property
     def missing(self) -> tuple[str, ...]:
@@ -190,12 +237,6 @@ def read_contract(
         PolicyError: If an entry is unknown or malformed.
     """
     own = _own_entries(network)
-    for key in (*entries, *own):
-        if key not in ENTRIES:
-            raise PolicyError(
-                f"unknown entry locomotion.{key}; there are "
-                f"{', '.join(ENTRIES)}"
-            )
     name = convention or entries.get("convention", own.get("convention", ""))
     used = _convention_of(str(name), network.metadata)
     reading = ContractReading(convention=used)
@@ -392,7 +433,8 @@ def _put_deployment(
         for key in PER_JOINT:
             if isinstance(entries.get(key), list):
                 entries[key] = entries[key][moved]
-        reading.put_entries(entries, path.name)
+        for key, value in entries.items():
+            reading.put(key, _value_of(key, value), path.name)
         found = {name: _found(given, where) for name, where in scales.items()}
         _change_terms(reading, "scale", found)
         reading.sources["terms"] = path.name
@@ -423,7 +465,7 @@ def _put_robot_values(reading: ContractReading, used: Convention) -> None:
         for key, value in values.items():
             if joint in joints and reading.sources.get(key) == used.name:
                 source = f"{used.name}, for {joint}"
-                reading.put(key, _from_entry(key, value), source)
+                reading.put_entries({key: value}, source)
     if any(name in used.postures for name in joints):
         if "default_posture" not in reading.values:
             angles = tuple(used.postures.get(name, 0.0) for name in joints)
@@ -526,27 +568,8 @@ def _implausible(reading: ContractReading) -> list[str]:
     return texts
 
 
-def _from_entry(key: str, value: Any) -> Any:
-    """Convert an entry of a robot description."""
-    if key == "command_ranges" and isinstance(value, Mapping):
-        for axis in value:
-            if axis not in CommandRanges._fields:
-                raise PolicyError(
-                    f"unknown entry locomotion.command_ranges.{axis}; there "
-                    f"are {', '.join(CommandRanges._fields)}"
-                )
-    try:
-        return _value_of(key, value)
-    except PolicyError:
-        raise
-    except MALFORMED as error:
-        raise PolicyError(
-            f"locomotion.{key} is malformed, got {str(value)[:60]}"
-        ) from error
-
-
 def _value_of(target: str, value: Any) -> Any:
-    """Convert a JSON, CSV or TOML value to that of a contract field."""
+    """Convert a value of metadata or of YAML to that of a field."""
     if target == "terms":
         return tuple(_term(each) for each in value)
     if target == "joints":
@@ -587,10 +610,15 @@ def _number(value: Any) -> float:
     return number
 
 
-def _term(value: Any) -> ObservationTerm:
-    """Convert a name, or a table with name, scale and clip."""
-    entry = {"name": value} if isinstance(value, str) else dict(value)
-    name = SPELLINGS.get(entry["name"], entry["name"])
-    scales = _listed(entry.get("scale", 1.0))
-    clip = float(entry.get("clip", inf))
-    return ObservationTerm(name, tuple(map(float, scales)), clip)
+def _term(given: Any) -> ObservationTerm:
+    """Return a term given by name, table or :class:`TermEntry`."""
+    entry = given
+    if isinstance(given, str):
+        entry = TermEntry(given)
+    elif isinstance(given, Mapping):
+        entry = TermEntry(**given)
+    name = SPELLINGS.get(entry.name, entry.name)
+    scales = entry.scale
+    if isinstance(scales, int | float):
+        scales = (scales,)
+    return ObservationTerm(name, tuple(map(float, scales)), entry.clip)

@@ -1,12 +1,12 @@
 """Measured response of legs, in a file beside the robot description."""
 
 import hashlib
-import tomllib
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
+from ...core.entries import load_entries, read_entries
 from ...core.errors import PolicyError
-from ...strategies.velocity_set import BodyVelocity
 from .velocity_response import AXES, AxisResponse, VelocityResponse
 
 
@@ -48,6 +48,18 @@ def response_entries(
     }
 
 
+@dataclass(frozen=True)
+class ResponseEntries:
+    """Entries of the file of a response."""
+
+    network: str
+    forward: AxisResponse
+    lateral: AxisResponse
+    turn: AxisResponse
+    tube: float = 0.0
+    odometry_ratio: tuple[float, float] = (1.0, 1.0)
+
+
 def load_response(folder: Path, network: Path) -> VelocityResponse | None:
     """Load the response of a network on a robot.
 
@@ -62,31 +74,15 @@ def load_response(folder: Path, network: Path) -> VelocityResponse | None:
     if not path.is_file():
         return None
     try:
-        entries = tomllib.loads(path.read_text(encoding="utf-8-sig"))
-        if entries["network"] != digest_of(network):
-            return None
-        axes = [
-            AxisResponse(
-                tuple(map(float, entries[name]["commands"])),
-                tuple(
-                    BodyVelocity(*map(float, row))
-                    for row in entries[name]["delivered"]
-                ),
-                float(entries[name]["lag"]),
-                float(entries[name]["halting"]),
-            )
-            for name in AXES
-        ]
-        tube = float(entries.get("tube", 0.0))
-        ahead, side = map(float, entries.get("odometry_ratio", (1.0, 1.0)))
-    except (ValueError, KeyError, TypeError) as error:
-        raise PolicyError(
-            f"{path} is not a response of legs: `stepaside legs measure` "
-            "writes it anew"
-        ) from error
-    try:
-        return VelocityResponse(
-            (axes[0], axes[1], axes[2]), tube, (ahead, side)
+        own = read_entries(
+            ResponseEntries, load_entries(path, PolicyError), error=PolicyError
         )
+        if own.network != digest_of(network):
+            return None
+        axes = own.forward, own.lateral, own.turn
+        return VelocityResponse(axes, own.tube, own.odometry_ratio)
     except PolicyError as error:
-        raise PolicyError(f"{path}: {error}") from error
+        raise PolicyError(
+            f"{path} is not a response of legs: {error}; `stepaside legs "
+            "measure` writes it anew"
+        ) from error
