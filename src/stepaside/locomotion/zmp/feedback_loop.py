@@ -1,7 +1,6 @@
 """Balance control between plan and joints: open loop or feedback."""
 
 from collections.abc import Callable
-from typing import Protocol
 
 import numpy as np
 
@@ -25,101 +24,21 @@ PlanFrom = Callable[[CenterState], ManeuverPlan]
 StepAt = Callable[[float], CurrentStep]
 
 
-class Balance(Protocol):
-    """Joint targets that keep balance along the references of a plan."""
-
-    @property
-    def state(self) -> BodyState | None:
-        """Last estimate of the body's state, if any."""
-
-    @property
-    def solved(self) -> MpcResult | None:
-        """Result of the MPC at this tick, if it ran."""
-
-    @property
-    def adapted(self) -> int:
-        """Number of footsteps moved so far."""
-
-    @property
-    def commanded(self) -> BodyReference | None:
-        """Body reference of the last tick, if feedback changes it."""
-
-    @property
-    def ready(self) -> bool:
-        """Whether the robot may begin to walk."""
-
-    @property
-    def tilt(self) -> Vector | None:
-        """Roll and pitch of the torso, in [rad]; None without an estimate."""
-
-    @property
-    def measured_heading(self) -> float | None:
-        """Measured heading of the torso in odometry, in [rad]."""
-
-    @property
-    def planned_heading(self) -> float:
-        """Heading of the torso of the last targets, in [rad]."""
-
-    def planned_targets(
-        self, table: ReferenceTable, index: int
-    ) -> Array | None:
-        """Return the joint targets of a tick if they need no measurement.
-
-        Args:
-            table: References of the plan.
-            index: Index of the tick in the table.
-
-        Returns:
-            Joint targets, in [rad], shape (joints,); None with feedback.
-
-        Raises:
-            ReachError: If the legs cannot follow the reference.
-        """
-
-    def targets(
-        self,
-        measurement: Measurement,
-        table: ReferenceTable,
-        index: int,
-        step: StepAt,
-    ) -> Array | None:
-        """Return the joint targets of one tick.
-
-        Args:
-            measurement: Measurement of the tick.
-            table: References of the plan.
-            index: Index of the tick in the table.
-            step: Function from a time, in [s], to the step in progress.
-
-        Returns:
-            Joint targets, in [rad], shape (joints,); None after a fall.
-
-        Raises:
-            ReachError: If the legs cannot follow the reference.
-        """
-
-    def land(
-        self,
-        landed: Pose,
-        position: Vector,
-        velocity: Vector,
-        step: CurrentStep,
-    ) -> tuple[Pose, Vector, Vector]:
-        """Return the estimated landing, CoM and velocity after a step.
-
-        The landing is in odometry, CoM and velocity in the landed foot.
-        """
-
-    def fit(
-        self, plan_from: PlanFrom, state: CenterState, support: Pose
-    ) -> tuple[ManeuverPlan, CenterState]:
-        """Plan with the correction inside the sole."""
-
-
 class OpenLoop:
-    """Open loop: the plan as it is, on stiff joints.
+    """Joint targets of the plan as it is, on stiff joints.
 
-    The targets of a whole step are computed at once.
+    The targets of a whole step are computed at once. Where a joint limit
+    acts, they are computed tick by tick.
+
+    Attributes:
+        state: Last estimate of the body's state, if any.
+        solved: Result of the MPC at this tick, if it ran.
+        adapted: Number of footsteps moved so far.
+        commanded: Body reference of the last tick, if feedback changes it.
+        ready: Whether the robot may begin to walk.
+        tilt: Roll and pitch of the torso, in [rad]; None without an estimate.
+        measured_heading: Measured heading of the torso in odometry, in [rad].
+        planned_heading: Heading of the torso of the last targets, in [rad].
     """
 
     state: BodyState | None = None
@@ -151,11 +70,28 @@ class OpenLoop:
         index: int,
         step: StepAt,
     ) -> Array:
-        """Return the targets of the plan."""
+        """Return the joint targets of one tick.
+
+        Args:
+            measurement: Measurement of the tick.
+            table: References of the plan.
+            index: Index of the tick in the table.
+            step: Function from a time, in [s], to the step in progress.
+
+        Returns:
+            Joint targets, in [rad], shape (joints,); with feedback None after
+            a fall.
+
+        Raises:
+            ReachError: If the legs cannot follow the reference.
+        """
         return self.planned_targets(table, index)
 
     def planned_targets(self, table: ReferenceTable, index: int) -> Array:
-        """Return the targets of the plan at a tick."""
+        """Return the joint targets of a tick if they need no measurement.
+
+        Those of :meth:`targets` then; None with feedback.
+        """
         used = self._used
         if (
             used == len(self._targets)
@@ -204,18 +140,22 @@ class OpenLoop:
         velocity: Vector,
         step: CurrentStep,
     ) -> tuple[Pose, Vector, Vector]:
-        """Return the planned landing, CoM and velocity, unchanged."""
+        """Return the estimated landing, CoM and velocity after a step.
+
+        The landing is in odometry, CoM and velocity in the landed foot. The
+        plan's are returned unchanged.
+        """
         return landed, position, velocity
 
     def fit(
         self, plan_from: PlanFrom, state: CenterState, support: Pose
     ) -> tuple[ManeuverPlan, CenterState]:
-        """Plan from the planned state."""
+        """Plan with the correction inside the sole; here, as planned."""
         return plan_from(state), state
 
 
 class ClosedLoop:
-    """Feedback by a stabiliser."""
+    """Feedback by a stabiliser; members are those of :class:`OpenLoop`."""
 
     def __init__(
         self,
@@ -307,6 +247,9 @@ class ClosedLoop:
     ) -> tuple[ManeuverPlan, CenterState]:
         """Plan with the correction inside the sole."""
         return self.stabiliser.fit(plan_from, state, support)
+
+
+Balance = OpenLoop | ClosedLoop
 
 
 def build_balance(
