@@ -67,7 +67,7 @@ def test_a_summary_is_read_as_written(told: DuelSummary) -> None:
     [
         ({"distance_m": "far"}, "distance_m"),
         ({"distance_m": None}, "distance_m"),
-        ({"distance_m": True}, "float"),
+        ({"distance_m": True}, "finite number"),
         ({"replans": 1.5}, "replans"),
         ({"replans": True}, "int"),
         ({"seed": "one"}, "seed"),

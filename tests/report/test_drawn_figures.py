@@ -32,9 +32,9 @@ COMMANDS = {
     "--refine 0",
     "room": "room --discs 2 --doors 1",
     "duels": "duels --seeds 0:2 --duration 1 --workers 1",
-    "tournament": "tournament --seeds 0:1 --duration 1 --evader aside "
+    "tournament": "tournament --seeds 0:1 --duration 1 --evader evasion "
     "--workers 1",
-    "rating": "rate aside --games 1 --duration 1 --workers 1",
+    "rating": "rate evasion --games 1 --duration 1 --workers 1",
     "robustness": "robustness --kind delay --seeds 1 --method open-loop "
     "--body ideal --workers 1",
 }

@@ -20,6 +20,8 @@ from stepaside.games.run import Run
 from stepaside.games.run_archive import load_run, write_run_files
 from stepaside.robots.description import load_robot
 
+EXAMPLES = Path(__file__).parents[2] / "examples"
+
 
 class Bag(NamedTuple):
     """Messages of a bag.
@@ -269,7 +271,8 @@ def test_the_model_travels_with_the_bag_and_late_readers_get_it(
 
 
 def test_the_layout_names_topics_and_frames_of_the_bag(bag: Bag) -> None:
-    layout = json.loads((bag.folder / "foxglove-layout.json").read_text())
+    file = EXAMPLES / "foxglove-layout.json"
+    layout = json.loads(file.read_text(encoding="utf-8"))
     panels = layout["configById"]
     topics = {*panels["3D!scene"]["topics"]}
     topics |= {

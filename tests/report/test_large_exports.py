@@ -28,7 +28,7 @@ from stepaside.sim.camera_settings import SceneSettings
 
 def export(run: Path, name: str) -> Path:
     """Export a run by the command line, once; return the folder."""
-    folder = run.with_name(f"{run.name}-{name}")
+    folder = run.with_name(f"{run.name}.{name}")
     if folder.exists():
         return folder
     words = ["show", str(run), "-o", f"{run}.{name}"]

@@ -12,7 +12,7 @@ from .figure_style import THEORY, colours_of, mark_level, new_figure, save
 from .text_escaping import for_figure
 
 LINES = ("-", "--", ":", "-.")
-RUNS = ("#222222", "#0f7b6c", "#b5651d", "#6a3d9a")
+RUNS = ("#222222", "#0b6a5d", "#8f4f14", "#6a3d9a")
 
 
 def draw_comparison(runs: Sequence[Run], file: AnyPath) -> None:

@@ -3,8 +3,8 @@
 import os
 import sys
 from collections.abc import Iterable, Mapping
+from functools import partial
 from io import BytesIO
-from itertools import cycle
 from typing import Any
 
 import matplotlib
@@ -18,21 +18,15 @@ from cycler import cycler  # noqa: E402
 
 from ..core.atomic_output import atomic_draft  # noqa: E402
 from ..core.errors import AnyPath, as_path  # noqa: E402
-from ..core.player_colours import from_hex, shades_of, to_hex  # noqa: E402
-from ..core.player_identity import PlayerIdentity, Role  # noqa: E402
 from .figure_sizes import sheet  # noqa: E402
+from .palette import PALETTES, colours_in  # noqa: E402
 
-PURSUER = "#c8321f"
-EVADER = "#1f5fbf"
-BYSTANDER = "#6f7275"
-NO_IDENTITIES: Mapping[str, PlayerIdentity] = {}
-THEORY = "#444444"
-LEFT, RIGHT = "#0f7b6c", "#b5651d"
-MEAN = "#5b2a86"  # mean over a gait cycle
-SWAY = "#b9a5cf"  # the same quantity at every sample
+LIGHT = PALETTES["light"]
+PURSUER, EVADER, THEORY = LIGHT.pursuer, LIGHT.evader, LIGHT.theory
+LEFT, RIGHT = LIGHT.others[:2]
+MEAN, SWAY, PUSHED = LIGHT.mean, LIGHT.sway, LIGHT.pushed
 COLOURS = {"pursuer": PURSUER, "evader": EVADER}
-OTHERS = (LEFT, RIGHT, "#6a3d9a", "#8a6d00", "#c0307f", "#3d6b8a")
-PUSHED = "#b5006b"
+colours_of = partial(colours_in, "light")
 # Without dates, the same run gives the same file.
 UNDATED: dict[str, dict[str, Any]] = {
     "pdf": {"CreationDate": None},
@@ -179,32 +173,6 @@ def mark_level(
         color=colour,
         fontsize=sheet().font - 1.0,
     )
-
-
-def colours_of(
-    players: Iterable[str],
-    identities: Mapping[str, PlayerIdentity] = NO_IDENTITIES,
-) -> dict[str, str]:
-    """Return the colour of each player: its role's, or the next free one.
-
-    Args:
-        players: Their names.
-        identities: Identities by name; players of one role have shades of
-            its colour.
-    """
-    base = {
-        Role.PURSUER: from_hex(PURSUER),
-        Role.EVADER: from_hex(EVADER),
-        Role.BYSTANDER: from_hex(BYSTANDER),
-    }
-    shades = shades_of(identities, base)
-    others = cycle(OTHERS)
-    return {
-        name: to_hex(shades[name])
-        if name in shades
-        else COLOURS.get(name) or next(others)
-        for name in players
-    }
 
 
 def save(figure: Any, file: AnyPath) -> None:

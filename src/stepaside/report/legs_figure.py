@@ -4,7 +4,7 @@ from ..core.errors import AnyPath
 from ..locomotion.policy.velocity_response import AXES, VelocityResponse
 from .figure_style import THEORY, new_figure, save
 
-COLOURS = ("#1f5fa8", "#0f7b6c", "#b5651d")
+COLOURS = ("#1f5fbf", "#0b6a5d", "#8f4f14")
 LABELS = ("forward [m/s]", "lateral [m/s]", "turn [rad/s]")
 
 

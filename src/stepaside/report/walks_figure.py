@@ -9,7 +9,7 @@ import numpy as np
 from ..core.poses import Array
 from ..games.run import Run
 from ..games.support_foot_columns import express_in_support_foot
-from .figure_style import OTHERS, new_figure, save
+from .figure_style import LIGHT, new_figure, save
 from .push_marks import draw_pushes
 from .text_escaping import for_figure
 
@@ -28,8 +28,8 @@ def draw_walks(runs: Sequence[Run], file: Path) -> None:
     for number, run in enumerate(runs):
         (track,) = run.tracks.values()
         look: dict[str, Any] = {
-            "color": OTHERS[number % len(OTHERS)],
-            "linestyle": LINES[number // len(OTHERS) % len(LINES)],
+            "color": LIGHT.others[number % len(LIGHT.others)],
+            "linestyle": LINES[number // len(LIGHT.others) % len(LINES)],
             "linewidth": 1.1,
         }
         name = for_figure(run.name)

@@ -19,7 +19,6 @@ from ...perception.images import ColourImage
 from ...robots.head import depth_camera_name
 from ...robots.urdf_elements import IMU, OPTICAL
 from ..landed_footsteps import landed_footsteps
-from .bag_layout import write_layout
 from .bag_messages import MessageFactory, nanoseconds
 from .recorded_transforms import (
     base_poses,
@@ -58,7 +57,7 @@ def write_bag(
     recording: Recording,
     report: Callable[[int, int], None] | None = None,
 ) -> None:
-    """Write a ROS 2 bag in MCAP with URDF files and a Foxglove layout.
+    """Write a ROS 2 bag in MCAP with URDF files.
 
     Args:
         folder: Existing folder; gets ``NAME.mcap`` and ``metadata.yaml``, so
@@ -92,7 +91,6 @@ def write_bag(
     bag.rmdir()
     for name, model in recording.models.items():
         (folder / f"{name}.urdf").write_text(model.urdf, encoding="utf-8")
-    write_layout(folder / "foxglove-layout.json", recording)
 
 
 def _quality(*, stays: bool) -> Any:
