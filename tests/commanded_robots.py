@@ -2,7 +2,6 @@
 
 from collections.abc import Callable, Mapping
 
-from stepaside.drivers.velocity.velocity_body import VelocityCommand
 from stepaside.games.duel_as_game import build_duel_world
 from stepaside.games.duel_settings import PLAYERS, DuelSettings
 from stepaside.games.game_world import RemoteControl
@@ -11,6 +10,7 @@ from stepaside.games.match import Match
 from stepaside.games.outcome import Outcome
 from stepaside.games.velocity_walker import VelocityWalker
 from stepaside.sim.world import World
+from stepaside.strategies.velocity_set import BodyVelocity
 
 
 def commanded_robots(
@@ -33,7 +33,7 @@ class VelocityCommands:
     """Match observer that commands a velocity to each robot at each tick."""
 
     def __init__(
-        self, sources: Mapping[VelocityWalker, Callable[[], VelocityCommand]]
+        self, sources: Mapping[VelocityWalker, Callable[[], BodyVelocity]]
     ) -> None:
         self._sources = sources
 

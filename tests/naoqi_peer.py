@@ -43,6 +43,11 @@ class ALMotion:
         self._go((0.0, 0.0, 0.0))
         self.calls.append("stopMove")
 
+    def getPosition(self, name: str, frame: int, sensors: bool) -> list[float]:
+        """Return place [m] and roll, pitch and yaw [rad] of the camera."""
+        assert (name, frame) == ("CameraTop", 2)
+        return [0.05, 0.0, 0.5, 0.0, 0.1, 0.2]
+
     def getRobotPosition(self, use_sensors: bool) -> list[float]:
         """Return x [m], y [m] and heading [rad]."""
         while self.silent:

@@ -255,7 +255,7 @@ def test_every_angle_at_a_door_is_tried() -> None:
     left_out = (  # results, readings, and arrays of the compiled search
         *("Circle", "Outcomes", "Run", "Track", "ManeuverPlan "),
         *("Sighting", "Measurement", "Configuration", "BodySettings"),
-        *("Maneuvers ", "JointTarget ", "ShieldGame "),
+        *("Maneuvers ", "JointTargets ", "ShieldGame "),
     )
     found = set()
     for name, called in callables():

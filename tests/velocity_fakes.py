@@ -6,14 +6,11 @@ from time import monotonic, sleep
 from typing import Any
 
 from stepaside.core.poses import Pose
-from stepaside.drivers.guardian_process import SessionLost
-from stepaside.drivers.velocity.velocity_body import (
-    REST,
-    VelocityCommand,
-    VelocityReport,
-)
-from stepaside.drivers.velocity.walking_robot import WalkerState
-from stepaside.perception.measurement import Sighting
+from stepaside.drivers.joint_body import SystemClock
+from stepaside.drivers.velocity_limits import REST
+from stepaside.drivers.walking_robot import WalkerState
+from stepaside.perception.measurement import Measurement, Sighting
+from stepaside.strategies.velocity_set import BodyVelocity
 
 LONGEST = 200.0  # for what takes milliseconds, in [s]
 PERIOD = 0.05  # between reports, in [s]
@@ -31,38 +28,46 @@ def until(done: Callable[[], Any]) -> Any:
     raise AssertionError("nothing came")
 
 
-def report(time: float, **changes: object) -> VelocityReport:
+def report(time: float, **changes: object) -> Measurement:
     """Return the report of a standing robot with a new sighting."""
     seen = AHEAD._replace(time=time)
-    return VelocityReport(time, Pose(0.0, 0.0, 0.0), seen)._replace(**changes)  # type: ignore[arg-type]
+    told = Measurement(time, sighting=seen, pose=Pose(0.0, 0.0, 0.0))
+    return told._replace(**changes)  # type: ignore[arg-type]
 
 
 class FakeWalker:
-    """Robot with scripted reports; None is silence.
+    """Session with a robot of scripted reports; None is silence.
 
     Each look of its player takes the time of one report.
     """
 
-    def __init__(self, script: Iterable[VelocityReport | None]) -> None:
+    def __init__(self, script: Iterable[Measurement | None]) -> None:
         self.script = iter(script)
         self.now = 500.0
-        self.asked: list[VelocityCommand] = []
-        self.breaks = False
+        self.asked: list[BodyVelocity] = []
+        self.robot: Any = self
 
-    def clock(self) -> float:
-        """Time of this computer, in [s]."""
-        return self.now
+    @property
+    def clock(self) -> SystemClock:
+        """Clock of this computer, by hand."""
+        return SystemClock(lambda: self.now, lambda duration: None)
 
-    def listen(self, patience: float) -> VelocityReport | None:
+    def listen(self, patience: float, convert: Any) -> Measurement | None:
         """Return the next report of the script."""
         self.now += PERIOD
         return next(self.script, None)
 
-    def command(self, velocity: VelocityCommand) -> None:
-        """Store the command."""
-        if self.breaks:
-            raise SessionLost("broken")
-        self.asked.append(velocity)
+    def released(self) -> str:
+        """Have no switch."""
+        return ""
+
+    def command(self, call: Any) -> None:
+        """Store the velocity that a call would command."""
+        self.asked.append(BodyVelocity(*call.args))
+
+    def halt(self) -> None:
+        """Store it."""
+        self.asked.append(REST)
 
     def close(self) -> None:
         """Nothing to let go of."""
@@ -77,7 +82,7 @@ class SimulatedUnicycle:
         self.velocity = self.commanded = REST
         self.sighting: Sighting | None = None
 
-    def command(self, velocity: VelocityCommand) -> None:
+    def command(self, velocity: BodyVelocity) -> None:
         """Store the command."""
         self.commanded = velocity
 
@@ -91,7 +96,7 @@ class SimulatedUnicycle:
             self.sighting,
         )
 
-    def move(self, velocity: VelocityCommand, passed: float) -> None:
+    def move(self, velocity: BodyVelocity, passed: float) -> None:
         """Go on for some time, in [s]."""
         x, y, heading = self.pose
         way = velocity.forward * passed

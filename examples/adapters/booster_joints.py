@@ -6,9 +6,10 @@ names below. Not tested on a robot: hang it up first.
 """
 
 import os
-from collections.abc import Mapping
 from time import monotonic
 from typing import Any
+
+import numpy as np
 
 import stepaside as sa
 
@@ -29,10 +30,10 @@ JOINTS = (
 class BoosterJoints(sa.JointRobot):
     """Robot in its custom mode, which takes a command for each joint."""
 
-    tick = 0.02
+    tick, joints = 0.02, JOINTS
     gains = dict.fromkeys(JOINTS[:10], (4.0, 1.0))  # those of Booster's
     gains |= dict.fromkeys(JOINTS[10:], (80.0, 2.0))  # K1 deployment
-    newest: sa.JointReport | None = None
+    newest: sa.Measurement | None = None
     takes_joints = False
 
     def open(self) -> None:
@@ -55,29 +56,29 @@ class BoosterJoints(sa.JointRobot):
 
     def note(self, state: Any) -> None:
         """Store a message, which has no stamp; called by the SDK."""
-        motors = dict(zip(JOINTS, state.motor_state_serial, strict=True))
-        imu = state.imu_state
-        self.newest = sa.JointReport(
+        motors, imu = state.motor_state_serial, state.imu_state
+        self.newest = sa.Measurement(
             monotonic(),
-            {name: motor.q for name, motor in motors.items()},
-            {name: motor.dq for name, motor in motors.items()},
-            imu.gyro,
-            imu.acc,
-            (imu.rpy[0], imu.rpy[1]),
+            np.array([motor.q for motor in motors]),
+            np.array(imu.gyro),
+            np.array(imu.acc),
+            joint_velocities=np.array([motor.dq for motor in motors]),
+            tilt=(imu.rpy[0], imu.rpy[1]),
         )
 
-    def listen(self) -> sa.JointReport | None:
+    def listen(self) -> sa.Measurement | None:
         """Return the newest state; add a sighting of your own detector."""
         return self.newest
 
-    def command(self, targets: Mapping[str, sa.JointTarget]) -> None:
+    def command(self, targets: sa.JointTargets) -> None:
         """Command all joints."""
         if not self.takes_joints:
             self.client.ChangeMode(self.booster.RobotMode.kCustom)
             self.takes_joints = True
-        for number, name in enumerate(JOINTS):
+        rows = np.column_stack(targets).tolist()
+        for number, (angle, stiffness, damping) in enumerate(rows):
             motor = self.message.motor_cmd_at(number)
-            motor.q, motor.kp, motor.kd = targets[name]
+            motor.q, motor.kp, motor.kd = angle, stiffness, damping
         self.commands.Write(self.message)
 
     def release(self) -> None:

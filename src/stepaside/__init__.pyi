@@ -3,15 +3,13 @@ from .control import ControlScheme as ControlScheme
 from .control.scheme_builder import build_scheme as build_scheme
 from .core.errors import StepAsideError as StepAsideError
 from .core.poses import Pose as Pose
-from .drivers.cameras.robot_camera import CameraImage as CameraImage
-from .drivers.cameras.robot_camera import CameraMount as CameraMount
-from .drivers.cameras.robot_camera import HeadLimits as HeadLimits
-from .drivers.joint.joint_robot import JointReport as JointReport
-from .drivers.joint.joint_robot import JointRobot as JointRobot
-from .drivers.joint.joint_robot import JointTarget as JointTarget
-from .drivers.velocity.velocity_body import VelocityReport as VelocityReport
-from .drivers.velocity.velocity_limits import VelocityLimits as VelocityLimits
-from .drivers.velocity.velocity_robot import VelocityRobot as VelocityRobot
+from .drivers.joint_robot import JointRobot as JointRobot
+from .drivers.joint_robot import JointTargets as JointTargets
+from .drivers.robot_camera import CameraImage as CameraImage
+from .drivers.robot_camera import CameraMount as CameraMount
+from .drivers.robot_camera import HeadLimits as HeadLimits
+from .drivers.velocity_limits import VelocityLimits as VelocityLimits
+from .drivers.velocity_robot import VelocityRobot as VelocityRobot
 from .games import Duel as Duel
 from .games import DuelRun as DuelRun
 from .games import DuelSettings as DuelSettings
@@ -26,6 +24,7 @@ from .games.walk_game import run_walk as run_walk
 from .games.walk_settings import WalkSettings as WalkSettings
 from .locomotion.zmp.control_settings import ControlSettings as ControlSettings
 from .perception.measurement import Measurement as Measurement
+from .perception.measurement import RobotStatus as RobotStatus
 from .perception.measurement import Sighting as Sighting
 from .planning import Direction as Direction
 from .planning import Foot as Foot
@@ -77,9 +76,8 @@ __all__ = [
     "GaitSettings",
     "HeadLimits",
     "Intent",
-    "JointReport",
     "JointRobot",
-    "JointTarget",
+    "JointTargets",
     "Knowledge",
     "ManeuverPlan",
     "ManeuverPlanner",
@@ -88,6 +86,7 @@ __all__ = [
     "Pose",
     "Pursuit",
     "Push",
+    "RobotStatus",
     "Run",
     "Sighting",
     "RelativeStart",
@@ -95,7 +94,6 @@ __all__ = [
     "StepAsideError",
     "Strategy",
     "VelocityLimits",
-    "VelocityReport",
     "VelocityRobot",
     "WalkRun",
     "WalkSettings",

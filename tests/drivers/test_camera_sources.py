@@ -1,4 +1,4 @@
-"""Test where images come from: V4L2, NAOqi and ROS 2."""
+"""Test where images come from: V4L2 and ROS 2."""
 
 import os
 from collections.abc import Callable
@@ -12,9 +12,12 @@ import pytest
 cv2 = pytest.importorskip("cv2")
 
 from stepaside.core.poses import Pose  # noqa: E402
-from stepaside.drivers.cameras.image_source import LiveCamera, resize_model  # noqa: E402
-from stepaside.drivers.cameras.v4l2 import open_v4l2  # noqa: E402
 from stepaside.drivers.guardian_process import SessionLost  # noqa: E402
+from stepaside.drivers.image_source import (  # noqa: E402
+    LiveCamera,
+    open_v4l2,  # noqa: E402
+    resize_model,
+)
 from stepaside.perception.camera_model import CameraModel  # noqa: E402
 from stepaside.perception.images import ColourImage  # noqa: E402
 
@@ -100,15 +103,14 @@ def test_scaled_optics_see_as_far() -> None:
 @pytest.mark.parametrize("squeezed", [False, True])
 def test_a_ros2_robot_publishes_its_camera_images(squeezed: bool) -> None:
     pytest.importorskip("cyclonedds")
-    from stepaside.drivers.ros2.dds_domain import DdsParticipant
-    from stepaside.drivers.ros2.image_messages import TopicCamera
-    from stepaside.drivers.ros2.ros2_server import Ros2Server, WorldClock
-    from stepaside.drivers.ros2.topics import COMPRESSED, IMAGE
+    from stepaside.drivers.ros2_dds import DdsParticipant
+    from stepaside.drivers.ros2_images import TopicCamera
+    from stepaside.drivers.ros2_server import Ros2Server, WorldClock
 
     dds, walker = DdsParticipant(0, tag=TAG), Seer()
     clock = WorldClock(dds)
     server = Ros2Server(dds, "/n", walker, ["a", "b"], clock, tick=0.012)
-    name = COMPRESSED if squeezed else IMAGE
+    name = "camera/image_raw" + ("/compressed" if squeezed else "")
     guess = CameraModel(320, 240, 99.0, 99.0)  # camera_info says better
     camera = TopicCamera(
         DdsParticipant(0, tag=TAG), f"/n/{name}", guess, latency=0.1
@@ -133,28 +135,28 @@ def test_a_ros2_robot_publishes_its_camera_images(squeezed: bool) -> None:
 
 def test_images_of_topics_are_checked() -> None:
     pytest.importorskip("cyclonedds")
-    from stepaside.drivers.ros2.image_messages import pixels_of, unpacked
-    from stepaside.drivers.ros2.messages import (
-        CompressedImage,
-        Header,
-        Image,
-        Time,
-    )
+    from stepaside.drivers.ros2_dds import header, make
+    from stepaside.drivers.ros2_images import pixels_of, unpacked
 
-    head = Header(Time.of(0.0), "")
-    padded = Image(head, 1, 2, "bgr8", 0, 8, [1, 2, 3, 4, 5, 6, 0, 0])
+    def image(*values: Any) -> Any:
+        return make("sensor_msgs/Image", header(0.0, ""), *values)
+
+    padded = image(1, 2, "bgr8", 0, 8, [1, 2, 3, 4, 5, 6, 0, 0])
     np.testing.assert_array_equal(pixels_of(padded), [[[3, 2, 1], [6, 5, 4]]])
-    grey = Image(head, 1, 2, "mono8", 0, 2, [7, 9])
+    grey = image(1, 2, "mono8", 0, 2, [7, 9])
     np.testing.assert_array_equal(pixels_of(grey), [[[7] * 3, [9] * 3]])
     for message in (
-        Image(head, 1, 2, "bayer", 0, 2, [7, 9]),
-        Image(head, 1, 2, "rgb8", 0, 6, [7, 9]),
-        Image(head, 9999, 2, "mono8", 0, 2, [7, 9]),
-        Image(head, 1, 2, "rgb8", 0, 4, [7, 9, 1, 1]),
+        image(1, 2, "bayer", 0, 2, [7, 9]),
+        image(1, 2, "rgb8", 0, 6, [7, 9]),
+        image(9999, 2, "mono8", 0, 2, [7, 9]),
+        image(1, 2, "rgb8", 0, 4, [7, 9, 1, 1]),
     ):
         assert pixels_of(message) is None
-    assert unpacked(CompressedImage(head, "jpeg", [1, 2, 3])) is None
-    assert unpacked(CompressedImage(head, "jpeg", [])) is None
+    for data in ([1, 2, 3], []):
+        squeezed = make(
+            "sensor_msgs/CompressedImage", header(0.0, ""), "jpeg", data
+        )
+        assert unpacked(squeezed) is None
 
 
 class Seer(SimulatedUnicycle):

@@ -13,15 +13,9 @@ from stepaside.core.errors import ConfigurationError
 from stepaside.drivers.dead_man_switch import (
     FIRST,
     REPEAT,
-    DeadManBody,
     GamepadButton,
     HeldKey,
 )
-from stepaside.drivers.velocity.velocity_body import REST, VelocityCommand
-
-from velocity_fakes import FakeWalker, report  # isort: skip
-
-WALK = VelocityCommand(0.1, 0.2)
 
 
 class FakeClock:
@@ -112,52 +106,21 @@ def test_a_gamepad_that_is_not_there_is_refused() -> None:
         GamepadButton("/dev/no")
 
 
-class FakeSwitch:
-    """Switch that a test holds."""
-
-    reason = ""
-    closed = False
-
-    def released(self) -> str:
-        """Return the reason of the test."""
-        return self.reason
-
-    def close(self) -> None:
-        """Note the call."""
-        self.closed = True
-
-
-def test_a_released_switch_hinders_the_robot() -> None:
-    robot, switch = FakeWalker([report(0.0), report(0.1)]), FakeSwitch()
-    body = DeadManBody(robot, switch)
-    heard = body.listen(0.0)
-    assert heard is not None and not heard.hindrance
-    body.command(WALK)
-    switch.reason = "released"
-    heard = body.listen(0.0)
-    assert heard is not None and heard.hindrance == "released"
-    body.command(WALK)
-    assert body.listen(0.0) is None
-    body.close()
-    assert robot.asked == [WALK, REST] and switch.closed
-
-
 def test_a_topic_is_held_while_it_is_true() -> None:
     pytest.importorskip("cyclonedds")
-    from stepaside.drivers.ros2.dds_domain import DdsParticipant
-    from stepaside.drivers.ros2.messages import Bool
-    from stepaside.drivers.ros2.switch_topic import AGE, TopicSwitch
+    from stepaside.drivers.ros2 import HELD, TopicSwitch
+    from stepaside.drivers.ros2_dds import DdsParticipant, make
 
     clock = FakeClock()
     operator = DdsParticipant(74)
     switch = TopicSwitch(DdsParticipant(74), "/operator/hold", clock)
-    writer = operator.writer("rt/operator/hold", Bool)
+    writer = operator.writer("/operator/hold", "std_msgs/msg/Bool")
     end = monotonic() + 20.0
     while switch.released() and monotonic() < end:
-        writer.write(Bool(True))
+        writer.write(make("std_msgs/Bool", True))
         sleep(0.01)
     assert not switch.released()
-    clock.now += 1.1 * AGE
+    clock.now += 1.1 * HELD
     assert "/operator/hold is not true" in switch.released()
 
     def turns(is_held: bool) -> bool:
@@ -168,11 +131,11 @@ def test_a_topic_is_held_while_it_is_true() -> None:
         return bool(switch.released()) != is_held
 
     # Letting go counts at once: by a message, or because its writer leaves.
-    writer.write(Bool(True))
+    writer.write(make("std_msgs/Bool", True))
     assert turns(True)
-    writer.write(Bool(False))
+    writer.write(make("std_msgs/Bool", False))
     assert turns(False)
-    writer.write(Bool(True))
+    writer.write(make("std_msgs/Bool", True))
     assert turns(True)
     operator.close()
     assert turns(False)

@@ -7,9 +7,12 @@ from importlib.util import find_spec
 import pytest
 
 DRIVERS = "stepaside.drivers"
-LOLA = ("lola_connection", "lola_server", "sight_socket")
-NAOQI = ("naoqi_body", "video_client")
 ABSENT = ("mujoco", "scipy", "matplotlib", "cv2")
+VENDORS = {
+    "msgpack": ["lola", "lola_server"],
+    "cyclonedds": ["ros2", "ros2_server"],
+    "qi": ["naoqi"],
+}
 
 
 def loads(code: str) -> None:
@@ -20,37 +23,23 @@ def loads(code: str) -> None:
 
 def test_drivers_load_without_a_simulator() -> None:
     """The run folder is written on board the robot, too."""
-    modules = [
-        "stepaside.cli.play_recording",
-        "stepaside.games.run_archive",
-        *(f"{DRIVERS}.lola.{name}" for name in LOLA),
-        *(
-            f"{DRIVERS}.velocity.velocity_{name}"
-            for name in ("loop", "guardian")
-        ),
-        *(f"{DRIVERS}.{name}" for name in ("guardian_process", "play_log")),
-    ]
-    if find_spec("cyclonedds"):
-        modules.append(f"{DRIVERS}.ros2.ros2_body")
-    if find_spec("qi"):
-        modules += [f"{DRIVERS}.naoqi.{name}" for name in NAOQI]
+    names = ["joint_loop", "velocity_loop", "play_log", "rcss"]
+    for library, modules in VENDORS.items():
+        names += modules if find_spec(library) else []
+    modules = ["stepaside.cli.play_recording", "stepaside.games.run_archive"]
+    modules += [f"{DRIVERS}.{name}" for name in names]
     loads(f"import {', '.join(modules)}")
 
 
-@pytest.mark.parametrize("library", ["cyclonedds", "qi", "msgpack"])
+@pytest.mark.parametrize("library", VENDORS)
 def test_each_protocol_loads_without_the_libraries_of_others(
     library: str,
 ) -> None:
-    others = {"cyclonedds", "qi", "msgpack"} - {library}
-    entry = {
-        "cyclonedds": "stepaside.drivers.ros2.ros2_body",
-        "qi": "stepaside.drivers.naoqi.naoqi_body",
-        "msgpack": "stepaside.drivers.lola.lola_connection",
-    }
     pytest.importorskip(library)
+    others = sorted(VENDORS.keys() - {library})
     loads(
-        f"sys.modules.update(dict.fromkeys({sorted(others)!r}));"
-        f"import stepaside.cli.play, {entry[library]}"
+        f"sys.modules.update(dict.fromkeys({others!r}));"
+        f"import stepaside.cli.play, {DRIVERS}.{VENDORS[library][0]}"
     )
 
 

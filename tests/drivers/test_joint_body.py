@@ -1,389 +1,383 @@
-"""Test the robot behind LoLA as control sees it, on a clock set by hand."""
+"""Test the body of a joint-driven robot: states, limits and refusals."""
 
-from collections.abc import Iterable
+from math import degrees, inf, nan
 from typing import Any
 
 import numpy as np
 import pytest
 
-from lola_fakes import (
-    JOINTS,
+from joint_fakes import (
+    MOTORS,
     STANCE,
-    Clock,
-    FakeLink,
-    counted,
-    pressed,
-    sensor_frame,
+    TICK,
+    FakeRobot,
+    FakeSession,
+    body_of,
+    play,
+    press,
+    status,
+    walking,
 )
+from stepaside.core.errors import ConfigurationError
 from stepaside.drivers.guardian_process import SessionLost
-from stepaside.drivers.joint.joint_body import (
-    JointBody,
-    JointInterface,
-    SystemClock,
-)
-from stepaside.drivers.joint.safety_state_machine import RobotState
-from stepaside.drivers.lola.conventions import CODEC, joint_frame_of
-from stepaside.drivers.lola.lights import COLOURS
-from stepaside.drivers.lola.lola_frames import pack_sensors
-from stepaside.drivers.lola.nao_joints import LEGS, NAMES, NAO_MOTORS, TICK
-from stepaside.drivers.lola.sight_socket import (
-    SightClient,
-    SightMessage,
-    pack_sight,
-)
+from stepaside.drivers.joint_body import JointBody, MotorGains
+from stepaside.drivers.joint_robot import check_joint_robot, motors_of
+from stepaside.drivers.safety_states import SafetyState
+from stepaside.perception.images import SonarEcho
 from stepaside.perception.measurement import Sighting
-
-FINE = pack_sensors(sensor_frame())
-TO_READY = 100 * [FINE]  # warm up, and a second of growing stiffness
-START = [pack_sensors(pressed()), FINE]
+from stepaside.robots.description import load_robot
+from stepaside.robots.tree_cache import load_tree
 
 
-def body_of(
-    script: Iterable[Any], **changes: Any
-) -> tuple[JointBody, FakeLink, Clock]:
-    clock = Clock()
-    link = FakeLink(clock, script)
-    body = JointBody(
-        JointInterface(link, NAO_MOTORS, CODEC),
-        dict(zip(JOINTS, STANCE, strict=True)),
-        clock=SystemClock(clock, clock.pause),
-        **changes,
-    )
-    return body, link, clock
-
-
-def play(body: JointBody, ticks: int, targets: Any = STANCE) -> None:
-    for _ in range(ticks):
-        body.read()
-        body.write(targets)
-        body.step()
-
-
-def walking(
-    script: Iterable[Any] = (), **changes: Any
-) -> tuple[JointBody, FakeLink, Clock]:
-    body, link, clock = body_of([*TO_READY, *START, *script], **changes)
-    play(body, 102)
-    assert body.state is RobotState.WALKING
-    return body, link, clock
-
-
-def test_a_robot_that_stands_is_ready_after_a_second_and_walks_by_button() -> (
-    None
-):
-    body, link, _ = body_of([*TO_READY, *START])
-    shown: list[RobotState] = []
-    for _ in range(102):
-        play(body, 1)
-        if not shown or shown[-1] is not body.state:
-            shown.append(body.state)
-    assert shown == [
-        RobotState.LIMP,
-        RobotState.REACHING,
-        RobotState.READY,
-        RobotState.WALKING,
-    ]
-    assert link.sent[-1].lights["Chest"] == COLOURS[RobotState.WALKING]
-
-
-def test_the_first_frames_are_answered_without_a_command() -> None:
-    """They may be all zeros; a silent client would stop some worlds."""
-    body, link, _ = body_of(2 * [FINE])
-    play(body, 2)
-    for answer in link.sent:
-        assert answer.position is None
-        assert answer.stiffness is not None and answer.stiffness.max() == 0.0
-
-
-def test_stiffness_grows_from_where_the_joints_are() -> None:
-    sits = sensor_frame()
-    sits.position[NAMES.index("LKneePitch")] = 2.0
-    body, link, _ = body_of(20 * [sits])
-    play(body, 20)
-    first = next(a for a in link.sent if a.position is not None)
-    assert first.position is not None and first.stiffness is not None
-    np.testing.assert_allclose(first.position, sits.position, atol=0.007)
-    assert 0.0 < first.stiffness.max() < 0.05
-
-
-def test_control_moves_the_joints_only_while_it_walks() -> None:
-    body, link, _ = body_of([*TO_READY, *START, FINE])
-    wanted = STANCE + 0.02
-    play(body, 101, wanted)
-    held = link.sent[-1].position
-    assert held is not None
-    np.testing.assert_allclose(held[:23], STANCE, atol=1e-6)
-    play(body, 2, wanted)
-    moved = link.sent[-1].position
-    assert moved is not None
-    np.testing.assert_allclose(moved[:23], wanted, atol=1e-6)
-
-
-def test_time_is_zero_where_walking_begins_and_counts_frames() -> None:
-    body, link, clock = body_of([*TO_READY, *START, FINE, [FINE, FINE], FINE])
-    for _ in range(102):
-        time = body.read().time
-        body.write(STANCE)
-    assert time == 0.0
-    # The two that came at once are two ticks, of which the newest counts.
-    times = [body.read().time for _ in range(3)]
-    np.testing.assert_allclose(times, [TICK, 3 * TICK, 4 * TICK])
-
-
-def test_a_few_bad_frames_are_passed_over() -> None:
-    broken = b"\x00" * 896
-    body, link, _ = walking([*3 * [broken], FINE, broken, FINE])
-    play(body, 2)
-    assert body.state is RobotState.WALKING and body.refused == 4
-
-
-def state_of(body: JointBody) -> RobotState:
-    """Return the state now."""
+def state_of(body: JointBody) -> SafetyState:
+    """Return the state now: type checkers assume that it does not change."""
     return body.state
 
 
-def lost(body: JointBody, link: FakeLink, said: str) -> None:
-    """The session ends with a reason, and the robot goes limp softly."""
-    before = len(link.sent)
-    with pytest.raises(SessionLost, match=said):
-        play(body, 100)
-    assert body.state is RobotState.LIMP
-    fading = [a.stiffness for a in link.sent[before:]]
-    shares = [float(s.max()) for s in fading if s is not None]
-    if not link.broken:
-        assert shares[-1] == 0.0 and len(shares) > 30
-        assert all(b < a for a, b in zip(shares[1:], shares[2:], strict=False))
+def test_a_robot_stands_up_slowly_and_walks_by_its_button() -> None:
+    body, session = body_of()
+    session.angles = np.array([0.3, 1.5, 0.0, -0.2])  # of gripper and knee
+    play(body, 110)
+    assert state_of(body) is SafetyState.READY
+    np.testing.assert_allclose(session.angles[[3, 1, 2]], STANCE, atol=0.02)
+    sent = [t for t in session.sent if t is not None]
+    shares = [t.stiffness[1] / 80.0 for t in sent]
+    assert shares[0] == pytest.approx(TICK) and shares[60] == 1.0
+    np.testing.assert_allclose(sent[0].angles[1], 1.5, atol=0.02)
+    speeds = np.abs(np.diff([t.angles for t in sent], axis=0)) / TICK
+    assert speeds[:, 1].max() <= 0.5 + 1e-9
+    assert all(t.stiffness[0] == 0.0 for t in sent)  # not described
+    press(session, body, STANCE)
+    shown = session.robot.shown
+    assert [state.value for state in shown] == [
+        *("limp", "reaching", "ready", "walking")
+    ]
 
 
-def test_silence_for_100_ms_ends_the_session() -> None:
-    body, link, clock = walking()
-    began = clock.now
-    lost(body, link, "no valid frame for 0.100 s")
-    assert clock.now - began == pytest.approx(0.1 + 0.5, abs=0.03)
+def test_control_moves_the_joints_only_while_it_walks() -> None:
+    body, session = body_of()
+    wanted = STANCE + np.array([0.05, 0.05, 0.0])
+    play(body, 60, wanted)
+    held = session.sent[-1]
+    assert held is not None
+    np.testing.assert_allclose(held.angles[MOTORS.order], STANCE, atol=1e-6)
+    press(session, body, wanted)
+    play(body, 1, wanted)
+    moved = session.sent[-1]
+    assert moved is not None
+    np.testing.assert_allclose(moved.angles[MOTORS.order], wanted, atol=1e-6)
 
 
-def test_endless_garbage_ends_the_session_as_silence_does() -> None:
-    body, link, clock = walking(10_000 * [b"\xff" * 896])
-    lost(body, link, "no valid frame for 0.1.*refused")
+def test_time_is_zero_where_walking_begins_and_counts_ticks() -> None:
+    body, session = walking()
+    session.time += 2 * TICK  # two reports are missing
+    session.now += 2 * TICK
+    session.changes["percepts"] = (SonarEcho(session.time, "left", 0.5),)
+    read = body.read()
+    assert read.time == pytest.approx(3 * TICK)
+    assert read.sighting is not None
+    assert read.sighting[:3] == pytest.approx((read.time, 0.4, 0.7))
+    assert read.percepts[0].time == pytest.approx(read.time - TICK)
+    np.testing.assert_allclose(read.joint_positions, session.angles[[3, 1, 2]])
+
+
+def test_targets_stay_in_range_and_within_the_speed_of_their_motor() -> None:
+    body, session = walking()
+    play(body, 60, np.array([5.0, -5.0, 5.0]))
+    sent = session.sent[-1]
+    assert sent is not None
+    hip, knee, neck = sent.angles[MOTORS.order]
+    assert hip == pytest.approx(0.99) and knee == pytest.approx(0.01)
+    assert neck == pytest.approx(60 * TICK * 0.25, rel=0.1)
+
+
+def test_gains_of_control_hold_only_while_it_walks() -> None:
+    """They are soft, so that its targets are not limited."""
+    own = MotorGains(np.full(3, 7.0), np.full(3, 0.5))
+    body, session = walking(gains=own)
+    before, after = session.sent[-3], session.sent[-1]
+    assert before is not None and after is not None
+    assert before.stiffness[MOTORS.order].tolist() == [100.0, 80.0, 10.0]
+    assert after.stiffness[MOTORS.order].tolist() == [7.0, 7.0, 7.0]
+    play(body, 1, np.array([5.0, 5.0, 5.0]))
+    far = session.sent[-1]
+    assert far is not None and far.angles[MOTORS.order].tolist() == [5.0] * 3
+
+
+def test_a_robot_that_stands_by_itself_is_stiff_at_once_and_given_back() -> (
+    None
+):
+    robot = FakeRobot()
+    robot.stands = True
+    body, session = body_of(FakeSession(robot))
+    play(body, 4)
+    first = next(t for t in session.sent if t is not None)
+    assert first.stiffness[1] == 80.0
+    body.fail("asked")
+    play(body, 3)
+    assert session.sent.count(None) == 1
 
 
 @pytest.mark.parametrize(
-    "change",
+    ("changes", "word"),
     [
-        {"angles": (0.7, 0.0)},
-        {"angles": (0.0, -0.7)},
-        {"gyroscope": np.array([5.0, 0.0, 0.0])},
-    ],
-)
-def test_falling_goes_limp_at_once(change: dict[str, Any]) -> None:
-    body, link, _ = walking(60 * [sensor_frame(**change)])
-    play(body, 1)
-    assert body.state is RobotState.LIMP
-    play(body, 59)
-    stiffness = link.sent[-1].stiffness
-    assert stiffness is not None and stiffness.max() == 0.0
-
-
-def moved(count: int, **changes: Any) -> list[Any]:
-    """Frames of a robot whose legs move."""
-    frames = []
-    for i in range(count):
-        frame = sensor_frame(**changes)
-        frame.position[LEGS] += 0.1 * np.sin(0.3 * i)
-        frames.append(frame)
-    return frames
-
-
-def touching(at: int) -> list[Any]:
-    touch = [0.0] * 14
-    touch[at] = 1.0
-    return 30 * [sensor_frame(touch=tuple(touch))]
-
-
-def drawing(joint: str, current: float) -> list[Any]:
-    drawn = np.zeros(25)
-    drawn[NAMES.index(joint)] = current
-    return 60 * [sensor_frame(current=drawn)]
-
-
-@pytest.mark.parametrize(
-    ("frames", "word"),
-    [
-        (60 * [sensor_frame(fsr=np.zeros(8))], "are lifted"),
-        (60 * [sensor_frame(battery=(0.02, 0.0, 0.0, 36.0))], "2 %"),
-        (60 * [sensor_frame(current=np.full(25, 6.0))], "current"),
-        (drawing("RKneePitch", 3.5), "current"),
-        (drawing("LWristYaw", -0.6), "current"),
-        (touching(4), "bumper"),
-        (touching(5), "bumper"),
-        (touching(9), "bumper"),
-        (touching(10), "bumper"),
-        (60 * [sensor_frame(accelerometer=np.zeros(3))], "accelerometer"),
-        (
-            60 * [sensor_frame(accelerometer=np.array([0.0, 0.0, 9.81]))],
-            "accelerometer reads a tilt of 180 deg",
-        ),
-        (moved(60), "accelerometer reading is constant"),
+        ({"foot_forces": np.zeros(8)}, "are lifted"),
+        ({"status": status(charge=0.02)}, "battery is at 2 %"),
+        ({"status": status(current=np.array([0, 1.2, 0, 0]))}, "current"),
+        ({"status": status(bumped=True)}, "bumper"),
+        ({"accelerometer": np.zeros(3)}, "accelerometer reads 0.0"),
+        ({"accelerometer": np.array([0, 0, -9.8])}, "tilt of 180 deg"),
+        ({"hindrance": "tired"}, "tired"),
+        ({"status": status(heat=np.array([0, 2, 0, 0]))}, "reports heat"),
+        ({"status": status(temperature=np.full(4, 82.0))}, "has 82 degC"),
     ],
 )
 def test_a_walk_ends_when_a_sensor_says_that_it_must(
-    frames: list[Any], word: str
+    changes: dict[str, Any], word: str
 ) -> None:
-    body, _, _ = walking(frames)
-    play(body, len(frames))
-    assert body.state is RobotState.STOPPING and word in body.reason
+    body, session = walking()
+    session.changes |= changes
+    play(body, 40)
+    assert state_of(body) is SafetyState.STOPPING and word in body.reason
+
+
+def test_a_constant_accelerometer_ends_a_walk_whose_legs_move() -> None:
+    body, session = walking()
+    session.changes["accelerometer"] = np.array([0.0, 0.0, 9.8])
+    play(body, 40)
+    assert state_of(body) is SafetyState.WALKING  # the legs stand still
+    for i in range(20):
+        play(body, 1, STANCE + 0.1 * np.sin(0.5 * i))
+    assert state_of(body) is SafetyState.STOPPING
+    assert "constant while the legs move" in body.reason
 
 
 @pytest.mark.parametrize(
-    "frames",
+    "changes",
     [
-        drawing("RKneePitch", 2.0),  # a hard landing, within the motor
-        drawing("LHand", 9.0),  # of which nothing is published
-        touching(0)[:1],
-        touching(1),  # the head's buttons
-        60 * [sensor_frame(battery=(0.12, 0.0, 0.0, 36.0))],
-        [
-            frame._replace(
-                accelerometer=np.array([0.0, 0.02 * (i % 2), -9.81])
-            )
-            for i, frame in enumerate(moved(60))
-        ],
+        {"status": status(current=np.array([9.0, 0, 0, 0]))},  # the gripper
+        {"status": status(charge=0.12)},
+        {"status": status(heat=np.array([3, 0, 3, 0]))},  # not of a leg
+        {"gyro": np.array([0.0, 0.0, 5.0])},  # turning is no fall
+        {"sighting": None},  # a robot with a button walks on
     ],
 )
-def test_a_walk_goes_on_where_all_is_well(frames: list[Any]) -> None:
-    body, _, _ = walking(frames)
-    play(body, len(frames))
-    assert body.state is RobotState.WALKING
+def test_a_walk_goes_on_where_all_is_well(changes: dict[str, Any]) -> None:
+    body, session = walking()
+    session.changes |= changes
+    play(body, 60)
+    assert state_of(body) is SafetyState.WALKING
 
 
-def test_turning_about_the_vertical_is_no_fall() -> None:
-    turning = sensor_frame(gyroscope=np.array([0.0, 0.0, 5.0]))
-    body, _, _ = walking([turning])
+@pytest.mark.parametrize(
+    "changes", [{"tilt": (0.7, 0.0)}, {"gyro": np.array([0.0, -5.0, 0.0])}]
+)
+def test_falling_goes_limp_at_once(changes: dict[str, Any]) -> None:
+    body, session = walking()
+    session.changes |= changes
     play(body, 1)
-    assert body.state is RobotState.WALKING
+    assert state_of(body) is SafetyState.LIMP and "falls" in body.reason
+    play(body, 40)
+    assert session.sent[-1] is None
+
+
+def lost(body: JointBody, session: FakeSession, said: str) -> None:
+    """The session ends with a reason, and the robot goes limp softly."""
+    before = len(session.sent)
+    with pytest.raises(SessionLost, match=said):
+        play(body, 20)
+    assert state_of(body) is SafetyState.LIMP
+    if not session.broken:
+        *fading, last = session.sent[before:]
+        shares = [t.stiffness[1] / 80.0 for t in fading if t is not None]
+        assert last is None and len(shares) > 20
+        assert all(b < a for a, b in zip(shares, shares[1:], strict=False))
+
+
+def test_silence_for_100_ms_ends_the_session() -> None:
+    body, session = walking()
+    began, session.silent = session.now, True
+    lost(body, session, "no new report for 0.10 s")
+    assert session.now - began == pytest.approx(0.1 + 0.5, abs=0.03)
+
+
+def test_a_simulator_may_pause_for_seconds() -> None:
+    session = FakeSession()
+    session.robot.paced = False
+    body, _ = body_of(session)
+    play(body, 10)
+    session.now += 9.0
+    play(body, 1)
+    assert state_of(body) is SafetyState.REACHING
+
+
+@pytest.mark.parametrize(
+    ("changes", "said"),
+    [
+        ({"joint_positions": [0, nan, 0, 0]}, "joint_positions must be finit"),
+        (
+            {"joint_positions": [0, 0, 0, degrees(0.5)]},
+            r"hip is at 28.65 rad, outside its range .*degrees",
+        ),
+        ({"joint_velocities": [0, 0, inf, 0]}, "joint_velocities must be fin"),
+        ({"gyro": (0.0, 0.0, degrees(1.0))}, r"gyro .*deg/s"),
+        ({"tilt": (0.0, degrees(0.1))}, "tilt .*degrees"),
+        ({"accelerometer": (0.0, nan, 9.8)}, "accelerometer must be finite"),
+        ({"foot_forces": [nan, *[1.0] * 7]}, "foot_forces must be finite"),
+        ({"sighting": Sighting(0.0, 28.0, 2.0)}, "bearing of the sighting"),
+    ],
+)
+def test_implausible_reports_are_refused_and_end_the_session(
+    changes: dict[str, Any], said: str
+) -> None:
+    body, session = walking()
+    session.changes |= changes
+    with pytest.raises(SessionLost, match=rf"refused: listen\(\) of .*{said}"):
+        play(body, 1)
+    assert body.refused >= 4
+
+
+def test_one_damaged_report_is_passed_over() -> None:
+    body, session = walking()
+    listen, fine = session.listen, dict(session.changes)
+    calls = 0
+
+    def listens(patience: float, convert: Any) -> Any:
+        nonlocal calls
+        calls += 1
+        session.changes = fine | ({"gyro": (nan, 0, 0)} if calls == 1 else {})
+        return listen(patience, convert)
+
+    session.listen = listens  # type: ignore[method-assign]
+    play(body, 1)
+    assert state_of(body) is SafetyState.WALKING and body.refused == 1
+
+
+@pytest.mark.parametrize(
+    ("jump", "said"),
+    [
+        (-60.0, "the time went back"),
+        (3.0, "its times are 3.000 s ahead of the clock"),
+        (nan, "the time must be finite"),
+    ],
+)
+def test_times_that_jump_end_the_session(jump: float, said: str) -> None:
+    body, session = walking()
+    session.time += jump
+    lost(body, session, said)
 
 
 def test_a_control_that_was_away_finds_its_robot_limp() -> None:
-    body, link, clock = walking(10 * [FINE])
-    weak = sensor_frame(stiffness=np.full(25, 0.4))
-    clock.now += 1.0
-    link.queue = 83 * [pack_sensors(weak)]
-    body.frame = joint_frame_of(weak)
+    body, session = walking()
+    session.now += 1.0
+    session.time += 1.0
+    session.changes["status"] = status(stiffness=np.full(4, 0.4))
     play(body, 1)
-    assert body.state is RobotState.LIMP
-    assert "no frame was read for 1.0" in body.reason
-    stiffness = link.sent[-1].stiffness
-    assert stiffness is not None and stiffness.max() < 0.4
-
-
-def test_a_queue_that_was_left_is_read_to_its_newest_frame() -> None:
-    body, link, clock = walking()
-    last = sensor_frame(sonar=(0.5, 0.5))
-    clock.now += 5 * TICK
-    link.queue = [FINE] * 4 + [pack_sensors(last)]
-    assert body.read().percepts[0].distance == 0.5  # type: ignore[union-attr]
-    assert body.state is RobotState.WALKING
+    assert state_of(body) is SafetyState.LIMP
+    assert "no report was read for 1.0" in body.reason
+    sent = session.sent[-1]
+    assert sent is not None and sent.stiffness[1] < 0.4 * 80.0
 
 
 def test_targets_with_nan_make_the_robot_limp() -> None:
-    body, link, _ = walking(2 * [FINE])
-    play(body, 1, np.full(23, np.nan))
-    assert body.state is RobotState.LIMP and "NaN or inf" in body.reason
-    assert link.sent[-1].position is not None
-    assert np.all(np.isfinite(link.sent[-1].position))
+    body, session = walking()
+    play(body, 1, np.full(3, nan))
+    assert state_of(body) is SafetyState.LIMP and "NaN or inf" in body.reason
+    sent = session.sent[-1]
+    assert sent is not None and np.isfinite(sent.angles).all()
 
 
-def test_the_button_stops_and_control_says_when_it_stands() -> None:
-    rest = 600 * [FINE]
-    body, link, _ = walking([*START, *rest])
-    followed = link.sent[-1].position
-    assert followed is not None
-
-    def follow(answer: Any) -> None:
-        if answer.position is not None:
-            moved = sensor_frame(position=answer.position)
-            link.script = iter([moved] * 3)
-
-    play(body, 2)
-    assert body.state is RobotState.STOPPING
+def test_a_robot_rests_in_its_crouch_before_it_goes_limp() -> None:
+    body, session = walking()
+    press(session, body, STANCE)
+    assert state_of(body) is SafetyState.STOPPING
     body.halted()
-    assert state_of(body) is RobotState.RESTING
-    link.follow = follow
-    link.script = iter(rest)
-    for _ in range(600):
+    assert state_of(body) is SafetyState.RESTING
+    play(body, 200)
+    assert state_of(body) is SafetyState.LIMP and body.reason == "rests"
+    assert session.angles[1] == pytest.approx(1.5, abs=0.02)
+
+
+def test_closing_leaves_the_robot_limp() -> None:
+    body, session = walking()
+    body.close()
+    assert session.closed and session.sent[-1] is None
+
+
+def test_a_broken_session_ends_and_is_closed() -> None:
+    body, session = walking()
+    session.broken = True
+    lost(body, session, "broken")
+    body.close()
+    assert session.closed
+
+
+def test_without_a_button_it_walks_when_ready_and_sees_its_opponent() -> None:
+    body, session = body_of()
+    session.changes = {"sighting": None}
+    play(body, 80)
+    assert state_of(body) is SafetyState.READY
+    assert body.reason == "no sighting of the opponent"
+    session.changes = {}
+    session.hold = "hold the switch"
+    play(body, 4)
+    assert state_of(body) is SafetyState.READY
+    assert body.reason == "hold the switch"
+    session.hold = ""
+    play(body, 4)
+    assert state_of(body) is SafetyState.WALKING
+    session.changes = {"sighting": Sighting(session.time - 0.6, 0.4, 0.7)}
+    play(body, 1)
+    assert state_of(body) is SafetyState.STOPPING
+
+
+def test_the_papers_walk_needs_foot_forces() -> None:
+    body, session = body_of(needs_forces=True)
+    session.changes["foot_forces"] = np.full(8, nan)
+    with pytest.raises(SessionLost, match=r"foot_forces are needed .*--legs"):
         play(body, 1)
-        if state_of(body) is RobotState.LIMP:
-            break
-    assert state_of(body) is RobotState.LIMP and body.reason == "rests"
 
 
-def test_a_dry_run_commands_nothing_but_lights() -> None:
-    body, link, _ = body_of([*TO_READY, *START, *TO_READY], dry_run=True)
-    play(body, 150)
-    assert body.state is RobotState.WALKING
-    body.close()
-    for answer in link.sent:
-        assert answer.position is None and answer.stiffness is None
-        assert answer.sonar is None and answer.lights
+class Described(FakeRobot):
+    """NAO with the joints of its description."""
+
+    joints = load_tree(load_robot("nao")).motors[::-1]
+    gains = dict.fromkeys(joints, (50.0, 1.0))  # noqa: RUF012
 
 
-def test_closing_the_session_leaves_the_robot_limp() -> None:
-    body, link, _ = walking()
-    body.close()
-    assert link.closed
-    stiffness = link.sent[-1].stiffness
-    assert stiffness is not None and stiffness.max() == 0.0
+def test_motors_have_the_ranges_of_the_model_and_gains() -> None:
+    nao = load_robot("nao")
+    motors = motors_of(Described(), nao)
+    assert motors.names == tuple(Described.joints)[::-1]
+    assert motors.order.tolist() == list(range(len(motors.names)))[::-1]
+    knee = motors.names.index("LKneePitch")
+    assert (motors.low[knee], motors.high[knee]) == (-0.0923279, 2.11255)
+    assert motors.speed[knee] == nao.speed_limits["LKneePitch"]
+    legs = {motors.names[at] for at in motors.legs}
+    assert "LHipYawPitch" in legs and "HeadYaw" not in legs
+    assert motors.stiffness[knee] == 50.0
+    fewer = Described()
+    fewer.gains = {}
+    with pytest.raises(ConfigurationError, match="gains lack HeadYaw"):
+        motors_of(fewer, nao)
+    fewer.joints = Described.joints[1:]
+    with pytest.raises(ConfigurationError, match="joints lack RAnkleRoll"):
+        motors_of(fewer, nao)
 
 
-def test_a_broken_link_ends_the_session_and_is_closed() -> None:
-    body, link, _ = walking(5 * [FINE])
-    link.broken = True
-    lost(body, link, "broken")
-    body.close()
-    assert link.closed
-
-
-def test_a_frame_from_the_future_ends_the_session() -> None:
-    script = [counted(n) for n in range(150)]
-    body, link, clock = body_of([*script, counted(200)])
-    play(body, 150)
-    lost(body, link, "frame 200 came after frame 149")
-
-
-def test_a_frame_that_comes_twice_ends_the_session() -> None:
-    script = [counted(n) for n in range(150)]
-    body, link, clock = body_of([*script, counted(149)])
-    play(body, 150)
-    lost(body, link, "frame 149 came after frame 149")
-
-
-def test_a_world_in_lock_step_may_think_for_seconds() -> None:
-    frames = [counted(n, lock_step=True) for n in range(5)]
-    script: list[Any] = [*frames[:4], *400 * [None], frames[4]]
-    body, _, _ = body_of(script)
-    play(body, 5)
-    assert body.state is RobotState.REACHING
-
-
-def test_sightings_come_with_their_frame_and_with_their_age() -> None:
-    clock = Clock()
-    messages = FakeLink(clock)
-    body, link, _ = walking(4 * [FINE], sight=SightClient(messages))
-    begun = 101  # the frame that was walked first
-    messages.queue = [
-        pack_sight(SightMessage(begun + 1, 0.05, 0.3, 0.9)),
-        pack_sight(SightMessage(begun + 2, 0.0, 0.4, 0.8)),  # early
-        b"\x00" * 32,  # garbage
-        pack_sight(SightMessage(begun, 0.0, 9.9, 0.8)),  # no bearing
-        pack_sight(SightMessage(begun, 0.0, 0.1, 0.1)),  # out of order
-        pack_sight(SightMessage(begun + 99, 0.0, 0.1, 0.1)),  # the future
-    ]
-    assert body.read().sighting == Sighting(TICK - 0.05, 0.3, 0.9)
-    assert body.read().sighting == Sighting(2 * TICK, 0.4, 0.8)
-    late = pack_sight(SightMessage(begun + 3, 0.0, 0.5, 0.7))
-    messages.queue = [late]  # dropped messages block no later ones
-    assert body.read().sighting == Sighting(3 * TICK, 0.5, 0.7)
-    messages.broken = True
-    assert body.read().sighting == Sighting(3 * TICK, 0.5, 0.7)
-    body.close()
-    assert messages.closed
+@pytest.mark.parametrize(
+    ("changes", "said"),
+    [
+        ({"tick": 5.0}, r"tick must be in \[0.001, 0.1\] s, got 5.0"),
+        ({"joints": "hip"}, "joints must be the names of the joints"),
+        ({"paced": 1}, "paced must be True or False"),
+        ({"gains": {"hip": (1.0,)}}, "gains of hip must be a stiffness"),
+        ({"gains": {"hip": (nan, 1.0)}}, "gains of hip"),
+    ],
+)
+def test_an_invalid_class_is_refused(
+    changes: dict[str, Any], said: str
+) -> None:
+    kind = type("Changed", (FakeRobot,), changes)
+    with pytest.raises(ConfigurationError, match=f"robot r.py:R: {said}"):
+        check_joint_robot(kind, "robot r.py:R")

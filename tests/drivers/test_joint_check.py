@@ -1,7 +1,7 @@
 """Test that the check of a joint-driven robot finds each mistake."""
 
 import json
-from collections.abc import Callable, Mapping
+from collections.abc import Callable
 from math import degrees, inf, nan
 from pathlib import Path
 from typing import Any
@@ -10,33 +10,26 @@ import numpy as np
 import pytest
 
 from stepaside.cli.main import main
-from stepaside.drivers.joint import joint_check
-from stepaside.drivers.joint.frames import MotorGains
-from stepaside.drivers.joint.joint_check import JointCheck
-from stepaside.drivers.joint.joint_map import MotorTable
-from stepaside.drivers.joint.joint_robot import (
-    JointReport,
-    JointRobot,
-    JointTarget,
-)
+from stepaside.drivers import joint_check
+from stepaside.drivers.joint_check import JointCheck
+from stepaside.drivers.joint_robot import JointRobot, JointTargets, Motors
 from stepaside.drivers.method_check import AdapterFinding
-from stepaside.perception.measurement import Sighting
+from stepaside.perception.measurement import Measurement, Sighting
 
 TICK = 0.02
 NAMES = ("hip", "knee", "ankle")
-MOTORS = MotorTable(
+MOTORS = Motors(
     NAMES,
     low=np.array([-1.0, 0.0, -0.5]),
     high=np.array([1.0, 2.0, 0.5]),
     speed=np.full(3, 5.0),
-    stall_current=np.full(3, inf),
     legs=np.arange(3),
-    crouch={},
-    tick=TICK,
+    order=np.arange(3),
+    stiffness=np.full(3, 100.0),
+    damping=np.full(3, 3.0),
 )
-GAINS = MotorGains(np.full(3, 100.0), np.full(3, 3.0))
 LAG = 0.06  # from a target to the angle, in [s]
-Change = Callable[[JointReport], JointReport | None]
+Change = Callable[[Measurement], Measurement | None]
 
 
 class SteppedClock:
@@ -56,54 +49,48 @@ class SteppedClock:
 class HangingRobot(JointRobot):
     """Robot in the air that follows its targets with a lag, and swings."""
 
-    tick = TICK
+    tick, joints = TICK, NAMES
 
     def __init__(self) -> None:
         self.change: Change = lambda report: report
-        self.order: tuple[str, ...] = NAMES  # of the joints that obey
+        self.order = [0, 1, 2]  # of the joints that obey
         self.clock = SteppedClock()
         self.time = self.commanded = self.clock()
-        self.angles = dict(zip(NAMES, (0.1, 0.4, -0.2), strict=True))
-        self.start = dict(self.angles)
-        self.targets: dict[str, float] = {}
+        self.angles = np.array([0.1, 0.4, -0.2])
+        self.start = self.angles
+        self.targets: Any = None
         self.timeout = inf
         self.calls: list[str] = []
 
-    def listen(self) -> JointReport | None:
+    def listen(self) -> Measurement | None:
         """Move on, and report."""
         now = self.clock()
         passed, self.time = now - self.time, now
         if now - self.commanded > self.timeout:
             self.targets = self.start
-        before = dict(self.angles)
-        share = passed / (LAG + passed)
-        for name, target in self.targets.items():
-            self.angles[name] += share * (target - self.angles[name])
-        rates = {
-            name: (self.angles[name] - before[name]) / max(passed, 1e-9)
-            for name in NAMES
-        }
+        before, share = self.angles, passed / (LAG + passed)
+        if self.targets is not None:
+            self.angles = before + share * (self.targets - before)
+        rates = (self.angles - before) / max(passed, 1e-9)
         lean = 0.05 * np.sin(2.0 * now), 0.05 * np.cos(2.0 * now)
         rolling = 0.1 * np.cos(2.0 * now), -0.1 * np.sin(2.0 * now)
         return self.change(
-            JointReport(
+            Measurement(
                 now,
-                dict(self.angles),
-                rates,
-                (*rolling, 0.0),
-                (-9.8 * lean[1], 9.8 * lean[0], 9.8),
-                lean,
+                self.angles,
+                np.array([*rolling, 0.0]),
+                np.array([-9.8 * lean[1], 9.8 * lean[0], 9.8]),
+                joint_velocities=rates,
+                tilt=lean,
             )
         )
 
-    def command(self, targets: Mapping[str, JointTarget]) -> None:
+    def command(self, targets: JointTargets) -> None:
         """Take the targets."""
         self.commanded = self.clock()
         self.calls.append("command")
-        self.targets = {
-            mine: targets[name].angle
-            for mine, name in zip(self.order, NAMES, strict=True)
-        }
+        if self.order:
+            self.targets = targets.angles[self.order]
 
     def release(self) -> None:
         """Note the call."""
@@ -127,7 +114,7 @@ def checked(
 ) -> dict[str, AdapterFinding]:
     """Check a robot, and return the findings by name."""
     check = JointCheck(
-        *(robot, MOTORS, GAINS, lambda finding: None),
+        *(robot, MOTORS, lambda finding: None),
         dry_run=dry_run,
         clock=robot.clock,
         pause=robot.clock.pause,
@@ -159,25 +146,12 @@ def test_a_dry_run_only_listens() -> None:
     assert "tilt" in found and "joints" not in found
 
 
-def negated(*fields: str) -> Change:
-    """Change of the sign of some vectors."""
-
-    def change(report: JointReport) -> JointReport:
-        for field in fields:
-            values: Any = tuple(-v for v in getattr(report, field))
-            report = report._replace(**{field: values})
-        return report
-
-    return change
-
-
 def scaled(field: str, factor: float) -> Change:
-    """Change of the unit of values by joint."""
+    """Change of unit or sign."""
 
-    def change(report: JointReport) -> JointReport:
-        values = getattr(report, field).items()
-        changed: Any = {name: factor * v for name, v in values}
-        return report._replace(**{field: changed})
+    def change(report: Measurement) -> Measurement:
+        values: Any = factor * np.array(getattr(report, field))
+        return report._replace(**{field: values})
 
     return change
 
@@ -185,18 +159,30 @@ def scaled(field: str, factor: float) -> Change:
 @pytest.mark.parametrize(
     ("change", "name", "said"),
     [
-        (scaled("positions", degrees(1.0)), "values", "is it in degrees"),
-        (scaled("positions", nan), "values", "positions must be finite"),
-        (scaled("velocities", degrees(1.0)), "hip", "a sign or a unit"),
-        (scaled("velocities", -1.0), "knee", "a sign or a unit"),
-        (negated("accelerometer"), "accelerometer", "must read +9.8 along z"),
+        (
+            scaled("joint_positions", degrees(1.0)),
+            "values",
+            "is it in degrees",
+        ),
+        (
+            scaled("joint_positions", nan),
+            "values",
+            "joint_positions must be finite",
+        ),
+        (scaled("joint_velocities", degrees(1.0)), "hip", "a sign or a unit"),
+        (scaled("joint_velocities", -1.0), "knee", "a sign or a unit"),
+        (
+            scaled("accelerometer", -1.0),
+            "accelerometer",
+            "must read +9.8 along z",
+        ),
         (
             lambda r: r._replace(accelerometer=(0.0, 0.0, 1.0)),
             "accelerometer",
             "is it in [m/s^2]?",
         ),
         (lambda r: r._replace(tilt=(0.5, 0.0)), "tilt", "sign, order or unit"),
-        (negated("gyro"), "gyro x", "-1.00 times the rate of the tilt"),
+        (scaled("gyro", -1.0), "gyro x", "-1.00 times the rate of the tilt"),
         (lambda r: None, "rate", "0 reports"),
         (lambda r: r._replace(time=7.0), "rate", "1 reports with a new time"),
         (lambda r: r._replace(time=1e3 * r.time), "times", "1e+03 times"),
@@ -222,19 +208,19 @@ def test_a_mistake_in_reports_is_found(
 
 def test_joints_in_the_wrong_order_are_found() -> None:
     robot = HangingRobot()
-    robot.order = ("hip", "ankle", "knee")
+    robot.order = [0, 2, 1]
     found = failed(checked(robot))
     assert list(found) == ["hold"]
     assert "when it was to stay: are joints in another order" in found["hold"]
-    off = max(abs(robot.angles[name] - robot.start[name]) for name in NAMES)
+    off = np.abs(robot.angles - robot.start).max()
     assert off < 0.3  # it was released at once
     assert robot.calls[-1] == "release"
 
 
 def test_joints_of_the_same_angle_in_the_wrong_order_are_found() -> None:
     robot = HangingRobot()
-    robot.angles |= {"ankle": 0.4}
-    robot.order = ("hip", "ankle", "knee")
+    robot.angles = np.array([0.1, 0.4, 0.4])
+    robot.order = [0, 2, 1]
     found = failed(checked(robot))
     assert "ankle moved instead" in found["knee"]
     assert "1 of 3 joints follow" in found["joints"]
@@ -242,8 +228,7 @@ def test_joints_of_the_same_angle_in_the_wrong_order_are_found() -> None:
 
 def test_joints_that_do_not_obey_are_found() -> None:
     robot = HangingRobot()
-    robot.order = ()
-    robot.command = lambda targets: None  # type: ignore[method-assign]
+    robot.order = []
     assert "joints not taken" in failed(checked(robot))["hip"]
 
 
@@ -269,11 +254,11 @@ def test_whether_the_robot_keeps_its_targets_is_compared() -> None:
 
 FILE = """
 import stepaside as sa
-from stepaside.drivers.lola.nao_joints import NAO_MOTORS
 
 class Robot(sa.JointRobot):
     tick = 0.012
-    gains = dict.fromkeys(NAO_MOTORS.names, (100.0, 5.0))
+    joints = sa.load_tree(sa.load_robot("nao")).joints
+    gains = dict.fromkeys(joints, (100.0, 5.0))
 
     def listen(self):
         return 3.0

@@ -4,28 +4,20 @@ import errno
 import io
 import json
 from pathlib import Path
-from types import SimpleNamespace
 from typing import Any
 
 import numpy as np
 import pytest
 
-from lola_fakes import JOINTS, STANCE, Clock, FakeLink, pressed, sensor_frame
+from joint_fakes import MOTORS, STANCE, TICK, FakeSession, status
 from stepaside.control.strategy_runner import StrategyRunner
 from stepaside.core.errors import ConfigurationError, ReachError, StrategyError
 from stepaside.core.poses import Pose
-from stepaside.drivers.joint.joint_body import (
-    JointBody,
-    JointInterface,
-    SystemClock,
-)
-from stepaside.drivers.joint.joint_loop import JointLoop
-from stepaside.drivers.joint.safety_state_machine import RobotState
-from stepaside.drivers.lola.conventions import CODEC
-from stepaside.drivers.lola.lola_frames import pack_sensors
-from stepaside.drivers.lola.nao_joints import NAO_MOTORS
+from stepaside.drivers.joint_body import JointBody
+from stepaside.drivers.joint_loop import JointLoop
 from stepaside.drivers.play_log import PlayLog
 from stepaside.drivers.row_file import read_rows
+from stepaside.drivers.safety_states import SafetyState
 from stepaside.drivers.status_line import StatusLine
 from stepaside.locomotion.walk_snapshots import Phase, WalkState
 from stepaside.perception.measurement import Sighting
@@ -33,9 +25,6 @@ from stepaside.planning import Foot, GaitSettings
 from stepaside.robots.body_reference import BodyReference
 from stepaside.strategies import Evasion, StandStill, Strategy
 
-FINE = pack_sensors(sensor_frame())
-PRESS = [pack_sensors(pressed()), FINE]
-TO_READY = 100 * [FINE]
 WISH = Evasion()
 
 
@@ -66,10 +55,9 @@ class FakeMind:
     """Control that walks until its strategy wants nothing more."""
 
     def __init__(self, strategy: Strategy) -> None:
-        self.decisions = StrategyRunner(strategy, GaitSettings(), 0.012)
+        self.decisions = StrategyRunner(strategy, GaitSettings(), TICK)
         self.phase = Phase.STANDING
         self.joint_targets = STANCE
-        self.kinematics = SimpleNamespace(joint_names=JOINTS)
         self.times: list[float] = []
         self.fails: Exception | None = None
         self.begun = None
@@ -93,25 +81,25 @@ class FakeMind:
 class Game:
     """Joint loop with a fake robot and fake control schemes."""
 
-    def __init__(self, script: list[Any], **changes: Any) -> None:
+    def __init__(self, *, dry_run: bool = False) -> None:
         self.minds: list[FakeMind] = []
-        self.link = FakeLink(Clock(), script)
+        self.session = session = FakeSession()
+        made: Any = session
 
         def open_body(scheme: Any) -> JointBody:
-            clock = self.link.clock
-            names = scheme.kinematics.joint_names
             return JointBody(
-                JointInterface(self.link, NAO_MOTORS, CODEC),
-                dict(zip(names, scheme.joint_targets, strict=True)),
-                clock=SystemClock(clock, clock.pause),
-                **changes,
+                made,
+                MOTORS,
+                scheme.joint_targets,
+                dry_run=dry_run,
+                clock=session.clock,
             )
 
         def make(strategy: Any) -> Any:
             self.minds.append(FakeMind(strategy))
             return self.minds[-1]
 
-        self.playing = JointLoop(open_body, WISH, make, **changes)
+        self.playing = JointLoop(open_body, WISH, make, dry_run=dry_run)
 
     def play(self, ticks: int) -> Any:
         """Play some ticks, and return the last."""
@@ -119,23 +107,44 @@ class Game:
             tick = self.playing.tick()
         return tick
 
+    def press(self) -> Any:
+        """Press the button, and let it go."""
+        for pressed in (True, False):
+            self.session.changes["status"] = status(pressed=pressed)
+            tick = self.play(1)
+        return tick
+
+    @property
+    def state(self) -> SafetyState:
+        """State of the robot."""
+        return self.playing.body.state
+
+
+def walking() -> Game:
+    """Return a game whose robot has begun to walk."""
+    game = Game()
+    game.play(60)
+    assert game.press().state is SafetyState.WALKING
+    return game
+
 
 def test_control_runs_only_in_states_that_follow_it() -> None:
-    game = Game([*TO_READY, *PRESS, *5 * [FINE]])
-    game.play(101)
+    game = Game()
+    game.play(60)
     (mind,) = game.minds
     assert mind.times == []
-    game.play(6)
-    np.testing.assert_allclose(mind.times, 0.012 * np.arange(6))
+    game.press()
+    game.play(5)
+    np.testing.assert_allclose(mind.times, TICK * np.arange(6))
 
 
 def test_the_button_stops_the_walk_and_the_next_has_a_new_scheme() -> None:
-    game = Game([*TO_READY, *PRESS, *3 * [FINE], *PRESS, *3 * [FINE]])
-    assert game.play(105).phase is Phase.WALKING
-    game.play(2)  # pressed and let go: control is told, and walks on
-    assert game.playing.body.state is RobotState.STOPPING
+    game = walking()
+    assert game.play(3).phase is Phase.WALKING
+    game.press()  # control is told, and walks on
+    assert game.state is SafetyState.STOPPING
     assert isinstance(game.minds[0].decisions.strategy, StandStill)
-    assert game.play(1).state is RobotState.RESTING
+    assert game.play(1).state is SafetyState.RESTING
     assert len(game.minds) == 1
     game.playing.body.fail("lies on its belly")
     game.play(1)
@@ -144,54 +153,81 @@ def test_the_button_stops_the_walk_and_the_next_has_a_new_scheme() -> None:
 
 
 def test_a_robot_that_was_lifted_stands_and_walks_anew_by_the_button() -> None:
-    lifted = pack_sensors(sensor_frame(fsr=np.zeros(8)))
-    script = [*TO_READY, *PRESS, *40 * [lifted], *5 * [FINE], *PRESS, FINE]
-    game = Game(script)
-    tick = game.play(142)
-    assert tick.state is RobotState.READY and "are lifted" in tick.reason
-    assert game.play(5).state is RobotState.READY
+    game = walking()
+    game.session.changes["foot_forces"] = np.zeros(8)
+    tick = game.play(40)
+    assert tick.state is SafetyState.READY and "are lifted" in tick.reason
+    del game.session.changes["foot_forces"]
+    assert game.play(5).state is SafetyState.READY
     assert len(game.minds) == 2
-    game.play(3)
-    assert game.playing.body.state is RobotState.WALKING
+    game.press()
+    game.play(1)
+    assert game.state is SafetyState.WALKING
     assert game.minds[1].decisions.strategy is WISH
-    np.testing.assert_allclose(game.minds[1].times, [0.0, 0.012])
+    np.testing.assert_allclose(game.minds[1].times, [0.0, TICK])
 
 
 @pytest.mark.parametrize("kind", ["footing", "strategy", "falling"])
 def test_control_that_gives_up_lets_the_robot_go_limp(kind: str) -> None:
-    game = Game([*TO_READY, *PRESS, *5 * [FINE]])
-    game.play(103)
+    game = walking()
     if kind == "footing":
         game.minds[0].fails = ReachError("a leg is too short")
     elif kind == "strategy":
         game.minds[0].fails = StrategyError("KeyError: 'x'")
     else:
-        game.minds[0].update = lambda _: STANCE  # type: ignore[method-assign, assignment]
+        game.minds[0].update = lambda _: STANCE  # type: ignore[assignment, method-assign]
         game.minds[0].phase = Phase.FALLEN
     tick = game.play(1)
-    assert tick.state is RobotState.LIMP
+    assert tick.state is SafetyState.LIMP
     said = {"footing": "too short", "strategy": "'x'", "falling": "a fall"}
     assert said[kind] in tick.reason
 
 
 def test_a_dry_run_thinks_and_moves_nothing() -> None:
-    game = Game([*TO_READY], dry_run=True)
+    game = Game(dry_run=True)
     game.play(50)
     assert len(game.minds[0].times) > 40
-    assert all(answer.position is None for answer in game.link.sent)
+
+
+def test_a_robot_without_a_button_is_given_up_once_it_is_limp() -> None:
+    game = walking()
+    game.playing.body.fail("why not")
+    game.play(1)
+    assert game.playing.given_up == ""  # its button starts it again
+    game.session.changes["status"] = None
+    game.play(1)
+    assert game.playing.given_up == "the robot was released: why not"
+
+
+def test_leaving_ends_with_a_limp_robot() -> None:
+    game = walking()
+    game.playing.leave("asked")
+    assert game.play(1).state is SafetyState.STOPPING
+    for _ in range(200):
+        game.play(1)
+        if game.playing.ended:
+            break
+    assert game.playing.ended and game.state is SafetyState.LIMP
+
+
+def note_walk(game: Game, observer: Any) -> None:
+    """Note 62 ticks, at the last of which the robot walks."""
+    for i in range(62):
+        pressed = i == 60
+        game.session.changes["status"] = status(pressed=pressed)
+        observer.note(game.playing.tick())
 
 
 def test_the_log_keeps_every_tick_and_why_states_changed(
     tmp_path: Path,
 ) -> None:
     log = PlayLog(tmp_path / "log", {"role": "pursuer"})
-    game = Game([*TO_READY, *PRESS])
-    for _ in range(102):
-        log.note(game.playing.tick())
+    game = Game()
+    note_walk(game, log)
     log.close()
     arrays = read_rows(tmp_path / "log")
-    assert arrays["joint_positions"].shape == (102, 23)
-    assert arrays["sighting"].shape == (102, 3)
+    assert arrays["joint_positions"].shape == (62, 3)
+    assert arrays["sighting"].shape == (62, 3)
     words = json.loads((tmp_path / "log" / "play.json").read_text())
     changes = [change["state"] for change in words["changes"]]
     assert changes == ["limp", "reaching", "ready", "walking"]
@@ -227,22 +263,20 @@ class HungUp(Terminal):
 
 
 def test_a_terminal_that_hung_up_does_not_end_the_walk() -> None:
-    game = Game([*TO_READY, *PRESS])
-    line = StatusLine(HungUp(), clock=game.link.clock)
-    for _ in range(102):
-        line.note(game.playing.tick())
+    game = Game()
+    line = StatusLine(HungUp(), clock=game.session.clock.read)
+    note_walk(game, line)
     line.close()
-    assert game.playing.body.state is RobotState.WALKING
+    assert game.state is SafetyState.WALKING
 
 
 @pytest.mark.parametrize("stream", [io.StringIO(), Terminal()])
 def test_the_line_says_each_change_and_on_terminals_five_times_a_second(
     stream: io.StringIO,
 ) -> None:
-    game = Game([*TO_READY, *PRESS])
-    line = StatusLine(stream, clock=game.link.clock)
-    for _ in range(102):
-        line.note(game.playing.tick())
+    game = Game()
+    line = StatusLine(stream, clock=game.session.clock.read)
+    note_walk(game, line)
     line.close()
     said = stream.getvalue()
     for word in ("limp", "reaching", "ready", "walking (chest button)"):
@@ -250,4 +284,3 @@ def test_the_line_says_each_change_and_on_terminals_five_times_a_second(
     assert said.count("\n") == (5 if stream.isatty() else 4)
     wanted = (8, 14) if stream.isatty() else (4, 4)
     assert wanted[0] <= said.count(" s  ") <= wanted[1]
-    assert "opponent not detected" in said

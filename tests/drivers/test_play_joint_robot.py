@@ -20,17 +20,16 @@ from time import monotonic, sleep
 import numpy as np
 import simulated_walker as scene
 import stepaside as sa
-from stepaside.drivers.lola.nao_joints import NAO_MOTORS
 
 class Echo(sa.JointRobot):
     """NAO whose joints are where they are told to be."""
 
     tick = 0.012
-    gains = dict.fromkeys(NAO_MOTORS.names, (100.0, 5.0))
+    joints = sa.load_tree(sa.load_robot("nao")).joints
+    gains = dict.fromkeys(joints, (100.0, 5.0))
 
     def open(self):
-        self.angles = dict.fromkeys(NAO_MOTORS.names, 0.0)
-        self.speeds = dict.fromkeys(NAO_MOTORS.names, 0.0)
+        self.angles = np.zeros(len(self.joints))
 
     def clock(self):
         return monotonic()
@@ -40,14 +39,14 @@ class Echo(sa.JointRobot):
         now = self.clock()
         force = (0.0, 0.0, 9.8 + 0.01 * (now % 0.1))
         sees = sa.Sighting.of_position(now, 0.6, 0.1)
-        return sa.JointReport(
-            now, self.angles, self.speeds, (0.0, 0.0, 0.0), force,
-            (0.0, 0.0), [6.5] * 8, sees,
+        return sa.Measurement(
+            now, self.angles, (0.0, 0.0, 0.0), force, [6.5] * 8, sees,
+            joint_velocities=0.0 * self.angles, tilt=(0.0, 0.0),
         )
 
     def command(self, targets):
         self.note("command")
-        self.angles = {name: each.angle for name, each in targets.items()}
+        self.angles = targets.angles
 
     def release(self):
         self.note(f"release {os.getpid()}")
@@ -96,7 +95,10 @@ class Seeing(Simulated):
         camera.socket.close()
         scene.CAMERA = 0.46
         camera.person = [1.0, 0.0]
-        yaw, pitch = self.angles["HeadYaw"], self.angles["HeadPitch"]
+        yaw, pitch = (
+            self.angles[self.joints.index(name)]
+            for name in ("HeadYaw", "HeadPitch")
+        )
         camera.head = [yaw, pitch + 0.021]
         pixels = camera.image().partition(b"\\n")[2]
         pixels = np.frombuffer(pixels, np.uint8).reshape(120, 160, 3)

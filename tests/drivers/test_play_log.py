@@ -7,12 +7,11 @@ import pytest
 
 from fake_robot import FIRST, STEP, Run
 from stepaside.core.poses import Array, Pose
-from stepaside.drivers.joint.joint_loop import JointTick
-from stepaside.drivers.joint.safety_state_machine import RobotState
+from stepaside.drivers.joint_loop import JointTick
 from stepaside.drivers.play_log import PlayLog
 from stepaside.drivers.row_file import read_rows
-from stepaside.drivers.velocity.velocity_body import VelocityCommand
-from stepaside.drivers.velocity.velocity_loop import DrivingState, VelocityTick
+from stepaside.drivers.safety_states import SafetyState
+from stepaside.drivers.velocity_loop import DrivingState, VelocityTick
 from stepaside.games.play_conversion import (
     opponent_trajectory,
     run_of_play,
@@ -23,6 +22,7 @@ from stepaside.games.play_rows import PlayedRows
 from stepaside.games.play_settings import PlaySettings
 from stepaside.perception.measurement import Measurement, Sighting
 from stepaside.planning import Foot
+from stepaside.strategies.velocity_set import BodyVelocity
 
 
 def measured(time: float, seed: int) -> Measurement:
@@ -46,7 +46,7 @@ def test_every_column_has_its_values(tmp_path: Path) -> None:
         scheme = run.until(time)
         told = measured(time, i)
         tick = JointTick(
-            RobotState.WALKING,
+            SafetyState.WALKING,
             "chest button",
             scheme.phase,
             told,
@@ -99,8 +99,8 @@ def test_wanted_and_commanded_velocity_are_separate_columns(
                 0.1 * i,
                 Pose(1.0 + i, 2.0, 0.3),
                 None,
-                VelocityCommand(0.2, -0.4 - i),
-                VelocityCommand(0.1 + i, -0.3),
+                BodyVelocity(0.2, 0.0, -0.4 - i),
+                BodyVelocity(0.1 + i, 0.0, -0.3),
             )
         )
     log.close()
@@ -163,8 +163,8 @@ def test_the_summary_covers_only_the_walk(
                 now,
                 Pose(radius * np.sin(angle), -radius * np.cos(angle), angle),
                 Sighting(now, 0.3, 1.5 if walking else 0.9) if seen else None,
-                VelocityCommand(0.1, 0.2),
-                VelocityCommand(0.1, 0.2),
+                BodyVelocity(0.1, 0.0, 0.2),
+                BodyVelocity(0.1, 0.0, 0.2),
             )
         )
     log.close()

@@ -15,12 +15,11 @@ import pytest
 
 from stepaside import load_run
 from stepaside.cli.main import main
-from stepaside.drivers.cameras.robot_camera import (
-    SILENCE as SILENCE_OF_CAMERA,
-)
 from stepaside.drivers.dead_man_switch import FIRST
-from stepaside.drivers.velocity.velocity_guardian import SILENCE
-from stepaside.drivers.velocity.watchdog import WatchSettings
+from stepaside.drivers.robot_camera import (
+    SILENCE as CAMERA,
+)
+from stepaside.drivers.watchdog import WatchSettings
 from stepaside.games.play_settings import PlaySettings
 from stepaside.games.play_summary import PlaySummary
 
@@ -155,7 +154,7 @@ def test_the_guardian_stops_it_when_control_fails(
     play = start(of=walker)
     until(walker.moves)
     play.send_signal(signal.SIGKILL if fate == "killed" else signal.SIGSTOP)
-    assert until(lambda: not walker.moves()) < SILENCE + SLACK
+    assert until(lambda: not walker.moves()) < 0.5 + SLACK
     assert play.wait(LONGEST) == -signal.SIGKILL
 
 
@@ -210,7 +209,7 @@ def test_a_robot_with_a_camera_walks_while_it_sees_its_opponent(
     play = start("--sensing", "cameras", of=walker, robot=SEEING)
     until(walker.moves)
     walker.send(call="lose", **{"for": {"images": 2.0}})
-    assert until(lambda: not walker.moves()) < SILENCE_OF_CAMERA + SLACK
+    assert until(lambda: not walker.moves()) < CAMERA + SLACK
     until(walker.moves)
     play.send_signal(signal.SIGINT)
     said = play.communicate(timeout=LONGEST)[1]

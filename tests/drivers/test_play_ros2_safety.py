@@ -19,53 +19,66 @@ import pytest
 
 pytest.importorskip("cyclonedds")
 
-from stepaside.drivers.ros2.dds_domain import DdsParticipant, take_messages
-from stepaside.drivers.ros2.messages import (
-    Bool,
-    Detection3DArray,
-    Header,
-    Odometry,
-    Point,
-    PointStamped,
-    PoseMessage,
-    PoseStamped,
-    PoseWithCovariance,
-    Quaternion,
-    Time,
-    Twist,
-    TwistWithCovariance,
-    Vector3,
+
+from stepaside.drivers.ros2 import read_people
+from stepaside.drivers.ros2_dds import (
+    DdsParticipant,
+    header,
+    make,
+    take_messages,
+    vector,
 )
 
 DOMAIN = 150 + os.getpid() % 80
 PERIOD = 0.04  # between messages of the robot, in [s]
 LONGEST = 60.0  # for what takes seconds on an idle machine, in [s]
 SLACK = 1.0  # of a busy machine, in [s]
-ZERO = (0.0,) * 36
+ZERO = [0.0] * 36
 PLAY = "from stepaside.cli.main import main; main()"
 WORDS = (
     "play --role pursuer --robot ros2:/it --set gait.speed=0.3 "
     "--set gait.gain=0.6 "
     "--max-speed 0.4 --max-turn 0.8 --dead-man ros2:/hold"
 ).split()
-AHEAD = Quaternion(0.0, 0.0, 0.0, 1.0)
+
+
+def quaternion(x: float, y: float, z: float, w: float) -> Any:
+    return make("geometry_msgs/Quaternion", x, y, z, w)
+
+
+def point(x: float, y: float) -> Any:
+    return make("geometry_msgs/Point", x, y, 0.0)
+
+
+def pose(place: Any, rotation: Any) -> Any:
+    return make("geometry_msgs/Pose", place, rotation)
+
+
+AHEAD = quaternion(0.0, 0.0, 0.0, 1.0)
 
 
 class Robot:
     """A robot of others, with the operator's switch."""
 
     def __init__(self, domain: int) -> None:
+        read_people(())  # defines the messages of vision_msgs
         self.dds = dds = DdsParticipant(domain)
-        self._odometry = dds.writer("rt/it/odom", Odometry)
-        self._points = dds.writer("rt/it/other", PointStamped)
-        self._poses = dds.writer("rt/it/other_pose", PoseStamped)
-        self._detections = dds.writer("rt/it/detections", Detection3DArray)
-        self._commands = dds.reader("rt/it/cmd_vel", Twist)
+        self._odometry = dds.writer("/it/odom", "nav_msgs/msg/Odometry")
+        self._points = dds.writer(
+            "/it/other", "geometry_msgs/msg/PointStamped"
+        )
+        self._poses = dds.writer(
+            "/it/other_pose", "geometry_msgs/msg/PoseStamped"
+        )
+        self._detections = dds.writer(
+            "/it/detections", "vision_msgs/msg/Detection3DArray"
+        )
+        self._commands = dds.reader("/it/cmd_vel", "geometry_msgs/msg/Twist")
         self.operator = DdsParticipant(domain)
-        self._switch = self.operator.writer("rt/hold", Bool)
+        self._switch = self.operator.writer("/hold", "std_msgs/msg/Bool")
         self.is_held: bool | None = True
         self.stamp: Callable[[], float] = monotonic
-        self.place, self.rotation = Point(0.0, 0.0), AHEAD
+        self.place, self.rotation = point(0.0, 0.0), AHEAD
         self.opponent: tuple[float, float] | None = (2.0, 0.5)
         self.optical = False
         self.velocity, self.lateral = (0.0, 0.0), 0.0
@@ -82,32 +95,35 @@ class Robot:
             sleep(PERIOD)
 
     def _tell(self) -> None:
-        stamp = Time.of(self.stamp())
+        now = self.stamp()
         if self.is_held is not None:
-            self._switch.write(Bool(self.is_held))
+            self._switch.write(make("std_msgs/Bool", self.is_held))
         if self.opponent is not None:
-            header = Header(stamp, "base_link")
-            self._points.write(PointStamped(header, Point(*self.opponent)))
+            head = header(now, "base_link")
+            place = point(*self.opponent)
+            self._points.write(make("geometry_msgs/PointStamped", head, place))
         if self.optical:
-            header = Header(stamp, "camera_optical_frame")
-            self._detections.write(Detection3DArray(header, []))
+            head = header(now, "camera_optical_frame")
+            message = make("vision_msgs/Detection3DArray", head, [])
+            self._detections.write(message)
             self.optical = False
-        pose = PoseMessage(self.place, self.rotation)
-        still = Twist(Vector3(0.0, 0.0, 0.0), Vector3(0.0, 0.0, 0.0))
+        here = pose(self.place, self.rotation)
+        still = make("geometry_msgs/Twist", vector(), vector())
         self._odometry.write(
-            Odometry(
-                Header(stamp, "odom"),
+            make(
+                "nav_msgs/Odometry",
+                header(now, "odom"),
                 "base_link",
-                PoseWithCovariance(pose, ZERO),
-                TwistWithCovariance(still, ZERO),
+                make("geometry_msgs/PoseWithCovariance", here, ZERO),
+                make("geometry_msgs/TwistWithCovariance", still, ZERO),
             )
         )
 
     def turn(self, x: float, y: float) -> None:
         """Show the opponent at a place in odometry only."""
         self.opponent = None
-        header = Header(Time.of(self.stamp()), "odom")
-        self._poses.write(PoseStamped(header, PoseMessage(Point(x, y), AHEAD)))
+        head, there = header(self.stamp(), "odom"), pose(point(x, y), AHEAD)
+        self._poses.write(make("geometry_msgs/PoseStamped", head, there))
 
     def close(self) -> None:
         """Leave."""
@@ -180,7 +196,7 @@ def session(running: Session) -> Session:
     """The session, walking."""
     robot = running.robot
     robot.stamp, robot.is_held, robot.opponent = monotonic, True, (2.0, 0.5)
-    robot.place, robot.rotation = Point(0.0, 0.0), AHEAD
+    robot.place, robot.rotation = point(0.0, 0.0), AHEAD
     running.until(lambda: running.walks)
     running.lines.clear()
     return running
@@ -202,14 +218,14 @@ def test_odometry_without_a_stamp_is_named(session: Session) -> None:
 def test_a_rotation_that_is_none_is_named(
     session: Session, part: float
 ) -> None:
-    session.robot.rotation = Quaternion(part, 0.0, 0.0, 0.0)
+    session.robot.rotation = quaternion(part, 0.0, 0.0, 0.0)
     session.stops_for("/it/odom has no heading: pose.orientation is zero")
 
 
 def test_a_pose_that_jumps_stops_the_robot(session: Session) -> None:
     """It goes on from there, with a new controller."""
     commands = [session.robot.velocity]
-    session.robot.place = Point(50.0, 0.0)
+    session.robot.place = point(50.0, 0.0)
 
     def jumps() -> bool:
         commands.append(session.robot.velocity)
@@ -226,9 +242,9 @@ def test_a_quaternion_of_any_length_is_its_rotation(session: Session) -> None:
     robot = session.robot
     for share in range(11):  # a turn, not a jump
         half = 0.25 * pi * share / 10
-        robot.rotation = Quaternion(0.0, 0.0, 0.4 * sin(half), 0.4 * cos(half))
+        robot.rotation = quaternion(0.0, 0.0, 0.4 * sin(half), 0.4 * cos(half))
         sleep(2.0 * PERIOD)
-    robot.rotation = Quaternion(0.0, 0.0, 0.3, 0.3)
+    robot.rotation = quaternion(0.0, 0.0, 0.3, 0.3)
 
     def goes_straight() -> bool:
         robot.turn(0.0, 2.0)
@@ -241,7 +257,7 @@ def test_a_quaternion_of_any_length_is_its_rotation(session: Session) -> None:
         sleep(PERIOD)
     for share in range(10, -1, -1):
         half = 0.25 * pi * share / 10
-        robot.rotation = Quaternion(0.0, 0.0, sin(half), cos(half))
+        robot.rotation = quaternion(0.0, 0.0, sin(half), cos(half))
         sleep(2.0 * PERIOD)
 
 

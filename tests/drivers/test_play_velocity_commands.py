@@ -38,7 +38,7 @@ def refused(capsys: pytest.CaptureFixture[str], *words: str) -> str:
             "play --robot naoqi:tcp://127.0.0.1:1 --max-lateral 0.3",
             "requires a robot at ros2:",
         ),
-        ("serve", "--lola PLAYER=ADDRESS or --ros2"),
+        ("serve", "--lola PLAYER=PATH or --ros2"),
         ("serve --lola referee=E", "each player once"),
         (
             "serve --ros2 evader",

@@ -16,20 +16,10 @@ pytest.importorskip("onnx")
 from imitated_walk import nao_on_imitated_walk
 from stepaside.core.errors import ModelError
 from stepaside.core.poses import Pose
-from stepaside.drivers.joint.frames import (
-    Codec,
-    JointCommand,
-    JointFrame,
-    MotorGains,
-)
-from stepaside.drivers.joint.joint_body import (
-    JointBody,
-    JointInterface,
-    SystemClock,
-)
-from stepaside.drivers.joint.joint_loop import JointLoop
-from stepaside.drivers.joint.joint_map import motors_of
-from stepaside.drivers.joint.safety_state_machine import RobotState
+from stepaside.drivers.joint_body import JointBody, SystemClock
+from stepaside.drivers.joint_loop import JointLoop
+from stepaside.drivers.joint_robot import JointRobot, JointTargets, motors_of
+from stepaside.drivers.safety_states import SafetyState
 from stepaside.drivers.scheme_factory import (
     policy_gains,
     policy_scheme_factory,
@@ -58,111 +48,82 @@ GAIT = GaitSettings(
 )
 
 
-class GainsRobot:
-    """Link to a simulated robot whose joints take targets and gains."""
+class GainsRobot(JointRobot):
+    """Simulated robot whose joints take targets and gains; and its session."""
+
+    tick, stands, halted = TICK, False, True
 
     def __init__(
         self, description: RobotDescription, posture: InitialPosture
     ) -> None:
-        self.now, self.chest_pressed = 0.0, False
-        self.commands: list[JointCommand] = []
-        self._frames: list[JointFrame] = []
+        self.now, self.commands = 0.0, 0
         world = World({"robot": description}, PhysicsSettings(tick=TICK))
         start = Pose(0.0, 0.0, 0.0)
-        self.robot = SimulatedRobot(
+        self.simulated = SimulatedRobot(
             world, "robot", description, posture, start, gains={}
         )
         mujoco.mj_forward(world.model, world.data)
-        self.motors = motors_of(
-            description, tick=TICK, crouch=description.standing
-        )
-        names = posture.joint_names
-        self._order = [names.index(name) for name in self.motors.names]
+        self.joints = posture.joint_names
         ids = [
             motor_of(world.model, world.model.joint(f"robot/{name}").id)
-            for name in self.motors.names
+            for name in self.joints
         ]
-        self._actuators = np.array(ids)
-        model = world.model
-        self.own = MotorGains(
-            model.actuator_gainprm[ids, 0].copy(),
-            -model.actuator_biasprm[ids, 2].copy(),
+        self._actuators, model = np.array(ids), world.model
+        own = zip(
+            model.actuator_gainprm[ids, 0].tolist(),
+            (-model.actuator_biasprm[ids, 2]).tolist(),
+            strict=True,
         )
+        self.gains: dict[str, tuple[float, float]] = dict(
+            zip(self.joints, own, strict=True)
+        )
+        self.sent: list[JointTargets] = []
+        self.robot: Any = self  # of the session
 
-    def clock(self) -> float:
-        """Time, in [s]."""
-        return self.now
-
-    def wait(self, timeout: float) -> bool:
-        """Produce the frame of the next tick."""
+    def listen(self, patience: float, convert: Any) -> Any:  # type: ignore[override]
+        """Produce the report of the next tick."""
         self.now += TICK
-        read = self.robot.read()
-        assert read.joint_velocities is not None
-        count = self.motors.count
+        read = self.simulated.read()
         noise = 1e-3 * np.sin(self.now)  # no real sensor stands still
-        frame = JointFrame(
-            position=read.joint_positions[self._order],
-            stiffness=np.ones(count),
-            current=np.zeros(count),
-            temperature=np.full(count, 30.0),
-            status=(0,) * count,
+        report = read._replace(
+            time=self.now,
             accelerometer=read.accelerometer + noise,
-            gyroscope=read.gyro,
-            angles=(0.0, 0.0),
-            foot_forces=read.foot_forces,
-            load=5.0,
-            echoes={},
-            chest_pressed=self.chest_pressed,
-            bumper_pressed=False,
-            charge=1.0,
-            number=0.0,
-            counted=False,
-            lock_step=False,
-            velocity=read.joint_velocities[self._order],
+            sighting=Sighting(self.now, 0.0, 0.5),
+            tilt=(0.0, 0.0),
         )
-        self._frames.append(frame)
-        return True
+        return convert(report, "listen()")
 
-    def receive(self) -> list[Any]:
-        """Return the frame of the tick."""
-        frames, self._frames = self._frames, []
-        return frames
-
-    def send(self, data: Any) -> None:
-        """Apply targets and gains, and advance."""
-        self.commands.append(data)
-        gains = data.gains or self.own
+    def command(self, call: Any) -> None:
+        """Apply targets and gains."""
+        if isinstance(call, JointTargets):
+            return
+        (targets,) = call.args
+        self.sent.append(targets)
+        pairs = zip(targets.stiffness, targets.damping, strict=True)
         set_joint_gains(
-            self.robot.world.model,
+            self.simulated.world.model,
             self._actuators,
-            self.motors.names,
-            dict(
-                zip(
-                    self.motors.names,
-                    zip(gains.stiffness, gains.damping, strict=True),
-                    strict=True,
-                )
-            ),
+            self.joints,
+            dict(zip(self.joints, pairs, strict=True)),
         )
-        if data.position is not None:
-            targets = np.empty(self.motors.count)
-            targets[self._order] = data.position
-            self.robot.write(targets)
-        self.robot.step()
+        self.simulated.write(targets.angles)
 
-    def close(self) -> None:
-        """Do nothing."""
+    def name_of(self, method: str) -> str:
+        """Return the name of a method."""
+        return method
 
+    def released(self) -> str:
+        """Have no switch."""
+        return ""
 
-class AlwaysAhead:
-    """Sight of an opponent half a metre ahead."""
+    def check_blocked(self) -> None:
+        """Return at once."""
 
-    def newest(self, frame: int, start: int) -> Sighting | None:
-        """Return the sighting of this frame."""
-        return Sighting((frame - start) * TICK, 0.0, 0.5)
+    def tell(self, method: str, call: Any) -> None:
+        """Show nothing."""
 
-    def close(self) -> None:
-        """Do nothing."""
+    def halt(self) -> None:
+        """Stand as placed."""
 
 
 @pytest.fixture(scope="module")
@@ -178,38 +139,41 @@ def test_a_policy_walks_a_robot_that_takes_targets_and_gains(
     contract, _ = load_policy(legs, description)
     angles = zip(contract.joints, contract.default_posture, strict=True)
     posture = InitialPosture(ForwardKinematics(description), dict(angles))
-    link = GainsRobot(description, posture)
-    gains = policy_gains(contract, link.motors, link.own)
-    codec = Codec(lambda frame: frame, lambda command: command)
-    stance = dict(zip(posture.joint_names, posture.joint_targets, strict=True))
+    robot = GainsRobot(description, posture)
+    motors = motors_of(robot, description)
+    gains = policy_gains(contract, motors)
+    order = [posture.joint_names.index(name) for name in motors.names]
+    stance = np.array(posture.joint_targets)[order]
+    made: Any = robot
     loop = JointLoop(
         lambda _: JointBody(
-            JointInterface(link, link.motors, codec, gains),
+            made,
+            motors,
             stance,
-            sight=AlwaysAhead(),
-            clock=SystemClock(link.clock, lambda duration: None),
+            gains=gains,
+            clock=SystemClock(lambda: robot.now, lambda duration: None),
         ),
         Pursuit(),
         policy_scheme_factory(description, legs, GAIT, tick=TICK),
     )
-    while loop.body.state is not RobotState.READY:
+    while loop.body.state is not SafetyState.READY:
         loop.tick()
-        assert link.now < 6.0
-    assert not any(command.gains for command in link.commands)
-    for link.chest_pressed in (True, False):
-        loop.tick()
-    start = np.array(link.robot.truth.position_com_in_world)
+        robot.simulated.step()
+        assert robot.now < 6.0
+    at = robot.joints.index("LKneePitch")
+    own = robot.sent[-1].stiffness[at], robot.sent[-1].damping[at]
+    assert own == robot.gains["LKneePitch"]
+    start = np.array(robot.simulated.truth.position_com_in_world)
     for _ in range(round(6.0 / TICK)):
         tick = loop.tick()
-        assert tick.state is RobotState.WALKING, tick.words
+        robot.simulated.step()
+    assert tick.state is SafetyState.WALKING, tick.words
     assert tick.walk is None
-    sent = link.commands[-1].gains
-    assert sent is not None
-    at = link.motors.names.index("LKneePitch")
+    sent = robot.sent[-1]
     assert (sent.stiffness[at], sent.damping[at]) == (200.0, 10.0)
-    head = link.motors.names.index("HeadYaw")  # the policy does not move it
-    assert sent.stiffness[head] == link.own.stiffness[head]
-    moved = link.robot.truth.position_com_in_world - start
+    head = robot.joints.index("HeadYaw")  # the policy does not move it
+    assert sent.stiffness[head] == robot.gains["HeadYaw"][0]
+    moved = robot.simulated.truth.position_com_in_world - start
     assert 0.15 < moved[0] < 0.4
     assert abs(moved[1]) < 0.1
 
@@ -220,12 +184,9 @@ def test_a_robot_without_a_joint_of_the_policy_is_refused(
     description = load_robot(folder)
     legs = LegsSettings(str(folder / "policy.onnx"))
     contract, _ = load_policy(legs, description)
-    motors = motors_of(description, tick=TICK, crouch={})
-    fewer = type(motors)(
-        *(motors.names[:2], motors.low[:2], motors.high[:2]),
-        *(motors.speed[:2], motors.stall_current[:2], motors.legs[:0]),
-        *({}, TICK),
-    )
-    own = MotorGains(np.ones(2), np.ones(2))
+    angles = zip(contract.joints, contract.default_posture, strict=True)
+    posture = InitialPosture(ForwardKinematics(description), dict(angles))
+    motors = motors_of(GainsRobot(description, posture), description)
+    fewer = motors._replace(names=motors.names[:2])
     with pytest.raises(ModelError, match="'LHipYawPitch' has no motor"):
-        policy_gains(contract, fewer, own)
+        policy_gains(contract, fewer)

@@ -15,21 +15,16 @@ import pytest
 
 from stepaside import load_run
 from stepaside.core.errors import ConfigurationError, ModelError
-from stepaside.drivers.joint.joint_robot import JointTarget
-from stepaside.drivers.rcss.league_messages import (
-    MessageError,
-    parse_expressions,
-)
-from stepaside.drivers.rcss.rcss_robot import (
+from stepaside.drivers.joint_robot import JointTargets
+from stepaside.drivers.rcss import (
     MODELS,
     STEP,
-    LeagueAddress,
     LeagueRobot,
-    league_model_of,
+    make_robot,
     nearest_opponent,
-    parse_rcss_address,
-    tilt_of,
+    parse_expressions,
 )
+from stepaside.drivers.robot_address import RobotRequest
 from stepaside.games.play_settings import PlaySettings
 from stepaside.games.play_summary import PlaySummary
 
@@ -49,6 +44,20 @@ SEEN = (
 )
 
 
+def quaternion(roll: float, pitch: float, yaw: float) -> str:
+    """A rotation, the real part first."""
+    cr, sr, cp, sp, cy, sy = (
+        f(0.5 * a) for a in (roll, pitch, yaw) for f in (cos, sin)
+    )
+    parts = (
+        cr * cp * cy + sr * sp * sy,
+        sr * cp * cy - cr * sp * sy,
+        cr * sp * cy + sr * cp * sy,
+        cr * cp * sy - sr * sp * cy,
+    )
+    return " ".join(map(str, parts))
+
+
 def message(now: float, head: float = 0.0) -> bytes:
     """A message of the simulator, with angles in degrees."""
     joints = "".join(
@@ -59,7 +68,8 @@ def message(now: float, head: float = 0.0) -> bytes:
     return (
         f"(time (now {now}))(GS (t 0) (pm BeforeKickOff))"
         "(GYR (n torso_gyro) (rt 180 0 -90))(ACC (n torso_acc) (a 0 0 9.8))"
-        "(quat (n torso_quat) (q 1 0 0 0))(pos (n torso_pos) (p 1 2 0.5))"
+        f"(quat (n torso_quat) (q {quaternion(0.2, -0.1, 3.0)}))"
+        "(pos (n torso_pos) (p 1 2 0.5))"
         f"{joints}(See (P (team b)(id 1)(head (pol 2 30 0))))"
     ).encode()
 
@@ -69,7 +79,7 @@ class FakeLeague:
 
     def __init__(self) -> None:
         self.listener = socket.create_server(("127.0.0.1", 0))
-        self.address = LeagueAddress(*self.listener.getsockname())
+        self.address = self.listener.getsockname()
         self.received: list[str] = []
         self.messages = [message(0.02 * i) for i in range(200)]
         self.thread = Thread(target=self.serve, daemon=True)
@@ -96,50 +106,28 @@ def test_expressions_are_nested_lists() -> None:
 
 @pytest.mark.parametrize("text", [b"(a", b"(a))", b")"])
 def test_unbalanced_messages_are_refused(text: bytes) -> None:
-    with pytest.raises(MessageError):
+    with pytest.raises(ConnectionError):
         parse_expressions(text)
 
 
 def test_the_nearest_player_of_another_team_is_the_opponent() -> None:
     (_, *seen), = parse_expressions(SEEN)  # fmt: skip
-    found = nearest_opponent(seen, "a")
-    assert found is not None  # no head in sight: the mean of both feet
-    assert found[0] == pytest.approx(2.1)
-    assert found[1] == pytest.approx(radians(-21.0))
-    assert nearest_opponent(seen, "b") == (1.0, 0.0, 0.0)
+    found = nearest_opponent(seen, "a")  # no head in sight: both feet
+    assert np.hypot(*found[:2]) == pytest.approx(2.1 * cos(radians(30.0)))
+    assert np.arctan2(found[1], found[0]) == pytest.approx(radians(-21.0))
+    assert nearest_opponent(seen, "b").tolist() == [1.0, 0.0, 0.0]
     assert nearest_opponent(seen[:1], "a") is None
 
 
-@pytest.mark.parametrize("roll", [-0.4, 0.0, 0.3])
-@pytest.mark.parametrize("yaw", [-2.0, 0.0, 3.0])
-def test_tilt_does_not_depend_on_the_heading(roll: float, yaw: float) -> None:
-    pitch = 0.25
-    cr, sr, cp, sp, cy, sy = (
-        f(0.5 * a) for a in (roll, pitch, yaw) for f in (cos, sin)
-    )
-    quaternion = (
-        cr * cp * cy + sr * sp * sy,
-        sr * cp * cy - cr * sp * sy,
-        cr * sp * cy + sr * cp * sy,
-        cr * cp * sy - sr * sp * cy,
-    )
-    assert tilt_of(*quaternion) == pytest.approx((roll, pitch))
-
-
-@pytest.mark.parametrize(
-    "address", ["rcss:", "rcss:h", "rcss:h:0", "rcss:h:70000", "rcss:h:p"]
-)
+@pytest.mark.parametrize("address", ["", "h", "h:0", "h:70000", "h:p"])
 def test_an_invalid_address_is_refused(address: str) -> None:
     with pytest.raises(ConfigurationError, match="rcss:HOST:PORT"):
-        parse_rcss_address(address)
-    assert parse_rcss_address("rcss::60000") == ("127.0.0.1", 60000)
+        make_robot(RobotRequest(address))
 
 
 def test_the_model_follows_from_the_joints() -> None:
-    for name, model in MODELS.items():
-        assert league_model_of(dict.fromkeys(model.motors)) == name
     with pytest.raises(ModelError, match="K1 and T1, got .* HeadYaw"):
-        league_model_of({"HeadYaw": 1.0})
+        make_robot(RobotRequest(":60000"))
 
 
 def test_messages_become_reports_and_commands_motors() -> None:
@@ -148,16 +136,18 @@ def test_messages_become_reports_and_commands_motors() -> None:
     robot.open()
     assert league.received[0] == "(init K1 a 1)"
     assert league.received[1].startswith("(beam -2 3 0)")
-    report = robot.listen()
+    report, knee = robot.listen(), robot.joints.index("Left_Knee_Pitch")
     assert report.gyro == pytest.approx((pi, 0.0, -0.5 * pi))
-    assert report.velocities["Left_Knee_Pitch"] == pytest.approx(0.5 * pi)
-    assert report.positions["Left_Knee_Pitch"] == pytest.approx(radians(0.5))
+    assert report.joint_velocities is not None
+    assert report.joint_velocities[knee] == pytest.approx(0.5 * pi)
+    assert report.joint_positions[knee] == pytest.approx(radians(0.5))
+    assert report.tilt == pytest.approx((0.2, -0.1), abs=1e-6)
     assert report.time / STEP == pytest.approx(round(report.time / STEP))
     seen = report.sighting
     assert seen is not None  # 2 m from the camera, 0.066 m ahead of the torso
-    assert seen.bearing == pytest.approx(radians(30.0), abs=0.02)
-    targets = dict.fromkeys(MODELS["K1"].motors, JointTarget(0.1, 80.0, 2.0))
-    robot.command(targets)
+    assert seen.bearing == pytest.approx(radians(30.0), abs=0.05)
+    values = np.outer((0.1, 80.0, 2.0), np.ones(len(robot.joints)))
+    robot.command(JointTargets(*values))
     robot.listen()
     sent = league.received[-1]
     assert "(lle4 5.7296 0 80.0000 2.0000 0)" in sent

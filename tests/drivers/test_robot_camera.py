@@ -3,7 +3,8 @@
 import json
 import logging
 import re
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
+from functools import partial
 from math import atan2, degrees, hypot, inf, nan
 from threading import Event
 from time import monotonic, sleep
@@ -16,29 +17,26 @@ from simulated_walker import SimulatedWalker
 from stepaside.cli.main import main
 from stepaside.core.errors import ConfigurationError
 from stepaside.core.poses import Pose, wrap_angle
-from stepaside.drivers.cameras.robot_camera import (
+from stepaside.drivers.guardian_process import SessionLost
+from stepaside.drivers.robot_camera import (
     OLDEST,
     SILENCE,
     CameraImage,
     CameraMount,
     HeadLimits,
-    JointRobotCamera,
     MountedCamera,
     RobotCamera,
 )
-from stepaside.drivers.guardian_process import SessionLost
-from stepaside.drivers.velocity.adapter_body import PERIOD, AdapterBody
-from stepaside.drivers.velocity.velocity_body import (
-    VelocityCommand,
-    VelocityReport,
-)
-from stepaside.drivers.velocity.velocity_limits import VelocityLimits
-from stepaside.drivers.velocity.velocity_robot import (
+from stepaside.drivers.robot_session import RobotSession, velocity_state
+from stepaside.drivers.velocity_limits import VelocityLimits
+from stepaside.drivers.velocity_loop import PERIOD
+from stepaside.drivers.velocity_robot import (
     VelocityRobot,
     check_velocity_robot,
 )
 from stepaside.perception.camera_model import CameraModel
 from stepaside.perception.images import ColourImage, Percept
+from stepaside.perception.measurement import Measurement
 
 MOUNT = CameraMount(0.1, 0.0, 1.2)
 PIXELS = np.zeros((120, 160, 3), np.uint8)
@@ -160,17 +158,16 @@ def test_silence_hinders_the_robot() -> None:
     assert "image() returned no new image for" in camera.hindrance
 
 
-def test_a_joint_robot_times_its_images_by_control() -> None:
-    camera = JointRobotCamera(Filming(image(8.9, mount=None)))
-    camera.report_time = 9.0  # at 1.5 s of control
+def test_a_joint_robot_has_its_images_as_percepts() -> None:
+    camera = RobotCamera(Filming(image(8.9, mount=None)), needs_mount=False)
     deadline = monotonic() + SLACK
     found: list[Percept] = []
     while not found:
-        found = camera.percepts(1.5)
+        found = camera.percepts(9.0)
         assert monotonic() < deadline
     (seen,) = found
     assert isinstance(seen, ColourImage)
-    assert seen.time == pytest.approx(1.4)
+    assert seen.time == pytest.approx(8.9)
     assert seen.camera == CameraModel(160, 120, 140.0, 140.0)
 
 
@@ -211,13 +208,13 @@ class SeeingWalker(VelocityRobot):
         self.walker = SimulatedWalker(0, inf)
         self.walker.time = monotonic()
 
-    def listen(self) -> VelocityReport:
+    def listen(self) -> Measurement:
         """Move on, and report."""
         now = monotonic()
         self.walker.move(now - self.walker.time)
         self.walker.time = now
         x, y, heading = self.walker.pose
-        return VelocityReport(now, Pose(x, y, wrap_angle(heading)))
+        return Measurement(now, pose=Pose(x, y, wrap_angle(heading)))
 
     def image(self) -> CameraImage:
         """The present image."""
@@ -248,37 +245,27 @@ class SeeingWalker(VelocityRobot):
         self.walker.socket.close()
 
 
-@pytest.fixture
-def seeing() -> Iterator[tuple[SeeingWalker, Any]]:
-    """A robot that turns away from a person, and its body with a camera."""
+def test_the_head_follows_the_opponent_and_sightings_are_true() -> None:
+    """Of a robot that turns away from a person."""
     pytest.importorskip("cv2")
+    from stepaside.drivers.camera_sight import PosedSight
     from stepaside.drivers.scheme_factory import posed_perception_factory
-    from stepaside.drivers.velocity.robot_camera_body import RobotCameraBody
 
     robot = SeeingWalker()
     perception = posed_perception_factory("evader")(robot.head, PERIOD)
-    body = RobotCameraBody(
-        AdapterBody(robot),
-        RobotCamera(robot, needs_mount=True),
-        perception,
-        turns_head=True,
-    )
-    yield robot, body
-    body.close()
-
-
-def test_the_head_follows_the_opponent_and_sightings_are_true(
-    seeing: tuple[SeeingWalker, Any],
-) -> None:
-    robot, body = seeing
+    session = RobotSession(robot, "stop")
+    camera = RobotCamera(robot, needs_mount=True)
+    sight = PosedSight(session, camera, perception, turns_head=True)
     end = monotonic() + 4.0
     report, hindered = None, set()
     while monotonic() < end:
-        new = body.listen(0.05)
+        sleep(PERIOD)
+        new = session.listen(0.05, velocity_state)
         if new is not None:
-            report = new
-            hindered.add(new.hindrance.partition(" for ")[0])
-        body.command(VelocityCommand(-0.1, 0.3))
+            report = sight.see(new)
+            hindered.add(report.hindrance.partition(" for ")[0])
+        session.command(partial(robot.command, -0.1, 0.0, 0.3))
+    session.close()
     assert report is not None and report.sighting is not None
     x, y, heading = robot.walker.pose
     dx, dy = robot.walker.person[0] - x, robot.walker.person[1] - y
@@ -320,7 +307,7 @@ class Blind(sa.VelocityRobot):
         raise AssertionError
 
 class BlindJoints(sa.JointRobot):
-    tick = 0.012
+    tick, joints = 0.012, ()
     def listen(self):
         raise AssertionError
     def command(self, targets):

@@ -9,8 +9,8 @@ import pytest
 
 pytest.importorskip("cyclonedds")
 
-from stepaside.drivers.ros2 import dds_domain as domain  # noqa: E402
-from stepaside.drivers.ros2.dds_domain import DdsParticipant  # noqa: E402
+from stepaside.drivers import ros2_dds as domain  # noqa: E402
+from stepaside.drivers.ros2_dds import DdsParticipant  # noqa: E402
 
 FAST_DDS = "1.15"  # vendor's number of Fast DDS, ROS 2's own DDS
 OWN = "<CycloneDDS><Domain><General/></Domain></CycloneDDS>"

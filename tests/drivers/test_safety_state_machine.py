@@ -5,21 +5,21 @@ from typing import Any
 import pytest
 
 from stepaside.core.errors import ConfigurationError
-from stepaside.drivers.joint.safety_conditions import (
+from stepaside.drivers.safety_conditions import (
     SafetyInputs,
     SafetySettings,
 )
-from stepaside.drivers.joint.safety_state_machine import RobotState, Safety
+from stepaside.drivers.safety_states import Safety, SafetyState
 
 SETTINGS = SafetySettings()
-MOVING = [s for s in RobotState if s is not RobotState.LIMP]
+MOVING = [s for s in SafetyState if s is not SafetyState.LIMP]
 
 
 def seen(time: float = 0.0, **changes: Any) -> SafetyInputs:
     return SafetyInputs(time)._replace(**changes)
 
 
-def press(machine: Safety, time: float = 0.0) -> RobotState:
+def press(machine: Safety, time: float = 0.0) -> SafetyState:
     machine.frame(seen(time, chest_pressed=True))
     return machine.frame(seen(time))
 
@@ -31,100 +31,100 @@ def warm() -> Safety:
     return machine
 
 
-def at(state: RobotState) -> Safety:
+def at(state: SafetyState) -> Safety:
     """A machine in a state, since time zero."""
     machine = warm()
-    if state is RobotState.REACHING:
+    if state is SafetyState.REACHING:
         return machine
     machine.frame(seen(reached=True))
-    if state is RobotState.READY:
+    if state is SafetyState.READY:
         return machine
     press(machine)
-    if state is RobotState.WALKING:
+    if state is SafetyState.WALKING:
         return machine
     press(machine)
-    if state is RobotState.STOPPING:
+    if state is SafetyState.STOPPING:
         return machine
     machine.halted(0.0)
-    if state is RobotState.RESTING:
+    if state is SafetyState.RESTING:
         return machine
     machine.frame(seen(reached=True))
     return machine
 
 
-@pytest.mark.parametrize("state", RobotState)
-def test_every_state_can_be_reached(state: RobotState) -> None:
+@pytest.mark.parametrize("state", SafetyState)
+def test_every_state_can_be_reached(state: SafetyState) -> None:
     assert at(state).state is state
 
 
 def test_the_first_frames_cause_no_motion() -> None:
     machine = Safety(SETTINGS)
     for _ in range(SETTINGS.warm_up - 1):
-        assert machine.frame(seen(reached=True)) is RobotState.LIMP
-    assert machine.frame(seen()) is RobotState.REACHING
+        assert machine.frame(seen(reached=True)) is SafetyState.LIMP
+    assert machine.frame(seen()) is SafetyState.REACHING
 
 
 def test_only_walking_and_stopping_are_moved_by_control() -> None:
-    movers = {state for state in RobotState if state.moves_by_control}
-    assert movers == {RobotState.WALKING, RobotState.STOPPING}
+    movers = {state for state in SafetyState if state.moves_by_control}
+    assert movers == {SafetyState.WALKING, SafetyState.STOPPING}
 
 
 def test_the_button_acts_once_when_released() -> None:
-    machine = at(RobotState.READY)
+    machine = at(SafetyState.READY)
     for _ in range(5):
-        assert machine.frame(seen(chest_pressed=True)) is RobotState.READY
-    assert machine.frame(seen()) is RobotState.WALKING
+        assert machine.frame(seen(chest_pressed=True)) is SafetyState.READY
+    assert machine.frame(seen()) is SafetyState.WALKING
     for _ in range(5):
-        assert machine.frame(seen()) is RobotState.WALKING
+        assert machine.frame(seen()) is SafetyState.WALKING
     assert machine.reason == "chest button"
 
 
 @pytest.mark.parametrize(
     ("state", "after"),
     [
-        (RobotState.LIMP, RobotState.REACHING),
-        (RobotState.REACHING, RobotState.RESTING),
-        (RobotState.READY, RobotState.WALKING),
-        (RobotState.WALKING, RobotState.STOPPING),
-        (RobotState.STOPPING, RobotState.RESTING),
-        (RobotState.RESTING, RobotState.RESTING),
+        (SafetyState.LIMP, SafetyState.REACHING),
+        (SafetyState.REACHING, SafetyState.RESTING),
+        (SafetyState.READY, SafetyState.WALKING),
+        (SafetyState.WALKING, SafetyState.STOPPING),
+        (SafetyState.STOPPING, SafetyState.RESTING),
+        (SafetyState.RESTING, SafetyState.RESTING),
     ],
 )
 def test_the_button_starts_stops_and_wakes(
-    state: RobotState, after: RobotState
+    state: SafetyState, after: SafetyState
 ) -> None:
     assert press(at(state)) is after
 
 
 @pytest.mark.parametrize("state", MOVING)
-def test_a_robot_that_falls_goes_limp(state: RobotState) -> None:
+def test_a_robot_that_falls_goes_limp(state: SafetyState) -> None:
     machine = at(state)
     assert machine.frame(seen(tilt=0.99 * SETTINGS.fall)) is state
-    assert machine.frame(seen(tilt=1.01 * SETTINGS.fall)) is RobotState.LIMP
+    assert machine.frame(seen(tilt=1.01 * SETTINGS.fall)) is SafetyState.LIMP
     assert "falls" in machine.reason
 
 
 def test_a_robot_that_lies_does_not_get_up_by_the_button() -> None:
-    machine = at(RobotState.LIMP)
+    machine = at(SafetyState.LIMP)
     machine.frame(seen(tilt=1.5, chest_pressed=True))
-    assert machine.frame(seen(tilt=1.5)) is RobotState.LIMP
+    assert machine.frame(seen(tilt=1.5)) is SafetyState.LIMP
     assert "falls" in machine.reason
-    assert press(machine) is RobotState.REACHING
+    assert press(machine) is SafetyState.REACHING
 
 
 @pytest.mark.parametrize("hot", [{"status": 2}, {"temperature": 81.0}])
 @pytest.mark.parametrize(
     ("state", "after"),
     [
-        (RobotState.WALKING, RobotState.STOPPING),
-        (RobotState.READY, RobotState.RESTING),
-        (RobotState.REACHING, RobotState.RESTING),
-        (RobotState.RESTING, RobotState.RESTING),
-        (RobotState.LIMP, RobotState.LIMP),
+        (SafetyState.WALKING, SafetyState.STOPPING),
+        (SafetyState.READY, SafetyState.RESTING),
+        (SafetyState.REACHING, SafetyState.RESTING),
+        (SafetyState.RESTING, SafetyState.RESTING),
+        (SafetyState.LIMP, SafetyState.LIMP),
     ],
 )
 def test_a_hot_robot_comes_to_rest(
-    state: RobotState, after: RobotState, hot: dict[str, Any]
+    state: SafetyState, after: SafetyState, hot: dict[str, Any]
 ) -> None:
     machine = at(state)
     assert machine.frame(seen(**hot)) is after
@@ -132,66 +132,70 @@ def test_a_hot_robot_comes_to_rest(
 
 
 def test_a_hot_robot_that_has_rested_goes_limp_and_stays_so() -> None:
-    machine = at(RobotState.RESTING)
-    assert machine.frame(seen(status=2, reached=True)) is RobotState.LIMP
-    assert machine.frame(seen(status=2, chest_pressed=True)) is RobotState.LIMP
-    assert machine.frame(seen(status=2)) is RobotState.LIMP
+    machine = at(SafetyState.RESTING)
+    assert machine.frame(seen(status=2, reached=True)) is SafetyState.LIMP
+    assert (
+        machine.frame(seen(status=2, chest_pressed=True)) is SafetyState.LIMP
+    )
+    assert machine.frame(seen(status=2)) is SafetyState.LIMP
 
 
 @pytest.mark.parametrize("state", MOVING)
-def test_critical_heat_goes_limp(state: RobotState) -> None:
-    assert at(state).frame(seen(status=3)) is RobotState.LIMP
+def test_critical_heat_goes_limp(state: SafetyState) -> None:
+    assert at(state).frame(seen(status=3)) is SafetyState.LIMP
 
 
 def test_a_little_heat_is_borne() -> None:
-    machine = at(RobotState.WALKING)
+    machine = at(SafetyState.WALKING)
     assert (
-        machine.frame(seen(status=1, temperature=79.0)) is RobotState.WALKING
+        machine.frame(seen(status=1, temperature=79.0)) is SafetyState.WALKING
     )
 
 
-@pytest.mark.parametrize("state", [RobotState.REACHING, RobotState.RESTING])
+@pytest.mark.parametrize("state", [SafetyState.REACHING, SafetyState.RESTING])
 def test_a_posture_that_is_not_reached_in_time_is_given_up(
-    state: RobotState,
+    state: SafetyState,
 ) -> None:
     machine = at(state)
     assert machine.frame(seen(SETTINGS.longest_reach)) is state
-    assert machine.frame(seen(SETTINGS.longest_reach + 0.1)) is RobotState.LIMP
+    assert (
+        machine.frame(seen(SETTINGS.longest_reach + 0.1)) is SafetyState.LIMP
+    )
     assert "took too long" in machine.reason
 
 
 def test_control_that_does_not_stop_is_stopped() -> None:
-    machine = at(RobotState.STOPPING)
-    assert machine.frame(seen(SETTINGS.longest_stop)) is RobotState.STOPPING
+    machine = at(SafetyState.STOPPING)
+    assert machine.frame(seen(SETTINGS.longest_stop)) is SafetyState.STOPPING
     assert (
-        machine.frame(seen(SETTINGS.longest_stop + 0.1)) is RobotState.RESTING
+        machine.frame(seen(SETTINGS.longest_stop + 0.1)) is SafetyState.RESTING
     )
 
 
 def test_halting_matters_only_to_a_robot_that_stops() -> None:
-    for state in RobotState:
+    for state in SafetyState:
         machine = at(state)
         machine.halted(0.0)
-        stops = state is RobotState.STOPPING
-        assert machine.state is (RobotState.RESTING if stops else state)
+        stops = state is SafetyState.STOPPING
+        assert machine.state is (SafetyState.RESTING if stops else state)
 
 
 @pytest.mark.parametrize("state", MOVING)
 def test_a_failure_makes_the_robot_limp_with_a_reason(
-    state: RobotState,
+    state: SafetyState,
 ) -> None:
     machine = at(state)
     machine.fail("no valid frame for 0.1 s", 0.0)
-    assert machine.state is RobotState.LIMP
+    assert machine.state is SafetyState.LIMP
     assert machine.reason == "no valid frame for 0.1 s"
 
 
 def test_rest_stops_a_walking_and_lowers_a_standing_robot() -> None:
     for state, after in (
-        (RobotState.WALKING, RobotState.STOPPING),
-        (RobotState.READY, RobotState.RESTING),
-        (RobotState.REACHING, RobotState.RESTING),
-        (RobotState.LIMP, RobotState.LIMP),
+        (SafetyState.WALKING, SafetyState.STOPPING),
+        (SafetyState.READY, SafetyState.RESTING),
+        (SafetyState.REACHING, SafetyState.RESTING),
+        (SafetyState.LIMP, SafetyState.LIMP),
     ):
         machine = at(state)
         machine.rest("asked to", 0.0)
@@ -200,7 +204,7 @@ def test_rest_stops_a_walking_and_lowers_a_standing_robot() -> None:
 
 def lasting(
     machine: Safety, duration: float, begin: float = 1.0, **changes: Any
-) -> RobotState:
+) -> SafetyState:
     """Return the state after frames over a duration, 12 ms apart."""
     count = round(duration / 0.012)
     for i in range(count + 1):
@@ -231,49 +235,49 @@ LASTING = 0.75  # longer than any condition has to last, in [s]
 @pytest.mark.parametrize(
     ("state", "after"),
     [
-        (RobotState.WALKING, RobotState.STOPPING),
-        (RobotState.STOPPING, RobotState.STOPPING),
-        (RobotState.READY, RobotState.RESTING),
-        (RobotState.REACHING, RobotState.RESTING),
-        (RobotState.RESTING, RobotState.RESTING),
-        (RobotState.LIMP, RobotState.LIMP),
+        (SafetyState.WALKING, SafetyState.STOPPING),
+        (SafetyState.STOPPING, SafetyState.STOPPING),
+        (SafetyState.READY, SafetyState.RESTING),
+        (SafetyState.REACHING, SafetyState.RESTING),
+        (SafetyState.RESTING, SafetyState.RESTING),
+        (SafetyState.LIMP, SafetyState.LIMP),
     ],
 )
 def test_a_robot_that_must_not_go_on_stops_and_rests(
-    state: RobotState, after: RobotState, changes: dict[str, Any], word: str
+    state: SafetyState, after: SafetyState, changes: dict[str, Any], word: str
 ) -> None:
     machine = at(state)
     assert lasting(machine, LASTING, **changes) is after
-    if state not in (RobotState.STOPPING, RobotState.RESTING):
+    if state not in (SafetyState.STOPPING, SafetyState.RESTING):
         assert word in machine.reason
     machine.halted(2.0)
-    rests = (RobotState.WALKING, RobotState.STOPPING)
-    assert machine.state is (RobotState.RESTING if state in rests else after)
+    rests = (SafetyState.WALKING, SafetyState.STOPPING)
+    assert machine.state is (SafetyState.RESTING if state in rests else after)
 
 
 @pytest.mark.parametrize(("changes", "word"), TO_STAND.values(), ids=TO_STAND)
 def test_a_robot_that_may_stand_but_not_walk_stops_and_stands(
     changes: dict[str, Any], word: str
 ) -> None:
-    machine = at(RobotState.WALKING)
-    assert lasting(machine, LASTING, **changes) is RobotState.STOPPING
+    machine = at(SafetyState.WALKING)
+    assert lasting(machine, LASTING, **changes) is SafetyState.STOPPING
     assert word in machine.reason
     machine.halted(2.0)
-    assert machine.state is RobotState.READY and word in machine.reason
+    assert machine.state is SafetyState.READY and word in machine.reason
     # Nothing but the button lets it walk on, and not while that lasts.
     machine.frame(seen(2.1, chest_pressed=True, **changes))
-    assert machine.frame(seen(2.2, **changes)) is RobotState.READY
+    assert machine.frame(seen(2.2, **changes)) is SafetyState.READY
     assert word in machine.reason
-    assert lasting(machine, LASTING, 3.0) is RobotState.READY
-    assert press(machine, 5.0) is RobotState.WALKING
+    assert lasting(machine, LASTING, 3.0) is SafetyState.READY
+    assert press(machine, 5.0) is SafetyState.WALKING
 
 
 @pytest.mark.parametrize(
-    "state", [RobotState.REACHING, RobotState.READY, RobotState.LIMP]
+    "state", [SafetyState.REACHING, SafetyState.READY, SafetyState.LIMP]
 )
 @pytest.mark.parametrize(("changes", "word"), TO_STAND.values(), ids=TO_STAND)
 def test_a_robot_that_may_not_walk_may_take_its_stance(
-    changes: dict[str, Any], word: str, state: RobotState
+    changes: dict[str, Any], word: str, state: SafetyState
 ) -> None:
     assert lasting(at(state), LASTING, **changes) is state
 
@@ -281,16 +285,16 @@ def test_a_robot_that_may_not_walk_may_take_its_stance(
 @pytest.mark.parametrize("name", [*TO_REST, *TO_STAND])
 def test_every_third_frame_alone_is_no_reason_to_stop(name: str) -> None:
     changes, _ = (TO_REST | TO_STAND)[name]
-    machine = at(RobotState.WALKING)
+    machine = at(SafetyState.WALKING)
     for i in range(400):
         odd = changes if i % 3 == 0 else {}
         assert (
-            machine.frame(seen(1.0 + 0.012 * i, **odd)) is RobotState.WALKING
+            machine.frame(seen(1.0 + 0.012 * i, **odd)) is SafetyState.WALKING
         )
 
 
 def test_readings_of_a_walk_meet_no_condition() -> None:
-    machine = at(RobotState.WALKING)
+    machine = at(SafetyState.WALKING)
     for i in range(400):
         lands = i % 40 == 0
         state = machine.frame(
@@ -303,21 +307,21 @@ def test_readings_of_a_walk_meet_no_condition() -> None:
                 charge=0.11,
             )
         )
-        assert state is RobotState.WALKING
+        assert state is SafetyState.WALKING
 
 
 def test_a_worse_reason_while_it_stops_makes_it_rest() -> None:
-    machine = at(RobotState.WALKING)
+    machine = at(SafetyState.WALKING)
     lasting(machine, LASTING, bumper=True)
     lasting(machine, LASTING, 2.0, charge=0.05)
     machine.halted(3.0)
-    assert machine.state is RobotState.RESTING
+    assert machine.state is SafetyState.RESTING
 
 
 def test_the_worst_of_several_reasons_counts() -> None:
-    machine = at(RobotState.WALKING)
+    machine = at(SafetyState.WALKING)
     everything: dict[str, Any] = {"load": 0.0, "charge": 0.01, "tilt": 1.0}
-    assert lasting(machine, LASTING, **everything) is RobotState.LIMP
+    assert lasting(machine, LASTING, **everything) is SafetyState.LIMP
     assert "falls" in machine.reason
 
 

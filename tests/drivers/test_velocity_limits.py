@@ -8,8 +8,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from stepaside.core.errors import ConfigurationError
-from stepaside.drivers.velocity.velocity_body import REST, VelocityCommand
-from stepaside.drivers.velocity.velocity_limits import Ramp, VelocityLimits
+from stepaside.drivers.velocity_limits import REST, Ramp, VelocityLimits
+from stepaside.strategies.velocity_set import BodyVelocity
 
 TIGHT = VelocityLimits(0.2, 0.1, 0.5, 0.4, 2.0)
 
@@ -19,21 +19,21 @@ TIGHT = VelocityLimits(0.2, 0.1, 0.5, 0.4, 2.0)
 def test_scaled_velocities_keep_the_path_and_the_limits(
     forward: float, turn: float
 ) -> None:
-    scaled = TIGHT.scale(VelocityCommand(forward, turn))
+    scaled = TIGHT.scale(BodyVelocity(forward, 0.0, turn))
     assert scaled.forward * turn == pytest.approx(scaled.turn * forward)
     assert -0.1 - 1e-12 <= scaled.forward <= 0.2 + 1e-12
     assert abs(scaled.turn) <= 0.5 + 1e-12
     assert scaled.forward * forward > 0.0
     fits = -0.1 <= forward <= 0.2 and abs(turn) <= 0.5
-    assert (scaled == VelocityCommand(forward, turn)) == fits
+    assert (scaled == BodyVelocity(forward, 0.0, turn)) == fits
 
 
 def test_a_robot_that_walks_sideways_keeps_its_direction() -> None:
     """Another one is commanded no lateral velocity."""
-    wanted = VelocityCommand(0.2, 0.1, -0.3)
+    wanted = BodyVelocity(0.2, -0.3, 0.1)
     scaled = replace(TIGHT, lateral=0.1).scale(wanted)
-    assert scaled == pytest.approx((0.2 / 3, 0.1 / 3, -0.1))
-    assert TIGHT.scale(wanted) == VelocityCommand(0.2, 0.1)
+    assert scaled == pytest.approx((0.2 / 3, -0.1, 0.1 / 3))
+    assert TIGHT.scale(wanted) == BodyVelocity(0.2, 0.0, 0.1)
     ramp = Ramp(replace(TIGHT, lateral=0.1))
     assert ramp.toward(wanted, 0.1).lateral == pytest.approx(-0.04)
     assert Ramp(TIGHT).toward(wanted, 0.1).lateral == 0.0
@@ -47,26 +47,26 @@ def test_velocities_are_those_within_the_limits() -> None:
 
 
 def test_without_limits_nothing_is_cut() -> None:
-    wanted = VelocityCommand(3.0, -7.0)
+    wanted = BodyVelocity(3.0, 0.0, -7.0)
     assert VelocityLimits().scale(wanted) == wanted
 
 
 def test_the_ramp_climbs_at_its_accelerations_and_arrives() -> None:
-    ramp, wanted = Ramp(TIGHT), VelocityCommand(0.2, -0.3)
+    ramp, wanted = Ramp(TIGHT), BodyVelocity(0.2, 0.0, -0.3)
     speeds = [ramp.toward(wanted, 0.1) for _ in range(8)]
-    assert speeds[0] == pytest.approx((0.04, -0.2, 0.0))
-    assert speeds[2] == pytest.approx((0.12, -0.3, 0.0))
+    assert speeds[0] == pytest.approx((0.04, 0.0, -0.2))
+    assert speeds[2] == pytest.approx((0.12, 0.0, -0.3))
     assert speeds[-1] == pytest.approx(wanted)
-    assert ramp.toward(REST, 0.1) == pytest.approx((0.16, -0.1, 0.0))
+    assert ramp.toward(REST, 0.1) == pytest.approx((0.16, 0.0, -0.1))
 
 
 @pytest.mark.parametrize("bad", [nan, inf, -inf])
 def test_a_velocity_that_is_not_finite_stops_at_once(bad: float) -> None:
     ramp = Ramp(TIGHT)
-    ramp.toward(VelocityCommand(0.2, 0.3), 1.0)
-    assert ramp.toward(VelocityCommand(0.1, bad), 0.1) == REST
-    ramp.toward(VelocityCommand(0.2, 0.3), 1.0)
-    assert ramp.toward(VelocityCommand(bad, 0.1), 0.1) == REST
+    ramp.toward(BodyVelocity(0.2, 0.0, 0.3), 1.0)
+    assert ramp.toward(BodyVelocity(0.1, 0.0, bad), 0.1) == REST
+    ramp.toward(BodyVelocity(0.2, 0.0, 0.3), 1.0)
+    assert ramp.toward(BodyVelocity(bad, 0.0, 0.1), 0.1) == REST
 
 
 @pytest.mark.parametrize(
@@ -81,13 +81,13 @@ def test_a_limit_that_lets_nothing_through_is_refused(
 
 
 SPEED = st.floats(-2.0, 2.0)
-WANTED = st.builds(VelocityCommand, SPEED, SPEED, SPEED)
+WANTED = st.builds(BodyVelocity, SPEED, SPEED, SPEED)
 
 
 @settings(max_examples=60)
 @given(st.lists(st.tuples(WANTED, st.floats(0.0, 0.3)), max_size=12), WANTED)
 def test_whatever_is_wanted_no_change_is_faster_than_the_ramp(
-    wishes: list[tuple[VelocityCommand, float]], last: VelocityCommand
+    wishes: list[tuple[BodyVelocity, float]], last: BodyVelocity
 ) -> None:
     """The ramp ends at the scaled command."""
     limits = replace(TIGHT, lateral=0.1)

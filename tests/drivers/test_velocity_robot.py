@@ -6,8 +6,8 @@ import pytest
 
 from stepaside.core.errors import ConfigurationError
 from stepaside.drivers.robot_loader import load_robot_class
-from stepaside.drivers.velocity.velocity_limits import VelocityLimits
-from stepaside.drivers.velocity.velocity_robot import VelocityRobot
+from stepaside.drivers.velocity_limits import VelocityLimits
+from stepaside.drivers.velocity_robot import VelocityRobot
 
 VALID = """
 import stepaside as sa

@@ -8,6 +8,7 @@ installed, its real types are compared.
 
 import sys
 from collections.abc import Callable
+from functools import partial
 from importlib import import_module
 from inspect import getmembers, isfunction, signature
 from pathlib import Path
@@ -15,18 +16,18 @@ from time import monotonic, sleep
 from types import ModuleType, SimpleNamespace
 from typing import Any, ClassVar
 
+import numpy as np
 import pytest
 
 from stepaside.core.poses import Pose
 from stepaside.drivers.guardian_process import SessionLost
-from stepaside.drivers.joint.joint_robot import JointRobot, JointTarget
+from stepaside.drivers.joint_robot import JointRobot, JointTargets
 from stepaside.drivers.robot_loader import load_robot_class
-from stepaside.drivers.velocity.adapter_body import AdapterBody
-from stepaside.drivers.velocity.velocity_body import REST, VelocityCommand
-from stepaside.drivers.velocity.velocity_robot import VelocityRobot
+from stepaside.drivers.robot_session import RobotSession, velocity_state
+from stepaside.drivers.velocity_robot import VelocityRobot
 
 ADAPTERS = Path(__file__).parents[2] / "examples" / "adapters"
-WALK = VelocityCommand(-0.2, 0.4)
+WALK = (-0.2, 0.0, 0.4)
 CALLS: list[tuple[Any, ...]] = []
 
 
@@ -105,28 +106,30 @@ MODES = SimpleNamespace(kPrepare="prepare", kWalking="walking")
 
 
 @pytest.fixture
-def booster(monkeypatch: pytest.MonkeyPatch) -> AdapterBody:
+def booster(monkeypatch: pytest.MonkeyPatch) -> RobotSession:
     """Connect to a stub, whose odometer sends one message."""
     sdk = ModuleType("booster_robotics_sdk_python")
     vars(sdk).update({stub.__name__: stub for stub in STUBS}, RobotMode=MODES)
     monkeypatch.setitem(sys.modules, sdk.__name__, sdk)
     kind = adapter("Booster")
     monkeypatch.setattr(sys.modules[kind.__module__], "STANDING_UP", 0.0)
-    return AdapterBody(kind())
+    session = RobotSession(kind(), "stop")
+    session.run("prepare", 20.0)
+    return session
 
 
 def test_a_booster_walks_and_stands_by_its_client(
-    booster: AdapterBody,
+    booster: RobotSession,
 ) -> None:
-    assert booster.listen(0.05) is None
+    assert booster.listen(0.05, velocity_state) is None
     odometer = SimpleNamespace(x=1.0, y=2.0, theta=0.3)
     B1OdometerStateSubscriber.made[-1].handler(odometer)
-    report = booster.listen(1.0)
+    report = booster.listen(1.0, velocity_state)
     assert report is not None and report.pose == Pose(1.0, 2.0, 0.3)
     assert abs(report.time - monotonic()) < 5.0
-    booster.command(WALK)
+    booster.command(partial(booster.robot.command, *WALK))
     waits_for(("Move", -0.2, 0.0, 0.4))
-    booster.command(REST)
+    booster.halt()
     waits_for(("Move", 0.0, 0.0, 0.0))
     booster.close()
     assert CALLS[:3] == [
@@ -138,11 +141,11 @@ def test_a_booster_walks_and_stands_by_its_client(
 
 
 def test_a_booster_that_does_not_answer_is_tried_again(
-    booster: AdapterBody, monkeypatch: pytest.MonkeyPatch
+    booster: RobotSession, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(B1LocoClient, "answers", False)
     with pytest.raises(SessionLost, match="no Booster answers"):
-        AdapterBody(adapter("Booster")())
+        RobotSession(adapter("Booster")(), "stop")
 
 
 def test_boosters_package_has_what_the_adapter_uses() -> None:
@@ -214,7 +217,7 @@ def initialize(id: int = 0, networkInterface: str | None = None) -> None:
 
 
 @pytest.fixture
-def unitree(monkeypatch: pytest.MonkeyPatch) -> AdapterBody:
+def unitree(monkeypatch: pytest.MonkeyPatch) -> RobotSession:
     """Connect to a stub."""
     contents: dict[str, dict[str, Any]] = {
         "": {},
@@ -235,11 +238,13 @@ def unitree(monkeypatch: pytest.MonkeyPatch) -> AdapterBody:
         module = ModuleType(f"unitree_sdk2py{name}")
         vars(module).update(names)
         monkeypatch.setitem(sys.modules, module.__name__, module)
-    return AdapterBody(adapter("Unitree")())
+    session = RobotSession(adapter("Unitree")(), "stop")
+    session.run("prepare", 20.0)
+    return session
 
 
 def test_a_unitree_walks_by_velocities_that_time_out(
-    unitree: AdapterBody,
+    unitree: RobotSession,
 ) -> None:
     state = SimpleNamespace(
         stamp=SimpleNamespace(sec=7, nanosec=500_000_000),
@@ -247,10 +252,10 @@ def test_a_unitree_walks_by_velocities_that_time_out(
         imu_state=SimpleNamespace(rpy=[0.0, 0.0, 0.3]),
     )
     ChannelSubscriber.made[-1].handler(state)
-    report = unitree.listen(1.0)
+    report = unitree.listen(1.0, velocity_state)
     assert report is not None and report.time == 7.5
     assert report.pose == Pose(1.0, 2.0, 0.3)
-    unitree.command(WALK)
+    unitree.command(partial(unitree.robot.command, *WALK))
     waits_for(("SetVelocity", -0.2, 0.0, 0.4, 0.6))
     unitree.close()
     assert (
@@ -280,18 +285,19 @@ def test_calls_and_state_of_unitrees_own_sdk_fit(model: str) -> None:
     state.position[:2], state.imu_state.rpy[2] = [1.0, 2.0], 0.3
     robot: Any = adapter("Unitree")()
     robot.note(state)
-    assert robot.listen() == (7.25, Pose(1.0, 2.0, 0.3), None, "")
+    report = robot.listen()
+    assert report.time == 7.25 and report.pose == Pose(1.0, 2.0, 0.3)
 
 
 def test_an_error_code_of_a_unitree_ends_the_session(
-    unitree: AdapterBody, monkeypatch: pytest.MonkeyPatch
+    unitree: RobotSession, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(LocoClient, "code", 3104)
-    unitree.command(WALK)
+    unitree.command(partial(unitree.robot.command, *WALK))
     waits_for(("SetVelocity", -0.2, 0.0, 0.4, 0.6))
     sleep(0.1)
     with pytest.raises(SessionLost, match="SetVelocity returned 3104"):
-        unitree.command(WALK)
+        unitree.command(partial(unitree.robot.command, *WALK))
     with pytest.raises(SessionLost, match=r"stop\(\) of UnitreeRobot"):
         unitree.close()
 
@@ -354,10 +360,13 @@ def test_booster_is_driven_by_its_joints(
     states[0](SimpleNamespace(motor_state_serial=motors, imu_state=imu))
     report = robot.listen()
     assert report is not None and report.tilt == (0.1, 0.2)
-    assert report.positions["Right_Ankle_Roll"] == pytest.approx(2.1)
-    assert report.velocities["Left_Hip_Pitch"] == pytest.approx(-1.0)
-    targets = dict.fromkeys(report.positions, JointTarget(0.0, 1.0, 1.0))
-    targets["Right_Ankle_Roll"] = JointTarget(0.3, 30.0, 2.0)
+    assert robot.joints[21] == "Right_Ankle_Roll"
+    assert report.joint_positions[21] == pytest.approx(2.1)
+    assert report.joint_velocities is not None
+    assert report.joint_velocities[10] == pytest.approx(-1.0)
+    targets = JointTargets(*np.ones((3, 22)))
+    for array, value in zip(targets, (0.3, 30.0, 2.0), strict=True):
+        array[21] = value
     robot.command(targets)
     robot.command(targets)
     robot.release()

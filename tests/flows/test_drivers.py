@@ -150,7 +150,7 @@ class Mine(sa.VelocityRobot):
         sleep(0.02)
         now = monotonic()
         seen = sa.Sighting(now, 0.4, 1.0)
-        return sa.VelocityReport(now, sa.Pose(0.0, 0.0, 0.0), seen)
+        return sa.Measurement(now, sighting=seen, pose=sa.Pose(0.0, 0.0, 0.0))
 
     def command(self, forward, lateral, turn):
         with open("{log}", "a") as log:
@@ -163,20 +163,21 @@ class Mine(sa.JointRobot):
     """NAO whose joints are where they are told to be; its time may pause."""
 
     tick, paced, time = 0.012, False, 0.0
-    angles = dict.fromkeys(sa.load_tree(sa.load_robot("nao")).joints, 0.0)
-    gains = dict.fromkeys(angles, (100.0, 5.0))
-    rest = dict.fromkeys(angles, 0.0)
+    joints = sa.load_tree(sa.load_robot("nao")).joints
+    gains = dict.fromkeys(joints, (100.0, 5.0))
+    angles = [0.0] * len(joints)
 
     def listen(self):
         self.time += self.tick
         force = (0.0, 0.0, 9.8 + 0.01 * (round(self.time / self.tick) % 7))
-        return sa.JointReport(
-            self.time, self.angles, self.rest, (0.0, 0.0, 0.0), force,
-            (0.0, 0.0), [6.5] * 8, sa.Sighting(self.time, 0.4, 0.7),
+        return sa.Measurement(
+            self.time, self.angles, (0.0, 0.0, 0.0), force, [6.5] * 8,
+            sa.Sighting(self.time, 0.4, 0.7),
+            joint_velocities=[0.0] * len(self.joints), tilt=(0.0, 0.0),
         )
 
     def command(self, targets):
-        self.angles = {{name: each.angle for name, each in targets.items()}}
+        self.angles = targets.angles
 
     def release(self):
         with open("{log}", "a") as log:

@@ -116,21 +116,22 @@ class Mine(sa.JointRobot):
     """NAO whose joints are where they are told to be."""
 
     tick = 0.012
-    angles = dict.fromkeys(sa.load_tree(sa.load_robot("nao")).joints, 0.0)
-    gains = dict.fromkeys(angles, (100.0, 5.0))
-    rest = dict.fromkeys(angles, 0.0)
+    joints = sa.load_tree(sa.load_robot("nao")).joints
+    gains = dict.fromkeys(joints, (100.0, 5.0))
+    angles = [0.0] * len(joints)
 
     def listen(self):
         sleep(0.006)
         now = monotonic()
         force = (0.0, 0.0, 9.8 + 0.01 * (now % 0.1))
-        return sa.JointReport(
-            now, self.angles, self.rest, (0.0, 0.0, 0.0), force,
-            (0.0, 0.0), [6.5] * 8, sa.Sighting(now, 0.4, 0.7),
+        return sa.Measurement(
+            now, self.angles, (0.0, 0.0, 0.0), force, [6.5] * 8,
+            sa.Sighting(now, 0.4, 0.7),
+            joint_velocities=[0.0] * len(self.joints), tilt=(0.0, 0.0),
         )
 
     def command(self, targets):
-        self.angles = {{name: each.angle for name, each in targets.items()}}
+        self.angles = targets.angles
         self.note("command")
 
     def release(self):

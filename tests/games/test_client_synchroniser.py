@@ -7,14 +7,26 @@ import numpy as np
 import pytest
 
 from stepaside.core.errors import ConfigurationError
-from stepaside.drivers.lola.nao_joints import TICK
 from stepaside.games.client_synchroniser import (
     PRESSED_TICKS,
     READY_TICKS,
+    TICK,
     ClientSynchroniser,
 )
 
-from lola_fakes import Clock  # isort: skip
+
+class Clock:
+    """Clock that is advanced by hand."""
+
+    now = 1000.0
+
+    def __call__(self) -> float:
+        """Time, in [s]."""
+        return self.now
+
+    def pause(self, duration: float) -> None:
+        """Let time pass."""
+        self.now += duration
 
 
 class FakeServer:

@@ -9,9 +9,9 @@ import pytest
 
 from stepaside.core.errors import ConfigurationError
 from stepaside.core.poses import Array, Pose, wrap_angle
-from stepaside.drivers.joint.joint_loop import JointTick
-from stepaside.drivers.joint.safety_state_machine import RobotState
+from stepaside.drivers.joint_loop import JointTick
 from stepaside.drivers.play_log import PlayLog
+from stepaside.drivers.safety_states import SafetyState
 from stepaside.games.configuration_file import dump_configuration
 from stepaside.games.duel import Duel
 from stepaside.games.duel_settings import DuelSettings, StartSettings
@@ -54,7 +54,7 @@ def look_at(log: PlayLog, walker: SimulatedPlayer) -> None:
         measurement = measured.pop() if measured else read()
         log.note(
             JointTick(
-                RobotState.WALKING,
+                SafetyState.WALKING,
                 "chest button",
                 scheme.phase,
                 measurement,

@@ -10,12 +10,12 @@ import pytest
 
 from stepaside.core.errors import ConfigurationError
 from stepaside.drivers.guardian_process import SessionLost
-from stepaside.drivers.joint.joint_body import JointBody
-from stepaside.drivers.joint.joint_loop import JointLoop, JointTick
-from stepaside.drivers.joint.safety_state_machine import RobotState
-from stepaside.drivers.joint.session_options import SessionOptions
-from stepaside.drivers.lola.lola_address import LolaAddress
-from stepaside.drivers.lola.lola_connection import open_lola
+from stepaside.drivers.joint_body import JointBody
+from stepaside.drivers.joint_loop import JointLoop, JointTick
+from stepaside.drivers.joint_robot import motors_of
+from stepaside.drivers.lola import LolaRobot
+from stepaside.drivers.robot_session import RobotSession
+from stepaside.drivers.safety_states import SafetyState
 from stepaside.drivers.scheme_factory import control_scheme_factory
 from stepaside.games.duel import run_duel
 from stepaside.games.duel_settings import DuelSettings, StartSettings
@@ -36,18 +36,17 @@ FEEDBACK = ControlSettings(method="measured", feedback=True)
 
 
 def client(
-    address: LolaAddress,
+    path: Path,
     strategy: Strategy,
     ticks: list[JointTick],
 ) -> None:
     """Play one player until its robot disconnects."""
 
     def open_body(scheme: object) -> JointBody:
-        kinematics = scheme.kinematics  # type: ignore[attr-defined]
+        robot = LolaRobot(str(path))
         targets = scheme.joint_targets  # type: ignore[attr-defined]
-        return open_lola(
-            address, kinematics.joint_names, targets, SessionOptions()
-        )
+        motors = motors_of(robot, load_robot("nao"))
+        return JointBody(RobotSession(robot, "release"), motors, targets)
 
     make = control_scheme_factory(
         load_robot("nao"),
@@ -55,7 +54,7 @@ def client(
         FEEDBACK,
         tick=0.012,
     )
-    while not Path(address.path).exists():
+    while not path.exists():
         pass  # the world is being built
     playing = JointLoop(open_body, strategy, make)
     try:
@@ -68,11 +67,8 @@ def client(
 @contextmanager
 def clients(
     folder: Path,
-) -> Iterator[tuple[dict[str, LolaAddress], list[JointTick]]]:
-    addresses = {
-        name: LolaAddress(path=str(folder / name))
-        for name in ("pursuer", "evader")
-    }
+) -> Iterator[tuple[dict[str, Path], list[JointTick]]]:
+    addresses = {name: folder / name for name in ("pursuer", "evader")}
     roles = {"pursuer": Pursuit(), "evader": Evasion()}
     ticks: list[JointTick] = []
     threads = [
@@ -101,7 +97,9 @@ def test_in_lock_step_the_duel_is_the_one_played_in_one_process(
         control=FEEDBACK,
     )
     with clients(tmp_path) as (addresses, ticks):
-        endpoints = {name: LolaEndpoint(a) for name, a in addresses.items()}
+        endpoints = {
+            name: LolaEndpoint(str(path)) for name, path in addresses.items()
+        }
         over = serve_duel(settings, endpoints, lock_step=True)
     served, played = over.to_json(), run_duel(settings)
     alone = results_of(played)
@@ -114,9 +112,9 @@ def test_in_lock_step_the_duel_is_the_one_played_in_one_process(
     late = served["triggered_at_s"] - alone["triggered_at_s"]
     assert 0.0 <= late < 1.0
     assert served["late_ticks"] == 0
-    walked = [t for t in ticks if t.state is RobotState.WALKING]
+    walked = [t for t in ticks if t.state is SafetyState.WALKING]
     assert max(t.measurement.time for t in walked) >= 249 * 0.012 - 1e-9
-    assert not any(Path(a.path).exists() for a in addresses.values())
+    assert not any(a.exists() for a in addresses.values())
 
 
 def check_record(served: DuelRun, played: DuelRun, folder: Path) -> None:
@@ -137,7 +135,7 @@ def check_record(served: DuelRun, played: DuelRun, folder: Path) -> None:
 def test_the_wait_for_clients_is_limited(
     tmp_path: Path,
 ) -> None:
-    endpoints = {"evader": LolaEndpoint(LolaAddress(path=str(tmp_path / "e")))}
+    endpoints = {"evader": LolaEndpoint(str(tmp_path / "e"))}
     settings = DuelSettings(body=BODIES["delayed"])
     with pytest.raises(ConfigurationError, match="1 of 1 robots had no"):
         serve_duel(settings, endpoints, patience=0.02)

@@ -1,23 +1,21 @@
 """Test served duels of robots commanded by velocities."""
 
 import os
-from collections.abc import Callable
 from dataclasses import replace
 from threading import Event, Thread
+from typing import Any
 
 import pytest
 
 from commanded_robots import VelocityCommands, commanded_robots
-from stepaside.drivers.velocity.template_controller import TemplateController
-from stepaside.drivers.velocity.velocity_body import (
-    REST,
-    VelocityBody,
-    VelocityCommand,
-    VelocityReport,
+from stepaside.drivers.robot_session import RobotSession
+from stepaside.drivers.velocity_limits import REST, VelocityLimits
+from stepaside.drivers.velocity_loop import (
+    DrivingState,
+    TemplateController,
+    VelocityLoop,
 )
-from stepaside.drivers.velocity.velocity_limits import VelocityLimits
-from stepaside.drivers.velocity.velocity_loop import DrivingState, VelocityLoop
-from stepaside.drivers.velocity.watchdog import WatchSettings
+from stepaside.drivers.watchdog import WatchSettings
 from stepaside.games.duel_settings import DuelSettings, StartSettings
 from stepaside.games.match import play
 from stepaside.games.pair_match import PairMatch
@@ -25,9 +23,11 @@ from stepaside.games.robot_endpoints import RobotEndpoint
 from stepaside.games.served_duel import serve_duel
 from stepaside.games.velocity_walker import VelocityWalker
 from stepaside.locomotion.zmp.control_settings import STABILISED
+from stepaside.perception.measurement import Measurement
 from stepaside.planning import GaitSettings
 from stepaside.sim.body_settings import BODIES
 from stepaside.strategies import Evasion, Pursuit, Strategy
+from stepaside.strategies.velocity_set import BodyVelocity
 
 SETTINGS = DuelSettings(
     seed=7,
@@ -36,13 +36,13 @@ SETTINGS = DuelSettings(
     body=replace(BODIES["delayed"], cycle=0.012),
     control=STABILISED,
 )
-TAG = f"stepaside-duel-{os.getpid()}"
+DOMAIN = 20 + os.getpid() % 200
 ROLES: dict[str, Strategy] = {"pursuer": Pursuit(), "evader": Evasion()}
 
 
-def playing_of(body: VelocityBody, strategy: Strategy) -> VelocityLoop:
+def playing_of(session: Any, strategy: Strategy) -> VelocityLoop:
     return VelocityLoop(
-        body,
+        session,
         lambda: TemplateController(strategy, GaitSettings()),
         VelocityLimits(),
         WatchSettings(paced=False, forsaken=60.0),
@@ -54,20 +54,31 @@ class NoWire:
 
     def __init__(self, robot: VelocityWalker, strategy: Strategy) -> None:
         self._robot, self._ticks, self._velocity = robot, 0, REST
+        self.robot = robot  # whose method command is called
         self._playing = playing_of(self, strategy)
         for _ in range(3):  # what a gathering world tells again and again
             self._playing.tick()
 
-    def listen(self, patience: float) -> VelocityReport | None:
+    def listen(self, patience: float, convert: Any) -> Measurement:
         """State that the robot reports."""
         state = self._robot.state()
-        return VelocityReport(state.time, state.pose, state.sighting)
+        return Measurement(
+            state.time, sighting=state.sighting, pose=state.pose
+        )
 
-    def command(self, velocity: VelocityCommand) -> None:
+    def released(self) -> str:
+        """Have no switch."""
+        return ""
+
+    def command(self, call: Any) -> None:
         """Take what is asked for."""
-        self._velocity = velocity
+        self._velocity = BodyVelocity(*call.args)
 
-    def act(self) -> VelocityCommand:
+    def halt(self) -> None:
+        """Rest."""
+        self._velocity = REST
+
+    def act(self) -> BodyVelocity:
         """Command of this tick."""
         if self._ticks % 4 == 0:
             self._playing.tick()
@@ -89,29 +100,33 @@ def distance_without_a_wire() -> float:
 
 
 def client(
-    open_body: Callable[[], VelocityBody],
+    namespace: str,
     strategy: Strategy,
     states: list[DrivingState],
     over: Event,
 ) -> None:
     """Play one player until the duel is over."""
-    body = open_body()
-    playing = playing_of(body, strategy)
+    from stepaside.drivers.robot_address import RobotRequest
+    from stepaside.drivers.ros2 import make_robot
+
+    robot = make_robot(RobotRequest(namespace, domain=DOMAIN))()
+    session = RobotSession(robot, "stop")
+    session.run("prepare", 20.0)
+    playing = playing_of(session, strategy)
     while not over.is_set():
         states.append(playing.tick().state)
-    body.close()
+    playing.close()
 
 
 def served(
     endpoints: dict[str, RobotEndpoint],
-    bodies: dict[str, Callable[[], VelocityBody]],
 ) -> tuple[float, list[DrivingState]]:
     """Return the smallest distance of a served duel, and its plays."""
     states: list[DrivingState] = []
     over = Event()
     threads = [
-        Thread(target=client, args=(bodies[name], ROLES[name], states, over))
-        for name in bodies
+        Thread(target=client, args=(f"/{name}", ROLES[name], states, over))
+        for name in endpoints
     ]
     for thread in threads:
         thread.start()
@@ -131,21 +146,16 @@ def test_over_ros2_in_lock_step_the_duel_is_the_one_in_one_process(
 ) -> None:
     """Topics carry doubles, without loss."""
     pytest.importorskip("cyclonedds")
-    from stepaside.drivers.ros2.dds_domain import DdsParticipant
-    from stepaside.drivers.ros2.ros2_body import Ros2Body
-    from stepaside.drivers.ros2.ros2_server import WorldClock
+    from stepaside.drivers.ros2_dds import DdsParticipant
+    from stepaside.drivers.ros2_server import WorldClock
     from stepaside.games.robot_endpoints import Ros2Endpoint
 
-    dds = DdsParticipant(0, tag=TAG)
+    dds = DdsParticipant(DOMAIN)
     clock = WorldClock(dds)
     endpoints: dict[str, RobotEndpoint] = {
         name: Ros2Endpoint(dds, clock, f"/{name}") for name in ROLES
     }
-
-    def opener(name: str) -> Callable[[], VelocityBody]:
-        return lambda: Ros2Body(DdsParticipant(0, tag=TAG), f"/{name}")
-
-    least, states = served(endpoints, {name: opener(name) for name in ROLES})
+    least, states = served(endpoints)
     assert least == pytest.approx(distance_without_a_wire, abs=1e-6)
     assert DrivingState.WALKING in states
     dds.close()

@@ -9,11 +9,12 @@ import pytest
 from commanded_robots import commanded_robots
 from stepaside.core.poses import Pose, wrap_angle
 from stepaside.core.rotations import rotation
-from stepaside.drivers.velocity.velocity_body import REST, VelocityCommand
+from stepaside.drivers.velocity_limits import REST
 from stepaside.games.duel_settings import DuelSettings, StartSettings
 from stepaside.games.velocity_walker import VelocityWalker
 from stepaside.locomotion.zmp.control_settings import STABILISED
 from stepaside.sim.body_settings import BODIES
+from stepaside.strategies.velocity_set import BodyVelocity
 
 SETTINGS = DuelSettings(
     seed=7,
@@ -25,12 +26,12 @@ STEP = 0.547  # of the gait, in [s]
 
 
 @pytest.fixture(scope="module")
-def walked() -> tuple[VelocityWalker, VelocityWalker, list[VelocityCommand]]:
+def walked() -> tuple[VelocityWalker, VelocityWalker, list[BodyVelocity]]:
     """Return two robots that walked for 5 s, then rested for 3 s."""
     world, players = commanded_robots(SETTINGS)
     before = [player.state().velocity for player in players]
-    players[0].command(VelocityCommand(0.06, 0.1))
-    players[1].command(VelocityCommand(-0.2, 0.2))
+    players[0].command(BodyVelocity(0.06, 0.0, 0.1))
+    players[1].command(BodyVelocity(-0.2, 0.0, 0.2))
     for tick in range(667):
         for player in players:
             if tick == 417:
@@ -41,7 +42,7 @@ def walked() -> tuple[VelocityWalker, VelocityWalker, list[VelocityCommand]]:
 
 
 def test_a_robot_walks_at_its_command_and_rests_on_command(
-    walked: tuple[VelocityWalker, VelocityWalker, list[VelocityCommand]],
+    walked: tuple[VelocityWalker, VelocityWalker, list[BodyVelocity]],
 ) -> None:
     ahead, back, before = walked
     assert before == [REST, REST]
@@ -57,7 +58,7 @@ def test_a_robot_walks_at_its_command_and_rests_on_command(
 
 
 def test_odometry_is_where_the_robot_is(
-    walked: tuple[VelocityWalker, VelocityWalker, list[VelocityCommand]],
+    walked: tuple[VelocityWalker, VelocityWalker, list[BodyVelocity]],
 ) -> None:
     for robot in walked[:2]:
         state = robot.state()
@@ -68,7 +69,7 @@ def test_odometry_is_where_the_robot_is(
 
 
 def test_the_torso_is_served_from_encoders_and_tilt(
-    walked: tuple[VelocityWalker, VelocityWalker, list[VelocityCommand]],
+    walked: tuple[VelocityWalker, VelocityWalker, list[BodyVelocity]],
 ) -> None:
     """To some millimetres: the floor gives way under the feet."""
     for robot in walked[:2]:
@@ -87,7 +88,7 @@ def test_the_torso_is_served_from_encoders_and_tilt(
 
 
 def test_the_served_sighting_is_in_odometry(
-    walked: tuple[VelocityWalker, VelocityWalker, list[VelocityCommand]],
+    walked: tuple[VelocityWalker, VelocityWalker, list[BodyVelocity]],
 ) -> None:
     own, other, _ = walked
     state = own.state()
@@ -113,7 +114,7 @@ def test_a_hardware_like_robot_turns_by_its_command() -> None:
     hardware = replace(SETTINGS, seed=7, body=BODIES["hardware"])
     world, players = commanded_robots(hardware)
     for player, forward in zip(players, (0.06, -0.06), strict=True):
-        player.command(VelocityCommand(forward, 0.12))
+        player.command(BodyVelocity(forward, 0.0, 0.12))
     turned = np.zeros(2)
     headings = np.zeros(2)
     learnt, cycles = round(12.0 / 0.012), round(14 * STEP / 0.012)
@@ -133,7 +134,7 @@ def test_a_served_sighting_is_relative_to_the_heading_of_its_time() -> None:
     """Also while the robot turns."""
     world, players = commanded_robots(SETTINGS)
     for robot in players:
-        robot.command(VelocityCommand(0.05, 0.12))
+        robot.command(BodyVelocity(0.05, 0.0, 0.12))
     poses: list[dict[int, tuple[Pose, float]]] = [{}, {}]
     checked = 0
     for _ in range(420):

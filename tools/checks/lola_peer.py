@@ -147,7 +147,6 @@ def be_the_robot(checkout: Path, listen: str) -> None:
 def play_against(listen: str, chest: Path) -> dict[str, Any]:
     """Stand up, be pressed, move the head by control, rest."""
     import numpy as np
-
     from stepaside.drivers.joint.safety_state_machine import RobotState
     from stepaside.drivers.lola.lola_address import parse_address
     from stepaside.drivers.lola.lola_connection import open_lola

@@ -37,8 +37,6 @@ from typing import Any
 
 import numpy as np
 import ros2_peer as peer
-
-from stepaside.core.poses import Pose
 from stepaside.drivers.ros2.dds_domain import DdsParticipant, take_messages
 from stepaside.drivers.ros2.image_messages import pixels_of
 from stepaside.drivers.ros2.messages import (
@@ -52,6 +50,8 @@ from stepaside.drivers.ros2.ros2_server import Ros2Server, WorldClock
 from stepaside.drivers.ros2.topics import dds_topic
 from stepaside.drivers.velocity.velocity_body import REST, VelocityCommand
 from stepaside.drivers.velocity.walking_robot import WalkerState
+
+from stepaside.core.poses import Pose
 from stepaside.perception.camera_model import CameraModel
 from stepaside.perception.images import ColourImage
 from stepaside.perception.measurement import Sighting

@@ -10,9 +10,9 @@ from collections.abc import Callable
 from math import hypot
 
 import numpy as np
+from stepaside.drivers.velocity.velocity_body import VelocityCommand
 
 from stepaside.core.poses import Array, Pose
-from stepaside.drivers.velocity.velocity_body import VelocityCommand
 from stepaside.games.duel_as_game import build_duel_world
 from stepaside.games.duel_settings import (
     PLAYERS,

@@ -1,206 +1,128 @@
 """Camera connections of ``stepaside play``."""
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import click
 
-from .connection_settings import ConnectionSettings
+from .connection_settings import ROS2, ConnectionSettings
 
 if TYPE_CHECKING:
-    from ..drivers.cameras.image_source import ImageSource
-    from ..drivers.cameras.robot_camera import PosedCamera
-    from ..drivers.joint.adapter_link import AdapterLink
-    from ..drivers.joint.joint_robot import JointRobot
-    from ..drivers.velocity.velocity_body import VelocityBody
-    from ..drivers.velocity.velocity_robot import VelocityRobot
+    from ..drivers.camera_sight import PosedSight
+    from ..drivers.image_source import ImageSource
+    from ..drivers.robot_camera import PosedCamera
+    from ..drivers.robot_session import RobotSession
     from ..games.duel_settings import DuelSettings
 
-V4L2, NAOQI, ROS2 = "v4l2:", "naoqi:", "ros2:"
+V4L2 = "v4l2:"
 
 
-def open_cameras(
-    settings: "DuelSettings",
-    connection: ConnectionSettings,
+def check_camera(robot: Any, connection: ConnectionSettings) -> None:
+    """Check that a robot has what its source of images needs.
+
+    Args:
+        robot: The robot.
+        connection: Connection to the robot.
+
+    Raises:
+        UsageError: If it has no camera, or does not say where it is.
+    """
+    from ..drivers.joint_robot import JointRobot
+    from ..drivers.velocity_robot import VelocityRobot
+
+    joints = isinstance(robot, JointRobot)
+    base = JointRobot if joints else VelocityRobot
+    kind, has_images = type(robot), type(robot).image is not base.image
+    if connection.images is None and not has_images:
+        if connection.in_python:
+            raise click.UsageError(
+                "--sensing cameras requires the method image() of "
+                f"{kind.__name__}, or --images"
+            )
+        remedy = "--images" if joints else "a robot with a camera"
+        raise click.UsageError(
+            f"--sensing cameras requires {remedy}, got {connection.robot!r}, "
+            "which brings no images"
+        )
+    if connection.images is not None and not joints and robot.camera is None:
+        raise click.UsageError(
+            f"--images requires camera of {kind.__name__}: "
+            "CameraMount(forward, left, up, ...), the pose of the camera on "
+            "the robot"
+        )
+
+
+def open_eyes(
+    settings: "DuelSettings", robot: Any, connection: ConnectionSettings
 ) -> "ImageSource":
-    """Open the camera that supplies images of the opponent.
+    """Open the camera in the head of a joint-driven robot.
 
     Args:
         settings: Settings with optics and latency of the camera.
-        connection: Connection to the robot.
-
-    Raises:
-        StepAsideError: If the camera does not exist.
-    """
-    camera = connection.images
-    colour = settings.cameras.colour
-    model = colour.model()
-    latency = colour.latency + settings.cameras.added_latency
-    if camera is None:
-        raise click.UsageError("--sensing cameras requires --images")
-    if camera.startswith(V4L2):
-        from ..drivers.cameras.v4l2 import open_v4l2
-
-        device = camera.removeprefix(V4L2)
-        return open_v4l2(device, model, latency=latency)
-    if camera.startswith(NAOQI):
-        from ..drivers.naoqi.naoqi_url import parse_url
-        from ..drivers.naoqi.video_client import open_video
-
-        url = parse_url(camera)
-        return open_video(url, model, rate=colour.rate, latency=latency)
-    if camera.startswith(ROS2):
-        from ..drivers.ros2.image_messages import TopicCamera
-        from ..drivers.ros2.namespaces import parse_namespace
-
-        topic = parse_namespace(camera)
-        return TopicCamera(
-            connection.join_domain(), topic, model, latency=latency
-        )
-    raise click.BadParameter(
-        f"must begin with {V4L2}, {NAOQI} or {ROS2}, got {camera!r}",
-        param_hint="--images",
-    )
-
-
-def open_camera_body(
-    settings: "DuelSettings", url: str, connection: ConnectionSettings
-) -> "VelocityBody":
-    """Connect to a NAOqi robot and its camera.
-
-    Args:
-        settings: Settings with optics and latency of the camera.
-        url: Address of the robot.
-        connection: Connection to the robot.
-
-    Raises:
-        StepAsideError: If the robot cannot be reached or has no camera.
-    """
-    from ..drivers.naoqi.naoqi_body import NaoqiBody
-    from ..drivers.scheme_factory import perception_factory
-    from ..drivers.velocity.head_control import PERIOD, CameraBody
-    from ..robots.description import load_robot
-    from ..robots.head import load_head
-    from ..robots.tree_cache import load_tree
-
-    description = load_robot(connection.description)
-    head = load_head(description)
-    perception = perception_factory(connection.role)(description, PERIOD)
-    dry_run = connection.dry_run
-    body = NaoqiBody(
-        url,
-        dry_run=dry_run,
-        joint_names=load_tree(description).motors,
-        head=(head.yaw, head.pitch),
-    )
-    connection = connection.with_images(url)
-    try:
-        camera = open_cameras(settings, connection)
-    except BaseException:
-        body.close()
-        raise
-    return CameraBody(body, camera, perception, turns_head=not dry_run)
-
-
-def open_seeing_robot(
-    settings: "DuelSettings",
-    make: "type[VelocityRobot]",
-    connection: ConnectionSettings,
-) -> "VelocityBody":
-    """Connect to a robot in Python that finds its opponent by its camera.
-
-    Args:
-        settings: Settings with optics and latency of the camera.
-        make: Class of the robot.
-        connection: Connection to the robot.
-
-    Raises:
-        StepAsideError: If the robot cannot be reached or has no camera.
-    """
-    from ..drivers.cameras.robot_camera import MountedCamera, RobotCamera
-    from ..drivers.scheme_factory import posed_perception_factory
-    from ..drivers.velocity.adapter_body import PERIOD, AdapterBody
-    from ..drivers.velocity.robot_camera_body import RobotCameraBody
-
-    _check_camera(make, connection)
-    perception = posed_perception_factory(connection.role)(make.head, PERIOD)
-    robot = make()
-    body = AdapterBody(robot, dry_run=connection.dry_run)
-    camera: PosedCamera
-    try:
-        if connection.images is None:
-            camera = RobotCamera(robot, needs_mount=True)
-        else:
-            assert make.camera is not None  # as checked
-            source = open_cameras(settings, connection)
-            camera = MountedCamera(source, make.camera)
-    except BaseException:
-        body.close()
-        raise
-    turns = make.head is not None and not connection.dry_run
-    return RobotCameraBody(body, camera, perception, turns_head=turns)
-
-
-def _check_camera(
-    make: "type[VelocityRobot]", connection: ConnectionSettings
-) -> None:
-    """Check that a class has what its source of images needs."""
-    from ..drivers.velocity.velocity_robot import VelocityRobot
-
-    name = make.__name__
-    if connection.images is None and make.image is VelocityRobot.image:
-        raise click.UsageError(
-            f"--sensing cameras requires the method image() of {name}, or "
-            "--images"
-        )
-    if connection.images is not None and make.camera is None:
-        raise click.UsageError(
-            f"--images requires camera of {name}: CameraMount(forward, left, "
-            "up, ...), the pose of the camera on the robot"
-        )
-
-
-def check_joint_camera(
-    kind: "type[JointRobot]", connection: ConnectionSettings
-) -> None:
-    """Check that a joint-driven robot in Python has a source of images.
-
-    Args:
-        kind: Class of the robot.
-        connection: Connection to the robot.
-
-    Raises:
-        UsageError: If it has none.
-    """
-    from ..drivers.joint.joint_robot import JointRobot
-
-    if connection.images is not None or kind.image is not JointRobot.image:
-        return
-    if not connection.in_python:
-        raise click.UsageError(
-            f"--sensing cameras requires --images, got {connection.robot!r}, "
-            "which tells its sightings and has no camera"
-        )
-    raise click.UsageError(
-        f"--sensing cameras requires the method image() of {kind.__name__}, "
-        "or --images"
-    )
-
-
-def open_joint_camera(
-    settings: "DuelSettings",
-    link: "AdapterLink",
-    connection: ConnectionSettings,
-) -> "ImageSource":
-    """Open the camera in the head of a joint-driven robot in Python.
-
-    Args:
-        settings: Settings with optics and latency of the camera.
-        link: Link to the robot.
+        robot: The robot, connected.
         connection: Connection to the robot.
 
     Raises:
         StepAsideError: If the camera does not exist.
     """
     if connection.images is None:
-        return link.open_camera()
-    return open_cameras(settings, connection)
+        from ..drivers.robot_camera import RobotCamera
+
+        return RobotCamera(robot, needs_mount=False)
+    return _open_images(settings, connection)
+
+
+def open_camera_sight(
+    settings: "DuelSettings",
+    session: "RobotSession",
+    connection: ConnectionSettings,
+) -> "PosedSight":
+    """Open the camera of a robot that is driven by velocity commands.
+
+    Args:
+        settings: Settings with optics and latency of the camera.
+        session: Session with the robot.
+        connection: Connection to the robot.
+
+    Raises:
+        StepAsideError: If the camera does not exist.
+    """
+    from ..drivers.camera_sight import PosedSight
+    from ..drivers.robot_camera import MountedCamera, RobotCamera
+    from ..drivers.scheme_factory import posed_perception_factory
+    from ..drivers.velocity_loop import PERIOD
+
+    robot = session.robot
+    perception = posed_perception_factory(connection.role)(robot.head, PERIOD)
+    camera: PosedCamera
+    if connection.images is None:
+        camera = RobotCamera(robot, needs_mount=True)
+    else:
+        source = _open_images(settings, connection)
+        camera = MountedCamera(source, robot.camera)
+    turns = robot.head is not None and not connection.dry_run
+    return PosedSight(session, camera, perception, turns_head=turns)
+
+
+def _open_images(
+    settings: "DuelSettings", connection: ConnectionSettings
+) -> "ImageSource":
+    """Open the camera that ``--images`` names."""
+    name = connection.images
+    assert name is not None
+    colour = settings.cameras.colour
+    model = colour.model()
+    latency = colour.latency + settings.cameras.added_latency
+    if name.startswith(V4L2):
+        from ..drivers.image_source import open_v4l2
+
+        return open_v4l2(name.removeprefix(V4L2), model, latency=latency)
+    if name.startswith(ROS2):
+        from ..drivers.ros2_dds import parse_namespace
+        from ..drivers.ros2_images import TopicCamera
+
+        dds, topic = connection.join_domain(), parse_namespace(name)
+        return TopicCamera(dds, topic, model, latency=latency)
+    raise click.BadParameter(
+        f"must begin with {V4L2} or {ROS2}, got {name!r}",
+        param_hint="--images",
+    )

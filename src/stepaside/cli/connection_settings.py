@@ -3,7 +3,7 @@
 import re
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import click
 
@@ -24,8 +24,9 @@ from .options.settings_options import CONTROL, GIVEN
 from .terminal import echo
 
 if TYPE_CHECKING:
-    from ..drivers.robot_loader import RobotClass
-    from ..drivers.ros2.dds_domain import DdsParticipant
+    from collections.abc import Callable
+
+    from ..drivers.ros2_dds import DdsParticipant
 
 LOLA, NAOQI, ROS2, RCSS = "lola:", "naoqi:", "ros2:", "rcss:"
 _SWITCH = re.compile(r"key|gamepad(:.+)?|ros2:/.+")
@@ -37,8 +38,8 @@ class ConnectionSettings:
 
     robot: str = setting(
         REQUIRED,
-        "Address of the robot: lola:PATH, lola:HOST:PORT or lola: (on the "
-        "robot itself); naoqi:tcp://HOST:PORT; ros2:/NAMESPACE; "
+        "Address of the robot: lola:PATH or lola: (on the robot itself); "
+        "naoqi:tcp://HOST:PORT; ros2:/NAMESPACE; "
         "rcss:HOST:PORT; or FILE.py:CLASS, a VelocityRobot or JointRobot in "
         "Python",
     )
@@ -58,9 +59,8 @@ class ConnectionSettings:
     )
     images: str | None = setting(
         None,
-        "Source of images for --sensing cameras: v4l2:DEVICE, "
-        "naoqi:tcp://HOST:PORT or ros2:/TOPIC; the camera of a robot on "
-        "NAOqi by default",
+        "Source of images for --sensing cameras: v4l2:DEVICE or "
+        "ros2:/TOPIC; the robot's own camera by default",
     )
     max_speed: float | None = setting(
         None,
@@ -93,12 +93,17 @@ class ConnectionSettings:
     remap: tuple[str, ...] = setting(
         (),
         "Another name of a topic of a ROS 2 robot, NAME:=/TOPIC, with NAME "
-        "odom, cmd_vel, other, other_pose or detections; repeatable",
+        "odom, cmd_vel or a topic of people; repeatable",
     )
     opponent: str = setting(
         "",
         "Class of the detections (vision_msgs/Detection3DArray) that are "
         "the opponent; any by default",
+    )
+    people: tuple[str, ...] = setting(
+        (),
+        "TOML file of further topics with people on ROS 2 "
+        "(docs/robots-real.md); repeatable",
     )
     sim_time: bool = setting(
         False,
@@ -152,6 +157,11 @@ class ConnectionSettings:
                 f"{switch!r}",
                 param_hint="--dead-man",
             )
+        limited = self.max_speed and self.max_turn
+        if self.robot.startswith(ROS2) and self.max_lateral and not limited:
+            raise click.UsageError(
+                "--max-lateral requires --max-speed and --max-turn"
+            )
 
     @property
     def in_python(self) -> bool:
@@ -169,35 +179,54 @@ class ConnectionSettings:
         """Whether the protocol is that of a NAO, with its chest button."""
         return self.robot.startswith((LOLA, NAOQI))
 
-    def robot_class(self) -> "RobotClass | None":
-        """Load the class of a robot in Python; None for another."""
-        if not self.in_python:
-            return None
-        from ..drivers.robot_loader import load_robot_class
-
-        return load_robot_class(self.robot)
-
-    def moves_joints(self, made: "RobotClass | None") -> bool:
-        """Return whether the robot receives joint targets.
+    def robot_maker(self, settings: DuelSettings) -> "Callable[[], Any]":
+        """Return a function that makes the robot, without connecting.
 
         Args:
-            made: Class of a robot in Python; None for another.
+            settings: Settings with the optics of its camera.
         """
-        if made is not None:
-            from ..drivers.joint.joint_robot import JointRobot
+        if self.in_python:
+            from ..drivers.robot_loader import load_robot_class
 
-            return issubclass(made, JointRobot)
-        return self.robot.startswith((LOLA, RCSS))
+            return load_robot_class(self.robot)
+        from ..drivers.robot_address import RobotRequest, find_robot
+
+        name, _, address = self.robot.partition(":")
+        if self.robot.startswith(ROS2) and not self.network:
+            from ..drivers.ros2_dds import LOCAL
+
+            echo(f"stepaside: {LOCAL}", err=True)
+        colour = settings.cameras.colour
+        make = find_robot(
+            name,
+            RobotRequest(
+                address,
+                self.role,
+                self.description,
+                dry_run=self.dry_run,
+                camera=colour.model(),
+                latency=colour.latency + settings.cameras.added_latency,
+                lateral=self.max_lateral or 0.0,
+                domain=self.domain,
+                network=self.network,
+                remap=self.remap,
+                opponent=self.opponent,
+                people=self.people,
+            ),
+        )
+        if make is None:
+            raise click.BadParameter(
+                f"must begin with {LOLA}, {NAOQI}, {ROS2} or {RCSS}, or be "
+                f"FILE.py:CLASS, got {self.robot!r}",
+                param_hint="--robot",
+            )
+        return make
 
     def strategy(self, settings: DuelSettings) -> Strategy:
         """Load the strategy of the role."""
         if self.role == EVADER:
             return load_evader(settings)
         return load_strategy(settings.pursuer_strategy, settings.strategy)
-
-    def with_images(self, url: str) -> "ConnectionSettings":
-        """Return the settings with the camera of a NAOqi robot as default."""
-        return replace(self, images=self.images or f"{NAOQI}{url}")
 
     def join_domain(self) -> "DdsParticipant":
         """Join the ROS 2 domain; see :func:`join_domain`."""
@@ -211,7 +240,7 @@ def join_domain(domain: int | None, *, network: bool) -> "DdsParticipant":
         domain: Number of the domain; None for that of the environment.
         network: Whether topics are visible to other machines.
     """
-    from ..drivers.ros2.dds_domain import LOCAL, DdsParticipant
+    from ..drivers.ros2_dds import LOCAL, DdsParticipant
 
     dds = DdsParticipant(domain, beyond=network)
     if not network:

@@ -21,14 +21,14 @@ from .options.settings_options import (
 )
 
 if TYPE_CHECKING:
-    from ..drivers.joint.joint_loop import JointLoop
-    from ..drivers.velocity.velocity_loop import VelocityLoop
+    from ..drivers.joint_loop import JointLoop
+    from ..drivers.velocity_loop import VelocityLoop
 
 CONNECTING = 6.0  # longest time that connecting takes, in [s]
 PAUSE = 0.3  # between two attempts, in [s]
 UNUSED_BY_CHECK = {
     *("record", "duration", "dead_man", "images", "max_speed", "max_turn"),
-    *("sim_time", "role", "remap", "opponent", "max_lateral"),
+    *("sim_time", "role", "remap", "opponent", "people", "max_lateral"),
 }
 TIME_IS_UP = "played long enough"
 INTERRUPTED = "interrupted"
@@ -92,14 +92,15 @@ def play(
     if as_json:
         raise click.UsageError("--json requires --check")
     from ..drivers.guardian_process import SessionLost
+    from ..drivers.joint_robot import JointRobot
     from ..drivers.status_line import StatusLine
-    from .joint_connections import open_joints
-    from .robot_connections import open_velocity
+    from .robot_connections import open_loop
 
-    made = connection.robot_class()
-    joints = connection.moves_joints(made)
+    make = connection.robot_maker(settings)
+    robot = make()
+    joints = isinstance(robot, JointRobot)
     _refuse_unused(settings, connection, joints=joints)
-    if joints and getattr(made, "paced", True):
+    if joints and robot.paced:
         refuse_options(
             {"sim_time"},
             "a robot with velocity commands, or a JointRobot with paced = "
@@ -124,21 +125,10 @@ def play(
             nonlocal wait
             now = replace(connection, wait=wait)
             wait = 0.0  # later sessions wait by --reconnect
+            loop = open_loop(settings, now, make)
             with ExitStack() as opened:
-                if joints:
-                    joint_loop = open_joints(settings, now, made)
-                    opened.callback(joint_loop.body.close)
-                    return _run_joints(
-                        joint_loop,
-                        observers,
-                        connection.duration,
-                        has_button=connection.on_nao,
-                    )
-                velocity_loop = open_velocity(settings, now, made)
-                opened.callback(velocity_loop.body.close)
-                return _run_velocity(
-                    velocity_loop, observers, connection.duration
-                )
+                opened.callback(loop.close)
+                return _run(loop, observers, connection.duration)
 
         try:
             ended = _run_sessions(session, reconnect)
@@ -179,7 +169,8 @@ def _refuse_unused(
         refuse_options({"images"}, "--sensing cameras, got ideal")
     if not connection.robot.startswith(ROS2):
         refuse_options(
-            {"remap", "opponent", "max_lateral"}, f"a robot at {ROS2}"
+            {"remap", "opponent", "people", "max_lateral"},
+            f"a robot at {ROS2}",
         )
     sources = connection.robot, connection.images, connection.dead_man
     if not any(ROS2 in str(source) for source in sources):
@@ -222,83 +213,48 @@ def _run_sessions(session: Callable[[], str], reconnect: float | None) -> str:
             sleep(PAUSE)
 
 
-def _run_joints(
-    loop: "JointLoop",
+def _run(
+    loop: "JointLoop | VelocityLoop",
     observers: list[Any],
     duration: float | None,
-    *,
-    has_button: bool,
 ) -> str:
-    """Run a joint control loop until it rests; return why it ended.
+    """Run a control loop until the robot rests; return why it ended.
 
     Args:
         loop: The loop.
         observers: Receivers of each tick.
         duration: Time to walk, in [s]; None for no limit.
-        has_button: Whether a robot that went limp can be started again.
 
     Raises:
-        SessionLost: If the session failed, or the robot went limp without
-            a button.
+        SessionLost: If the session failed, or a robot without a button to
+            start it again went limp.
     """
     import gc
 
     from ..drivers.guardian_process import SessionLost
-    from ..drivers.joint.safety_state_machine import RobotState
 
     gc.collect()
     gc.freeze()  # exclude loaded modules, so that collections stay short
-    body = loop.body
-    reason, was_stiff = "", False
+    reason = ""
     while True:
         try:
             tick = loop.tick()
             for observer in observers:
                 observer.note(tick)
-            if reason and tick.state is RobotState.LIMP:
-                return reason
-            if tick.state is not RobotState.LIMP:
-                was_stiff = True
-            elif was_stiff and not has_button:
-                raise SessionLost(f"the robot was released: {tick.reason}")
-            walked = tick.measurement.time
-            if duration is not None and tick.state is RobotState.WALKING:
-                if walked >= duration - 1e-9:
+            if loop.ended:
+                return reason or tick.reason
+            if loop.given_up:
+                raise SessionLost(loop.given_up)
+            if duration is not None and tick.walked is not None:
+                if tick.walked >= duration - 1e-9 and not reason:
                     reason = TIME_IS_UP
-                    body.rest(reason)
+                    loop.leave(reason)
         except KeyboardInterrupt:
-            if reason or tick.state is RobotState.LIMP:
+            if reason or loop.idle:
                 raise
             reason = INTERRUPTED
-            body.rest(reason)
+            loop.leave(reason)
         except SessionLost:
-            if not reason:
+            if not (reason and loop.idle):
                 raise
             return reason  # it was about to rest, and is limp now
-
-
-def _run_velocity(
-    loop: "VelocityLoop", observers: list[Any], duration: float | None
-) -> str:
-    """Run a velocity control loop until it rests; return why it ended."""
-    from ..drivers.velocity.velocity_loop import DrivingState
-
-    began: float | None = None
-    stopping = False
-    while True:
-        try:
-            tick = loop.tick()
-            for observer in observers:
-                observer.note(tick)
-            if tick.state is DrivingState.RESTING:
-                return tick.reason
-            if began is None and tick.state is DrivingState.WALKING:
-                began = tick.time
-            if duration is not None and began is not None:
-                if tick.time - began >= duration - 1e-9:
-                    loop.leave(TIME_IS_UP)
-        except KeyboardInterrupt:
-            if stopping:
-                raise
-            stopping = True
-            loop.leave(INTERRUPTED)

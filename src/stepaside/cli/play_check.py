@@ -11,9 +11,9 @@ if TYPE_CHECKING:
     from collections.abc import Callable
 
     from ..drivers.guardian_process import Guardian
-    from ..drivers.joint.joint_robot import JointRobot
+    from ..drivers.joint_robot import JointRobot
     from ..drivers.method_check import AdapterFinding, MethodCheck
-    from ..drivers.velocity.velocity_robot import VelocityRobot
+    from ..drivers.velocity_robot import VelocityRobot
     from .connection_settings import ConnectionSettings
 
 SILENCE = 3.0  # of the check before its guardian stops the robot, in [s]
@@ -42,7 +42,7 @@ def check_adapter(connection: "ConnectionSettings", *, as_json: bool) -> None:
         raise click.UsageError(
             f"--check requires --robot FILE.py:CLASS, got {connection.robot!r}"
         )
-    from ..drivers.joint.joint_robot import JointRobot
+    from ..drivers.joint_robot import JointRobot
     from ..drivers.robot_loader import load_robot_class
 
     make = load_robot_class(connection.robot)
@@ -71,13 +71,15 @@ def _velocity_check(
     note: "Callable[[AdapterFinding], None]",
 ) -> "MethodCheck":
     """Run the check of a robot that is driven by velocities."""
-    from ..drivers.velocity.adapter_body import connect_adapter_stopper
-    from ..drivers.velocity.adapter_check import AdapterCheck
+    from ..drivers.robot_session import join_halter
+    from ..drivers.velocity_check import VelocityCheck
 
-    guardian = _guardian(
-        connection, WALKS, lambda: connect_adapter_stopper(make)
-    )
-    check = AdapterCheck(
+    def join() -> "Callable[[], None]":
+        robot = make()
+        return join_halter(make, "stop") if robot.keeps_walking else _nothing
+
+    guardian = _guardian(connection, WALKS, join)
+    check = VelocityCheck(
         make(), note, dry_run=connection.dry_run, guardian=guardian
     )
     return _checked(check, guardian)
@@ -89,21 +91,22 @@ def _joint_check(
     note: "Callable[[AdapterFinding], None]",
 ) -> "MethodCheck":
     """Run the check of a robot that is driven by its joints."""
-    from ..drivers.joint.adapter_link import connect_releaser, own_gains
-    from ..drivers.joint.joint_check import JointCheck
-    from ..drivers.joint.joint_map import motors_of
+    from ..drivers.joint_check import JointCheck
+    from ..drivers.joint_robot import motors_of
+    from ..drivers.robot_session import join_halter
     from ..robots.description import load_robot
 
-    description, robot = load_robot(connection.description), make()
-    motors = motors_of(description, tick=robot.tick, crouch={})
-    servos = description.overlay.servos.items()
-    gains = own_gains(
-        robot, motors, {name: (x.stiffness, x.damping) for name, x in servos}
-    )
-    warning = MOVES.format(round(PER_JOINT * motors.count))
-    guardian = _guardian(connection, warning, lambda: connect_releaser(make))
+    robot = make()
+    motors = motors_of(robot, load_robot(connection.description))
+    warning = MOVES.format(round(PER_JOINT * len(motors.names)))
+
+    def join() -> "Callable[[], None]":
+        holds = robot.keeps_targets and robot.paced
+        return join_halter(make, "release") if holds else _nothing
+
+    guardian = _guardian(connection, warning, join)
     check = JointCheck(
-        *(robot, motors, gains, note),
+        *(robot, motors, note),
         dry_run=connection.dry_run,
         guardian=guardian,
     )
@@ -118,10 +121,14 @@ def _guardian(
     """Print a warning, and fork a guardian if the robot will move."""
     if connection.dry_run:
         return None
-    from ..drivers.velocity.velocity_guardian import fork_velocity_guardian
+    from ..drivers.robot_session import fork_guardian
 
     echo(f"stepaside: {warning}", err=True)
-    return fork_velocity_guardian(join, SILENCE)
+    return fork_guardian(join, SILENCE)
+
+
+def _nothing() -> None:
+    """Do nothing: the robot halts by itself."""
 
 
 def _checked(

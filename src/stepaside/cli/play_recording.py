@@ -19,8 +19,8 @@ from ..games.run_archive import CONFIGURATION, complete_play
 from ..strategies.registry import describe_strategy
 
 if TYPE_CHECKING:
-    from ..drivers.joint.joint_loop import JointTick
-    from ..drivers.velocity.velocity_loop import VelocityTick
+    from ..drivers.joint_loop import JointTick
+    from ..drivers.velocity_loop import VelocityTick
     from ..games.duel_settings import DuelSettings
     from .connection_settings import ConnectionSettings
 

@@ -1,91 +1,219 @@
-"""Connections of ``stepaside play`` to robots with velocity commands."""
+"""Connections of ``stepaside play`` to its robot."""
 
-from typing import TYPE_CHECKING, NamedTuple
+from math import inf
+from typing import TYPE_CHECKING, Any
 
 import click
 
-from .connection_settings import (
-    LOLA,
-    NAOQI,
-    RCSS,
-    ROS2,
-    ConnectionSettings,
-)
+from .connection_settings import ConnectionSettings, with_feedback
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
+    from ..control.scheme import ControlScheme
     from ..drivers.dead_man_switch import DeadManSwitch
-    from ..drivers.robot_loader import RobotClass
-    from ..drivers.velocity.velocity_body import VelocityBody
-    from ..drivers.velocity.velocity_limits import VelocityLimits
-    from ..drivers.velocity.velocity_loop import VelocityLoop
+    from ..drivers.guardian_process import Guardian
+    from ..drivers.joint_body import JointBody
+    from ..drivers.joint_loop import JointLoop
+    from ..drivers.joint_robot import JointRobot
+    from ..drivers.robot_session import RobotSession
+    from ..drivers.velocity_loop import VelocityLoop
+    from ..drivers.velocity_robot import VelocityRobot
     from ..games.duel_settings import DuelSettings
+    from ..robots.description import RobotDescription
+
+# Methods that halt a robot, and times without control before its guardian
+# acts, in [s].
+RELEASE, STOP = "release", "stop"
+JOINT_SILENCE, VELOCITY_SILENCE = 0.3, 0.5
 
 
-class VelocityConnection(NamedTuple):
-    """Ways to connect to a robot with its own walking controller.
-
-    Attributes:
-        open_body: Function that connects to the robot.
-        join: Function that connects in the guardian process and returns a
-            function that makes the robot rest.
-        limits: Limits of the robot itself.
-    """
-
-    open_body: "Callable[[], VelocityBody]"
-    join: "Callable[[], Callable[[], None]]"
-    limits: "VelocityLimits"
-
-
-def open_velocity(
+def open_loop(
     settings: "DuelSettings",
     connection: ConnectionSettings,
-    make: "RobotClass | None",
-) -> "VelocityLoop":
-    """Connect to a robot with its own walking controller.
+    make: "Callable[[], Any]",
+) -> "JointLoop | VelocityLoop":
+    """Connect to a robot, and return its control loop.
 
     Args:
         settings: Settings of the player.
         connection: Connection to the robot.
-        make: Class of a robot in Python; None for another.
+        make: Function that makes the robot.
     """
-    from math import inf
+    from ..drivers.joint_robot import JointRobot
 
-    from ..drivers.velocity.template_controller import TemplateController
-    from ..drivers.velocity.velocity_loop import VelocityLoop
-    from ..drivers.velocity.watchdog import WatchSettings
+    if isinstance(make(), JointRobot):
+        return _open_joints(settings, connection, make)
+    return _open_velocity(settings, connection, make)
+
+
+def _open_joints(
+    settings: "DuelSettings",
+    connection: ConnectionSettings,
+    make: "Callable[[], JointRobot]",
+) -> "JointLoop":
+    """Connect to a robot that is driven by its joints."""
+    from ..drivers.joint_body import JointBody
+    from ..drivers.joint_loop import JointLoop
+    from ..drivers.joint_robot import motors_of
+    from ..drivers.scheme_factory import policy_gains
+    from ..locomotion.policy.legs_loader import load_policy
+    from ..robots.description import load_robot
+    from .camera_connections import check_camera, open_eyes
+
+    description, robot = load_robot(connection.description), make()
+    legs, gains = settings.legs, None
+    sees = settings.sensing == "cameras"
+    if sees:
+        check_camera(robot, connection)
+    motors = motors_of(robot, description)
+    if legs.walks:
+        if not robot.takes_gains:
+            raise click.UsageError(
+                "--legs requires a robot that takes gains, got "
+                f"{connection.robot!r}"
+            )
+        contract, _ = load_policy(legs, description)
+        gains = policy_gains(contract, motors)
+    else:
+        settings = with_feedback(settings)
+    make_scheme = _scheme_factory(settings, connection, description, robot)
+
+    def open_body(scheme: "ControlScheme") -> "JointBody":
+        session = open_session(connection, make, robot, RELEASE)
+        try:
+            eyes = None
+            if sees:
+                eyes = open_eyes(settings, session.robot, connection)
+            return JointBody(
+                session,
+                motors,
+                scheme.joint_targets,
+                gains=gains,
+                eyes=eyes,
+                needs_forces=not legs.walks,
+                dry_run=connection.dry_run,
+            )
+        except BaseException:
+            session.close(halts=False)
+            raise
 
     strategy = connection.strategy(settings)
-    ways = _velocity_connection(settings, connection, make)
-    limits = ways.limits.within(
+    return JointLoop(
+        open_body, strategy, make_scheme, dry_run=connection.dry_run
+    )
+
+
+def _open_velocity(
+    settings: "DuelSettings",
+    connection: ConnectionSettings,
+    make: "Callable[[], VelocityRobot]",
+) -> "VelocityLoop":
+    """Connect to a robot with its own walking controller."""
+    from ..drivers.robot_session import PREPARE_TIMEOUT
+    from ..drivers.velocity_loop import TemplateController, VelocityLoop
+    from ..drivers.watchdog import WatchSettings
+    from .camera_connections import check_camera, open_camera_sight
+
+    robot, sees = make(), settings.sensing == "cameras"
+    if sees:
+        check_camera(robot, connection)
+    strategy = connection.strategy(settings)
+    limits = robot.limits.within(
         connection.max_speed or inf, connection.max_turn or inf
     )
-    return VelocityLoop(
-        _held(_guarded(ways, connection), connection),
-        lambda: TemplateController(strategy, settings.gait, limits.velocities),
-        limits,
-        WatchSettings(
-            paced=not connection.sim_time,
-            source="odometry" if make is None else "reports of listen()",
-        ),
-        dry_run=connection.dry_run,
-    )
-
-
-def _held(
-    body: "VelocityBody", connection: ConnectionSettings
-) -> "VelocityBody":
-    """Add the dead-man switch to a robot, if one is chosen."""
-    if connection.dead_man is None:
-        return body
-    from ..drivers.dead_man_switch import DeadManBody
-
+    paced = robot.paced and not connection.sim_time
+    session = open_session(connection, make, robot, STOP, paced=paced)
     try:
-        return DeadManBody(body, open_switch(connection.dead_man, connection))
+        if not connection.dry_run:
+            session.run("prepare", PREPARE_TIMEOUT)
+        eyes = None
+        if sees:
+            eyes = open_camera_sight(settings, session, connection)
+        in_python = connection.in_python
+        return VelocityLoop(
+            session,
+            lambda: TemplateController(
+                strategy, settings.gait, limits.velocities
+            ),
+            limits,
+            WatchSettings(
+                paced=paced,
+                source="reports of listen()" if in_python else "odometry",
+            ),
+            eyes=eyes,
+        )
     except BaseException:
-        body.close()
+        session.close()
         raise
+
+
+def open_session(
+    connection: ConnectionSettings,
+    make: "Callable[[], Any]",
+    robot: Any,
+    halting: str,
+    *,
+    paced: bool = True,
+) -> "RobotSession":
+    """Connect to a robot, with a guardian process if it can move.
+
+    Args:
+        connection: Connection to the robot.
+        make: Function that makes the robot.
+        robot: The robot, not connected; used if it has one client only.
+        halting: Its method that stops or releases it.
+        paced: Whether its clock runs in real time.
+    """
+    from ..drivers.guardian_process import open_with_retries
+    from ..drivers.robot_session import RobotSession, opened_here
+
+    shares = getattr(robot, "shares_connection", False)
+    if shares:
+        open_with_retries(lambda: opened_here(robot), connection.wait)
+    guardian = None
+    if not connection.dry_run and robot.paced and paced:
+        guardian = _guardian_of(make, robot, halting)
+    try:
+        switch = None
+        if connection.dead_man is not None:
+            switch = open_switch(connection.dead_man, connection)
+        return open_with_retries(
+            lambda: RobotSession(
+                robot if shares else make(),
+                halting,
+                opened=shares,
+                guardian=guardian,
+                switch=switch,
+                dry_run=connection.dry_run,
+            ),
+            connection.wait,
+        )
+    except BaseException:
+        if guardian is not None:
+            guardian.dismiss()
+        raise
+
+
+def _guardian_of(
+    make: "Callable[[], Any]", robot: Any, halting: str
+) -> "Guardian | None":
+    """Fork the guardian of a robot, before connecting starts threads."""
+    from ..drivers.guardian_process import Guardian
+    from ..drivers.robot_session import fork_guardian, join_halter
+
+    if halting == STOP:
+        if robot.keeps_walking:
+            return fork_guardian(
+                lambda: join_halter(make, halting), VELOCITY_SILENCE
+            )
+        # It stops by itself when the guardian has ended a frozen control.
+        return fork_guardian(lambda: lambda: None, VELOCITY_SILENCE)
+    if not robot.keeps_targets:
+        return None
+    if robot.shares_connection:
+        return Guardian(lambda _: robot.release(), JOINT_SILENCE)
+    return fork_guardian(lambda: join_halter(make, halting), JOINT_SILENCE)
 
 
 def open_switch(name: str, connection: ConnectionSettings) -> "DeadManSwitch":
@@ -99,155 +227,35 @@ def open_switch(name: str, connection: ConnectionSettings) -> "DeadManSwitch":
         return HeldKey(sys.stdin)
     if kind == "gamepad":
         return GamepadButton(device or GAMEPAD)
-    from ..drivers.ros2.namespaces import parse_namespace
-    from ..drivers.ros2.switch_topic import TopicSwitch
+    from ..drivers.ros2 import TopicSwitch
+    from ..drivers.ros2_dds import parse_namespace
 
     return TopicSwitch(connection.join_domain(), parse_namespace(name))
 
 
-def _guarded(
-    ways: VelocityConnection, connection: ConnectionSettings
-) -> "VelocityBody":
-    """Connect to a robot, with a guardian process if it can move."""
-    from ..drivers.guardian_process import open_with_retries
-    from ..drivers.velocity.velocity_guardian import (
-        GuardedBody,
-        fork_velocity_guardian,
-    )
-
-    def open_body() -> "VelocityBody":
-        return open_with_retries(ways.open_body, connection.wait)
-
-    if connection.dry_run or connection.sim_time:
-        return open_body()
-    # Fork before connecting, which starts threads.
-    guardian = fork_velocity_guardian(ways.join)
-    try:
-        return GuardedBody(open_body(), guardian)
-    except BaseException:
-        guardian.dismiss()
-        raise
-
-
-def _velocity_connection(
+def _scheme_factory(
     settings: "DuelSettings",
     connection: ConnectionSettings,
-    make: "RobotClass | None",
-) -> VelocityConnection:
-    """Return the ways to connect to a robot."""
-    from ..drivers.velocity.velocity_limits import VelocityLimits
-
-    robot, limits = connection.robot, VelocityLimits()
-    if make is not None:
-        return _adapter_connection(settings, connection, make)
-    if settings.sensing == "cameras" and not robot.startswith(NAOQI):
-        raise click.UsageError(
-            "--sensing cameras requires a robot on LoLA or NAOqi, whose head "
-            f"follows the opponent, or a class in Python, got {robot!r}; "
-            "over ROS 2 the opponent's position is received on a topic"
-        )
-    if robot.startswith(ROS2):
-        aside = connection.max_lateral or 0.0
-        if aside and not (connection.max_speed and connection.max_turn):
-            raise click.UsageError(
-                "--max-lateral requires --max-speed and --max-turn"
-            )
-        limits = VelocityLimits(lateral=aside)
-        return VelocityConnection(*_ros2_connection(connection), limits)
-    if robot.startswith(NAOQI):
-        return VelocityConnection(
-            *_naoqi_connection(settings, connection), limits
-        )
-    raise click.BadParameter(
-        f"must begin with {LOLA}, {NAOQI}, {ROS2} or {RCSS}, or be "
-        f"FILE.py:CLASS, got {robot!r}",
-        param_hint="--robot",
+    description: "RobotDescription",
+    robot: "JointRobot",
+) -> "Callable[..., ControlScheme]":
+    """Return the factory of the controller, with or without learned legs."""
+    from ..drivers.scheme_factory import (
+        control_scheme_factory,
+        policy_scheme_factory,
     )
 
-
-def _adapter_connection(
-    settings: "DuelSettings",
-    connection: ConnectionSettings,
-    make: "RobotClass",
-) -> VelocityConnection:
-    """Return the ways to connect to a robot in a user's file."""
-    from ..drivers.velocity.adapter_body import (
-        AdapterBody,
-        connect_adapter_stopper,
-    )
-    from ..drivers.velocity.velocity_robot import VelocityRobot
-
-    assert issubclass(make, VelocityRobot)  # joints are opened elsewhere
-
-    def open_adapter() -> "VelocityBody":
-        if settings.sensing == "cameras":
-            from .camera_connections import open_seeing_robot
-
-            return open_seeing_robot(settings, make, connection)
-        return AdapterBody(make(), dry_run=connection.dry_run)
-
-    return VelocityConnection(
-        open_adapter, lambda: connect_adapter_stopper(make), make.limits
-    )
-
-
-def _ros2_connection(
-    connection: ConnectionSettings,
-) -> "tuple[Callable[[], VelocityBody], Callable[[], Callable[[], None]]]":
-    """Return functions that connect to a ROS 2 robot, and make it rest."""
-    from ..drivers.ros2.namespaces import parse_namespace
-
-    namespace = parse_namespace(connection.robot)
-
-    def remapping() -> dict[str, str]:
-        from ..drivers.ros2.topics import parse_remapping
-
-        return parse_remapping(connection.remap)
-
-    def open_ros2() -> "VelocityBody":
-        from ..drivers.ros2.ros2_body import Ros2Body
-
-        return Ros2Body(
-            connection.join_domain(),
-            namespace,
-            dry_run=connection.dry_run,
-            remapping=remapping(),
-            opponent=connection.opponent,
+    gait = settings.gait
+    sees_as = connection.role if settings.sensing == "cameras" else None
+    if settings.legs.walks:
+        return policy_scheme_factory(
+            description, settings.legs, gait, tick=robot.tick, sees_as=sees_as
         )
-
-    def join_ros2() -> "Callable[[], None]":
-        from ..drivers.ros2.dds_domain import DdsParticipant
-        from ..drivers.ros2.ros2_body import register_stopper
-
-        return register_stopper(
-            DdsParticipant(connection.domain, beyond=connection.network),
-            namespace,
-            remapping(),
-        )
-
-    return open_ros2, join_ros2
-
-
-def _naoqi_connection(
-    settings: "DuelSettings", connection: ConnectionSettings
-) -> "tuple[Callable[[], VelocityBody], Callable[[], Callable[[], None]]]":
-    """Return functions that connect to a NAOqi robot, and make it rest."""
-    from ..drivers.naoqi.naoqi_url import parse_url
-
-    url = parse_url(connection.robot)
-
-    def open_naoqi() -> "VelocityBody":
-        if settings.sensing == "cameras":
-            from .camera_connections import open_camera_body
-
-            return open_camera_body(settings, url, connection)
-        from ..drivers.naoqi.naoqi_body import NaoqiBody
-
-        return NaoqiBody(url, dry_run=connection.dry_run)
-
-    def join_naoqi() -> "Callable[[], None]":
-        from ..drivers.naoqi.naoqi_body import connect_stopper
-
-        return connect_stopper(url)
-
-    return open_naoqi, join_naoqi
+    return control_scheme_factory(
+        description,
+        gait,
+        settings.control,
+        tick=robot.tick,
+        delay_ticks=connection.delay_ticks,
+        sees_as=sees_as,
+    )

@@ -30,9 +30,9 @@ SIGHTS = ("ideal", "none")
     "--lola",
     "lola",
     multiple=True,
-    metavar="PLAYER=ADDRESS",
-    help="Serve the joints of a player's robot over LoLA, at a path or at "
-    "HOST:PORT.",
+    metavar="PLAYER=PATH",
+    help="Serve the joints of a player's robot over LoLA, at the path of a "
+    "socket.",
 )
 @click.option(
     "--ros2",

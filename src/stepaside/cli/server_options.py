@@ -10,7 +10,7 @@ if TYPE_CHECKING:
     from ..games.robot_endpoints import RobotEndpoint
 
 ADDRESS_FORMATS = {
-    "lola": "ADDRESS",
+    "lola": "PATH",
     "ros2": "/NAMESPACE",
 }
 
@@ -26,15 +26,14 @@ def endpoints_of(
         stack: Closes the ROS 2 participant at the end.
         ideal_sight: Whether the true line of sight is served.
     """
-    from ..drivers.lola.lola_address import parse_address
     from ..games.robot_endpoints import LolaEndpoint
 
     endpoints: dict[str, RobotEndpoint] = {}
     for name, place in _entries("lola", options["lola"], endpoints):
-        endpoints[name] = LolaEndpoint(parse_address(place), ideal_sight)
+        endpoints[name] = LolaEndpoint(place, ideal_sight)
     if options["ros2"]:
-        from ..drivers.ros2.namespaces import parse_namespace
-        from ..drivers.ros2.ros2_server import WorldClock
+        from ..drivers.ros2_dds import parse_namespace
+        from ..drivers.ros2_server import WorldClock
         from ..games.robot_endpoints import Ros2Endpoint
         from .connection_settings import join_domain
 

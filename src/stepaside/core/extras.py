@@ -9,7 +9,7 @@ EXTRAS = {  # as in ``pyproject.toml``, with the names of the modules
     "mpc": ("daqp",),
     "robot": ("msgpack",),
     "naoqi": ("qi",),
-    "ros2": ("cyclonedds",),
+    "ros2": ("cyclonedds", "rosbags"),
     "viewer": ("av", "trimesh", "viser", "websockets"),
     "vision": ("cv2",),
 }

@@ -10,12 +10,6 @@ from time import monotonic
 from typing import Protocol, TextIO
 
 from ..core.errors import ConfigurationError
-from .velocity.velocity_body import (
-    REST,
-    VelocityBody,
-    VelocityCommand,
-    VelocityReport,
-)
 
 FIRST = 0.8  # a key counts as held after its first press: keyboards repeat
 # after 0.25 to 0.66 s, in [s]
@@ -134,30 +128,3 @@ class GamepadButton:
                 self._pressed.add(number)
             else:
                 self._pressed.discard(number)
-
-
-class DeadManBody:
-    """Robot that walks only while an operator holds a switch."""
-
-    def __init__(self, body: VelocityBody, switch: DeadManSwitch) -> None:
-        """Combine a robot and a switch; both are closed with this object."""
-        self._body, self._switch = body, switch
-
-    def listen(self, patience: float) -> VelocityReport | None:
-        """Return the newest report, hindered while the switch is released."""
-        report = self._body.listen(patience)
-        reason = self._switch.released()
-        if report is None or not reason:
-            return report
-        return report._replace(hindrance=report.hindrance or reason)
-
-    def command(self, velocity: VelocityCommand) -> None:
-        """Send a velocity command; zero while the switch is released."""
-        self._body.command(REST if self._switch.released() else velocity)
-
-    def close(self) -> None:
-        """Stop the robot and close the switch."""
-        try:
-            self._body.close()
-        finally:
-            self._switch.close()

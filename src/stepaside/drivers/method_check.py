@@ -5,7 +5,7 @@ from math import isfinite
 from time import monotonic, sleep
 from typing import Any, ClassVar, NamedTuple
 
-from ..perception.measurement import Sighting
+from ..perception.measurement import Measurement
 from .guardian_process import Guardian, SessionLost
 from .method_thread import (
     BLOCKED,
@@ -39,16 +39,16 @@ class AdapterFinding(NamedTuple):
     unit: str = ""
 
 
-class TimedSighting(NamedTuple):
-    """Sighting with the time of its report.
+class TimedReport(NamedTuple):
+    """Report of a robot with its time of arrival.
 
     Attributes:
-        reported: Time of the report, in [s].
-        sighting: The sighting; None without one.
+        report: The report.
+        arrived: Time of arrival on this computer's clock, in [s].
     """
 
-    reported: float
-    sighting: Sighting | None
+    report: Measurement
+    arrived: float
 
 
 class MethodCheck:
@@ -228,24 +228,24 @@ class MethodCheck:
         self._add("times", verdict, text, ratio, "1")
 
     def _check_sighting(
-        self, reports: Sequence[TimedSighting], oldest: float
+        self, reports: Sequence[Measurement], oldest: float
     ) -> None:
         """Check bearing, distance and age of the sightings.
 
         Args:
-            reports: Sighting of each report.
+            reports: Reports of the robot.
             oldest: Age beyond which a sighting is not used, in [s].
         """
         age, count = 0.0, 0
-        for reported, sighting in reports:
-            if sighting is None:
+        for report in reports:
+            if (sighting := report.sighting) is None:
                 continue
             count += 1
             time, bearing, distance = sighting[:3]
             if fault := sighting_fault(bearing, distance):
                 self._add("sighting", FAILED, fault)
                 return
-            age = max(age, reported - time)
+            age = max(age, report.time - time)
         if not count:
             self._add("sighting", UNKNOWN, "no report has a sighting")
             return

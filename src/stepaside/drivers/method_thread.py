@@ -35,7 +35,9 @@ class MethodThread:
     ) -> None:
         """Start the thread."""
         self.robot, self.clock = robot, clock
-        self._queue: SimpleQueue[tuple[str, Any, Future[Any]]] = SimpleQueue()
+        self._queue: SimpleQueue[tuple[str, Any, Future[Any]] | None] = (
+            SimpleQueue()
+        )
         self._running: tuple[str, float] | None = None
         self._thread = Thread(target=self._work, daemon=True)
         self._thread.start()
@@ -94,9 +96,13 @@ class MethodThread:
         """Return the name of a method for messages."""
         return f"{method}() of {type(self.robot).__name__}"
 
+    def end(self) -> None:
+        """End the thread after the methods that were begun."""
+        self._queue.put(None)
+
     def _work(self) -> None:
-        while True:
-            method, call, result = self._queue.get()
+        while (entry := self._queue.get()) is not None:
+            method, call, result = entry
             self._running = method, self.clock()
             self._call(method, call, result)
             self._running = None

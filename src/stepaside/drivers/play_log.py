@@ -10,14 +10,15 @@ import numpy as np
 from ..core.atomic_output import atomic_draft, check_folder
 from ..core.poses import Array
 from ..locomotion.walk_snapshots import Phase, StepStarted, WalkState
-from .joint.joint_loop import JointTick
-from .joint.safety_state_machine import RobotState
+from ..strategies.velocity_set import BodyVelocity
+from .joint_loop import JointTick
 from .row_file import RowWriter
-from .velocity.velocity_loop import DrivingState, VelocityTick
+from .safety_states import SafetyState
+from .velocity_loop import DrivingState, VelocityTick
 
 METADATA = "play.json"
 STATES: dict[type[Enum], list[Enum]] = {
-    kind: list(kind) for kind in (RobotState, DrivingState)
+    kind: list(kind) for kind in (SafetyState, DrivingState)
 }
 PHASES = list(Phase)
 UNSEEN = np.full(3, np.nan)
@@ -141,7 +142,7 @@ class PlayLog:
             self._write_metadata(self.folder)
 
     def _write_metadata(self, folder: Path) -> None:
-        kind = type(self._state) if self._state is not None else RobotState
+        kind = type(self._state) if self._state is not None else SafetyState
         metadata = self._about | {
             "states": [state.value for state in STATES[kind]],
             "phases": [phase.value for phase in PHASES],
@@ -200,6 +201,10 @@ def _velocity_columns(tick: VelocityTick) -> dict[str, Array | float]:
     """Return the columns of a robot driven by velocity commands."""
     return {
         "pose": np.array(tick.pose),
-        "wanted": np.array(tick.wanted),
-        "velocity": np.array(tick.velocity),
+        "wanted": _row(tick.wanted),
+        "velocity": _row(tick.velocity),
     }
+
+
+def _row(velocity: BodyVelocity) -> Array:
+    return np.array([velocity.forward, velocity.turn, velocity.lateral])

@@ -5,10 +5,9 @@ from typing import Any, NamedTuple
 
 from ..core.errors import ConfigurationError
 from ..core.user_file import FAILURES, FILE_AND_NAME, load_user_file
-from .joint import joint_robot
-from .joint.joint_robot import JointRobot, check_joint_robot
-from .velocity import velocity_robot
-from .velocity.velocity_robot import VelocityRobot, check_velocity_robot
+from . import joint_robot, velocity_robot
+from .joint_robot import JointRobot, check_joint_robot
+from .velocity_robot import VelocityRobot, check_velocity_robot
 
 RobotClass = type[VelocityRobot] | type[JointRobot]
 

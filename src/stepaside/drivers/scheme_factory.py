@@ -13,7 +13,7 @@ from ..control.sight_sources import (
     SightSource,
 )
 from ..control.strategy_runner import StrategyRunner
-from ..core.errors import ConfigurationError
+from ..core.errors import ConfigurationError, ModelError
 from ..locomotion.policy.contract import PolicyContract
 from ..locomotion.policy.legs_loader import load_legs
 from ..locomotion.policy.legs_settings import LegsSettings
@@ -22,9 +22,9 @@ from ..locomotion.zmp.control_settings import ControlSettings
 from ..planning import GaitSettings
 from ..robots.description import RobotDescription
 from ..strategies import Strategy
-from .cameras.robot_camera import HeadLimits
-from .joint.frames import MotorGains
-from .joint.joint_map import JointMap, MotorTable
+from .joint_body import MotorGains
+from .joint_robot import Motors
+from .robot_camera import HeadLimits
 
 if TYPE_CHECKING:
     from ..perception.pipeline import Perception
@@ -118,24 +118,31 @@ def policy_scheme_factory(
     return make
 
 
-def policy_gains(
-    contract: PolicyContract, motors: MotorTable, own: MotorGains
-) -> MotorGains:
+def policy_gains(contract: PolicyContract, motors: Motors) -> MotorGains:
     """Return the gains with which a policy moves the motors of a robot.
 
     Args:
         contract: Contract of the policy.
-        motors: Motors of the robot.
-        own: Gains of motors that the policy does not move.
+        motors: Motors of the robot, with gains of those that the policy
+            does not move.
 
     Raises:
         ModelError: If the robot has no motor for a joint of the policy.
     """
-    joints = JointMap(contract.joints, motors)
-    return MotorGains(
-        joints.to_motors(np.array(contract.stiffness), own.stiffness),
-        joints.to_motors(np.array(contract.damping), own.damping),
-    )
+    stiffness, damping = motors.stiffness.copy(), motors.damping.copy()
+    for name, own in zip(
+        contract.joints,
+        zip(contract.stiffness, contract.damping, strict=True),
+        strict=True,
+    ):
+        if name not in motors.names:
+            raise ModelError(
+                f"joint {name!r} has no motor; there are "
+                f"{', '.join(motors.names)}"
+            )
+        at = motors.names.index(name)
+        stiffness[at], damping[at] = own
+    return MotorGains(stiffness, damping)
 
 
 def perception_factory(

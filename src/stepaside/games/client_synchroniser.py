@@ -8,10 +8,10 @@ from typing import Protocol
 import numpy as np
 
 from ..core.errors import ConfigurationError
-from ..drivers.lola.nao_joints import TICK
 from .match import Match
 from .outcome import Outcome
 
+TICK = 0.012  # of a served world, that of LoLA, in [s]
 LATE = 0.006  # delay from which a tick counts as late, in [s]
 ANSWER_TIME = 0.009  # for commands in a tick, in [s]; the rest is physics
 STALL = 0.1  # delay that is not caught up with, in [s]

@@ -5,9 +5,9 @@ from pathlib import Path
 import numpy as np
 
 from ..core.poses import Array
-from ..drivers.joint.safety_state_machine import RobotState
 from ..drivers.row_file import HEADER, ROWS
-from ..drivers.velocity.velocity_loop import DrivingState
+from ..drivers.safety_states import SafetyState
+from ..drivers.velocity_loop import DrivingState
 from ..robots.description import load_robot
 from ..theory.unicycle.circle_fit import fit_circle
 from .array_checks import check_times, check_tracks
@@ -97,7 +97,7 @@ def _summary(
     times: Array,
     tracks: dict[str, Trajectory],
 ) -> PlaySummary:
-    states = RobotState if rows.moves_joints else DrivingState
+    states = SafetyState if rows.moves_joints else DrivingState
     walking = rows.columns["state"] == list(states).index(states.WALKING)
     passed = np.diff(rows.times, prepend=0.0)
     walked = float(passed[walking].sum())

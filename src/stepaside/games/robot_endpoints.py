@@ -2,18 +2,15 @@
 
 from typing import TYPE_CHECKING, NamedTuple, Protocol
 
-from ..drivers.lola.lola_address import LolaAddress
-from ..drivers.lola.lola_server import LolaServer
-from ..drivers.lola.nao_joints import TICK
-from .client_synchroniser import RobotServer
+from .client_synchroniser import TICK, RobotServer
 from .game_world import RemoteControl
 from .player import Player
 from .served_player import ServedPlayer
 from .velocity_walker import VelocityWalker
 
 if TYPE_CHECKING:
-    from ..drivers.ros2.dds_domain import DdsParticipant
-    from ..drivers.ros2.ros2_server import WorldClock
+    from ..drivers.ros2_dds import DdsParticipant
+    from ..drivers.ros2_server import WorldClock
 
 
 class RobotEndpoint(Protocol):
@@ -39,11 +36,11 @@ class LolaEndpoint(NamedTuple):
     """Joints served over LoLA.
 
     Attributes:
-        address: Address of the server.
+        path: Path of the socket.
         ideal_sight: Whether the true line of sight is served as well.
     """
 
-    address: LolaAddress
+    path: str
     ideal_sight: bool = True
 
     @property
@@ -53,9 +50,11 @@ class LolaEndpoint(NamedTuple):
 
     def serve(self, player: Player, *, lock_step: bool) -> RobotServer:
         """Serve the joints of a robot; the client has to balance it."""
+        from ..drivers.lola_server import LolaServer
+
         assert isinstance(player, ServedPlayer)
         return LolaServer(
-            self.address,
+            self.path,
             player,
             player.robot.joint_names,
             lock_step=lock_step,
@@ -85,7 +84,7 @@ class Ros2Endpoint(NamedTuple):
 
     def serve(self, player: Player, *, lock_step: bool) -> RobotServer:
         """Serve a robot that balances itself."""
-        from ..drivers.ros2.ros2_server import Ros2Server
+        from ..drivers.ros2_server import Ros2Server
         from ..robots.urdf_writer import urdf_of
 
         assert isinstance(player, VelocityWalker)

@@ -5,8 +5,7 @@ from contextlib import ExitStack
 from typing import Any, NamedTuple
 
 from ..core.errors import ConfigurationError
-from ..drivers.lola.nao_joints import TICK
-from .client_synchroniser import ClientSynchroniser, RobotServer
+from .client_synchroniser import TICK, ClientSynchroniser, RobotServer
 from .duel import make_duel_run
 from .duel_as_game import build_duel_world
 from .duel_settings import DuelSettings

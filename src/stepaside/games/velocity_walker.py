@@ -1,10 +1,11 @@
 """Simulated robots with their own walk, commanded by velocities."""
 
+import logging
+
 from ..control.scheme_builder import ClearanceSetup, build_walk
 from ..control.velocity_scheme import VelocityScheme
 from ..core.poses import Pose, wrap_angle
-from ..drivers.velocity.velocity_body import VelocityCommand
-from ..drivers.velocity.walking_robot import TorsoInFootprint, WalkerState
+from ..drivers.walking_robot import TorsoInFootprint, WalkerState
 from ..locomotion.walk_snapshots import Phase, StepStarted
 from ..perception.images import ColourImage
 from ..perception.measurement import Measurement, Sighting
@@ -15,9 +16,12 @@ from ..robots.forward_kinematics import ForwardKinematics
 from ..sim.ground_truth import TrueRobotState
 from ..sim.simulated_robot import SimulatedRobot
 from ..sim.world import World
+from ..strategies.velocity_set import BodyVelocity
 from .player import PhysicalPlayer, Snapshot, snapshot_of
 from .walker_factory import RobotSensing, WalkerSetup, place_robot
 from .walker_log import WalkerLog
+
+log = logging.getLogger(__name__)
 
 
 class VelocityWalker(PhysicalPlayer):
@@ -50,7 +54,7 @@ class VelocityWalker(PhysicalPlayer):
         self.scheme, self.frame = scheme, frame
         self._measurement: Measurement | None = None
         self._image: ColourImage | None = None
-        self._ticks = -1
+        self._ticks, self._ignores_lateral = -1, False
 
     @property
     def begun(self) -> StepStarted | None:
@@ -68,9 +72,15 @@ class VelocityWalker(PhysicalPlayer):
         detected = self.scheme.locomotion.phase is Phase.FALLEN
         return self.truth.has_fallen or detected
 
-    def command(self, velocity: VelocityCommand) -> None:
-        """Walk at a velocity from the next tick on."""
-        self.scheme.command(*velocity[:2])
+    def command(self, velocity: BodyVelocity) -> None:
+        """Walk at a velocity from the next tick on; it has no sidesteps."""
+        if velocity.lateral and not self._ignores_lateral:
+            self._ignores_lateral = True
+            log.warning(
+                "%s does not step sideways; its lateral velocity is ignored",
+                self.name,
+            )
+        self.scheme.command(velocity.forward, velocity.turn)
 
     def tick(self) -> None:
         """Walk at the commanded velocity."""
@@ -91,10 +101,11 @@ class VelocityWalker(PhysicalPlayer):
         """Return the state that the robot reports to its client."""
         measurement = self._read()
         now, scheme = measurement.time, self.scheme
+        forward, turn = scheme.velocity
         return WalkerState(
             now,
             scheme.templates.at(now),
-            VelocityCommand(*scheme.velocity),
+            BodyVelocity(forward, 0.0, turn),
             measurement.joint_positions.tolist(),
             self._sighting(measurement),
             self._image,

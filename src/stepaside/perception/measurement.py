@@ -1,7 +1,9 @@
 """Measurements of a robot's own sensors."""
 
-from math import atan2, hypot
+from math import atan2, hypot, nan
 from typing import TYPE_CHECKING, NamedTuple
+
+import numpy as np
 
 from ..core.player_identity import PlayerIdentity
 from ..core.poses import Array, Pose
@@ -45,17 +47,56 @@ class Sighting(NamedTuple):
         return cls(time, atan2(y, x), hypot(x, y))
 
 
-class Measurement(NamedTuple):
-    """Values of all sensors at one control tick.
+class RobotStatus(NamedTuple):
+    """State of the motors, the battery and the buttons of a robot.
 
     Attributes:
-        time: Time of the tick, in [s].
+        stiffness: Stiffness that the motors have, from 0 to 1.
+            Shape (joints,).
+        temperature: Temperatures of the motors, in [degC]. Shape (joints,).
+        heat: Status of each motor: 0 normal, 1 hot with reduced stiffness,
+            2 reduced by more than 30 %, 3 critical without stiffness.
+            Shape (joints,).
+        current: Current of each motor over its stall current.
+            Shape (joints,).
+        charge: Charge of the battery, from 0 to 1.
+        pressed: Whether the button is pressed that starts and stops a walk.
+        bumped: Whether a foot bumper is pressed.
+    """
+
+    stiffness: Array
+    temperature: Array
+    heat: Array
+    current: Array
+    charge: float
+    pressed: bool
+    bumped: bool
+
+
+NO_JOINTS = np.zeros(0)
+NOWHERE = Pose(nan, nan, nan)
+UNMEASURED = np.full(8, np.nan)  # forces on the corners of the soles
+AT_REST = np.zeros(3)
+
+
+class Measurement(NamedTuple):
+    """State of a robot at one instant, as its sensors measure it.
+
+    A simulated robot, a driver and a user's robot report it, and control
+    reads it. All but the time has a default, as each robot measures a part
+    of it: one that is driven by its joints at least joint angles and
+    velocities, gyro, accelerometer and tilt; one that walks by itself its
+    pose.
+
+    Attributes:
+        time: Time of the measurement, in [s], on the robot's clock.
         joint_positions: Joint angles from the encoders, in [rad], in the
             order of the joint targets. Shape (joints,).
-        gyro: Angular velocity of the torso in its frame, in [rad/s]; its
-            z component is NaN for a gyro with two axes. Shape (3,).
-        accelerometer: Specific force at the torso in its frame, in [m/s^2].
-            Shape (3,).
+        gyro: Angular velocity of the torso in its frame (x forward, y left,
+            z up), in [rad/s]; its z component is NaN for a gyro with two
+            axes. Shape (3,).
+        accelerometer: Specific force at the torso in its frame, in [m/s^2]:
+            about (0, 0, 9.8) when standing. Shape (3,).
         foot_forces: Normal force at the corners of the soles, in [N]:
             left front-left, front-right, rear-left, rear-right, then right.
             NaN from a robot without such sensors. Shape (8,).
@@ -74,17 +115,25 @@ class Measurement(NamedTuple):
             it is the only reading. Shape (3,).
         tilt: Roll and pitch of the torso, in [rad], from a robot whose IMU
             estimates them; else None.
+        pose: Pose in the odometry of a robot that walks by itself; else
+            NaN.
+        hindrance: Reason why the robot must not walk now; empty if it may.
+        status: State of motors, battery and button, from a robot that has a
+            button and reports them; else None.
     """
 
     time: float
-    joint_positions: Array
-    gyro: Array
-    accelerometer: Array
-    foot_forces: Array
-    sighting: Sighting | None
+    joint_positions: Array = NO_JOINTS
+    gyro: Array = AT_REST
+    accelerometer: Array = AT_REST
+    foot_forces: Array = UNMEASURED
+    sighting: Sighting | None = None
     percepts: tuple["AnyPercept", ...] = ()
     pose_in_room: Pose | None = None
     joint_velocities: Array | None = None
     players: tuple[Sighting, ...] = ()
     latest_gyro: Array | None = None
     tilt: tuple[float, float] | None = None
+    pose: Pose = NOWHERE
+    hindrance: str = ""
+    status: RobotStatus | None = None

@@ -1,0 +1,129 @@
+"""Sight by the camera of a robot that is driven by velocity commands."""
+
+from collections import deque
+from concurrent.futures import Future
+from itertools import pairwise
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from ..core.poses import Pose, wrap_angle
+from ..core.rotations import rotation
+from ..perception.measurement import Measurement
+from ..robots.body_pose import BodyPose
+from .robot_camera import CameraMount, PosedCamera, colour_image
+from .robot_session import RobotSession
+
+if TYPE_CHECKING:
+    from ..perception.pipeline import Perception
+
+HISTORY = 50  # reports among which an image is placed in time: 1 s
+
+
+class PosedSight:
+    """Sightings of the opponent by a camera, which the head may turn."""
+
+    def __init__(
+        self,
+        session: RobotSession,
+        camera: PosedCamera,
+        perception: "Perception",
+        *,
+        turns_head: bool,
+    ) -> None:
+        """Begin without an image.
+
+        Args:
+            session: Session with the robot.
+            camera: Its camera; closed with this object.
+            perception: Perception that detects the opponent.
+            turns_head: Whether the head follows the opponent.
+        """
+        self._session, self._camera = session, camera
+        self._perception, self._turns_head = perception, turns_head
+        self._mount: CameraMount | None = None  # at the newest image
+        self._looking: Future[Any] | None = None
+        self._reports: deque[Measurement] = deque(maxlen=HISTORY)
+
+    def see(self, report: Measurement) -> Measurement:
+        """Return a report with the newest sighting.
+
+        Raises:
+            SessionLost: If image() or look() failed.
+        """
+        if report.hindrance:
+            return report
+        if self._reports and report.time == self._reports[-1].time:
+            return report._replace(sighting=self._reports[-1].sighting)
+        self._reports.append(report)
+        percepts = []
+        image = self._camera.take(report.time)
+        if image is not None:
+            assert image.mount is not None  # as the camera has checked
+            self._mount = image.mount
+            pose = self._pose_at(image.time)
+            self._perception.note_pose(
+                pose_of_camera(image.time, pose, image.mount)
+            )
+            percepts.append(colour_image(image, image.time))
+        hindrance, sighting = self._camera.hindrance, None
+        if self._mount is not None:
+            now = pose_of_camera(report.time, report.pose, self._mount)
+            sighting = self._perception.see_from(now, percepts)
+            if self._turns_head:
+                self._look()
+        seen = report._replace(sighting=sighting, hindrance=hindrance)
+        self._reports[-1] = seen
+        return seen
+
+    def close(self) -> None:
+        """Close the camera."""
+        self._camera.close()
+
+    def _look(self) -> None:
+        """Turn the head, unless the last call has not returned."""
+        if self._looking is not None:
+            if not self._looking.done():
+                return
+            self._looking.result()
+        head, robot = self._perception.head, self._session.robot
+        yaw, pitch = head.yaw, head.pitch
+        self._looking = self._session.tell(
+            "look", lambda: robot.look(yaw, pitch)
+        )
+
+    def _pose_at(self, time: float) -> Pose:
+        """Return the pose at the time of an image, between two reports."""
+        for earlier, later in pairwise(self._reports):
+            if earlier.time <= time < later.time:
+                share = (time - earlier.time) / (later.time - earlier.time)
+                (x, y, heading), end = earlier.pose, later.pose
+                turn = wrap_angle(end.theta - heading)
+                return Pose(
+                    x + share * (end.x - x),
+                    y + share * (end.y - y),
+                    heading + share * turn,
+                )
+        return self._reports[-1].pose
+
+
+def pose_of_camera(time: float, robot: Pose, mount: CameraMount) -> BodyPose:
+    """Return the body of a robot of which only the camera matters.
+
+    Args:
+        time: Time, in [s].
+        robot: Pose of the robot in odometry.
+        mount: Pose of its camera.
+    """
+    turn = rotation(0.0, 0.0, robot.theta)
+    floor = np.array([robot.x, robot.y, 0.0])
+    return BodyPose(
+        time,
+        robot,
+        floor,
+        turn,
+        floor + turn @ mount[:3],
+        turn @ rotation(mount.roll, mount.pitch, mount.yaw),
+        mount.yaw,
+        mount.pitch,
+    )

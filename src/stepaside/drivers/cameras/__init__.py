@@ -1,1 +1,0 @@
-"""Cameras of real and remote robots."""

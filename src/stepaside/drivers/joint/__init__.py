@@ -1,1 +1,0 @@
-"""Control of robots by their joints, independent of the protocol."""

@@ -1,1 +1,0 @@
-"""NAOqi: the services of NAO and Pepper, called over the network."""

@@ -1,1 +1,0 @@
-"""Driver of the RoboCup simulator on MuJoCo, rcssservermj."""

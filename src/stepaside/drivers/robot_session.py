@@ -1,0 +1,424 @@
+"""Session with a robot: its methods in a thread, its reports, its guardian."""
+
+import logging
+import sys
+from collections.abc import Callable
+from concurrent.futures import Future
+from contextlib import suppress
+from time import monotonic, sleep
+from typing import Any
+
+import numpy as np
+
+from ..core.errors import StepAsideError
+from ..core.poses import Array, Pose
+from ..core.user_file import FAILURES, shown_briefly
+from ..perception.measurement import Measurement, RobotStatus, Sighting
+from .dead_man_switch import DeadManSwitch
+from .guardian_process import Guardian, SessionLost
+from .method_thread import (
+    CLOSE_TIMEOUT,
+    OPEN_TIMEOUT,
+    SIMULATOR_TIMEOUT,
+    MethodThread,
+    open_robot,
+)
+
+POLL = 0.001  # between two calls of listen() without a new report, in [s]
+UNHALTED = 0.5  # for stop() or release() beside a blocked method, in [s]
+FORSAKEN = 5.0  # time of a blocked method that ends the session, in [s]
+PREPARE_TIMEOUT = 30.0  # for prepare(), in [s]: to stand up
+FOOT_SENSORS = 8
+log = logging.getLogger(__name__)
+
+
+class RobotSession:
+    """Connection to a robot that a class in Python drives.
+
+    Its methods are called in a thread, so that one that does not return does
+    not block control. While one of them does not return, the method that
+    halts the robot is called beside it. The guardian is informed of every
+    command.
+
+    Attributes:
+        robot: The robot.
+        halted: Whether the last command was to halt.
+    """
+
+    def __init__(
+        self,
+        robot: Any,
+        halting: str,
+        *,
+        opened: bool = False,
+        guardian: Guardian | None = None,
+        switch: DeadManSwitch | None = None,
+        dry_run: bool = False,
+        clock: Callable[[], float] = monotonic,
+    ) -> None:
+        """Connect to the robot.
+
+        Args:
+            robot: The robot, a JointRobot or a VelocityRobot.
+            halting: Its method that stops or releases it.
+            opened: Whether it is connected already.
+            guardian: Guardian that halts the robot if this process fails;
+                dismissed with the session.
+            switch: Dead-man switch, if used; closed with the session.
+            dry_run: Whether nothing is commanded.
+            clock: Time of this computer, in [s].
+
+        Raises:
+            SessionLost: If the robot does not answer.
+            ConfigurationError: If open() fails for another reason.
+        """
+        self.robot, self._halting, self._dry_run = robot, halting, dry_run
+        self._methods = MethodThread(robot, clock=clock)
+        if not opened:
+            paced = getattr(robot, "paced", True)
+            timeout = OPEN_TIMEOUT if paced else SIMULATOR_TIMEOUT
+            open_robot(self._methods, timeout)
+        self._guardian, self._switch, self._clock = guardian, switch, clock
+        self.halted = True
+        self._reading: Future[Any] | None = None
+        self._commanding: Future[Any] | None = None
+        self._beside: Future[Any] | None = None
+        self._beside_began = 0.0
+        self._wanted: Callable[[], None] = lambda: None
+        self._time: float | None = None  # of the newest report
+        self._answers = 0  # of listen() since then
+
+    def name_of(self, method: str) -> str:
+        """Return the name of a method for messages."""
+        return self._methods.name_of(method)
+
+    @property
+    def guarded(self) -> bool:
+        """Whether a guardian watches this process."""
+        return self._guardian is not None
+
+    def unguard(self) -> None:
+        """Dismiss the guardian: simulated time may stand still."""
+        if self._guardian is not None:
+            self._guardian.dismiss()
+            self._guardian = None
+
+    def run(self, method: str, within: float) -> None:
+        """Call a method, and wait for its return up to a time in [s].
+
+        Raises:
+            SessionLost: If it fails or does not return in time.
+        """
+        self._methods.run(method, within)
+
+    def listen(
+        self, patience: float, convert: Callable[[Any, str], Measurement]
+    ) -> Measurement | None:
+        """Return the newest report, or None; the last one if it is repeated.
+
+        Args:
+            patience: Longest time to wait for a new report, in [s].
+            convert: Function that checks the result of listen(), whose name
+                is its second argument.
+
+        Raises:
+            SessionLost: If a method failed, or returned no report.
+        """
+        deadline = self._clock() + patience
+        report: Measurement | None = None
+        while True:
+            self._raise_failure()
+            if self._reading is None:
+                self._reading = self._methods.begin("listen")
+            try:
+                got = self._reading.result(max(deadline - self._clock(), 0.0))
+            except TimeoutError:
+                return report
+            self._reading = None
+            self._answers += 1
+            if got is not None:
+                report = convert(got, self.name_of("listen"))
+                if report.time != self._time:
+                    self._time, self._answers = report.time, 0
+                    return report
+            if self._clock() >= deadline:
+                return report
+            sleep(POLL)
+
+    def silence(self, waited: float) -> str:
+        """Return why there was no new report for a time, in [s]."""
+        blocked = self._methods.blocked
+        if blocked is None and self._answers:
+            return (
+                f"{self.name_of('listen')} returned no new report for "
+                f"{waited:.2f} s"
+            )
+        return self._blocked_text(*(blocked or ("listen", waited)))
+
+    def command(self, call: Callable[[], None]) -> None:
+        """Begin a command that moves the robot, without waiting for it.
+
+        Args:
+            call: Function that commands the robot. If the last one has not
+                returned yet, it waits for the next command.
+
+        Raises:
+            SessionLost: If the last command failed.
+        """
+        if self._dry_run:
+            return
+        self._raise_failure()
+        self._wanted, self.halted = call, False
+        if self._guardian is not None:
+            self._guardian.hold()
+        self._begin("command", lambda: self._wanted())
+        if self._methods.blocked is None:
+            self._beside = None
+
+    def halt(self) -> None:
+        """Begin to stop or release the robot, without waiting for it.
+
+        Raises:
+            SessionLost: If the last command failed, or a method blocks for
+                so long that the session cannot go on.
+        """
+        if self._dry_run:
+            return
+        self._raise_failure()
+        if self._guardian is not None:
+            self._guardian.leave()
+        self._wanted = getattr(self.robot, self._halting)
+        self.halted = True
+        self._begin(self._halting, lambda: self._wanted())
+        blocked = self._methods.blocked
+        if blocked is None:
+            self._beside = None
+        else:
+            self._halt_beside(*blocked)
+
+    def tell(self, method: str, call: Callable[[], None]) -> "Future[Any]":
+        """Begin a method beside the commands; return its result."""
+        return self._methods.begin(method, call)
+
+    def released(self) -> str:
+        """Return why the dead-man switch hinders the robot, if it does."""
+        return "" if self._switch is None else self._switch.released()
+
+    def check_blocked(self) -> None:
+        """Check that methods return.
+
+        Raises:
+            SessionLost: If one does not.
+        """
+        if self._methods.blocked is not None:
+            raise SessionLost(self._blocked_text(*self._methods.blocked))
+
+    def close(self, *, halts: bool = True) -> None:
+        """Halt the robot, by the guardian if need be, and disconnect.
+
+        Args:
+            halts: Whether a robot is halted that is halted already.
+
+        Raises:
+            SessionLost: If it did not halt, and there is no guardian, nor
+                another error.
+        """
+        if self._switch is not None:
+            self._switch.close()
+        failure = None
+        if not self._dry_run and (halts or not self.halted):
+            failure = self._last_halt()
+        if self._methods.blocked is None:
+            try:
+                closing = getattr(self.robot, "closing", CLOSE_TIMEOUT)
+                self._methods.run("close", closing)
+            except SessionLost as error:
+                log.warning("%s", error)
+        self._methods.end()
+        guardian, self._guardian = self._guardian, None
+        if failure is not None and guardian is not None:
+            log.warning("%s; the guardian halts the robot", failure)
+            guardian.release()
+        elif failure is not None:
+            if sys.exc_info()[1] is None:
+                raise failure
+            log.warning("%s", failure)  # beside what ended the session
+        elif guardian is not None:
+            guardian.dismiss()
+
+    def _last_halt(self) -> SessionLost | None:
+        """Halt the robot, and wait for it; return what failed."""
+        methods, halting = self._methods, self._halting
+        free = methods.blocked is None
+        halted = (
+            methods.begin(halting)
+            if free
+            else self._beside or methods.call_apart(halting)
+        )
+        try:
+            halted.result(CLOSE_TIMEOUT if free else UNHALTED)
+        except SessionLost as error:
+            return error
+        except TimeoutError:
+            return SessionLost(f"{self.name_of(halting)} did not return")
+        return None
+
+    def _begin(self, method: str, call: Callable[[], None]) -> None:
+        if self._commanding is None or self._commanding.done():
+            self._commanding = self._methods.begin(method, call)
+
+    def _halt_beside(self, method: str, waited: float) -> None:
+        """Halt the robot while a method does not return."""
+        if self._beside is None:
+            log.warning("%s", self._blocked_text(method, waited))
+            self._beside = self._methods.call_apart(self._halting)
+            self._beside_began = self._clock()
+        if self._beside.done():
+            self._beside.result()
+            if waited > FORSAKEN:
+                raise SessionLost(self._blocked_text(method, waited))
+        elif self._clock() - self._beside_began > UNHALTED:
+            raise SessionLost(
+                f"{self._blocked_text(method, waited)}, and neither has "
+                f"{self._halting}()"
+            )
+
+    def _blocked_text(self, method: str, waited: float) -> str:
+        name = self.name_of(method)
+        return f"{name} has not returned for {waited:.2f} s"
+
+    def _raise_failure(self) -> None:
+        """Raise the failure of the last command, if it has failed."""
+        if self._commanding is not None and self._commanding.done():
+            self._commanding.result()
+
+
+def opened_here(robot: Any) -> None:
+    """Connect to a robot in this thread, so that this process can fork.
+
+    Raises:
+        SessionLost: If the robot does not answer.
+    """
+    try:
+        robot.open()
+    except OSError as error:
+        raise SessionLost(str(error)) from error
+
+
+def fork_guardian(
+    join: Callable[[], Callable[[], None]], silence: float
+) -> Guardian:
+    """Fork a guardian, which connects to the robot at once.
+
+    Connecting in advance, as it takes longer than halting the robot.
+
+    Args:
+        join: Function that connects to the robot and returns a function
+            that halts it. Called in the guardian process; called again, if
+            it failed at first, when the robot is to be halted.
+        silence: Time without control before the guardian acts, in [s].
+    """
+    halts: list[Callable[[], None]] = []
+
+    def prepare() -> None:
+        with suppress(StepAsideError):
+            halts.append(join())
+
+    def let_go(data: bytes) -> None:
+        halt = halts[0] if halts else join()
+        halt()
+
+    return Guardian(let_go, silence, prepare=prepare)
+
+
+def join_halter(make: Callable[[], Any], halting: str) -> Callable[[], None]:
+    """Connect to a robot in advance, and return a function that halts it.
+
+    Args:
+        make: Function that makes the robot.
+        halting: Its method that stops or releases it.
+
+    Raises:
+        SessionLost: If the robot does not answer.
+    """
+    methods = MethodThread(make())
+    open_robot(methods)
+    return lambda: methods.run(halting, CLOSE_TIMEOUT)
+
+
+def joint_state(got: Any, name: str, joints: int) -> Measurement:
+    """Return the report of a joint-driven robot, as plain numbers.
+
+    Args:
+        got: Result of listen().
+        name: Name of the method, for messages.
+        joints: Number of joints of the robot.
+
+    Raises:
+        SessionLost: If it is no such report.
+    """
+    try:
+        return _of_plain_numbers(got)._replace(
+            joint_positions=_floats(got.joint_positions, joints),
+            joint_velocities=_floats(got.joint_velocities, joints),
+            gyro=_floats(got.gyro, 3),
+            accelerometer=_floats(got.accelerometer, 3),
+            tilt=(float(got.tilt[0]), float(got.tilt[1])),
+            foot_forces=_floats(got.foot_forces, FOOT_SENSORS),
+            status=None
+            if got.status is None
+            else _status_of(got.status, joints),
+        )
+    except FAILURES as error:
+        raise SessionLost(
+            f"{name} must return a Measurement(time, joint_positions, gyro, "
+            "accelerometer, joint_velocities=..., tilt=...) with arrays of "
+            f"{joints} joints, or None, got {shown_briefly(got)}"
+        ) from error
+
+
+def velocity_state(got: Any, name: str) -> Measurement:
+    """Return the report of a robot with velocity commands, likewise.
+
+    Raises:
+        SessionLost: If it is no such report.
+    """
+    try:
+        x, y, theta = (float(value) for value in got.pose)
+        return _of_plain_numbers(got)._replace(pose=Pose(x, y, theta))
+    except FAILURES as error:
+        raise SessionLost(
+            f"{name} must return a Measurement(time, pose=Pose(x, y, theta)) "
+            f"or None, got {shown_briefly(got)}"
+        ) from error
+
+
+def _of_plain_numbers(got: Any) -> Measurement:
+    if not isinstance(got, Measurement):
+        raise TypeError("not a Measurement")
+    sighting = got.sighting
+    if sighting is not None:
+        time, bearing, distance = (float(value) for value in sighting[:3])
+        sighting = Sighting(time, bearing, distance, *sighting[3:])
+    return got._replace(
+        time=float(got.time), sighting=sighting, hindrance=str(got.hindrance)
+    )
+
+
+def _status_of(got: RobotStatus, joints: int) -> RobotStatus:
+    return RobotStatus(
+        _floats(got.stiffness, joints),
+        _floats(got.temperature, joints),
+        _floats(got.heat, joints),
+        _floats(got.current, joints),
+        float(got.charge),
+        bool(got.pressed),
+        bool(got.bumped),
+    )
+
+
+def _floats(values: Any, count: int) -> Array:
+    found = np.array(values, dtype=np.float64)
+    if found.shape != (count,):
+        raise ValueError(f"{count} values, got shape {found.shape}")
+    return found

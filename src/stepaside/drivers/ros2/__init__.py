@@ -1,1 +1,0 @@
-"""Driver and server for ROS 2 topics, by DDS without a ROS installation."""

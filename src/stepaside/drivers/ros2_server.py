@@ -1,0 +1,421 @@
+"""Server of ROS 2 topics for a simulated robot.
+
+Frames are those of REP 103, 105 and 120: ``odom``, ``base_footprint``,
+``base_link`` (the torso) and ``camera_optical_frame``, with the namespace as
+prefix.
+"""
+
+import logging
+from collections.abc import Sequence
+from math import cos, hypot, isfinite, sin
+from typing import Any
+
+from ..core.poses import Pose, wrap_angle
+from ..perception.images import ColourImage
+from ..perception.measurement import Sighting
+from ..strategies.velocity_set import BodyVelocity
+from .ros2 import COMMAND, IDEAL, KINDS, ODOMETRY
+from .ros2_dds import (
+    DdsParticipant,
+    Endpoints,
+    header,
+    make,
+    stamp_of,
+    take_messages,
+    vector,
+)
+from .velocity_limits import REST
+from .walking_robot import WalkerState, WalkingRobot
+
+EVERY = 4  # ticks from one report to the next: 48 ms
+SILENCE = 0.5  # without a command before the robot stops, in [s]
+REPEAT = 400  # polls for an answer in lock step before a report is repeated
+HANDLES = 1 << 64  # CycloneDDS has handles as signed and unsigned numbers
+# Errors of the odometry, measured by `python -m tools.checks.served_odometry`:
+# of position [m] and heading [rad] in a gait cycle, per path [m/m], [rad/m],
+# and per turn [rad/rad]; of forward and lateral velocity [m/s] and turning
+# rate [rad/s] beyond those commanded.
+SWAY, POSITION_PER_METRE = 0.02, 0.03
+HEADING, HEADING_PER_METRE, HEADING_PER_TURN = 0.01, 0.02, 0.02
+SPEEDS = 0.03, 0.13, 0.09
+# Height, roll and pitch of the footprint are zero by definition (REP 120); a
+# variance of zero would mean an unknown one to some programs.
+EXACT = 1e-9
+log = logging.getLogger(__name__)
+
+
+class WorldClock:
+    """Publisher of simulated time on one domain."""
+
+    def __init__(self, dds: DdsParticipant) -> None:
+        """Create the publisher of ``/clock``."""
+        self._writer = dds.writer("/clock", "rosgraph_msgs/msg/Clock")
+        self._published = -1.0
+
+    def publish(self, time: float) -> None:
+        """Publish the time, in [s], if it has changed."""
+        if time != self._published:
+            self._published = time
+            self._writer.write(make("rosgraph_msgs/Clock", stamp_of(time)))
+
+
+class CommandReader:
+    """Subscriber of the commands to a served robot, one type at a time.
+
+    So a commander that writes each subscribed type sends each command once.
+    """
+
+    def __init__(self, dds: DdsParticipant, topic: str) -> None:
+        """Subscribe to ``Twist`` on a topic."""
+        self._dds, self._topic = dds, topic
+        self._publishers = Endpoints(dds, topic, writers=True)
+        self._subscribe(KINDS[0])
+
+    def commanders(self) -> set[int]:
+        """Return the handles of all publishers of commands."""
+        found = self._reader.get_matched_publications()
+        return {handle % HANDLES for handle in found}
+
+    def taken(self) -> list[tuple[int, Any]]:
+        """Return each command that has arrived, after its sender's handle."""
+        return [
+            (
+                sample.sample_info.publication_handle % HANDLES,
+                sample if self._kind == KINDS[0] else sample.twist,
+            )
+            for sample in take_messages(self._reader)
+        ]
+
+    def choose(self) -> None:
+        """Subscribe to a type that is published, if the present one is not.
+
+        Call this only while there is no commander.
+        """
+        written = self._publishers.types
+        if self._kind not in written:
+            for kind in written.intersection(KINDS):
+                self._subscribe(kind)
+
+    def _subscribe(self, kind: str) -> None:
+        self._kind = kind
+        name = kind.replace("/", "/msg/")
+        self._reader = self._dds.reader(self._topic, name)
+
+
+class OdometryCovariance:
+    """Covariances that grow with the path and the turns of a robot."""
+
+    def __init__(self) -> None:
+        """Begin where odometry begins."""
+        self._last: Pose | None = None
+        self._path = self._turned = 0.0
+
+    def note(self, pose: Pose) -> list[float]:
+        """Return the covariance of the next pose, in odometry."""
+        last, self._last = self._last, pose
+        if last is not None:
+            self._path += hypot(pose.x - last.x, pose.y - last.y)
+            self._turned += abs(wrap_angle(pose.theta - last.theta))
+        heading = hypot(
+            HEADING,
+            HEADING_PER_METRE * self._path,
+            HEADING_PER_TURN * self._turned,
+        )
+        # A heading that errs in proportion to the path bends it.
+        aside = 0.5 * HEADING_PER_METRE * self._path**2
+        position = hypot(SWAY, POSITION_PER_METRE * self._path, aside)
+        return diagonal(position, position, heading)
+
+
+def diagonal(x: float, y: float, turn: float) -> list[float]:
+    """Return a row-major covariance of planar motion. Length 36.
+
+    Args:
+        x: Standard deviation along x, in [m] or [m/s].
+        y: Standard deviation along y.
+        turn: Standard deviation about z, in [rad] or [rad/s].
+    """
+    values = (x * x, y * y, EXACT, EXACT, EXACT, turn * turn)
+    return [
+        values[row] if row == column else 0.0
+        for row in range(6)
+        for column in range(6)
+    ]
+
+
+def rotation_message(roll: float, pitch: float, yaw: float) -> Any:
+    """Return the rotation Rz(yaw) Ry(pitch) Rx(roll), angles in [rad]."""
+    cr, sr = cos(0.5 * roll), sin(0.5 * roll)
+    cp, sp = cos(0.5 * pitch), sin(0.5 * pitch)
+    cy, sy = cos(0.5 * yaw), sin(0.5 * yaw)
+    return make(
+        "geometry_msgs/Quaternion",
+        sr * cp * cy - cr * sp * sy,
+        cr * sp * cy + sr * cp * sy,
+        cr * cp * sy - sr * sp * cy,
+        cr * cp * cy + sr * sp * sy,
+    )
+
+
+class Ros2Server:
+    """ROS 2 interface of one simulated robot.
+
+    The first participant that sends a command is the commander until it
+    leaves; commands of others are refused. Commands are ``Twist`` or
+    ``TwistStamped``, whose stamp is ignored.
+
+    Attributes:
+        refused: Number of commands that were refused.
+        answered: Whether the last report has been answered.
+    """
+
+    def __init__(
+        self,
+        dds: DdsParticipant,
+        namespace: str,
+        robot: WalkingRobot,
+        joint_names: Sequence[str],
+        clock: WorldClock,
+        *,
+        tick: float,
+        lock_step: bool = False,
+        urdf: str = "",
+    ) -> None:
+        """Create the topics.
+
+        Args:
+            dds: DDS participant; the caller closes it.
+            namespace: Namespace of the robot, with a leading slash; or empty.
+            robot: The simulated robot.
+            joint_names: Names of its joints.
+            clock: Publisher of simulated time.
+            tick: Time between two calls of :meth:`speak`, in [s].
+            lock_step: Whether the simulation waits for answers.
+            urdf: URDF of the robot; empty for none.
+        """
+        self._robot, self._namespace, self._clock = robot, namespace, clock
+        self._names, self._tick = list(joint_names), tick
+        self._lock_step = lock_step
+
+        def writer(name: str, kind: str) -> Any:
+            return dds.writer(f"{namespace}/{name}", kind)
+
+        self._odometry = writer(ODOMETRY, "nav_msgs/msg/Odometry")
+        self._joints = writer("joint_states", "sensor_msgs/msg/JointState")
+        self._sight = writer(IDEAL, "geometry_msgs/msg/PointStamped")
+        self._transforms = dds.writer("/tf", "tf2_msgs/msg/TFMessage", 100)
+        self._images = {
+            name: writer(f"camera/{name}", f"sensor_msgs/msg/{kind}")
+            for name, kind in (
+                *(("camera_info", "CameraInfo"), ("image_raw", "Image")),
+                ("image_raw/compressed", "CompressedImage"),
+            )
+        }
+        self._covariance = OdometryCovariance()
+        self._description: Any = None
+        if urdf:
+            self._description = dds.writer(
+                f"{namespace}/robot_description",
+                "std_msgs/msg/String",
+                latched=True,
+            )
+            self._description.write(make("std_msgs/String", urdf))
+        self._commands = CommandReader(dds, f"{namespace}/{COMMAND}")
+        self._commander: int | None = None
+        self._seen: Sighting | None = None  # that was published
+        self._image: ColourImage | None = None  # likewise
+        self._ticks = self._silent = self._polls = 0
+        self._velocity, self._closed = REST, False
+        self._state: WalkerState | None = None
+        self.refused, self.answered = 0, True
+
+    @property
+    def connected(self) -> bool:
+        """Whether there is a commander."""
+        return self._commander is not None
+
+    @property
+    def ready(self) -> bool:
+        """Whether there is a commander, so that the game may begin."""
+        return self.connected
+
+    def fileno(self) -> int:
+        """Return -1: there is no descriptor to wait on."""
+        return -1
+
+    def press(self, pressed: bool) -> None:
+        """Align the reports with the tick at which the button is released."""
+        if not pressed:
+            self._ticks = 0
+
+    def speak(self) -> None:
+        """Publish a report, if one is due at this tick."""
+        self.hear()
+        if self._ticks % EVERY == 0:
+            self._state = self._robot.state()
+            self._publish(self._state)
+            self.answered, self._polls = False, 0
+        self._ticks += 1
+
+    def hear(self) -> bool:
+        """Take commands that have arrived.
+
+        Returns:
+            Whether the simulation may go on.
+        """
+        present = self._commands.commanders()
+        if self._commander is not None and self._commander not in present:
+            log.warning("%s: commander left", self._namespace or "/")
+            self._commander, self._velocity = None, REST
+        if self._commander is None:
+            self._commands.choose()
+        for sender, twist in self._commands.taken():
+            if self._commander is None and sender in present:
+                self._commander = sender
+                log.info("%s: commander connected", self._namespace or "/")
+            if sender == self._commander:
+                self._take(twist)
+            else:
+                self.refused += 1
+        waits = self._lock_step and self.connected and not self.answered
+        if waits:
+            self._repeat()
+        return not waits
+
+    def _repeat(self) -> None:
+        """Repeat a report from time to time while its answer is missing.
+
+        Readers are best-effort, so the report or the answer may be lost. A
+        client that has the report already answers as before.
+        """
+        self._polls += 1
+        if self._polls % REPEAT == 0 and self._state is not None:
+            self._publish(self._state)
+
+    def act(self) -> None:
+        """Command the robot for one tick."""
+        self._silent += 1
+        if self._silent * self._tick > SILENCE and not self._lock_step:
+            self._velocity = REST
+        self._robot.command(self._velocity)
+
+    def drop(self, why: str) -> None:
+        """Disconnect the commander, and log why; another may connect."""
+        log.warning("%s: commander dropped: %s", self._namespace or "/", why)
+        self._commander, self._velocity = None, REST
+
+    def close(self) -> None:
+        """Remove the topics."""
+        if self._closed:
+            return
+        self._closed = True
+        del self._odometry, self._joints, self._sight, self._transforms
+        del self._images, self._commands, self._description
+
+    def _take(self, twist: Any) -> None:
+        velocity = BodyVelocity(
+            twist.linear.x, twist.linear.y, twist.angular.z
+        )
+        if not all(map(isfinite, velocity)):
+            self.refused += 1
+            self._velocity = REST
+            return
+        self.answered, self._silent = True, 0
+        self._velocity = velocity
+
+    def _frame(self, name: str) -> str:
+        return f"{self._namespace}/{name}".lstrip("/")
+
+    def _publish(self, state: WalkerState) -> None:
+        """Publish the state; odometry last, as clients wait for it."""
+        time, pose, velocity = state.time, state.pose, state.velocity
+        self._clock.publish(time)
+        self._publish_image(state.image)
+        own = self._frame("base_footprint")
+        fixed = header(time, self._frame(ODOMETRY))
+        self._publish_sight(state.sighting, own)
+        angles = list(state.joints)
+        self._joints.write(
+            make("sensor_msgs/JointState", header(time, ""), self._names,
+                 angles, [], [])
+        )  # fmt: skip
+        turn = rotation_message(0.0, 0.0, pose.theta)
+        links = [(fixed, own, vector(pose.x, pose.y), turn)]
+        if state.torso is not None:
+            position, tilt = state.torso
+            base = self._frame("base_link")
+            links.append(
+                (header(time, own), base, vector(*position),
+                 rotation_message(*tilt))
+            )  # fmt: skip
+        transforms = [
+            make(
+                "geometry_msgs/TransformStamped",
+                *(head, child),
+                make("geometry_msgs/Transform", move, rotation),
+            )
+            for head, child, move, rotation in links
+        ]
+        self._transforms.write(make("tf2_msgs/TFMessage", transforms))
+        place = make("geometry_msgs/Point", pose.x, pose.y, 0.0)
+        twist = make(
+            "geometry_msgs/Twist",
+            vector(velocity.forward, velocity.lateral),
+            vector(z=velocity.turn),
+        )
+        self._odometry.write(
+            make(
+                "nav_msgs/Odometry",
+                *(fixed, own),
+                make(
+                    "geometry_msgs/PoseWithCovariance",
+                    make("geometry_msgs/Pose", place, turn),
+                    self._covariance.note(pose),
+                ),
+                make(
+                    "geometry_msgs/TwistWithCovariance",
+                    *(twist, diagonal(*SPEEDS)),
+                ),
+            )
+        )
+
+    def _publish_sight(self, sighting: Sighting | None, own: str) -> None:
+        """Publish a sighting that is new, in the robot's frame."""
+        if sighting is None or sighting is self._seen:
+            return
+        self._seen = sighting
+        point = make(
+            "geometry_msgs/Point",
+            sighting.distance * cos(sighting.bearing),
+            sighting.distance * sin(sighting.bearing),
+            0.0,
+        )
+        head = header(sighting.time, own)
+        self._sight.write(make("geometry_msgs/PointStamped", head, point))
+
+    def _publish_image(self, image: ColourImage | None) -> None:
+        """Publish an image that is new, on topics with a subscriber.
+
+        Its frame is an optical one: x to the right, y down, z ahead.
+        """
+        if image is None or image is self._image:
+            return
+        # Imported here, as only images need OpenCV.
+        from .ros2_images import (
+            camera_info_message,
+            compressed_message,
+            image_message,
+        )
+
+        self._image = image
+        head = header(image.time, self._frame("camera_optical_frame"))
+        encode = {
+            "camera_info": lambda: camera_info_message(head, image.camera),
+            "image_raw": lambda: image_message(head, image.pixels),
+            "image_raw/compressed": lambda: compressed_message(
+                head, image.pixels
+            ),
+        }
+        for name, writer in self._images.items():
+            if writer.get_matched_subscriptions():
+                writer.write(encode[name]())

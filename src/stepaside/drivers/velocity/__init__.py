@@ -1,1 +1,0 @@
-"""Velocity commands, for any robot that walks by itself."""

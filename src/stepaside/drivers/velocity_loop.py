@@ -1,0 +1,297 @@
+"""Control loop of a player whose robot follows velocity commands."""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from enum import Enum
+from functools import partial
+
+from ..control.strategy_runner import StrategyRunner
+from ..core.errors import StrategyError
+from ..core.poses import Pose
+from ..locomotion.locomotion import MotionRequest, template_velocity
+from ..perception.measurement import Measurement, Sighting
+from ..planning import GaitSettings
+from ..strategies import Strategy
+from ..strategies.velocity_set import BodyVelocity, VelocitySet
+from .camera_sight import PosedSight
+from .guardian_process import SessionLost
+from .joint_body import SYSTEM_CLOCK, SystemClock
+from .robot_session import RobotSession, velocity_state
+from .velocity_limits import REST, Ramp, VelocityLimits
+from .watchdog import Watchdog, WatchSettings
+
+PATIENCE = 0.05  # for a report before the last command is repeated, in [s]
+PERIOD = 0.02  # between two reports at least, in [s]
+STILL = 1e-6  # velocity below which a robot stands, in [m/s] or [rad/s]
+
+
+class DrivingState(Enum):
+    """State of a robot that follows velocity commands."""
+
+    WAITING = "waiting"  # must stand, for a reason of the watchdog
+    STANDING = "standing"  # may move; the strategy's intent is to stand
+    WALKING = "walking"  # follows the template
+    STOPPING = "stopping"  # slows down to end the session
+    RESTING = "resting"  # stands at the end of the session
+
+
+@dataclass(frozen=True, slots=True)
+class VelocityTick:
+    """Result of one tick, for logs and the status line.
+
+    Attributes:
+        state: State of the robot.
+        reason: Reason for the state, as a message.
+        time: Time of the newest report on the robot's clock, in [s].
+        pose: Pose of the robot in odometry at that time.
+        sighting: Newest sighting of the opponent; None without one.
+        wanted: Velocity of the template.
+        velocity: Command that was sent.
+        walked: Time since the robot first walked, in [s]; None before.
+    """
+
+    state: DrivingState
+    reason: str
+    time: float
+    pose: Pose
+    sighting: Sighting | None
+    wanted: BodyVelocity
+    velocity: BodyVelocity
+    walked: float | None = None
+
+    @property
+    def words(self) -> str:
+        """State, reason and command as a short text."""
+        forward, lateral, turn = self.velocity
+        aside = f"{lateral:+.3f} m/s aside, " if lateral else ""
+        return (
+            f"{self.state.value} ({self.reason}), "
+            f"{forward:+.3f} m/s, {aside}{turn:+.3f} rad/s"
+        )
+
+
+class TemplateController:
+    r"""Controller with the velocities :math:`(\pm \bar{v}, k \theta^*)`.
+
+    Equations (1) to (6) of the paper.
+
+    Attributes:
+        moving: Whether the newest intent is to walk.
+    """
+
+    def __init__(
+        self,
+        strategy: Strategy,
+        gait: GaitSettings,
+        velocities: VelocitySet | None = None,
+    ) -> None:
+        """Start without a sighting.
+
+        Args:
+            strategy: Function from knowledge to intent.
+            gait: Gives speed and gain of the template, and the time over
+                which rates are measured.
+            velocities: Velocities of a robot that walks sideways; None for
+                a unicycle. Strategies may then choose body velocities.
+        """
+        self._decisions = StrategyRunner(
+            strategy, gait, PERIOD, velocities=velocities
+        )
+        self._gait = gait
+        self.moving = False
+
+    def decide(self, report: Measurement) -> BodyVelocity:
+        """Return the velocity command for a report.
+
+        Args:
+            report: Newest report; without a sighting the command is zero.
+
+        Raises:
+            StrategyError: If the strategy does not return an intent.
+        """
+        decisions, sighting = self._decisions, report.sighting
+        decisions.headings.note(report.time, report.pose.theta)
+        decisions.templates.note(report.time, report.pose)
+        if sighting is None:
+            self.moving = False
+            return REST
+        intent = decisions.decide(report.time, sighting, moving=self.moving)
+        self.moving = intent.walks
+        strategy = decisions.strategy
+        return template_velocity(
+            MotionRequest(intent, strategy.direction, strategy.saturated),
+            self._gait,
+        )
+
+
+class VelocityLoop:
+    """Loop that drives a robot by the template's velocities.
+
+    Any missing or implausible input stops the robot at once. When the
+    inputs are valid again it continues, with a new controller.
+    """
+
+    def __init__(
+        self,
+        session: RobotSession,
+        make_controller: Callable[[], TemplateController],
+        limits: VelocityLimits,
+        watch: WatchSettings,
+        *,
+        eyes: PosedSight | None = None,
+        clock: SystemClock = SYSTEM_CLOCK,
+    ) -> None:
+        """Start the loop; the robot stands.
+
+        Args:
+            session: Session with the robot; closed with the loop.
+            make_controller: Factory of controllers.
+            limits: Limits of the commands.
+            watch: Settings of the watchdog.
+            eyes: Camera that replaces the sightings of reports, if used;
+                closed with the loop.
+            clock: Clock of this computer.
+        """
+        self._session, self._eyes = session, eyes
+        self._make_controller = make_controller
+        self._controller = make_controller()
+        self._ramp = Ramp(limits)
+        self._watchdog = Watchdog(watch)
+        self._paced, self._forsaken = watch.paced, watch.forsaken
+        self._clock, self._pause = clock
+        self._due = self._clock()  # of the next report
+        self._report: Measurement | None = None
+        self._wanted = REST
+        self._leave_reason = self._failure = ""
+        self._began: float | None = None
+
+    @property
+    def ended(self) -> bool:
+        """Whether the session has ended, with the robot at rest."""
+        moves = max(abs(value) for value in self._ramp.velocity) > STILL
+        return bool(self._leave_reason) and not moves
+
+    @property
+    def idle(self) -> bool:
+        """Whether the robot needs no time to come to rest."""
+        return False
+
+    @property
+    def given_up(self) -> str:
+        """Reason why the robot cannot go on; empty, as it always can."""
+        return ""
+
+    def leave(self, reason: str) -> None:
+        """Slow down and end the session."""
+        self._leave_reason = self._leave_reason or reason
+
+    def close(self) -> None:
+        """Stop the robot and disconnect.
+
+        Raises:
+            SessionLost: If it did not stop, and there is no guardian.
+        """
+        if self._eyes is not None:
+            self._eyes.close()
+        self._session.close()
+
+    def tick(self) -> VelocityTick:
+        """Read a report, decide, and send a command.
+
+        Raises:
+            SessionLost: If the connection failed; the robot was commanded
+                to stop if it could be reached.
+        """
+        report, released = self._listen(), self._session.released()
+        if report is not None and released:
+            why = report.hindrance or released
+            report = report._replace(hindrance=why)
+        hindrance = self._watchdog.check(report, self._clock())
+        # The clock of a simulator may pause for any time.
+        waits = self._paced or self._report is None
+        if waits and self._watchdog.silent > self._forsaken:
+            raise SessionLost(
+                f"no new report from the robot for {self._forsaken:g} s: "
+                f"{hindrance}"
+            )
+        hindrance = hindrance or released or self._failure
+        velocity = self._decide(report, hindrance)
+        if self._paced or report is not None:
+            self._command(velocity)
+        return self._result(hindrance or self._failure, velocity)
+
+    def _listen(self) -> Measurement | None:
+        """Return the newest report, or None; the last one if repeated."""
+        early = self._due - self._clock()
+        if early > 0.0:
+            self._pause(min(early, PATIENCE))
+        report = self._session.listen(PATIENCE, velocity_state)
+        last = self._report
+        if report is not None and (last is None or report.time != last.time):
+            self._due = self._clock() + PERIOD
+        if report is None or self._eyes is None:
+            return report
+        return self._eyes.see(report)
+
+    def _command(self, velocity: BodyVelocity) -> None:
+        if velocity == REST:
+            self._session.halt()
+        else:
+            command = self._session.robot.command
+            self._session.command(partial(command, *velocity))
+
+    def _decide(
+        self, report: Measurement | None, hindrance: str
+    ) -> BodyVelocity:
+        """Return the command; zero while there is a hindrance."""
+        last = self._report
+        if hindrance:
+            if self._controller.moving:
+                self._controller = self._make_controller()
+            self._report, self._wanted = report or last, REST
+            return self._ramp.stop()
+        if report is None:
+            leaves = bool(self._leave_reason)
+            return self._ramp.stop() if leaves else self._ramp.velocity
+        self._report = report
+        passed = 0.0 if last is None else max(report.time - last.time, 0.0)
+        if self._leave_reason:
+            self._wanted = REST
+        elif passed > 0.0 or last is None:
+            self._wanted = self._template_velocity(report)
+        return self._ramp.toward(self._wanted, min(passed, 2.0 * PATIENCE))
+
+    def _template_velocity(self, report: Measurement) -> BodyVelocity:
+        try:
+            return self._controller.decide(report)
+        except StrategyError as error:
+            self._failure = f"the strategy failed: {error}"
+            self.leave(self._failure)
+            return REST
+
+    def _result(self, hindrance: str, velocity: BodyVelocity) -> VelocityTick:
+        moves = max(abs(value) for value in velocity) > STILL
+        if self._leave_reason:
+            state = DrivingState.STOPPING if moves else DrivingState.RESTING
+            reason = self._leave_reason
+        elif hindrance:
+            state, reason = DrivingState.WAITING, hindrance
+        elif moves or self._controller.moving:
+            state, reason = DrivingState.WALKING, "opponent detected"
+        else:
+            state, reason = DrivingState.STANDING, "strategy wants to stand"
+        report, now = self._report, 0.0
+        if report is not None:
+            now = report.time
+            if self._began is None and state is DrivingState.WALKING:
+                self._began = now
+        return VelocityTick(
+            state,
+            reason,
+            now,
+            Pose(0.0, 0.0, 0.0) if report is None else report.pose,
+            None if report is None else report.sighting,
+            self._wanted,
+            velocity,
+            None if self._began is None else now - self._began,
+        )

@@ -1,0 +1,506 @@
+"""Test NAO V6 over LoLA: our robot against a peer, our server likewise."""
+
+import os
+import signal
+import socket
+import subprocess
+import sys
+from collections.abc import Callable, Iterator
+from contextlib import suppress
+from pathlib import Path
+from threading import Thread
+from time import monotonic, sleep
+from typing import Any
+
+import numpy as np
+import pytest
+
+pytest.importorskip("msgpack")
+
+from flows.lola_peer import (  # noqa: E402
+    JOINTS,
+    TICK,
+    LolaClient,
+    frame_of,
+    listening,
+)
+from stepaside.cli.main import main  # noqa: E402
+from stepaside.core.errors import ConfigurationError  # noqa: E402
+from stepaside.core.poses import Array  # noqa: E402
+from stepaside.drivers import lola  # noqa: E402
+from stepaside.drivers.joint_robot import JointTargets  # noqa: E402
+from stepaside.drivers.lola import STALL_CURRENT, LolaRobot  # noqa: E402
+from stepaside.drivers.lola_server import LolaServer  # noqa: E402
+from stepaside.drivers.safety_states import SafetyState  # noqa: E402
+from stepaside.perception.images import SonarEcho  # noqa: E402
+from stepaside.perception.measurement import (  # noqa: E402
+    Measurement,
+    Sighting,
+)
+
+import msgpack  # isort: skip  # noqa: E402
+
+REST = [0.0] * 25
+REAL = {"RobotConfig": ["P0000073A00000000012", "6.0.0"] * 2}
+KNEE = JOINTS.index("LKneePitch")
+
+
+class Daemon:
+    """The robot's daemon, which sends what a test wants."""
+
+    def __init__(self, path: Path) -> None:
+        self.listener = listening(path)
+        self.robot = LolaRobot(str(path))
+        self.answers: list[dict[str, Any]] = []
+        self._unpacker = msgpack.Unpacker()
+
+    def meet(self, first: bytes) -> None:
+        """Let the robot connect."""
+        opening = Thread(target=self.robot.open)
+        opening.start()
+        self.client, _ = self.listener.accept()
+        self.client.settimeout(20.0)
+        self.client.sendall(first)
+        opening.join()
+
+    def send(self, *frames: bytes) -> None:
+        """Send frames at once."""
+        self.client.sendall(b"".join(frames))
+
+    def answer(self) -> dict[str, Any]:
+        """Return the next answer."""
+        while (found := next(self._unpacker, None)) is None:
+            self._unpacker.feed(self.client.recv(4096))
+        assert isinstance(found, dict)
+        return found
+
+    def close(self) -> None:
+        """Hang up."""
+        self.client.close()
+        self.listener.close()
+        self.robot.close()
+
+
+@pytest.fixture
+def daemon(tmp_path: Path) -> Iterator[Daemon]:
+    made = Daemon(tmp_path / "r")
+    made.meet(frame_of(0, REST, **REAL))
+    yield made
+    made.close()
+
+
+def test_a_frame_is_a_state_in_our_conventions(daemon: Daemon) -> None:
+    first = daemon.robot.listen()
+    assert first is not None and first.time == 0.0 and daemon.robot.paced
+    position = [0.01 * i for i in range(25)]
+    current, touch = [0.0] * 25, [0.0] * 14
+    current[KNEE], touch[0], touch[9] = STALL_CURRENT[KNEE], 1.0, 1.0
+    daemon.send(
+        frame_of(
+            1,
+            position,
+            **REAL,
+            Accelerometer=[0.1, 0.2, -9.7],
+            Gyroscope=[0.3, 0.4, 0.5],
+            Angles=[0.01, 0.02],
+            FSR=[0.1 * i for i in range(8)],
+            Sonar=[0.6, 2.55],
+            Current=current,
+            Touch=touch,
+            Battery=[0.4, 0.0, 0.0, 36.0],
+            Status=[0] * 24 + [3],
+        )
+    )
+    state = daemon.robot.listen()
+    assert state is not None and state.time == pytest.approx(TICK)
+    np.testing.assert_allclose(state.joint_positions, position, atol=1e-6)
+    assert state.joint_velocities is not None
+    np.testing.assert_allclose(
+        state.joint_velocities, np.array(position) / TICK, rtol=1e-5
+    )
+    np.testing.assert_allclose(
+        state.accelerometer, [-0.1, -0.2, 9.7], rtol=1e-6
+    )
+    np.testing.assert_allclose(state.gyro, [0.3, 0.4, 0.5], rtol=1e-6)
+    assert state.tilt == pytest.approx((0.01, 0.02))
+    assert state.foot_forces[7] == pytest.approx(0.7 * 9.81)
+    left, right = state.percepts
+    assert isinstance(left, SonarEcho) and left.sonar == "left"
+    assert left.distance == pytest.approx(0.6)
+    assert isinstance(right, SonarEcho) and right.distance is None
+    status = state.status
+    assert status is not None and status.pressed and status.bumped
+    assert status.current[KNEE] == pytest.approx(1.0)
+    assert status.charge == pytest.approx(0.4) and status.heat[24] == 3
+
+
+def test_stall_currents_follow_from_torque_and_speed() -> None:
+    """3.2 A in the knees; nothing is known of the hands."""
+    at = dict(zip(JOINTS, STALL_CURRENT, strict=True))
+    assert at["LKneePitch"] == pytest.approx(3.2, abs=0.01)
+    assert at["HeadYaw"] == pytest.approx(2.149 * 7.457 * 25.2 / 21.6**2)
+    assert at["LWristYaw"] < 0.5 and at["RHand"] == np.inf
+
+
+def test_commands_are_targets_and_stiffness_with_lights(
+    daemon: Daemon,
+) -> None:
+    robot = daemon.robot
+    robot.show(SafetyState.READY, sees=True)
+    angles = np.linspace(0.0, 0.24, 25)
+    robot.command(JointTargets(angles, np.full(25, 0.5), np.zeros(25)))
+    told = daemon.answer()
+    np.testing.assert_allclose(told["Position"], angles, atol=1e-7)
+    assert told["Stiffness"] == [0.5] * 25
+    assert told["Chest"] == [0.0, 1.0, 0.0] and told["LEye"] == [1.0] * 24
+    colours = set(map(tuple, lola.CHEST_COLOURS.values()))
+    assert len(colours) == len(SafetyState)
+
+
+def test_a_frame_without_a_command_is_answered_by_lights(
+    daemon: Daemon,
+) -> None:
+    """A silent client would stop some worlds."""
+    daemon.robot.listen()
+    daemon.robot.show(SafetyState.LIMP, sees=False)
+    daemon.robot.listen()
+    told = daemon.answer()
+    assert "Position" not in told and told["Chest"] == [1.0, 0.0, 0.0]
+
+
+def test_a_queue_that_was_left_is_read_to_its_newest_frame(
+    daemon: Daemon,
+) -> None:
+    frames = [frame_of(i, [0.1 * i] * 25, **REAL) for i in range(1, 6)]
+    daemon.robot.listen()
+    daemon.send(*frames)
+    sleep(0.05)
+    state = daemon.robot.listen()
+    assert state is not None and state.time == pytest.approx(5 * TICK)
+    assert state.joint_positions[0] == pytest.approx(0.5)
+    assert state.joint_velocities is not None
+    assert state.joint_velocities[0] == pytest.approx(0.1 / TICK)
+
+
+@pytest.mark.parametrize(
+    "damaged", [b"\x00" * 896, b"\xff" * 896, msgpack.packb(["x" * 892])]
+)
+def test_a_damaged_frame_is_none_and_counts(
+    damaged: bytes, daemon: Daemon
+) -> None:
+    daemon.robot.listen()
+    daemon.send(damaged[:896].ljust(896, b"\x00"))
+    assert daemon.robot.listen() is None
+    daemon.send(frame_of(2, REST, **REAL))
+    state = daemon.robot.listen()
+    assert state is not None and state.time == pytest.approx(2 * TICK)
+
+
+def test_silence_is_none_and_an_end_is_an_error(daemon: Daemon) -> None:
+    daemon.robot.listen()
+    began = monotonic()
+    assert daemon.robot.listen() is None
+    assert monotonic() - began < 1.0
+    daemon.client.shutdown(socket.SHUT_RDWR)
+    with pytest.raises(ConnectionError, match="the robot closed"):
+        daemon.robot.listen()
+
+
+def test_a_robot_that_is_stiff_is_released_within_half_a_second(
+    daemon: Daemon,
+) -> None:
+    """By the guardian, which has commanded nothing itself."""
+    stiff = [0.8] * 25
+    daemon.send(frame_of(1, [0.2] * 25, **REAL, Stiffness=stiff))
+    sleep(0.05)
+    began = monotonic()
+    daemon.robot.release()
+    assert 0.3 < monotonic() - began < 2.0
+    told = [daemon.answer() for _ in range(42)]
+    shares = [each["Stiffness"][0] for each in told]
+    assert shares == sorted(shares, reverse=True) and shares[-1] == 0.0
+    assert shares[0] == pytest.approx(0.8 * 41 / 42)
+    assert told[0]["Position"][3] == pytest.approx(0.2)
+
+
+def test_a_robot_that_is_limp_already_is_released_at_once(
+    daemon: Daemon,
+) -> None:
+    robot = daemon.robot
+    robot.command(JointTargets(np.zeros(25), np.full(25, 0.01), np.zeros(25)))
+    began = monotonic()
+    robot.release()
+    assert monotonic() - began < 0.2
+    daemon.answer()
+    assert set(daemon.answer()["Stiffness"]) == {0.0}
+
+
+class MadeUpRobot:
+    """Robot to be served: it is where it was told to be."""
+
+    def __init__(self) -> None:
+        self.time, self.angles = 0.0, np.linspace(-0.1, 0.1, 23)
+        self.sighting: Sighting | None = None
+        self.stiffness: Array = np.full(23, np.nan)
+
+    def sensors(self) -> Measurement:
+        """Stand upright."""
+        return Measurement(
+            self.time,
+            self.angles,
+            np.zeros(3),
+            np.array([0.0, 0.0, 9.81]),
+            np.full(8, 6.5),
+            self.sighting,
+        )
+
+    def command(self, targets: Array, stiffness: Array) -> None:
+        """Follow where there is stiffness."""
+        self.angles = np.where(stiffness > 0.0, targets, self.angles)
+        self.stiffness, self.time = stiffness, self.time + TICK
+
+
+class World:
+    """A served robot."""
+
+    def __init__(self, path: Path, **more: Any) -> None:
+        self.robot = MadeUpRobot()
+        self.server = LolaServer(str(path), self.robot, JOINTS[:23], **more)
+
+    def tick(self) -> None:
+        """Advance without waiting."""
+        self.server.speak()
+        sleep(0.001)
+        self.server.hear()
+        self.server.act()
+
+
+@pytest.fixture
+def world(tmp_path: Path) -> Iterator[World]:
+    made = World(tmp_path / "s", lock_step=True)
+    yield made
+    made.server.close()
+
+
+def test_a_served_robot_speaks_our_protocol(
+    world: World, tmp_path: Path
+) -> None:
+    """What it sends is what our own robot reads, and the other way round."""
+    robot = LolaRobot(str(tmp_path / "s"))
+    opening = Thread(target=robot.open)
+    opening.start()
+    while opening.is_alive():
+        world.tick()
+    assert not robot.paced
+    world.robot.sighting = Sighting(world.robot.time - 0.05, 0.4, 0.7)
+    world.tick()
+    state = robot.listen()
+    assert state is not None and state.sighting is not None
+    assert state.sighting[1:3] == (0.4, 0.7)
+    assert state.time - state.sighting.time == pytest.approx(0.05, abs=0.02)
+    np.testing.assert_allclose(
+        state.joint_positions[:23], world.robot.angles, atol=1e-7
+    )
+    wanted = np.full(25, 0.3)
+    robot.command(JointTargets(wanted, np.full(25, 0.7), np.zeros(25)))
+    world.tick()
+    np.testing.assert_allclose(world.robot.angles, 0.3, atol=1e-7)
+    np.testing.assert_allclose(world.robot.stiffness, 0.7, atol=1e-7)
+    world.server.press(True)
+    world.tick()
+    pressed = robot.listen()
+    assert pressed is not None and pressed.status is not None
+    assert pressed.status.pressed
+    robot.close()
+    world.tick()
+    assert not world.server.connected
+
+
+def test_stiffness_decays_when_the_client_falls_silent(
+    world: World, tmp_path: Path
+) -> None:
+    client = LolaClient(tmp_path / "s")
+    world.tick()
+    client.write([0.1] * 25, 1.0)
+    for _ in range(8):
+        world.tick()
+        assert world.server.stiffness[KNEE] == 1.0
+    shares = []
+    for _ in range(60):
+        world.tick()
+        shares.append(float(world.server.stiffness[KNEE]))
+    assert shares == sorted(shares, reverse=True) and shares[-1] == 0.0
+    assert shares[20] == pytest.approx(0.5, abs=0.05)
+    client.close()
+
+
+def test_a_robot_is_ready_when_its_legs_are_held(
+    world: World, tmp_path: Path
+) -> None:
+    client = LolaClient(tmp_path / "s")
+    world.tick()
+    assert world.server.connected and not world.server.ready
+    for _ in range(45):  # at half of the stiffness, for half a second
+        client.write([0.1] * 25, 0.5)
+        world.tick()
+    assert world.server.ready
+    client.close()
+
+
+@pytest.mark.parametrize(
+    "data",
+    [
+        b"\xc1",
+        msgpack.packb([1, 2]),
+        msgpack.packb({"Position": [0.0] * 3}),
+        msgpack.packb({"Stiffness": [float("nan")] * 25}),
+        msgpack.packb({"Position": "x"}),
+    ],
+)
+def test_a_client_that_sends_garbage_is_dropped(
+    data: bytes, world: World, tmp_path: Path
+) -> None:
+    client = socket.socket(socket.AF_UNIX)
+    client.connect(str(tmp_path / "s"))
+    world.tick()
+    client.sendall(data)
+    sleep(0.01)
+    world.tick()
+    assert not world.server.connected
+    assert np.isfinite(world.robot.angles).all()
+    client.close()
+    LolaClient(tmp_path / "s").close()  # and the next may come
+
+
+def test_a_path_is_listened_at_once_and_a_stale_socket_replaced(
+    world: World, tmp_path: Path
+) -> None:
+    with pytest.raises(ConfigurationError, match="another program listens"):
+        World(tmp_path / "s")
+    (tmp_path / "file").write_text("mine")
+    with pytest.raises(ConfigurationError, match="a file of that name"):
+        World(tmp_path / "file")
+    stale = listening(tmp_path / "old")
+    stale.close()
+    again = World(tmp_path / "old")
+    again.server.close()
+    assert not (tmp_path / "old").exists()
+    with pytest.raises(ConfigurationError, match="has at most"):
+        World(tmp_path / ("x" * 200))
+
+
+def refused(capsys: pytest.CaptureFixture[str], *words: str) -> str:
+    """Return the message for invalid arguments."""
+    with pytest.raises(SystemExit) as left:
+        main(list(words))
+    assert left.value.code == 2
+    said = capsys.readouterr().err.strip().splitlines()
+    assert all(line.startswith("stepaside: ") for line in said)
+    return said[-1]
+
+
+def test_a_robot_that_is_not_there_is_said_in_one_line(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    words = ["play", "--robot", f"lola:{tmp_path}/none", "--wait", "0.3"]
+    began = monotonic()
+    assert "no robot listens at" in refused(capsys, *words)
+    assert 0.3 < monotonic() - began < 20.0
+
+
+def test_lola_takes_no_gains(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    words = ["play", "--robot", f"lola:{tmp_path}/x", "--legs", "x.onnx"]
+    assert "requires a robot that takes gains" in refused(capsys, *words)
+
+
+@pytest.mark.parametrize(
+    "served", [["referee=R"], ["evader"], ["evader=E", "evader=F"]]
+)
+def test_an_invalid_player_is_not_served(
+    served: list[str], capsys: pytest.CaptureFixture[str]
+) -> None:
+    words = [word for entry in served for word in ("--lola", entry)]
+    assert "pursuer or evader=PATH" in refused(capsys, "serve", *words)
+
+
+def played(path: Path, *words: str) -> "subprocess.Popen[str]":
+    command = [sys.executable, "-m", "stepaside", "play", "--robot"]
+    return subprocess.Popen(
+        [*command, f"lola:{path}", *words], stderr=subprocess.PIPE, text=True
+    )
+
+
+def until(done: Callable[[], Any]) -> None:
+    end = monotonic() + 60.0
+    while not done():
+        assert monotonic() < end
+        sleep(0.01)
+
+
+class TimedDaemon(Thread):
+    """A robot that keeps time, and is where it was told to be."""
+
+    def __init__(self, path: Path) -> None:
+        super().__init__(daemon=True)
+        self.listener, self.stiffness = listening(path), REST
+        self.position, self.ends, self.number = REST, False, 0
+
+    def run(self) -> None:
+        """Send a frame every 12 ms, whether it is answered or not."""
+        client, _ = self.listener.accept()
+        client.setblocking(False)
+        answers = msgpack.Unpacker()
+        with client, suppress(OSError):
+            while not self.ends:
+                told = {"Stiffness": self.stiffness, **REAL}
+                with suppress(BlockingIOError):
+                    client.send(frame_of(self.number, self.position, **told))
+                    data = client.recv(1 << 16)
+                    answers.feed(data)
+                for answer in answers:
+                    self.position = answer.get("Position", self.position)
+                    self.stiffness = answer.get("Stiffness", self.stiffness)
+                self.number += 1
+                sleep(TICK)
+
+
+@pytest.mark.parametrize("fate", [signal.SIGKILL, signal.SIGSTOP])
+def test_the_guardian_releases_a_robot_that_has_one_client(
+    fate: signal.Signals, tmp_path: Path
+) -> None:
+    robot = TimedDaemon(tmp_path / "t")
+    robot.start()
+    play = played(tmp_path / "t")
+    try:
+        until(lambda: robot.stiffness[KNEE] > 0.3)
+        play.send_signal(fate)
+        until(lambda: max(robot.stiffness) == 0.0)
+        assert play.wait(60.0) == -signal.SIGKILL
+    finally:
+        robot.ends = True
+        with suppress(ProcessLookupError):
+            os.kill(play.pid, signal.SIGCONT)
+        play.kill()
+        play.communicate()
+
+
+def test_a_session_that_is_lost_is_got_again_for_a_while(
+    tmp_path: Path,
+) -> None:
+    """It begins limp, as the first did; a dry run moves nothing."""
+    words = "--dry-run", "--reconnect", "3", "--record", str(tmp_path / "run")
+    play = played(tmp_path / "e", *words)
+    for _ in range(2):
+        robot = TimedDaemon(tmp_path / "e")
+        robot.start()
+        until(lambda: robot.number > 40)  # noqa: B023
+        assert robot.position == REST and robot.stiffness == REST
+        robot.ends = True
+        robot.join()
+        robot.listener.close()
+        (tmp_path / "e").unlink()
+    said = play.communicate(timeout=60.0)[1]
+    assert said.count(" limp (") >= 2 and said.count("reaching (") >= 2, said
+    assert "reconnecting" in said

@@ -1,0 +1,316 @@
+"""Test the session with a robot of a class: what it calls, and survives."""
+
+import logging
+import os
+from collections.abc import Callable, Iterator
+from functools import partial
+from pathlib import Path
+from threading import Event
+from time import monotonic, sleep
+from typing import Any
+
+import pytest
+
+from stepaside.core.errors import ConfigurationError
+from stepaside.core.poses import Pose
+from stepaside.drivers.guardian_process import SessionLost
+from stepaside.drivers.method_thread import BLOCKED
+from stepaside.drivers.robot_session import (
+    UNHALTED,
+    RobotSession,
+    fork_guardian,
+    join_halter,
+    joint_state,
+    velocity_state,
+)
+from stepaside.drivers.velocity_limits import VelocityLimits
+from stepaside.drivers.velocity_robot import VelocityRobot
+from stepaside.perception.measurement import Measurement, Sighting
+
+SLACK = 1.0  # of a busy machine, in [s]
+WALK = (-0.2, 0.1, 0.4)
+
+
+class ScriptedRobot(VelocityRobot):
+    """Robot whose methods do what a test wants."""
+
+    limits = VelocityLimits(0.5, 0.4, 1.0)
+
+    def __init__(self) -> None:
+        self.calls: list[Any] = []
+        self.hears: Callable[[], Any] = self.state
+        self.obeys: Callable[[], Any] = lambda: None
+        self.stops: Callable[[], Any] = lambda: None
+
+    def state(self) -> Measurement:
+        """A robot that stands, now."""
+        return Measurement(monotonic(), pose=Pose(0.0, 0.0, 0.0))
+
+    def open(self) -> None:
+        """Note the call."""
+        self.calls.append("open")
+
+    def listen(self) -> Measurement | None:
+        """Do what the test wants."""
+        got: Measurement | None = self.hears()
+        return got
+
+    def command(self, forward: float, lateral: float, turn: float) -> None:
+        """Do what the test wants."""
+        self.obeys()
+        self.calls.append((forward, lateral, turn))
+
+    def stop(self) -> None:
+        """Do what the test wants."""
+        self.stops()
+        self.calls.append("stop")
+
+    def close(self) -> None:
+        """Note the call."""
+        self.calls.append("close")
+
+
+@pytest.fixture
+def stuck() -> Iterator[Event]:
+    """Event that blocked methods wait for."""
+    event = Event()
+    yield event
+    event.set()
+
+
+def until(done: Callable[[], Any]) -> float:
+    """Wait, and return how long, in [s]."""
+    began = monotonic()
+    while not done():
+        assert monotonic() - began < 20.0
+        sleep(0.005)
+    return monotonic() - began
+
+
+def driven(
+    session: RobotSession, robot: ScriptedRobot, done: Callable[[], Any]
+) -> float:
+    """Run a control that wants to walk, and halts without a report."""
+
+    def tick() -> Any:
+        if session.listen(0.05, velocity_state) is None:
+            session.halt()
+        else:
+            session.command(partial(robot.command, *WALK))
+        return done()
+
+    return until(tick)
+
+
+def test_a_session_calls_each_method_in_turn() -> None:
+    robot = ScriptedRobot()
+    session = RobotSession(robot, "stop")
+    assert session.listen(1.0, velocity_state) is not None
+    session.command(partial(robot.command, *WALK))
+    until(lambda: WALK in robot.calls)
+    session.halt()
+    session.close()
+    assert robot.calls == ["open", WALK, "stop", "stop", "close"]
+
+
+def test_a_dry_run_only_listens() -> None:
+    robot = ScriptedRobot()
+    session = RobotSession(robot, "stop", dry_run=True)
+    assert session.listen(1.0, velocity_state) is not None
+    session.command(partial(robot.command, *WALK))
+    session.halt()
+    session.close()
+    assert robot.calls == ["open", "close"]
+
+
+@pytest.mark.parametrize(
+    "got",
+    [
+        (0.0, 0.0, 0.0),
+        Measurement(0.0, pose=None),  # type: ignore[arg-type]
+        Measurement(0.0, sighting=2.0, pose=Pose(0, 0, 0)),  # type: ignore[arg-type]
+    ],
+)
+def test_what_is_no_report_ends_the_session_by_the_name_of_the_method(
+    got: Any,
+) -> None:
+    robot = ScriptedRobot()
+    robot.hears = lambda: got
+    session = RobotSession(robot, "stop")
+    with pytest.raises(
+        SessionLost,
+        match=r"listen\(\) of .* a Measurement\(time, pose",
+    ):
+        session.listen(1.0, velocity_state)
+    session.close()
+    assert robot.calls[-2:] == ["stop", "close"]
+
+
+@pytest.mark.parametrize(
+    "changes",
+    [
+        {"joint_positions": [0.0]},
+        {"joint_velocities": None},
+        {"gyro": (0.0, 0.0)},
+        {"tilt": None},
+        {"foot_forces": [1.0]},
+        {"status": 3},
+    ],
+)
+def test_a_report_of_joints_is_complete(changes: dict[str, Any]) -> None:
+    angles: Any = [0.1, 0.2]
+    gyro: Any = (0, 0, 1)
+    force: Any = (0.0, 0.0, 9.8)
+    valid = Measurement(1.0, angles, gyro, force)
+    valid = valid._replace(joint_velocities=angles, tilt=(0.0, 0.1))
+    assert joint_state(valid, "listen()", 2).gyro.tolist() == [0.0, 0.0, 1.0]
+    with pytest.raises(SessionLost, match="arrays of 2 joints"):
+        joint_state(valid._replace(**changes), "listen()", 2)
+
+
+def test_a_repeated_report_is_returned_after_the_wait_for_a_new_one() -> None:
+    robot = ScriptedRobot()
+    robot.hears = lambda: Measurement(7.0, pose=Pose(0.0, 0.0, 0.0))
+    session = RobotSession(robot, "stop")
+    session.listen(1.0, velocity_state)
+    began = monotonic()
+    again = session.listen(0.3, velocity_state)
+    assert again is not None and again.time == 7.0
+    assert monotonic() - began > 0.2
+    assert "returned no new report for 0.30 s" in session.silence(0.3)
+    session.close()
+
+
+@pytest.mark.parametrize("method", ["listen", "command"])
+def test_an_exception_ends_the_session_by_the_name_of_the_method(
+    method: str,
+) -> None:
+    robot = ScriptedRobot()
+
+    def fail() -> None:
+        raise KeyError("leg")
+
+    robot.hears = fail if method == "listen" else robot.state
+    robot.obeys = fail
+    session = RobotSession(robot, "stop")
+    with pytest.raises(
+        SessionLost, match=rf"{method}\(\) of ScriptedRobot failed: KeyError"
+    ):
+        driven(session, robot, lambda: False)
+    session.close()
+    assert robot.calls[-2:] == ["stop", "close"]
+
+
+@pytest.mark.parametrize("method", ["listen", "command"])
+def test_a_method_that_blocks_halts_the_robot_beside_it(
+    method: str, stuck: Event, caplog: pytest.LogCaptureFixture
+) -> None:
+    """And the robot walks on when the method returns."""
+    robot = ScriptedRobot()
+    session = RobotSession(robot, "stop")
+    driven(session, robot, lambda: WALK in robot.calls)
+    before = len(robot.calls)
+    if method == "listen":
+        robot.hears = lambda: (stuck.wait(20.0), robot.state())[1]
+    else:
+        robot.obeys = lambda: stuck.wait(20.0)
+    took = driven(session, robot, lambda: "stop" in robot.calls[before:])
+    assert took < BLOCKED + SLACK
+    assert f"{method}() of ScriptedRobot has not returned" in caplog.text
+    with pytest.raises(SessionLost, match="has not returned"):
+        session.check_blocked()
+    stuck.set()
+    stopped = len(robot.calls)
+    driven(session, robot, lambda: WALK in robot.calls[stopped + 1 :])
+    session.close()
+
+
+def test_a_robot_that_cannot_be_halted_ends_the_session(stuck: Event) -> None:
+    robot = ScriptedRobot()
+    session = RobotSession(robot, "stop")
+    robot.hears = robot.stops = lambda: stuck.wait(20.0)
+    began = monotonic()
+    with pytest.raises(SessionLost, match=r"listen\(\).*neither has stop"):
+        driven(session, robot, lambda: False)
+    assert monotonic() - began < BLOCKED + UNHALTED + SLACK
+    with pytest.raises(SessionLost, match=r"stop\(\) .* did not return"):
+        session.close()
+
+
+def test_the_guardian_halts_a_robot_that_control_cannot_halt(
+    tmp_path: Path, caplog: pytest.LogCaptureFixture
+) -> None:
+    """Also one that was commanded zero; control goes on."""
+    guardian = fork_guardian(lambda: (tmp_path / "rest").touch, 0.5)
+    robot = ScriptedRobot()
+    session = RobotSession(robot, "stop", guardian=guardian)
+    session.command(partial(robot.command, *WALK))
+    session.halt()
+    until(lambda: "stop" in robot.calls)
+    assert not (tmp_path / "rest").exists()
+    robot.stops = lambda: 1 / 0
+    with caplog.at_level(logging.WARNING):
+        session.close()
+    assert (tmp_path / "rest").exists()
+    assert "ZeroDivisionError: division by zero; the guardian" in caplog.text
+    with pytest.raises(ChildProcessError):
+        os.waitpid(guardian.pid, os.WNOHANG)
+
+
+def test_a_robot_that_does_not_answer_is_tried_again() -> None:
+    """Other errors of open() are those of the program."""
+
+    class Absent(ScriptedRobot):
+        def open(self) -> None:
+            """Fail."""
+            raise ConnectionError("no robot")
+
+    class Wrong(ScriptedRobot):
+        def open(self) -> None:
+            """Fail."""
+            raise TypeError("no such argument")
+
+    with pytest.raises(SessionLost, match=r"open\(\) of Absent failed"):
+        RobotSession(Absent(), "stop")
+    with pytest.raises(ConfigurationError, match=r"open\(\) of Wrong failed"):
+        RobotSession(Wrong(), "stop")
+
+
+def test_the_guardian_connects_in_advance_and_only_halts() -> None:
+    robot = ScriptedRobot()
+    halt = join_halter(lambda: robot, "stop")
+    assert robot.calls == ["open"]
+    halt()
+    assert robot.calls == ["open", "stop"]
+
+
+class Released:
+    """Switch that nobody holds."""
+
+    closed = False
+
+    def released(self) -> str:
+        """Say so."""
+        return "hold it"
+
+    def close(self) -> None:
+        """Note it."""
+        self.closed = True
+
+
+def test_a_switch_belongs_to_the_session() -> None:
+    switch = Released()
+    session = RobotSession(ScriptedRobot(), "stop", switch=switch)
+    assert session.released() == "hold it"
+    session.close()
+    assert switch.closed
+
+
+def test_a_sighting_is_of_plain_numbers() -> None:
+    robot = ScriptedRobot()
+    seen = Sighting.of_position(3.0, 1.0, 1.0)
+    robot.hears = lambda: robot.state()._replace(sighting=seen)
+    session = RobotSession(robot, "stop")
+    report = session.listen(1.0, velocity_state)
+    session.close()
+    assert report is not None and report.sighting == seen
