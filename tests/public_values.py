@@ -5,7 +5,7 @@ from typing import Any
 
 import stepaside
 from stepaside import Direction, DuelRun, DuelSettings, Foot, GaitSettings
-from stepaside.theory.bound import Grid, fixed_pursuit_game, solve_bound
+from stepaside.theory.value import fixed_pursuit_game, solve_cars
 
 
 @cache
@@ -15,8 +15,8 @@ def a_run() -> DuelRun:
 
 @cache
 def a_bound() -> Any:
-    grid = Grid(0.3, 4.0, 17, 16, 16)
-    return solve_bound(fixed_pursuit_game(1.0, 1.0, 1.0), grid, horizon=0.1)
+    game = fixed_pursuit_game(1.0, 1.0, 1.0)
+    return solve_cars(game, 4.0, 8, horizon=0.1)
 
 
 @cache

@@ -29,9 +29,7 @@ from stepaside.strategies.learned import (
     dense_network,
     load_learned_strategy,
 )
-from stepaside.theory.bound import (
-    load_bound,
-)
+from stepaside.theory.value import load_table
 
 DOORS = [
     "stepaside",
@@ -110,7 +108,7 @@ READERS: dict[str, tuple[str, Callable[[Any], Any]]] = {
     "load_run": ("run", lambda p: stepaside.load_run(p).summary),
     "load_configuration": ("duel.toml", stepaside.load_configuration),
     "load_robot": ("robot", lambda p: stepaside.load_robot(p).torso),
-    "load_bound": ("bound.npz", lambda p: load_bound(p).grid),
+    "load_table": ("bound.npz", lambda p: load_table(p).grid),
     "load_room": ("room.toml", load_room),
     "load_learned_strategy": (
         "evader.onnx",
@@ -133,7 +131,7 @@ WRITERS: dict[str, tuple[str, Callable[[Any], Any]]] = {
         "plan.svg",
         lambda p: stepaside.draw_plan(a_plan(), "evader", p),
     ),
-    "Bound.save": ("bound.npz", lambda p: a_bound().save(p)),
+    "ValueTable.save": ("bound.npz", lambda p: a_bound().save(p)),
     "LearnedStrategy.save": ("one.onnx", lambda p: a_network().save(p)),
 }
 
@@ -205,10 +203,6 @@ ANGLES: dict[str, Callable[[Any], Any]] = {
     "play_games starts": lambda a: stepaside.play_games(
         stepaside.make_game(1.0, 1.0, 1.0, 1.0), [[1.0, a, 0.0]], 0.1
     ),
-    "Bound.value error": lambda a: a_bound().value(1.0, a, 0.0),
-    "Bound.value bearing": lambda a: a_bound().value(1.0, 0.0, [0.1, a]),
-    "Bound.evader_turn bearing": lambda a: a_bound().evader_turn(1.0, 0.0, a),
-    "Bound.pursuer_turn error": lambda a: a_bound().pursuer_turn(1.0, a, 0.0),
     "Box heading": lambda a: Box(0.0, 0.0, 1.0, 1.0, a),
     "MovingBox heading": lambda a: MovingBox(
         0.0, 0.0, 1.0, 1.0, (1.0, 0.0), heading=a

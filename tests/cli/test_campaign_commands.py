@@ -9,7 +9,7 @@ import pytest
 from click.testing import CliRunner, Result
 
 from stepaside.cli.main import main
-from stepaside.strategies.bound_cache import pursuit_bound
+from stepaside.strategies.table_cache import pursuit_bound
 from stepaside.studies import tournament_record
 
 STUDY = """

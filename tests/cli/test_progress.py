@@ -106,7 +106,6 @@ def test_campaigns_announce_their_size(
     [
         "duels --seeds 0:100000 --duration 86400 --workers 1 --json",
         "map --grid 400 --distances 400 --duration 1e4 --step 1e-4",
-        "bound --grid 400 --horizon 2000 --refine 0",
         "circle --starts 1000000 --evader-gain 1e6",
         "unicycles --sample-time 1e-9 --duration 1e6 --delay 1e6",
         "unicycles --duration 1e9 --evader-gain 1e3",

@@ -8,7 +8,7 @@ import pytest
 from click.testing import CliRunner
 
 from stepaside.cli.main import main
-from stepaside.strategies.bound_cache import pursuit_bound
+from stepaside.strategies.table_cache import pursuit_bound
 from stepaside.studies import tournament_record
 from stepaside.studies.sweep import load_sweep
 

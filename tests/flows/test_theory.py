@@ -162,7 +162,8 @@ def grazing_starts() -> list[tuple[float, float, float]]:
 
 
 def test_optimal_evasion_of_a_car_has_merzs_barrier(tmp_path: Path) -> None:
-    from stepaside.theory.bound import load_bound
+    from stepaside.theory.value import load_table
+    from stepaside.theory.value.two_cars import car_poses
 
     table = tmp_path / "cars.npz"
     stepaside(
@@ -171,9 +172,10 @@ def test_optimal_evasion_of_a_car_has_merzs_barrier(tmp_path: Path) -> None:
         *("--output", table),
     )
     starts = np.array(grazing_starts())
-    values = load_bound(table).value(*starts.T)
+    poses = car_poses(*starts.T)
+    values = load_table(table).value(poses)
     assert abs(values - 1.0).max() < 0.04
-    mirrored = load_bound(table).value(*(starts * [1, -1, -1]).T)
+    mirrored = load_table(table).value(poses * [1, -1, -1])
     np.testing.assert_allclose(mirrored, values, atol=1e-9)
 
 

@@ -1,7 +1,7 @@
 """Test predictive evaders, alone and in step games."""
 
 from dataclasses import replace
-from math import hypot, pi
+from math import cos, hypot, pi, sin
 from pathlib import Path
 
 import numpy as np
@@ -22,7 +22,7 @@ from stepaside.strategies import (
     play_strategies,
 )
 from stepaside.strategies import (
-    bound_cache as tables,
+    table_cache as tables,
 )
 from stepaside.strategies.look_ahead import (
     poses_at_sighting,
@@ -182,11 +182,10 @@ def test_the_optimal_evader_maximises_its_table() -> None:
         assert starts is not None
         pursuer, evader = starts
         x, y = evader.x - pursuer.x, evader.y - pursuer.y
-        sight = float(np.arctan2(y, x))
+        c, s = cos(pursuer.theta), sin(pursuer.theta)
+        away = evader.theta + pi - pursuer.theta
         value = bound.value(
-            hypot(x, y) / unit,
-            wrap_angle(sight - pursuer.theta),
-            wrap_angle(sight + pi - evader.theta),
+            ((c * x + s * y) / unit, (c * y - s * x) / unit, away)
         )
         promised.append(unit * float(value))
         for found, mind in (

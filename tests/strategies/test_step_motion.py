@@ -18,7 +18,6 @@ from stepaside.arena import (
 from stepaside.core.poses import Pose
 from stepaside.planning import Direction
 from stepaside.planning.path import UnicycleTrajectory
-from stepaside.strategies.bound_cache import value_table
 from stepaside.strategies.search import (
     NO_VALUE,
     CandidateManeuvers,
@@ -34,8 +33,13 @@ from stepaside.strategies.search.distance_field import (
 from stepaside.strategies.search.maneuver_rollout import judge, law_turn
 from stepaside.strategies.search.step_motion import half_turn, step_both
 from stepaside.strategies.search.turn_search import look_ahead
-from stepaside.strategies.search.value_lookup import value_at
-from stepaside.theory.bound import Bound, Grid, fixed_pursuit_game
+from stepaside.strategies.search.value_lookup import (
+    PursuitValues,
+    value_at,
+)
+from stepaside.theory.value import PoseGrid, ValueTable
+from stepaside.theory.value.solver import make_rules
+from stepaside.theory.value.two_cars import car_poses
 
 RULES = StepRules(0.04, 0.08, 0.04, 0.08)
 ROOM = generate_room(RoomRecipe(discs=3, boxes=2, polygons=2, doors=1), 4)
@@ -113,16 +117,22 @@ def test_the_distance_field_is_a_safe_and_tight_bound(seed: int) -> None:
 
 
 @pytest.fixture(scope="module")
-def bound() -> Bound:
+def bound() -> ValueTable:
     """A table of anything; nothing is solved."""
-    grid = Grid.cube(0.3, 3.0, 16)
+    grid = PoseGrid.covering(0.25, 3.0, 3.0, 3.0, 12)
     values = np.random.default_rng(2).uniform(0.1, 0.3, grid.shape)
-    game = fixed_pursuit_game(1.0, 1.0, 1.0)
-    return Bound(game, grid, values.astype(np.float32), 6.0, 0.0, 0.0, 0.0)
+    motions = np.zeros((1, 4, 3))
+    rules = make_rules(grid, inf)
+    return ValueTable(grid, values, values, motions, motions, rules, 0.0, 0.0)
 
 
-def test_the_value_in_loops_is_that_of_the_table(bound: Bound) -> None:
-    table = value_table(bound, 0.5)
+def value_table(bound: ValueTable) -> PursuitValues:
+    grid = bound.grid
+    return PursuitValues(bound.values, grid.left, grid.spacing, 0.5)
+
+
+def test_the_value_in_loops_is_that_of_the_table(bound: ValueTable) -> None:
+    table = value_table(bound)
     for r, a, psi in np.random.default_rng(3).uniform(
         [0.0, -pi, -pi], [2.5, pi, pi], (200, 3)
     ):
@@ -131,7 +141,7 @@ def test_the_value_in_loops_is_that_of_the_table(bound: Bound) -> None:
         evader = Pose(
             0.4 + r * cos(sight), 0.1 + r * sin(sight), sight + pi - psi
         )
-        expected = 0.5 * float(bound.value(r / 0.5, a, psi))
+        expected = 0.5 * float(bound.value(car_poses(r / 0.5, a, psi)))
         found = value_at(table, place(evader, pursuer))
         assert found == pytest.approx(min(r, expected), abs=1e-6)
 
@@ -173,7 +183,7 @@ def brute(
 @pytest.mark.parametrize("seed", range(6))
 @pytest.mark.parametrize("valued", [False, True])
 def test_the_search_matches_brute_force(
-    seed: int, valued: bool, bound: Bound
+    seed: int, valued: bool, bound: ValueTable
 ) -> None:
     """Its score is the best of all, and the turns it gives have it."""
     random = np.random.default_rng(seed)
@@ -185,7 +195,7 @@ def test_the_search_matches_brute_force(
     )
     aims = ManeuverObjective(0.7, 0.25, 5.0, 2.0, gain=0.0)
     packed = NOTHING if valued else PACKED
-    table = value_table(bound, 0.5) if valued else NO_VALUE
+    table = value_table(bound) if valued else NO_VALUE
     found = look_ahead(both, (), maneuvers, RULES, aims, packed, table)
     expected = brute(both, maneuvers, aims, packed, table)
     assert found.score == pytest.approx(expected, abs=1e-7)

@@ -8,7 +8,7 @@ import pytest
 
 from stepaside.core.errors import ConfigurationError
 from stepaside.games.duel_settings import DuelSettings
-from stepaside.strategies.bound_cache import pursuit_bound
+from stepaside.strategies.table_cache import pursuit_bound
 from stepaside.studies import tournament_record
 from stepaside.studies.study import run_study
 from stepaside.studies.sweep import (

@@ -17,7 +17,7 @@ from stepaside.core.convex import grown_hull_area
 from stepaside.core.poses import wrap_angles
 from stepaside.games.outcome import Outcome
 from stepaside.strategies import StepGame
-from stepaside.strategies import bound_cache as tables
+from stepaside.strategies import table_cache as tables
 from stepaside.studies import tournament_record as studied
 from stepaside.studies.study import count_records, run_study
 from stepaside.studies.tournament_campaign import tournament_study

@@ -1,10 +1,5 @@
-"""Test the barrier of two identical cars, and the table beside it.
+"""Test the barrier of two identical cars in closed form."""
 
-The formulas of the literature were not at hand: the closed form is derived
-in docs/bound.md and checked here by what defines it.
-"""
-
-from dataclasses import replace
 from math import cos, pi, sin, tau
 
 import numpy as np
@@ -12,24 +7,16 @@ import pytest
 from numpy.typing import NDArray
 
 from stepaside.core.errors import PlanError
-from stepaside.theory.bound import Bound, Grid, solve_bound, two_car_game
-from stepaside.theory.bound.barrier import (
+from stepaside.theory.value.closed_forms import (
+    barrier_poses,
     barrier_slice,
-    barrier_states,
     left_half,
     turn_back,
 )
-from stepaside.theory.bound.bound_checks import check_barrier
 
 Array = NDArray[np.float64]
-CARS = two_car_game(1.0, 1.0, 1.0)
 CAPTURES = (0.3, 1.0, 2.5)
 COUNT = 41
-
-
-@pytest.fixture(scope="module")
-def table() -> Bound:
-    return solve_bound(CARS, Grid(0.5, 7.0, 49, 48, 48))
 
 
 def drive(state: Array, pursuer: float, evader: float, time: float) -> Array:
@@ -136,54 +123,11 @@ def test_both_halves_start_on_the_circle_and_meet(capture: float) -> None:
     assert head_on[:, 0].max() > capture + 2.0
 
 
-def test_lengths_scale_with_the_turning_radius() -> None:
-    big = replace(CARS, pursuer_speed=3.0, evader_speed=3.0)
-    one, _ = barrier_states(CARS, 1.0, 5)
-    three, _ = barrier_states(big, 3.0, 5)
-    np.testing.assert_allclose(three, one * [3.0, 1.0, 1.0], atol=1e-9)
-
-
-@pytest.mark.parametrize("capture", [0.7, 1.0, 2.0])
-def test_the_table_has_the_capture_distance_on_its_barrier(
-    table: Bound, capture: float
-) -> None:
-    """Every piece, both halves: within the error of this grid."""
-    found = check_barrier(table, capture)
-    errors = np.abs(found.value_errors)
-    assert np.median(errors) < 3e-3 and errors.mean() < 8e-3
-    assert errors.max() < 0.2  # on the crossing, a kink
-    for piece in (1, 2, 3):
-        on = np.abs(found.pieces) == piece
-        assert errors[on].mean() < 0.015
-    assert np.median(np.abs(found.distance_errors)) < 5e-3
-
-
-def test_barrier_errors_fall_with_the_grid_spacing(table: Bound) -> None:
-    coarse = solve_bound(CARS, Grid(0.5, 7.0, 25, 24, 24))
-    errors = [
-        np.abs(check_barrier(bound, 1.0).value_errors).mean()
-        for bound in (coarse, table)
-    ]
-    assert errors[1] < 0.5 * errors[0]
-
-
-def test_barrier_of_the_table_is_that_of_the_closed_form(
-    table: Bound,
-) -> None:
-    """Head on, and from behind, where no evader is captured."""
-    reach = table.barrier(1.0)
-    a, _, psi = table.grid.axes()
-    points, _ = barrier_slice(1.0, pi)
-    nose = np.hypot(*points.T).max()
-    assert reach[0, np.abs(psi).argmax()] == pytest.approx(nose, abs=0.2)
-    assert reach[-1, np.abs(psi).argmin()] == pytest.approx(1.0, abs=0.1)
-    assert (reach >= 1.0).all() and reach.max() < nose + 0.3
-
-
-def test_different_cars_are_refused() -> None:
-    other = two_car_game(1.0, 1.0, 1.0, 1.1)
-    assert CARS.identical and not other.identical
-    with pytest.raises(PlanError, match="identical"):
-        barrier_states(other, 1.0)
+def test_poses_of_the_barrier_are_those_of_its_slices() -> None:
+    poses, pieces = barrier_poses(1.0, 5)
+    half, numbers = barrier_slice(1.0, pi)
+    np.testing.assert_allclose(poses[-len(half) :, :2], half)
+    np.testing.assert_array_equal(pieces[-len(half) :], numbers)
+    assert set(poses[:, 2]) == set(np.linspace(0.0, pi, 6)[1:])
     with pytest.raises(PlanError, match="capture"):
-        barrier_states(CARS, -1.0)
+        barrier_poses(-1.0)

@@ -6,7 +6,7 @@ states as the optimal one::
     python tools/benchmarks/bound_value.py
 """
 
-from dataclasses import asdict
+from itertools import pairwise
 from math import pi
 from typing import Any
 
@@ -14,24 +14,28 @@ import numpy as np
 from benchmark_options import ask, machine
 from numpy.typing import NDArray
 
+from stepaside.core.poses import wrap_angles
 from stepaside.studies.result_files import header, write_result
-from stepaside.theory.bound import (
-    Bound,
-    Grid,
+from stepaside.theory.value import (
+    CarGame,
+    ValueTable,
     fixed_pursuit_game,
+    solve_cars,
     two_car_game,
 )
-from stepaside.theory.bound.bound_checks import (
-    Steering,
-    check_barrier,
+from stepaside.theory.value.checks import (
+    Evader,
+    barrier_offsets,
+    compare_evaders,
+    differences,
+    driven,
     fixed_angle_evader,
-    play_bound,
 )
-from stepaside.theory.bound.grid_refinement import refine_bound
+from stepaside.theory.value.closed_forms import barrier_poses
+from stepaside.theory.value.two_cars import car_poses
 
 Array = NDArray[np.float64]
-MODULES = ("theory/bound", "theory/unicycle")
-LIBRARIES = ("numpy", "numba")
+LAW, CARS = fixed_pursuit_game(1.0, 1.0, 1.0), two_car_game(1.0, 1.0, 1.0)
 GAMES = 4000
 # distance range [v/k], maximum bearings of evader and pursuer
 BOXES = {
@@ -46,87 +50,85 @@ ANGLES = {
 }
 
 
-def saturated(r: Array, a: Array, psi: Array) -> Array:
+def saturated(poses: Array) -> Array:
     """Return the evader of eq. (6) with a gain of one."""
+    sight = np.arctan2(poses[:, 1], poses[:, 0])
+    psi = wrap_angles(sight - poses[:, 2])
     side = np.where(psi < 0.0, 1.0, -1.0)
-    turn: Array = np.sign(psi + side * pi / 2)
-    return turn
+    return driven(LAW, np.sign(psi + side * pi / 2))
 
 
 def starts_in(box: tuple[float, float, float, float]) -> Array:
-    """Draw random initial states (r, a, psi) from a box. Shape (n, 3)."""
+    """Draw random initial poses from a box of (r, a, psi). Shape (n, 3)."""
     rng = np.random.default_rng(13)
     near, far, aim, facing = box
     low, high = [near, -aim, -facing], [far, aim, facing]
-    return rng.uniform(low, high, (GAMES, 3))
+    return car_poses(*rng.uniform(low, high, (GAMES, 3)).T)
 
 
-def compare(bound: Bound, starts: Array) -> list[dict[str, Any]]:
+def compare(table: ValueTable, starts: Array) -> list[dict[str, Any]]:
     """Return the mean closest approach of every evader and of the table."""
-    evaders: dict[str, Steering | None] = {"optimal": None}
+    evaders: dict[str, Evader | None] = {"optimal": None}
     evaders |= {
-        name: fixed_angle_evader(bound, angle)
-        for name, angle in ANGLES.items()
+        name: fixed_angle_evader(LAW, angle) for name, angle in ANGLES.items()
     }
     evaders["saturated"] = saturated
-    promised = bound.value(*starts.T)
-    rows: list[dict[str, Any]] = []
-    for name, evader in evaders.items():
-        kept = play_bound(bound, starts, evader)
-        best = rows[0]["closest"] if rows else float(kept.mean())
-        rows.append(
-            {
-                "evader": name,
-                "closest": float(kept.mean()),
-                "bound": float(promised.mean()),
-                "over_bound": float(kept.mean() / promised.mean()),
-                "best_over_this": best / float(kept.mean()),
-                "most_above": float(np.max(kept - promised)),
-                "share_above": float((kept - promised > 0.01).mean()),
-                "most_off": float(np.quantile(np.abs(kept - promised), 0.95)),
-            }
-        )
-    return rows
-
-
-def refinement(rows: Any) -> list[dict[str, Any]]:
-    """Return the differences between grids and finer ones."""
+    rows = compare_evaders(LAW, table, evaders, starts)
     return [
         {
-            "cells": row.grid.distances - 1,
-            "finer": 2 * (row.grid.distances - 1),
-            **{k: v for k, v in asdict(row).items() if k != "grid"},
+            "evader": row["name"],
+            "closest": row["closest"],
+            "over_bound": row["over_bound"],
+            "best_over_this": rows[0]["closest"] / row["closest"],
+            "most_above": row["above"],
+            "most_off": row["most"],
         }
         for row in rows
     ]
 
 
+def solved(game: CarGame, far: float, cells: int) -> tuple[ValueTable, Any]:
+    """Return the finest table, and the differences of coarser ones."""
+    tables = [solve_cars(game, far, cells // n) for n in (4, 2, 1)]
+    rows = []
+    for coarse, fine in pairwise(tables):
+        off = differences(coarse, fine)
+        count = coarse.grid.shape[1] - 1
+        rows.append(
+            {
+                "cells": count,
+                "finer": 2 * count,
+                "seconds": coarse.seconds,
+                "mean": float(off.mean()),
+                "most": float(np.quantile(off, 0.95)),
+                "worst": float(off.max()),
+                "above_mean": float((off > off.mean()).mean()),
+            }
+        )
+    table = tables[-1]
+    return table, {
+        "seconds": table.seconds,
+        "falling": table.change,
+        "refinement": rows,
+    }
+
+
 def main() -> None:
     """Solve both games, simulate, and write the results."""
     asked = ask(__doc__, "bound.json")
-    asked.add_argument("--cells", type=int, default=96)
+    asked.add_argument("--cells", type=int, default=64)
     arguments = asked.parse_args()
     cells = arguments.cells
 
-    law = fixed_pursuit_game(1.0, 1.0, 1.0)
-    pursuit, rows = refine_bound(law, Grid.cube(0.15, 4.5, cells), 2)
+    pursuit, law = solved(LAW, 4.5, cells)
     boxes = {name: compare(pursuit, starts_in(b)) for name, b in BOXES.items()}
-    found: dict[str, Any] = {
-        "pursuit": {
-            "seconds": pursuit.seconds,
-            "horizon": pursuit.horizon,
-            "falling_mean": pursuit.falling_mean,
-            "falling_worst": pursuit.falling_worst,
-            "refinement": refinement(rows),
-            "boxes": boxes,
-        }
-    }
-    free = two_car_game(1.0, 1.0, 1.0)
-    cars, rows = refine_bound(free, Grid.cube(0.3, 8.0, cells), 2)
+    found: dict[str, Any] = {"pursuit": law | {"boxes": boxes}}
+    cars, free = solved(CARS, 8.0, cells)
     barrier = []
     for capture in (0.5, 1.0, 2.0, 3.0):
-        check = check_barrier(cars, capture)
-        off, apart = np.abs(check.value_errors), np.abs(check.distance_errors)
+        poses, _ = barrier_poses(capture)
+        off = np.abs(cars.value(poses) - capture)
+        apart = np.abs(barrier_offsets(cars, poses, capture))
         barrier.append(
             {
                 "capture": capture,
@@ -138,14 +140,7 @@ def main() -> None:
                 "apart_mean": float(apart.mean()),
             }
         )
-    found["cars"] = {
-        "seconds": cars.seconds,
-        "horizon": cars.horizon,
-        "falling_mean": cars.falling_mean,
-        "falling_worst": cars.falling_worst,
-        "refinement": refinement(rows),
-        "barrier": barrier,
-    }
+    found["cars"] = free | {"barrier": barrier}
     head = header({"cells": cells, "games": GAMES})
     write_result(arguments.output, head, machine=machine(), **found)
     for name, table in boxes.items():

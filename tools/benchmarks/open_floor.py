@@ -9,25 +9,25 @@ any heading. An interrupted run continues::
 
 from dataclasses import dataclass
 from functools import cache
-from math import atan2, hypot, pi
+from math import pi
 
 from benchmark_options import ask, machine, seeds_of
 from names import name_and_speed
 from resumable_jobs import Row, finished, gather
 
 from stepaside.arena import draw_any_start
-from stepaside.core.poses import wrap_angle
+from stepaside.core.poses import rotate
 from stepaside.strategies import load_strategy
 from stepaside.strategies.strategy_game import StepGame, play_strategies
 from stepaside.studies.result_files import header, write_result
-from stepaside.theory.bound import Bound, Grid, solve_bound, two_car_game
+from stepaside.theory.value import ValueTable, solve_cars, two_car_game
 
 EVADERS = ("look-ahead", "robust")
 PURSUERS = (
     *("pursuit", "pursuit(gain=3)", "sharp", "optimal-pursuit"),
     *("pursuit@1.1", "sharp@1.1"),  # at that speed, over the evader's
 )
-NEAR, FAR = 0.5, 9.5  # of the grid, in turning radii
+FAR = 9.5  # of the grid, in turning radii
 CELLS = 24
 GAME = StepGame()
 RATE = GAME.turn / GAME.period  # largest turning rate, in [rad/s]
@@ -49,31 +49,28 @@ class OpenGame:
 
 
 @cache
-def bound_of(speed_ratio: float) -> Bound:
+def bound_of(speed_ratio: float) -> ValueTable:
     """Return the value of two cars, in turning radii of the evader.
 
-    Against a faster pursuer it falls for the whole game; at equal speeds it
-    stays as it is after one turn.
+    Against a faster pursuer it falls for the whole game.
     """
-    whole = RATE * GAME.duration
-    return solve_bound(
+    return solve_cars(
         two_car_game(speed_ratio, 1.0, 1.0),
-        Grid.cube(NEAR, FAR, CELLS),
-        horizon=whole if speed_ratio > 1.0 else 2.0 * pi,
+        FAR,
+        CELLS,
+        horizon=RATE * GAME.duration if speed_ratio > 1.0 else None,
     )
 
 
 def value_of(seed: int, speed_ratio: float) -> float:
     """Return the closest approach that a start guarantees, in [m]."""
     pursuer, evader = draw_any_start(seed)
+    unit = GAME.stride / GAME.turn
     x, y = evader.x - pursuer.x, evader.y - pursuer.y
-    sight, unit = atan2(y, x), GAME.stride / GAME.turn
-    found = bound_of(speed_ratio).value(
-        hypot(x, y) / unit,
-        wrap_angle(sight - pursuer.theta),
-        wrap_angle(sight + pi - evader.theta),
-    )
-    return unit * float(found)
+    x, y = rotate(x / unit, y / unit, -pursuer.theta)
+    # The evader walks backwards.
+    away = evader.theta + pi - pursuer.theta
+    return unit * float(bound_of(speed_ratio).value((x, y, away)))
 
 
 def play(game: OpenGame) -> Row:
@@ -141,7 +138,7 @@ def main() -> None:
                     "lost_m": [
                         values[r["seed"]] for r in sure if not r["survived"]
                     ],
-                    "falling_worst": bound_of(ratio).falling_worst,
+                    "falling": bound_of(ratio).change,
                 }
             )
     write_result(arguments.output, head, machine=machine(), rows=rows)

@@ -10,14 +10,13 @@ from .options.parameter_types import positive
 from .options.settings_options import refuse_options
 
 if TYPE_CHECKING:
-    from ..theory.bound import BoundGame
+    from ..theory.value import CarGame
 
 AGAINST = ("pursuit", "any", "person")
 
 OF_CARS = {
     "pursuer_gain",
     "evader_turn",
-    "nearest",
     "horizon",
     "games",
     "output",
@@ -99,12 +98,6 @@ class BoundOptions:
         positive("m", None),
         default_text="0.7 v/k",
     )
-    nearest: float | None = setting(
-        None,
-        "Distance at which a game ends, the inner edge of the grid",
-        positive("m", None),
-        default_text="half of --capture",
-    )
     farthest: float | None = setting(
         None,
         "Outer edge of the grid",
@@ -114,7 +107,7 @@ class BoundOptions:
     grid: int = setting(
         64,
         "Grid cells along each axis",
-        Range(16, 400, "1", "more do not fit in memory", whole=True),
+        Range(16, 200, "1", "more do not fit in memory", whole=True),
     )
     refine: int = setting(
         1,
@@ -126,7 +119,7 @@ class BoundOptions:
         None,
         "Time horizon",
         positive("s", None),
-        default_text="one full turn at the lowest rate",
+        default_text="until nothing changes",
     )
     games: int = setting(
         1000,
@@ -145,9 +138,9 @@ class BoundOptions:
         else:
             refuse_options(OF_PERSON, f"--against person, got {self.against}")
 
-    def game(self) -> "BoundGame":
+    def game(self) -> "CarGame":
         """Return the game."""
-        from ..theory.bound import fixed_pursuit_game, two_car_game
+        from ..theory.value import fixed_pursuit_game, two_car_game
 
         speeds = self.pursuer_speed, self.evader_speed
         if self.against == "pursuit":

@@ -43,7 +43,7 @@ def person_report(
                 game,
                 count,
                 farthest=options.farthest,
-                progress=_scaled(bar, count**2 / work),
+                progress=scaled(bar, count**2 / work),
             )
             tables.append((count, table))
     standing = standing_table(table, game, response)
@@ -60,7 +60,7 @@ def person_report(
     return result
 
 
-def _scaled(bar: Any, share: float) -> "Callable[[float], object]":
+def scaled(bar: Any, share: float) -> "Callable[[float], object]":
     """Return a callback for one table, a share of the work."""
     return lambda part: bar.update(share * part)
 

@@ -1,6 +1,7 @@
 """Output of ``stepaside bound``: JSON values and a printed table."""
 
 from dataclasses import asdict
+from itertools import pairwise
 from typing import TYPE_CHECKING, Any
 
 from .tables import print_table, scalar_rows, table_rows
@@ -8,41 +9,49 @@ from .tables import print_table, scalar_rows, table_rows
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from ..theory.bound import Bound
-    from ..theory.bound.grid_refinement import Refinement
+    from ..theory.value import CarGame, ValueTable
 
 SHOWN = 12  # barrier points in the result
 IN_METERS = ("closest", "mean_error", "most", "below", "above")
 
 
-def describe(table: "Bound", capture: float) -> dict[str, Any]:
+def describe(
+    game: "CarGame", table: "ValueTable", capture: float
+) -> dict[str, Any]:
     """Return the values of a bound table, for JSON."""
-    barrier = table.barrier(capture)
+    from ..theory.value.two_cars import barrier
+
+    reach = barrier(table, capture)
     result: dict[str, Any] = {
-        "game": asdict(table.game),
-        "grid": asdict(table.grid),
-        "horizon_s": table.horizon,
+        "game": asdict(game),
+        "grid": table.grid._asdict(),
         "seconds": table.seconds,
-        "falling_mean_m": table.falling_mean,
-        "falling_worst_m": table.falling_worst,
+        "falling_m": table.change,
         "capture_m": capture,
-        "barrier_reach_m": float(barrier.max()),
-        "barrier_mean_m": float(barrier.mean()),
+        "barrier_reach_m": float(reach.max()),
+        "barrier_mean_m": float(reach.mean()),
     }
-    if table.game.identical:
-        result["analytic"] = _analytic(table, capture)
+    if game.identical:
+        result["analytic"] = _analytic(game, table, capture)
     return result
 
 
-def _analytic(table: "Bound", capture: float) -> dict[str, Any]:
+def _analytic(
+    game: "CarGame", table: "ValueTable", capture: float
+) -> dict[str, Any]:
     """Compare the table with the closed-form barrier."""
     import numpy as np
 
-    from ..theory.bound.bound_checks import PIECES, check_barrier
+    from ..theory.value.checks import barrier_offsets
+    from ..theory.value.closed_forms import PIECES, barrier_poses
 
-    found = check_barrier(table, capture)
-    values, apart = np.abs(found.value_errors), np.abs(found.distance_errors)
-    pieces = np.abs(found.pieces)
+    poses, pieces = barrier_poses(capture / game.unit)
+    poses = poses * [game.unit, game.unit, 1.0]
+    inside = np.hypot(poses[:, 0], poses[:, 1]) <= table.grid.edge
+    poses, pieces = poses[inside], np.abs(pieces[inside])
+    found = table.value(poses)
+    values = np.abs(found - capture)
+    apart = np.abs(barrier_offsets(table, poses, capture))
     picks = np.linspace(0, len(values) - 1, min(SHOWN, len(values)))
     return {
         "points": len(values),
@@ -59,51 +68,67 @@ def _analytic(table: "Bound", capture: float) -> dict[str, Any]:
         },
         "barrier": [
             {
-                "distance_m": float(found.states[i, 0]),
-                "pursuer_error_rad": float(found.states[i, 1]),
-                "bearing_rad": float(found.states[i, 2]),
+                "pose": poses[i].tolist(),
                 "analytic_m": capture,
-                "table_m": capture + float(found.value_errors[i]),
+                "table_m": float(found[i]),
             }
             for i in picks.astype(int)
         ],
     }
 
 
-def describe_refinement(rows: "Sequence[Refinement]") -> dict[str, Any]:
-    """Return the differences from coarser grids, for JSON.
+def describe_refinement(tables: "Sequence[ValueTable]") -> dict[str, Any]:
+    """Return the differences from coarser tables, for JSON.
 
     The grid error is the mean difference of the last comparison over all
     nodes. It is an estimate and does not bound any single value; the 95th
     percentile, the maximum and the fraction above the mean follow it.
     """
-    last = rows[-1] if rows else None
-    return {
-        "refinement": [
+    import numpy as np
+
+    from ..theory.value.checks import differences
+
+    rows = []
+    for coarse, fine in pairwise(tables):
+        off = differences(coarse, fine)
+        rows.append(
             {
-                "cells": row.grid.distances - 1,
-                "seconds": row.seconds,
-                "mean_difference_m": row.mean,
-                "most_difference_m": row.most,
-                "worst_difference_m": row.worst,
-                "above_mean_share": row.above_mean,
+                "cells": coarse.grid.shape[1] - 1,
+                "seconds": coarse.seconds,
+                "mean_difference_m": float(off.mean()),
+                "most_difference_m": float(np.quantile(off, 0.95)),
+                "worst_difference_m": float(off.max()),
+                "above_mean_share": float((off > off.mean()).mean()),
             }
-            for row in rows
-        ],
-        "grid_error_m": last and last.mean,
-        "grid_error_95_m": last and last.most,
-        "grid_error_worst_m": last and last.worst,
-        "grid_error_above_mean_share": last and last.above_mean,
+        )
+    last = rows[-1] if rows else {}
+    return {
+        "refinement": rows,
+        "grid_error_m": last.get("mean_difference_m"),
+        "grid_error_95_m": last.get("most_difference_m"),
+        "grid_error_worst_m": last.get("worst_difference_m"),
+        "grid_error_above_mean_share": last.get("above_mean_share"),
     }
 
 
-def played_games(table: "Bound", games: int) -> list[dict[str, Any]]:
-    """Simulate random games and compare them with the table."""
-    from ..theory.bound.bound_checks import check_by_playing
+def played_games(
+    game: "CarGame",
+    table: "ValueTable",
+    reach: tuple[float, float],
+    games: int,
+) -> list[dict[str, Any]]:
+    """Simulate games from distances within reach, and compare the table."""
+    from ..theory.value.checks import (
+        compare_evaders,
+        draw_starts,
+        reference_evaders,
+    )
 
+    starts = draw_starts(*reach, games)
+    rows = compare_evaders(game, table, reference_evaders(game), starts)
     return [
-        {f"{k}_m" if k in IN_METERS else k: v for k, v in asdict(p).items()}
-        for p in check_by_playing(table, games)
+        {f"{k}_m" if k in IN_METERS else k: v for k, v in row.items()}
+        for row in rows
     ]
 
 

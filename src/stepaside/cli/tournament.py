@@ -263,7 +263,7 @@ def _run(
     campaign: CampaignOptions,
 ) -> "StudyRun[Game]":
     """Run all games with a progress bar."""
-    from ..strategies.bound_cache import is_pursuit_bound_cached
+    from ..strategies.table_cache import is_pursuit_bound_cached
     from ..studies.tournament_campaign import tournament_study
     from ..studies.tournament_record import CELLS
 

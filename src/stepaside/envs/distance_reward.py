@@ -3,8 +3,8 @@ r"""Rewards of pursuer and evader: the closest approach of the episode.
 The reward of the evader is the change of the closest approach so far, in
 units of v/k, zero or negative; contact with an obstacle counts as a closest
 approach of zero. So its return, undiscounted, is the closest approach of the
-episode less the initial distance: what :mod:`stepaside.theory.bound` bounds.
-The pursuer has the negative.
+episode less the initial distance: what
+:mod:`stepaside.theory.value.two_cars` bounds. The pursuer has the negative.
 
 Shaping adds :math:`\gamma \Phi(s') - \Phi(s)` to the evader's reward, where
 the potential :math:`\Phi` is a weight times the distance, and zero after the

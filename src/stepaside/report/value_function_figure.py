@@ -7,8 +7,9 @@ import numpy as np
 from matplotlib.lines import Line2D
 
 from ..core.poses import Array
-from ..theory.bound import Bound
-from ..theory.bound.barrier import barrier_slice
+from ..theory.value import CarGame, ValueTable
+from ..theory.value.closed_forms import barrier_slice
+from ..theory.value.two_cars import barrier
 from .figure_sizes import sheet
 from .figure_style import (
     EVADER,
@@ -23,18 +24,21 @@ HEADINGS = (0.25, 0.5, 0.75, 1.0)  # angles between the motions, in [pi rad]
 POINTS = 161  # along each side of a slice
 
 
-def draw_bound(bound: Bound, capture: float, path: str) -> None:
+def draw_bound(
+    game: CarGame, table: ValueTable, capture: float, path: str
+) -> None:
     """Draw slices of the value function in the pursuer's frame.
 
     Each slice has one angle between the directions of motion; the evader is
     at (x, y), and an arrow shows its direction of motion.
 
     Args:
-        bound: Table to draw.
+        game: Game of cars.
+        table: Its table.
         capture: Capture distance whose barrier is drawn, in [m].
         path: File to write; its suffix gives the format.
     """
-    far = min(bound.grid.far, 1.4 * float(bound.barrier(capture).max()))
+    far = min(table.grid.edge, 1.4 * float(barrier(table, capture).max()))
     side = np.linspace(-far, far, POINTS)
     lines = 2 if sheet().narrow else 1
     columns = len(HEADINGS) // lines
@@ -45,7 +49,7 @@ def draw_bound(bound: Bound, capture: float, path: str) -> None:
     axes = grid.ravel()
     image: Any = None
     for ax, share in zip(axes, HEADINGS, strict=True):
-        image = _draw_slice(ax, bound, capture, share * pi, side)
+        image = _draw_slice(ax, game, table, capture, share * pi, side)
     for ax in grid[-1]:
         ax.set_xlabel("ahead of the pursuer [m]")
     for ax in grid[:, 0]:
@@ -76,28 +80,33 @@ def draw_bound(bound: Bound, capture: float, path: str) -> None:
 
 
 def _draw_slice(
-    ax: Any, bound: Bound, capture: float, theta: float, side: Array
+    ax: Any,
+    game: CarGame,
+    table: ValueTable,
+    capture: float,
+    theta: float,
+    side: Array,
 ) -> Any:
     """Draw one slice of the value function; return its image.
 
     Args:
         ax: Matplotlib axes.
-        bound: Table to draw.
+        game: Game of cars.
+        table: Its table.
         capture: Capture distance whose barrier is drawn, in [m].
         theta: Angle between the directions of motion, in [rad].
         side: Coordinates along each side of the slice, in [m].
     """
     x, y = np.meshgrid(side, side)
-    r, sight = np.hypot(x, y), np.arctan2(y, x)
-    values = bound.value(r, sight, sight - theta)
-    values[r > bound.grid.far] = np.nan
+    values = table.value(np.stack([x, y, np.full_like(x, theta)], axis=-1))
+    values[np.hypot(x, y) > table.grid.edge] = np.nan
     far = float(side[-1])
     image = ax.pcolormesh(
         x, y, values, vmin=0.0, vmax=far, cmap="cividis", rasterized=True
     )
     ax.contour(x, y, values, [capture], colors="w", linewidths=1.5)
-    if bound.game.identical:
-        unit = bound.game.unit
+    if game.identical:
+        unit = game.unit
         points, _ = barrier_slice(capture / unit, theta)
         label = "the same boundary, computed directly"
         ax.plot(*(unit * points.T), ":", color=THEORY, lw=1.5, label=label)

@@ -12,7 +12,6 @@ from ..core.errors import ConfigurationError, shown
 from ..core.poses import Pose, wrap_angle
 from ..core.ranges import Range
 from ..core.setting import check_settings, setting
-from .bound_cache import pursuit_table
 from .knowledge import ON_THE_SPOT, STAND, Intent, Knowledge, Limits
 from .opponent_track import OpponentTrack, track_of_steps
 from .search import (
@@ -25,6 +24,7 @@ from .search import (
 from .search.candidate_maneuvers import DEEPEST
 from .search.step_motion import half_turn, pursue, step_both
 from .strategy import BackwardStrategy
+from .table_cache import pursuit_table
 
 
 def poses_at_sighting(track: OpponentTrack, rules: StepRules) -> PlayerPair:

@@ -15,9 +15,9 @@ from ..core.setting import check_settings, setting
 from ..planning import Direction
 from ..theory import laws
 from .approach import correcting_heading
-from .bound_cache import cars_bound
 from .knowledge import STAND, Intent, Knowledge, Limits
 from .opponent_track import OpponentTrack, track_of_steps
+from .table_cache import cars_bound, unit_cars
 
 FREE_STRIDES = 3.0  # straight ahead that allow turning by (2)
 DETOUR = 1e-3  # angle between target and evader that is a detour, [rad]
@@ -240,13 +240,12 @@ class OptimalPursuit:
             return Intent(knowledge.bearing), track
         limits = knowledge.limits
         unit = limits.speed / (pi * limits.gain)  # tightest radius, in [m]
-        # The evader is a car that faces against its direction of motion.
-        sight = knowledge.pose_in_map.theta + knowledge.bearing
-        turn = cars_bound(self.cells).pursuer_turn(
-            knowledge.distance / unit,
-            knowledge.bearing,
-            wrap_angle(sight - track.course),
-        )
+        away, bearing = knowledge.distance / unit, knowledge.bearing
+        # The evader is a car that faces its direction of motion.
+        turned = track.course - knowledge.pose_in_map.theta
+        pose = away * cos(bearing), away * sin(bearing), turned
+        answer = cars_bound(self.cells).decisions(pose)[1]
+        turn = unit_cars().pursuer_twists[answer, 2]
         return Intent(pi * float(turn)), track
 
 

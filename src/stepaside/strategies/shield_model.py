@@ -3,20 +3,18 @@
 import logging
 from dataclasses import dataclass
 from functools import lru_cache
-from hashlib import sha256
 from math import asin, cos, pi, sin, tau
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-from ..core.atomic_output import atomic_draft
-from ..core.compilation import cache_folder
 from ..core.poses import Array
 from ..planning import Direction
 from .dash_rollouts import greatest_velocities
 from .knowledge import ON_THE_SPOT, Intent, Limits
 from .shield_settings import ShieldSettings
 from .shield_template import LEGS_LOSS, LEGS_PERIOD
+from .table_cache import cached
 from .velocity_set import STILL, BodyVelocity, VelocitySet
 
 if TYPE_CHECKING:  # the solver imports Numba
@@ -35,7 +33,6 @@ SWAY = 0.03  # of a body on the paper's legs, in [m]
 UNMEASURED = 0.2  # tube of legs beyond their lag, if not measured, in [m]
 CELLS_PER_PERIOD = 6  # passed by the opponent while a motion is held
 TURNS = (-1.0, -0.5, 0.0, 0.5, 1.0)  # of a unicycle's step, of the largest
-FORMAT = 5  # of the files
 
 
 class Motion(NamedTuple):
@@ -292,46 +289,23 @@ def _table(model: ShieldModel) -> "ShieldTable":
 
 
 def _load_table(model: ShieldModel) -> "ShieldTable":
-    """Load a table from the cache of compiled code, or solve the game."""
-    from ..theory.value import PoseGrid, ShieldTable, solve_shield
+    """Load a table from the cache, or solve the game."""
+    from ..theory.value import ShieldTable, solve_shield
 
     game = model.game()
-    solved = (
-        FORMAT, CELLS, game.person, game.period, game.loss, game.jump,
-        model.required, model.response,
+    key = (
+        CELLS, game.person, game.period, game.loss, game.jump,
+        model.required, model.response, game.motions.tobytes(),
     )  # fmt: skip
-    digest = sha256(repr(solved).encode())
-    digest.update(game.motions.tobytes())
-    file = cache_folder() / f"shield-{digest.hexdigest()[:16]}.npz"
-    try:
-        with np.load(file) as saved:
-            left, spacing, outside, seconds = saved["numbers"].tolist()
-            i, j, k = saved["values"].shape
-            return ShieldTable(
-                game, PoseGrid(left, spacing, (i, j, k)), saved["values"],
-                saved["eroded"], saved["standing"],
-                saved["starts"].astype(float), outside, model.response,
-                LEGS_INTERVAL, seconds,
-            )  # fmt: skip
-    except (OSError, ValueError, KeyError, EOFError):
-        pass
-    table = solve_shield(
-        game,
-        model.required,
-        response=model.response,
-        wait=LEGS_INTERVAL,
-        cells=CELLS,
+    arrays = cached(
+        "shield",
+        key,
+        lambda: solve_shield(
+            game,
+            model.required,
+            response=model.response,
+            wait=LEGS_INTERVAL,
+            cells=CELLS,
+        ).arrays(),
     )
-    numbers = [
-        table.grid.left, table.grid.spacing, table.outside, table.seconds,
-    ]  # fmt: skip
-    try:
-        with atomic_draft(file) as draft, draft.open("wb") as out:
-            np.savez_compressed(
-                out, numbers=numbers, values=table.values,
-                eroded=table.eroded, standing=table.standing,
-                starts=table.starts.astype(np.float32),
-            )  # fmt: skip
-    except OSError:  # the cache only saves time
-        pass
-    return table
+    return ShieldTable.from_arrays(game, arrays)

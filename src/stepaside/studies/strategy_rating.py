@@ -12,8 +12,8 @@ from ..arena import Room, RoomRecipe, draw_any_start
 from ..core.errors import ConfigurationError
 from ..planning import Direction
 from ..strategies import load_strategy
-from ..strategies.bound_cache import pursuit_bound
 from ..strategies.strategy_game import StepGame
+from ..strategies.table_cache import pursuit_bound
 from .case_grid import CaseGrid
 from .study import Study
 from .tabulation import Record, half_interval, wilson_interval

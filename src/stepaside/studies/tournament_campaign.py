@@ -3,7 +3,7 @@
 from collections.abc import Sequence
 from functools import partial
 
-from ..strategies.bound_cache import pursuit_bound
+from ..strategies.table_cache import pursuit_bound
 from .case_grid import CaseGrid
 from .study import Study
 from .tabulation import Record

@@ -1,16 +1,16 @@
 """Games of a tournament, and the record of each."""
 
-from math import atan2, hypot, isfinite, pi
+from math import isfinite, pi
 from typing import TYPE_CHECKING
 
 import numpy as np
 
 from ..arena import Room
 from ..core.convex import grown_hull_area
-from ..core.poses import Array, wrap_angle, wrap_angles
+from ..core.poses import Array, rotate, wrap_angles
 from ..strategies import load_strategy
-from ..strategies.bound_cache import pursuit_bound
 from ..strategies.strategy_game import StepGame, StrategyTrack
+from ..strategies.table_cache import pursuit_bound
 from .tabulation import Record
 from .tournament_games import FEEDBACK, play_game
 from .tournament_settings import HUMANOIDS, TournamentSettings
@@ -143,11 +143,9 @@ def bound_of(pursuer: Array, evader: Array, game: StepGame) -> float:
     Returns:
         Closest approach under optimal play, in [m].
     """
-    x, y = (evader[:2] - pursuer[:2]).tolist()
-    sight, unit = atan2(y, x), game.speed / game.gain
-    value = pursuit_bound(CELLS).value(
-        hypot(x, y) / unit,
-        wrap_angle(sight - float(pursuer[2])),
-        wrap_angle(sight + pi - float(evader[2])),
-    )
+    unit, heading = game.speed / game.gain, pursuer[2]
+    x, y = (evader[:2] - pursuer[:2]) / unit
+    x, y = rotate(x, y, -heading)
+    # The evader walks backwards.
+    value = pursuit_bound(CELLS).value((x, y, evader[2] + pi - heading))
     return unit * float(value)

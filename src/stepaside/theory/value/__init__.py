@@ -1,24 +1,5 @@
 """Games on a grid: the distance that a robot can keep from an opponent."""
 
-from .chauffeur import ChauffeurGame, SpeedEllipse, solve_chauffeur
-from .pose_grid import PoseGrid, sub_poses
-from .shield_game import PersonModel, ShieldGame
-from .shield_solver import solve_shield
-from .shield_table import ShieldTable
-from .solver import PursuerLaw, solve_game
-from .table import ValueTable
+from ...core.lazy_exports import lazy_exports
 
-__all__ = [
-    "ChauffeurGame",
-    "PersonModel",
-    "PoseGrid",
-    "PursuerLaw",
-    "ShieldGame",
-    "ShieldTable",
-    "SpeedEllipse",
-    "ValueTable",
-    "solve_chauffeur",
-    "solve_game",
-    "solve_shield",
-    "sub_poses",
-]
+__getattr__, __dir__, __all__ = lazy_exports(__name__, __file__)

@@ -25,6 +25,7 @@ from ...core.errors import PlanError, check_positive, check_within
 from ...core.poses import Array, rotate
 
 COUNT = 60  # points on each piece
+PIECES = {1: "both turn in", 2: "straight last", 3: "same turn first"}
 
 
 def guaranteed_distance(ratio: float) -> float:

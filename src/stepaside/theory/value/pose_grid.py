@@ -89,6 +89,11 @@ class PoseGrid(NamedTuple):
         return np.repeat(found[:, :, None], len(theta), axis=2)
 
     @property
+    def edge(self) -> float:
+        """Distance of the edge to the left of the opponent, in [m]."""
+        return self.right + self.spacing * (self.shape[1] - 1)
+
+    @property
     def farthest(self) -> float:
         """Distance of the farthest node, in [m]."""
         x, y, _ = self.axes()

@@ -73,7 +73,7 @@ def solve_shield(
         grid = _cover(game, least, scale * stands, scale, cells, headings)
         layer = _layer(game, stands, grid)
         walking = _solve(game, grid, least, layer)
-        if walking.rules.outside:
+        if walking.rules.outside and walking.change < _still(least):
             standing, starts = _standing(game, walking, response, wait)
             most = _approach(game, wait, grid) + game.loss_in(wait)
             if _edge(standing, most, grid) >= least:
@@ -104,12 +104,17 @@ def _solve(
         game.person.walks(game.period),
         grid,
         disturbance=game.disturbance,
-        until=STILL * CUT * least,
+        until=_still(least),
         most=CUT * least,
         sag=game.sag(game.period),
         outside=lambda v: SAFE * least * (_edge(v, layer, grid) >= least),
         reach=layer,
     )
+
+
+def _still(least: float) -> float:
+    """Return the change in a period that counts as none, in [m]."""
+    return STILL * CUT * least
 
 
 def _keepable(game: ShieldGame) -> float:

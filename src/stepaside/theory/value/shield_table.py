@@ -1,5 +1,6 @@
 """Table of a solved shield game."""
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cached_property
 from math import pi, tau
@@ -15,6 +16,7 @@ from .shield_game import SEGMENTS, ShieldGame
 from .solver import make_rules
 from .table import interpolated
 
+NUMBERS = ("outside", "response", "wait", "seconds")
 NEAR = 1.1  # value over that outside, from which starts are not looked at
 DISPLACED = 8  # directions of a displacement
 
@@ -53,6 +55,35 @@ class ShieldTable:
     seconds: float
 
     __repr__ = brief_repr
+
+    def arrays(self) -> dict[str, Array]:
+        """Return all of the table but its game, by name."""
+        names = ("values", "eroded", "standing")
+        found = {name: getattr(self, name) for name in names}
+        numbers = [getattr(self, name) for name in NUMBERS]
+        grid = [self.grid.left, self.grid.spacing]
+        return found | {
+            "starts": self.starts.astype(np.float32),
+            "numbers": np.array([*grid, *numbers]),
+        }
+
+    @classmethod
+    def from_arrays(
+        cls, game: ShieldGame, arrays: Mapping[str, Array]
+    ) -> "ShieldTable":
+        """Return the table of a game from its :meth:`arrays`."""
+        left, spacing, *numbers = arrays["numbers"].tolist()
+        values, eroded = arrays["values"], arrays["eroded"]
+        i, j, k = values.shape
+        return cls(
+            game,
+            PoseGrid(left, spacing, (i, j, k)),
+            values,
+            eroded,
+            arrays["standing"],
+            arrays["starts"].astype(np.float64),
+            *numbers,
+        )
 
     def value(self, poses: ArrayLike) -> Array:
         """Return the guaranteed distance of a walking robot.

@@ -24,7 +24,8 @@ import numpy as np
 
 from ...core.errors import PlanError, check_not_negative, check_positive
 from ...core.poses import Array
-from .outcomes import OutcomeRules, relax
+from .interpolation import OutcomeRules
+from .outcomes import relax
 from .pose_grid import PARTS, PoseGrid, least_within
 from .table import ValueTable
 
@@ -65,6 +66,7 @@ def solve_game(
     coarse: int = 1,
     outside: Callable[[Array], float] = rising,
     reach: float = inf,
+    periods: int = MOST,
     progress: Callable[[float], object] | None = None,
 ) -> ValueTable:
     """Compute the distance that a robot can keep from every state.
@@ -84,15 +86,13 @@ def solve_game(
         outside: Returns the value outside the grid from the values of the
             nodes; zero ends the solution, since nothing can be kept.
         reach: Distance from changes within which values may change, in [m].
+        periods: Largest number of periods that are looked ahead.
         progress: Called with fractions of the work done since the last call.
-
-    Returns:
-        Table of the values; its ``outside`` is zero if they did not settle.
 
     Raises:
         PlanError: If a value is out of range.
     """
-    begin, done, first = perf_counter(), 0.0, 0.0
+    begin, done, first, change = perf_counter(), 0.0, 0.0, inf
     check_not_negative(disturbance, "disturbance", "m")
     check_positive(until, "until", "m")
     if interpolate not in INTERPOLATIONS:
@@ -110,7 +110,7 @@ def solve_game(
     guesses = np.zeros((*grid.shape, 2), np.int32)
     changes, active = np.zeros(grid.shape[:2]), (v < most).any(axis=2)
     active, after = near(active, grid, reach), v
-    for _ in range(MOST if rules.outside else 0):
+    for n in range(periods if rules.outside else 0):
         after = least_within(v, grid, disturbance)
         after = after.copy() if after is v else after
         relax(v, after, guesses, active, motions, replies, rules, changes)
@@ -119,18 +119,18 @@ def solve_game(
         first = max(first, change)
         if change < until or not rules.outside:
             break
-        if progress is not None and change < first:
-            part = log(first / change) / log(first / until)
+        if progress is not None:
+            part = (n + 1) / periods
+            if change < first:
+                part = max(part, log(first / change) / log(first / until))
             progress(max(part - done, 0.0))
             done = max(part, done)
         active = near(changes > 0.0, grid, reach)
-    else:
-        rules = rules._replace(outside=0.0)
     if progress is not None:
         progress(1.0 - done)
     after = least_within(v, grid, disturbance)
     return ValueTable(
-        grid, v, after, motions, replies, rules, perf_counter() - begin
+        grid, v, after, motions, replies, rules, change, perf_counter() - begin
     )
 
 

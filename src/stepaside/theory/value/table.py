@@ -1,16 +1,24 @@
 """Table of a solved game: values and decisions of both players."""
 
+from collections.abc import Mapping
 from dataclasses import dataclass
+from typing import Any
+from zipfile import BadZipFile
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from ...core.atomic_output import atomic_draft
 from ...core.brief_repr import brief_repr
+from ...core.errors import AnyPath, PlanError, as_path
 from ...core.poses import Array
-from .outcomes import OutcomeRules, choose_all, look_up_all
+from .interpolation import OutcomeRules, look_up_all
+from .outcomes import choose_all
 from .pose_grid import PoseGrid
 
 Numbers = NDArray[np.int64]
+PARTS = ("values", "after", "motions", "answers", "change", "seconds")
+UNREADABLE = (OSError, EOFError, KeyError, ValueError, TypeError, BadZipFile)
 TIE = 1e-3  # weight of the value after a period where it decides nothing
 
 
@@ -25,6 +33,7 @@ class ValueTable:
         motions: Motions of the robot. Shape (n, parts, 3).
         answers: Motions of its opponent. Shape (m, parts, 3).
         rules: How outcomes are read from the values.
+        change: How much a value still fell over the last period, in [m].
         seconds: Computing time, in [s].
     """
 
@@ -34,6 +43,7 @@ class ValueTable:
     motions: Array
     answers: Array
     rules: OutcomeRules
+    change: float
     seconds: float
 
     __repr__ = brief_repr
@@ -82,6 +92,50 @@ class ValueTable:
             out,
         )
         return out.reshape(*states.shape[:-1], 2)
+
+    def save(self, path: AnyPath) -> None:
+        """Write the table to one ``.npz`` file."""
+        with (
+            atomic_draft(as_path(path, "path")) as draft,
+            draft.open("wb") as file,
+        ):
+            arrays: dict[str, Any] = dict(self.arrays())
+            np.savez_compressed(file, **arrays)
+
+    def arrays(self) -> dict[str, Array]:
+        """Return all that the table consists of, by name."""
+        found = {name: np.asarray(getattr(self, name)) for name in PARTS}
+        return found | {"rules": np.array(self.rules, dtype=np.float64)}
+
+    @classmethod
+    def from_arrays(cls, arrays: Mapping[str, Array]) -> "ValueTable":
+        """Return the table of :meth:`arrays`."""
+        kinds = OutcomeRules.__annotations__.values()
+        row = zip(kinds, arrays["rules"].tolist(), strict=True)
+        rules = OutcomeRules._make(kind(value) for kind, value in row)
+        shape = rules.columns, rules.rows, rules.headings
+        grid = PoseGrid(rules.left, rules.spacing, shape, rules.right)
+        parts = {name: arrays[name] for name in PARTS}
+        change, seconds = float(parts.pop("change")), parts.pop("seconds")
+        return cls(
+            grid, rules=rules, change=change, seconds=float(seconds), **parts
+        )
+
+
+def load_table(path: AnyPath) -> ValueTable:
+    """Read a table written by :meth:`ValueTable.save`.
+
+    Raises:
+        PlanError: If the file is not a valid table.
+    """
+    path = as_path(path, "path", PlanError)
+    try:
+        with np.load(path, allow_pickle=False) as file:
+            return ValueTable.from_arrays(file)
+    except UNREADABLE as error:
+        raise PlanError(
+            f"{path} is not a valid table of a game: {error}"
+        ) from error
 
 
 def interpolated(

@@ -1,0 +1,114 @@
+"""Tables of games, solved at first use and kept in the cache folder."""
+
+from collections.abc import Callable, Mapping
+from contextlib import suppress
+from functools import lru_cache
+from hashlib import sha256
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+from zipfile import BadZipFile
+
+import numpy as np
+
+from ..core.atomic_output import atomic_draft
+from ..core.compilation import cache_folder
+from ..core.poses import Array
+from .search.value_lookup import PursuitValues
+
+if TYPE_CHECKING:  # the solver imports Numba
+    from ..theory.value import CarGame, ValueTable
+
+FAR = 4.5  # of the game against eqs. (1)-(2), in v/k
+CARS_FAR = 8.0  # of the two cars, in turning radii
+FORMAT = 6  # of the files
+UNREADABLE = (OSError, ValueError, KeyError, EOFError, BadZipFile)
+
+
+def cached(
+    name: str, key: object, solve: Callable[[], Mapping[str, Array]]
+) -> Mapping[str, Array]:
+    """Return arrays from the cache folder, or compute and keep them.
+
+    Args:
+        name: Begin of the name of the file.
+        key: All that the arrays depend on; equal keys have equal ``repr``.
+        solve: Computes the arrays.
+    """
+    file = cache_file(name, key)
+    try:
+        with np.load(file) as saved:
+            return dict(saved)
+    except UNREADABLE:
+        pass
+    found: Mapping[str, Any] = solve()
+    with (
+        suppress(OSError),  # the cache only saves time
+        atomic_draft(file) as draft,
+        draft.open("wb") as out,
+    ):
+        np.savez_compressed(out, **found)
+    return found
+
+
+def cache_file(name: str, key: object) -> Path:
+    """Return the file of :func:`cached`."""
+    digest = sha256(repr((FORMAT, key)).encode()).hexdigest()
+    return cache_folder() / f"{name}-{digest[:16]}.npz"
+
+
+def is_pursuit_bound_cached(cells: int) -> bool:
+    """Return whether :func:`pursuit_bound` is cached.
+
+    Args:
+        cells: Number of cells of the table.
+    """
+    return cache_file("pursuit", cells).is_file()
+
+
+@lru_cache(maxsize=8)
+def pursuit_bound(cells: int) -> "ValueTable":
+    """Load or solve the bound against eqs. (1)-(2), with unit speed and gain.
+
+    Args:
+        cells: Number of cells of the table.
+    """
+    from ..theory.value import fixed_pursuit_game
+
+    game = fixed_pursuit_game(1.0, 1.0, 1.0)
+    return _load_or_solve("pursuit", game, FAR, cells)
+
+
+@lru_cache(maxsize=8)
+def cars_bound(cells: int) -> "ValueTable":
+    """Load or solve the bound of two identical cars of unit speed and turn."""
+    return _load_or_solve("cars", unit_cars(), CARS_FAR, cells)
+
+
+def unit_cars() -> "CarGame":
+    """Return the game of :func:`cars_bound`."""
+    from ..theory.value import two_car_game
+
+    return two_car_game(1.0, 1.0, 1.0)
+
+
+@lru_cache(maxsize=8)
+def pursuit_table(cells: int, unit: float) -> PursuitValues:
+    """Return the table of :func:`pursuit_bound` for compiled loops.
+
+    Args:
+        cells: Number of cells of the table.
+        unit: Length unit, speed over gain, in [m].
+    """
+    bound = pursuit_bound(cells)
+    values = bound.values.astype(np.float32)
+    return PursuitValues(values, bound.grid.left, bound.grid.spacing, unit)
+
+
+def _load_or_solve(
+    name: str, game: "CarGame", far: float, cells: int
+) -> "ValueTable":
+    """Load a table from the cache, or solve its game."""
+    from ..theory.value import ValueTable, solve_cars
+
+    arrays = cached(name, cells, lambda: solve_cars(game, far, cells).arrays())
+    return ValueTable.from_arrays(arrays)

@@ -1,0 +1,398 @@
+"""Test games of two cars: closed form, laws, simulated games, files."""
+
+import json
+from dataclasses import replace
+from functools import cache
+from math import pi, tau
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from click.testing import CliRunner
+from numpy.typing import NDArray
+
+from stepaside.cli.bound import bound as bound_command
+from stepaside.cli.main import main
+from stepaside.core.errors import PlanError
+from stepaside.theory.unicycle import make_game, play_games
+from stepaside.theory.value import (
+    CarGame,
+    ValueTable,
+    fixed_pursuit_game,
+    load_table,
+    solve_cars,
+    two_car_game,
+)
+from stepaside.theory.value.checks import (
+    barrier_offsets,
+    compare_evaders,
+    differences,
+    draw_starts,
+    fixed_angle_evader,
+    play,
+    reference_evaders,
+)
+from stepaside.theory.value.closed_forms import barrier_poses, barrier_slice
+from stepaside.theory.value.two_cars import barrier, car_poses
+
+Array = NDArray[np.float64]
+PURSUIT = fixed_pursuit_game(1.0, 1.0, 1.0)
+CARS = two_car_game(1.0, 1.0, 1.0)
+
+
+@cache
+def pursuit() -> ValueTable:
+    return solve_cars(PURSUIT, 3.4, 24)
+
+
+@cache
+def cars(cells: int = 30) -> ValueTable:
+    return solve_cars(CARS, 6.0, cells)
+
+
+@pytest.mark.parametrize("capture", [0.5, 1.0, 2.0])
+def test_the_barrier_is_that_of_the_closed_form(capture: float) -> None:
+    """Every piece, both halves: a few hundredths of a cell of 0.12 radii.
+
+    That is the table of 24 mm for cars of 0.1 m/s and 0.5 rad/s.
+    """
+    table = solve_cars(CARS, 4.8, 40)
+    poses, pieces = barrier_poses(capture)
+    inside = np.hypot(poses[:, 0], poses[:, 1]) < 4.5
+    off = np.abs(barrier_offsets(table, poses[inside], capture))
+    assert table.grid.spacing == pytest.approx(0.12)
+    assert off.mean() < 1.5e-3 / 0.2 and np.quantile(off, 0.95) < 5.5e-3 / 0.2
+    for piece in (1, 2, 3):
+        assert off[np.abs(pieces[inside]) == piece].mean() < 0.025
+
+
+def test_barrier_errors_fall_with_the_grid_spacing() -> None:
+    poses, _ = barrier_poses(1.0)
+    errors = [
+        np.abs(table.value(poses) - 1.0).mean()
+        for table in (cars(15), cars(30))
+    ]
+    assert errors[1] < 0.5 * errors[0]
+
+
+def test_barrier_is_where_the_value_crosses_the_capture_distance() -> None:
+    """Head on, and from behind, where no evader is captured."""
+    reach = barrier(cars(), 1.0)
+    points, _ = barrier_slice(1.0, pi)
+    nose = np.hypot(*points.T).max()
+    assert reach.shape == (32, 64)
+    assert reach[0, 0] == pytest.approx(nose, abs=0.2)
+    assert reach[-1, 32] == pytest.approx(1.0, abs=0.1)
+    assert (reach >= 1.0).all() and reach.max() < nose + 0.3
+
+
+def step_back(game: CarGame, table: ValueTable, time: float) -> Array:
+    """One step of the equation of the value, written independently.
+
+    Both choose among a few turning rates, and states move along straight
+    lines in the pursuer's frame.
+    """
+    x, y, theta = np.meshgrid(*table.grid.axes(), indexing="ij")
+    best = np.full(x.shape, np.inf)
+    for free in np.linspace(-1.0, 1.0, 5 if game.pursuer_turn else 1):
+        turn = game.pursuer_turn * free
+        turn = turn + game.pursuer_gain * np.arctan2(y, x)
+        moved = [
+            np.stack(
+                [
+                    x + time * (np.cos(theta) - 1.0 + turn * y),
+                    y + time * (np.sin(theta) - turn * x),
+                    theta + time * (turn_e - turn),
+                ],
+                axis=-1,
+            )
+            for turn_e in game.evader_turn * np.linspace(-1.0, 1.0, 5)
+        ]
+        kept = np.max([table.value(poses) for poses in moved], axis=0)
+        best = np.minimum(best, kept)
+    least: Array = np.minimum(best, np.hypot(x, y))
+    return least
+
+
+@pytest.mark.parametrize("game", [PURSUIT, CARS], ids=["pursuit", "cars"])
+def test_values_fulfil_their_equation(game: CarGame) -> None:
+    table = pursuit() if game is PURSUIT else cars()
+    time = 0.5 * table.grid.spacing
+    inside = table.grid.distances(np.inf) < 2.5
+    weaker = replace(game, evader_turn=0.8 * game.evader_turn)
+    off, short = (
+        (step_back(each, table, time) - table.values)[inside] / time
+        for each in (game, weaker)
+    )
+    # Values change by up to two per unit of time.
+    assert np.abs(off).mean() < 0.05 and off.mean() > -0.03
+    assert short.mean() < -0.06
+
+
+def test_optimal_evader_reaches_the_value_of_the_table() -> None:
+    """And no other keeps more, beyond the error of these coarse grids."""
+    for game, table in ((PURSUIT, pursuit()), (CARS, cars())):
+        starts = draw_starts(0.3, 2.5, 200)
+        rows = compare_evaders(game, table, reference_evaders(game), starts)
+        best, *others = rows
+        assert best["name"] == "optimal" and len(others) == 4
+        assert abs(best["mean_error"]) < 0.01 and best["most"] < 0.03
+        for other in others:
+            assert other["above"] < 0.05, other["name"]
+            assert other["over_bound"] < best["over_bound"] - 0.02
+
+
+def test_no_pursuer_comes_closer_than_the_optimal_one() -> None:
+    table, starts = cars(), draw_starts(0.5, 4.0, 200)
+    held = CARS.period(table.grid.spacing)
+
+    def towards(poses: Array, _: Array) -> Array:
+        aim = np.arctan2(poses[:, 1], poses[:, 0])
+        turn = np.clip(8.0 * aim / held, -1.0, 1.0)
+        return np.column_stack([np.ones_like(turn), 0.0 * turn, turn])
+
+    closest = play(
+        starts,
+        lambda poses: CARS.evader_twists[table.best_motion(poses)],
+        towards,
+        period=held,
+        duration=tau,
+        reacts=True,
+    )
+    assert (closest - table.value(starts)).min() > -0.1
+
+
+def test_simulated_law_is_that_of_the_unicycles() -> None:
+    """Evaders of eq. (4) against eqs. (1)-(2), by another integrator."""
+    rng = np.random.default_rng(2)
+    states = rng.uniform([0.8, -1.5, -0.5], [2.0, 1.5, 0.5], (40, 3))
+    closest = play(
+        car_poses(*states.T),
+        fixed_angle_evader(PURSUIT, pi / 2),
+        lambda poses, _: PURSUIT.law(poses, 0.01),
+        period=0.01,
+        duration=10.0,
+        parts=1,
+    )
+    game = make_game(1.0, 1.0, 1.0, 1.0)
+    exact = play_games(game, states, 10.0).closest_distance
+    np.testing.assert_allclose(closest, exact, atol=0.02)
+
+
+def test_errors_of_simulated_games_are_over_all_games() -> None:
+    table = pursuit()
+    starts = draw_starts(0.5, 2.0, 100)
+    (row,) = compare_evaders(
+        PURSUIT, table, {"away": fixed_angle_evader(PURSUIT, 0.0)}, starts
+    )
+    mean = float(table.value(starts).mean())
+    assert row["closest"] - mean == pytest.approx(row["mean_error"])
+    assert row["closest"] / mean == pytest.approx(row["over_bound"])
+    assert 0.0 <= row["above"] <= row["most"] <= row["below"]
+
+
+def test_differences_are_those_at_the_nodes_of_the_coarser_table() -> None:
+    coarse, fine = cars(15), cars(30)
+    off = differences(coarse, fine)
+    assert off.shape == coarse.values.shape
+    x, y, theta = coarse.grid.axes()
+    value = fine.value((x[9], y[4], theta[3]))
+    assert off[9, 4, 3] == pytest.approx(abs(value - coarse.values[9, 4, 3]))
+    assert 0.0 < off.mean() < 0.03
+    assert (differences(coarse, coarse) < 1e-9).all()
+
+
+def test_running_straight_away_keeps_the_distance() -> None:
+    for table in (pursuit(), cars()):
+        for r in (0.9, 1.7, 2.6):
+            assert table.value((r, 0.0, 0.0)) == pytest.approx(r, abs=0.02)
+        assert (table.values <= table.grid.distances(np.inf) + 1e-9).all()
+        assert (table.values >= 0.0).all()
+    edge = cars().value((6.0, 0.0, 0.0))
+    assert cars().value((7.0, 0.0, 0.0)) == pytest.approx(edge + 1.0)
+
+
+def test_closest_approach_falls_with_the_angle_to_turn() -> None:
+    poses = car_poses(2.5, 0.0, np.linspace(0.0, pi, 7))
+    assert (np.diff(cars().value(poses)) < 0.0).all()
+
+
+def test_values_are_mirrored_and_periodic() -> None:
+    poses = draw_starts(0.5, 5.0, 200)
+    here = cars().value(poses)
+    np.testing.assert_allclose(cars().value(poses * [1, -1, -1]), here)
+    np.testing.assert_allclose(cars().value(poses + [0, 0, tau]), here)
+
+
+def test_a_lookup_at_a_node_is_its_value() -> None:
+    table = cars()
+    x, y, theta = table.grid.axes()
+    poses = np.stack(np.meshgrid(x, y, theta, indexing="ij"), axis=-1)
+    found = table.value(poses)
+    np.testing.assert_allclose(found, table.values, atol=1e-9)
+
+
+def test_pursuer_turns_towards_and_evader_away() -> None:
+    """Evader to the left: turn left; pursuer on its left: turn right."""
+    table = cars()
+
+    def turns(r: float, a: float, psi: float) -> tuple[float, float]:
+        own, other = table.decisions(car_poses(r, a, psi))
+        return CARS.evader_twists[own, 2], CARS.pursuer_twists[other, 2]
+
+    assert turns(2.0, 1.0, 0.0)[1] == pytest.approx(1.0)
+    assert turns(2.0, -1.0, 0.0)[1] == pytest.approx(-1.0)
+    assert turns(2.0, 0.0, 1.0)[0] == pytest.approx(1.0)
+    assert turns(2.0, 0.0, -1.0)[0] == pytest.approx(-1.0)
+    # The evader is behind: the closest approach has passed.
+    assert turns(2.0, 2.5, 0.3)[1] == pytest.approx(1.0)
+
+
+def test_free_pursuer_is_no_worse_than_one_with_a_law() -> None:
+    free = solve_cars(two_car_game(1.0, 1.0, pi), 3.4, 24)
+    excess = free.values - pursuit().values
+    assert excess.max() < 0.05 and excess.mean() < -0.01
+
+
+@pytest.mark.parametrize(
+    ("better", "sign"),
+    [
+        ({"evader_turn": 1.5 * pi}, 1),
+        ({"pursuer_speed": 1.2}, -1),
+        ({"pursuer_gain": 1.5}, -1),
+    ],
+    ids=["evader turns", "pursuer speed", "pursuer turns"],
+)
+def test_value_is_monotone_in_the_capabilities(
+    better: dict[str, float], sign: int
+) -> None:
+    other = solve_cars(replace(PURSUIT, **better), 3.4, 24, horizon=3.0)
+    plain = solve_cars(PURSUIT, 3.4, 24, horizon=3.0)
+    change = sign * (other.values - plain.values)
+    assert change.mean() > 2e-3 and change.min() > -0.1
+
+
+def test_lengths_scale_with_speed_over_gain() -> None:
+    """NAO's 0.1 m/s and 0.2 1/s are the same game at half the size."""
+    small = solve_cars(fixed_pursuit_game(0.1, 0.1, 0.2), 1.7, 24)
+    np.testing.assert_allclose(2 * small.values, pursuit().values, atol=2e-3)
+
+
+def test_value_falls_with_the_horizon() -> None:
+    values = [
+        solve_cars(PURSUIT, 3.4, 24, horizon=T).values for T in (0.3, 1.0, 3.0)
+    ]
+    first, second = values[0] - values[1], values[1] - values[2]
+    assert first.min() > -0.02 and first.max() > 0.3
+    assert second.min() > -0.02
+    assert np.abs(values[2] - pursuit().values).max() < 0.02
+
+
+def test_a_faster_pursuer_catches_in_the_end() -> None:
+    game = two_car_game(1.3, 1.0, 1.0)
+    soon, late = (
+        solve_cars(game, 4.0, 16, horizon=T).value((2.0, 0.0, 0.0))
+        for T in (2.0, 12.0)
+    )
+    assert late < 0.2 < 1.0 < soon
+
+
+def test_progress_adds_up() -> None:
+    done: list[float] = []
+    solve_cars(PURSUIT, 3.4, 8, progress=done.append)
+    assert sum(done) == pytest.approx(1.0) and min(done) >= 0.0
+
+
+@pytest.mark.parametrize(
+    ("make", "words"),
+    [
+        (lambda: fixed_pursuit_game(1.0, 1.0, float("nan")), "pursuer_gain"),
+        (lambda: two_car_game(1.0, 1.0, 0.0, 1.0), "pursuer_turn"),
+        (lambda: two_car_game(1.0, -1.0, 1.0), "evader_speed"),
+        (lambda: replace(CARS, pursuer_gain=1.0), "pursuer_turn"),
+        (lambda: solve_cars(CARS, 3.0, 16, horizon=-1.0), "horizon"),
+        (lambda: solve_cars(CARS, 3.0, 4), "cells"),
+        (lambda: solve_cars(CARS, float("inf"), 16), "far"),
+        (lambda: barrier(cars(), 7.0), "capture"),
+    ],
+)
+def test_bad_values_are_refused_by_name(make: Any, words: str) -> None:
+    with pytest.raises(PlanError, match=words):
+        make()
+
+
+def test_saved_table_is_read_back(tmp_path: Path) -> None:
+    table = pursuit()
+    table.save(tmp_path / "table.npz")
+    again = load_table(tmp_path / "table.npz")
+    poses = draw_starts(0.5, 4.0, 50)
+    np.testing.assert_array_equal(again.value(poses), table.value(poses))
+    np.testing.assert_array_equal(
+        again.best_motion(poses), table.best_motion(poses)
+    )
+    assert again.rules == table.rules and again.grid == table.grid
+
+
+@pytest.mark.parametrize("damage", ["missing", "empty", "cut", "other"])
+def test_unreadable_table_is_refused_in_one_line(
+    damage: str, tmp_path: Path
+) -> None:
+    path = tmp_path / "table.npz"
+    if damage == "cut":
+        solve_cars(PURSUIT, 3.4, 8).save(path)
+        path.write_bytes(path.read_bytes()[:-500])
+    elif damage == "other":
+        np.savez(path, values=np.zeros(3))
+    elif damage == "empty":
+        path.touch()
+    with pytest.raises(PlanError, match="not a valid table of a game") as why:
+        load_table(path)
+    assert "\n" not in str(why.value)
+
+
+def test_command_prints_its_grid_error(tmp_path: Path) -> None:
+    options = ["--grid", "16", "--games", "20", "--json"]
+    done = CliRunner().invoke(
+        bound_command, [*options, "--output", str(tmp_path / "table.npz")]
+    )
+    assert done.exit_code == 0, done.output
+    found = json.loads(done.output)
+    (row,) = found["refinement"]
+    assert row["cells"] == 8
+    assert found["grid_error_m"] == row["mean_difference_m"] > 0.0
+    assert found["played"][0]["name"] == "optimal"
+    assert found["barrier_reach_m"] > found["capture_m"]
+    assert load_table(tmp_path / "table.npz").change == found["falling_m"]
+
+
+def test_command_compares_with_the_closed_form_and_draws(
+    tmp_path: Path,
+) -> None:
+    figure = tmp_path / "cars.png"
+    words = "--against any --pursuer-turn 1 --capture 1 --grid 24 --games 0"
+    words += f" --figure {figure} --json"
+    done = CliRunner().invoke(bound_command, words.split())
+    assert done.exit_code == 0, done.output
+    found = json.loads(done.stdout)
+    assert found["analytic"]["value_error_median_m"] < 0.02
+    assert len(found["analytic"]["barrier"]) == 12
+    assert found["grid_error_m"] < found["grid_error_95_m"]
+    assert found["grid_error_95_m"] < found["grid_error_worst_m"]
+    assert figure.stat().st_size > 10_000
+
+
+@pytest.mark.parametrize(
+    ("words", "said"),
+    [
+        ("--capture 0", "capture must lie in"),
+        ("--capture 99 --farthest 5", "must be below 5 [m]"),
+        ("--pursuer-speed nan", "--pursuer-speed"),
+        ("--output table.txt", ".npz"),
+        ("--figure table.txt", "--figure"),
+        ("--grid 3", "grid must be an integer"),
+    ],
+)
+def test_bad_options_are_refused(words: str, said: str) -> None:
+    done = CliRunner().invoke(main, ["bound", *words.split()])
+    assert done.exit_code == 2 and said in done.output
