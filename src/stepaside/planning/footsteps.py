@@ -74,22 +74,7 @@ def place_footsteps(
     check_positive(foot_spacing, "foot_spacing", "m")
     times = np.arange(1, count + 1) * (stride / trajectory.speed)
     steps = trajectory.poses(times)
-    return beside_path(steps, 0.5 * foot_spacing * first_foot.value)
-
-
-def beside_path(steps: Array, half: float) -> Array:
-    """Move samples of a path sideways to alternate feet.
-
-    The numbers may be traced.
-
-    Args:
-        steps: Poses (x [m], y [m], theta [rad]) on the path; changed in
-            place. Shape (n, 3).
-        half: Signed half spacing of the foot that lands first, in [m].
-
-    Returns:
-        Poses of the feet in the frame of the other foot. Shape (n, 3).
-    """
+    half = 0.5 * foot_spacing * first_foot.value
     left = np.full(len(steps), half)
     left[1::2] = -half  # signed offset of each foot, in [m]
     theta = steps[:, 2]

@@ -214,7 +214,17 @@ class ManeuverPlanner:
 def _inputs(
     schedule: Schedule, placements: Array, state: CenterState | None
 ) -> Array:
-    """Check the state, and assemble the inputs of the constant maps."""
+    """Check the state, and assemble the inputs of the constant maps.
+
+    Args:
+        schedule: The schedule.
+        placements: Placements of the feet; see :class:`.ManeuverPlan`.
+        state: Present CoM in the frame of the support foot; None if the
+            robot stands midway.
+
+    Returns:
+        The inputs, in [m]. Shape (inputs, 2).
+    """
     if state is None:
         if not schedule.standing:
             raise PlanError("state must be given unless the robot stands")
@@ -223,43 +233,19 @@ def _inputs(
     (x, y), (vx, vy) = state
     check_finite(x + y, "CoM position", "m")
     check_finite(vx + vy, "CoM velocity", "m/s")
-    return plan_inputs(schedule, placements, state)
-
-
-def plan_inputs(
-    schedule: Schedule, placements: Array, state: CenterState
-) -> Array:
-    """Assemble the inputs of the constant maps of a schedule.
-
-    The numbers may be traced, without a swing reaction.
-
-    Args:
-        schedule: The schedule.
-        placements: Placements of the feet; see :class:`.ManeuverPlan`.
-        state: Present CoM in the frame of the support foot.
-
-    Returns:
-        The inputs, in [m]. Shape (inputs, 2).
-    """
-    gait = schedule.settings
-    n = schedule.count
-    inputs = np.zeros((schedule.inputs, 2), dtype=placements.dtype)
-    theta = placements[1:, 2]
-    ahead = gait.zmp_forward
-    inputs[: n + 1, 0] = placements[1:, 0] + ahead * np.cos(theta)
-    inputs[: n + 1, 1] = placements[1:, 1] + ahead * np.sin(theta)
-    (x, y), (vx, vy) = state
-    inputs[n + 1] = (x, y) if schedule.standing else inputs[0]
+    gait, n = schedule.settings, schedule.count
+    inputs = np.zeros((schedule.inputs, 2))
+    anchors, theta = placements[:, :2].copy(), placements[:, 2]
+    anchors[:, 0] += gait.zmp_forward * np.cos(theta)
+    anchors[:, 1] += gait.zmp_forward * np.sin(theta)
+    inputs[: n + 1] = anchors[1:]
+    inputs[n + 1] = (x, y) if schedule.standing else anchors[1]
     if schedule.has_swing_reaction:
-        u, v, turned = placements[0].tolist()
-        inputs[n + 2] = u + ahead * cos(turned), v + ahead * sin(turned)
+        inputs[n + 2] = anchors[0]
     inputs[-1] = x, y
     row = schedule.dcm_start_map
-    planned = row @ inputs
-    eta = gait.eta
-    scale = 1.0 / float(row[-2])
-    inputs[-2, 0] = (x + vx / eta - planned[0]) * scale
-    inputs[-2, 1] = (y + vy / eta - planned[1]) * scale
+    dcm = x + vx / gait.eta, y + vy / gait.eta
+    inputs[-2] = (dcm - row @ inputs) / row[-2]
     return inputs
 
 

@@ -59,40 +59,17 @@ class UnicycleTrajectory:
         """
         t = np.asarray(times, dtype=np.float64)
         rate = laws.proportional_rate(self.bearing, self.gain)
-        arc = 1.0 / self.gain  # time spent on it, in [s]
+        until = 1.0 / self.gain  # time spent on the arc, in [s]
         if self.saturated:
             rate = laws.saturated_rate(self.bearing, self.gain)
-            arc *= abs(self.bearing)
-        turning = np.minimum(t, arc)
+            until *= abs(self.bearing)
+        turning = np.minimum(t, until)
         velocity = self.direction.value * self.speed
-        return arc_then_line(turning, t - turning, rate, velocity)
-
-
-def arc_then_line(
-    turning: Array,
-    straight: Array,
-    rate: float | Array,
-    velocity: float | Array,
-) -> Array:
-    """Return the poses after an arc of circle and a straight line.
-
-    A chord of an arc has length sinc(theta / 2) of the arc's and points
-    along theta / 2; this form has no singularity at theta = 0. The numbers
-    may be traced.
-
-    Args:
-        turning: Times on the arc, in [s]. Shape (n,).
-        straight: Times on the line, in [s]. Shape (n,).
-        rate: Turning rate on the arc, in [rad/s].
-        velocity: Driving velocity, negative backward, in [m/s].
-
-    Returns:
-        Poses (x [m], y [m], theta [rad]), columns. Shape (n, 3).
-    """
-    theta = turning * rate
-    half = 0.5 * theta
-    chord = (velocity * turning) * np.sinc(half / np.pi)
-    along = velocity * straight
-    x = chord * np.cos(half) + along * np.cos(theta)
-    y = chord * np.sin(half) + along * np.sin(theta)
-    return np.stack([x, y, theta], axis=-1)
+        theta = rate * turning
+        half = 0.5 * theta
+        # A chord of an arc is shorter by sinc(half), and points along half.
+        chord = velocity * turning * np.sinc(half / np.pi)
+        along = velocity * (t - turning)
+        x = chord * np.cos(half) + along * np.cos(theta)
+        y = chord * np.sin(half) + along * np.sin(theta)
+        return np.stack([x, y, theta], axis=-1)

@@ -33,7 +33,7 @@ from ..core.errors import (
     check_positive,
     check_within,
 )
-from ..core.poses import Array
+from ..core.poses import Array, Pose
 from .footsteps import Foot
 from .gait_settings import GaitSettings
 from .plan import ManeuverPlan
@@ -134,11 +134,10 @@ def held_regions(
     if until == len(phases):
         return regions
     row = phases[until].rows[0]
-    x, y, theta = plan.placements[row]
-    c, s = cos(theta), sin(theta)
+    landing = Pose(*plan.placements[row].tolist())
     support = plan.first_foot if row % 2 == 0 else plan.first_foot.other
     region = _held_after_landing(gait, reach, support)
-    region = region @ np.array([[c, s], [-s, c]]) + (x, y)
+    region = landing.transform_points(region)
     for phase in reversed(phases[now : until + 1]):
         rest = phase.end - max(phase.start, time)
         region = _before(region, phase.corners, gait.eta, rest)

@@ -11,7 +11,7 @@ from typing import NamedTuple
 import numpy as np
 
 from ..core.convex import convex_hull, half_planes
-from ..core.poses import Array
+from ..core.poses import Array, Pose
 from .footsteps import Foot
 from .gait_settings import SoleRectangle
 from .schedule import Schedule
@@ -106,7 +106,6 @@ def sole_corners(pose: Array, foot: Foot, sole: SoleRectangle) -> Array:
     Returns:
         Corners, in [m]. Shape (4, 2).
     """
-    x, y, theta = pose
     left = np.array(
         [
             [sole.front, sole.outer],
@@ -116,6 +115,4 @@ def sole_corners(pose: Array, foot: Foot, sole: SoleRectangle) -> Array:
         ]
     )
     left[:, 1] *= foot.value
-    c, s = np.cos(theta), np.sin(theta)
-    corners: Array = left @ np.array([[c, s], [-s, c]]) + (x, y)
-    return corners
+    return Pose(*pose.tolist()).transform_points(left)

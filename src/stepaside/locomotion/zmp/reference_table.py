@@ -1,6 +1,6 @@
 """References of a plan at the control ticks."""
 
-from math import ceil, cos, sin
+from math import ceil
 from typing import NamedTuple
 
 import numpy as np
@@ -115,8 +115,6 @@ class ReferenceTable:
         count = max(1, ceil((duration - offset) / tick - 1e-6))
         sampler = self._sampler(plan.schedule, offset, count)
         samples = plan.sample(sampler)
-        c, s = cos(plan_frame.theta), sin(plan_frame.theta)
-        turn = np.array([[c, s], [-s, c]])
         settings = plan.schedule.settings
         path = path_samples(
             plan.placements, plan.first_foot, settings.foot_spacing
@@ -133,11 +131,13 @@ class ReferenceTable:
                 template[:, :2],
             ]
         )
-        points = points @ turn
-        points += plan_frame[:2]
+        points = plan_frame.transform_points(points)
         self._reaction = self._lists = None
         if plan.schedule.has_swing_reaction:
-            self._reaction = (samples.zmp - samples.pivot) @ turn
+            turned = Pose(0.0, 0.0, plan_frame.theta)
+            self._reaction = turned.transform_points(
+                samples.zmp - samples.pivot
+            )
         com, left, right, zmp, dcm, position = points.reshape(6, count, 2)
         theta = plan_frame.theta
         self.references = np.zeros((count, 15))
