@@ -102,7 +102,7 @@ endif
 .venv-ros2-humble/.installed:
 	$(PYTHON310) -m venv .venv-ros2-humble
 	.venv-ros2-humble/bin/python -m pip install --disable-pip-version-check \
-		--quiet --only-binary :all: cyclonedds==0.10.2 numpy
+		--quiet --only-binary :all: cyclonedds==0.10.2 numpy rosbags
 	touch $@
 
 .venv-ros2-%/.installed:

@@ -2,10 +2,10 @@
 
 Humble has no wheels on PyPI. This stands in for ``rclpy`` and its messages in
 ``ros2_peer.py``: the same names of topics and types on DDS, the same quality
-of service, the definitions of messages of Humble (those of
-``stepaside.drivers.ros2.messages``, which the tests compare byte by byte with
-rosbags' definitions of Humble), on the loopback interface as with
-``ROS_LOCALHOST_ONLY=1``. Its Python needs ``cyclonedds==0.10.2`` and numpy.
+of service, rosbags' definitions of messages of Humble (by
+``stepaside.drivers.ros2_dds``), on the loopback interface as with
+``ROS_LOCALHOST_ONLY=1``. Its Python needs ``cyclonedds==0.10.2``, numpy and
+rosbags.
 """
 
 import os
@@ -22,7 +22,7 @@ PAUSE = 0.002  # between two looks for messages, in [s]
 NAMES = {
     "geometry_msgs.msg": ("PointStamped", "Twist", "TwistStamped"),
     "nav_msgs.msg": ("Odometry",),
-    "rosgraph_msgs.msg": ("ClockMessage",),
+    "rosgraph_msgs.msg": ("Clock",),
     "sensor_msgs.msg": (
         *("CameraInfo", "CompressedImage", "Image", "JointState"),
     ),
@@ -143,9 +143,9 @@ class Node:
 
     def to_msg(self) -> Any:
         """Return the time."""
-        from stepaside.drivers.ros2.messages import Time
+        from stepaside.drivers.ros2_dds import stamp_of
 
-        return Time.of(time())
+        return stamp_of(time())
 
     def spin(self, timeout: float) -> None:
         """Take messages and call timers for a time, in [s]."""
@@ -171,13 +171,13 @@ def install() -> None:
     from cyclonedds.idl import types
 
     setattr(types, "byte", types.uint8)  # noqa: B010 (of version 0.10)
-    from stepaside.drivers.ros2 import messages
+    from stepaside.drivers.ros2_dds import message_type
 
     for module, names in NAMES.items():
         made = ModuleType(module)
         for name in names:
-            kind = MessageKind(getattr(messages, name))
-            setattr(made, name.removesuffix("Message"), kind)
+            kind = message_type(f"{module.replace('.', '/')}/{name}")
+            setattr(made, name, MessageKind(kind))
         sys.modules[module] = made
     rclpy, qos = ModuleType("rclpy"), ModuleType("rclpy.qos")
     vars(qos).update(QoSProfile=Quality, DurabilityPolicy=Durability)

@@ -147,13 +147,19 @@ def be_the_robot(checkout: Path, listen: str) -> None:
 def play_against(listen: str, chest: Path) -> dict[str, Any]:
     """Stand up, be pressed, move the head by control, rest."""
     import numpy as np
-    from stepaside.drivers.joint.safety_state_machine import RobotState
-    from stepaside.drivers.lola.lola_address import parse_address
-    from stepaside.drivers.lola.lola_connection import open_lola
-    from stepaside.drivers.lola.nao_joints import HIGH, LOW, NAMES
 
-    stance = np.clip(np.zeros(23), LOW[:23] + 0.02, HIGH[:23] - 0.02)
-    body = open_lola(parse_address(listen), NAMES[:23], stance)
+    from stepaside.drivers.joint_body import JointBody
+    from stepaside.drivers.joint_robot import motors_of
+    from stepaside.drivers.lola import LolaRobot
+    from stepaside.drivers.robot_session import RobotSession
+    from stepaside.drivers.safety_states import SafetyState
+    from stepaside.robots.description import load_robot
+
+    robot = LolaRobot(listen)
+    motors = motors_of(robot, load_robot("nao"))
+    head = motors.names.index("HeadYaw")
+    stance = np.clip(0.0, motors.low + 0.02, motors.high - 0.02)
+    body = JointBody(RobotSession(robot, "release"), motors, stance)
     states: list[str] = []
     errors: list[float] = []
     began, frames, stood, walked = time.monotonic(), 0, 0, 0
@@ -164,28 +170,28 @@ def play_against(listen: str, chest: Path) -> dict[str, Any]:
         state = body.state
         if not states or states[-1] != state.value:
             states.append(state.value)
-        if state is RobotState.READY:
+        if state is SafetyState.READY:
             stood += 1  # press for ten ticks; the button acts when let go
             if stood == 10:
                 chest.touch()
             elif stood == 20:
                 chest.unlink()
-        elif state is RobotState.WALKING:
+        elif state is SafetyState.WALKING:
             if walked > 2:  # an answer acts on this frame or on the next
                 errors.append(
                     min(
-                        abs(measured.joint_positions[0] - angle)
+                        abs(measured.joint_positions[head] - angle)
                         for angle in asked
                     )
                 )
             walked += 1
-            wanted[0] = SWING * np.sin(0.05 * walked)
-            asked = [*asked[-2:], float(wanted[0])]
+            wanted[head] = SWING * np.sin(0.05 * walked)
+            asked = [*asked[-2:], float(wanted[head])]
             if walked == WALKED:
                 body.rest("the check is over")
-        elif state is RobotState.STOPPING:
+        elif state is SafetyState.STOPPING:
             body.halted()
-        if state is RobotState.LIMP and len(states) > 1:
+        if state is SafetyState.LIMP and len(states) > 1:
             break
         body.write(wanted)
     rate = frames / (time.monotonic() - began)

@@ -37,24 +37,18 @@ from typing import Any
 
 import numpy as np
 import ros2_peer as peer
-from stepaside.drivers.ros2.dds_domain import DdsParticipant, take_messages
-from stepaside.drivers.ros2.image_messages import pixels_of
-from stepaside.drivers.ros2.messages import (
-    CompressedImage,
-    Image,
-    JointState,
-    Odometry,
-)
-from stepaside.drivers.ros2.ros2_body import Ros2Body
-from stepaside.drivers.ros2.ros2_server import Ros2Server, WorldClock
-from stepaside.drivers.ros2.topics import dds_topic
-from stepaside.drivers.velocity.velocity_body import REST, VelocityCommand
-from stepaside.drivers.velocity.walking_robot import WalkerState
 
 from stepaside.core.poses import Pose
+from stepaside.drivers.robot_address import RobotRequest
+from stepaside.drivers.ros2 import make_robot
+from stepaside.drivers.ros2_dds import DdsParticipant, take_messages
+from stepaside.drivers.ros2_images import pixels_of
+from stepaside.drivers.ros2_server import Ros2Server, WorldClock
+from stepaside.drivers.walking_robot import WalkerState
 from stepaside.perception.camera_model import CameraModel
 from stepaside.perception.images import ColourImage
 from stepaside.perception.measurement import Sighting
+from stepaside.strategies.velocity_set import BodyVelocity
 from stepaside.studies.result_files import header, write_result
 
 RESULT = Path("docs/results/ros2-peers.json")
@@ -66,7 +60,8 @@ WALKED = 2.0  # duration of a walk of play, or of a served duel, in [s]
 TICK = 0.012
 WITHOUT_ROS = "dds:"  # before a Python that has CycloneDDS and no rclpy
 KINDS = ("Twist", "TwistStamped")
-ASKED = VelocityCommand(*peer.ASKED)
+REST = BodyVelocity(0.0, 0.0, 0.0)
+ASKED = BodyVelocity(peer.ASKED[0], 0.0, peer.ASKED[1])
 TYPES = {
     "odom": "nav_msgs/Odometry",
     "joint_states": "sensor_msgs/JointState",
@@ -168,20 +163,25 @@ def row(
     }
 
 
+def ros_type(topic: str) -> str:
+    """Return the type of a topic, as ROS 2 names it."""
+    return TYPES[topic].replace("/", "/msg/")
+
+
 class Sensors:
     """Subscriptions to a ROS 2 robot beyond those of a body."""
 
     def __init__(self, dds: DdsParticipant) -> None:
         """Take part in its topics."""
         kinds = {
-            "odom": (Odometry, self.odometry),
-            "joint_states": (JointState, self.joints),
-            "camera/image_raw": (Image, self.image),
-            "camera/image_raw/compressed": (CompressedImage, self.squeezed),
+            "odom": self.odometry,
+            "joint_states": self.joints,
+            "camera/image_raw": self.image,
+            "camera/image_raw/compressed": self.squeezed,
         }
         self._readers = {
-            name: (dds.reader(dds_topic("/theirs", name), kind), right)
-            for name, (kind, right) in kinds.items()
+            name: (dds.reader(f"/theirs/{name}", ros_type(name)), right)
+            for name, right in kinds.items()
         }
         self.heard = peer.Heard(*kinds, "other")
 
@@ -196,7 +196,7 @@ class Sensors:
         self._readers.clear()
 
     @staticmethod
-    def odometry(message: Odometry) -> bool:
+    def odometry(message: Any) -> bool:
         """Return whether odometry is as sent."""
         return (
             message.child_frame_id == peer.FRAME
@@ -205,7 +205,7 @@ class Sensors:
         )
 
     @staticmethod
-    def joints(message: JointState) -> bool:
+    def joints(message: Any) -> bool:
         """Return whether joint states are as sent."""
         return (
             peer.exact(message.name, peer.NAMES)
@@ -215,13 +215,13 @@ class Sensors:
         )
 
     @staticmethod
-    def image(message: Image) -> bool:
+    def image(message: Any) -> bool:
         """Return whether an image is as sent."""
         pixels = pixels_of(message)
         return pixels is not None and pixels.tobytes() == peer.PIXELS
 
     @staticmethod
-    def squeezed(message: CompressedImage) -> bool:
+    def squeezed(message: Any) -> bool:
         """Return whether a compressed image is as sent."""
         return bytes(message.data) == peer.PIXELS[:1000]
 
@@ -230,14 +230,16 @@ def their_robot(python: str, kind: str) -> Iterator[dict[str, Any]]:
     """Check our body at a ROS 2 robot that takes one type of command."""
     dds = DdsParticipant(DOMAIN)
     sensors = Sensors(dds)
-    body = Ros2Body(dds, "/theirs")
+    robot = make_robot(RobotRequest("/theirs", domain=DOMAIN))()
+    robot.open()
+    robot.prepare()
     with started(python, "robot", "--command", kind) as node:
 
         def done() -> bool:
             sensors.look()
-            report = body.listen(0.01)
+            report = robot.listen()
             if report is not None:
-                body.command(REST if report.hindrance else ASKED)
+                robot.command(*(REST if report.hindrance else ASKED))
                 if report.sighting is not None:
                     seen = report.sighting
                     x, y = peer.OTHER
@@ -248,7 +250,7 @@ def their_robot(python: str, kind: str) -> Iterator[dict[str, Any]]:
 
         until(done)
         sensors.close()
-        body.close()
+        robot.close()
         told = node.end()
     if kind == KINDS[0]:
         for name, count in sensors.heard.count.items():
@@ -266,7 +268,7 @@ class Walker:
         """Begin at a time and a place."""
         self.time, self.velocity = 3.0, REST
 
-    def command(self, velocity: VelocityCommand) -> None:
+    def command(self, velocity: BodyVelocity) -> None:
         """Take a command."""
         self.velocity = velocity
 

@@ -3,14 +3,13 @@
     python -m tools.checks.served_odometry
 
 walks simulated robots with hardware-like bodies for 20 s at six velocities
-and prints the errors that ``drivers/ros2/odometry_covariance.py`` rests on.
+and prints the errors that ``drivers/ros2_server.py`` rests on.
 """
 
 from collections.abc import Callable
 from math import hypot
 
 import numpy as np
-from stepaside.drivers.velocity.velocity_body import VelocityCommand
 
 from stepaside.core.poses import Array, Pose
 from stepaside.games.duel_as_game import build_duel_world
@@ -24,6 +23,7 @@ from stepaside.games.initial_poses import with_initial_poses
 from stepaside.games.velocity_walker import VelocityWalker
 from stepaside.locomotion.zmp.control_settings import STABILISED
 from stepaside.sim.body_settings import BODIES
+from stepaside.strategies.velocity_set import BodyVelocity
 
 DURATION, SEEDS = 20.0, range(1, 6)
 COMMANDS = (
@@ -57,7 +57,8 @@ def walked(seed: int, first: int) -> list[Array]:
     rows: list[list[list[float]]] = [[] for _ in robots]
     for _ in range(round(DURATION / stage.world.physics.tick)):
         for number, robot in enumerate(robots):
-            robot.command(VelocityCommand(*COMMANDS[first + number]))
+            forward, turn = COMMANDS[first + number]
+            robot.command(BodyVelocity(forward, 0.0, turn))
             robot.tick()
             rows[number].append(compared(robot))
         stage.world.step()
