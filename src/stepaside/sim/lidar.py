@@ -1,7 +1,5 @@
 """Simulated lidar above the head of a robot."""
 
-from collections import deque
-
 import mujoco
 import numpy as np
 
@@ -11,7 +9,7 @@ from ..robots.geom_points import geom_points_in_world
 from ..robots.head import Mount
 from .camera_settings import LidarSettings
 from .ray_casting import RayCaster
-from .sensor_stream import SensorStream
+from .sensor_stream import SensorStream, StreamedSensors, period_of
 from .world import World
 
 RINGS = (0.0, -10.0, -25.0, -40.0)  # elevations, in [deg]
@@ -19,13 +17,10 @@ ABOVE = 0.05  # of the lidar over the highest point of the robot, in [m]
 STEEPEST = 0.1  # cosine of the incidence below which nothing returns
 
 
-class Lidar:
+class Lidar(StreamedSensors[LidarScan]):
     """Lidar that scans all around, with returns in the frame of the torso.
 
     Returns of the own body are left out, as with a mask on a real robot.
-
-    Attributes:
-        exposed: Scans taken at the last tick, before their latency.
     """
 
     def __init__(
@@ -65,27 +60,14 @@ class Lidar:
         self._caster = RayCaster(
             model, data, f"{name}/{torso}", self._mount, self._rays
         )
-        tick = world.physics.tick
-        self._stream = SensorStream(
+        stream = SensorStream(
             self._take,
-            max(1, round(1.0 / settings.rate / tick)) * tick,
+            period_of(settings.rate, world.physics.tick),
             settings.latency,
             0.0,
             self._generator,
-            0,
-            deque(),
         )
-        self.exposed: list[LidarScan] = []
-
-    def read(self, now: float) -> tuple[LidarScan, ...]:
-        """Return the scans that arrive at a tick."""
-        self.exposed.clear()
-        if now < self._stream.due:
-            return ()
-        return tuple(self._stream.read(now, self.exposed))
-
-    def close(self) -> None:
-        """Do nothing: it holds no resources."""
+        super().__init__([stream])
 
     def _take(self, now: float) -> LidarScan:
         """Take a scan."""

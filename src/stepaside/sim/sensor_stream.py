@@ -1,8 +1,8 @@
-"""Sensor with a rate, a latency and losses."""
+"""Sensors with a rate, a latency and losses."""
 
 from collections import deque
-from collections.abc import Callable
-from dataclasses import dataclass
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, field
 from typing import Generic, TypeVar
 
 import numpy as np
@@ -31,8 +31,8 @@ class SensorStream(Generic[T]):
     latency: float
     drop: float
     generator: np.random.Generator
-    taken: int
-    pending: deque[tuple[float, T]]
+    taken: int = 0
+    pending: deque[tuple[float, T]] = field(default_factory=deque)
 
     @property
     def due(self) -> float:
@@ -59,3 +59,35 @@ class SensorStream(Generic[T]):
         while self.pending and self.pending[0][0] <= now + 1e-9:
             arrived.append(self.pending.popleft()[1])
         return arrived
+
+
+class StreamedSensors(Generic[T]):
+    """Sensors of one robot.
+
+    Attributes:
+        exposed: Percepts taken at the last tick, before their latency.
+    """
+
+    def __init__(self, streams: Sequence[SensorStream[T]]) -> None:
+        """Read some sensors."""
+        self._streams, self._due = streams, 0.0
+        self.exposed: list[T] = []
+
+    def read(self, now: float) -> tuple[T, ...]:
+        """Return the percepts that arrive at a tick."""
+        self.exposed.clear()
+        if now < self._due:
+            return ()
+        arrived: list[T] = []
+        for stream in self._streams:
+            arrived += stream.read(now, self.exposed)
+        self._due = min(stream.due for stream in self._streams)
+        return tuple(arrived)
+
+    def close(self) -> None:
+        """Release graphics, if any."""
+
+
+def period_of(rate: float, tick: float) -> float:
+    """Return the multiple of a tick [s] that is nearest to a rate [1/s]."""
+    return max(1, round(1.0 / rate / tick)) * tick

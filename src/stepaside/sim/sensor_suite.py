@@ -1,6 +1,5 @@
 """Simulated cameras and sonars of a robot, with rates and latencies."""
 
-from collections import deque
 from collections.abc import Callable
 from math import atan, hypot
 
@@ -28,19 +27,18 @@ from .ray_casting import (
     SonarCaster,
     cone,
 )
-from .sensor_stream import SensorStream
+from .sensor_stream import SensorStream, StreamedSensors, period_of
 from .view_cone import geoms_in_cone
 from .world import World
 
 RAYCAST_WIDTH = 160  # largest width of a ray-cast image, in [pixels]
 
 
-class SensorSuite:
+class SensorSuite(StreamedSensors[Percept]):
     """All cameras and sonars of one robot.
 
     Attributes:
         camera: Model of its colour camera.
-        exposed: Percepts taken at the last tick, before their latency.
     """
 
     def __init__(
@@ -70,26 +68,14 @@ class SensorSuite:
         self._settings, self._seed = settings, seed
         self._head = load_head(description)
         self._renderer = renderer
-        self.exposed: list[Percept] = []
-        self._due = 0.0
         camera = settings.colour.model()
         self.camera = _reduced(camera) if renderer is None else camera
-        self._streams = [self._colour()]
+        streams = [self._colour()]
         if with_depth:
             used = self._head.depth_mounts(rear=settings.rear_camera)
-            self._streams += map(self._depth, range(len(used)), used)
-            self._streams += self._sonars()
-
-    def read(self, now: float) -> tuple[Percept, ...]:
-        """Return the percepts that arrive at a tick."""
-        self.exposed.clear()
-        if now < self._due:
-            return ()
-        arrived: list[Percept] = []
-        for stream in self._streams:
-            arrived += stream.read(now, self.exposed)
-        self._due = min(stream.due for stream in self._streams)
-        return tuple(arrived)
+            streams += map(self._depth, range(len(used)), used)
+            streams += self._sonars()
+        super().__init__(streams)
 
     def close(self) -> None:
         """Release the graphics context, if any."""
@@ -114,15 +100,12 @@ class SensorSuite:
         latency: float,
     ) -> SensorStream[Percept]:
         settings = self._settings
-        tick = self._world.physics.tick
         return SensorStream(
             take,
-            max(1, round(1.0 / rate / tick)) * tick,
+            period_of(rate, self._world.physics.tick),
             latency + settings.added_latency,
             settings.drop_frames,
             self._generator(f"drops of {purpose}"),
-            0,
-            deque(),
         )
 
     def _colour(self) -> SensorStream[Percept]:
