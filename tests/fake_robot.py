@@ -137,7 +137,7 @@ def scheme_of(
     guard = walk.get("guard")
     surroundings = None if guard is None else guard.surroundings
     return ControlScheme(
-        StrategyRunner(strategy, gait, tick, surroundings),
+        StrategyRunner(strategy, gait, surroundings),
         ManeuverWalk(gait, legs, tick=tick, **walk),
         MeasuredSight() if senses is None else senses,
     )

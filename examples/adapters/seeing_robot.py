@@ -9,7 +9,7 @@ import stepaside as sa
 class SeeingRobot(WalkerRobot):
     """The same robot; its sightings come from images."""
 
-    head = sa.HeadLimits(yaw=1.5, up=0.3, down=0.8, height=0.8)
+    head = sa.HeadLimits(yaw=1.5, up=0.3, down=0.8)
 
     def listen(self) -> sa.Measurement | None:
         """Return the newest state, without a sighting."""

@@ -122,7 +122,7 @@ def told(odometry: Pose, room: Pose) -> Knowledge:
     """Return the knowledge for given frames of odometry and room."""
     strategy = FakeStrategy()
     around: Any = Around(room.compose(odometry.inverse()))
-    made = StrategyRunner(strategy, GAIT, TICK, around)
+    made = StrategyRunner(strategy, GAIT, around)
     for i in range(8):
         now = 0.4 * i
         own = odometry.compose(Pose(0.02 * i, 0.01 * i, 0.1 * i))

@@ -85,7 +85,7 @@ class Recorder(Pursuit):
 
 def runner() -> StrategyRunner:
     Recorder.known.clear()
-    return StrategyRunner(Recorder(), GaitSettings(), TICK)
+    return StrategyRunner(Recorder(), GaitSettings())
 
 
 def pass_time(made: StrategyRunner, begin: float, end: float) -> None:

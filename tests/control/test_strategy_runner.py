@@ -23,7 +23,7 @@ PLACE = Pose(1.0, 2.0, 0.5)
 
 def decisions(strategy: FakeStrategy | None = None) -> StrategyRunner:
     """Decisions of a robot whose torso looks along 0.2 rad."""
-    made = StrategyRunner(strategy or FakeStrategy(), GAIT, TICK)
+    made = StrategyRunner(strategy or FakeStrategy(), GAIT)
     made.headings.note(0.0, 0.2)
     made.templates.note(0.0, PLACE)
     return made

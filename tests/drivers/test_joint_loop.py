@@ -55,7 +55,7 @@ class FakeMind:
     """Control that walks until its strategy wants nothing more."""
 
     def __init__(self, strategy: Strategy) -> None:
-        self.decisions = StrategyRunner(strategy, GaitSettings(), TICK)
+        self.decisions = StrategyRunner(strategy, GaitSettings())
         self.phase = Phase.STANDING
         self.joint_targets = STANCE
         self.times: list[float] = []

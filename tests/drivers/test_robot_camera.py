@@ -202,7 +202,7 @@ class SeeingWalker(VelocityRobot):
     """Simulated walker in this process, with a head."""
 
     limits = VelocityLimits(0.5, 0.4, 1.0, lateral=0.3)
-    head = HeadLimits(1.5, 0.3, 0.8, 0.8)
+    head = HeadLimits(1.5, 0.3, 0.8)
 
     def __init__(self) -> None:
         self.walker = SimulatedWalker(0, inf)
@@ -280,8 +280,8 @@ def test_the_head_follows_the_opponent_and_sightings_are_true() -> None:
 @pytest.mark.parametrize(
     ("changes", "said"),
     [
-        ({"head": HeadLimits(90.0, 0.3, 0.3, 1.0)}, "head must be HeadLimits"),
-        ({"head": HeadLimits(1.0, nan, 0.3, 1.0)}, "head must be HeadLimits"),
+        ({"head": HeadLimits(90.0, 0.3, 0.3)}, "head must be HeadLimits"),
+        ({"head": HeadLimits(1.0, nan, 0.3)}, "head must be HeadLimits"),
         ({"head": 1.0}, "head must be HeadLimits"),
         ({"look": VelocityRobot.look}, "head needs the method look()"),
         ({"camera": (0.0, 0.0, 1.0)}, "camera must be CameraMount"),

@@ -128,7 +128,7 @@ def test_legs_whose_measured_response_cannot_be_are_refused(
         main(["duel", "--robot", str(folder), "--duration", "0.5"])
     assert left.value.code == 2
     said = capsys.readouterr().err
-    assert f"{file}: forward.halting must lie in [0, 100] [m]" in said
+    assert str(file) in said and "forward.halting must" in said
     assert f"got {bad}" in said
 
 

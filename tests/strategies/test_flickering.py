@@ -137,7 +137,7 @@ def test_knowledge_contains_the_map_error() -> None:
     seen = MappedRoom(FloorMap(), unknown_is_free=False)
     for around, map_error in ((None, 0.0), (given, 0.0), (seen, CELL)):
         strategy = Noting()
-        decisions = StrategyRunner(strategy, GAIT, 0.02, around)
+        decisions = StrategyRunner(strategy, GAIT, around)
         decisions.headings.note(0.0, 0.0)
         decisions.templates.note(0.0, Pose(0.0, 0.0, 0.0))
         decisions.decide(0.0, Sighting(0.0, 0.0, 1.0), moving=True)

@@ -77,7 +77,6 @@ def build_scheme(
     decisions = StrategyRunner(
         strategy,
         gait,
-        tick,
         None if clearance is None else clearance.surroundings,
         TurnCalibration(tick) if control.learn_turns else None,
     )

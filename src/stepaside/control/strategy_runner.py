@@ -62,7 +62,6 @@ class StrategyRunner(DecisionMaker):
         self,
         strategy: Strategy,
         gait: GaitSettings,
-        tick: float,
         surroundings: Surroundings | None = None,
         turns: TurnCalibration | None = None,
         velocities: VelocitySet | None = None,
@@ -73,7 +72,6 @@ class StrategyRunner(DecisionMaker):
         Args:
             strategy: Strategy of the player.
             gait: Gait.
-            tick: Control period, in [s].
             surroundings: Known obstacles; none by default.
             turns: Calibration of the turning rate; none by default.
             velocities: Velocities that the legs deliver; by default those of

@@ -1,12 +1,11 @@
 """Sight by the camera of a robot that is driven by velocity commands."""
 
-from collections import deque
 from concurrent.futures import Future
-from itertools import pairwise
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from ..core.history import History
 from ..core.poses import Pose, wrap_angle
 from ..core.rotations import rotation
 from ..perception.measurement import Measurement
@@ -17,7 +16,7 @@ from .robot_session import RobotSession
 if TYPE_CHECKING:
     from ..perception.pipeline import Perception
 
-HISTORY = 50  # reports among which an image is placed in time: 1 s
+MEMORY = 1.0  # how long poses are stored, to place images in time, in [s]
 
 
 class PosedSight:
@@ -43,7 +42,8 @@ class PosedSight:
         self._perception, self._turns_head = perception, turns_head
         self._mount: CameraMount | None = None  # at the newest image
         self._looking: Future[Any] | None = None
-        self._reports: deque[Measurement] = deque(maxlen=HISTORY)
+        self._last: Measurement | None = None
+        self._poses: History[Pose] = History(MEMORY)
 
     def see(self, report: Measurement) -> Measurement:
         """Return a report with the newest sighting.
@@ -53,15 +53,15 @@ class PosedSight:
         """
         if report.hindrance:
             return report
-        if self._reports and report.time == self._reports[-1].time:
-            return report._replace(sighting=self._reports[-1].sighting)
-        self._reports.append(report)
+        if self._last is not None and report.time == self._last.time:
+            return report._replace(sighting=self._last.sighting)
+        self._poses.note(report.time, report.pose)
         percepts = []
         image = self._camera.take(report.time)
         if image is not None:
             assert image.mount is not None  # as the camera has checked
             self._mount = image.mount
-            pose = self._pose_at(image.time)
+            pose = self._poses.at(image.time, between)
             self._perception.note_pose(
                 pose_of_camera(image.time, pose, image.mount)
             )
@@ -72,9 +72,8 @@ class PosedSight:
             sighting = self._perception.see_from(now, percepts)
             if self._turns_head:
                 self._look()
-        seen = report._replace(sighting=sighting, hindrance=hindrance)
-        self._reports[-1] = seen
-        return seen
+        self._last = report._replace(sighting=sighting, hindrance=hindrance)
+        return self._last
 
     def close(self) -> None:
         """Close the camera."""
@@ -92,19 +91,15 @@ class PosedSight:
             "look", lambda: robot.look(yaw, pitch)
         )
 
-    def _pose_at(self, time: float) -> Pose:
-        """Return the pose at the time of an image, between two reports."""
-        for earlier, later in pairwise(self._reports):
-            if earlier.time <= time < later.time:
-                share = (time - earlier.time) / (later.time - earlier.time)
-                (x, y, heading), end = earlier.pose, later.pose
-                turn = wrap_angle(end.theta - heading)
-                return Pose(
-                    x + share * (end.x - x),
-                    y + share * (end.y - y),
-                    heading + share * turn,
-                )
-        return self._reports[-1].pose
+
+def between(one: Pose, other: Pose, share: float) -> Pose:
+    """Return the pose at a share of the way from one pose to another."""
+    turn = wrap_angle(other.theta - one.theta)
+    return Pose(
+        one.x + share * (other.x - one.x),
+        one.y + share * (other.y - one.y),
+        one.theta + share * turn,
+    )
 
 
 def pose_of_camera(time: float, robot: Pose, mount: CameraMount) -> BodyPose:

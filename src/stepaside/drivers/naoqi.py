@@ -104,7 +104,7 @@ class NaoqiRobot(VelocityRobot):
 
     limits = VelocityLimits()
     closing = CROUCH_TIMEOUT + 2.0 * TIMEOUT
-    head = HeadLimits(yaw=2.0, up=0.6, down=0.5, height=0.5)
+    head = HeadLimits(yaw=2.0, up=0.6, down=0.5)
 
     def __init__(self, url: str, camera: CameraModel, latency: float) -> None:
         """Make a robot.

@@ -71,13 +71,11 @@ class HeadLimits(NamedTuple):
         yaw: To each side, in [rad].
         up: Upward, in [rad].
         down: Downward, in [rad].
-        height: Height of the camera, in [m].
     """
 
     yaw: float
     up: float
     down: float
-    height: float
 
 
 def check_head_limits(limits: Any, where: str) -> None:
@@ -95,10 +93,10 @@ def check_head_limits(limits: Any, where: str) -> None:
         good = all(isfinite(v) and v > 0.0 for v in values)
     except FAILURES:
         good = False
-    if not good or max(values[:3]) > pi:
+    if not good or max(values) > pi:
         raise ConfigurationError(
-            f"{where}: head must be HeadLimits(yaw, up, down, height), > 0, "
-            f"in [rad] and [m], got {shown_briefly(limits)}"
+            f"{where}: head must be HeadLimits(yaw, up, down), > 0, in [rad], "
+            f"got {shown_briefly(limits)}"
         )
 
 

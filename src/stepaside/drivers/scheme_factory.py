@@ -30,7 +30,7 @@ if TYPE_CHECKING:
     from ..perception.pipeline import Perception
 
 # Of a camera that is fixed on the robot: its head is not commanded.
-FIXED_HEAD = HeadLimits(1.0, 1.0, 1.0, 1.0)
+FIXED_HEAD = HeadLimits(1.0, 1.0, 1.0)
 REQUEST_TO_MOTION = 3  # ticks from command to motion, measured on NAO
 
 
@@ -107,9 +107,7 @@ def policy_scheme_factory(
 
     def make(strategy: Strategy) -> ControlScheme:
         walk = PolicyWalk(load_legs(legs, description, tick=tick), gait)
-        runner = StrategyRunner(
-            strategy, gait, tick, velocities=walk.velocities
-        )
+        runner = StrategyRunner(strategy, gait, velocities=walk.velocities)
         senses: SightSource = MeasuredSight()
         if perceive is not None:
             senses = CameraSight(perceive(description, tick), tick=tick)
@@ -187,7 +185,7 @@ def posed_perception_factory(
     from ..perception.pipeline import build_posed_perception
 
     def make(head: HeadLimits | None, tick: float) -> "Perception":
-        yaw, up, down, _ = head or FIXED_HEAD
+        yaw, up, down = head or FIXED_HEAD
         return build_posed_perception(
             ColourDetector(LOOKS[role]),
             np.array([[-yaw, yaw], [-up, -up], [down, down]]),

@@ -94,9 +94,7 @@ class TemplateController:
             velocities: Velocities of a robot that walks sideways; None for
                 a unicycle. Strategies may then choose body velocities.
         """
-        self._decisions = StrategyRunner(
-            strategy, gait, PERIOD, velocities=velocities
-        )
+        self._decisions = StrategyRunner(strategy, gait, velocities=velocities)
         self._gait = gait
         self.moving = False
 

@@ -214,7 +214,6 @@ def place_policy_player(
         StrategyRunner(
             with_body_radius(strategy, clearance, setup.gait),
             setup.gait,
-            tick,
             around,
             velocities=policy.velocities,
             views=sensing.source.views,

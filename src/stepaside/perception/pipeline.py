@@ -201,22 +201,6 @@ class Perception:
         )
         return self._process(time, measurement.percepts)
 
-    def see_level(
-        self, measurement: Measurement, pose_in_odometry: Pose
-    ) -> Sighting | None:
-        """Process a measurement of a level robot with its own walk.
-
-        Args:
-            measurement: Values of its sensors.
-            pose_in_odometry: Pose of the robot.
-
-        Returns:
-            Latest sighting of the opponent; None if it is lost.
-        """
-        time, joints = measurement.time, measurement.joint_positions
-        self.note_level(time, joints, pose_in_odometry)
-        return self._process(time, measurement.percepts)
-
     def see_from(
         self, body: BodyPose, percepts: Sequence[AnyPercept]
     ) -> Sighting | None:
@@ -236,23 +220,6 @@ class Perception:
     def note_pose(self, body: BodyPose) -> None:
         """Store a pose of the body, which may be earlier than the latest."""
         self.poses.note(body.time, lambda: body)
-
-    def note_level(
-        self, time: float, joints: Array, pose_in_odometry: Pose
-    ) -> None:
-        """Store a state of a level body, midway between its feet.
-
-        Args:
-            time: Time of the measurement, in [s]; it may be earlier than the
-                latest.
-            joints: Joint angles, in [rad]. Shape (joints,).
-            pose_in_odometry: Planar pose of the robot.
-        """
-        assert self.kinematics is not None
-        level = self.kinematics.level
-        self.poses.note(
-            time, cache(lambda: level(time, joints, pose_in_odometry))
-        )
 
     def aim(self, joint_targets: Array) -> None:
         """Write the targets of the head joints, in [rad], in place."""

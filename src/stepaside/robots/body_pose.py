@@ -4,8 +4,6 @@ from dataclasses import dataclass
 from math import atan2
 from typing import NamedTuple
 
-import numpy as np
-
 from ..core.poses import Array, Pose
 from ..core.rotations import rotation
 from .description import RobotDescription
@@ -130,25 +128,6 @@ class BodyKinematics:
         posture = self.forward.posture(joints)
         foot = 0 if left_supports else 1
         torso = torso_pose_on_foot(posture, foot, support, tilt)
-        return self._with_head(time, joints, posture, torso)
-
-    def level(self, time: float, joints: Array, frame: Pose) -> BodyPose:
-        """Return the pose of a level body standing midway between its feet.
-
-        For a robot with a walking controller of its own, which reports
-        nothing but its planar odometry.
-
-        Args:
-            time: Time of the measurement, in [s].
-            joints: Encoder angles, in [rad]. Shape (joints,).
-            frame: Planar pose of the robot in odometry.
-        """
-        posture = self.forward.posture(joints)
-        x, y, _ = posture.positions_feet_in_torso.mean(axis=0).tolist()
-        low = float(posture.positions_feet_in_torso[:, 2].min())
-        axes = rotation(0.0, 0.0, frame.theta)
-        place = np.array([frame.x, frame.y, 0.0]) - axes @ [x, y, low]
-        torso = SpatialTorsoPose(place, axes, frame.theta)
         return self._with_head(time, joints, posture, torso)
 
     def _with_head(
