@@ -1,7 +1,7 @@
 """Planar poses (x [m], y [m], theta [rad]) and angles."""
 
 from collections.abc import Sequence
-from math import cos, hypot, nan, pi, remainder, sin, tau
+from math import cos, pi, remainder, sin, tau
 from typing import NamedTuple
 
 import numpy as np
@@ -87,34 +87,6 @@ def arc(ahead: ArrayLike, left: ArrayLike, turn: ArrayLike) -> Array:
     half = 0.5 * np.asarray(turn, dtype=np.float64)
     x, y = np.sinc(half / pi) * rotate(ahead, left, half)
     return np.stack([x, y, np.broadcast_to(2.0 * half, x.shape)], axis=-1)
-
-
-def rotation_of_quaternion(x: float, y: float, z: float, w: float) -> Array:
-    """Return the rotation of a quaternion of any length. Shape (3, 3).
-
-    It is NaN if the quaternion is zero or not finite.
-    """
-    norm = hypot(x, y, z, w)
-    x, y, z, w = (part / norm if norm > 0.0 else nan for part in (x, y, z, w))
-    return np.array(
-        [
-            [
-                1 - 2 * (y * y + z * z),
-                2 * (x * y - w * z),
-                2 * (x * z + w * y),
-            ],
-            [
-                2 * (x * y + w * z),
-                1 - 2 * (x * x + z * z),
-                2 * (y * z - w * x),
-            ],
-            [
-                2 * (x * z - w * y),
-                2 * (y * z + w * x),
-                1 - 2 * (x * x + y * y),
-            ],
-        ]
-    )
 
 
 class Pose(NamedTuple):

@@ -17,8 +17,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from ..core.errors import ConfigurationError, ModelError
-from ..core.poses import rotation_of_quaternion
-from ..core.rotations import rotation
+from ..core.rotations import rotation, rotation_of
 from ..perception.measurement import Measurement, Sighting
 from .joint_robot import JointRobot, JointTargets
 from .robot_address import RobotRequest
@@ -183,7 +182,7 @@ class LeagueRobot(JointRobot):
                 f"{', '.join(found)} and {len(motions)} joints"
             ) from error
         now = STEP * round((now + TRUNCATED) / STEP)
-        torso = rotation_of_quaternion(x, y, z, w)
+        torso = rotation_of((w, x, y, z))
         roll = float(np.arctan2(torso[2, 1], torso[2, 2]))
         tilt = roll, float(-np.arcsin(np.clip(torso[2, 0], -1.0, 1.0)))
         seen = nearest_opponent(found.get("See", []), self._team)

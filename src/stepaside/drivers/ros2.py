@@ -21,7 +21,8 @@ import numpy as np
 
 from ..core.errors import ConfigurationError
 from ..core.history import History
-from ..core.poses import Array, Pose, rotation_of_quaternion
+from ..core.poses import Array, Pose
+from ..core.rotations import rotation_of
 from ..perception.measurement import Measurement, Sighting
 from .robot_address import RobotRequest
 from .ros2_dds import (
@@ -214,7 +215,7 @@ class FrameTree:
                 for each in message.transforms:
                     move, turn = each.transform.translation, np.eye(4)
                     q = each.transform.rotation
-                    turn[:3, :3] = rotation_of_quaternion(q.x, q.y, q.z, q.w)
+                    turn[:3, :3] = rotation_of((q.w, q.x, q.y, q.z))
                     turn[:3, 3] = move.x, move.y, move.z
                     if np.isfinite(turn).all():
                         parent = each.header.frame_id
@@ -289,7 +290,7 @@ class Ros2Robot(VelocityRobot):
         self._hint_at = inf
         odometry = arrived[-1]
         point, q = odometry.pose.pose.position, odometry.pose.pose.orientation
-        turn = rotation_of_quaternion(q.x, q.y, q.z, q.w)
+        turn = rotation_of((q.w, q.x, q.y, q.z))
         heading = float(np.arctan2(turn[1, 0], turn[0, 0]))
         pose = Pose(point.x, point.y, heading)
         self._stamp = time = seconds(odometry.header.stamp)

@@ -9,7 +9,8 @@ from typing import Any
 import numpy as np
 
 from ..core.errors import ConfigurationError
-from ..core.poses import Array, rotation_of_quaternion
+from ..core.poses import Array
+from ..core.rotations import rotation_of
 
 MOVING, STATIC = "/tf", "/tf_static"
 MOST_LISTED = 12  # names in a message
@@ -203,8 +204,8 @@ def _stamp(message: Any) -> float:
 def _matrix(position: Any, rotation: Any) -> Array:
     """Return a pose as a homogeneous matrix; NaN if it is invalid."""
     matrix = np.eye(4)
-    matrix[:3, :3] = rotation_of_quaternion(
-        rotation.x, rotation.y, rotation.z, rotation.w
+    matrix[:3, :3] = rotation_of(
+        (rotation.w, rotation.x, rotation.y, rotation.z)
     )
     matrix[:3, 3] = position.x, position.y, position.z
     return matrix

@@ -6,7 +6,7 @@ from enum import Enum
 import numpy as np
 
 from ..core.errors import check_positive
-from ..core.poses import Array
+from ..core.poses import Array, rotate
 from .path import UnicycleTrajectory
 
 
@@ -74,10 +74,8 @@ def place_footsteps(
     check_positive(foot_spacing, "foot_spacing", "m")
     times = np.arange(1, count + 1) * (stride / trajectory.speed)
     steps = trajectory.poses(times)
-    half = 0.5 * foot_spacing * first_foot.value
-    left = np.full(len(steps), half)
-    left[1::2] = -half  # signed offset of each foot, in [m]
-    theta = steps[:, 2]
-    steps[:, 0] -= left * np.sin(theta)
-    steps[:, 1] += left * np.cos(theta) + half
+    left = np.full(count, 0.5 * foot_spacing * first_foot.value)
+    steps[:, 1] += left
+    left[1::2] *= -1.0  # signed offset of each foot, in [m]
+    steps[:, :2] += rotate(0.0, left, steps[:, 2]).T
     return steps

@@ -1,6 +1,5 @@
 """Maneuver planning: path, footsteps, ZMP and CoM (paper, Sec. III-B to E)."""
 
-from math import cos, sin
 from typing import NamedTuple
 
 import numpy as np
@@ -12,7 +11,7 @@ from ..core.errors import (
     check_positive,
     check_within,
 )
-from ..core.poses import Array, Pose
+from ..core.poses import Array, Pose, rotate
 from ..theory import laws
 from .footsteps import Foot, place_footsteps
 from .gait_settings import GaitSettings
@@ -214,38 +213,30 @@ class ManeuverPlanner:
 def _inputs(
     schedule: Schedule, placements: Array, state: CenterState | None
 ) -> Array:
-    """Check the state, and assemble the inputs of the constant maps.
+    """Assemble the inputs of the constant maps. Shape (inputs, 2).
 
-    Args:
-        schedule: The schedule.
-        placements: Placements of the feet; see :class:`.ManeuverPlan`.
-        state: Present CoM in the frame of the support foot; None if the
-            robot stands midway.
-
-    Returns:
-        The inputs, in [m]. Shape (inputs, 2).
+    Without a state, the CoM is at rest midway between the anchors of the two
+    feet.
     """
+    ahead = schedule.settings.zmp_forward
+    anchors = placements[:, :2] + rotate(ahead, 0.0, placements[:, 2]).T
     if state is None:
         if not schedule.standing:
             raise PlanError("state must be given unless the robot stands")
-        midway = _midway(placements[0].tolist(), schedule.settings.zmp_forward)
-        state = CenterState(midway, (0.0, 0.0))
+        state = CenterState(_pair(0.5 * (anchors[0] + anchors[1])), (0.0, 0.0))
     (x, y), (vx, vy) = state
     check_finite(x + y, "CoM position", "m")
     check_finite(vx + vy, "CoM velocity", "m/s")
-    gait, n = schedule.settings, schedule.count
+    n = schedule.count
     inputs = np.zeros((schedule.inputs, 2))
-    anchors, theta = placements[:, :2].copy(), placements[:, 2]
-    anchors[:, 0] += gait.zmp_forward * np.cos(theta)
-    anchors[:, 1] += gait.zmp_forward * np.sin(theta)
     inputs[: n + 1] = anchors[1:]
-    inputs[n + 1] = (x, y) if schedule.standing else anchors[1]
+    inputs[n + 1] = (x, y) if schedule.standing else inputs[0]
     if schedule.has_swing_reaction:
         inputs[n + 2] = anchors[0]
     inputs[-1] = x, y
-    row = schedule.dcm_start_map
-    dcm = x + vx / gait.eta, y + vy / gait.eta
-    inputs[-2] = (dcm - row @ inputs) / row[-2]
+    row, eta = schedule.dcm_start_map, schedule.settings.eta
+    planned = row @ inputs
+    inputs[-2] = (np.array([x + vx / eta, y + vy / eta]) - planned) / row[-2]
     return inputs
 
 
@@ -253,12 +244,3 @@ def _pair(values: Array) -> tuple[float, float]:
     """Return the two elements of an array."""
     x, y = values.tolist()
     return x, y
-
-
-def _midway(foot: list[float], ahead: float) -> tuple[float, float]:
-    """Return the midpoint of the anchors of the two feet, in [m]."""
-    x, y, theta = foot
-    return (
-        0.5 * (x + ahead * cos(theta) + ahead),
-        0.5 * (y + ahead * sin(theta)),
-    )

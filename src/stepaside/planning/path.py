@@ -7,7 +7,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ..core.errors import check_bearing, check_positive
-from ..core.poses import Array
+from ..core.poses import Array, arc, rotate
 from ..theory import laws
 
 
@@ -59,17 +59,13 @@ class UnicycleTrajectory:
         """
         t = np.asarray(times, dtype=np.float64)
         rate = laws.proportional_rate(self.bearing, self.gain)
-        until = 1.0 / self.gain  # time spent on the arc, in [s]
+        lasts = 1.0 / self.gain  # time on the arc, in [s]
         if self.saturated:
             rate = laws.saturated_rate(self.bearing, self.gain)
-            until *= abs(self.bearing)
-        turning = np.minimum(t, until)
+            lasts *= abs(self.bearing)
+        turning = np.minimum(t, lasts)
         velocity = self.direction.value * self.speed
-        theta = rate * turning
-        half = 0.5 * theta
-        # A chord of an arc is shorter by sinc(half), and points along half.
-        chord = velocity * turning * np.sinc(half / np.pi)
-        along = velocity * (t - turning)
-        x = chord * np.cos(half) + along * np.cos(theta)
-        y = chord * np.sin(half) + along * np.sin(theta)
-        return np.stack([x, y, theta], axis=-1)
+        along = velocity * (t - turning)  # on the line, in [m]
+        poses = arc(velocity * turning, 0.0, turning * rate)
+        poses[:, :2] += rotate(along, 0.0, poses[:, 2]).T
+        return poses

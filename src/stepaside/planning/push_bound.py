@@ -134,10 +134,9 @@ def held_regions(
     if until == len(phases):
         return regions
     row = phases[until].rows[0]
-    landing = Pose(*plan.placements[row].tolist())
     support = plan.first_foot if row % 2 == 0 else plan.first_foot.other
     region = _held_after_landing(gait, reach, support)
-    region = landing.transform_points(region)
+    region = Pose(*plan.placements[row].tolist()).transform_points(region)
     for phase in reversed(phases[now : until + 1]):
         rest = phase.end - max(phase.start, time)
         region = _before(region, phase.corners, gait.eta, rest)

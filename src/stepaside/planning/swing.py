@@ -1,6 +1,6 @@
 """Swing-foot trajectories with zero velocity at lift-off and touch-down."""
 
-from typing import Literal
+from typing import Literal, TypeVar
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -18,9 +18,12 @@ _PROGRESS: dict[SwingProfile, tuple[float, ...]] = {
 """Coefficients of the progress, by powers of the phase."""
 
 
+Phase = TypeVar("Phase", float, Array)
+
+
 def swing_progress(
-    phase: ArrayLike, profile: SwingProfile = "minimum-jerk"
-) -> Array:
+    phase: Phase, profile: SwingProfile = "minimum-jerk"
+) -> Phase:
     """Return the fraction of the path that a swing foot has covered.
 
     Velocity and acceleration vanish at both ends. The minimum-jerk
@@ -28,40 +31,25 @@ def swing_progress(
     the flattest velocity of its degree there, 35/24 of the mean.
 
     Args:
-        phase: Phase of single support; below 0 the foot is at lift-off,
-            above 1 at touch-down. Shape (n,).
+        phase: Phase of single support, a number or an array; below 0 the foot
+            is at lift-off, above 1 at touch-down.
         profile: Profile of the motion.
 
     Returns:
-        Fraction in [0, 1]. Shape (n,).
+        Fraction in [0, 1], like the phase.
     """
-    s = np.clip(np.asarray(phase, dtype=np.float64), 0.0, 1.0)
-    if profile == "even":
-        # From the nearer end: the coefficients sum to 1 only up to rounding.
-        near = np.minimum(s, 1.0 - s)
-        part = np.polynomial.polynomial.polyval(near, _PROGRESS[profile])
-        even: Array = np.where(s > 0.5, 1.0 - part, part)
-        return even
-    progress: Array = s**3 * (10.0 + s * (6.0 * s - 15.0))
-    return progress
-
-
-def swing_progress_at(
-    phase: float, profile: SwingProfile = "minimum-jerk"
-) -> float:
-    """Return :func:`swing_progress` of one phase, with the same bits.
-
-    Args:
-        phase: Phase of single support.
-        profile: Profile of the motion.
-    """
-    s = min(max(phase, 0.0), 1.0)
-    if profile == "even":
-        near, part = min(s, 1.0 - s), 0.0
-        for coefficient in reversed(_PROGRESS[profile]):
-            part = coefficient + part * near
-        return 1.0 - part if s > 0.5 else part
-    return s**3 * (10.0 + s * (6.0 * s - 15.0))
+    s = phase
+    if isinstance(phase, float):
+        s = min(max(phase, 0.0), 1.0)
+    else:
+        s = np.clip(phase, 0.0, 1.0)
+    if profile == "minimum-jerk":
+        return s**3 * (10.0 + s * (6.0 * s - 15.0))
+    # From the nearer end: the coefficients sum to 1 only up to rounding.
+    near, part = 0.5 - abs(s - 0.5), 0.0 * s
+    for coefficient in reversed(_PROGRESS[profile]):
+        part = coefficient + part * near
+    return part + (s > 0.5) * (1.0 - 2.0 * part)
 
 
 def swing_acceleration(profile: SwingProfile) -> Array:

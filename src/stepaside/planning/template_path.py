@@ -7,7 +7,7 @@ which leads it by as much as the ZMP leads the foot frames.
 
 import numpy as np
 
-from ..core.poses import Array, Pose
+from ..core.poses import Array, Pose, rotate
 from .footsteps import Foot
 from .gait_settings import GaitSettings
 from .schedule import Schedule
@@ -44,11 +44,9 @@ def path_samples(
         Poses of the unicycle in the same frame. Shape (n, 3).
     """
     samples: Array = np.array(placements, dtype=np.float64)
-    half = np.full(len(samples), 0.5 * foot_spacing * first_foot.value)
-    half[1::2] *= -1.0
-    theta = samples[:, 2]
-    samples[:, 0] += half * np.sin(theta)
-    samples[:, 1] -= half * np.cos(theta)
+    right = np.full(len(samples), -0.5 * foot_spacing * first_foot.value)
+    right[1::2] *= -1.0
+    samples[:, :2] += rotate(0.0, right, samples[:, 2]).T
     return samples
 
 

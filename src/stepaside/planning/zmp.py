@@ -5,7 +5,6 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ..core.errors import PlanError
 from ..core.poses import Array
 
 
@@ -24,21 +23,6 @@ class PiecewisePolynomial:
 
     durations: Array
     coefficients: Array
-
-    def __post_init__(self) -> None:
-        """Check shapes and durations."""
-        if (
-            self.coefficients.ndim < 2
-            or self.coefficients.shape[1] != self.durations.size
-        ):
-            raise PlanError(
-                "coefficients must have shape (degree + 1, "
-                f"{self.durations.size}, ...), got {self.coefficients.shape}"
-            )
-        if not np.all(self.durations > 0.0):
-            raise PlanError(
-                f"durations must be > 0 [s], got {self.durations.min()}"
-            )
 
     @property
     def end(self) -> Array:

@@ -5,7 +5,7 @@ from typing import NamedTuple
 
 from ...core.poses import Pose
 from ...planning import Foot, GaitSettings, ManeuverPlan
-from ...planning.swing import swing_progress_at
+from ...planning.swing import swing_progress
 from ...robots.leg_kinematics import BodyReference
 from .control_settings import StabiliserSettings
 
@@ -77,7 +77,7 @@ def first_step_of(
         plan.first_foot,
         frame.compose(plan.landing) if landing is None else landing,
         gait.single_support - walked,
-        swing_progress_at(walked / gait.single_support, gait.swing_profile),
+        swing_progress(walked / gait.single_support, gait.swing_profile),
         True,
         plan,
         passed,

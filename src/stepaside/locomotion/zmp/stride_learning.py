@@ -6,7 +6,7 @@ import numpy as np
 
 from ...core.poses import Array, wrap_angle
 from ...planning import Foot, GaitSettings
-from ...planning.swing import swing_progress_at
+from ...planning.swing import swing_progress
 from ...robots.forward_kinematics import MeasuredPosture
 from ...robots.leg_kinematics import BodyReference
 from .current_step import CurrentStep, moved_swing
@@ -80,7 +80,7 @@ class StrideLearning:
         if step.remaining < 0.0:
             gait = self._gait if step.plan is None else step.plan.gait
             stood = -step.remaining / gait.double_support
-            share = 1.0 - swing_progress_at(stood)
+            share = 1.0 - swing_progress(stood)
         if share <= 0.0:
             return body
         x, y, theta = (share * self.aim[step.swing]).tolist()
