@@ -9,7 +9,7 @@ from math import pi
 
 import stepaside as sa
 from stepaside import strategies as st
-from stepaside.theory.unicycle.unicycle_game import Unicycle
+from stepaside.games import play_strategies
 
 
 @dataclass(frozen=True)
@@ -34,15 +34,15 @@ class BackAndAside:
 
 def main(duration: float) -> None:
     """Compare it with moving aside, with unicycles and with humanoids."""
-    body = Unicycle(0.1, 0.2)  # of NAO, in path time: 0.4 s per 0.547 s
-    rules = st.UnicycleMatch((body, body), 0.4, 0.4 / 0.547 * duration)
+    # In path time: a step lasts 0.4 s of it, and 0.547 s.
+    rules = st.StepGame(duration=0.4 / 0.547 * duration)
     at = sa.RelativeStart(0.9, 0.3, -0.2).poses()
     start = sa.StartSettings(0.9, -0.3, 0.2)
     settings = sa.DuelSettings(duration=duration, start=start)
     names = {"aside": "evasion", "own": f"{__file__}:BackAndAside"}
     for label, name in names.items():
         evader = st.load_strategy(name)
-        game = st.play_strategies(st.Pursuit(), evader, at, game=rules)
+        game = play_strategies(st.Pursuit(), evader, at, game=rules)
         duel = sa.run_duel(replace(settings, evader_strategy=name))
         for bodies, closest, path in (
             ("unicycles", game.closest_distance, game.evader),

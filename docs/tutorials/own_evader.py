@@ -37,14 +37,13 @@ class BackAndAside(Evasion):
 # %%
 from stepaside import Pursuit, RelativeStart
 from stepaside import strategies as st
-from stepaside.theory.unicycle.unicycle_game import Unicycle
+from stepaside.games import play_strategies
 
-body = Unicycle(0.1, 0.2)  # speed in [m/s], gain in [1/s]
-rules = st.UnicycleMatch((body, body), 0.4, 60.0)
+rules = st.StepGame(duration=60.0)
 start = RelativeStart(0.7, 0.3, -0.2).poses()
 games = {
-    "paper": st.play_strategies(Pursuit(), Evasion(), start, game=rules),
-    "own": st.play_strategies(Pursuit(), BackAndAside(), start, game=rules),
+    "paper": play_strategies(Pursuit(), Evasion(), start, game=rules),
+    "own": play_strategies(Pursuit(), BackAndAside(), start, game=rules),
 }
 for name, game in games.items():
     print(f"{name}: closest approach {game.closest_distance:.3f} m")

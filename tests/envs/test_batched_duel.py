@@ -12,6 +12,7 @@ from stepaside.core.errors import ConfigurationError
 from stepaside.envs.arena_pool import ArenaPool
 from stepaside.envs.batched_duel import BatchedDuel, law_of
 from stepaside.envs.environment_settings import EnvironmentSettings
+from stepaside.games import play_strategies
 from stepaside.planning import Direction
 from stepaside.strategies import (
     Evasion,
@@ -20,14 +21,13 @@ from stepaside.strategies import (
     Pursuit,
     StandStill,
     Strategy,
-    play_strategies,
 )
 from stepaside.strategies.learned import StrategyContract, dense_network
 from stepaside.strategies.learned.strategy_contract import discrete_headings
 from stepaside.strategies.step_batch import CAPTURED, RUNNING, TOUCHED
 
 ROOM = RoomRecipe(3.0, 3.0, discs=2, boxes=1)
-OUTCOMES = {"survived": RUNNING, "captured": CAPTURED, "touched": TOUCHED}
+OUTCOMES = {"completed": RUNNING, "captured": CAPTURED, "touched": TOUCHED}
 
 
 def learned(terms: Sequence[str], width: int) -> LearnedStrategy:

@@ -11,7 +11,7 @@ from fake_players import clock
 from stepaside.core.constants import CAPTURE_DISTANCE
 from stepaside.games.duel import Duel, run_duel
 from stepaside.games.duel_settings import DuelSettings, StartSettings
-from stepaside.games.match import Progress
+from stepaside.games.game import Progress
 from stepaside.games.outcome import Outcome
 from stepaside.games.walker import SimulatedPlayer
 from stepaside.sim.camera_settings import RoomObject, SceneSettings

@@ -5,7 +5,8 @@ import pytest
 
 from fake_players import TICK, FakeObserver, clock, game, pair, raising
 from stepaside.core.errors import ReachError, StrategyError
-from stepaside.games.match import Progress, play
+from stepaside.games.game import Progress
+from stepaside.games.match import play
 from stepaside.games.outcome import Outcome
 from stepaside.games.recorder import Recorder
 

@@ -36,7 +36,7 @@ def met(
         TIMED,
         FAST,
         duration=(far + 2.0) / speed,
-    ).closest_m
+    ).closest_distance
 
 
 def duel(**changes: Any) -> DuelSettings:

@@ -13,7 +13,8 @@ from stepaside.core.poses import Array, Pose
 from stepaside.core.rotations import rotation
 from stepaside.games.duel import Duel
 from stepaside.games.duel_settings import DuelSettings, StartSettings
-from stepaside.games.floor_player import FloorPlayer, PathSteering
+from stepaside.games.floor_player import FloorPlayer
+from stepaside.games.floor_world import FloorPerson
 from stepaside.games.walker import SimulatedPlayer
 from stepaside.sim.pedestrian_appearance import FIGURES, HIP
 from stepaside.sim.person_body import (
@@ -176,10 +177,16 @@ def world_of(model: mujoco.MjModel, data: mujoco.MjData) -> Any:
 def walker(
     world: Any, motion: PersonMotion, evader: tuple[float, float]
 ) -> tuple[FloorPlayer, Any]:
-    """A person, and the true state of the evader, which may be changed."""
+    """A person, and the position of the evader, which may be changed."""
     other: Any = SimpleNamespace(position_torso_in_world=evader)
     body = PersonBody(world, "her", motion.pose)
-    return FloorPlayer(body, PathSteering(motion, other, TICK)), other
+    walk = FloorPerson("her", motion, {}, "evader", TICK)
+
+    def seen() -> dict[str, Pose]:
+        x, y = other.position_torso_in_world
+        return {"evader": Pose(x, y, 0.0)}
+
+    return FloorPlayer(body, walk, seen), other
 
 
 def test_a_person_walks_leg_by_leg_towards_the_evader() -> None:
@@ -240,6 +247,7 @@ def test_a_person_steers_at_the_current_evader_position() -> None:
         other.position_torso_in_world = (0.0, 4.0 * side)
         before = player.truth.heading_in_world
         player.tick()
+        world.time += TICK
         assert side * (player.truth.heading_in_world - before) > 0.01
 
 

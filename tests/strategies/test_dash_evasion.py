@@ -7,7 +7,8 @@ import numpy as np
 import pytest
 
 from stepaside.core.poses import ALL_AROUND, Pose, Sector
-from stepaside.games.template_game import TemplateGame, play_point
+from stepaside.games import StrategyTrack
+from stepaside.games.template_game import play_template
 from stepaside.planning import GaitSettings
 from stepaside.sim.person_motion import PersonMotion, Place
 from stepaside.sim.person_settings import PersonSettings
@@ -38,7 +39,7 @@ def play(
     legs: VelocitySet = LEGS,
     distance: float = 7.0,
     duration: float = 7.0,
-) -> TemplateGame:
+) -> StrategyTrack:
     """Play a person who comes from a bearing, in [rad]."""
 
     def motion(start: Pose, evader: Place) -> PersonMotion:
@@ -48,20 +49,20 @@ def play(
         distance * cos(bearing), distance * sin(bearing), bearing + pi
     )
     evader = Pose(0.0, 0.0, 0.0)
-    return play_point(
+    return play_template(
         motion,
         start,
         evader,
         strategy,
         GAIT,
-        legs,
+        velocities=legs,
         duration=duration,
         step=0.02,
     )
 
 
 @lru_cache(maxsize=8)
-def walker(bearing: int, miss: float = 0.0) -> TemplateGame:
+def walker(bearing: int, miss: float = 0.0) -> StrategyTrack:
     """Return the game of a straight walker at 1.4 m/s."""
     person = PersonSettings("straight", 1.4, miss=miss)
     return play(person, radians(bearing))
@@ -70,7 +71,7 @@ def walker(bearing: int, miss: float = 0.0) -> TemplateGame:
 @pytest.mark.parametrize("bearing", [0, 60, 90, 135, 180])
 def test_a_straight_walker_is_avoided(bearing: int) -> None:
     game = walker(bearing)
-    assert game.closest_m > 1.0
+    assert game.closest_distance > 1.0
     moved = np.hypot(*(game.evader[-1] - game.evader[0])[:2])
     assert moved < 2.0  # it stands again
     speed = np.hypot(*np.diff(game.evader[-20:, :2], axis=0).T) / 0.02
@@ -81,7 +82,7 @@ def test_standing_is_hit_and_passers_by_are_let_pass() -> None:
     stands = play(
         PersonSettings("straight", 1.4), 0.0, strategy=load_strategy("stand")
     )
-    assert stands.closest_m < 0.05
+    assert stands.closest_distance < 0.05
     passing = walker(30, miss=1.2)
     assert np.ptp(passing.evader, axis=0).max() == 0.0
 
@@ -106,14 +107,14 @@ def test_a_wary_robot_keeps_room_for_a_turn(bearing: int) -> None:
         "straight", 1.4, miss=miss, turn_after=walked, turn=turn
     )
     wary = play(person, radians(bearing), strategy=load_strategy("wary"))
-    assert wary.closest_m > 0.7
+    assert wary.closest_distance > 0.7
     # Of those who walk on, it keeps as clear as the one that expects it.
     straight = play(
         PersonSettings("straight", 1.4),
         radians(bearing),
         strategy=load_strategy("wary"),
     )
-    assert straight.closest_m > 1.0
+    assert straight.closest_distance > 1.0
 
 
 @pytest.mark.parametrize("bearing", [0, 60, 90])
@@ -133,7 +134,7 @@ def test_a_chaser_keeps_near_the_distance_of_the_homicidal_chauffeur() -> None:
     person = PersonSettings("steer", 1.4, 10.0, turning_radius=radius)
     matador = DashEvasion(turning_radius=radius, enough=inf)
     game = play(person, 0.0, strategy=matador, legs=point, duration=20.0)
-    assert 0.85 * bound < game.closest_m < 1.15 * bound
+    assert 0.85 * bound < game.closest_distance < 1.15 * bound
 
 
 def test_the_matador_assumes_a_chaser() -> None:

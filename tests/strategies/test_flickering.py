@@ -19,13 +19,14 @@ from stepaside.arena import (
 from stepaside.control.clearance.surroundings import KnownRoom, MappedRoom
 from stepaside.control.strategy_runner import StrategyRunner
 from stepaside.core.poses import Pose
+from stepaside.games import play_strategies
 from stepaside.perception.floor_map import CELL, FloorMap
 from stepaside.perception.measurement import Sighting
 from stepaside.planning import Direction
 from stepaside.strategies import Intent, Knowledge, Limits, Pursuit
 from stepaside.strategies.look_ahead import PENALTY, LookAhead
-from stepaside.strategies.search import turn_search
-from stepaside.strategies.strategy_game import StepGame, play_strategies
+from stepaside.strategies.search import turn_search as search
+from stepaside.strategies.strategy_game import StepGame
 
 LIMITS = Limits(GAIT.speed, GAIT.gain, GAIT.stride, GAIT.step_duration)
 
@@ -94,13 +95,13 @@ def test_a_map_that_is_exact_is_taken_at_its_word(
     gain: float,
 ) -> None:
     told: list[Any] = []
-    looked = turn_search.look_ahead
+    looked = search.look_ahead
 
     def look(*given: Any, **named: Any) -> Any:
-        told.append(given[5])
+        told.append(given[4])
         return looked(*given, **named)
 
-    monkeypatch.setattr("stepaside.strategies.look_ahead.look_ahead", look)
+    monkeypatch.setattr(search, "look_ahead", look)
     strategy = LookAhead()
     known = Knowledge(
         0.0,

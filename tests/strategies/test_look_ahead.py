@@ -10,6 +10,7 @@ import pytest
 from stepaside.arena import Disc, ObstacleSet, Room, RoomRecipe, generate_room
 from stepaside.core.compilation import cache_folder
 from stepaside.core.poses import Pose, wrap_angle
+from stepaside.games import Outcome, play_strategies
 from stepaside.strategies import (
     Evasion,
     Knowledge,
@@ -18,8 +19,6 @@ from stepaside.strategies import (
     Pursuit,
     StepGame,
     Strategy,
-    StrategyOutcome,
-    play_strategies,
 )
 from stepaside.strategies import (
     table_cache as tables,
@@ -34,7 +33,6 @@ from stepaside.strategies.opponent_track import (
     OpponentTrack,
     track_of_steps,
 )
-from stepaside.strategies.search.step_motion import PursuerModel
 
 NAO = Limits(0.1, 0.2, 0.04, 0.4)
 FACING = (Pose(0.0, 0.0, 0.6), Pose(1.0, 0.1, 3.3))
@@ -75,7 +73,7 @@ def test_the_pursuer_heading_is_estimated_from_sightings() -> None:
         bearing = wrap_angle(float(np.arctan2(y, x)) - evader[2])
         pose = Pose(*evader.tolist())
         seen = track_of_steps(seen, know(bearing, hypot(x, y), pose, 0.4 * n))
-        both = poses_at_sighting(seen, PursuerModel(), step_rules(NAO))
+        both = poses_at_sighting(seen, step_rules(NAO))
         found = float(np.arctan2(both.ps, both.pc))
         if n:
             assert wrap_angle(found - pursuer[2]) == pytest.approx(0, abs=1e-5)
@@ -87,19 +85,19 @@ def test_in_a_room_it_survives_where_moving_aside_touches(seed: int) -> None:
     assert room.starts is not None
     game = StepGame(duration=60.0)
 
-    def play(evader: Strategy) -> StrategyOutcome:
+    def play(evader: Strategy) -> Outcome:
         assert room.starts is not None
         track = play_strategies(
             Pursuit(), evader, room.starts, room=room, game=game
         )
-        if track.outcome is StrategyOutcome.SURVIVED:
-            assert len(track.distances) == len(game.decision_times) + 1
+        if track.outcome is Outcome.COMPLETED:
+            assert len(track.distances) == game.count + 1
             assert track.distances.min() > game.capture
             assert track.clearances.min() >= game.body_radius
         return track.outcome
 
-    assert play(ASIDE) is StrategyOutcome.TOUCHED
-    assert play(LookAhead()) is StrategyOutcome.SURVIVED
+    assert play(ASIDE) is Outcome.TOUCHED
+    assert play(LookAhead()) is Outcome.COMPLETED
 
 
 def test_with_its_back_in_a_corner_it_turns_before_it_walks() -> None:
@@ -108,8 +106,8 @@ def test_with_its_back_in_a_corner_it_turns_before_it_walks() -> None:
     assert room.starts is not None
     game = StepGame(duration=16.0)
     for tight, expected in (
-        (0.0, StrategyOutcome.CAPTURED),
-        (0.5, StrategyOutcome.SURVIVED),
+        (0.0, Outcome.CAPTURED),
+        (0.5, Outcome.COMPLETED),
     ):
         track = play_strategies(
             Pursuit(),
@@ -130,7 +128,7 @@ def test_it_rather_stands_than_touches() -> None:
     )
     assert track.clearances.min() >= 0.2
     alone = play_strategies(Pursuit(), ASIDE, starts, room=room, game=SHORT)
-    assert alone.outcome is StrategyOutcome.TOUCHED
+    assert alone.outcome is Outcome.TOUCHED
 
 
 def test_it_knows_the_map_in_its_own_odometry() -> None:
@@ -294,15 +292,11 @@ def test_a_walker_looks_ahead_from_where_its_step_begins() -> None:
         age=0.0,
     )
     moved = predict_poses(
-        poses_at_sighting(
-            track_of_steps(None, walker), PursuerModel(), step_rules(NAO)
-        ),
+        poses_at_sighting(track_of_steps(None, walker), step_rules(NAO)),
         walker,
         walker.step_start_in_map or here,
     )
-    still = poses_at_sighting(
-        track_of_steps(None, there), PursuerModel(), step_rules(NAO)
-    )
+    still = poses_at_sighting(track_of_steps(None, there), step_rules(NAO))
     assert moved[:6] == pytest.approx(still[:6])
     one, memory = mind.decide(walker, mind.begin())
     two, other = mind.decide(there, mind.begin())

@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 
 from stepaside.core.poses import Pose, wrap_angle
+from stepaside.games import Outcome, play_strategies
 from stepaside.strategies import (
     Evasion,
     Knowledge,
@@ -15,9 +16,7 @@ from stepaside.strategies import (
     OptimalPursuit,
     Pursuit,
     StepGame,
-    StrategyOutcome,
     Walk,
-    play_strategies,
 )
 
 NAO = Limits(0.1, 0.2, 0.04, 0.4)
@@ -101,8 +100,8 @@ def test_the_optimal_pursuer_captures_an_evader_moving_aside(
         play_strategies(pursuer, ASIDE, START, game=game).outcome
         for pursuer in (OptimalPursuit(24), Pursuit())
     )
-    assert best is StrategyOutcome.CAPTURED
-    assert paper is StrategyOutcome.SURVIVED
+    assert best is Outcome.CAPTURED
+    assert paper is Outcome.COMPLETED
 
 
 def known(bearing: float, distance: float = 1.0, **more: Any) -> Knowledge:

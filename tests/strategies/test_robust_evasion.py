@@ -9,6 +9,7 @@ import pytest
 
 from stepaside.arena import Disc, Room, RoomRecipe
 from stepaside.core.poses import Pose, wrap_angle
+from stepaside.games import play_strategies
 from stepaside.strategies import (
     Knowledge,
     Limits,
@@ -16,7 +17,6 @@ from stepaside.strategies import (
     RobustEvasion,
     StepGame,
     Strategy,
-    play_strategies,
 )
 from stepaside.strategies.opponent_models import (
     MODELS,
@@ -29,16 +29,12 @@ from stepaside.strategies.robust_evasion import (
     actions_of,
     planned_game,
 )
-from stepaside.strategies.search.beam_search import (
-    beam_search,
-    play_moves,
-)
-from stepaside.strategies.search.step_motion import (
+from stepaside.strategies.search.beam_search import beam_search, play_moves
+from stepaside.strategies.search.pursuer_model import (
     BeamRules,
     PursuerModel,
     arc_end,
-    pair_of,
-    pursuer_turn,
+    model_turn,
 )
 from stepaside.studies.tournament_settings import TournamentSettings
 
@@ -196,7 +192,7 @@ def test_faster_pursuer_is_seen_to_be_faster() -> None:
     pursuer, own, fit = (-0.6, 0.1, 1.2), (1.4, -0.2, 2.0), ModelFit()
     for n in range(5):
         fit = fit.observe(0.4 * n, Pose(*own), pursuer[:2], RULES, 0.4)
-        turn = pursuer_turn(pair_of(own, pursuer), model, RULES)
+        turn = model_turn(own, pursuer, model, RULES)
         pursuer = arc_end(pursuer, 1.3 * 0.04, turn)
     assert fit.speed == pytest.approx(1.3, abs=0.01)
 
@@ -217,7 +213,7 @@ def sights_of_walkers(
         x, y = np.array([x, y]) + noise * generator.normal(size=2)
         fit = fit.observe(0.4 * n, Pose(*own), (x, y), RULES, 0.4, sways=True)
         yield fit, pursuer
-        turn = pursuer_turn(pair_of(own, pursuer), model, RULES)
+        turn = model_turn(own, pursuer, model, RULES)
         pursuer = arc_end(pursuer, 0.04, turn)
         own = arc_end(own, -0.04, 0.2 if n % 16 < 8 else -0.2)
 
@@ -305,7 +301,7 @@ def decisions(
         )
         intent, memory = evader.decide(known, memory)
         yield known, memory
-        turn = pursuer_turn(pair_of(own, pursuer), model, RULES)
+        turn = model_turn(own, pursuer, model, RULES)
         pursuer = arc_end(pursuer, model.speed * 0.04, turn)
         turn = RULES.share * intent.heading
         own = arc_end(own, -0.04 * intent.speed_factor, turn)

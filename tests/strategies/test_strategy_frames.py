@@ -10,6 +10,9 @@ from hypothesis import strategies as st
 
 from stepaside.arena import Box, Disc, Obstacle, ObstacleSet, Polygon, Room
 from stepaside.core.poses import Pose, wrap_angle
+from stepaside.games import play_strategies
+from stepaside.games.floor_games import PAIR
+from stepaside.games.floor_world import FloorAgent
 from stepaside.strategies import (
     Evasion,
     Intent,
@@ -20,11 +23,10 @@ from stepaside.strategies import (
     Pursuit,
 )
 from stepaside.strategies.approach import Approach
-from stepaside.strategies.decision_maker import TemplatePlayer
 from stepaside.strategies.look_ahead import predict_poses
 from stepaside.strategies.opponent_track import OpponentTrack
-from stepaside.strategies.search.step_motion import PlayerPair
-from stepaside.strategies.strategy_game import StepGame, play_strategies
+from stepaside.strategies.search import PlayerPair
+from stepaside.strategies.strategy_game import StepGame
 
 LIMITS = Limits(0.1, 0.2, 0.04, 0.7)
 STEP = LIMITS.step_duration
@@ -253,13 +255,23 @@ def test_a_player_knows_the_opponents_velocity_in_its_own_frame(
 ) -> None:
     """Of the other on the floor, however the own body moves and turns."""
     strategy: Any = Noting()
-    player = TemplatePlayer(strategy, LIMITS, own, ObstacleSet(SOLIDS))
+    agent = FloorAgent(
+        strategy,
+        LIMITS,
+        PAIR["evader"],
+        list(PAIR.values()),
+        obstacles=ObstacleSet(SOLIDS),
+    )
+    moving = False
     for i in range(6):
         time = STEP * i
         here = own.compose(Pose(-0.03 * i, 0.0, 0.3 * i))
         there = Pose(own.x + 2.0 + u * time, own.y + v * time, 0.0)
-        player.pose = here
-        player.decide(player.see(time, there))
+        known = agent.look(
+            time, {"evader": here, "pursuer": there}, moving=moving
+        )
+        assert known is not None
+        moving = agent.evaluate(known).walks
     first, last = strategy.told[0], strategy.told[-1]
     assert first.velocity is None and last.pose_in_map == here
     assert last.obstacles_in_map.shapes == SOLIDS and last.age == 0.0

@@ -8,8 +8,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from stepaside.games.outcome import Outcome
-from stepaside.strategies.strategy_game import StrategyOutcome, StrategyTrack
+from stepaside.games import Outcome, StrategyTrack
 from stepaside.studies import evasion_measurements as read
 from stepaside.studies.claim_jobs import JOBS
 from stepaside.studies.claims import Claim
@@ -31,7 +30,7 @@ def claims(job: str) -> dict[str, Claim]:
 
 def game(
     closest: float = 0.7,
-    outcome: StrategyOutcome = StrategyOutcome.SURVIVED,
+    outcome: Outcome = Outcome.COMPLETED,
     clear: float = 0.205,
     decision: float = 5e-4,
 ) -> StrategyTrack:
@@ -50,8 +49,8 @@ def game(
     )
 
 
-TOUCHED = game(outcome=StrategyOutcome.TOUCHED, clear=0.19)
-CAPTURED = game(0.34, StrategyOutcome.CAPTURED)
+TOUCHED = game(outcome=Outcome.TOUCHED, clear=0.19)
+CAPTURED = game(0.34, Outcome.CAPTURED)
 
 
 def played() -> PlayedGames:

@@ -17,8 +17,9 @@ from resumable_jobs import Row, finished, gather
 
 from stepaside.arena import draw_any_start
 from stepaside.core.poses import rotate
+from stepaside.games import play_strategies
 from stepaside.strategies import load_strategy
-from stepaside.strategies.strategy_game import StepGame, play_strategies
+from stepaside.strategies.strategy_game import StepGame
 from stepaside.studies.result_files import header, write_result
 from stepaside.theory.value import ValueTable, solve_cars, two_car_game
 

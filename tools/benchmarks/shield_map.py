@@ -25,7 +25,7 @@ from resumable_jobs import Row, finished, gather
 
 from stepaside.core.poses import Pose, wrap_angle
 from stepaside.core.random_streams import named_generator
-from stepaside.games.template_game import play_point, play_template
+from stepaside.games.template_game import play_template
 from stepaside.locomotion.policy.legs_loader import load_legs
 from stepaside.locomotion.policy.legs_settings import LegsSettings
 from stepaside.planning import Direction, GaitSettings
@@ -234,17 +234,10 @@ def play(robot: MappedRobot, kind: str, start: Pose, seed: int) -> float:
         return Chaser(kind, robot.shield, pose, seed, straight)
 
     person = Pose(-robot.shield.speed * straight, 0.0, 0.0)
-    if robot.legs is None:
-        game = play_template(
-            motion, person, start, strategy, robot.gait,
-            duration=robot.duration, step=robot.step,
-        )  # fmt: skip
-    else:
-        game = play_point(
-            motion, person, start, strategy, robot.gait, robot.legs,
-            duration=robot.duration, step=robot.step,
-        )  # fmt: skip
-    return game.closest_m
+    return play_template(
+        motion, person, start, strategy, robot.gait,
+        duration=robot.duration, velocities=robot.legs, step=robot.step,
+    ).closest_distance  # fmt: skip
 
 
 def describe(robot: MappedRobot) -> Row:

@@ -87,7 +87,7 @@ def _warn_of_expected_end(settings: DuelSettings) -> None:
 def _play(settings: DuelSettings) -> "DuelRun":
     """Run the duel with a progress bar on standard error."""
     from ..games.duel import run_duel
-    from ..games.match import Progress
+    from ..games.game import Progress
 
     look = "{desc} {bar} {n:.0f}/{total:.0f} s simulated{postfix}"
     total = settings.duration

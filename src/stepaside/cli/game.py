@@ -102,8 +102,8 @@ def game(
 
 def _play(settings: "GameSettings") -> "MatchRun":
     """Play the game with a progress bar on standard error."""
+    from ..games.game import Progress
     from ..games.game_match import run_game
-    from ..games.match import Progress
 
     look = "{desc} {bar} {n:.0f}/{total:.0f} s simulated{postfix}"
     total = settings.duration

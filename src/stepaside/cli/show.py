@@ -22,7 +22,7 @@ from .tables import print_columns, print_table
 from .terminal import NOTHING_SAVED, echo, exit_interrupted, print_json
 
 if TYPE_CHECKING:
-    from ..games.match import Progress
+    from ..games.game import Progress
     from ..games.run import ExperimentRun, Run
     from ..report.export.recording import Recording
 

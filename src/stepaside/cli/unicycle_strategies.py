@@ -61,12 +61,8 @@ def play_named_game(
     """
     import numpy as np
 
-    from ..strategies import (
-        Evasion,
-        UnicycleMatch,
-        load_strategy,
-        play_strategies,
-    )
+    from ..games import play_strategies
+    from ..strategies import Evasion, StepGame, load_strategy
 
     evasion = Evasion(
         game.angle,
@@ -75,10 +71,10 @@ def play_named_game(
         side_hysteresis=game.hysteresis,
     )
     pursuer, evader = (load_strategy(name, evasion) for name in names)
-    match = UnicycleMatch(
-        (game.pursuer, game.evader), times[1], times[0], capture
+    rules = StepGame.of_unicycles(
+        game.pursuer, game.evader, times[1], times[0], capture
     )
-    run = play_strategies(pursuer, evader, start.poses(), game=match)
+    run = play_strategies(pursuer, evader, start.poses(), game=rules)
     floor = [
         float(np.hypot(*(path - path[0])[:, :2].T).max())
         for path in (run.pursuer, run.evader)

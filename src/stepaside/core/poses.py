@@ -118,6 +118,23 @@ class Pose(NamedTuple):
             -c * self.x - s * self.y, s * self.x - c * self.y, -self.theta
         )
 
+    def along_arc(self, way: float, turn: float) -> "Pose":
+        """Return the pose after an arc; see :func:`arc`.
+
+        Args:
+            way: Distance driven ahead, in [m].
+            turn: Angle turned meanwhile, in [rad].
+        """
+        half = 0.5 * turn
+        along = self.theta + half
+        if abs(half) > 1e-8:
+            way *= sin(half) / half
+        return Pose(
+            self.x + way * cos(along),
+            self.y + way * sin(along),
+            self.theta + turn,
+        )
+
     def transform_points(self, points: ArrayLike) -> Array:
         """Transform points of this frame to the parent frame. Shape (n, 2)."""
         c, s = cos(self.theta), sin(self.theta)

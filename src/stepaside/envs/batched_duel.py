@@ -58,7 +58,7 @@ def rules_of(game: StepGame) -> BatchRules:
         game.gain,
         game.capture,
         game.body_radius,
-        len(game.decision_times),
+        game.count,
         # Of strategies.opponent_track, in decisions.
         floor(2.25 * parts + 1e-9),
         ceil(0.75 * parts + 1e-9),

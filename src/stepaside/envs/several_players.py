@@ -10,11 +10,12 @@ from numpy.typing import NDArray
 from ..arena import OPEN_FLOOR, Room
 from ..core.constants import CAPTURE_DISTANCE
 from ..core.poses import Pose
+from ..games.floor_games import floor_of
+from ..games.floor_world import PERIOD, FloorWorld
 from ..games.game_match import GameMatch
 from ..games.game_settings import GameSettings, PlayerSettings
 from ..games.game_starts import with_starts
 from ..games.outcome import Outcome
-from ..games.template_level import PERIOD, TemplateMatch, UnicycleMotion
 from ..strategies.knowledge import Intent, Knowledge, OtherPlayer
 from ..strategies.learned.observation_terms import (
     FARTHEST,
@@ -72,13 +73,13 @@ class SeveralPlayers:
         }
         self._settings = settings
         self._ids = settings.identities
-        self._match: GameMatch | TemplateMatch
+        self._match: GameMatch | FloorWorld
         if settings.level == "physics":
             self._match = GameMatch(settings, recorded=False)
             self._tick = self._match.world.physics.tick
             self._outcome: Outcome | None = None
         else:
-            self._match = TemplateMatch(settings)
+            self._match = floor_of(settings)
             self._tick = PERIOD
         for held in self._held.values():
             held.reset()  # decisions of its validation
@@ -95,15 +96,15 @@ class SeveralPlayers:
     @property
     def time(self) -> float:
         """Time, in [s]."""
-        if isinstance(self._match, TemplateMatch):
+        if isinstance(self._match, FloorWorld):
             return self._match.time
         return self._match.world.time
 
     @property
     def poses(self) -> dict[str, Pose]:
         """Pose of each player in the world, by name."""
-        if isinstance(self._match, TemplateMatch):
-            return {n: s.pose for n, s in self._match.players.items()}
+        if isinstance(self._match, FloorWorld):
+            return dict(self._match.states())
         return {p.name: p.snapshot().place for p in self._match.players}
 
     def play(self, intents: Mapping[str, Intent], period: float) -> None:
@@ -166,19 +167,18 @@ class SeveralPlayers:
 
     def _advance(self) -> None:
         """Advance by one tick, or one sample."""
-        if isinstance(self._match, TemplateMatch):
-            self._match.advance()
+        if isinstance(self._match, FloorWorld):
+            self._match.decide()
+            self._match.step(self._until)
         else:
             self._outcome = self._match.tick()
         self._judge()
 
     def _look(self) -> None:
         """Update what the controlled templates know; robots decide late."""
-        if isinstance(self._match, TemplateMatch):
-            for name in self._held:
-                motion = self._match.motions[name]
-                assert isinstance(motion, UnicycleMotion)
-                motion.decide(self._match.time, self._match.players)
+        if isinstance(self._match, FloorWorld):
+            for name, held in self._held.items():
+                held.known = self._match.knowledge(name)
 
     def _judge(self) -> None:
         """Update the closest approaches, and end the game if it is over."""
@@ -187,7 +187,7 @@ class SeveralPlayers:
             failed = self._failures(self._match)
         for name in self._evaders:
             pose = self.poses[name]
-            if isinstance(self._match, TemplateMatch) and self.room.solids:
+            if isinstance(self._match, FloorWorld) and self.room.solids:
                 gap = float(self.room.clearance([pose[:2]])[0])
                 if gap < BODY_RADIUS:
                     failed.add(name)

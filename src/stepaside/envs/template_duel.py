@@ -1,22 +1,22 @@
 """One game of an environment, without physics or in physics."""
 
 from collections.abc import Iterator, Sequence
+from dataclasses import replace
+from math import hypot, inf
 from typing import Protocol
 
 from ..arena import Room
 from ..core.errors import StrategyError
 from ..core.poses import Pose
+from ..games.floor_games import floor_of_two, rules_of_two
+from ..games.floor_world import FloorWalk
+from ..games.game import GameInPlay
+from ..games.outcome import Outcome
 from ..planning import Direction
 from ..strategies.constant_walk import StandStill
 from ..strategies.knowledge import Intent, Knowledge
 from ..strategies.strategy import Strategy
-from ..strategies.strategy_game import (
-    StepGame,
-    StrategyOutcome,
-    judge_poses,
-    move_players,
-    place_players,
-)
+from ..strategies.strategy_game import StepGame
 
 
 class EnvironmentGame(Protocol):
@@ -103,8 +103,7 @@ class TemplateDuel:
             strategies: Strategies of pursuer and evader; None for a player
                 whose intents are given.
         """
-        self._game, (self.room, starts) = game, arena
-        self._strategies = strategies
+        self.room, starts = arena
         pursuer, evader = (
             strategy or StandStill(direction)
             for strategy, direction in zip(
@@ -113,31 +112,43 @@ class TemplateDuel:
                 strict=True,
             )
         )
-        self._players = place_players(
-            game, (pursuer, evader), starts, self.room
-        )
-        self._times = game.decision_times
-        self._packed = self.room.solid_set.packed
-        self._decision = 0
+        self._strategies = strategies
+        self._world = floor_of_two(game, (pursuer, evader), starts, self.room)
+        rules = rules_of_two(game)
+        self._duration = rules.duration
+        self._game = GameInPlay(self._world, replace(rules, duration=inf))
+        self._duration = game.whole_duration
         self.ended = ""
-        self._look()
         self.closest = self.distance
 
     @property
     def time(self) -> float:
         """Path time, in [s]."""
-        return self._decision * self._game.period / self._game.decisions
+        return self._world.time
+
+    @property
+    def distance(self) -> float:
+        """Distance between the players, in [m]."""
+        (x, y, _), (u, v, _) = self.poses
+        return hypot(u - x, v - y)
 
     @property
     def truncated(self) -> bool:
         """Whether the time is up."""
-        return self._decision >= len(self._times)
+        return self.time >= self._duration - 1e-9
 
     @property
     def poses(self) -> tuple[Pose, Pose]:
         """Poses of pursuer and evader in the room."""
-        pursuer, evader = self._players
-        return pursuer.pose, evader.pose
+        pursuer, evader = self._world.states().values()
+        return pursuer, evader
+
+    @property
+    def knowledge(self) -> tuple[Knowledge | None, Knowledge | None]:
+        """Knowledge of pursuer and evader."""
+        return self._world.knowledge("pursuer"), self._world.knowledge(
+            "evader"
+        )
 
     def step(self, intents: Sequence[Intent | None]) -> Iterator[None]:
         """Play until the next decision.
@@ -150,39 +161,25 @@ class TemplateDuel:
             StrategyError: If a strategy returns no intent.
         """
         yield from ()  # it has no networks
-        pursues, evades = (
-            self._intent(n, intent) for n, intent in enumerate(intents)
-        )
-        for _ in move_players(self._game, self._players, (pursues, evades)):
-            pass
-        self._decision += 1
-        self._look()
-        _, outcome = judge_poses(self._game, self._packed, self.poses)
-        if outcome is StrategyOutcome.TOUCHED:
-            self.closest = 0.0
-        else:
-            self.closest = min(self.closest, self.distance)
-        if outcome is not StrategyOutcome.SURVIVED:
-            self.ended = str(outcome)
+        for name, intent, strategy in zip(
+            self._world.motions, intents, self._strategies, strict=True
+        ):
+            motion = self._world.motions[name]
+            assert isinstance(motion, FloorWalk)
+            if strategy is None:
+                if intent is None:
+                    raise StrategyError(f"{name} needs an intent, got none")
+                motion.given = intent
+        self._game.decide()
+        if self._game.failure is not None:
+            raise self._game.failure
+        self._game.advance()
+        ended = self._game.ended
+        self.closest = min(self.closest, self.distance)
+        if ended is not None:
+            self.ended = str(ended.outcome)
+            if ended.outcome is Outcome.TOUCHED:
+                self.closest = 0.0
 
     def close(self) -> None:
         """Nothing to release."""
-
-    def _intent(self, number: int, given: Intent | None) -> Intent:
-        """Return the intent of a player, decided by its strategy or given."""
-        player = self._players[number]
-        if self._strategies[number] is not None:
-            return player.decide(self.knowledge[number])
-        if given is None:
-            raise StrategyError(f"player {number} needs an intent, got none")
-        player.moving = given.walks
-        return given
-
-    def _look(self) -> None:
-        """Update the knowledge of both players."""
-        pursuer, evader = self._players
-        self.knowledge: tuple[Knowledge, Knowledge] = (
-            pursuer.see(self.time, evader.pose),
-            evader.see(self.time, pursuer.pose),
-        )
-        self.distance = self.knowledge[1].distance

@@ -1,6 +1,8 @@
 from .duel import Duel as Duel
 from .duel import run_duel as run_duel
 from .duel_settings import DuelSettings as DuelSettings
+from .floor_games import StrategyTrack as StrategyTrack
+from .floor_games import play_strategies as play_strategies
 from .outcome import Outcome as Outcome
 from .run import DuelRun as DuelRun
 from .run import Run as Run
@@ -12,6 +14,8 @@ __all__ = [
     "DuelSettings",
     "Outcome",
     "Run",
+    "StrategyTrack",
     "WalkRun",
+    "play_strategies",
     "run_duel",
 ]

@@ -8,8 +8,9 @@ from ..locomotion.policy.network_pool import NetworkPool
 from .duel_as_game import build_duel_world
 from .duel_evaluation import summarise
 from .duel_settings import DuelSettings
+from .game import Progress
 from .initial_poses import initial_poses, with_initial_poses
-from .match import MatchObserver, Progress, play, play_together
+from .match import MatchObserver, play, play_together
 from .outcome import Outcome
 from .pair_match import PairMatch
 from .recorder import Recorder

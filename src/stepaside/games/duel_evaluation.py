@@ -30,7 +30,7 @@ from .duel_summary import (
 from .forecast import ExpectedEnd, forecast
 from .pair_match import PairMatch
 from .sight_summary import SightReport
-from .template_game import play_point, play_template
+from .template_game import play_template
 from .trajectory import PlanningTimes, Trajectory
 
 
@@ -165,17 +165,17 @@ def template_closest_approach(settings: DuelSettings) -> float | None:
         policy = load_legs(
             legs, load_robot(own.robot), tick=settings.physics.tick
         )
-        return play_point(
+        return play_template(
             *initial,
             load_evader(settings),
             gait,
-            policy.velocities,
             duration=settings.duration,
-        ).closest_m
+            velocities=policy.velocities,
+        ).closest_distance
     if settings.strategy.trigger == "time":
         return play_template(
             *initial, load_evader(settings), gait, duration=settings.duration
-        ).closest_m
+        ).closest_distance
     pace = time_scale(gait)
     return template_approach(
         *initial,

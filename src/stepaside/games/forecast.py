@@ -101,7 +101,7 @@ def _play(settings: DuelSettings) -> Forecast:
         duration=duration,
         step=STEP,
     )
-    circle, closest = circle_of_theory(settings), played.closest_m
+    circle, closest = circle_of_theory(settings), played.closest_distance
     since = convergence_time(
         played.times, played.pursuer, played.evader, settings, circle
     )

@@ -8,15 +8,16 @@ import numpy as np
 
 from ..core.poses import Array
 from ..sim.ground_truth import torsos_apart
+from .floor_games import play_floor
+from .game import ARRIVAL, Progress
 from .game_evaluation import GameRecord, summarise_game
 from .game_settings import GameSettings
 from .game_starts import with_starts
 from .game_world import GameWorld
-from .match import Match, MatchObserver, Progress, play
+from .match import Match, MatchObserver, play
 from .outcome import Outcome
 from .recorder import Recorder
 from .run import MatchRun
-from .template_level import ARRIVAL, play_templates
 from .trajectory import PlanningTimes, Trajectory
 
 
@@ -177,49 +178,29 @@ def _run_templates(
     """Play a game of templates."""
     settings = with_starts(settings)
     began = perf_counter()
-
-    def progress(time: float) -> None:
-        if report is not None:
-            wall = max(perf_counter() - began, 1e-9)
-            report(Progress(time, None, time / wall))
-
-    record = play_templates(settings, progress)
-    end = float(record.times[-1])
-    outcome = Outcome.COMPLETED
-    message = f"played {end:.2f} s"
-    if record.interrupted:
-        outcome = Outcome.INTERRUPTED
-        message = f"interrupted at {end:.2f} s"
-    goals = {
-        own.name: _time_at_goal(record.times, record.poses[own.name], own.goal)
-        for own in settings.players
-        if own.goal and own.decides
-    }
+    game, recorder = play_floor(settings, report)
+    if game.failure is not None:
+        raise game.failure
+    assert game.ended is not None
+    poses = recorder.poses()
     none = PlanningTimes(0, np.zeros(0), 0.0, None)
     return make_match_run(
         GameRecord(
             settings,
-            outcome,
-            message,
-            end,
-            record.times,
-            {name: _track(poses) for name, poses in record.poses.items()},
-            dict.fromkeys(record.poses, none),
-            {n: at for n, at in goals.items() if at is not None},
-            (),
+            game.ended.outcome,
+            game.ended.message,
+            round(game.world.time, 9),
+            np.array(recorder.times),
+            {name: _track(rows) for name, rows in poses.items()},
+            dict.fromkeys(poses, none),
+            game.goals_at,
+            game.ended.players
+            if game.ended.outcome is Outcome.TOUCHED
+            else (),
             (),
         ),
         perf_counter() - began,
     )
-
-
-def _time_at_goal(
-    times: Array, poses: Array, goal: tuple[float, ...]
-) -> float | None:
-    """Return the time at which a goal is reached, in [s]; None if never."""
-    away = np.hypot(poses[:, 0] - goal[0], poses[:, 1] - goal[1])
-    reached = np.flatnonzero(away < ARRIVAL)
-    return float(times[reached[0]]) if reached.size else None
 
 
 def _track(poses: Array) -> Trajectory:

@@ -12,9 +12,9 @@ from ..robots.description import load_robot
 from ..sim.crowd_motion import RADIUS
 from ..sim.person_motion import PersonMotion
 from ..sim.person_settings import PATHS
+from .floor_games import walk_on_path
 from .game_settings import GameSettings, PlayerSettings
 from .recorded_motion import RecordedMotion
-from .template_level import walk_on_path
 
 MOST_DRAWS = 2000  # of one position, before the floor counts as full
 WALL_MARGIN = 0.3  # clearance of a start from walls and obstacles, in [m]

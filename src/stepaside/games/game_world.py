@@ -31,27 +31,20 @@ from ..sim.person_body import PersonBody
 from ..sim.physics_settings import PhysicsSettings
 from ..sim.push import pushes_by_robot
 from ..sim.world import World
-from .floor_player import (
-    CrowdSteering,
-    FloorBody,
-    FloorPlayer,
-    MarkerBody,
-    PathSteering,
-    RecordedSteering,
-    StrategySteering,
+from .floor_games import (
+    agent_of,
+    bodies_of,
+    target_of_person,
+    walk_on_path,
 )
+from .floor_player import FloorBody, FloorPlayer, MarkerBody
+from .floor_world import FloorMotion, FloorPerson, FloorReplay, FloorWalk, Seen
 from .game_furnishing import Scenery, scenery_of_game
 from .game_settings import GameSettings, PlayerSettings
 from .game_strategies import strategy_of
 from .player import Player
 from .recorded_motion import RecordedMotion
 from .served_player import ServedPlayer
-from .template_level import (
-    agent_of,
-    bodies_of,
-    target_of_person,
-    walk_on_path,
-)
 from .walker import RobotPlayer
 from .walker_factory import (
     RobotSensing,
@@ -199,20 +192,27 @@ class GameWorld:
         """Return a player of the world."""
         if own.body == "robot":
             return self._robot(own)
-        settings, body = self._settings, self._bodies[own.name]
-        others = {n: t for n, t in self._truths.items() if n != own.name}
-        pose, tick = _start_of(own), self.world.physics.tick
+        body = self._bodies[own.name]
+
+        def seen() -> Seen:
+            poses = {
+                name: Pose(*truth.position_reference_in_world, 0.0)
+                for name, truth in self._truths.items()
+            }
+            return poses | {own.name: player.motion.pose}
+
+        player = FloorPlayer(body, self._floor_motion(own), seen)
+        return player
+
+    def _floor_motion(self, own: PlayerSettings) -> FloorMotion:
+        """Return the motion of a player that moves without physics."""
+        settings, pose = self._settings, _start_of(own)
         if own.body == "unicycle":
-            agent = agent_of(settings, own)
-            return FloorPlayer(
-                body,
-                StrategySteering(
-                    agent, pose, own.gait, settings.identities, others
-                ),
+            return FloorWalk(
+                agent_of(settings, own), pose, delay=own.gait.start_support
             )
         if own.body == "run":
-            motion = RecordedMotion(own.run, own.run_player)
-            return FloorPlayer(body, RecordedSteering(motion, tick))
+            return FloorReplay(RecordedMotion(own.run, own.run_player))
         if own.goal:
             room = settings.room
             walk = CrowdMotion(
@@ -221,13 +221,14 @@ class GameWorld:
                 (own.goal[0], own.goal[1]),
                 *(() if room is None else (room.solid_set,)),
             )
-            return FloorPlayer(
-                body,
-                CrowdSteering(walk, others, bodies_of(settings, own), tick),
-            )
-        path = self._walks[own.name]
-        target = self._truths[target_of_person(settings, own)]
-        return FloorPlayer(body, PathSteering(path, target, tick))
+            return FloorPerson(own.name, walk, bodies_of(settings, own))
+        return FloorPerson(
+            own.name,
+            self._walks[own.name],
+            {},
+            target_of_person(settings, own),
+            self.world.physics.tick,
+        )
 
     def _map_in_world(self, own: PlayerSettings) -> Pose:
         """Return the pose of the frame in which a robot knows places."""

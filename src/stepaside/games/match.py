@@ -4,31 +4,16 @@ from collections.abc import Callable, Sequence
 from itertools import combinations
 from math import ceil
 from time import perf_counter
-from typing import NamedTuple, Protocol
+from typing import Protocol
 
 from ..core.errors import ReachError, StrategyError
 from ..core.signal_handling import DeferredInterrupt
 from ..locomotion.policy.network_pool import NetworkPool
 from ..sim.ground_truth import torsos_apart
 from ..sim.world import World
+from .game import REPORT_PERIOD, Progress
 from .outcome import Outcome
 from .player import Player
-
-REPORT_PERIOD = 0.2  # between two progress reports, in [s]
-
-
-class Progress(NamedTuple):
-    """Progress of a game.
-
-    Attributes:
-        time: Simulated time, in [s].
-        distance: Distance of the players, in [m]; None with one player.
-        real_time_factor: Simulated time over time passed.
-    """
-
-    time: float
-    distance: float | None
-    real_time_factor: float
 
 
 class MatchObserver(Protocol):

@@ -4,9 +4,14 @@ from enum import StrEnum
 
 
 class Outcome(StrEnum):
-    """Outcome of a duel, a walk or a play."""
+    """Outcome of a game or a play.
+
+    Bodies are in contact in physics; a body on the floor touches an obstacle.
+    """
 
     COMPLETED = "completed"
+    CAPTURED = "captured"
+    TOUCHED = "touched"
     FALL = "fall"
     CONTACT = "contact"
     UNREACHABLE = "unreachable"

@@ -16,8 +16,9 @@ from ..core.row_table import RowTable
 from ..locomotion.walk_snapshots import StepStarted
 from ..perception.images import ColourImage, DepthImage
 from .duel import Duel
+from .game import Progress
 from .game_match import GameMatch
-from .match import Match, Progress, play
+from .match import Match, play
 from .outcome import Outcome
 from .recorder import Recorder
 from .run import Run, is_duel, is_match, is_walk

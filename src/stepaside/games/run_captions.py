@@ -2,8 +2,11 @@
 
 from math import hypot
 
-from ..strategies.approach import Approach
-from .approach_forecast import describe_motion, estimate_approach
+from .approach_forecast import (
+    CourseApproach,
+    describe_motion,
+    estimate_approach,
+)
 from .run import (
     DuelRun,
     MatchRun,
@@ -73,7 +76,7 @@ def _describe_duel(run: DuelRun, index: int) -> str:
     return "the evader is evading"
 
 
-def _approach_at(run: DuelRun, index: int) -> Approach | None:
+def _approach_at(run: DuelRun, index: int) -> CourseApproach | None:
     """Return the approach over the gait cycle before a sample."""
     if len(run.times) < 2:
         return None

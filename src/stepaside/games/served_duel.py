@@ -9,8 +9,9 @@ from .client_synchroniser import TICK, ClientSynchroniser, RobotServer
 from .duel import make_duel_run
 from .duel_as_game import build_duel_world
 from .duel_settings import DuelSettings
+from .game import Progress
 from .initial_poses import with_initial_poses
-from .match import Progress, play
+from .match import play
 from .pair_match import PairMatch
 from .recorder import Recorder
 from .robot_endpoints import RobotEndpoint

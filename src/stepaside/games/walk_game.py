@@ -14,7 +14,8 @@ from ..robots.description import RobotDescription, load_robot
 from ..sim.body_settings import with_control_period
 from ..sim.world import World
 from ..strategies import Walk
-from .match import Match, MatchObserver, Progress, play
+from .game import Progress
+from .match import Match, MatchObserver, play
 from .outcome import Outcome
 from .recorder import Recorder
 from .run import WalkRun

@@ -17,10 +17,6 @@ from .registry import load_strategy as load_strategy
 from .robust_evasion import RobustEvasion as RobustEvasion
 from .strategy import Strategy as Strategy
 from .strategy_game import StepGame as StepGame
-from .strategy_game import StrategyOutcome as StrategyOutcome
-from .strategy_game import StrategyTrack as StrategyTrack
-from .strategy_game import UnicycleMatch as UnicycleMatch
-from .strategy_game import play_strategies as play_strategies
 from .team_evasion import TeamEvasion as TeamEvasion
 from .team_pursuit import AssignedPursuit as AssignedPursuit
 from .team_pursuit import CyclicPursuit as CyclicPursuit
@@ -48,12 +44,8 @@ __all__ = [
     "StandStill",
     "StepGame",
     "Strategy",
-    "StrategyOutcome",
-    "StrategyTrack",
     "TeamEvasion",
     "TeleoperatedPursuit",
-    "UnicycleMatch",
     "Walk",
     "load_strategy",
-    "play_strategies",
 ]

@@ -1,10 +1,9 @@
 """Execution of a strategy: its memory, and the knowledge it decides from."""
 
-from math import atan2, cos, hypot, sin
+from math import cos, sin
 from typing import Any
 
 from ..arena import NO_OBSTACLES, ObstacleSet
-from ..core.errors import StrategyError
 from ..core.player_identity import PlayerIdentity
 from ..core.poses import Pose, wrap_angle
 from ..perception.measurement import Sighting
@@ -32,21 +31,16 @@ class DecisionMaker:
         self,
         strategy: Strategy,
         limits: Limits,
-        *,
-        estimates_velocity: bool = True,
     ) -> None:
         """Begin without a sighting.
 
         Args:
             strategy: Strategy of the player.
             limits: Limits of its gait.
-            estimates_velocity: Whether its knowledge contains the velocity
-                of the opponent.
         """
         self.strategy = strategy
         self.memory: Any = strategy.begin()
         self.limits = limits
-        self._estimates_velocity = estimates_velocity
         self.reset_rates()
 
     def reset_rates(self) -> None:
@@ -74,6 +68,7 @@ class DecisionMaker:
         moving: bool,
         obstacles: ObstacleSet = NO_OBSTACLES,
         map_error: float = 0.0,
+        velocity: tuple[float, float] | None = None,
     ) -> Knowledge:
         """Add a sighting and return the knowledge for a decision.
 
@@ -86,19 +81,16 @@ class DecisionMaker:
             moving: Whether the player is walking.
             obstacles: Known obstacles.
             map_error: Largest position error of the obstacles, in [m].
+            velocity: Velocity of the opponent over the floor in the axes of
+                the pose of the template, in [m/s], if it is known exactly.
         """
         time, bearing, distance = sighting[:3]
         bearing, age = wrap_angle(bearing), max(0.0, now - time)
         pose = pose_template_in_odometry
-        sight = pose.theta + bearing
-        position = (
-            pose.x + distance * cos(sight),
-            pose.y + distance * sin(sight),
-        )
+        ahead = Pose(distance * cos(bearing), distance * sin(bearing), 0.0)
+        position = pose.compose(ahead)[:2]
         self._track = track = self._track.note(time, position, pose)
-        bearing_rate, closing_speed = track.sight_rates
-        velocity = None
-        if self._estimates_velocity:
+        if velocity is None:
             velocity = turned(track.velocity, -pose.theta)
         others = self._others(now, pose_template_in_odometry)
         if not others and sighting.identity is not None:
@@ -113,8 +105,8 @@ class DecisionMaker:
             bearing=bearing,
             distance=distance,
             limits=self.limits,
-            bearing_rate=bearing_rate,
-            closing_speed=closing_speed,
+            bearing_rate=track.bearing_rate,
+            closing_speed=track.closing_speed,
             age=age,
             pose_in_map=pose_odometry_in_map.compose(
                 pose_template_in_odometry
@@ -163,69 +155,3 @@ def turned(
         return None
     (u, v), c, s = velocity, cos(angle), sin(angle)
     return c * u - s * v, s * u + c * v
-
-
-class TemplatePlayer(DecisionMaker):
-    """Player of a template game: exact sightings, without latency.
-
-    Attributes:
-        pose: Own pose in the room.
-        obstacles: Known obstacles.
-        moving: Whether the last intent was to walk.
-    """
-
-    def __init__(
-        self,
-        strategy: Strategy,
-        limits: Limits,
-        pose: Pose,
-        obstacles: ObstacleSet = NO_OBSTACLES,
-        *,
-        estimates_velocity: bool = True,
-    ) -> None:
-        """Begin standing, without a sighting.
-
-        Args:
-            strategy: Strategy of the player.
-            limits: Limits of its gait.
-            pose: Initial pose in the room.
-            obstacles: Known obstacles.
-            estimates_velocity: Whether its knowledge contains the velocity
-                of the opponent.
-        """
-        super().__init__(
-            strategy, limits, estimates_velocity=estimates_velocity
-        )
-        self.pose = pose
-        self.obstacles, self.moving = obstacles, False
-
-    def see(self, time: float, opponent: Pose) -> Knowledge:
-        """Add an exact sighting and return the knowledge for a decision.
-
-        Args:
-            time: Present time, in [s].
-            opponent: Pose of the opponent in the room.
-        """
-        x, y = opponent.x - self.pose.x, opponent.y - self.pose.y
-        bearing = wrap_angle(atan2(y, x) - self.pose.theta)
-        return self.observe(
-            time,
-            self.pose,
-            Sighting(time, bearing, hypot(x, y)),
-            moving=self.moving,
-            obstacles=self.obstacles,
-        )
-
-    def decide(self, knowledge: Knowledge) -> Intent:
-        """Decide and store the memory.
-
-        Raises:
-            StrategyError: If the strategy returns no intent.
-        """
-        try:
-            intent = self.evaluate(knowledge)
-        except StrategyError as error:
-            name = type(self.strategy).__name__
-            raise StrategyError(f"strategy {name}: {error}") from error
-        self.moving = intent.walks
-        return intent

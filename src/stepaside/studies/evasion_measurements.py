@@ -9,10 +9,11 @@ import numpy as np
 from ..arena import RoomRecipe, generate_room
 from ..games.duel import run_duel
 from ..games.duel_settings import PLAYERS, DuelSettings
+from ..games.floor_games import StrategyTrack
 from ..games.outcome import Outcome
 from ..games.run import DuelRun
 from ..sim.camera_settings import SceneSettings
-from ..strategies.strategy_game import StepGame, StrategyOutcome, StrategyTrack
+from ..strategies.strategy_game import StepGame
 from .claims import Readings
 from .evasion_claims import DURATION
 from .tournament_physics import clearance, outcome_of, players_touched
@@ -43,7 +44,7 @@ class PlayedGames:
     def survived(self, evader: str) -> float:
         """Return the fraction of games in rooms that an evader survives."""
         outcomes = [g.outcome for g in self.games["room"][evader]]
-        return outcomes.count(StrategyOutcome.SURVIVED) / len(outcomes)
+        return outcomes.count(Outcome.COMPLETED) / len(outcomes)
 
     def closest(self, evader: str) -> float:
         """Return the mean closest approach on the open floor, in [m]."""

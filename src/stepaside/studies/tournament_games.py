@@ -3,8 +3,8 @@
 from dataclasses import replace
 
 from ..arena import Room
+from ..games.floor_games import StrategyTrack, play_strategies
 from ..strategies import Strategy
-from ..strategies.strategy_game import StrategyTrack, play_strategies
 from .tournament_settings import TournamentSettings
 
 FEEDBACK = 8  # decisions per step at level "unicycle"

@@ -8,8 +8,10 @@ import numpy as np
 from ..arena import Room
 from ..core.convex import grown_hull_area
 from ..core.poses import Array, rotate, wrap_angles
+from ..games.floor_games import StrategyTrack
+from ..games.outcome import Outcome
 from ..strategies import load_strategy
-from ..strategies.strategy_game import StepGame, StrategyTrack
+from ..strategies.strategy_game import StepGame
 from ..strategies.table_cache import pursuit_bound
 from .tabulation import Record
 from .tournament_games import FEEDBACK, play_game
@@ -47,7 +49,6 @@ def _play_humanoids(
         KeyboardInterrupt: If it was interrupted; it is not recorded then.
     """
     from ..games.duel import run_duel
-    from ..games.outcome import Outcome
     from .tournament_physics import duel_settings
 
     room, starts = settings.arena(seed)
@@ -109,7 +110,9 @@ def _step_values(
     seconds /= FEEDBACK if settings.level == "unicycle" else 1
     clear = float(track.clearances.min())
     return {
-        "outcome": str(track.outcome),
+        "outcome": "survived"
+        if track.outcome is Outcome.COMPLETED
+        else str(track.outcome),
         "survived_s": seconds,
         "closest_m": float(distances.min()),
         "bound_m": bound_of(track.pursuer[0], track.evader[0], game),

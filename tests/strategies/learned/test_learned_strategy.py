@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from stepaside.core.errors import ConfigurationError, PolicyError
-from stepaside.games import DuelSettings, run_duel
+from stepaside.games import DuelSettings, play_strategies, run_duel
 from stepaside.games.outcome import Outcome
 from stepaside.planning import Direction
 from stepaside.strategies import (
@@ -19,9 +19,7 @@ from stepaside.strategies import (
     Limits,
     Pursuit,
     StepGame,
-    UnicycleMatch,
     load_strategy,
-    play_strategies,
 )
 from stepaside.strategies.learned import (
     LearnedStrategy,
@@ -97,7 +95,7 @@ def test_a_file_plays_steps_and_unicycles(file: Path) -> None:
     body = Unicycle(0.1, 0.2)
     for game in (
         StepGame(duration=40.0),
-        UnicycleMatch((body, body), period=0.4, duration=40.0),
+        StepGame.of_unicycles(body, body, 0.4, 40.0),
     ):
         played = play_strategies(Pursuit(), learned, START.poses(), game=game)
         back = play_strategies(

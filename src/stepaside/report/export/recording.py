@@ -11,8 +11,8 @@ import numpy as np
 from ...core.errors import ConfigurationError
 from ...core.player_colours import Colour
 from ...core.poses import Array
+from ...games.game import Progress
 from ...games.game_furnishing import colours_of_players
-from ...games.match import Progress
 from ...games.play_rows import read_played
 from ...games.replayed_signals import RobotSignals, repeat_game
 from ...games.run import Run, is_play

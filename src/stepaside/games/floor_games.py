@@ -1,0 +1,354 @@
+"""Games on the floor: of two strategies, and of the settings of a game."""
+
+from collections.abc import Callable
+from math import pi
+from typing import NamedTuple
+
+import numpy as np
+
+from ..arena import NO_OBSTACLES, OPEN_FLOOR, Room
+from ..core.brief_repr import brief_repr
+from ..core.constants import CAPTURE_DISTANCE
+from ..core.errors import ConfigurationError
+from ..core.player_identity import PlayerIdentity, Role
+from ..core.poses import Array, Pose, wrap_angles
+from ..sim.crowd_motion import CrowdMotion
+from ..sim.person_motion import PersonMotion
+from ..strategies.knowledge import Limits
+from ..strategies.strategy import Strategy
+from ..strategies.strategy_game import StepGame
+from .floor_world import (
+    PARTS,
+    PERIOD,
+    FloorAgent,
+    FloorBulk,
+    FloorMotion,
+    FloorPerson,
+    FloorRecorder,
+    FloorReplay,
+    FloorWalk,
+    FloorWorld,
+)
+from .game import GameInPlay, GameRules, Progress, play
+from .game_settings import GameSettings, PlayerSettings
+from .game_strategies import MARGIN, strategy_of
+from .outcome import Outcome
+from .recorded_motion import RecordedMotion
+
+PAIR = {
+    name: PlayerIdentity(name, Role(name), name)
+    for name in ("pursuer", "evader")
+}
+"""Identities of pursuer and evader."""
+
+
+class StrategyTrack(NamedTuple):
+    """Recorded game of two strategies.
+
+    Attributes:
+        outcome: Outcome of the game.
+        times: Times of the poses, in [s]. Shape (n,).
+        pursuer: Poses (x [m], y [m], theta [rad]), from the start on.
+            Shape (n, 3).
+        evader: Poses of the evader, likewise.
+        clearances: Clearances of the evader's centre, in [m]. Shape (n,).
+        decision: Mean processor time of a decision of the evader, without
+            the first one, which loads code, in [s].
+        longest_decision: Longest time of a decision, likewise.
+    """
+
+    outcome: Outcome
+    times: Array
+    pursuer: Array
+    evader: Array
+    clearances: Array
+    decision: float
+    longest_decision: float
+
+    def __repr__(self) -> str:
+        """Return the fields in one short line."""
+        return brief_repr(self)
+
+    @property
+    def captured(self) -> bool:
+        """Whether the distance fell to the capture distance."""
+        return self.outcome is Outcome.CAPTURED
+
+    @property
+    def bearings(self) -> Array:
+        """Bearings of the pursuer from the evader, in [rad]. Shape (n,)."""
+        dx, dy, _ = (self.pursuer - self.evader).T
+        return wrap_angles(np.arctan2(dy, dx) - self.evader[:, 2])
+
+    @property
+    def distances(self) -> Array:
+        """Distance between the two, in [m]. Shape (n,)."""
+        apart = self.evader - self.pursuer
+        found: Array = np.hypot(apart[:, 0], apart[:, 1])
+        return found
+
+    @property
+    def closest_distance(self) -> float:
+        """Least recorded distance, in [m]."""
+        return float(self.distances.min())
+
+
+def play_strategies(
+    pursuer: Strategy,
+    evader: Strategy,
+    starts: tuple[Pose, Pose],
+    *,
+    room: Room = OPEN_FLOOR,
+    game: StepGame | None = None,
+) -> StrategyTrack:
+    """Play a game of two strategies without physics.
+
+    Args:
+        pursuer: Strategy of the pursuer.
+        evader: Strategy of the evader.
+        starts: Initial poses of pursuer and evader in the room.
+        room: Room; the evader knows all obstacles, and so does a pursuer
+            that they stop.
+        game: Rules; by default those of :class:`StepGame`.
+
+    Raises:
+        PlanError: If a strategy requests an invalid motion.
+        StrategyError: If a strategy returns no intent.
+    """
+    game = game or StepGame()
+    world = floor_of_two(game, (pursuer, evader), starts, room)
+    recorder = FloorRecorder(world)
+    played = GameInPlay(world, rules_of_two(game), (recorder,))
+    play([played])
+    return track_of(played, recorder, room)
+
+
+def track_of(
+    game: GameInPlay, recorder: FloorRecorder, room: Room = OPEN_FLOOR
+) -> StrategyTrack:
+    """Return the record of a finished game of pursuer and evader.
+
+    Raises:
+        StrategyError: If a strategy failed.
+        KeyboardInterrupt: If the user interrupted it.
+    """
+    if game.failure is not None:
+        raise game.failure
+    assert game.ended is not None
+    if game.ended.outcome is Outcome.INTERRUPTED:
+        raise KeyboardInterrupt
+    poses, evades = recorder.poses(), recorder.world.motions["evader"]
+    times = evades.decision_times if isinstance(evades, FloorWalk) else []
+    return StrategyTrack(
+        game.ended.outcome,
+        np.array(recorder.times),
+        poses["pursuer"],
+        poses["evader"],
+        room.clearance(poses["evader"][:, :2]),
+        float(np.mean(times[1:] or times or [0.0])),
+        max(times[1:], default=0.0),
+    )
+
+
+def floor_of_two(
+    game: StepGame,
+    strategies: tuple[Strategy, Strategy],
+    starts: tuple[Pose, Pose],
+    room: Room = OPEN_FLOOR,
+) -> FloorWorld:
+    """Return the world of a game of pursuer and evader.
+
+    Args:
+        game: Rules.
+        strategies: Strategies of pursuer and evader.
+        starts: Their initial poses in the room.
+        room: The room.
+    """
+    solids = room.solid_set
+    # A pursuer that obstacles do not stop plans no detours.
+    stops = solids if game.solid_pursuer else NO_OBSTACLES
+    motions = {
+        name: FloorWalk(
+            FloorAgent(
+                strategy, limits, own, list(PAIR.values()), obstacles=known
+            ),
+            start,
+            parts=game.decisions,
+            largest_turn=game.largest_turn,
+            walls=stops if name == "pursuer" else NO_OBSTACLES,
+            radius=game.body_radius,
+        )
+        for (name, own), strategy, limits, start, known in zip(
+            PAIR.items(),
+            strategies,
+            game.limits,
+            starts,
+            (stops, solids),
+            strict=True,
+        )
+    }
+    return FloorWorld(motions, solids, ["evader"])
+
+
+def rules_of_two(game: StepGame) -> GameRules:
+    """Return what ends a game of pursuer and evader."""
+    return GameRules(game.whole_duration, game.capture, PAIR)
+
+
+def floor_of(settings: GameSettings) -> FloorWorld:
+    """Return the world of a game at level "unicycle" or "steps".
+
+    Obstacles stop pursuers; any other robot that touches one ends the game.
+
+    Args:
+        settings: Settings with the initial poses filled in.
+
+    Raises:
+        StepAsideError: If a strategy is invalid or a recorded run is
+            unreadable.
+    """
+    room = settings.room
+    return FloorWorld(
+        {own.name: _motion(settings, own) for own in settings.players},
+        NO_OBSTACLES if room is None else room.solid_set,
+        [p.name for p in settings.players if p.role != Role.PURSUER],
+    )
+
+
+def rules_of(settings: GameSettings) -> GameRules:
+    """Return what ends a game of these settings."""
+    goals = {p.name: p.goal for p in settings.players if p.goal and p.decides}
+    return GameRules(
+        settings.duration,
+        0.0 if settings.level == "physics" else CAPTURE_DISTANCE,
+        settings.identities,
+        goals,
+    )
+
+
+def play_floor(
+    settings: GameSettings,
+    report: Callable[[Progress], None] | None = None,
+) -> tuple[GameInPlay, FloorRecorder]:
+    """Play a game on the floor; its record has a sample each 20 ms.
+
+    Args:
+        settings: Settings with the initial poses filled in.
+        report: Called about five times a second with the progress.
+
+    Raises:
+        StepAsideError: If a strategy is invalid or a recorded run is
+            unreadable.
+    """
+    world = floor_of(settings)
+    recorder = FloorRecorder(world, PERIOD)
+    game = GameInPlay(world, rules_of(settings), (recorder,))
+    play([game], report)
+    return game, recorder
+
+
+def _motion(settings: GameSettings, own: PlayerSettings) -> FloorMotion:
+    """Return the motion of a player."""
+    pose, room = own.pose, settings.room
+    assert pose is not None
+    solids = NO_OBSTACLES if room is None else room.solid_set
+    if own.decides:
+        return FloorWalk(
+            agent_of(settings, own),
+            pose,
+            parts=PARTS[settings.level],
+            walls=solids if own.role == Role.PURSUER else NO_OBSTACLES,
+            radius=own.radius + MARGIN,
+        )
+    if own.body == "run":
+        return FloorReplay(RecordedMotion(own.run, own.run_player))
+    if own.goal:
+        x, y = own.goal
+        motion = CrowdMotion(own.crowd, pose, (x, y), solids)
+        return FloorPerson(own.name, motion, bodies_of(settings, own))
+    return FloorPerson(
+        own.name,
+        walk_on_path(settings, own),
+        {},
+        target_of_person(settings, own),
+    )
+
+
+def bodies_of(
+    settings: GameSettings, own: PlayerSettings
+) -> dict[str, FloorBulk]:
+    """Return the bodies of all players, by name, as a person sees them.
+
+    Args:
+        settings: Settings of the game.
+        own: Settings of the person.
+    """
+    people = settings.people_around(own)
+    return {
+        p.name: FloorBulk(
+            p.name in people, p.radius, people.get(p.name, False)
+        )
+        for p in settings.players
+    }
+
+
+def agent_of(settings: GameSettings, own: PlayerSettings) -> FloorAgent:
+    """Return the strategy of a template, which knows the room.
+
+    Args:
+        settings: Settings of the game.
+        own: Settings of the player.
+    """
+    gait, room = own.gait, settings.room
+    return FloorAgent(
+        strategy_of(own, Pose(0.0, 0.0, 0.0)),
+        Limits(gait.speed, gait.gain, gait.stride, gait.step_duration),
+        own.identity,
+        list(settings.identities.values()),
+        target=own.target,
+        obstacles=room.solid_set
+        if room and settings.knows_room
+        else NO_OBSTACLES,
+    )
+
+
+def walk_on_path(settings: GameSettings, own: PlayerSettings) -> PersonMotion:
+    """Return the walk of a person without a goal, at its begin.
+
+    Args:
+        settings: Settings with the initial poses filled in.
+        own: Settings of the person.
+
+    Raises:
+        ConfigurationError: If there is no other player.
+    """
+    pose = own.pose
+    aim = settings.player(target_of_person(settings, own)).pose
+    assert pose is not None and aim is not None
+    room = settings.room
+    course = pose.theta + (pi if own.person.backward else 0.0)
+    return PersonMotion(
+        own.person,
+        Pose(pose.x, pose.y, course),
+        (aim.x, aim.y),
+        NO_OBSTACLES if room is None else room.solid_set,
+    )
+
+
+def target_of_person(settings: GameSettings, own: PlayerSettings) -> str:
+    """Return the name of the player that a person without a goal walks to.
+
+    Raises:
+        ConfigurationError: If there is no other player.
+    """
+    others = [p for p in settings.players if p.name != own.name]
+    if own.target:
+        return own.target
+    opposing = [p for p in others if own.identity.opposes(p.identity)]
+    deciding = [p for p in others if p.decides]
+    for candidates in (opposing, deciding, others):
+        if candidates:
+            return candidates[0].name
+    raise ConfigurationError(
+        f"{own.name}: a person without a goal needs another player, got none"
+    )

@@ -1,0 +1,574 @@
+"""World without bodies: templates of robots, people and records on a floor.
+
+A robot is its template unicycle, which decides at steps or eight times in a
+step, and follows the exact arc of each decision. Times are gait times.
+"""
+
+from collections.abc import Mapping, Sequence
+from math import atan2, cos, hypot, inf, pi, sin
+from time import thread_time
+from typing import NamedTuple, Protocol
+
+import numpy as np
+
+from ..arena import NO_OBSTACLES, ObstacleSet
+from ..core.errors import StrategyError
+from ..core.player_identity import PlayerIdentity
+from ..core.poses import Array, Pose, wrap_angle
+from ..locomotion.locomotion import MotionRequest, template_velocity
+from ..perception.measurement import Sighting
+from ..planning import Direction, GaitSettings
+from ..sim.crowd_motion import CrowdMotion, Neighbour
+from ..sim.person_motion import PersonMotion
+from ..strategies.decision_maker import DecisionMaker
+from ..strategies.knowledge import Intent, Knowledge, Limits, OtherPlayer
+from ..strategies.opponent_choice import choose_opponent
+from ..strategies.search.distance_field import clearance_at
+from ..strategies.strategy import Strategy
+from ..strategies.velocity_set import STILL, respond
+from .game import GameInPlay
+from .recorded_motion import RecordedMotion
+
+PERIOD = 0.02  # of records, and of the decisions of people, in [s]
+AT_ONCE = 1e-9  # times that differ by less are one instant, in [s]
+PARTS = {"steps": 1, "unicycle": 8}
+"""Decisions of a robot per step, by level."""
+
+Seen = Mapping[str, Pose]
+"""Pose of each player in the world, by name."""
+
+
+class FloorMotion(Protocol):
+    """Motion of a player on the floor.
+
+    Attributes:
+        pose: Present pose in the world.
+        due: Time of its next decision, in [s].
+    """
+
+    pose: Pose
+    due: float
+
+    def decide(self, now: float, seen: Seen) -> None:
+        """Decide at a time, in [s], how to move until the next decision."""
+
+    def pose_at(self, time: float) -> Pose:
+        """Return the pose at a time before the next decision, in [s]."""
+
+    def advance(self, until: float) -> None:
+        """Move to a time, in [s], at most to the next decision."""
+
+
+class FloorAgent(DecisionMaker):
+    """Strategy of a template that sees all others exactly.
+
+    Attributes:
+        identity: Own identity.
+        obstacles: Known obstacles, in the world.
+    """
+
+    identity: PlayerIdentity
+
+    def __init__(
+        self,
+        strategy: Strategy,
+        limits: Limits,
+        identity: PlayerIdentity,
+        others: Sequence[PlayerIdentity],
+        *,
+        target: str = "",
+        obstacles: ObstacleSet = NO_OBSTACLES,
+    ) -> None:
+        """Begin without knowledge.
+
+        Args:
+            strategy: Strategy of the player.
+            limits: Limits of its gait.
+            identity: Its identity.
+            others: Identities of all other players.
+            target: Name of its target; empty for the nearest opponent.
+            obstacles: Known obstacles, in the world.
+        """
+        super().__init__(strategy, limits)
+        self.identity, self.obstacles = identity, obstacles
+        self._ids = tuple(each for each in others if each != identity)
+        self._target, self._present = target, ""
+        self._before: tuple[float, Seen] = (0.0, {})
+        self._known: tuple[OtherPlayer, ...] = ()
+
+    def look(
+        self, now: float, seen: Seen, *, moving: bool
+    ) -> Knowledge | None:
+        """Return the knowledge at a time, in [s]; None without others."""
+        own = seen[self.identity.name]
+        known = [self._other(each, now, own, seen) for each in self._ids]
+        if not known:
+            return None
+        self._before = now, seen
+        self._known = tuple(known) if len(known) > 1 else ()
+        opponent = known[0]
+        if len(known) > 1:
+            present = choose_opponent(
+                self.identity,
+                {each.identity: each.distance for each in known},
+                target=self._target,
+                present=self._present,
+            )
+            if present != self._present:
+                self._present = present
+                self.reset_rates()
+            opponent = next(o for o in known if o.identity.name == present)
+        return self.observe(
+            now,
+            own,
+            Sighting(
+                now,
+                opponent.bearing,
+                opponent.distance,
+                identity=opponent.identity,
+            ),
+            moving=moving,
+            obstacles=self.obstacles,
+            velocity=opponent.velocity,
+        )
+
+    def _others(self, now: float, pose: Pose) -> tuple[OtherPlayer, ...]:
+        """Return all other players, if there are several."""
+        return self._known
+
+    def _other(
+        self, who: PlayerIdentity, now: float, own: Pose, seen: Seen
+    ) -> OtherPlayer:
+        """Return another player in the frame of the own pose."""
+        x, y, _ = seen[who.name]
+        dx, dy = x - own.x, y - own.y
+        then, before = self._before
+        velocity = None
+        if before and now > then:
+            was = before[who.name]
+            u, v = (x - was.x) / (now - then), (y - was.y) / (now - then)
+            c, s = cos(own.theta), sin(own.theta)
+            velocity = u * c + v * s, v * c - u * s
+        bearing = wrap_angle(atan2(dy, dx) - own.theta)
+        return OtherPlayer(who, bearing, hypot(dx, dy), velocity)
+
+
+class FloorWalk:
+    """Template of a robot, or unicycle.
+
+    It follows the arc of its last decision for a step, or a part of it.
+
+    Attributes:
+        agent: Strategy of the player.
+        pose: Present pose in the world.
+        due: Time of its next decision, in [s].
+        given: Intent that is given from outside; None while the strategy
+            decides.
+        is_walking: Whether it walks.
+        decision_times: Processor time of each decision, in [s].
+    """
+
+    def __init__(
+        self,
+        agent: FloorAgent,
+        pose: Pose,
+        *,
+        parts: int = 1,
+        delay: float = 0.0,
+        largest_turn: float | None = None,
+        alert: float | None = None,
+        walls: ObstacleSet = NO_OBSTACLES,
+        radius: float = 0.0,
+    ) -> None:
+        """Begin standing.
+
+        Args:
+            agent: Strategy of the player.
+            pose: Initial pose in the world.
+            parts: Decisions per step.
+            delay: Time from the decision to walk to the first motion of a
+                standing player, in [s].
+            largest_turn: Largest turn of a step, in [rad]; that of eq. (2)
+                by default.
+            alert: Time between decisions while it stands, in [s]; that of
+                its steps, or parts of steps, by default.
+            walls: Obstacles that stop it.
+            radius: Least distance from them, in [m].
+        """
+        self.agent, self.pose, self.due = agent, pose, 0.0
+        self.given: Intent | None = None
+        self.is_walking = False
+        self.decision_times: list[float] = []
+        limits = agent.limits
+        self._parts, self._delay = parts, delay
+        self._share = limits.gain * limits.stride / limits.speed
+        self._largest = largest_turn or pi * self._share
+        self._alert = alert or limits.step_duration / parts
+        self._walls, self._radius = walls, radius
+        self._known: tuple[float, Knowledge | None] = (-inf, None)
+        self._since = 0.0  # time of the pose, or of the begin of its motion
+        self._left = (0.0, 0.0)  # way [m] and turn [rad] until the decision
+
+    def look(self, now: float, seen: Seen) -> Knowledge | None:
+        """Return the knowledge for the decision at a time, in [s]."""
+        if self._known[0] != now:
+            self._known = (
+                now,
+                self.agent.look(now, seen, moving=self.is_walking),
+            )
+        return self._known[1]
+
+    def decide(self, now: float, seen: Seen) -> None:
+        """Decide, and follow the intent until the next decision.
+
+        Raises:
+            StrategyError: If the strategy returns no intent.
+        """
+        begun = thread_time()
+        intent, known = self.given, self.look(now, seen)
+        if intent is None and known is not None:
+            try:
+                intent = self.agent.evaluate(known)
+            except StrategyError as error:
+                name = type(self.agent.strategy).__name__
+                raise StrategyError(f"strategy {name}: {error}") from error
+        self.decision_times.append(thread_time() - begun)
+        limits, parts = self.agent.limits, self._parts
+        duration, self._since = limits.step_duration / parts, now
+        if intent is None or not intent.walks:
+            self.is_walking, self.due = False, now + self._alert
+            return
+        duration /= intent.pace
+        if not self.is_walking:
+            self._since += self._delay / intent.pace
+        self.is_walking, self.due = True, self._since + duration
+        strategy = self.agent.strategy
+        turn, most = self._share * intent.heading, self._largest
+        if strategy.saturated:  # rate of (6), up to the bearing
+            turn, most = intent.heading, min(self._share, most)
+        turn = min(max(turn, -most), most)
+        way = min(intent.speed_factor, limits.stride_share(turn))
+        if strategy.direction is Direction.BACKWARD:
+            way = -way
+        self._left = way * limits.stride / parts, turn / parts
+
+    def pose_at(self, time: float) -> Pose:
+        """Return the pose at a time before the next decision, in [s]."""
+        share = self._share_at(time)
+        if share <= 0.0:
+            return self.pose
+        way, turn = self._left
+        pose = self.pose.along_arc(share * way, share * turn)
+        if self._walls and not self.is_clear(pose, self._walls):
+            return Pose(self.pose.x, self.pose.y, pose.theta)
+        return pose
+
+    def advance(self, until: float) -> None:
+        """Move to a time, in [s]."""
+        if not self.is_walking or until <= self._since:
+            return
+        left = 1.0 - self._share_at(until)
+        self.pose, self._since = self.pose_at(until), until
+        self._left = left * self._left[0], left * self._left[1]
+
+    def _share_at(self, time: float) -> float:
+        """Return the share of the motion until the decision at a time."""
+        return (time - self._since) / (self.due - self._since)
+
+    def is_clear(self, pose: Pose, walls: ObstacleSet) -> bool:
+        """Return whether the body is clear of obstacles at a pose."""
+        radius = self._radius
+        return clearance_at(walls.packed, pose.x, pose.y, radius) >= radius
+
+
+class FloorPoint:
+    """Point that stands for learned legs: it walks in any direction.
+
+    Its velocity follows the commands with the lags of the legs.
+
+    Attributes:
+        pose: Present pose in the world.
+        due: Time of its next sample, in [s].
+    """
+
+    def __init__(
+        self, agent: FloorAgent, pose: Pose, gait: GaitSettings, step: float
+    ) -> None:
+        """Begin standing.
+
+        Args:
+            agent: Strategy, with the velocities of the legs in its limits.
+            pose: Initial pose in the world.
+            gait: Speed, steering gain and decision interval of headings.
+            step: Step of the integration, in [s].
+        """
+        assert agent.limits.velocities is not None
+        self._agent, self._legs = agent, agent.limits.velocities
+        self.pose, self.due = pose, 0.0
+        self._gait, self._step, self._decides_at = gait, step, 0.0
+        self._command = self._actual = STILL
+
+    def decide(self, now: float, seen: Seen) -> None:
+        """Decide if it is time to, and walk on for one step."""
+        self.due = now + self._step
+        if now >= self._decides_at - AT_ONCE:
+            self._begin(now, seen)
+        self._actual = respond(
+            self._actual, self._command, self._legs.lags, self._step
+        )
+
+    def _begin(self, now: float, seen: Seen) -> None:
+        """Choose the command of the legs."""
+        from ..locomotion.policy.policy_walk import decision_interval
+
+        moving = self._command != STILL
+        known = self._agent.look(now, seen, moving=moving)
+        assert known is not None
+        intent, strategy = self._agent.evaluate(known), self._agent.strategy
+        request = MotionRequest(intent, strategy.direction, strategy.saturated)
+        self._command = self._legs.nearest(
+            template_velocity(request, self._gait)
+        )
+        if self._command != STILL:
+            self._decides_at = now + decision_interval(intent, self._gait)
+
+    def pose_at(self, time: float) -> Pose:
+        """Return the pose at a time before the next sample, in [s]."""
+        left = self._step - (self.due - time)
+        return self.pose.compose(Pose(*(left * rate for rate in self._actual)))
+
+    def advance(self, until: float) -> None:
+        """Move to a time, in [s], that of the next sample."""
+        self.pose = self.pose_at(until)
+
+
+class FloorBulk(NamedTuple):
+    """Body of a player, as a person gives way to it.
+
+    Attributes:
+        is_person: Whether it is a person.
+        radius: Radius of the body, in [m].
+        is_companion: Whether it walks with the person.
+    """
+
+    is_person: bool
+    radius: float
+    is_companion: bool
+
+
+class FloorPerson:
+    """Person who walks to a goal among others, or relative to a player.
+
+    Attributes:
+        motion: The walk.
+        pose: Present pose in the world.
+        due: Time of its next decision, in [s].
+    """
+
+    def __init__(
+        self,
+        name: str,
+        motion: CrowdMotion | PersonMotion,
+        bodies: Mapping[str, FloorBulk],
+        target: str = "",
+        period: float = PERIOD,
+    ) -> None:
+        """Begin a walk.
+
+        Args:
+            name: Name of the person.
+            motion: Its walk.
+            bodies: Bodies of all players, by name.
+            target: Player that a walk without a goal is relative to.
+            period: Time between decisions, in [s].
+        """
+        self.motion, self.pose, self.due = motion, motion.pose, 0.0
+        self._name, self._bodies, self._target = name, bodies, target
+        self._period, self._now = period, 0.0
+
+    def decide(self, now: float, seen: Seen) -> None:
+        """Walk on for one period."""
+        self._now, self.due = now, now + self._period
+        if isinstance(self.motion, CrowdMotion):
+            others = [
+                Neighbour(pose.x, pose.y, *self._bodies[name])
+                for name, pose in seen.items()
+                if name != self._name
+            ]
+            self.motion.advance(self.due, self._period, others)
+            return
+        x, y, _ = seen[self._target]
+        self.motion.advance(self.due, self._period, (x, y))
+
+    def pose_at(self, time: float) -> Pose:
+        """Return the pose at a time before the next decision, in [s]."""
+        (x, y, _), ahead = self.pose, self.motion.pose
+        if time <= self._now:
+            return self.pose
+        share = min(1.0, (time - self._now) / (self.due - self._now))
+        return Pose(
+            x + share * (ahead.x - x), y + share * (ahead.y - y), ahead.theta
+        )
+
+    def advance(self, until: float) -> None:
+        """Move to a time, in [s]."""
+        self.pose, self._now = self.pose_at(until), until
+
+
+class FloorReplay:
+    """Player whose motion was recorded.
+
+    Attributes:
+        pose: Present pose in the world.
+        due: Time of its next sample, in [s].
+    """
+
+    def __init__(self, motion: RecordedMotion) -> None:
+        """Take a recorded motion."""
+        self._motion, self.due = motion, 0.0
+        self.pose = motion.pose_at(0.0)
+
+    def decide(self, now: float, seen: Seen) -> None:
+        """Go on for one period."""
+        self.due = now + PERIOD
+
+    def pose_at(self, time: float) -> Pose:
+        """Return the pose at a time, in [s]."""
+        return self._motion.pose_at(time)
+
+    def advance(self, until: float) -> None:
+        """Move to a time, in [s]."""
+        self.pose = self.pose_at(until)
+
+
+class FloorWorld:
+    """World of a game without bodies; see :class:`~.game.PlayedWorld`.
+
+    Attributes:
+        motions: Motion of each player, by name.
+        time: Time, in [s].
+        networks: None: strategies evaluate their own networks.
+        until: Time of the next decision, in [s].
+    """
+
+    networks = None
+
+    def __init__(
+        self,
+        motions: Mapping[str, FloorMotion],
+        obstacles: ObstacleSet = NO_OBSTACLES,
+        bodies: Sequence[str] = (),
+    ) -> None:
+        """Place the players.
+
+        Args:
+            motions: Motion of each player, by name.
+            obstacles: Obstacles, in the world.
+            bodies: Players whose contact with an obstacle ends the game.
+        """
+        self.motions, self.time, self.until = dict(motions), 0.0, 0.0
+        self._seen = {name: own.pose for name, own in self.motions.items()}
+        self._obstacles = obstacles
+        self._bodies = {
+            name: own
+            for name, own in self.motions.items()
+            if name in bodies and obstacles and isinstance(own, FloorWalk)
+        }
+
+    def states(self) -> dict[str, Pose]:
+        """Return the pose of each player in the world, by name."""
+        return self._seen
+
+    def knowledge(self, name: str) -> Knowledge | None:
+        """Return the knowledge of a robot for its decision now."""
+        motion = self.motions[name]
+        assert isinstance(motion, FloorWalk)
+        return motion.look(self.time, self._seen)
+
+    def decide(self) -> None:
+        """Let the players decide that are due, all from the same state.
+
+        Raises:
+            StrategyError: If a strategy fails.
+        """
+        now = self.time + AT_ONCE
+        for motion in self.motions.values():
+            if motion.due <= now:
+                motion.decide(self.time, self._seen)
+        self.until = min(motion.due for motion in self.motions.values())
+
+    def step(self, limit: float = inf) -> None:
+        """Move all players to the next decision, or to a time, in [s]."""
+        self.time = min(self.until, limit)
+        for motion in self.motions.values():
+            motion.advance(self.time)
+        self._seen = {name: own.pose for name, own in self.motions.items()}
+
+    def fallen(self) -> tuple[str, ...]:
+        """Nobody falls."""
+        return ()
+
+    def touching(self) -> list[str]:
+        """Return the first player at an obstacle."""
+        for name, own in self._bodies.items():
+            if not own.is_clear(own.pose, self._obstacles):
+                return [name]
+        return []
+
+    def close(self) -> None:
+        """Nothing to release."""
+
+
+class FloorRecorder:
+    """Observer that samples the poses of all players on the floor.
+
+    Attributes:
+        world: The world.
+        times: Times of the samples, in [s].
+    """
+
+    def __init__(self, world: FloorWorld, period: float = 0.0) -> None:
+        """Begin an empty record.
+
+        Args:
+            world: The world.
+            period: Time between samples, in [s]; 0 for one at each decision.
+        """
+        self.world, self._period = world, period
+        self.times: list[float] = []
+        self._rows: list[Sequence[Pose]] = []
+
+    def before(self, game: GameInPlay) -> None:
+        """Do nothing: it samples when the players have decided."""
+
+    def acted(self, game: GameInPlay) -> None:
+        """Sample the motion up to the next decision."""
+        world, period = self.world, self._period
+        if not period:
+            self._note(world.time, list(world.states().values()))
+            return
+        until = min(world.until, game.rules.duration)
+        while (time := period * len(self.times)) < until - AT_ONCE:
+            motions = world.motions.values()
+            self._note(time, [own.pose_at(time) for own in motions])
+
+    def ended(self, game: GameInPlay) -> None:
+        """Take the last sample."""
+        time = self.world.time
+        if not self.times or self.times[-1] < time - AT_ONCE:
+            self._note(time, list(self.world.states().values()))
+
+    def _note(self, time: float, poses: Sequence[Pose]) -> None:
+        self.times.append(time)
+        self._rows.append(poses)
+
+    def poses(self) -> dict[str, Array]:
+        """Return the poses (x, y [m], heading [rad]) of each player.
+
+        Shapes (n, 3).
+        """
+        found = np.array(self._rows).reshape(len(self.times), -1, 3)
+        return {
+            name: found[:, number]
+            for number, name in enumerate(self.world.motions)
+        }
