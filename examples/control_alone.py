@@ -19,7 +19,7 @@ from stepaside import (  # noqa: E402
     ControlSettings,
     Evasion,
     GaitSettings,
-    Measurement,
+    RobotState,
     Sighting,
     build_scheme,
     load_robot,
@@ -37,7 +37,7 @@ for tick in range(2500):
     now = tick * TICK
     # The pursuer approaches straight ahead at 0.15 m/s, and stops at 0.5 m.
     sighting = Sighting(now, 0.0, max(0.5, 1.4 - 0.15 * now))
-    measured = Measurement(
+    measured = RobotState(
         now, controller.joint_targets, np.zeros(3), at_rest, forces, sighting
     )
     began = perf_counter()

@@ -3,7 +3,7 @@
 import numpy as np
 
 from stepaside.core.poses import Array
-from stepaside.perception.measurement import Measurement, Sighting
+from stepaside.perception.measurement import RobotState, Sighting
 
 GRAVITY = np.array([0.0, 0.0, 9.81])
 
@@ -29,9 +29,9 @@ class FakeBody:
         """Time that has passed, in [s]."""
         return self._ticks * self.tick
 
-    def read(self) -> Measurement:
+    def read(self) -> RobotState:
         """Encoders are the targets, the IMU rests, both soles press."""
-        return Measurement(
+        return RobotState(
             self.time,
             self.joints.copy(),
             np.zeros(3),

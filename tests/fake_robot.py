@@ -13,7 +13,7 @@ from stepaside.core.poses import Array, Pose
 from stepaside.locomotion.maneuver_walk import ManeuverWalk
 from stepaside.locomotion.walk_snapshots import Phase, StepStarted
 from stepaside.locomotion.zmp.feedback_loop import ClosedLoop, OpenLoop
-from stepaside.perception.measurement import Measurement, Sighting
+from stepaside.perception.measurement import RobotState, Sighting
 from stepaside.planning import Direction, Foot, GaitSettings
 from stepaside.robots.leg_kinematics import BodyReference
 from stepaside.strategies import Intent, Knowledge
@@ -118,10 +118,10 @@ class FakeFeedback:
 
 def measure(
     time: float, distance: float | None = 1.0, bearing: float = 0.0
-) -> Measurement:
+) -> RobotState:
     seen = None if distance is None else Sighting(time, bearing, distance)
     nothing = np.zeros(3)
-    return Measurement(time, nothing, nothing, nothing, np.zeros(8), seen)
+    return RobotState(time, nothing, nothing, nothing, np.zeros(8), seen)
 
 
 def scheme_of(
@@ -222,7 +222,7 @@ class FakePerception:
 
     def see(
         self,
-        measurement: Measurement,
+        measurement: RobotState,
         support: Pose,
         left_supports: bool,
         tilt: tuple[float, float],

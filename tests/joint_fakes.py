@@ -11,7 +11,7 @@ from stepaside.drivers.joint_body import JointBody, SystemClock
 from stepaside.drivers.joint_robot import JointRobot, JointTargets, Motors
 from stepaside.drivers.safety_states import SafetyState
 from stepaside.perception.measurement import (
-    Measurement,
+    RobotState,
     RobotStatus,
     Sighting,
 )
@@ -91,7 +91,7 @@ class FakeSession:
         """Return the name of a method."""
         return f"{method}() of FakeRobot"
 
-    def listen(self, patience: float, convert: Any) -> Measurement | None:
+    def listen(self, patience: float, convert: Any) -> RobotState | None:
         """Let a tick pass."""
         if self.broken:
             raise SessionLost("broken")
@@ -100,7 +100,7 @@ class FakeSession:
             return None
         self.now += TICK
         self.time += TICK
-        report = Measurement(
+        report = RobotState(
             self.time,
             self.angles,
             np.zeros(3),
@@ -110,7 +110,7 @@ class FakeSession:
             joint_velocities=np.zeros(4),
             tilt=(0.0, 0.0),
         )
-        found: Measurement = convert(
+        found: RobotState = convert(
             report._replace(**self.changes), self.name_of("listen")
         )
         return found

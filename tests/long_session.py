@@ -42,7 +42,7 @@ class DayBody(FakeBody):
     hears = False
 
     def read(self) -> Any:
-        """Measurement; sightings arrive five times a second."""
+        """State; sightings arrive five times a second."""
         measured = super().read()
         if not self.hears:
             return measured

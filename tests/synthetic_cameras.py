@@ -17,7 +17,7 @@ from stepaside.perception.depth_detector import (
 )
 from stepaside.perception.gaze import GazeTarget
 from stepaside.perception.images import ColourImage, DepthImage, SonarEcho
-from stepaside.perception.measurement import Measurement
+from stepaside.perception.measurement import RobotState
 from stepaside.perception.pipeline import (
     FloorMapping,
     FrameReport,
@@ -108,7 +108,7 @@ class Eyes:
         percepts = percepts or (SonarEcho(time, "left", 0.1),)
         angles, still = np.zeros(JOINTS), np.zeros(3)
         seen = self.perception.see(
-            Measurement(time, angles, still, UP, np.zeros(8), None, percepts),
+            RobotState(time, angles, still, UP, np.zeros(8), None, percepts),
             self.support,
             True,
             tilt,

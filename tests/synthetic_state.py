@@ -13,7 +13,7 @@ from stepaside.locomotion.zmp.current_step import CurrentStep
 from stepaside.locomotion.zmp.reference_table import ReferenceSample
 from stepaside.locomotion.zmp.stabiliser import Stabiliser
 from stepaside.locomotion.zmp.state_estimator import BodyState
-from stepaside.perception.measurement import Measurement
+from stepaside.perception.measurement import RobotState
 from stepaside.planning import Foot, GaitSettings
 from stepaside.robots.forward_kinematics import MeasuredPosture
 from stepaside.robots.leg_kinematics import BodyReference
@@ -33,7 +33,7 @@ SUPPORT = Pose(1.0, -2.0, 0.7)
 ZERO = (0.0, 0.0)
 
 
-MEASUREMENT = Measurement(
+MEASUREMENT = RobotState(
     0.0, np.zeros(3), np.zeros(3), np.zeros(3), np.zeros(8), None
 )
 
@@ -62,7 +62,7 @@ class FakeEstimator:
 
     def update(
         self,
-        measurement: Measurement,
+        measurement: RobotState,
         feet: BodyReference,
         asked: Any,
         reaction: tuple[float, float],

@@ -248,7 +248,7 @@ def test_every_angle_at_a_door_is_tried() -> None:
     """Values of results and reports of robots are not checked."""
     left_out = (  # results, readings, and arrays of the compiled search
         *("Circle", "Outcomes", "Run", "Track", "ManeuverPlan "),
-        *("Sighting", "Measurement", "Configuration", "BodySettings"),
+        *("Sighting", "RobotState", "Configuration", "BodySettings"),
         *("Maneuvers ", "JointTargets ", "ShieldGame "),
     )
     found = set()

@@ -9,7 +9,7 @@ from stepaside.core.poses import Pose
 from stepaside.drivers.joint_body import SystemClock
 from stepaside.drivers.velocity_limits import REST
 from stepaside.drivers.walking_robot import WalkerState
-from stepaside.perception.measurement import Measurement, Sighting
+from stepaside.perception.measurement import RobotState, Sighting
 from stepaside.strategies.velocity_set import BodyVelocity
 
 LONGEST = 200.0  # for what takes milliseconds, in [s]
@@ -28,10 +28,10 @@ def until(done: Callable[[], Any]) -> Any:
     raise AssertionError("nothing came")
 
 
-def report(time: float, **changes: object) -> Measurement:
+def report(time: float, **changes: object) -> RobotState:
     """Return the report of a standing robot with a new sighting."""
     seen = AHEAD._replace(time=time)
-    told = Measurement(time, sighting=seen, pose=Pose(0.0, 0.0, 0.0))
+    told = RobotState(time, sighting=seen, pose=Pose(0.0, 0.0, 0.0))
     return told._replace(**changes)  # type: ignore[arg-type]
 
 
@@ -41,7 +41,7 @@ class FakeWalker:
     Each look of its player takes the time of one report.
     """
 
-    def __init__(self, script: Iterable[Measurement | None]) -> None:
+    def __init__(self, script: Iterable[RobotState | None]) -> None:
         self.script = iter(script)
         self.now = 500.0
         self.asked: list[BodyVelocity] = []
@@ -52,7 +52,7 @@ class FakeWalker:
         """Clock of this computer, by hand."""
         return SystemClock(lambda: self.now, lambda duration: None)
 
-    def listen(self, patience: float, convert: Any) -> Measurement | None:
+    def listen(self, patience: float, convert: Any) -> RobotState | None:
         """Return the next report of the script."""
         self.now += PERIOD
         return next(self.script, None)

@@ -33,7 +33,7 @@ class BoosterJoints(sa.JointRobot):
     tick, joints = 0.02, JOINTS
     gains = dict.fromkeys(JOINTS[:10], (4.0, 1.0))  # those of Booster's
     gains |= dict.fromkeys(JOINTS[10:], (80.0, 2.0))  # K1 deployment
-    newest: sa.Measurement | None = None
+    newest: sa.RobotState | None = None
     takes_joints = False
 
     def open(self) -> None:
@@ -57,7 +57,7 @@ class BoosterJoints(sa.JointRobot):
     def note(self, state: Any) -> None:
         """Store a message, which has no stamp; called by the SDK."""
         motors, imu = state.motor_state_serial, state.imu_state
-        self.newest = sa.Measurement(
+        self.newest = sa.RobotState(
             monotonic(),
             np.array([motor.q for motor in motors]),
             np.array(imu.gyro),
@@ -66,7 +66,7 @@ class BoosterJoints(sa.JointRobot):
             tilt=(imu.rpy[0], imu.rpy[1]),
         )
 
-    def listen(self) -> sa.Measurement | None:
+    def listen(self) -> sa.RobotState | None:
         """Return the newest state; add a sighting of your own detector."""
         return self.newest
 

@@ -17,7 +17,7 @@ class BoosterRobot(sa.VelocityRobot):
     """Robot that walks by ``B1LocoClient.Move``, with its odometer."""
 
     limits = sa.VelocityLimits(forward=0.5, backward=0.3, turn=0.8)
-    newest: sa.Measurement | None = None
+    newest: sa.RobotState | None = None
 
     def open(self) -> None:
         """Connect, without moving the robot."""
@@ -35,7 +35,7 @@ class BoosterRobot(sa.VelocityRobot):
     def note(self, odometer: Any) -> None:
         """Store a message, which has no stamp; called by the SDK."""
         pose = sa.Pose(odometer.x, odometer.y, odometer.theta)
-        self.newest = sa.Measurement(monotonic(), pose=pose)
+        self.newest = sa.RobotState(monotonic(), pose=pose)
 
     def prepare(self) -> None:
         """Stand, then take velocities."""
@@ -43,7 +43,7 @@ class BoosterRobot(sa.VelocityRobot):
         sleep(STANDING_UP)
         self.client.ChangeMode(self.modes.kWalking)
 
-    def listen(self) -> sa.Measurement | None:
+    def listen(self) -> sa.RobotState | None:
         """Return the newest pose; add a sighting of your own detector."""
         return self.newest
 

@@ -11,7 +11,7 @@ class SeeingRobot(WalkerRobot):
 
     head = sa.HeadLimits(yaw=1.5, up=0.3, down=0.8)
 
-    def listen(self) -> sa.Measurement | None:
+    def listen(self) -> sa.RobotState | None:
         """Return the newest state, without a sighting."""
         report = super().listen()
         return None if report is None else report._replace(sighting=None)

@@ -21,7 +21,7 @@ class UnitreeRobot(sa.VelocityRobot):
 
     limits = sa.VelocityLimits(forward=0.5, backward=0.3, turn=0.8)
     keeps_walking = False
-    newest: sa.Measurement | None = None
+    newest: sa.RobotState | None = None
 
     def open(self) -> None:
         """Connect, without moving the robot."""
@@ -44,13 +44,13 @@ class UnitreeRobot(sa.VelocityRobot):
         time = state.stamp.sec + 1e-9 * state.stamp.nanosec
         yaw = state.imu_state.rpy[2]
         pose = sa.Pose(state.position[0], state.position[1], yaw)
-        self.newest = sa.Measurement(time, pose=pose)
+        self.newest = sa.RobotState(time, pose=pose)
 
     def prepare(self) -> None:
         """Take velocities; the robot stands already."""
         self.client.Start()
 
-    def listen(self) -> sa.Measurement | None:
+    def listen(self) -> sa.RobotState | None:
         """Return the newest pose; add a sighting of your own detector."""
         return self.newest
 

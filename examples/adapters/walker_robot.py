@@ -21,7 +21,7 @@ class WalkerRobot(sa.VelocityRobot):
         self.client = WalkerClient((ADDRESS[0], PORT))
         self.client.Connect(timeout=1.0)
 
-    def listen(self) -> sa.Measurement | None:
+    def listen(self) -> sa.RobotState | None:
         """Return the newest state, with the nearest person."""
         state = self.client.ReadState(timeout=0.05)
         if state is None:
@@ -30,7 +30,7 @@ class WalkerRobot(sa.VelocityRobot):
         if state.person is not None:
             sighting = sa.Sighting.of_position(state.time, *state.person)
         pose = sa.Pose(state.x, state.y, state.yaw)
-        return sa.Measurement(state.time, sighting=sighting, pose=pose)
+        return sa.RobotState(state.time, sighting=sighting, pose=pose)
 
     def command(self, forward: float, lateral: float, turn: float) -> None:
         """Walk at a velocity, in [m/s] and [rad/s]."""

@@ -23,7 +23,7 @@ from .games.run_archive import load_run as load_run
 from .games.walk_game import run_walk as run_walk
 from .games.walk_settings import WalkSettings as WalkSettings
 from .locomotion.zmp.control_settings import ControlSettings as ControlSettings
-from .perception.measurement import Measurement as Measurement
+from .perception.measurement import RobotState as RobotState
 from .perception.measurement import RobotStatus as RobotStatus
 from .perception.measurement import Sighting as Sighting
 from .planning import Direction as Direction
@@ -81,11 +81,11 @@ __all__ = [
     "Knowledge",
     "ManeuverPlan",
     "ManeuverPlanner",
-    "Measurement",
     "Outcome",
     "Pose",
     "Pursuit",
     "Push",
+    "RobotState",
     "RobotStatus",
     "Run",
     "Sighting",

@@ -13,7 +13,7 @@ from stepaside.control.clearance.guard import Guard
 from stepaside.control.clearance.surroundings import KnownRoom
 from stepaside.control.clearance.swept_outline import BodyOutline, lateral_sway
 from stepaside.core.poses import Pose, wrap_angle
-from stepaside.perception.measurement import Measurement, Sighting
+from stepaside.perception.measurement import RobotState, Sighting
 from stepaside.planning import ManeuverPlanner
 from stepaside.robots.description import load_robot
 from stepaside.sim.outline_measurement import measure_outline
@@ -54,7 +54,7 @@ def test_pursuer_reaches_a_standing_evader_without_contact(file: Path) -> None:
         bearing = wrap_angle(atan2(away[1], away[0]) - body.heading)
         seen = Sighting(now, bearing, distance)
         scheme.update(
-            Measurement(now, nothing, nothing, nothing, np.zeros(8), seen)
+            RobotState(now, nothing, nothing, nothing, np.zeros(8), seen)
         )
         if number % 10 == 0:
             placed = start.compose(Pose(*body.com[:2], body.heading))

@@ -19,7 +19,7 @@ from stepaside.arena import (
 from stepaside.control.clearance.surroundings import AHEAD, KnownRoom
 from stepaside.core.errors import ConfigurationError
 from stepaside.core.poses import Pose
-from stepaside.perception.measurement import Measurement
+from stepaside.perception.measurement import RobotState
 from stepaside.robots.leg_kinematics import BodyReference
 from stepaside.sim.obstacle_geoms import add_solids, obstacle_mover
 
@@ -116,7 +116,7 @@ def test_given_map_covers_the_floor_swept_in_the_near_future() -> None:
     around, nothing = KnownRoom(ROOM, Pose(0.0, 0.0, 0.0)), np.zeros(3)
     body: Any = BodyReference
     for now in (0.0, 1.0, 5.0):
-        measurement = Measurement(
+        measurement = RobotState(
             now, nothing, nothing, nothing, np.zeros(8), None
         )
         around.note(measurement, body)

@@ -26,7 +26,7 @@ from stepaside.control.scheme import ControlScheme
 from stepaside.core.poses import Array, Pose
 from stepaside.locomotion.maneuver_selection import GuardDecision
 from stepaside.locomotion.walk_snapshots import Phase
-from stepaside.perception.measurement import Measurement, Sighting
+from stepaside.perception.measurement import RobotState, Sighting
 from stepaside.planning import (
     CenterState,
     Direction,
@@ -128,7 +128,7 @@ def test_any_intent_keeps_the_robot_clear_of_obstacles() -> None:
             now = number * tick
             seen = Sighting(now, 0.3, 0.5)
             scheme.update(
-                Measurement(now, nothing, nothing, nothing, np.zeros(8), seen)
+                RobotState(now, nothing, nothing, nothing, np.zeros(8), seen)
             )
             phases.add(scheme.phase)
             if number % 10 == 0:
@@ -288,7 +288,7 @@ def test_a_measured_pose_corrects_odometry() -> None:
     around = KnownRoom(Room(), Pose(1.0, 2.0, 0.5))
     body = Pose(0.3, 0.1, 0.2)
     nothing = np.zeros(3)
-    blind = Measurement(0.0, nothing, nothing, nothing, nothing, None)
+    blind = RobotState(0.0, nothing, nothing, nothing, nothing, None)
     around.note(blind, body)
     assert around.pose_odometry_in_map == Pose(1.0, 2.0, 0.5)
     place = Pose(-0.4, 0.7, 1.1)

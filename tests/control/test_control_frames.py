@@ -26,7 +26,7 @@ from stepaside.locomotion.zmp.reference_table import (
     resting_sample,
 )
 from stepaside.locomotion.zmp.state_estimator import StateEstimator
-from stepaside.perception.measurement import Measurement, Sighting
+from stepaside.perception.measurement import RobotState, Sighting
 from stepaside.planning import (
     PRESETS,
     CenterState,
@@ -114,7 +114,7 @@ class Around:
             [Disc(*put(room, (x, y)), radius) for x, y, radius in discs]
         )
 
-    def note(self, measurement: Measurement, pose: Pose) -> None:
+    def note(self, measurement: RobotState, pose: Pose) -> None:
         """Learn nothing."""
 
 
@@ -302,7 +302,7 @@ def estimates(frame: Pose) -> list[Any]:
             (0.1, 0.2, 0.27), (0.3, 0.25, 0.0, 0.4), (0.32, 0.15, 0.0, 0.3)
         )
         joints = BENT + 0.02 * random.normal(size=BENT.size)
-        measured = Measurement(
+        measured = RobotState(
             0.0,
             joints,
             0.02 * random.normal(size=3),
@@ -422,7 +422,7 @@ class Noted(OpenLoop):
         self.rows: list[ReferenceSample] = []
 
     def targets(
-        self, measurement: Measurement, table: ReferenceTable, *more: Any
+        self, measurement: RobotState, table: ReferenceTable, *more: Any
     ) -> Array:
         """Note it."""
         self.rows.append(table.at(measurement.time))

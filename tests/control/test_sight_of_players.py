@@ -11,7 +11,7 @@ from stepaside.control.sight_sources import SightOfPlayers
 from stepaside.control.strategy_runner import StrategyRunner
 from stepaside.core.player_identity import PlayerIdentity, Role
 from stepaside.core.poses import Pose
-from stepaside.perception.measurement import Measurement, Sighting
+from stepaside.perception.measurement import RobotState, Sighting
 from stepaside.planning import GaitSettings
 from stepaside.strategies import Pursuit
 
@@ -23,9 +23,9 @@ GUEST = PlayerIdentity("guest", Role.BYSTANDER, "guest")
 TICK = 0.02
 
 
-def measure(*sightings: Sighting) -> Measurement:
+def measure(*sightings: Sighting) -> RobotState:
     empty = np.zeros(3)
-    return Measurement(
+    return RobotState(
         0.0, np.zeros(1), empty, empty, np.zeros(8), None, players=sightings
     )
 

@@ -28,7 +28,7 @@ def resting(now: float, foot: Foot = Foot.LEFT) -> CurrentStep:
 
 
 def leaning(time: float, roll: float, pitch: float) -> Any:
-    """Measurement of a torso that leans and rests."""
+    """State of a torso that leans and rests."""
     felt: Array = GRAVITY * rotation(roll, pitch, 0.0)[2]
     return measure(time)._replace(accelerometer=felt)
 

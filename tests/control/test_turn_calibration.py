@@ -13,7 +13,7 @@ from stepaside.control.turn_calibration import (
     MIN_RATIO,
     TurnCalibration,
 )
-from stepaside.perception.measurement import Measurement
+from stepaside.perception.measurement import RobotState
 
 TICK = 0.012
 BIAS = 0.01  # [rad/s]
@@ -102,7 +102,7 @@ def turn_of_a_step(made: float, *, learns: bool) -> float:
     return run.landings[-1][2].theta - run.landings[-3][2].theta
 
 
-def turned(now: float, rate: float) -> Measurement:
+def turned(now: float, rate: float) -> RobotState:
     return measure(now)._replace(gyro=np.array([0.0, 0.0, rate + BIAS]))
 
 

@@ -14,7 +14,7 @@ from stepaside.drivers import joint_check
 from stepaside.drivers.joint_check import JointCheck
 from stepaside.drivers.joint_robot import JointRobot, JointTargets, Motors
 from stepaside.drivers.method_check import AdapterFinding
-from stepaside.perception.measurement import Measurement, Sighting
+from stepaside.perception.measurement import RobotState, Sighting
 
 TICK = 0.02
 NAMES = ("hip", "knee", "ankle")
@@ -29,7 +29,7 @@ MOTORS = Motors(
     damping=np.full(3, 3.0),
 )
 LAG = 0.06  # from a target to the angle, in [s]
-Change = Callable[[Measurement], Measurement | None]
+Change = Callable[[RobotState], RobotState | None]
 
 
 class SteppedClock:
@@ -62,7 +62,7 @@ class HangingRobot(JointRobot):
         self.timeout = inf
         self.calls: list[str] = []
 
-    def listen(self) -> Measurement | None:
+    def listen(self) -> RobotState | None:
         """Move on, and report."""
         now = self.clock()
         passed, self.time = now - self.time, now
@@ -75,7 +75,7 @@ class HangingRobot(JointRobot):
         lean = 0.05 * np.sin(2.0 * now), 0.05 * np.cos(2.0 * now)
         rolling = 0.1 * np.cos(2.0 * now), -0.1 * np.sin(2.0 * now)
         return self.change(
-            Measurement(
+            RobotState(
                 now,
                 self.angles,
                 np.array([*rolling, 0.0]),
@@ -149,7 +149,7 @@ def test_a_dry_run_only_listens() -> None:
 def scaled(field: str, factor: float) -> Change:
     """Change of unit or sign."""
 
-    def change(report: Measurement) -> Measurement:
+    def change(report: RobotState) -> RobotState:
         values: Any = factor * np.array(getattr(report, field))
         return report._replace(**{field: values})
 

@@ -34,7 +34,7 @@ from stepaside.drivers.lola_server import LolaServer  # noqa: E402
 from stepaside.drivers.safety_states import SafetyState  # noqa: E402
 from stepaside.perception.images import SonarEcho  # noqa: E402
 from stepaside.perception.measurement import (  # noqa: E402
-    Measurement,
+    RobotState,
     Sighting,
 )
 
@@ -243,9 +243,9 @@ class MadeUpRobot:
         self.sighting: Sighting | None = None
         self.stiffness: Array = np.full(23, np.nan)
 
-    def sensors(self) -> Measurement:
+    def sensors(self) -> RobotState:
         """Stand upright."""
-        return Measurement(
+        return RobotState(
             self.time,
             self.angles,
             np.zeros(3),

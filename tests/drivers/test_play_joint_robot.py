@@ -39,7 +39,7 @@ class Echo(sa.JointRobot):
         now = self.clock()
         force = (0.0, 0.0, 9.8 + 0.01 * (now % 0.1))
         sees = sa.Sighting.of_position(now, 0.6, 0.1)
-        return sa.Measurement(
+        return sa.RobotState(
             now, self.angles, (0.0, 0.0, 0.0), force, [6.5] * 8, sees,
             joint_velocities=0.0 * self.angles, tilt=(0.0, 0.0),
         )

@@ -20,15 +20,15 @@ from stepaside.games.play_conversion import (
 )
 from stepaside.games.play_rows import PlayedRows
 from stepaside.games.play_settings import PlaySettings
-from stepaside.perception.measurement import Measurement, Sighting
+from stepaside.perception.measurement import RobotState, Sighting
 from stepaside.planning import Foot
 from stepaside.strategies.velocity_set import BodyVelocity
 
 
-def measured(time: float, seed: int) -> Measurement:
+def measured(time: float, seed: int) -> RobotState:
     """Readings of which no two are the same."""
     random = np.random.default_rng(seed)
-    return Measurement(
+    return RobotState(
         time,
         random.normal(size=4),
         random.normal(size=3),

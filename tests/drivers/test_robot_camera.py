@@ -36,7 +36,7 @@ from stepaside.drivers.velocity_robot import (
 )
 from stepaside.perception.camera_model import CameraModel
 from stepaside.perception.images import ColourImage, Percept
-from stepaside.perception.measurement import Measurement
+from stepaside.perception.measurement import RobotState
 
 MOUNT = CameraMount(0.1, 0.0, 1.2)
 PIXELS = np.zeros((120, 160, 3), np.uint8)
@@ -208,13 +208,13 @@ class SeeingWalker(VelocityRobot):
         self.walker = SimulatedWalker(0, inf)
         self.walker.time = monotonic()
 
-    def listen(self) -> Measurement:
+    def listen(self) -> RobotState:
         """Move on, and report."""
         now = monotonic()
         self.walker.move(now - self.walker.time)
         self.walker.time = now
         x, y, heading = self.walker.pose
-        return Measurement(now, pose=Pose(x, y, wrap_angle(heading)))
+        return RobotState(now, pose=Pose(x, y, wrap_angle(heading)))
 
     def image(self) -> CameraImage:
         """The present image."""

@@ -25,7 +25,7 @@ from stepaside.drivers.robot_session import (
 )
 from stepaside.drivers.velocity_limits import VelocityLimits
 from stepaside.drivers.velocity_robot import VelocityRobot
-from stepaside.perception.measurement import Measurement, Sighting
+from stepaside.perception.measurement import RobotState, Sighting
 
 SLACK = 1.0  # of a busy machine, in [s]
 WALK = (-0.2, 0.1, 0.4)
@@ -42,17 +42,17 @@ class ScriptedRobot(VelocityRobot):
         self.obeys: Callable[[], Any] = lambda: None
         self.stops: Callable[[], Any] = lambda: None
 
-    def state(self) -> Measurement:
+    def state(self) -> RobotState:
         """A robot that stands, now."""
-        return Measurement(monotonic(), pose=Pose(0.0, 0.0, 0.0))
+        return RobotState(monotonic(), pose=Pose(0.0, 0.0, 0.0))
 
     def open(self) -> None:
         """Note the call."""
         self.calls.append("open")
 
-    def listen(self) -> Measurement | None:
+    def listen(self) -> RobotState | None:
         """Do what the test wants."""
-        got: Measurement | None = self.hears()
+        got: RobotState | None = self.hears()
         return got
 
     def command(self, forward: float, lateral: float, turn: float) -> None:
@@ -127,8 +127,8 @@ def test_a_dry_run_only_listens() -> None:
     "got",
     [
         (0.0, 0.0, 0.0),
-        Measurement(0.0, pose=None),  # type: ignore[arg-type]
-        Measurement(0.0, sighting=2.0, pose=Pose(0, 0, 0)),  # type: ignore[arg-type]
+        RobotState(0.0, pose=None),  # type: ignore[arg-type]
+        RobotState(0.0, sighting=2.0, pose=Pose(0, 0, 0)),  # type: ignore[arg-type]
     ],
 )
 def test_what_is_no_report_ends_the_session_by_the_name_of_the_method(
@@ -139,7 +139,7 @@ def test_what_is_no_report_ends_the_session_by_the_name_of_the_method(
     session = RobotSession(robot, "stop")
     with pytest.raises(
         SessionLost,
-        match=r"listen\(\) of .* a Measurement\(time, pose",
+        match=r"listen\(\) of .* a RobotState\(time, pose",
     ):
         session.listen(1.0, velocity_state)
     session.close()
@@ -161,7 +161,7 @@ def test_a_report_of_joints_is_complete(changes: dict[str, Any]) -> None:
     angles: Any = [0.1, 0.2]
     gyro: Any = (0, 0, 1)
     force: Any = (0.0, 0.0, 9.8)
-    valid = Measurement(1.0, angles, gyro, force)
+    valid = RobotState(1.0, angles, gyro, force)
     valid = valid._replace(joint_velocities=angles, tilt=(0.0, 0.1))
     assert joint_state(valid, "listen()", 2).gyro.tolist() == [0.0, 0.0, 1.0]
     with pytest.raises(SessionLost, match="arrays of 2 joints"):
@@ -170,7 +170,7 @@ def test_a_report_of_joints_is_complete(changes: dict[str, Any]) -> None:
 
 def test_a_repeated_report_is_returned_after_the_wait_for_a_new_one() -> None:
     robot = ScriptedRobot()
-    robot.hears = lambda: Measurement(7.0, pose=Pose(0.0, 0.0, 0.0))
+    robot.hears = lambda: RobotState(7.0, pose=Pose(0.0, 0.0, 0.0))
     session = RobotSession(robot, "stop")
     session.listen(1.0, velocity_state)
     began = monotonic()

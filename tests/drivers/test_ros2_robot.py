@@ -26,7 +26,7 @@ from stepaside.drivers.ros2_dds import (  # noqa: E402
     take_messages,
     vector,
 )
-from stepaside.perception.measurement import Measurement  # noqa: E402
+from stepaside.perception.measurement import RobotState  # noqa: E402
 
 from velocity_fakes import until  # isort: skip  # noqa: E402
 
@@ -109,14 +109,14 @@ def robot() -> Iterator[Ros2Robot]:
     made.close()
 
 
-def heard(peer: Peer, robot: Ros2Robot) -> Measurement:
+def heard(peer: Peer, robot: Ros2Robot) -> RobotState:
     """Return the next report."""
 
-    def report() -> Measurement | None:
+    def report() -> RobotState | None:
         peer.tell()
         return robot.listen()
 
-    found: Measurement = until(report)
+    found: RobotState = until(report)
     return found
 
 

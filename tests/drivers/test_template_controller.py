@@ -11,7 +11,7 @@ from fake_robot import FakeStrategy
 from stepaside.core.poses import Pose, wrap_angle
 from stepaside.drivers.velocity_limits import VelocityLimits
 from stepaside.drivers.velocity_loop import TemplateController
-from stepaside.perception.measurement import Measurement, Sighting
+from stepaside.perception.measurement import RobotState, Sighting
 from stepaside.planning import Direction, GaitSettings
 from stepaside.strategies import Intent, Knowledge
 from stepaside.strategies.velocity_set import BodyVelocity
@@ -61,7 +61,7 @@ def test_an_old_sighting_is_of_where_the_robot_was_then(
         x, y, _ = then.inverse().compose(other)
         seen = Sighting(taken, wrap_angle(atan2(y, x)), hypot(x, y))
         told = mind.decide(
-            Measurement(now, pose=way(now, start, rate), sighting=seen)
+            RobotState(now, pose=way(now, start, rate), sighting=seen)
         )
     assert told.forward == pytest.approx(-GAIT.speed)
     turn = GAIT.gain * (1.0 if saturated else 0.4)
@@ -80,7 +80,7 @@ def test_the_pace_slows_speed_and_turn_alike() -> None:
     mind = TemplateController(SlowStrategy(), GAIT)
     ahead = Sighting(0.0, 0.0, 1.0)
     told = mind.decide(
-        Measurement(0.0, pose=Pose(0.0, 0.0, 0.0), sighting=ahead)
+        RobotState(0.0, pose=Pose(0.0, 0.0, 0.0), sighting=ahead)
     )
     assert told == pytest.approx((0.5 * GAIT.speed, 0, 0.5 * GAIT.gain * 0.4))
 
@@ -106,9 +106,7 @@ def test_it_knows_since_when_and_from_where(
         then = way(taken, start, rate)
         x, y, _ = then.inverse().compose(other)
         seen = Sighting(taken, wrap_angle(atan2(y, x)), hypot(x, y))
-        mind.decide(
-            Measurement(now, pose=way(now, start, rate), sighting=seen)
-        )
+        mind.decide(RobotState(now, pose=way(now, start, rate), sighting=seen))
     known = strategy.known
     assert known.age == pytest.approx(PERIOD * late)
     assert known.pose_in_map == then
@@ -119,7 +117,7 @@ def test_it_knows_since_when_and_from_where(
 def test_a_body_velocity_reaches_only_a_robot_that_walks_sideways() -> None:
     """A unicycle turns toward it instead."""
     velocities = VelocityLimits(0.5, 0.4, 1.0, lateral=0.3).velocities
-    seen = Measurement(
+    seen = RobotState(
         0.0, pose=Pose(0.0, 0.0, 0.0), sighting=Sighting(0.0, 0.4, 1.0)
     )
     wanted = BodyVelocity(0.1, -0.2, 0.3)

@@ -15,9 +15,9 @@ from stepaside.drivers.method_check import AdapterFinding
 from stepaside.drivers.velocity_check import VelocityCheck
 from stepaside.drivers.velocity_limits import VelocityLimits
 from stepaside.drivers.velocity_robot import VelocityRobot
-from stepaside.perception.measurement import Measurement, Sighting
+from stepaside.perception.measurement import RobotState, Sighting
 
-Change = Callable[[Measurement], Measurement | None]
+Change = Callable[[RobotState], RobotState | None]
 
 
 class SimulatedClock:
@@ -57,7 +57,7 @@ class KinematicRobot(VelocityRobot):
         """Note the call."""
         self.calls.append("prepare")
 
-    def listen(self) -> Measurement | None:
+    def listen(self) -> RobotState | None:
         """Move on, and report."""
         now = self.clock()
         passed, self.time = now - self.time, now
@@ -70,7 +70,7 @@ class KinematicRobot(VelocityRobot):
             y + passed * (ahead * sin(theta) + left * cos(theta)),
             wrap_angle(theta + passed * turn * self.turn_sign),
         )
-        return self.change(Measurement(now, pose=self.pose))
+        return self.change(RobotState(now, pose=self.pose))
 
     def command(self, forward: float, lateral: float, turn: float) -> None:
         """Move as commanded."""
@@ -139,18 +139,18 @@ def test_a_dry_run_only_listens() -> None:
     assert "rate" in found and "turn left" not in found
 
 
-def in_degrees(report: Measurement) -> Measurement:
+def in_degrees(report: RobotState) -> RobotState:
     x, y, theta = report.pose
     return report._replace(pose=Pose(x, y, degrees(theta)))
 
 
-def in_millimetres(report: Measurement) -> Measurement:
+def in_millimetres(report: RobotState) -> RobotState:
     x, y, theta = report.pose
     return report._replace(pose=Pose(1e3 * x, 1e3 * y, theta))
 
 
 def seen(bearing: float, age: float) -> Change:
-    def change(report: Measurement) -> Measurement:
+    def change(report: RobotState) -> RobotState:
         sighting = Sighting(report.time - age, bearing, 1.0)
         return report._replace(sighting=sighting)
 
@@ -263,7 +263,7 @@ def test_the_command_prints_verdicts_and_exits_with_1(
         assert left.value.code == 1
         return capsys.readouterr().out
 
-    said = "listen() of Robot must return a Measurement"
+    said = "listen() of Robot must return a RobotState"
     assert f"fail     listen            {said}" in printed()
     found = json.loads(printed("--json"))
     assert found["passes"] is False

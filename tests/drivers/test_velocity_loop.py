@@ -21,7 +21,7 @@ from stepaside.drivers.velocity_loop import (
     VelocityTick,
 )
 from stepaside.drivers.watchdog import WatchSettings
-from stepaside.perception.measurement import Measurement, Sighting
+from stepaside.perception.measurement import RobotState, Sighting
 from stepaside.planning import GaitSettings
 from stepaside.strategies import Evasion, Pursuit, Strategy
 from stepaside.strategies.velocity_set import BodyVelocity
@@ -87,7 +87,7 @@ def test_two_templates_end_on_the_circle_of_theory() -> None:
             x, y, _ = own.inverse().compose(other)
             seen = Sighting(0.05 * i, float(np.arctan2(y, x)), hypot(x, y))
             speeds.append(
-                mind.decide(Measurement(0.05 * i, pose=own, sighting=seen))
+                mind.decide(RobotState(0.05 * i, pose=own, sighting=seen))
             )
         for k, (forward, _, turn) in enumerate(speeds):
             half = Pose(0.0, 0.0, 0.025 * turn)
@@ -119,7 +119,7 @@ def test_the_robot_is_led_to_the_template_by_the_ramp() -> None:
     ],
     ids="none stale nan future past hindered".split(),
 )
-def test_whatever_is_amiss_asks_for_rest_at_once(sick: Measurement) -> None:
+def test_whatever_is_amiss_asks_for_rest_at_once(sick: RobotState) -> None:
     robot = FakeWalker([*REPORTS[:20], sick])
     ticks = played(robot, 21)
     assert ticks[-2].velocity.forward == pytest.approx(0.1)

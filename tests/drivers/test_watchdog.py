@@ -8,7 +8,7 @@ import pytest
 from stepaside.core.errors import ConfigurationError
 from stepaside.core.poses import Pose
 from stepaside.drivers.watchdog import Watchdog, WatchSettings
-from stepaside.perception.measurement import Measurement, Sighting
+from stepaside.perception.measurement import RobotState, Sighting
 
 from velocity_fakes import report  # isort: skip
 
@@ -101,7 +101,7 @@ def test_odometry_that_is_no_number_stops_the_robot(
     dog = settled()
     values = {"time": STAMP + 0.25, "x": 0.0, "theta": 0.0} | {place: bad}
     pose = Pose(values["x"], 0.0, values["theta"])
-    sick = Measurement(
+    sick = RobotState(
         values["time"], pose=pose, sighting=Sighting(STAMP, 0.0, 1.0)
     )
     assert "must be finite" in dog.check(sick, 0.25)

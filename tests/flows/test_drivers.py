@@ -150,7 +150,7 @@ class Mine(sa.VelocityRobot):
         sleep(0.02)
         now = monotonic()
         seen = sa.Sighting(now, 0.4, 1.0)
-        return sa.Measurement(now, sighting=seen, pose=sa.Pose(0.0, 0.0, 0.0))
+        return sa.RobotState(now, sighting=seen, pose=sa.Pose(0.0, 0.0, 0.0))
 
     def command(self, forward, lateral, turn):
         with open("{log}", "a") as log:
@@ -170,7 +170,7 @@ class Mine(sa.JointRobot):
     def listen(self):
         self.time += self.tick
         force = (0.0, 0.0, 9.8 + 0.01 * (round(self.time / self.tick) % 7))
-        return sa.Measurement(
+        return sa.RobotState(
             self.time, self.angles, (0.0, 0.0, 0.0), force, [6.5] * 8,
             sa.Sighting(self.time, 0.4, 0.7),
             joint_velocities=[0.0] * len(self.joints), tilt=(0.0, 0.0),

@@ -124,7 +124,7 @@ class Mine(sa.JointRobot):
         sleep(0.006)
         now = monotonic()
         force = (0.0, 0.0, 9.8 + 0.01 * (now % 0.1))
-        return sa.Measurement(
+        return sa.RobotState(
             now, self.angles, (0.0, 0.0, 0.0), force, [6.5] * 8,
             sa.Sighting(now, 0.4, 0.7),
             joint_velocities=[0.0] * len(self.joints), tilt=(0.0, 0.0),

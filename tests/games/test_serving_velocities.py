@@ -23,7 +23,7 @@ from stepaside.games.robot_endpoints import RobotEndpoint
 from stepaside.games.served_duel import serve_duel
 from stepaside.games.velocity_walker import VelocityWalker
 from stepaside.locomotion.zmp.control_settings import STABILISED
-from stepaside.perception.measurement import Measurement
+from stepaside.perception.measurement import RobotState
 from stepaside.planning import GaitSettings
 from stepaside.sim.body_settings import BODIES
 from stepaside.strategies import Evasion, Pursuit, Strategy
@@ -59,12 +59,10 @@ class NoWire:
         for _ in range(3):  # what a gathering world tells again and again
             self._playing.tick()
 
-    def listen(self, patience: float, convert: Any) -> Measurement:
+    def listen(self, patience: float, convert: Any) -> RobotState:
         """State that the robot reports."""
         state = self._robot.state()
-        return Measurement(
-            state.time, sighting=state.sighting, pose=state.pose
-        )
+        return RobotState(state.time, sighting=state.sighting, pose=state.pose)
 
     def released(self) -> str:
         """Have no switch."""

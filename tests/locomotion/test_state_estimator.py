@@ -12,7 +12,7 @@ from stepaside.locomotion.zmp.state_estimator import (
     BodyState,
     StateEstimator,
 )
-from stepaside.perception.measurement import Measurement
+from stepaside.perception.measurement import RobotState
 from stepaside.robots.leg_kinematics import BodyReference
 
 ETA, TICK = 6.0, 0.004
@@ -55,16 +55,16 @@ def estimator(body: Any = None, **changes: Any) -> StateEstimator:
 
 def measured(
     left: Any = 10.0, right: Any = 10.0, felt: Array = GRAVITY
-) -> Measurement:
+) -> RobotState:
     forces = np.concatenate(
         [np.broadcast_to(left, 4), np.broadcast_to(right, 4)]
     )
-    return Measurement(0.0, np.zeros(3), np.zeros(3), felt, forces, None)
+    return RobotState(0.0, np.zeros(3), np.zeros(3), felt, forces, None)
 
 
 def see(
     estimate: StateEstimator,
-    measurement: Measurement,
+    measurement: RobotState,
     feet: BodyReference = FEET,
     ticks: int = 1,
 ) -> BodyState:

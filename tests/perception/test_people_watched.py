@@ -12,7 +12,7 @@ from stepaside.perception.camera_model import CameraModel
 from stepaside.perception.camera_pose import camera_pose
 from stepaside.perception.colour_detector import RED, ColourDetector
 from stepaside.perception.images import Percept, SonarEcho
-from stepaside.perception.measurement import Measurement, Sighting
+from stepaside.perception.measurement import RobotState, Sighting
 from stepaside.perception.pipeline import build_perception
 from stepaside.perception.target_selection import (
     PeopleSelection,
@@ -59,7 +59,7 @@ class Watch:
         """Take in percepts at the next tick."""
         now = self._ticks * TICK
         self._ticks += 1
-        measured = Measurement(
+        measured = RobotState(
             now,
             self._joints.copy(),
             np.zeros(3),

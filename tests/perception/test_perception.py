@@ -7,7 +7,7 @@ import pytest
 
 from stepaside.core.poses import Pose, wrap_angle
 from stepaside.core.rotations import rotation
-from stepaside.perception.measurement import Measurement
+from stepaside.perception.measurement import RobotState
 from synthetic_cameras import (
     HEAD,
     JOINTS,
@@ -34,7 +34,7 @@ def test_the_body_pose_follows_from_the_support_foot(eyes: Eyes) -> None:
     assert heading == pytest.approx(0.0, abs=1e-6)
     assert y == pytest.approx(-0.05, abs=0.002)
     eyes.perception.see(
-        Measurement(0.1, np.zeros(JOINTS), np.zeros(3), UP, np.zeros(8), None),
+        RobotState(0.1, np.zeros(JOINTS), np.zeros(3), UP, np.zeros(8), None),
         SUPPORT,
         False,
         (0.0, 0.0),
@@ -126,7 +126,7 @@ def test_tracks_age_without_images(people: bool, period: float) -> None:
     for i in range(1, 300):
         values = np.zeros(JOINTS), np.zeros(3), UP, np.zeros(8), None
         seen = perception.see(
-            Measurement(TICK * i, *values), support, True, (0.0, 0.0)
+            RobotState(TICK * i, *values), support, True, (0.0, 0.0)
         )
         if seen is not None:
             times.append(seen.time)

@@ -12,7 +12,7 @@ import pytest
 
 from fake_robot import FakeLegs, scheme_of
 from stepaside.core.poses import Array, Pose, wrap_angle
-from stepaside.perception.measurement import Measurement, Sighting
+from stepaside.perception.measurement import RobotState, Sighting
 from stepaside.planning import Foot, GaitSettings
 from stepaside.strategies import Evasion, Pursuit
 from stepaside.theory.unicycle.circle_fit import fit_circle
@@ -55,7 +55,7 @@ class Ghost:
         bearing = wrap_angle(atan2(y, x) - own.theta)
         seen = Sighting(time, bearing, hypot(x, y))
         self.scheme.update(
-            Measurement(now, NOTHING, NOTHING, NOTHING, np.zeros(8), seen)
+            RobotState(now, NOTHING, NOTHING, NOTHING, np.zeros(8), seen)
         )
 
 

@@ -72,7 +72,7 @@ def play(file: Path) -> dict[str, Any]:
         sys.modules[name] = None  # type: ignore[assignment]
     from stepaside.drivers.scheme_factory import control_scheme_factory
     from stepaside.locomotion.zmp.control_settings import STABILISED
-    from stepaside.perception.measurement import Measurement, Sighting
+    from stepaside.perception.measurement import RobotState, Sighting
     from stepaside.planning import GaitSettings
     from stepaside.robots.description import load_robot
     from stepaside.strategies import Evasion, Pursuit
@@ -94,7 +94,7 @@ def play(file: Path) -> dict[str, Any]:
             encoders, rest = rest[:joints], rest[joints:]
             seen = rest[14:17]
             sighting = None if np.isnan(seen[0]) else Sighting(*seen.tolist())
-            m = Measurement(
+            m = RobotState(
                 now, encoders, rest[:3], rest[3:6], rest[6:14], sighting
             )
             clock = time.process_time()

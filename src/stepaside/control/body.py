@@ -3,7 +3,7 @@
 from typing import Protocol
 
 from ..core.poses import Array
-from ..perception.measurement import Measurement
+from ..perception.measurement import RobotState
 
 
 class Body(Protocol):
@@ -15,7 +15,7 @@ class Body(Protocol):
 
     tick: float
 
-    def read(self) -> Measurement:
+    def read(self) -> RobotState:
         """Read the sensors."""
 
     def write(self, joint_targets: Array) -> None:

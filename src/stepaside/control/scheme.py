@@ -4,7 +4,7 @@ from ..core.poses import Array, Pose
 from ..locomotion.locomotion import Locomotion, MotionRequest
 from ..locomotion.maneuver_walk import ManeuverWalk
 from ..locomotion.walk_snapshots import Phase, StepStarted, WalkState
-from ..perception.measurement import Measurement, Sighting
+from ..perception.measurement import RobotState, Sighting
 from ..planning import Foot, GaitSettings
 from ..robots.leg_kinematics import LegKinematics
 from .sight_sources import SightSource
@@ -45,11 +45,11 @@ class ControlScheme:
         self._delayed = locomotion.heading_delay > 0.0
         self._coasted: float | None = None  # since the last update, until [s]
 
-    def update(self, measurement: Measurement) -> Array:
+    def update(self, measurement: RobotState) -> Array:
         """Run one control tick.
 
         Args:
-            measurement: Measurement of the tick.
+            measurement: RobotState of the tick.
 
         Returns:
             Joint targets, in [rad]. Shape (joints,).

@@ -7,7 +7,7 @@ from ..core.player_identity import PlayerIdentity, Role
 from ..core.poses import ALL_AROUND, Array, Sector
 from ..locomotion.zmp.current_step import CurrentStep
 from ..perception.attitude import AttitudeFilter
-from ..perception.measurement import Measurement, Sighting
+from ..perception.measurement import RobotState, Sighting
 from ..planning import Foot
 from ..strategies.opponent_choice import choose_opponent
 
@@ -54,14 +54,14 @@ class SightSource(Protocol):
 
     def see(
         self,
-        measurement: Measurement,
+        measurement: RobotState,
         step: StepAt,
         tilt: tuple[float, float] | None,
     ) -> Sighting | None:
         """Return the latest sighting of the opponent; None if it is lost.
 
         Args:
-            measurement: Measurement of the tick.
+            measurement: RobotState of the tick.
             step: Function from a time, in [s], to the step in progress.
             tilt: Roll and pitch of the torso, in [rad], if balance
                 estimates them.
@@ -83,7 +83,7 @@ class MeasuredSight:
 
     def see(
         self,
-        measurement: Measurement,
+        measurement: RobotState,
         step: StepAt,
         tilt: tuple[float, float] | None,
     ) -> Sighting | None:
@@ -119,7 +119,7 @@ class SightOfPlayers(MeasuredSight):
 
     def see(
         self,
-        measurement: Measurement,
+        measurement: RobotState,
         step: StepAt,
         tilt: tuple[float, float] | None,
     ) -> Sighting | None:
@@ -172,7 +172,7 @@ class _PerceivedSight:
 
     def see(
         self,
-        measurement: Measurement,
+        measurement: RobotState,
         step: StepAt,
         tilt: tuple[float, float] | None,
     ) -> Sighting | None:
@@ -222,7 +222,7 @@ class CameraSight(_PerceivedSight):
 
     def see(
         self,
-        measurement: Measurement,
+        measurement: RobotState,
         step: StepAt,
         tilt: tuple[float, float] | None,
     ) -> Sighting | None:

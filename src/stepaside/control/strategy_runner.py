@@ -5,7 +5,7 @@ from math import atan2, cos, hypot, pi, sin
 
 from ..core.history import History
 from ..core.poses import ALL_AROUND, Pose, Sector
-from ..perception.measurement import Measurement, Sighting
+from ..perception.measurement import RobotState, Sighting
 from ..planning import Foot, GaitSettings
 from ..planning.template_path import pose_beside_foot
 from ..strategies.decision_maker import DecisionMaker, turned
@@ -95,11 +95,11 @@ class StrategyRunner(DecisionMaker):
         if in_sight is not None:
             self.identity, self._in_sight = in_sight
 
-    def calibrate(self, measurement: Measurement, *, stands: bool) -> None:
+    def calibrate(self, measurement: RobotState, *, stands: bool) -> None:
         """Update the turn calibration, if there is one.
 
         Args:
-            measurement: Measurement of the tick.
+            measurement: RobotState of the tick.
             stands: Whether the robot stands still.
         """
         if self.turns is not None:

@@ -5,7 +5,7 @@ from ..core.poses import Array, Pose
 from ..locomotion.locomotion import MotionRequest
 from ..locomotion.maneuver_walk import ManeuverWalk
 from ..locomotion.walk_snapshots import Phase
-from ..perception.measurement import Measurement
+from ..perception.measurement import RobotState
 from ..planning import Direction, Foot
 from .strategy_runner import MEMORY
 from .turn_calibration import TurnCalibration
@@ -48,11 +48,11 @@ class VelocityScheme:
         """Walk at a velocity, in [m/s] and [rad/s], from the next tick on."""
         self._commanded = forward, turn
 
-    def update(self, measurement: Measurement) -> Array:
+    def update(self, measurement: RobotState) -> Array:
         """Run one control tick.
 
         Args:
-            measurement: Measurement of the tick.
+            measurement: RobotState of the tick.
 
         Returns:
             Joint targets, in [rad]. Shape (joints,).

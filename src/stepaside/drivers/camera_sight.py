@@ -8,7 +8,7 @@ import numpy as np
 from ..core.history import History
 from ..core.poses import Pose, wrap_angle
 from ..core.rotations import rotation
-from ..perception.measurement import Measurement
+from ..perception.measurement import RobotState
 from ..robots.body_pose import BodyPose
 from .robot_camera import CameraMount, PosedCamera, colour_image
 from .robot_session import RobotSession
@@ -42,10 +42,10 @@ class PosedSight:
         self._perception, self._turns_head = perception, turns_head
         self._mount: CameraMount | None = None  # at the newest image
         self._looking: Future[Any] | None = None
-        self._last: Measurement | None = None
+        self._last: RobotState | None = None
         self._poses: History[Pose] = History(MEMORY)
 
-    def see(self, report: Measurement) -> Measurement:
+    def see(self, report: RobotState) -> RobotState:
         """Return a report with the newest sighting.
 
         Raises:

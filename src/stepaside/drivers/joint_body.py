@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from ..core.poses import Array
 from ..core.user_file import shown_briefly
-from ..perception.measurement import Measurement, Sighting
+from ..perception.measurement import RobotState, Sighting
 from .guardian_process import SessionLost
 from .image_source import ImageSource
 from .joint_motion import JointMotionState
@@ -59,7 +59,7 @@ class SystemClock(NamedTuple):
 SYSTEM_CLOCK = SystemClock()
 
 
-def joint_fault(report: Measurement, motors: Motors) -> str:
+def joint_fault(report: RobotState, motors: Motors) -> str:
     """Return why a report is implausible; empty if it is plausible.
 
     Args:
@@ -95,7 +95,7 @@ def joint_fault(report: Measurement, motors: Motors) -> str:
     return ""
 
 
-def in_order(report: Measurement, order: NDArray[np.intp]) -> Measurement:
+def in_order(report: RobotState, order: NDArray[np.intp]) -> RobotState:
     """Return a report in the order of the motors.
 
     Args:
@@ -189,7 +189,7 @@ class JointBody:
         self._presses = False
         self._refusal = ""
         self.refused = 0
-        self.report: Measurement | None = None
+        self.report: RobotState | None = None
 
     @property
     def state(self) -> SafetyState:
@@ -201,7 +201,7 @@ class JointBody:
         """Reason for the state, as a message."""
         return self._safety.reason
 
-    def read(self) -> Measurement:
+    def read(self) -> RobotState:
         """Wait for the robot's next report.
 
         Time is zero at the report with which walking begins.
@@ -288,7 +288,7 @@ class JointBody:
         """Time of the newest report since the first, in [s]."""
         return self._count * self.tick
 
-    def _listen(self) -> tuple[Measurement, float]:
+    def _listen(self) -> tuple[RobotState, float]:
         """Return the newest valid report, and the time since the last [s].
 
         Reports count by their times: there is one in each tick, the first at
@@ -321,7 +321,7 @@ class JointBody:
                     f"refused: {self._refusal}"
                 )
 
-    def _is_new(self, report: Measurement, now: float) -> bool:
+    def _is_new(self, report: RobotState, now: float) -> bool:
         """Count a report, and return whether it is the first of its tick.
 
         Raises:
@@ -347,7 +347,7 @@ class JointBody:
         self._count = number
         return True
 
-    def _fault(self, report: Measurement) -> str:
+    def _fault(self, report: RobotState) -> str:
         """Return why a report cannot be used; empty if it can."""
         name = self._session.name_of("listen")
         if self._needs_forces and np.isnan(report.foot_forces).all():
@@ -364,7 +364,7 @@ class JointBody:
         if self.refused.bit_count() == 1:  # 1, 2, 4, 8...
             log.warning("report refused (%d): %s", self.refused, fault)
 
-    def _at(self, time: float, report: Measurement) -> Measurement:
+    def _at(self, time: float, report: RobotState) -> RobotState:
         """Return a report at a time of control, in [s], with its images."""
         shift = time - report.time
         sighting = self._sighting_of(report)
@@ -381,7 +381,7 @@ class JointBody:
             ),
         )
 
-    def _sighting_of(self, report: Measurement) -> Sighting | None:
+    def _sighting_of(self, report: RobotState) -> Sighting | None:
         """Return the sighting of a report, if it counts."""
         sighting = report.sighting
         if self._eyes is not None or sighting is None:
@@ -391,7 +391,7 @@ class JointBody:
             return None
         return sighting._replace(time=min(sighting.time, report.time))
 
-    def _safety_inputs(self, report: Measurement) -> SafetyInputs:
+    def _safety_inputs(self, report: RobotState) -> SafetyInputs:
         state = self._state
         hindrance = self._session.released() or report.hindrance
         report = report._replace(hindrance=hindrance)

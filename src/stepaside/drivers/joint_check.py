@@ -9,7 +9,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from ..core.poses import Array
-from ..perception.measurement import Measurement
+from ..perception.measurement import RobotState
 from .guardian_process import Guardian, SessionLost
 from .joint_body import OLDEST, in_order, joint_fault
 from .joint_robot import JointRobot, JointTargets, Motors
@@ -94,7 +94,7 @@ class JointCheck(MethodCheck):
             pause=pause,
         )
         self._motors = motors
-        self._reports: list[Measurement] = []
+        self._reports: list[RobotState] = []
         self._lags: list[float] = []
 
     def _check(self) -> None:
@@ -212,7 +212,7 @@ class JointCheck(MethodCheck):
             text += ": one in each tick is needed"
         self._add("tick", verdict, text, rate, "Hz")
 
-    def _check_values(self, reports: list[Measurement]) -> bool:
+    def _check_values(self, reports: list[RobotState]) -> bool:
         """Check all values of the robot at rest; return whether they fit."""
         for report in reports:
             if fault := joint_fault(report, self._motors):
@@ -225,7 +225,7 @@ class JointCheck(MethodCheck):
         self._add("values", PASSED, text, fastest, "rad/s")
         return True
 
-    def _check_imu(self, reports: list[Measurement]) -> None:
+    def _check_imu(self, reports: list[RobotState]) -> None:
         """Compare accelerometer and tilt of the robot at rest."""
         x, y, z = np.mean([r.accelerometer for r in reports], axis=0)
         tilts: Any = [report.tilt for report in reports]
@@ -250,7 +250,7 @@ class JointCheck(MethodCheck):
             text += ": a sign, order or unit is wrong"
         self._add("tilt", verdict, text, error, "rad")
 
-    def _check_feet(self, report: Measurement) -> None:
+    def _check_feet(self, report: RobotState) -> None:
         if np.isnan(report.foot_forces).all():
             text = "not measured; the paper's walk needs them, --legs do not"
             self._add("foot forces", UNKNOWN, text)

@@ -7,7 +7,7 @@ from ..control.scheme import ControlScheme
 from ..core.errors import ReachError, StrategyError
 from ..core.poses import Array, Pose
 from ..locomotion.walk_snapshots import Phase, StepStarted, WalkState
-from ..perception.measurement import Measurement, Sighting
+from ..perception.measurement import RobotState, Sighting
 from ..strategies import StandStill, Strategy
 from .joint_body import JointBody
 from .safety_states import SafetyState
@@ -24,7 +24,7 @@ class JointTick:
         state: State of the robot.
         reason: Reason for the state, as a message.
         phase: Phase of control.
-        measurement: Measurement of the tick.
+        measurement: RobotState of the tick.
         targets: Joint targets of control, in [rad]. Shape (joints,).
         sighting: Newest sighting of the opponent; None without one.
         refused: Number of invalid reports so far.
@@ -38,7 +38,7 @@ class JointTick:
     state: SafetyState
     reason: str
     phase: Phase
-    measurement: Measurement
+    measurement: RobotState
     targets: Array
     sighting: Sighting | None
     refused: int
@@ -170,7 +170,7 @@ class JointLoop:
             scheme.pose,
         )
 
-    def _update(self, measurement: Measurement, state: SafetyState) -> Array:
+    def _update(self, measurement: RobotState, state: SafetyState) -> Array:
         """Update control, and release the robot if that fails."""
         self._used = True
         scheme, body = self._scheme, self.body

@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..core.poses import Array
-from ..perception.measurement import Measurement, RobotStatus
+from ..perception.measurement import RobotState, RobotStatus
 from .joint_robot import Motors
 from .safety_states import SafetyState
 
@@ -183,7 +183,7 @@ class JointMotionState:
         self._ramp.limit(share)
 
     def move(
-        self, state: SafetyState, report: Measurement, wanted: Array
+        self, state: SafetyState, report: RobotState, wanted: Array
     ) -> tuple[Array, Array]:
         """Return targets and stiffness of one tick.
 

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from ..core.errors import ConfigurationError
 from ..core.poses import Array
 from ..core.user_file import shown_briefly
-from ..perception.measurement import Measurement
+from ..perception.measurement import RobotState
 from ..robots.description import RobotDescription
 from ..robots.tree_cache import load_tree
 from .robot_camera import CameraImage
@@ -87,7 +87,7 @@ class JointRobot:
             OSError: If the robot does not answer; connecting is retried.
         """
 
-    def listen(self) -> Measurement | None:
+    def listen(self) -> RobotState | None:
         """Return the newest measured state, or None if there is no newer one.
 
         It has joint angles and velocities, gyro, accelerometer and tilt.

@@ -21,7 +21,7 @@ import numpy as np
 from ..core.errors import ConfigurationError
 from ..core.poses import Array
 from ..perception.images import SonarEcho
-from ..perception.measurement import Measurement, RobotStatus, Sighting
+from ..perception.measurement import RobotState, RobotStatus, Sighting
 from .joint_robot import JointRobot, JointTargets
 from .robot_address import RobotRequest
 from .safety_states import SafetyState
@@ -121,7 +121,7 @@ class LolaRobot(JointRobot):
         serial = (self._early or {}).get("RobotConfig", [""])[0]
         self.paced = serial != LOCK_STEP
 
-    def listen(self) -> Measurement | None:
+    def listen(self) -> RobotState | None:
         """Return the newest frame; None if it is damaged."""
         if not self._answered:
             self._send({})  # a silent client would stop some worlds
@@ -136,7 +136,7 @@ class LolaRobot(JointRobot):
         except (KeyError, IndexError, TypeError, ValueError):
             return None
 
-    def _report(self, frame: dict[str, Any]) -> Measurement:
+    def _report(self, frame: dict[str, Any]) -> RobotState:
         """Convert a frame; LoLA's accelerometer reads minus the force."""
         now, angles = self._count * TICK, np.array(frame["Position"])
         then, old = self._last or (now - TICK, angles)
@@ -144,7 +144,7 @@ class LolaRobot(JointRobot):
         echoes = zip(("left", "right"), frame["Sonar"], strict=True)
         touch = frame["Touch"]
         roll, pitch = frame["Angles"]
-        return Measurement(
+        return RobotState(
             now,
             angles,
             np.array(frame["Gyroscope"]),

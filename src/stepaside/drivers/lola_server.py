@@ -14,7 +14,7 @@ from ..core.errors import ConfigurationError
 from ..core.poses import Array
 from ..perception.attitude import AttitudeFilter
 from ..perception.images import SonarEcho
-from ..perception.measurement import Measurement, Sighting
+from ..perception.measurement import RobotState, Sighting
 from .lola import GRAVITY, JOINTS, LOCK_STEP, SIGHT, SIGHT_SUFFIX, TICK
 
 import msgpack  # isort: skip (the error of .lola names the extra)
@@ -32,7 +32,7 @@ log = logging.getLogger(__name__)
 class ServedJointRobot(Protocol):
     """Simulated robot that can be driven by its joints."""
 
-    def sensors(self) -> Measurement:
+    def sensors(self) -> RobotState:
         """Return the measurement of this tick."""
 
     def command(self, targets: Array, stiffness: Array) -> None:
@@ -254,7 +254,7 @@ class LolaServer:
             self._silent, self._share = 0, 1.0
         self._answered = True
 
-    def _send_sight(self, measured: Measurement) -> None:
+    def _send_sight(self, measured: RobotState) -> None:
         """Send the sighting, if it is new or the client is."""
         if self._sight is None:
             return
@@ -267,7 +267,7 @@ class LolaServer:
             place = sighting.bearing, sighting.distance
             self._sight.send(SIGHT.pack(b"SGHT", self._count, age, *place))
 
-    def _frame(self, measured: Measurement) -> bytes:
+    def _frame(self, measured: RobotState) -> bytes:
         """Return the sensor frame of a measurement."""
         echoes = {"left": NO_ECHO, "right": NO_ECHO}
         for each in measured.percepts:

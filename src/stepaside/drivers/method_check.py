@@ -5,7 +5,7 @@ from math import isfinite
 from time import monotonic, sleep
 from typing import Any, ClassVar, NamedTuple
 
-from ..perception.measurement import Measurement
+from ..perception.measurement import RobotState
 from .guardian_process import Guardian, SessionLost
 from .method_thread import (
     BLOCKED,
@@ -47,7 +47,7 @@ class TimedReport(NamedTuple):
         arrived: Time of arrival on this computer's clock, in [s].
     """
 
-    report: Measurement
+    report: RobotState
     arrived: float
 
 
@@ -228,7 +228,7 @@ class MethodCheck:
         self._add("times", verdict, text, ratio, "1")
 
     def _check_sighting(
-        self, reports: Sequence[Measurement], oldest: float
+        self, reports: Sequence[RobotState], oldest: float
     ) -> None:
         """Check bearing, distance and age of the sightings.
 

@@ -19,7 +19,7 @@ import numpy as np
 from ..core.errors import ConfigurationError
 from ..core.poses import Pose
 from ..perception.camera_model import CameraModel
-from ..perception.measurement import Measurement, Sighting
+from ..perception.measurement import RobotState, Sighting
 from .guardian_process import SessionLost
 from .robot_address import RobotRequest
 from .robot_camera import CameraImage, CameraMount, HeadLimits
@@ -151,7 +151,7 @@ class NaoqiRobot(VelocityRobot):
         assert self._rising is not None
         self._rising.answer(STAND_UP_TIMEOUT)
 
-    def listen(self) -> Measurement | None:
+    def listen(self) -> RobotState | None:
         """Return pose, falls and button; None if the robot is late."""
         if not self._queries:
             sleep(max(self._due - monotonic(), 0.0))
@@ -168,7 +168,7 @@ class NaoqiRobot(VelocityRobot):
             each.answer() for each in queries
         )
         now = monotonic()
-        return Measurement(
+        return RobotState(
             now,
             sighting=self._sighting(sight, now),
             pose=Pose(x, y, theta),

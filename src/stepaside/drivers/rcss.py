@@ -18,7 +18,7 @@ import numpy as np
 
 from ..core.errors import ConfigurationError, ModelError
 from ..core.rotations import rotation, rotation_of
-from ..perception.measurement import Measurement, Sighting
+from ..perception.measurement import RobotState, Sighting
 from .joint_robot import JointRobot, JointTargets
 from .robot_address import RobotRequest
 
@@ -124,7 +124,7 @@ class LeagueRobot(JointRobot):
             self._receive()
             self.command(lands)
 
-    def listen(self) -> Measurement:
+    def listen(self) -> RobotState:
         """Return the next message."""
         if self._unanswered:
             self._send("(syn)")
@@ -154,7 +154,7 @@ class LeagueRobot(JointRobot):
         """Leave the game."""
         self._socket.close()
 
-    def _report(self, entries: list[Any]) -> Measurement:
+    def _report(self, entries: list[Any]) -> RobotState:
         """Convert a message.
 
         Raises:
@@ -193,7 +193,7 @@ class LeagueRobot(JointRobot):
             level = rotation(*tilt, 0.0) @ rotation(0.0, pitch, head) @ seen
             ahead = float(level[0]) + self._camera
             self._sighting = Sighting.of_position(now, ahead, float(level[1]))
-        return Measurement(
+        return RobotState(
             now,
             joints[:, 0],
             gyro,

@@ -13,7 +13,7 @@ import numpy as np
 from ..core.errors import StepAsideError
 from ..core.poses import Array, Pose
 from ..core.user_file import FAILURES, shown_briefly
-from ..perception.measurement import Measurement, RobotStatus, Sighting
+from ..perception.measurement import RobotState, RobotStatus, Sighting
 from .dead_man_switch import DeadManSwitch
 from .guardian_process import Guardian, SessionLost
 from .method_thread import (
@@ -112,8 +112,8 @@ class RobotSession:
         self._methods.run(method, within)
 
     def listen(
-        self, patience: float, convert: Callable[[Any, str], Measurement]
-    ) -> Measurement | None:
+        self, patience: float, convert: Callable[[Any, str], RobotState]
+    ) -> RobotState | None:
         """Return the newest report, or None; the last one if it is repeated.
 
         Args:
@@ -125,7 +125,7 @@ class RobotSession:
             SessionLost: If a method failed, or returned no report.
         """
         deadline = self._clock() + patience
-        report: Measurement | None = None
+        report: RobotState | None = None
         while True:
             self._raise_failure()
             if self._reading is None:
@@ -346,7 +346,7 @@ def join_halter(make: Callable[[], Any], halting: str) -> Callable[[], None]:
     return lambda: methods.run(halting, CLOSE_TIMEOUT)
 
 
-def joint_state(got: Any, name: str, joints: int) -> Measurement:
+def joint_state(got: Any, name: str, joints: int) -> RobotState:
     """Return the report of a joint-driven robot, as plain numbers.
 
     Args:
@@ -371,13 +371,13 @@ def joint_state(got: Any, name: str, joints: int) -> Measurement:
         )
     except FAILURES as error:
         raise SessionLost(
-            f"{name} must return a Measurement(time, joint_positions, gyro, "
+            f"{name} must return a RobotState(time, joint_positions, gyro, "
             "accelerometer, joint_velocities=..., tilt=...) with arrays of "
             f"{joints} joints, or None, got {shown_briefly(got)}"
         ) from error
 
 
-def velocity_state(got: Any, name: str) -> Measurement:
+def velocity_state(got: Any, name: str) -> RobotState:
     """Return the report of a robot with velocity commands, likewise.
 
     Raises:
@@ -388,14 +388,14 @@ def velocity_state(got: Any, name: str) -> Measurement:
         return _of_plain_numbers(got)._replace(pose=Pose(x, y, theta))
     except FAILURES as error:
         raise SessionLost(
-            f"{name} must return a Measurement(time, pose=Pose(x, y, theta)) "
+            f"{name} must return a RobotState(time, pose=Pose(x, y, theta)) "
             f"or None, got {shown_briefly(got)}"
         ) from error
 
 
-def _of_plain_numbers(got: Any) -> Measurement:
-    if not isinstance(got, Measurement):
-        raise TypeError("not a Measurement")
+def _of_plain_numbers(got: Any) -> RobotState:
+    if not isinstance(got, RobotState):
+        raise TypeError("not a RobotState")
     sighting = got.sighting
     if sighting is not None:
         time, bearing, distance = (float(value) for value in sighting[:3])

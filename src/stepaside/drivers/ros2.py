@@ -23,7 +23,7 @@ from ..core.errors import ConfigurationError
 from ..core.history import History
 from ..core.poses import Array, Pose
 from ..core.rotations import rotation_of
-from ..perception.measurement import Measurement, Sighting
+from ..perception.measurement import RobotState, Sighting
 from .robot_address import RobotRequest
 from .ros2_dds import (
     DdsParticipant,
@@ -279,7 +279,7 @@ class Ros2Robot(VelocityRobot):
         """Find the subscribers of commands."""
         self._commands = CommandWriter(self._dds, self._topic(COMMAND))
 
-    def listen(self) -> Measurement | None:
+    def listen(self) -> RobotState | None:
         """Return the newest odometry, with the newest sighting."""
         deadline = monotonic() + PATIENCE
         while not (arrived := take_messages(self._odometry)):
@@ -302,7 +302,7 @@ class Ros2Robot(VelocityRobot):
             for message in take_messages(reader):
                 self._note(row, message, *frames)
         hindrance = self._odometry_fault(pose) or self._hindrance()
-        return Measurement(
+        return RobotState(
             time, sighting=self._sighting, pose=pose, hindrance=hindrance
         )
 

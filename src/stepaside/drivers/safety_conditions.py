@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from ..core.constants import GRAVITY
 from ..core.errors import ConfigurationError, check_positive, check_within
 from ..core.poses import Array
-from ..perception.measurement import Measurement
+from ..perception.measurement import RobotState
 
 UPRIGHT = (0.0, 0.0, GRAVITY)
 # Both limits tolerate the landings of a walk. The range of NAO's
@@ -255,7 +255,7 @@ class SafetyMonitor:
 
     def update(
         self,
-        report: Measurement,
+        report: RobotState,
         now: float,
         *,
         walks: bool,
@@ -302,7 +302,7 @@ class SafetyMonitor:
         self._read = None
         return 0.0
 
-    def _frozen(self, report: Measurement, now: float) -> float:
+    def _frozen(self, report: RobotState, now: float) -> float:
         """Return the time of a constant reading, if the legs have moved."""
         legs, force = report.joint_positions[self._legs], report.accelerometer
         if self._read is None or np.any(force != self._read):

@@ -9,7 +9,7 @@ from ..control.strategy_runner import StrategyRunner
 from ..core.errors import StrategyError
 from ..core.poses import Pose
 from ..locomotion.locomotion import MotionRequest, template_velocity
-from ..perception.measurement import Measurement, Sighting
+from ..perception.measurement import RobotState, Sighting
 from ..planning import GaitSettings
 from ..strategies import Strategy
 from ..strategies.velocity_set import BodyVelocity, VelocitySet
@@ -98,7 +98,7 @@ class TemplateController:
         self._gait = gait
         self.moving = False
 
-    def decide(self, report: Measurement) -> BodyVelocity:
+    def decide(self, report: RobotState) -> BodyVelocity:
         """Return the velocity command for a report.
 
         Args:
@@ -158,7 +158,7 @@ class VelocityLoop:
         self._paced, self._forsaken = watch.paced, watch.forsaken
         self._clock, self._pause = clock
         self._due = self._clock()  # of the next report
-        self._report: Measurement | None = None
+        self._report: RobotState | None = None
         self._wanted = REST
         self._leave_reason = self._failure = ""
         self._began: float | None = None
@@ -218,7 +218,7 @@ class VelocityLoop:
             self._command(velocity)
         return self._result(hindrance or self._failure, velocity)
 
-    def _listen(self) -> Measurement | None:
+    def _listen(self) -> RobotState | None:
         """Return the newest report, or None; the last one if repeated."""
         early = self._due - self._clock()
         if early > 0.0:
@@ -239,7 +239,7 @@ class VelocityLoop:
             self._session.command(partial(command, *velocity))
 
     def _decide(
-        self, report: Measurement | None, hindrance: str
+        self, report: RobotState | None, hindrance: str
     ) -> BodyVelocity:
         """Return the command; zero while there is a hindrance."""
         last = self._report
@@ -259,7 +259,7 @@ class VelocityLoop:
             self._wanted = self._template_velocity(report)
         return self._ramp.toward(self._wanted, min(passed, 2.0 * PATIENCE))
 
-    def _template_velocity(self, report: Measurement) -> BodyVelocity:
+    def _template_velocity(self, report: RobotState) -> BodyVelocity:
         try:
             return self._controller.decide(report)
         except StrategyError as error:

@@ -4,7 +4,7 @@ from math import isfinite
 
 from ..core.errors import ConfigurationError
 from ..core.user_file import shown_briefly
-from ..perception.measurement import Measurement
+from ..perception.measurement import RobotState
 from .robot_camera import (
     CameraImage,
     CameraMount,
@@ -59,7 +59,7 @@ class VelocityRobot:
     def prepare(self) -> None:
         """Make the robot ready to walk; it may stand up. Not in a dry run."""
 
-    def listen(self) -> Measurement | None:
+    def listen(self) -> RobotState | None:
         """Return the newest measured state, or None if there is no newer one.
 
         It has the pose in odometry, the newest sighting of the opponent and

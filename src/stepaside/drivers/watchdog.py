@@ -5,7 +5,7 @@ from math import hypot, isfinite, pi
 
 from ..core.errors import ConfigurationError, check_within
 from ..core.poses import wrap_angle
-from ..perception.measurement import Measurement, Sighting
+from ..perception.measurement import RobotState, Sighting
 from .sighting_checks import sighting_fault
 
 LEAD = 0.1  # by which the stamps may run ahead of this computer's clock, [s]
@@ -95,9 +95,9 @@ class Watchdog:
     def __init__(self, settings: WatchSettings) -> None:
         """Start before the first report."""
         self._settings = settings
-        self._newest: Measurement | None = None
+        self._newest: RobotState | None = None
         self._repeats = False
-        self._last: Measurement | None = None  # if it was valid
+        self._last: RobotState | None = None  # if it was valid
         self._arrived = 0.0
         self._lead = LeadMeter(settings.lead)
         self._good = 0
@@ -106,7 +106,7 @@ class Watchdog:
         self._began: float | None = None
         self.silent = 0.0
 
-    def check(self, report: Measurement | None, now: float) -> str:
+    def check(self, report: RobotState | None, now: float) -> str:
         """Check a report, or its absence.
 
         Args:
@@ -160,7 +160,7 @@ class Watchdog:
                 )
         return self._verdict
 
-    def _fault(self, report: Measurement, now: float) -> str:
+    def _fault(self, report: RobotState, now: float) -> str:
         """Return why a new report is invalid; empty if it is valid."""
         source, last = self._settings.source, self._last
         passed = 0.0 if last is None else report.time - last.time
@@ -188,7 +188,7 @@ class Watchdog:
         return ""
 
 
-def report_fault(report: Measurement, last: Measurement | None) -> str:
+def report_fault(report: RobotState, last: RobotState | None) -> str:
     """Return why a report is implausible; empty if it is plausible.
 
     Args:
@@ -220,5 +220,5 @@ def report_fault(report: Measurement, last: Measurement | None) -> str:
     return ""
 
 
-def _numbers(report: Measurement) -> str:
+def _numbers(report: RobotState) -> str:
     return ", ".join(f"{v:g}" for v in (report.time, *report.pose))

@@ -15,7 +15,7 @@ from ..control.scheme_builder import build_scheme
 from ..control.sight_sources import MeasuredSight
 from ..core.poses import Array
 from ..locomotion.zmp.control_settings import OPEN_LOOP
-from ..perception.measurement import Measurement, Sighting
+from ..perception.measurement import RobotState, Sighting
 from ..planning import Direction, GaitSettings
 from ..robots.description import RobotDescription
 from ..robots.joint_loads import LegLoads
@@ -213,5 +213,5 @@ def _walk(scheme: ControlScheme, gait: GaitSettings) -> Iterator[Array]:
     duration = gait.start_support + 2 * CYCLES * gait.step_duration
     for i in range(round(duration / TICK)):
         yield scheme.update(
-            Measurement(i * TICK, joints, zero, zero, np.zeros(8), None)
+            RobotState(i * TICK, joints, zero, zero, np.zeros(8), None)
         )

@@ -70,7 +70,7 @@ class RobotSignals:
         gyro: Angular velocity in the torso, in [rad/s]. Shape (n, 3).
         accelerometer: Specific force in the torso, in [m/s^2]. Shape (n, 3).
         foot_forces: Normal force at the corners of the soles, in the order
-            of ``Measurement.foot_forces``, in [N]. Shape (n, 8).
+            of ``RobotState.foot_forces``, in [N]. Shape (n, 8).
         com_velocity: Velocity of the CoM (x, y) in the world, in [m/s].
             Shape (n, 2).
         target_names: Names of the actuated joints.

@@ -6,7 +6,7 @@ import numpy as np
 
 from ..core.constants import GRAVITY
 from ..core.poses import Array
-from ..perception.measurement import Measurement
+from ..perception.measurement import RobotState
 from ..sim.simulated_robot import SimulatedRobot
 from .player import PhysicalPlayer
 
@@ -40,7 +40,7 @@ class ServedPlayer(PhysicalPlayer):
         self.is_moving = False
         self._head = list(head)
         self._waiting = True
-        self._measurement: Measurement | None = None
+        self._measurement: RobotState | None = None
         self._ticks = -1
         self._stance: Array | None = None
 
@@ -48,7 +48,7 @@ class ServedPlayer(PhysicalPlayer):
         """Begin the game: apply commands from now on."""
         self._waiting = False
 
-    def sensors(self) -> Measurement:
+    def sensors(self) -> RobotState:
         """Return the measurement of this tick; noise is drawn once."""
         ticks = self.robot.world.ticks
         if self._measurement is None or ticks != self._ticks:
@@ -57,7 +57,7 @@ class ServedPlayer(PhysicalPlayer):
             return self._at_rest(self._measurement)
         return self._measurement
 
-    def _at_rest(self, measurement: Measurement) -> Measurement:
+    def _at_rest(self, measurement: RobotState) -> RobotState:
         """Add gravity and foot forces of a robot that stands.
 
         Before the first step of physics the simulation has no forces.

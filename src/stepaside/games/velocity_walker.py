@@ -8,7 +8,7 @@ from ..core.poses import Pose, wrap_angle
 from ..drivers.walking_robot import TorsoInFootprint, WalkerState
 from ..locomotion.walk_snapshots import Phase, StepStarted
 from ..perception.images import ColourImage
-from ..perception.measurement import Measurement, Sighting
+from ..perception.measurement import RobotState, Sighting
 from ..planning import Foot
 from ..robots.body_pose import torso_pose_on_foot
 from ..robots.description import RobotDescription
@@ -52,7 +52,7 @@ class VelocityWalker(PhysicalPlayer):
         self.description = description
         self._forward = ForwardKinematics(description)
         self.scheme, self.frame = scheme, frame
-        self._measurement: Measurement | None = None
+        self._measurement: RobotState | None = None
         self._image: ColourImage | None = None
         self._ticks, self._ignores_lateral = -1, False
 
@@ -112,7 +112,7 @@ class VelocityWalker(PhysicalPlayer):
             self._torso(measurement),
         )
 
-    def _torso(self, measurement: Measurement) -> TorsoInFootprint:
+    def _torso(self, measurement: RobotState) -> TorsoInFootprint:
         """Return the pose of the torso by the stance foot and the tilt."""
         scheme, now = self.scheme, measurement.time
         step = scheme.locomotion.step(now)
@@ -132,7 +132,7 @@ class VelocityWalker(PhysicalPlayer):
             (planar.x, planar.y, z), (*tilt, wrap_angle(planar.theta))
         )
 
-    def _read(self) -> Measurement:
+    def _read(self) -> RobotState:
         """Return the measurement of this tick; noise is drawn once."""
         ticks = self.robot.world.ticks
         if self._measurement is None or ticks != self._ticks:
@@ -142,7 +142,7 @@ class VelocityWalker(PhysicalPlayer):
                     self._image = percept
         return self._measurement
 
-    def _sighting(self, measurement: Measurement) -> Sighting | None:
+    def _sighting(self, measurement: RobotState) -> Sighting | None:
         """Return the sighting with its bearing relative to the template."""
         sighting, scheme = measurement.sighting, self.scheme
         if sighting is None:

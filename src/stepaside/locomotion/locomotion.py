@@ -3,7 +3,7 @@
 from typing import NamedTuple, Protocol
 
 from ..core.poses import Array, Pose
-from ..perception.measurement import Measurement
+from ..perception.measurement import RobotState
 from ..planning import Direction, Foot, GaitSettings
 from ..strategies.knowledge import Intent
 from ..strategies.velocity_set import STILL, BodyVelocity, VelocitySet
@@ -150,12 +150,12 @@ class Locomotion(Protocol):
         """
 
     def update(
-        self, measurement: Measurement, decisions: IntentSource
+        self, measurement: RobotState, decisions: IntentSource
     ) -> Array:
         """Run one control tick; decide if a decision is due.
 
         Args:
-            measurement: Measurement of the tick.
+            measurement: RobotState of the tick.
             decisions: Decisions of the player.
 
         Returns:

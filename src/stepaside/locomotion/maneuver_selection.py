@@ -4,7 +4,7 @@ from collections.abc import Callable, Iterator
 from typing import NamedTuple, Protocol
 
 from ..core.poses import Pose
-from ..perception.measurement import Measurement
+from ..perception.measurement import RobotState
 from ..planning import (
     CenterState,
     Direction,
@@ -45,11 +45,11 @@ class ManeuverGuard(Protocol):
     def map_error(self) -> float:
         """Largest position error of the obstacles, in [m]."""
 
-    def note(self, measurement: Measurement, pose: Pose) -> None:
+    def note(self, measurement: RobotState, pose: Pose) -> None:
         """Update the obstacles.
 
         Args:
-            measurement: Measurement of the tick.
+            measurement: RobotState of the tick.
             pose: Place of the CoM and heading in odometry at the tick.
         """
 

@@ -4,7 +4,7 @@ from math import pi
 from time import process_time
 
 from ..core.poses import Array, Pose
-from ..perception.measurement import Measurement
+from ..perception.measurement import RobotState
 from ..planning import CenterState, Foot, GaitSettings, ManeuverPlan
 from ..planning.steady_gait import landing_state
 from ..robots.leg_kinematics import BodyReference, LegKinematics
@@ -176,7 +176,7 @@ class ManeuverWalk:
         return targets
 
     def update(
-        self, measurement: Measurement, decisions: IntentSource
+        self, measurement: RobotState, decisions: IntentSource
     ) -> Array:
         """Run one control tick; see :class:`.locomotion.Locomotion`."""
         self.begun = None

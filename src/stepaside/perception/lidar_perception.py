@@ -10,7 +10,7 @@ from ..robots.body_pose import SpatialTorsoPose, torso_pose_on_foot
 from ..robots.description import RobotDescription
 from ..robots.forward_kinematics import ForwardKinematics
 from .images import LidarScan
-from .measurement import Measurement, Sighting
+from .measurement import RobotState, Sighting
 from .target_selection import PeopleSelection
 from .track import Observation, TargetTrack
 from .tracker import Tracker
@@ -52,7 +52,7 @@ class LidarPerception:
 
     def see(
         self,
-        measurement: Measurement,
+        measurement: RobotState,
         pose_support_in_odometry: Pose,
         left_supports: bool,
         tilt: tuple[float, float],

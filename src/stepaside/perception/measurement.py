@@ -79,7 +79,7 @@ UNMEASURED = np.full(8, np.nan)  # forces on the corners of the soles
 AT_REST = np.zeros(3)
 
 
-class Measurement(NamedTuple):
+class RobotState(NamedTuple):
     """State of a robot at one instant, as its sensors measure it.
 
     A simulated robot, a driver and a user's robot report it, and control

@@ -31,7 +31,7 @@ from .images import (
     Percept,
     SonarEcho,
 )
-from .measurement import Measurement, Sighting
+from .measurement import RobotState, Sighting
 from .observations import (
     angle_of,
     is_opponent,
@@ -177,7 +177,7 @@ class Perception:
 
     def see(
         self,
-        measurement: Measurement,
+        measurement: RobotState,
         pose_support_in_odometry: Pose,
         left_supports: bool,
         tilt: tuple[float, float],

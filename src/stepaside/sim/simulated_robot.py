@@ -13,7 +13,7 @@ from ..core.constants import GRAVITY
 from ..core.errors import ModelError
 from ..core.index_span import span_of
 from ..core.poses import Array, Pose
-from ..perception.measurement import Measurement, Sighting
+from ..perception.measurement import RobotState, Sighting
 from ..robots.description import REMEDY, RobotDescription
 from .body_settings import BodySettings
 from .ground_truth import TrueRobotState
@@ -258,7 +258,7 @@ class SimulatedRobot:
         mass = self.world.model.body_subtreemass[self._torso]
         return GRAVITY * float(mass)
 
-    def read(self, *, sees: bool = True, feels: bool = True) -> Measurement:
+    def read(self, *, sees: bool = True, feels: bool = True) -> RobotState:
         """Read the sensors.
 
         Args:
@@ -272,7 +272,7 @@ class SimulatedRobot:
         percepts = () if self.eyes is None else self.eyes.read(now)
         place = None if self.place is None else self.place.read()
         if not feels:
-            return Measurement(
+            return RobotState(
                 now, *(EMPTY,) * 4, first, percepts, place, players=seen
             )
         self.world.update_sensors()
@@ -295,7 +295,7 @@ class SimulatedRobot:
                 gyro, specific_force, present, forces
             )
             latest = None if latest is None else noisy
-        return Measurement(
+        return RobotState(
             now,
             angles,
             gyro,

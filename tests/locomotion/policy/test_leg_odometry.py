@@ -9,7 +9,7 @@ import pytest
 
 from stepaside.core.poses import Array, Pose
 from stepaside.locomotion.policy.leg_odometry import LegOdometry
-from stepaside.perception.measurement import Measurement
+from stepaside.perception.measurement import RobotState
 from stepaside.planning import Foot
 
 PERIOD = 0.02
@@ -55,7 +55,7 @@ def begun_with(
     return LegOdometry(feet, joint_positions, ratio)
 
 
-def seen_from(pose: Pose, left_carries: bool) -> Measurement:
+def seen_from(pose: Pose, left_carries: bool) -> RobotState:
     """Feet on the floor, as a torso at a pose sees them."""
     places = pose.inverse().transform_points(np.array([LEFT, RIGHT]))
     feet = np.column_stack([places, [-0.7, -0.7]])[:, None]
@@ -65,10 +65,10 @@ def seen_from(pose: Pose, left_carries: bool) -> Measurement:
     return sensed(angles, forces)
 
 
-def sensed(angles: Array, forces: Array) -> Measurement:
+def sensed(angles: Array, forces: Array) -> RobotState:
     """Return a measurement of joints and feet."""
     nothing = np.zeros(3)
-    return Measurement(0.0, angles, nothing, nothing, forces, None)
+    return RobotState(0.0, angles, nothing, nothing, forces, None)
 
 
 def about_vertical(angle: float) -> Array:

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from stepaside.locomotion.policy.leg_odometry import LegOdometry
-from stepaside.perception.measurement import Measurement
+from stepaside.perception.measurement import RobotState
 from stepaside.robots.description import load_robot
 from stepaside.robots.forward_kinematics import ForwardKinematics
 
@@ -34,7 +34,7 @@ def test_the_lower_foot_carries_the_robot(stance: str, sign: float) -> None:
         odometry = LegOdometry(forward, postures[0])
         for i, angles in enumerate(postures):
             zero = np.zeros(3)
-            measured = Measurement(i * TICK, angles, zero, zero, given, None)
+            measured = RobotState(i * TICK, angles, zero, zero, given, None)
             odometry.take(measured, (0.0, 0.0), 0.0, TICK)
             for loop in odometry.loops:
                 loop()

@@ -9,7 +9,7 @@ import pytest
 from stepaside.core.constants import GRAVITY
 from stepaside.locomotion.locomotion import MotionRequest, template_velocity
 from stepaside.locomotion.policy.legs_settings import LegsSettings
-from stepaside.perception.measurement import Measurement
+from stepaside.perception.measurement import RobotState
 from stepaside.planning import Direction, GaitSettings
 from stepaside.robots.description import load_robot
 from stepaside.strategies import STAND, Intent
@@ -72,7 +72,7 @@ def test_the_heading_follows_the_gyro_between_decisions(
     for time in tick * np.arange(round(2.5 / tick)):
         gyro = np.array([0.0, 0.0, 0.5 if time > 1.5 else 0.0])
         legs.update(
-            Measurement(
+            RobotState(
                 *(time, angles, gyro, up, np.ones(8), None),
                 joint_velocities=np.zeros_like(angles),
             ),

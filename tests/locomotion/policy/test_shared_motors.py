@@ -12,7 +12,7 @@ from stepaside.core.constants import GRAVITY
 from stepaside.locomotion.policy.legs_loader import load_policy
 from stepaside.locomotion.policy.legs_settings import LegsSettings
 from stepaside.locomotion.policy.policy_legs import PolicyLegs
-from stepaside.perception.measurement import Measurement
+from stepaside.perception.measurement import RobotState
 from stepaside.robots.description import load_robot
 from stepaside.robots.tree_cache import load_tree
 from stepaside.strategies.velocity_set import STILL
@@ -37,7 +37,7 @@ def test_a_shared_motor_gets_the_mean_of_its_joints_targets(
     angles[hip] = 0.1
     zero = np.zeros(3)
     still, up = np.zeros_like(angles), np.array([0.0, 0.0, GRAVITY])
-    measurement = Measurement(
+    measurement = RobotState(
         0.0, angles, zero, up, np.ones(8), None, joint_velocities=still
     )
     targets = legs.update(measurement, STILL)

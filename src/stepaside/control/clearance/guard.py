@@ -21,7 +21,7 @@ import numpy as np
 
 from ...core.poses import Pose
 from ...locomotion.maneuver_selection import GuardDecision, PlanFor
-from ...perception.measurement import Measurement
+from ...perception.measurement import RobotState
 from ...planning import ManeuverPlan, ManeuverPlanner
 from ...planning.steady_gait import landing_state
 from ...strategies.knowledge import Intent
@@ -107,7 +107,7 @@ class Guard:
         """Largest position error of the obstacles, in [m]."""
         return self.surroundings.map_error
 
-    def note(self, measurement: Measurement, pose: Pose) -> None:
+    def note(self, measurement: RobotState, pose: Pose) -> None:
         """Update the obstacles; see :meth:`.Surroundings.note`."""
         self.surroundings.note(measurement, pose)
 

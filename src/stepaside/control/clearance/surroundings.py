@@ -5,7 +5,7 @@ from typing import Protocol
 from ...arena import NO_OBSTACLES, ObstacleSet, Room
 from ...core.poses import Pose
 from ...perception.floor_map import CELL, FloorMap
-from ...perception.measurement import Measurement
+from ...perception.measurement import RobotState
 
 HERE = Pose(0.0, 0.0, 0.0)
 AHEAD = 2.0  # horizon for moving obstacles: two steps, in [s]
@@ -32,11 +32,11 @@ class Surroundings(Protocol):
     def pose_odometry_in_map(self) -> Pose:
         """Pose of the own odometry in the frame of the obstacles."""
 
-    def note(self, measurement: Measurement, pose: Pose) -> None:
+    def note(self, measurement: RobotState, pose: Pose) -> None:
         """Update from the measurement of one tick.
 
         Args:
-            measurement: Measurement of the tick.
+            measurement: RobotState of the tick.
             pose: Place of the CoM and heading in odometry at the tick.
         """
 
@@ -48,7 +48,7 @@ class OpenFloor:
     pose_odometry_in_map = HERE
     map_error = 0.0
 
-    def note(self, measurement: Measurement, pose: Pose) -> None:
+    def note(self, measurement: RobotState, pose: Pose) -> None:
         """Ignore the measurement."""
 
 
@@ -79,7 +79,7 @@ class KnownRoom:
         self.solids = ObstacleSet(room.solids_at(0.0, AHEAD))
         self.pose_odometry_in_map = start
 
-    def note(self, measurement: Measurement, pose: Pose) -> None:
+    def note(self, measurement: RobotState, pose: Pose) -> None:
         """Align odometry with the measured pose; update moving obstacles."""
         if measurement.pose_in_room is not None:
             self.pose_odometry_in_map = measurement.pose_in_room.compose(
@@ -115,7 +115,7 @@ class MappedRoom:
         self.solids = NO_OBSTACLES
         self._read, self._next = 0, 0.0
 
-    def note(self, measurement: Measurement, pose: Pose) -> None:
+    def note(self, measurement: RobotState, pose: Pose) -> None:
         """Read the map again if it has changed, a few times in each step."""
         now, version = measurement.time, self._floor.version
         if now < self._next - 1e-9 or version == self._read:

@@ -7,7 +7,7 @@ import numpy as np
 from ...core.compilation import bound, compiled
 from ...core.poses import Array, Pose
 from ...core.rotations import rotation
-from ...perception.measurement import Measurement
+from ...perception.measurement import RobotState
 from ...planning import Foot
 from ...robots.forward_kinematics import ForwardKinematics
 
@@ -163,7 +163,7 @@ class LegOdometry:
 
     def take(
         self,
-        measurement: Measurement,
+        measurement: RobotState,
         tilt: tuple[float, float],
         turn: float,
         duration: float,
@@ -171,7 +171,7 @@ class LegOdometry:
         """Take a reading, before :attr:`loops` run.
 
         Args:
-            measurement: Measurement with joint angles and foot forces.
+            measurement: RobotState with joint angles and foot forces.
             tilt: Roll and pitch of the torso, in [rad].
             turn: Rotation about the vertical since the last reading, in
                 [rad].

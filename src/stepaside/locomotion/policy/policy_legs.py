@@ -6,7 +6,7 @@ from ...core.compilation import bound, compiled
 from ...core.errors import PolicyError
 from ...core.index_span import span_of
 from ...core.poses import Array, Pose
-from ...perception.measurement import Measurement
+from ...perception.measurement import RobotState
 from ...robots.description import RobotDescription
 from ...robots.forward_kinematics import ForwardKinematics
 from ...strategies.velocity_set import STILL, BodyVelocity, VelocitySet
@@ -154,13 +154,11 @@ class PolicyLegs:
         self._targets[self._joints] = targets
         return self._targets
 
-    def update(
-        self, measurement: Measurement, velocity: BodyVelocity
-    ) -> Array:
+    def update(self, measurement: RobotState, velocity: BodyVelocity) -> Array:
         """Run one control tick.
 
         Args:
-            measurement: Measurement of the tick, with joint velocities.
+            measurement: RobotState of the tick, with joint velocities.
             velocity: Intended velocity; the nearest deliverable one with the
                 same path is walked.
 
@@ -187,7 +185,7 @@ class PolicyLegs:
         self.pose = Pose(x, y, theta + self._turned)
         return self.joint_targets
 
-    def _decide(self, measurement: Measurement) -> None:
+    def _decide(self, measurement: RobotState) -> None:
         """Run the policy at its own period."""
         period, motion = self.contract.period, self._motion
         turned, self._turned = self._turned, 0.0

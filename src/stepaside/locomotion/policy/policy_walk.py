@@ -3,7 +3,7 @@
 from typing import Protocol
 
 from ...core.poses import Array, Pose
-from ...perception.measurement import Measurement
+from ...perception.measurement import RobotState
 from ...planning import Foot, GaitSettings
 from ...strategies.knowledge import Intent
 from ...strategies.velocity_set import STILL, BodyVelocity, VelocitySet
@@ -129,7 +129,7 @@ class PolicyWalk:
         """Return None: every tick needs a measurement."""
 
     def update(
-        self, measurement: Measurement, decisions: IntentSource
+        self, measurement: RobotState, decisions: IntentSource
     ) -> Array:
         """Run one control tick; see :class:`.locomotion.Locomotion`."""
         now = measurement.time

@@ -5,7 +5,7 @@ from collections.abc import Callable
 import numpy as np
 
 from ...core.poses import Array, Pose
-from ...perception.measurement import Measurement
+from ...perception.measurement import RobotState
 from ...planning import CenterState, GaitSettings, ManeuverPlan
 from ...robots.description import RobotDescription
 from ...robots.forward_kinematics import ForwardKinematics
@@ -65,7 +65,7 @@ class OpenLoop:
 
     def targets(
         self,
-        measurement: Measurement,
+        measurement: RobotState,
         table: ReferenceTable,
         index: int,
         step: StepAt,
@@ -73,7 +73,7 @@ class OpenLoop:
         """Return the joint targets of one tick.
 
         Args:
-            measurement: Measurement of the tick.
+            measurement: RobotState of the tick.
             table: References of the plan.
             index: Index of the tick in the table.
             step: Function from a time, in [s], to the step in progress.
@@ -209,7 +209,7 @@ class ClosedLoop:
 
     def targets(
         self,
-        measurement: Measurement,
+        measurement: RobotState,
         table: ReferenceTable,
         index: int,
         step: StepAt,

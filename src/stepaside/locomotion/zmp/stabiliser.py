@@ -20,7 +20,7 @@ from math import exp, hypot
 from typing import NamedTuple
 
 from ...core.poses import Pose
-from ...perception.measurement import Measurement
+from ...perception.measurement import RobotState
 from ...planning import CenterState, Foot, GaitSettings, ManeuverPlan
 from ...robots.leg_kinematics import BodyReference
 from .control_settings import ControlSettings
@@ -139,12 +139,12 @@ class Stabiliser:
         return self.estimator.ready
 
     def update(
-        self, measurement: Measurement, row: ReferenceSample, step: CurrentStep
+        self, measurement: RobotState, row: ReferenceSample, step: CurrentStep
     ) -> BodyReference:
         """Run one control tick.
 
         Args:
-            measurement: Measurement of the tick.
+            measurement: RobotState of the tick.
             row: References of the plan.
             step: Step in progress.
         """
@@ -162,7 +162,7 @@ class Stabiliser:
         return BodyReference(com, body.left_foot, body.right_foot, left, right)
 
     def _observe(
-        self, measurement: Measurement, row: ReferenceSample, step: CurrentStep
+        self, measurement: RobotState, row: ReferenceSample, step: CurrentStep
     ) -> None:
         """Estimate the state and its errors from the delayed command."""
         x, y, z = row.body.com

@@ -9,7 +9,7 @@ from ...core.compilation import bound, compiled
 from ...core.constants import GRAVITY
 from ...core.poses import Array
 from ...perception.attitude import AttitudeFilter
-from ...perception.measurement import Measurement
+from ...perception.measurement import RobotState
 from ...robots.forward_kinematics import ForwardKinematics, MeasuredPosture
 from ...robots.leg_kinematics import BodyReference
 
@@ -219,7 +219,7 @@ class StateEstimator:
 
     def update(
         self,
-        measurement: Measurement,
+        measurement: RobotState,
         feet: BodyReference,
         acceleration: tuple[float, float],
         reaction: tuple[float, float] = (0.0, 0.0),
@@ -227,7 +227,7 @@ class StateEstimator:
         """Estimate the state at one tick.
 
         Args:
-            measurement: Measurement of the tick.
+            measurement: RobotState of the tick.
             feet: Body reference of the command that the measured motion
                 executes, in odometry; its feet are used.
             acceleration: CoM acceleration of that command, in [m/s^2]. The

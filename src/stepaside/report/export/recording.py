@@ -40,7 +40,7 @@ class RobotModel:
         joints: Names of its joints, in the order of qpos.
         foot_sites: Positions of the foot force sensors in the frames of
             their soles, in [m], in the order of
-            ``Measurement.foot_forces``. Shape (8, 3).
+            ``RobotState.foot_forces``. Shape (8, 3).
     """
 
     description: RobotDescription
