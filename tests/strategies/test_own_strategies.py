@@ -27,7 +27,7 @@ from stepaside.strategies import (
     Pursuit,
     load_strategy,
 )
-from stepaside.strategies.registry import check_strategy_name
+from stepaside.strategies.registry import check_strategy_name, file_of
 
 OWN = '''
 from dataclasses import dataclass
@@ -157,6 +157,20 @@ def test_names_take_arguments() -> None:
     assert load_strategy("look-ahead(pieces=(1, 2), turns=3)") == LookAhead(
         (1, 2), 3
     )
+
+
+@pytest.mark.parametrize(
+    ("name", "file"),
+    [
+        ("", None),
+        ("pursuit(gain=2)", None),
+        ("a (1)/n.onnx", "a (1)/n.onnx"),
+        ("a (1)/own.py:B", "a (1)/own.py"),
+        ("a (1)/own.py:B(x=(1, 2), y=3)", "a (1)/own.py"),
+    ],
+)
+def test_the_file_of_a_name_is_told(name: str, file: str | None) -> None:
+    assert file_of(name) == (None if file is None else Path(file))
 
 
 @pytest.mark.parametrize(

@@ -79,7 +79,9 @@ STRATEGIES: Mapping[str, tuple[str, Mapping[str, Any]]] = {
 OF_EVASION = ("evasion",)  # strategies that use settings of an Evasion
 OTHERS = "FILE.py:NAME or FILE.onnx"
 _OBJECT = re.compile(r"object [\w.<>]+\(.*\)", re.DOTALL)
-_CALL = re.compile(r"(?P<name>[^()]+)\((?P<arguments>.*)\)", re.DOTALL)
+_CALL = re.compile(
+    r"(?P<name>.+\.py:\w+|[^():]+)\((?P<arguments>.*)\)", re.DOTALL
+)
 _COMMA = re.compile(r",(?![^(\[]*[)\]])")  # not one within a tuple
 _WORDS = {"inf": inf, "true": True, "false": False, "none": None}
 _NETWORK = re.compile(r"(?P<file>.+\.onnx)", re.DOTALL)
@@ -206,8 +208,16 @@ def absolute_name(name: str) -> str:
 
 
 def file_of(name: str) -> Path | None:
-    """Return the file of a strategy; None for one of :data:`STRATEGIES`."""
-    return _parse(name).file
+    """Return the file that a name denotes; None for any other text."""
+    text = name if _NETWORK.fullmatch(name) else _split(name)[0]
+    found = FILE_AND_NAME.fullmatch(text) or _NETWORK.fullmatch(text)
+    return None if found is None else Path(found["file"]).expanduser()
+
+
+def _split(text: str) -> tuple[str, str]:
+    """Return name and arguments of NAME(ARGUMENTS)."""
+    call = _CALL.fullmatch(text)
+    return (call["name"].strip(), call["arguments"]) if call else (text, "")
 
 
 def _parse(text: str, what: str = "strategy") -> _Named:
@@ -216,12 +226,9 @@ def _parse(text: str, what: str = "strategy") -> _Named:
     Raises:
         ConfigurationError: If the name is unknown, or no call.
     """
-    call = None if _NETWORK.fullmatch(text) else _CALL.fullmatch(text)
-    name = call["name"].strip() if call else text
+    name, listed = _split(text)
     arguments: dict[str, Any] = {}
-    for each in filter(
-        str.strip, _COMMA.split(call["arguments"] if call else "")
-    ):
+    for each in filter(str.strip, _COMMA.split(listed)):
         key, is_pair, value = (part.strip() for part in each.partition("="))
         if not (is_pair and key.isidentifier() and value):
             raise ConfigurationError(
@@ -230,15 +237,13 @@ def _parse(text: str, what: str = "strategy") -> _Named:
         arguments[key] = _value(value)
     if name in STRATEGIES:
         return _Named(name, arguments, None)
-    found = FILE_AND_NAME.fullmatch(name)
-    network = _NETWORK.fullmatch(name)
-    if network and arguments:
+    if _NETWORK.fullmatch(name) and arguments:
         raise ConfigurationError(
             f"{what} {name} must have no arguments, got {', '.join(arguments)}"
         )
-    if network or (found and found["name"].isidentifier()):
-        file = (network or found)["file"]  # type: ignore[index]
-        return _Named(name, arguments, Path(file).expanduser())
+    found, file = FILE_AND_NAME.fullmatch(name), file_of(name)
+    if file is not None and (not found or found["name"].isidentifier()):
+        return _Named(name, arguments, file)
     near = get_close_matches(name, STRATEGIES, 1)
     hint = f"; did you mean {near[0]}?" if near else ""
     raise ConfigurationError(
