@@ -12,7 +12,6 @@ import pytest
 
 from match_callbacks import observe_ticks, stop_observing
 from stepaside.core.errors import ConfigurationError, StepAsideError
-from stepaside.games.approach_forecast import CourseApproach
 from stepaside.games.duel import Duel
 from stepaside.games.duel_settings import DuelSettings, StartSettings
 from stepaside.games.run_archive import load_run
@@ -24,6 +23,7 @@ from stepaside.report.viewer import run_saving as saving
 from stepaside.report.viewer.live_match import LiveMatch
 from stepaside.report.viewer.live_session import LiveSession
 from stepaside.report.viewer.status_text import outlook, status_text
+from stepaside.strategies.approach import Approach
 from stepaside.strategies.teleoperation import TURN, TeleoperatedPursuit
 
 START = StartSettings(distance=1.0, pursuer_offset=0.0, evader_offset=0.0)
@@ -379,7 +379,7 @@ def test_the_outlook_says_what_comes_next_and_when(
         distance,
         phase,
         safety=0.8,
-        approach=CourseApproach((distance, 0.0), (-0.073, 0.0)),
+        approach=Approach(distance, 0.0, -0.073, 0.0),
         theory=theory,
         settling=settling,
     )

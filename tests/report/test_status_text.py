@@ -8,12 +8,13 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from stepaside.games.approach_forecast import CourseApproach, estimate_approach
+from stepaside.games.approach_forecast import LEAST, estimate_approach
 from stepaside.games.run import DuelRun
 from stepaside.games.run_captions import describe_state
 from stepaside.games.trajectory import Trajectory
 from stepaside.locomotion.walk_snapshots import Phase
 from stepaside.report.viewer.status_text import outlook, status_text
+from stepaside.strategies.approach import Approach
 from synthetic_run import run_of
 
 SPEED = st.floats(-2.0, 2.0)
@@ -26,7 +27,7 @@ def seen(offset: tuple[float, float], velocity: tuple[float, float]) -> str:
         hypot(*offset),
         Phase.STANDING,
         safety=0.8,
-        approach=CourseApproach(offset, velocity),
+        approach=Approach(*offset, *velocity),
         theory=(0.9, 90.0),
         settling=10.0,
     )
@@ -37,13 +38,14 @@ def test_an_approach_agrees_with_where_it_leads(
     x: float, y: float, vx: float, vy: float
 ) -> None:
     """Closest approach and time against a fine walk along the course."""
-    approach = CourseApproach((x, y), (vx, vy))
+    approach = Approach(x, y, vx, vy)
     times = np.linspace(0.0, 60.0, 6001)
     away = np.hypot(x + vx * times, y + vy * times)
-    assert approach.closest <= away.min() + 1e-9
-    reached = approach.time_to(0.8)
-    if reached is None:
-        assert away.min() > 0.8 - 1e-6
+    assert approach.miss <= away.min() + 1e-9
+    reached = approach.contact_time(0.8)
+    if reached == inf:
+        slow = approach.speed < 0.05 or approach.closing_speed <= 0.0
+        assert slow or away.min() > 0.8 - 1e-6
     elif reached < 60.0:
         at = hypot(x + vx * reached, y + vy * reached)
         assert at == pytest.approx(min(0.8, hypot(x, y)), abs=1e-6)
@@ -52,7 +54,7 @@ def test_an_approach_agrees_with_where_it_leads(
         step = 1e-6
         ahead = hypot(x + vx * step, y + vy * step)
         falls = (hypot(x, y) - ahead) / step
-        assert approach.speed == pytest.approx(falls, abs=1e-4)
+        assert approach.closing_speed == pytest.approx(falls, abs=1e-4)
 
 
 @given(PLACE, PLACE, SPEED, SPEED, st.floats(0.1, 2.0))
@@ -66,10 +68,9 @@ def test_an_approach_is_found_again_from_two_offsets(
     found = estimate_approach(before, (x, y), elapsed)
     assert found is not None
     falls = (hypot(*before) - hypot(x, y)) / elapsed
-    assert found.speed == pytest.approx(falls, abs=1e-9)
+    assert found.closing_speed == pytest.approx(falls, abs=1e-9)
     turned = estimate_approach((x, y), (-y, x), elapsed)
-    assert turned is not None and abs(turned.speed) < 1e-9
-    assert not turned.is_approaching and not turned.is_leaving
+    assert turned is not None and abs(turned.closing_speed) < 1e-9 < LEAST
 
 
 def test_a_time_is_said_of_who_comes_within_the_radius_alone() -> None:
@@ -112,9 +113,7 @@ def test_nothing_is_said_of_a_time_that_cannot_be_told() -> None:
 def test_a_pursuer_comes_only_while_the_distance_falls(
     velocity: tuple[float, float] | None, said: str
 ) -> None:
-    approach = (
-        None if velocity is None else CourseApproach((3.0, 0.0), velocity)
-    )
+    approach = None if velocity is None else Approach(3.0, 0.0, *velocity)
     phases = (Phase.WALKING, Phase.STANDING)
     words = status_text(phases, 3.0, 90.0, 0.8, None, approach=approach)
     assert said in words and "standing" in words

@@ -1,6 +1,6 @@
 """Test the beam search and its model of the pursuer."""
 
-from math import acos, inf, pi
+from math import acos, cos, inf, pi, sin
 
 import numpy as np
 import pytest
@@ -16,13 +16,14 @@ from stepaside.strategies.search.beam_search import (
     arc_cosine,
     beam_search,
     play_moves,
+    sector_of,
     sort_ranks,
 )
-from stepaside.strategies.search.pursuer_model import (
+from stepaside.strategies.search.step_motion import (
     BeamRules,
     PursuerModel,
-    arc_end,
-    model_turn,
+    pair_of,
+    pursue,
 )
 from stepaside.studies.tournament_settings import TournamentSettings
 
@@ -37,7 +38,7 @@ START = np.array([0.5, 0.2, 0.3, -0.5, -0.1, 0.9])
         (PursuerModel(), Pursuit()),
         (PursuerModel(3.0), Pursuit(gain=3.0)),
         (SHARP, Pursuit(gain=inf)),
-        (PursuerModel(1.0, inward=1.0), Pursuit(pull=1.0)),
+        (PursuerModel(1.0, pull=1.0), Pursuit(pull=1.0)),
     ],
     ids=["pursuit", "x3", "sharp", "herding"],
 )
@@ -55,8 +56,7 @@ def test_model_walks_as_the_strategy_does(
     for before, own, after in zip(
         track.pursuer, track.evader, track.pursuer[1:], strict=False
     ):
-        turn = model_turn(tuple(own), tuple(before), model, RULES)
-        end = arc_end(tuple(before), 0.04, turn)
+        end = pursue(pair_of(tuple(own), tuple(before)), model, RULES)
         np.testing.assert_allclose(end[:2], after[:2], atol=1e-6)
 
 
@@ -127,6 +127,14 @@ def test_captured_and_touching_moves_do_not_survive() -> None:
 def test_arc_cosine_is_that_of_its_reference() -> None:
     for value in np.linspace(-1.0, 1.0, 401).tolist():
         assert arc_cosine(value) == pytest.approx(acos(value), abs=7e-5)
+
+
+def test_sectors_are_equal() -> None:
+    angles = np.linspace(0.0, 2.0 * pi, 160, endpoint=False) + 0.01
+    found = [sector_of(cos(a), sin(a)) for a in angles.tolist()]
+    assert sorted(set(found)) == list(range(16))
+    for first in range(0, 160, 10):
+        assert len(set(found[first : first + 10])) == 1
 
 
 def test_ranks_fall_and_equal_ones_keep_their_order() -> None:

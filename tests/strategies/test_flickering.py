@@ -25,7 +25,7 @@ from stepaside.perception.measurement import Sighting
 from stepaside.planning import Direction
 from stepaside.strategies import Intent, Knowledge, Limits, Pursuit
 from stepaside.strategies.look_ahead import PENALTY, LookAhead
-from stepaside.strategies.search import turn_search as search
+from stepaside.strategies.search import turn_search
 from stepaside.strategies.strategy_game import StepGame
 
 LIMITS = Limits(GAIT.speed, GAIT.gain, GAIT.stride, GAIT.step_duration)
@@ -95,13 +95,13 @@ def test_a_map_that_is_exact_is_taken_at_its_word(
     gain: float,
 ) -> None:
     told: list[Any] = []
-    looked = search.look_ahead
+    looked = turn_search.look_ahead
 
     def look(*given: Any, **named: Any) -> Any:
-        told.append(given[4])
+        told.append(given[5])
         return looked(*given, **named)
 
-    monkeypatch.setattr(search, "look_ahead", look)
+    monkeypatch.setattr("stepaside.strategies.look_ahead.look_ahead", look)
     strategy = LookAhead()
     known = Knowledge(
         0.0,

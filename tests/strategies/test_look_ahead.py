@@ -33,6 +33,7 @@ from stepaside.strategies.opponent_track import (
     OpponentTrack,
     track_of_steps,
 )
+from stepaside.strategies.search.step_motion import PursuerModel
 
 NAO = Limits(0.1, 0.2, 0.04, 0.4)
 FACING = (Pose(0.0, 0.0, 0.6), Pose(1.0, 0.1, 3.3))
@@ -73,7 +74,7 @@ def test_the_pursuer_heading_is_estimated_from_sightings() -> None:
         bearing = wrap_angle(float(np.arctan2(y, x)) - evader[2])
         pose = Pose(*evader.tolist())
         seen = track_of_steps(seen, know(bearing, hypot(x, y), pose, 0.4 * n))
-        both = poses_at_sighting(seen, step_rules(NAO))
+        both = poses_at_sighting(seen, PursuerModel(), step_rules(NAO))
         found = float(np.arctan2(both.ps, both.pc))
         if n:
             assert wrap_angle(found - pursuer[2]) == pytest.approx(0, abs=1e-5)
@@ -292,11 +293,15 @@ def test_a_walker_looks_ahead_from_where_its_step_begins() -> None:
         age=0.0,
     )
     moved = predict_poses(
-        poses_at_sighting(track_of_steps(None, walker), step_rules(NAO)),
+        poses_at_sighting(
+            track_of_steps(None, walker), PursuerModel(), step_rules(NAO)
+        ),
         walker,
         walker.step_start_in_map or here,
     )
-    still = poses_at_sighting(track_of_steps(None, there), step_rules(NAO))
+    still = poses_at_sighting(
+        track_of_steps(None, there), PursuerModel(), step_rules(NAO)
+    )
     assert moved[:6] == pytest.approx(still[:6])
     one, memory = mind.decide(walker, mind.begin())
     two, other = mind.decide(there, mind.begin())

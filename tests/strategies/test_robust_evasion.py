@@ -29,12 +29,16 @@ from stepaside.strategies.robust_evasion import (
     actions_of,
     planned_game,
 )
-from stepaside.strategies.search.beam_search import beam_search, play_moves
-from stepaside.strategies.search.pursuer_model import (
+from stepaside.strategies.search.beam_search import (
+    beam_search,
+    play_moves,
+)
+from stepaside.strategies.search.step_motion import (
     BeamRules,
     PursuerModel,
     arc_end,
-    model_turn,
+    pair_of,
+    pursuer_turn,
 )
 from stepaside.studies.tournament_settings import TournamentSettings
 
@@ -192,7 +196,7 @@ def test_faster_pursuer_is_seen_to_be_faster() -> None:
     pursuer, own, fit = (-0.6, 0.1, 1.2), (1.4, -0.2, 2.0), ModelFit()
     for n in range(5):
         fit = fit.observe(0.4 * n, Pose(*own), pursuer[:2], RULES, 0.4)
-        turn = model_turn(own, pursuer, model, RULES)
+        turn = pursuer_turn(pair_of(own, pursuer), model, RULES)
         pursuer = arc_end(pursuer, 1.3 * 0.04, turn)
     assert fit.speed == pytest.approx(1.3, abs=0.01)
 
@@ -213,7 +217,7 @@ def sights_of_walkers(
         x, y = np.array([x, y]) + noise * generator.normal(size=2)
         fit = fit.observe(0.4 * n, Pose(*own), (x, y), RULES, 0.4, sways=True)
         yield fit, pursuer
-        turn = model_turn(own, pursuer, model, RULES)
+        turn = pursuer_turn(pair_of(own, pursuer), model, RULES)
         pursuer = arc_end(pursuer, 0.04, turn)
         own = arc_end(own, -0.04, 0.2 if n % 16 < 8 else -0.2)
 
@@ -301,7 +305,7 @@ def decisions(
         )
         intent, memory = evader.decide(known, memory)
         yield known, memory
-        turn = model_turn(own, pursuer, model, RULES)
+        turn = pursuer_turn(pair_of(own, pursuer), model, RULES)
         pursuer = arc_end(pursuer, model.speed * 0.04, turn)
         turn = RULES.share * intent.heading
         own = arc_end(own, -0.04 * intent.speed_factor, turn)

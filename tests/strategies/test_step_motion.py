@@ -18,22 +18,28 @@ from stepaside.arena import (
 from stepaside.core.poses import Pose
 from stepaside.planning import Direction
 from stepaside.planning.path import UnicycleTrajectory
-from stepaside.strategies.search import (
-    NO_VALUE,
-    CandidateManeuvers,
-    ManeuverObjective,
-    PlayerPair,
-    StepRules,
-)
 from stepaside.strategies.search.distance_field import (
     DistanceField,
     distance_field,
     field_clearance,
 )
-from stepaside.strategies.search.maneuver_rollout import judge, law_turn
-from stepaside.strategies.search.step_motion import half_turn, step_both
+from stepaside.strategies.search.maneuvers import (
+    CandidateManeuvers,
+    ManeuverObjective,
+    judge,
+    law_turn,
+)
+from stepaside.strategies.search.step_motion import (
+    PlayerPair,
+    PursuerModel,
+    StepRules,
+    half_turn,
+    pair_of,
+)
+from stepaside.strategies.search.step_motion import step_both as step
 from stepaside.strategies.search.turn_search import look_ahead
 from stepaside.strategies.search.value_lookup import (
+    NO_VALUE,
     PursuitValues,
     value_at,
 )
@@ -41,15 +47,17 @@ from stepaside.theory.value import PoseGrid, ValueTable
 from stepaside.theory.value.solver import make_rules
 from stepaside.theory.value.two_cars import car_poses
 
-RULES = StepRules(0.04, 0.08, 0.04, 0.08)
+RULES, MODEL = StepRules(0.04, 0.08, 0.08 * pi), PursuerModel()
 ROOM = generate_room(RoomRecipe(discs=3, boxes=2, polygons=2, doors=1), 4)
 PACKED, NOTHING = ROOM.solid_set.packed, NO_OBSTACLES.packed
 
 
 def place(evader: Pose, pursuer: Pose) -> PlayerPair:
-    e, p = evader, pursuer
-    heading = cos(e.theta), sin(e.theta), p.x, p.y, cos(p.theta), sin(p.theta)
-    return PlayerPair(e.x, e.y, *heading)
+    return pair_of(evader, pursuer)
+
+
+def step_both(both: PlayerPair, turn: float, pace: float = 1.0) -> PlayerPair:
+    return step(both, half_turn(0.5 * turn), pace, MODEL, RULES)
 
 
 def field_of(
@@ -74,7 +82,7 @@ def test_a_step_is_the_arc_of_both_unicycles(
     pursuer, sight = Pose(0.3, -0.2, 0.5), 0.5 + aim
     evader = Pose(0.3 + cos(sight), -0.2 + sin(sight), sight + pi - bearing)
     turn = 0.08 * (bearing + 0.3)
-    found = step_both(place(evader, pursuer), *half_turn(0.5 * turn), RULES)
+    found = step_both(place(evader, pursuer), turn)
     for pose, heading, direction, got in (
         (evader, bearing + 0.3, Direction.BACKWARD, found[:4]),
         (pursuer, aim, Direction.FORWARD, found[4:]),
@@ -89,7 +97,7 @@ def test_moving_aside_in_steps_ends_on_the_circle_of_the_theory() -> None:
     both = place(Pose(1.0, 0.0, 3.3), Pose(0.0, 0.0, 0.2))
     for _ in range(600):
         turn = law_turn(both, 1.0, pi / 2, 0.08)
-        both = step_both(both, *half_turn(0.5 * turn), RULES)
+        both = step_both(both, turn)
     apart = hypot(both.ex - both.px, both.ey - both.py)
     assert apart == pytest.approx(2 * 0.1 * 2**0.5 / (0.2 * pi / 2), rel=1e-4)
 
@@ -171,8 +179,8 @@ def brute(
                 dx, dy = here.px - here.ex, here.py - here.ey
                 left = here.ec * dy - here.es * dx
                 side = side or (-1.0 if left > 0.0 else 1.0)
-                u = law_turn(here, side, maneuvers.angle, RULES.evader_share)
-            here = step_both(here, *half_turn(0.5 * u), RULES)
+                u = law_turn(here, side, maneuvers.angle, RULES.share)
+            here = step_both(here, u)
             score = judge(here, score, aims, field)
         if table.values.size:
             score = min(score, value_at(table, here))
@@ -196,12 +204,12 @@ def test_the_search_matches_brute_force(
     aims = ManeuverObjective(0.7, 0.25, 5.0, 2.0, gain=0.0)
     packed = NOTHING if valued else PACKED
     table = value_table(bound) if valued else NO_VALUE
-    found = look_ahead(both, (), maneuvers, RULES, aims, packed, table)
+    found = look_ahead(both, (), maneuvers, MODEL, RULES, aims, packed, table)
     expected = brute(both, maneuvers, aims, packed, table)
     assert found.score == pytest.approx(expected, abs=1e-7)
     score, here, field = aims.enough, both, field_of(packed, aims, both)
     for turn in found.turns:
-        here = step_both(here, *half_turn(0.5 * turn), RULES)
+        here = step_both(here, turn)
         score = judge(here, score, aims, field)
     if valued:
         score = min(score, value_at(table, here))
@@ -216,7 +224,7 @@ def test_a_branch_is_left_at_the_first_step_that_is_no_better() -> None:
     every = CandidateManeuvers(np.array([2, 3]), turns, 12, spots=4)
     aims = ManeuverObjective(2.0, gain=0.01, tight=inf)
     alone, found = (
-        look_ahead(both, (), tried, RULES, aims, NOTHING, NO_VALUE)
+        look_ahead(both, (), tried, MODEL, RULES, aims, NOTHING, NO_VALUE)
         for tried in (law, every)
     )
     assert found.score == alone.score and found.spot == 0
@@ -255,11 +263,10 @@ def test_it_turns_on_the_spot_first_only_if_that_is_better(seed: int) -> None:
     aims = ManeuverObjective(0.8, penalty=60.0, tight=inf)
     best = brute(both, maneuvers, aims, packed, NO_VALUE)
     field = field_of(packed, aims, both)
-    still = RULES._replace(evader_stride=0.05 * RULES.evader_stride)
     for side in (-0.25, 0.25):
         here, score = both, aims.enough
         for n in range(4):
-            here = step_both(here, *half_turn(0.5 * side), still)
+            here = step_both(here, side, 0.05)
             score = judge(here, score, aims, field)
             if n % 2:
                 behind = brute(
@@ -271,12 +278,13 @@ def test_it_turns_on_the_spot_first_only_if_that_is_better(seed: int) -> None:
                     law=False,
                 )
                 best = max(best, behind)
-    found = look_ahead(both, (), maneuvers, RULES, aims, packed, NO_VALUE)
+    found = look_ahead(
+        both, (), maneuvers, MODEL, RULES, aims, packed, NO_VALUE
+    )
     assert found.score == pytest.approx(best, abs=1e-5)
     assert len(found.turns) == 9 + found.spot
     here, score = both, aims.enough
     for n, turn in enumerate(found.turns):
-        rules = still if n < found.spot else RULES
-        here = step_both(here, *half_turn(0.5 * turn), rules)
+        here = step_both(here, turn, 0.05 if n < found.spot else 1.0)
         score = judge(here, score, aims, field)
     assert score == pytest.approx(found.score, abs=1e-9)

@@ -25,7 +25,7 @@ from stepaside.strategies import (
 from stepaside.strategies.approach import Approach
 from stepaside.strategies.look_ahead import predict_poses
 from stepaside.strategies.opponent_track import OpponentTrack
-from stepaside.strategies.search import PlayerPair
+from stepaside.strategies.search.step_motion import PlayerPair
 from stepaside.strategies.strategy_game import StepGame
 
 LIMITS = Limits(0.1, 0.2, 0.04, 0.7)

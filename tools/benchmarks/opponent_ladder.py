@@ -26,7 +26,7 @@ from resumable_jobs import complete, gather
 from stepaside.arena import RoomRecipe
 from stepaside.strategies.robust_evasion import actions_of
 from stepaside.strategies.search.beam_search import beam_search
-from stepaside.strategies.search.pursuer_model import BeamRules, PursuerModel
+from stepaside.strategies.search.step_motion import BeamRules, PursuerModel
 from stepaside.strategies.strategy_game import StepGame
 from stepaside.studies.result_files import header, write_result
 from stepaside.studies.tournament_campaign import tournament_study
@@ -56,7 +56,7 @@ MODELS = {  # of pursuers that capture somebody
     "pursuit@1.1": PursuerModel(speed=1.1),
     "pursuit@1.3": PursuerModel(speed=1.3),
     "sharp": PursuerModel(1.0 / 0.08),
-    "herding": PursuerModel(inward=1.0),
+    "herding": PursuerModel(pull=1.0),
 }
 
 

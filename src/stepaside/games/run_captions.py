@@ -2,11 +2,8 @@
 
 from math import hypot
 
-from .approach_forecast import (
-    CourseApproach,
-    describe_motion,
-    estimate_approach,
-)
+from ..strategies.approach import Approach
+from .approach_forecast import describe_motion, estimate_approach
 from .run import (
     DuelRun,
     MatchRun,
@@ -76,7 +73,7 @@ def _describe_duel(run: DuelRun, index: int) -> str:
     return "the evader is evading"
 
 
-def _approach_at(run: DuelRun, index: int) -> CourseApproach | None:
+def _approach_at(run: DuelRun, index: int) -> Approach | None:
     """Return the approach over the gait cycle before a sample."""
     if len(run.times) < 2:
         return None

@@ -12,7 +12,7 @@ HORIZON = 24  # steps of the prediction that chooses a side
 
 
 class Approach(NamedTuple):
-    """Motion of the opponent in the own frame.
+    """Motion of the opponent in the own frame, or relative to a player.
 
     Attributes:
         x: Position ahead, in [m].
@@ -44,6 +44,13 @@ class Approach(NamedTuple):
     def speed(self) -> float:
         """Speed of the opponent, in [m/s]."""
         return hypot(self.u, self.v)
+
+    @property
+    def closing_speed(self) -> float:
+        """Rate at which the distance falls, in [m/s]."""
+        if self.distance == 0.0:
+            return 0.0
+        return -(self.x * self.u + self.y * self.v) / self.distance
 
     @property
     def origin(self) -> float:

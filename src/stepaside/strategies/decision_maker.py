@@ -87,9 +87,13 @@ class DecisionMaker:
         time, bearing, distance = sighting[:3]
         bearing, age = wrap_angle(bearing), max(0.0, now - time)
         pose = pose_template_in_odometry
-        ahead = Pose(distance * cos(bearing), distance * sin(bearing), 0.0)
-        position = pose.compose(ahead)[:2]
+        sight = pose.theta + bearing
+        position = (
+            pose.x + distance * cos(sight),
+            pose.y + distance * sin(sight),
+        )
         self._track = track = self._track.note(time, position, pose)
+        bearing_rate, closing_speed = track.sight_rates
         if velocity is None:
             velocity = turned(track.velocity, -pose.theta)
         others = self._others(now, pose_template_in_odometry)
@@ -105,8 +109,8 @@ class DecisionMaker:
             bearing=bearing,
             distance=distance,
             limits=self.limits,
-            bearing_rate=track.bearing_rate,
-            closing_speed=track.closing_speed,
+            bearing_rate=bearing_rate,
+            closing_speed=closing_speed,
             age=age,
             pose_in_map=pose_odometry_in_map.compose(
                 pose_template_in_odometry

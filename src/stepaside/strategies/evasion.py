@@ -2,7 +2,7 @@
 
 from dataclasses import dataclass, replace
 from math import inf, pi, radians
-from typing import Literal, NamedTuple, get_args
+from typing import ClassVar, Literal, NamedTuple, get_args
 
 from ..core.errors import ConfigurationError
 from ..core.ranges import Range
@@ -46,6 +46,7 @@ class Evasion:
     is safe.
     """
 
+    direction: ClassVar = Direction.BACKWARD
     angle: float = setting(
         pi / 2,
         "Evasion angle alpha between the line of sight and the direction of "
@@ -138,11 +139,6 @@ class Evasion:
         """
         ahead = self.contact_time * speed if self.trigger == "time" else 0.0
         return self.area + ahead
-
-    @property
-    def direction(self) -> Direction:
-        """Backward, eq. (3)."""
-        return Direction.BACKWARD
 
     def begin(self) -> EvasionMemory:
         """Return the memory of an evader that does not evade yet."""

@@ -9,60 +9,50 @@ import numpy as np
 
 from ..arena import NO_OBSTACLES
 from ..core.errors import ConfigurationError, shown
-from ..core.poses import Pose, wrap_angle
+from ..core.poses import Pose
 from ..core.ranges import Range
 from ..core.setting import check_settings, setting
 from .knowledge import ON_THE_SPOT, STAND, Intent, Knowledge, Limits
 from .opponent_track import OpponentTrack, track_of_steps
-from .search import (
-    NO_VALUE,
-    CandidateManeuvers,
-    ManeuverObjective,
+from .search.heading_fit import fit_heading
+from .search.maneuvers import DEEPEST, CandidateManeuvers, ManeuverObjective
+from .search.step_motion import (
     PlayerPair,
+    PursuerModel,
     StepRules,
+    half_turn,
+    pair_of,
+    step_both,
 )
-from .search.candidate_maneuvers import DEEPEST
-from .search.step_motion import half_turn, pursue, step_both
+from .search.turn_search import look_ahead
+from .search.value_lookup import NO_VALUE
 from .strategy import BackwardStrategy
 from .table_cache import pursuit_table
 
 
-def poses_at_sighting(track: OpponentTrack, rules: StepRules) -> PlayerPair:
+def poses_at_sighting(
+    track: OpponentTrack, model: PursuerModel, rules: StepRules
+) -> PlayerPair:
     """Return the poses of both players at the last sighting, in the map.
 
-    The pursuer of eqs. (1)-(2) is simulated along the sightings, and its
-    initial heading is fitted to its last position. A pursuer that has not
-    moved is assumed to face the own robot.
+    The heading of the pursuer is that of its model along the last sightings.
+    One that has not moved is assumed to face the own robot.
 
     Args:
         track: At least one sighting.
-        rules: Model of its steps.
+        model: Model of its steps.
+        rules: Rules of a step.
     """
     rows = track.rows[-SIGHTINGS:]
     first, last = rows[0], rows[-1]
     own = last.own
-    begin = end = atan2(own.y - last.y, own.x - last.x)
-    dx, dy = last.x - first.x, last.y - first.y
-    least = MIN_MOTION * (len(rows) - 1) * rules.pursuer_stride
-    if len(rows) > 1 and hypot(dx, dy) >= least:
-        way = begin = atan2(dy, dx)
-        for _ in range(5):
-            x, y, c, s = first.x, first.y, cos(begin), sin(begin)
-            for row in rows[:-1]:
-                seen = row.own
-                x, y, c, s = pursue(
-                    PlayerPair(
-                        *(seen.x, seen.y, cos(seen.theta), sin(seen.theta)),
-                        *(x, y, c, s),
-                    ),
-                    rules,
-                )
-            end = atan2(s, c)
-            begin += wrap_angle(way - atan2(y - first.y, x - first.x))
-    return PlayerPair(
-        *(own.x, own.y, cos(own.theta), sin(own.theta)),
-        *(last.x, last.y, cos(end), sin(end)),
-    )
+    heading = atan2(own.y - last.y, own.x - last.x)
+    way = hypot(last.x - first.x, last.y - first.y)
+    least = MIN_MOTION * (len(rows) - 1) * rules.stride
+    if len(rows) > 1 and way >= least:
+        path = [(*row.own, row.x, row.y, n) for n, row in enumerate(rows)]
+        (_, _, heading), _ = fit_heading(np.array(path), model, rules)
+    return pair_of(own, (last.x, last.y, heading))
 
 
 def predict_poses(
@@ -81,13 +71,13 @@ def predict_poses(
     limits = knowledge.limits
     steps = 0.5 + knowledge.age / limits.step_duration
     way = limits.stride * steps
+    there = both.px + way * both.pc, both.py + way * both.ps
     return PlayerPair(
         begins.x,
         begins.y,
         cos(begins.theta),
         sin(begins.theta),
-        both.px + way * both.pc,
-        both.py + way * both.ps,
+        *there,
         both.pc,
         both.ps,
     )
@@ -226,17 +216,15 @@ class LookAhead(BackwardStrategy):
         self, knowledge: Knowledge, memory: LookAheadMemory
     ) -> tuple[Intent, LookAheadMemory]:
         """Begin the maneuver with the largest closest approach."""
-        from .search.turn_search import look_ahead  # imports Numba
-
         if not self.obstacles:
             knowledge = replace(knowledge, obstacles_in_map=NO_OBSTACLES)
         limits = knowledge.limits
-        rules = step_rules(limits, self.lead)
+        rules, model = step_rules(limits), PursuerModel(lead=self.lead)
         track = track_of_steps(memory.track, knowledge)
         near = knowledge.distance < self.safety_radius
         if not (memory.evading or near):
             return STAND, LookAheadMemory(False, track)
-        both = poses_at_sighting(track, rules)
+        both = poses_at_sighting(track, model, rules)
         if knowledge.step_start_in_map is not None:
             both = predict_poses(both, knowledge, knowledge.step_start_in_map)
         bounded = bool(knowledge.obstacles_in_map)
@@ -257,6 +245,7 @@ class LookAhead(BackwardStrategy):
             both,
             plan,
             self._maneuvers(limits, valued=table is not NO_VALUE),
+            model,
             rules,
             objective,
             knowledge.obstacles_in_map.packed,
@@ -264,7 +253,7 @@ class LookAhead(BackwardStrategy):
             planned=spot,
         )
         turn = float(best.turns[0])
-        heading = turn / rules.evader_share
+        heading = turn / rules.share
         if best.spot:
             intent = Intent(heading, ON_THE_SPOT)
         elif bounded and self._touches(both, turn, rules, knowledge):
@@ -281,7 +270,7 @@ class LookAhead(BackwardStrategy):
         self, limits: Limits, *, valued: bool
     ) -> CandidateManeuvers:
         """Return the candidate maneuvers; fewer with a value table."""
-        share = step_rules(limits).evader_share
+        share = step_rules(limits).share
         return maneuvers_of(
             self.pieces[:TABLE_PIECES] if valued else self.pieces,
             self.turns,
@@ -299,17 +288,18 @@ class LookAhead(BackwardStrategy):
         knowledge: Knowledge,
     ) -> bool:
         """Return whether a step touches an obstacle and standing does not."""
-        after = step_both(both, *half_turn(0.5 * turn), rules)
+        half, model = half_turn(0.5 * turn), PursuerModel()
+        after = step_both(both, half, 1.0, model, rules)
         now, then = knowledge.obstacles_in_map.clearance(
             [(both.ex, both.ey), (after.ex, after.ey)]
         )
         return bool(then < min(self.body_radius, now))
 
 
-def step_rules(limits: Limits, lead: float = 0.0) -> StepRules:
-    """Return the step rules of two identical players with given limits."""
+def step_rules(limits: Limits) -> StepRules:
+    """Return the rules of a step of given limits."""
     share = limits.gain * limits.stride / limits.speed
-    return StepRules(limits.stride, share, limits.stride, share, lead)
+    return StepRules(limits.stride, share, pi * share)
 
 
 @lru_cache(maxsize=16)

@@ -6,7 +6,14 @@ from typing import NamedTuple
 import numpy as np
 
 from ..core.poses import Array, Pose, wrap_angle
-from .search.pursuer_model import BeamRules, PursuerModel, arc_end, model_turn
+from .search.heading_fit import fit_heading
+from .search.step_motion import (
+    PursuerModel,
+    Rules,
+    arc_end,
+    pair_of,
+    pursuer_turn,
+)
 
 MODELS = (
     PursuerModel(),
@@ -15,7 +22,7 @@ MODELS = (
     PursuerModel(3.0),
     PursuerModel(4.0),
     PursuerModel(12.5),
-    PursuerModel(1.0, inward=1.0),
+    PursuerModel(1.0, pull=1.0),
     PursuerModel(1.0, lead=0.5),
 )
 """Models that are compared: the paper's pursuer with other gains, the last
@@ -86,7 +93,7 @@ class ModelFit(NamedTuple):
         time: float,
         own: Pose,
         position: tuple[float, float],
-        rules: BeamRules,
+        rules: Rules,
         period: float,
         sways: bool = False,
     ) -> "ModelFit":
@@ -125,10 +132,8 @@ class ModelFit(NamedTuple):
         kept = path[1 - fitting.window :]
         return now._fitted(np.array([*kept, point]), rules)
 
-    def _fitted(self, path: Array, rules: BeamRules) -> "ModelFit":
+    def _fitted(self, path: Array, rules: Rules) -> "ModelFit":
         """Return the fit to a path with a new point."""
-        from .search.heading_fit import fit_heading
-
         fits = [fit_heading(path, model, rules) for model in MODELS]
         moved = self._replace(path=path, poses=tuple(pose for pose, _ in fits))
         if len(path) < self.fitting.settling:
@@ -144,7 +149,7 @@ class ModelFit(NamedTuple):
             speed=max(1.0, FORGETTING * self.speed, min(speed, 2.0)),
         )
 
-    def pose(self, number: int, rules: BeamRules, ahead: float) -> Pose:
+    def pose(self, number: int, rules: Rules, ahead: float) -> Pose:
         """Return the pose of the pursuer by a model.
 
         Args:
@@ -155,8 +160,8 @@ class ModelFit(NamedTuple):
         pose = self.poses[number]
         if not len(self.path):
             return Pose(*pose)
-        own = tuple(self.path[-1, :3].tolist())
-        turn = ahead * model_turn(own, pose, MODELS[number], rules)
+        both = pair_of(tuple(self.path[-1, :3].tolist()), pose)
+        turn = ahead * pursuer_turn(both, MODELS[number], rules)
         return Pose(*arc_end(pose, ahead * self.speed * rules.stride, turn))
 
     def weights(self) -> Array:

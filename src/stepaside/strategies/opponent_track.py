@@ -67,7 +67,8 @@ class OpponentTrack(NamedTuple):
         ):
             last -= 1
         seen = SeenOpponent(time, *position, own)
-        return self._replace(rows=(*rows[first:last], seen))
+        rows = (*rows[first:last], seen)
+        return OpponentTrack(self.step, self.span, self.spacing, rows)
 
     @property
     def velocity(self) -> tuple[float, float] | None:
@@ -115,41 +116,31 @@ class OpponentTrack(NamedTuple):
 
         None while unknown.
         """
-        cycle = self._cycle
-        if cycle is None:
-            return None
-        was, now = cycle
-        turned = _sight(now) - _sight(was)
-        return wrap_angle(turned) / (now.time - was.time)
+        return self.sight_rates[0]
 
     @property
     def closing_speed(self) -> float | None:
         """Decrease of the distance, in [m/s]; None while unknown."""
-        cycle = self._cycle
-        if cycle is None:
-            return None
-        was, now = cycle
-        return (_distance(was) - _distance(now)) / (now.time - was.time)
+        return self.sight_rates[1]
 
     @property
-    def _cycle(self) -> tuple[SeenOpponent, SeenOpponent] | None:
-        """Oldest position of the last gait cycle, and the newest."""
-        if not self.rows:
-            return None
+    def sight_rates(self) -> tuple[float, float] | tuple[None, None]:
+        """Turning rate of the line of sight, and decrease of its length.
+
+        They are those over the last gait cycle.
+        """
         now = self.rows[-1]
         begin = now.time - CYCLE * self.step - 1e-9
-        was = next(row for row in self.rows if row.time >= begin)
-        is_known = now.time - was.time > LEAST * self.step
-        return (was, now) if is_known else None
-
-
-def _sight(seen: SeenOpponent) -> float:
-    """Return the direction of the line of sight, in [rad]."""
-    return atan2(seen.y - seen.own.y, seen.x - seen.own.x)
-
-
-def _distance(seen: SeenOpponent) -> float:
-    return hypot(seen.x - seen.own.x, seen.y - seen.own.y)
+        for was in self.rows:
+            if was.time >= begin:
+                break
+        passed = now.time - was.time
+        if passed <= LEAST * self.step:
+            return None, None
+        x, y = now.x - now.own.x, now.y - now.own.y
+        u, v = was.x - was.own.x, was.y - was.own.y
+        turned = atan2(u * y - v * x, u * x + v * y)
+        return turned / passed, (hypot(u, v) - hypot(x, y)) / passed
 
 
 def opponent_position(knowledge: Knowledge) -> tuple[float, float]:

@@ -119,14 +119,17 @@ class Pursuit:
             memory = memory._replace(track=track)
         if knowledge.time % (self.walking + self.waiting) >= self.walking:
             return STAND, memory
-        seen, side = self._aimed(knowledge, memory.track), 0
+        seen, side = knowledge, 0
+        if self.lead or self.pull or self.sway or self.noise:
+            seen = self._aimed(knowledge, memory.track)
         bearing = seen.bearing
         if seen.obstacles_in_map:
             bearing = self._path_bearing(seen, memory.side)
             aside = wrap_angle(bearing - seen.bearing)
             if abs(aside) > DETOUR:
                 side = 1 if aside > 0.0 else -1
-        memory = memory._replace(side=side)
+        if side != memory.side:
+            memory = memory._replace(side=side)
         if side or self._is_blocked(seen):
             # By (2) it would turn too slowly and walk into the obstacle.
             return Intent(correcting_heading(bearing, seen.limits)), memory

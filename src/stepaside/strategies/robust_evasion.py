@@ -14,7 +14,8 @@ from ..core.ranges import Range
 from ..core.setting import check_settings, setting
 from .knowledge import ON_THE_SPOT, Intent, Knowledge
 from .opponent_models import ASSUMED, MODELS, ModelFit
-from .search.pursuer_model import BeamRules, PursuerModel
+from .search.beam_search import beam_search, play_moves
+from .search.step_motion import BeamRules, PursuerModel
 from .strategy import BackwardStrategy
 
 MARGIN = 0.005  # in addition to the required clearance, in [m]
@@ -22,7 +23,7 @@ SWAY = 0.03  # by which the torsos of walkers, which lead their reference
 # points by 2 cm and sway, are nearer to each other than these, in [m]
 WALL_SWAY = 0.01  # in addition to the clearance of walkers, in [m]; with
 # none the guard of the walk refuses turns beside walls
-CAUTION = 2.0  # of walkers (:class:`~.search.pursuer_model.BeamRules`)
+CAUTION = 2.0  # of walkers (:class:`~.search.step_motion.BeamRules`)
 HEADING_ERROR = 0.2  # of a walking pursuer, to either side, in [rad]
 NEARER = 0.015  # that it may be than it seems, in [m]
 KEPT_STEPS = 3  # by which a walker's new plan must survive longer than the
@@ -185,8 +186,6 @@ class PlannedGame(NamedTuple):
             Mean number of steps, by the weights of the models; and least
             distance against any of them, in [m].
         """
-        from .search.beam_search import play_moves
-
         steps, least = zip(
             *(
                 play_moves(start, moves, model, self.packed, self.rules)
@@ -206,8 +205,6 @@ class PlannedGame(NamedTuple):
             Turn [rad] and speed factor of each step, and the mean number
             of steps that they survive. Shape (n, 2).
         """
-        from .search.beam_search import beam_search
-
         rules, candidates = self.rules, []
         actions = actions_of(rules.largest)
         for n in range(self.searched):

@@ -1,6 +1,6 @@
 """Interface of a strategy: a pure function with its memory as a value."""
 
-from typing import Any, Protocol
+from typing import Any, ClassVar, Protocol
 
 from ..core.errors import StrategyError
 from ..core.user_file import FAILURES
@@ -49,15 +49,8 @@ class BackwardStrategy:
 
     __slots__ = ()
 
-    @property
-    def direction(self) -> Direction:
-        """Backward, where the body is that of a unicycle."""
-        return Direction.BACKWARD
-
-    @property
-    def saturated(self) -> bool:
-        """False: it turns by (8)."""
-        return False
+    direction: ClassVar = Direction.BACKWARD
+    saturated: ClassVar = False
 
 
 def evaluate_strategy(

@@ -11,9 +11,9 @@ from ..core.errors import ConfigurationError
 from ..core.poses import Array, wrap_angles
 from ..core.ranges import Range
 from ..core.setting import check_settings, setting
-from ..planning import Direction
 from ..theory import laws
 from .knowledge import STAND, Intent, Knowledge
+from .strategy import BackwardStrategy
 
 PIECES = (4, 8, 16)  # steps with a constant turn
 TURNS = 7  # values of the turn of each piece
@@ -36,7 +36,7 @@ class SeveralPursuers(NamedTuple):
 
 
 @dataclass(frozen=True, slots=True)
-class TeamEvasion:
+class TeamEvasion(BackwardStrategy):
     """Evader that reasons about all pursuers at once.
 
     It walks backward, and begins the turning sequence after which the
@@ -65,16 +65,6 @@ class TeamEvasion:
                 "release_distance must exceed safety_radius, "
                 f"{self.safety_radius:g} [m], got {self.release_distance}"
             )
-
-    @property
-    def direction(self) -> Direction:
-        """Backward, eq. (3)."""
-        return Direction.BACKWARD
-
-    @property
-    def saturated(self) -> bool:
-        """False: it turns by (4)."""
-        return False
 
     def begin(self) -> bool:
         """Return that it does not evade yet."""

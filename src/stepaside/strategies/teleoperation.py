@@ -2,6 +2,7 @@
 
 from dataclasses import dataclass
 from math import radians
+from typing import ClassVar
 
 from ..core.errors import ConfigurationError, check_within
 from ..planning import Direction
@@ -21,6 +22,7 @@ class TeleoperatedPursuit:
         saturated: Whether it turns by (6) instead of (8).
     """
 
+    direction: ClassVar = Direction.FORWARD
     turn: float = 0.0
     going: bool = False
     saturated: bool = False
@@ -28,11 +30,6 @@ class TeleoperatedPursuit:
     def __post_init__(self) -> None:
         """Validate the deflection."""
         check_within(self.turn, -1.0, 1.0, "turn", "1", ConfigurationError)
-
-    @property
-    def direction(self) -> Direction:
-        """Forward."""
-        return Direction.FORWARD
 
     def begin(self) -> None:
         """Return no memory."""

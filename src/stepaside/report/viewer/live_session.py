@@ -13,13 +13,13 @@ from typing import TYPE_CHECKING
 from ...core.errors import StepAsideError
 from ...core.player_identity import Role
 from ...core.poses import Array
-from ...games.approach_forecast import CourseApproach
 from ...games.duel import Duel
 from ...games.match import MatchObserver
 from ...games.outcome import Outcome
 from ...games.player import Snapshot
 from ...locomotion.walk_snapshots import Phase
 from ...sim.push import Push
+from ...strategies.approach import Approach
 from ..figure_style import colours_of
 from .live_match import (
     LiveMatch,
@@ -67,7 +67,7 @@ class LiveSnapshot:
     distance: float
     closest: float
     angle: float
-    approach: CourseApproach | None
+    approach: Approach | None
     message: str
 
 

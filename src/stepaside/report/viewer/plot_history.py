@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...core.poses import Pose
-from ...games.approach_forecast import CourseApproach, estimate_approach
+from ...games.approach_forecast import estimate_approach
 from ...games.duel_circle import angle_between
 from ...games.match import Match
 from ...games.outcome import Outcome
@@ -17,6 +17,7 @@ from ...games.pair_match import PairMatch
 from ...games.player import Player, Snapshot
 from ...locomotion.walk_snapshots import StepStarted
 from ...planning import Foot
+from ...strategies.approach import Approach
 from .true_odometry import true_odometry
 
 if TYPE_CHECKING:
@@ -126,7 +127,7 @@ class PlotHistory:
     def ended(self, match: Match, outcome: Outcome) -> None:
         """Do nothing."""
 
-    def approach(self, cycle: float) -> CourseApproach | None:
+    def approach(self, cycle: float) -> Approach | None:
         """Return the approach of the pursuer over the last gait cycle.
 
         Args:

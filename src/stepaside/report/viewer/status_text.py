@@ -3,10 +3,11 @@
 from collections.abc import Sequence
 from math import inf, isfinite, log
 
-from ...games.approach_forecast import CourseApproach, describe_motion
+from ...games.approach_forecast import LEAST, describe_motion
 from ...games.match import Match
 from ...games.player import Player
 from ...locomotion.walk_snapshots import Phase
+from ...strategies.approach import Approach
 
 NEAR_DISTANCE = 0.05  # relative tolerance of the distance on the circle
 NEAR_ANGLE = 5.0  # tolerance of the angle on the circle, in [deg]
@@ -20,7 +21,7 @@ def status_text(
     safety_radius: float,
     theory: tuple[float, float] | None,
     *,
-    approach: CourseApproach | None = None,
+    approach: Approach | None = None,
 ) -> str:
     """Return the state of a duel as text.
 
@@ -67,7 +68,7 @@ def outlook(
     phase: Phase,
     *,
     safety: float,
-    approach: CourseApproach | None,
+    approach: Approach | None,
     theory: tuple[float, float] | None,
     settling: float | None,
 ) -> str:
@@ -86,11 +87,11 @@ def outlook(
         if not isfinite(safety):
             return ""
         text = f"The evader starts when the pursuer is within {safety:.2f} m"
-        if approach is None or not approach.is_approaching:
+        if approach is None or approach.closing_speed <= LEAST:
             return f"{text}."
-        left = approach.time_to(safety)
-        if left is None:
-            closest = approach.closest
+        left = approach.contact_time(safety)
+        if left == inf:
+            closest = approach.miss
             return (
                 f"{text}; on its present course the pursuer passes at "
                 f"{closest:.2f} m."

@@ -7,7 +7,7 @@ has places left the others, by rank (:func:`expand`). So the last state that
 remains has survived longest.
 """
 
-from math import cos, pi, sin, sqrt, tau
+from math import cos, pi, sin, sqrt
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -20,10 +20,17 @@ from ...core.compilation import (
     inlined,
 )
 from .distance_field import DistanceField, distance_field, field_clearance
-from .pursuer_model import BeamRules, PursuerModel, arc_end, model_turn
+from .step_motion import (
+    BeamRules,
+    PlayerPair,
+    PursuerModel,
+    arc_end,
+    pursue,
+)
 
 EVADER_CELL, PURSUER_CELL = 0.08, 0.12  # that count as alike, in [m]
 HEADINGS = 16  # sectors that count as alike
+BETWEEN = 0.41421356  # tangent of the angle of a sector
 BESIDE = 0.2  # worth of the pursuer's bearing, in [m] per [rad]
 CLEAR = 0.3  # worth of clearance, in [m] per [m], and the most that counts
 SLOW = 0.1  # speed factor of a turn on the spot, or less
@@ -41,8 +48,8 @@ class Successors(NamedTuple):
     """Successors of the states of a beam.
 
     Attributes:
-        poses: Poses (x [m], y [m], theta [rad]) of the evader, and least
-            distance so far [m]. Shape (n, 4).
+        poses: Positions [m] and heading vectors of the evader, and least
+            distance so far [m]. Shape (n, 5).
         ranks: Ranks, in [m]. Shape (n,).
         keys: Keys, which nearly equal states have in common. Shape (n,).
         actions: Numbers of the actions. Shape (n,).
@@ -75,18 +82,21 @@ def arc_cosine(value: float) -> float:
 
 @inlined
 def action_arcs(actions: Any, stride: float) -> Any:
-    """Return forward and leftward way [m] and turn [rad] of each action.
+    """Return way ahead and to the left [m], and turn, of each action.
+
+    The turn is given by its cosine and sine.
 
     Args:
         actions: Turn [rad] and speed factor of each. Shape (k, 2).
         stride: Stride of the evader, which walks backward, in [m].
     """
-    arcs = np.empty((len(actions), 3))
+    arcs = np.empty((len(actions), 4))
     for k in range(len(actions)):
         turn = actions[k, 0]
-        arcs[k, 0], arcs[k, 1], arcs[k, 2] = arc_end(
+        arcs[k, 0], arcs[k, 1], _ = arc_end(
             (0.0, 0.0, 0.0), -stride * actions[k, 1], turn
         )
+        arcs[k, 2], arcs[k, 3] = cos(turn), sin(turn)
     return arcs
 
 
@@ -94,6 +104,16 @@ def action_arcs(actions: Any, stride: float) -> Any:
 def cell_of(place: float, cells: float) -> int:
     """Return the cell of a coordinate [m], given the cells per meter."""
     return int(np.floor(place * cells)) + 4096
+
+
+@inlined
+def sector_of(c: float, s: float) -> int:
+    """Return which of 16 equal sectors a unit vector lies in."""
+    u, v = abs(c), abs(s)
+    sector = 8 if c > 0.0 else 0
+    sector += 4 if s > 0.0 else 0
+    sector += 2 if v > u else 0
+    return sector + (1 if min(u, v) > BETWEEN * max(u, v) else 0)
 
 
 @inlined
@@ -112,34 +132,39 @@ def expand(
     with caution, never near.
 
     Args:
-        state: Poses of evader and pursuer, and least distance so far, in
-            [m]; the pursuer's pose is advanced by one step. Shape (7,).
-        arcs: Arcs of the actions (:func:`action_arcs`). Shape (k, 3).
+        state: Both players (:class:`.PlayerPair`), and least distance so
+            far, in [m]; the pursuer is advanced by one step. Shape (9,).
+        arcs: Arcs of the actions (:func:`action_arcs`). Shape (k, 4).
         model: Model of the pursuer.
         field: Distance from obstacles.
         rules: Rules of the steps.
         new: Output.
         made: Number of successors in it before.
     """
-    evader = (state[0], state[1], state[2])
-    pursuer = (state[3], state[4], state[5])
-    turn = model_turn(evader, pursuer, model, rules)
-    chase = arc_end(pursuer, model.speed * rules.stride, turn)
-    state[3], state[4], state[5] = chase
-    ahead, left = cos(chase[2]), sin(chase[2])
-    forward, leftward = cos(evader[2]), sin(evader[2])
+    ex, ey, forward, leftward = state[0], state[1], state[2], state[3]
+    both = PlayerPair(
+        ex,
+        ey,
+        forward,
+        leftward,
+        state[4],
+        state[5],
+        state[6],
+        state[7],
+    )
+    px, py, ahead, left = pursue(both, model, rules)
+    state[4], state[5], state[6], state[7] = px, py, ahead, left
     # An evader that is too near to an obstacle may turn, or leave it.
-    near = field_clearance(field, evader[0], evader[1]) - rules.clearance
+    near = field_clearance(field, ex, ey) - rules.clearance
     walking, turning = 0.0, -ON_SPOT_SLACK
     if near < turning:
         walking, turning = min(near + LEAVING, 0.0), near
-    chased = cell_of(chase[0], 1.0 / PURSUER_CELL) * 8191
-    chased = (chased + cell_of(chase[1], 1.0 / PURSUER_CELL)) * 8191
+    chased = cell_of(px, 1.0 / PURSUER_CELL) * 8191
+    chased = (chased + cell_of(py, 1.0 / PURSUER_CELL)) * 8191
     for k in range(len(arcs)):
-        x = evader[0] + forward * arcs[k, 0] - leftward * arcs[k, 1]
-        y = evader[1] + leftward * arcs[k, 0] + forward * arcs[k, 1]
-        theta = evader[2] + arcs[k, 2]
-        dx, dy = x - chase[0], y - chase[1]
+        x = ex + forward * arcs[k, 0] - leftward * arcs[k, 1]
+        y = ey + leftward * arcs[k, 0] + forward * arcs[k, 1]
+        dx, dy = x - px, y - py
         square = dx * dx + dy * dy
         if square <= rules.capture * rules.capture:
             continue
@@ -151,9 +176,11 @@ def expand(
         aim = arc_cosine((ahead * dx + left * dy) / away)
         new.poses[made, 0] = x
         new.poses[made, 1] = y
-        new.poses[made, 2] = theta
-        least = min(away, state[6])
-        new.poses[made, 3] = least
+        c = forward * arcs[k, 2] - leftward * arcs[k, 3]
+        s = leftward * arcs[k, 2] + forward * arcs[k, 3]
+        new.poses[made, 2], new.poses[made, 3] = c, s
+        least = min(away, state[8])
+        new.poses[made, 4] = least
         new.ranks[made] = (
             min(away, FARTHEST)
             + BESIDE * aim
@@ -163,8 +190,7 @@ def expand(
         new.actions[made] = k
         key = (chased + cell_of(x, 1.0 / EVADER_CELL)) * 8191
         key = (key + cell_of(y, 1.0 / EVADER_CELL)) * HEADINGS
-        sector = int(np.floor(theta * (HEADINGS / tau))) & (HEADINGS - 1)
-        new.keys[made] = key + sector
+        new.keys[made] = key + sector_of(c, s)
         made += 1
     return made
 
@@ -181,7 +207,7 @@ def expand_beam(
     """Write the successors of all states; return their number.
 
     Args:
-        beam: States (:func:`expand`). Shape (n, 7).
+        beam: States (:func:`expand`). Shape (n, 9).
         arcs: Arcs of the actions.
         model: Model of the pursuer.
         field: Distance from obstacles.
@@ -243,8 +269,8 @@ def select_best(
     Args:
         new: Successors.
         made: Number of successors.
-        old: States that they come from. Shape (width, 7).
-        beam: Output: the states that go on. Shape (width, 7).
+        old: States that they come from. Shape (width, 9).
+        beam: Output: the states that go on. Shape (width, 9).
         table: Working memory, a power of two long.
         chosen: Output: parent and action of each. Shape (width, 2).
     """
@@ -261,10 +287,10 @@ def select_best(
                 continue
             new.order[n] = -1
             parent = new.parents[m]
-            for i in range(3):
+            for i in range(4):
                 beam[count, i] = new.poses[m, i]
-                beam[count, 3 + i] = old[parent, 3 + i]
-            beam[count, 6] = new.poses[m, 3]
+                beam[count, 4 + i] = old[parent, 4 + i]
+            beam[count, 8] = new.poses[m, 4]
             chosen[count, 0], chosen[count, 1] = parent, new.actions[m]
             count += 1
     return count
@@ -274,7 +300,7 @@ def select_best(
 def successors(number: int) -> Successors:
     """Return memory for a number of successors."""
     return Successors(
-        np.zeros((number, 4)),
+        np.zeros((number, 5)),
         np.zeros(number),
         np.zeros(number, dtype=np.int64),
         np.zeros(number, dtype=np.int32),
@@ -282,6 +308,16 @@ def successors(number: int) -> Successors:
         np.zeros(number, dtype=np.int64),
         np.zeros(GRAINS + 1, dtype=np.int64),
     )
+
+
+@inlined
+def begin(start: Any, state: Any) -> None:
+    """Write the first state of a game."""
+    for i in range(2):
+        state[4 * i], state[4 * i + 1] = start[3 * i], start[3 * i + 1]
+        heading = start[3 * i + 2]
+        state[4 * i + 2], state[4 * i + 3] = cos(heading), sin(heading)
+    state[8] = ENOUGH
 
 
 @compiled
@@ -315,14 +351,13 @@ def beam_search(
     field = distance_field(
         packed, rules.clearance + CLEAR, start[0], start[1], reach
     )
-    new, beams = successors(width * len(arcs)), np.zeros((2, width, 7))
+    new, beams = successors(width * len(arcs)), np.zeros((2, width, 9))
     chosen = np.zeros((horizon, width, 2), dtype=np.int32)
     places = 4
     while places < 2 * width:
         places *= 2
     table = np.zeros(places, dtype=np.int64)
-    copy_values(start, beams[0, 0])
-    beams[0, 0, 6] = ENOUGH
+    begin(start, beams[0, 0])
     count, steps = 1, 0
     while steps < horizon:
         old, beam = beams[steps % 2], beams[(steps + 1) % 2]
@@ -360,12 +395,12 @@ def play_moves(
     """
     field = distance_field(packed, rules.clearance + CLEAR, 0.0, 0.0, 0.0)
     arcs = action_arcs(moves, rules.stride)
-    state, new = np.full(7, ENOUGH), successors(1)
-    copy_values(start, state)
+    state, new = np.zeros(9), successors(1)
+    begin(start, state)
     for n in range(len(moves)):
         arc = arcs[n : n + 1]
         if not expand(state, arc, model, field, rules, new, 0):
-            return n, state[6]
-        copy_values(new.poses[0, :3], state)
-        state[6] = new.poses[0, 3]
-    return len(moves), state[6]
+            return n, state[8]
+        copy_values(new.poses[0, :4], state)
+        state[8] = new.poses[0, 4]
+    return len(moves), state[8]

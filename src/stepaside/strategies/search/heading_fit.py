@@ -6,7 +6,7 @@ from typing import Any
 import numpy as np
 
 from ...core.compilation import compiled, inlined
-from .pursuer_model import BeamRules, PursuerModel, model_turn
+from .step_motion import PlayerPair, PursuerModel, Rules, pursuer_turn
 
 ITERATIONS = 4  # of Gauss-Newton; without noise the error is below 1e-9 m
 STEP = 1e-4  # of the finite difference, in [rad]
@@ -14,7 +14,7 @@ STEP = 1e-4  # of the finite difference, in [rad]
 
 @inlined
 def follow_model(
-    path: Any, heading: float, model: PursuerModel, rules: BeamRules, off: Any
+    path: Any, heading: float, model: PursuerModel, rules: Rules, off: Any
 ) -> tuple[float, float, float]:
     """Walk along a path as a model turns; return the pose at its end.
 
@@ -32,13 +32,19 @@ def follow_model(
         mean_x += off[k, 0] / len(path)
         mean_y += off[k, 1] / len(path)
         if k + 1 < len(path):
-            own = (path[k, 0], path[k, 1], path[k, 2])
-            seen = (path[k, 3], path[k, 4], heading)
-            dx, dy, steps = path[k + 1, 3:] - path[k, 3:]
-            way, turn = (
-                hypot(dx, dy),
-                steps * model_turn(own, seen, model, rules),
+            both = PlayerPair(
+                path[k, 0],
+                path[k, 1],
+                cos(path[k, 2]),
+                sin(path[k, 2]),
+                path[k, 3],
+                path[k, 4],
+                cos(heading),
+                sin(heading),
             )
+            dx, dy, steps = path[k + 1, 3:] - path[k, 3:]
+            turn = steps * pursuer_turn(both, model, rules)
+            way = hypot(dx, dy)
             x += way * cos(heading + 0.5 * turn)
             y += way * sin(heading + 0.5 * turn)
             heading += turn
@@ -50,7 +56,7 @@ def follow_model(
 
 @compiled
 def fit_heading(
-    path: Any, model: PursuerModel, rules: BeamRules
+    path: Any, model: PursuerModel, rules: Rules
 ) -> tuple[tuple[float, float, float], float]:
     """Fit initial heading and position of a model to a path.
 

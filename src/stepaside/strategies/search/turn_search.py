@@ -16,15 +16,23 @@ import numpy as np
 
 from ...arena.obstacles import PackedObstacles
 from ...core.compilation import compiled, copy_values
-from .candidate_maneuvers import (
+from .distance_field import distance_field
+from .maneuvers import (
     DEEPEST,
     BestManeuver,
     CandidateManeuvers,
     ManeuverObjective,
+    SearchProblem,
+    follow,
+    judge,
 )
-from .distance_field import distance_field
-from .maneuver_rollout import SearchProblem, follow, judge
-from .step_motion import PlayerPair, StepRules, half_turn, step_both
+from .step_motion import (
+    PlayerPair,
+    PursuerModel,
+    StepRules,
+    half_turn,
+    step_both,
+)
 from .value_lookup import PursuitValues
 
 NO_STEPS: Any = np.int64(0)
@@ -59,7 +67,7 @@ def descend(
         Best score, and total number of steps rolled out.
     """
     maneuvers, objective = problem.maneuvers, problem.objective
-    rules, field = problem.rules, problem.field
+    rules, field, model = problem.rules, problem.field, problem.model
     pieces, turns = maneuvers.pieces, maneuvers.turns
     last, level = len(pieces) - 1, 0
     index = np.zeros(DEEPEST, dtype=np.int64)
@@ -78,9 +86,9 @@ def descend(
         p = states[level]
         here = PlayerPair(p[0], p[1], p[2], p[3], p[4], p[5], p[6], p[7])
         score, at = scores[level], begins[level]
-        c, s, ratio = half_turn(0.5 * u)
+        half = half_turn(0.5 * u)
         for n in range(pieces[level]):
-            here = step_both(here, c, s, ratio, rules)
+            here = step_both(here, half, 1.0, model, rules)
             score = judge(here, score, objective, field)
             work[at + n] = u
             made += 1
@@ -139,9 +147,11 @@ def search_on_spot(
         most = max(most, abs(u))
     for side in (-1.0, 1.0):
         here, score = both, objective.enough
-        c, s, ratio = half_turn(0.5 * side * most)
+        half = half_turn(0.5 * side * most)
         for n in range(maneuvers.spots):
-            here = step_both(here, c, s, ratio, problem.spot_rules)
+            here = step_both(
+                here, half, maneuvers.still, problem.model, problem.rules
+            )
             score = judge(here, score, objective, problem.field)
             work[n] = side * most
             made += 1
@@ -163,6 +173,7 @@ def search(
     plan: Any,
     planned: int,
     maneuvers: CandidateManeuvers,
+    model: PursuerModel,
     rules: StepRules,
     objective: ManeuverObjective,
     packed: PackedObstacles,
@@ -177,20 +188,11 @@ def search(
     horizon = maneuvers.horizon
     chosen = np.zeros(horizon + maneuvers.spots)
     work = np.zeros(len(chosen))
-    spot_rules = StepRules(
-        maneuvers.still * rules.evader_stride,
-        rules.evader_share,
-        rules.pursuer_stride,
-        rules.pursuer_share,
-        rules.lead,
-    )
-    reach = len(chosen) * rules.evader_stride
+    reach = len(chosen) * rules.stride
     field = distance_field(
         packed, objective.clearance, both.ex, both.ey, reach
     )
-    problem = SearchProblem(
-        maneuvers, objective, rules, spot_rules, field, table
-    )
+    problem = SearchProblem(maneuvers, objective, model, rules, field, table)
     start, spot = objective.enough, 0
     rest = chosen[:horizon]
     best, made = follow(both, start, rest, 0, 0, -inf, problem)
@@ -222,6 +224,7 @@ def look_ahead(
     both: PlayerPair,
     plan: tuple[float, ...],
     maneuvers: CandidateManeuvers,
+    model: PursuerModel,
     rules: StepRules,
     objective: ManeuverObjective,
     packed: PackedObstacles,
@@ -240,6 +243,7 @@ def look_ahead(
         both: State of both players.
         plan: Turns of the previously planned steps to come, in [rad].
         maneuvers: Candidate maneuvers.
+        model: Model of the pursuer.
         rules: Rules of a step.
         objective: Objective that ranks the maneuvers.
         packed: Obstacles.
@@ -252,6 +256,7 @@ def look_ahead(
         np.array(plan[:horizon], dtype=np.float64),
         min(planned, horizon),
         maneuvers,
+        model,
         rules,
         objective,
         packed,

@@ -1,6 +1,7 @@
 """Verification of tables by closed forms and by simulated games."""
 
 from collections.abc import Callable, Mapping
+from itertools import count
 from math import pi, tau
 from typing import Any
 
@@ -10,6 +11,8 @@ from ...core.poses import Array, arc, rotate, wrap_angles
 from ..unicycle.unicycle_game import MOVE_ASIDE, MOVE_BACK
 from .table import ValueTable
 from .two_cars import CarGame, car_poses
+
+HELD = 8  # decisions for which a random evader holds its turn
 
 Evader = Callable[[Array], Array]
 """Velocities ahead, left [m/s] and turning [rad/s], by poses. Shape (n, 3)."""
@@ -172,11 +175,13 @@ def fixed_angle_evader(game: CarGame, angle: float) -> Evader:
 
 def reference_evaders(game: CarGame) -> dict[str, Evader | None]:
     """Return the optimal evader and others for comparison, by name."""
-    random = np.random.default_rng(0)
-    limit = game.evader_turn
+    random, limit = np.random.default_rng(0), game.evader_turn
+    calls, turns = count(), list[Array]()
 
     def wander(poses: Array) -> Array:
-        return driven(game, random.uniform(-limit, limit, len(poses)))
+        if next(calls) % HELD == 0:
+            turns[:] = [random.choice([-limit, 0.0, limit], len(poses))]
+        return driven(game, turns[0])
 
     return {
         "optimal": None,

@@ -1,13 +1,85 @@
-"""Rollout of one maneuver, with its score."""
+"""Candidate maneuvers of look-ahead, and their rollout with a score."""
 
-from math import atan2, pi
+from math import atan2, inf, pi
 from typing import Any, NamedTuple
 
 from ...core.compilation import compiled, inlined
-from .candidate_maneuvers import CandidateManeuvers, ManeuverObjective
 from .distance_field import DistanceField, field_clearance
-from .step_motion import PlayerPair, StepRules, half_turn, step_both
+from .step_motion import (
+    PlayerPair,
+    PursuerModel,
+    StepRules,
+    half_turn,
+    step_both,
+)
 from .value_lookup import PursuitValues, value_at
+
+DEEPEST = 8  # most pieces of a maneuver, plus one
+
+
+class CandidateManeuvers(NamedTuple):
+    """Set of maneuvers that the search tries.
+
+    Attributes:
+        pieces: Number of steps of each piece, in order. Shape (n,).
+        turns: Turns per step that are tried in each piece, in [rad], the
+            preferred ones first. Shape (m,).
+        horizon: Number of steps of a maneuver, law included, without those
+            on the spot.
+        angle: Strategy alpha of the law, in [rad].
+        spots: Largest number of steps that turn on the spot, by the largest
+            turn, before the first piece; every second number is tried.
+        still: Fraction of the stride that a step on the spot makes.
+        most: Number of rolled-out steps after which no further maneuver is
+            begun, which bounds the time of a decision.
+    """
+
+    pieces: Any
+    turns: Any
+    horizon: int
+    angle: float = pi / 2
+    spots: int = 0
+    still: float = 0.05
+    most: int = 40_000
+
+
+class ManeuverObjective(NamedTuple):
+    """Objective of the search.
+
+    Attributes:
+        enough: Distance to the pursuer beyond which no more is gained, [m].
+        clearance: Required clearance of the own centre, in [m].
+        penalty: Cost of missing clearance, in [m] per [m].
+        sight: Largest bearing at which the pursuer is visible, in [rad].
+        blindness: Cost of a bearing beyond that, in [m] per [rad].
+        gain: Improvement over the present maneuver that replaces it, in [m].
+        tight: Score below which turns on the spot are tried as well, [m].
+    """
+
+    enough: float = inf
+    clearance: float = 0.2
+    penalty: float = 5.0
+    sight: float = inf
+    blindness: float = 0.1
+    gain: float = 1e-6
+    tight: float = -inf
+
+
+class BestManeuver(NamedTuple):
+    """Result of the search.
+
+    Attributes:
+        score: Score of the maneuver, in [m].
+        turns: Turn of each of its steps, in [rad], those of the law
+            included. Shape (horizon + spot,).
+        steps: Number of steps that the search rolled out.
+        spot: Number of initial steps that turn on the spot.
+    """
+
+    score: float
+    turns: Any
+    steps: int
+    spot: int = 0
 
 
 class SearchProblem(NamedTuple):
@@ -16,16 +88,16 @@ class SearchProblem(NamedTuple):
     Attributes:
         maneuvers: Candidate maneuvers.
         objective: Objective that ranks them.
+        model: Model of the pursuer.
         rules: Rules of a step.
-        spot_rules: Rules of a step on the spot.
         field: Distance from obstacles.
         table: Value table after the horizon.
     """
 
     maneuvers: CandidateManeuvers
     objective: ManeuverObjective
+    model: PursuerModel
     rules: StepRules
-    spot_rules: StepRules
     field: DistanceField
     table: PursuitValues
 
@@ -96,8 +168,8 @@ def follow(
         Score, and number of steps rolled out.
     """
     rules, objective = problem.rules, problem.objective
-    field, spot_rules = problem.field, problem.spot_rules
-    angle, table = problem.maneuvers.angle, problem.table
+    field, maneuvers, model = problem.field, problem.maneuvers, problem.model
+    table = problem.table
     side = 0.0
     for n in range(len(turns)):
         if n >= given:
@@ -105,12 +177,10 @@ def follow(
                 dx, dy = both.px - both.ex, both.py - both.ey
                 left = both.ec * dy - both.es * dx
                 side = -1.0 if left > 0.0 else 1.0
-            turns[n] = law_turn(both, side, angle, rules.evader_share)
-        c, s, ratio = half_turn(0.5 * turns[n])
-        if n < spot:
-            both = step_both(both, c, s, ratio, spot_rules)
-        else:
-            both = step_both(both, c, s, ratio, rules)
+            turns[n] = law_turn(both, side, maneuvers.angle, rules.share)
+        half = half_turn(0.5 * turns[n])
+        pace = maneuvers.still if n < spot else 1.0
+        both = step_both(both, half, pace, model, rules)
         score = judge(both, score, objective, field)
         if score <= worst:
             return score, n + 1
