@@ -191,6 +191,16 @@ def test_values_hold_against_every_walk_and_displacement() -> None:
         assert max(each) < cells[name] * table.grid.spacing, name
 
 
+def test_a_value_pays_for_the_losses_of_every_decision() -> None:
+    """It is at most that of the best motion, within a layer of safe states."""
+    table, random = lossy(), np.random.default_rng(8)
+    poses = random.uniform([-0.5, -0.6, -pi], [0.9, 0.6, pi], (300, 3))
+    motions = table.game.motions
+    best = [table.outcomes(pose, motions, PERIOD).max() for pose in poses]
+    excess = (table.value(poses) - best).max()
+    assert excess < 0.02 * table.grid.spacing
+
+
 def test_a_start_pays_for_every_place_within_its_loss() -> None:
     """A cliff of the values is charged five cells before it, not six."""
     still, motion = PersonModel(1e-6, 1.0), sub_poses([(0.0, 0.0, 0.0)], 1.0)

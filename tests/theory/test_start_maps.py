@@ -100,7 +100,7 @@ def test_captured_point_of_a_grid_ends_the_search() -> None:
     assert worst.closest_distance == pytest.approx(0.5)
 
 
-def test_search_plays_whole_cells_and_finds_the_lowest_point(
+def test_search_finds_the_lowest_point(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
     """Of a made-up bowl with an edge, between the points of the grid."""
@@ -117,10 +117,6 @@ def test_search_plays_whole_cells_and_finds_the_lowest_point(
     monkeypatch.setattr(maps, "play_games", bowl)
     found = map_starts(FAST, box, 1.0, shape=(3, 3, 3))
     worst = find_worst_start(FAST, found, box, 1.0)
-    cell = np.unique(played[1], axis=0)  # around (2, 0, 0), the best point
-    assert len(played[1]) == len(cell) == 125
-    np.testing.assert_allclose(cell.min(axis=0), [1.0, -0.5, -1.0])
-    np.testing.assert_allclose(cell.max(axis=0), [3.0, 0.5, 1.0])
     start = worst.start
     got = [start.distance, start.pursuer_error, start.bearing]
     np.testing.assert_allclose(got, lowest, atol=2e-3)

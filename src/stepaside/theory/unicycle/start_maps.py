@@ -13,10 +13,8 @@ from .relative_coordinates import RelativeStart
 from .unicycle_game import Game
 
 Array = NDArray[np.float64]
-_CANDIDATES = 8  # local minima of the grid that are refined
-_FINE = 5  # points along each axis of a refined cell
-_SHRINK = 0.6  # ratio of cell sizes of successive refinements
-_LEVELS = 14  # of refinement
+_CANDIDATES = 4  # local minima of the grid that are refined
+_GAMES = 150  # of the refinement of one of them
 
 
 @dataclass(frozen=True, slots=True)
@@ -160,9 +158,7 @@ def find_worst_start(
 ) -> WorstStart:
     """Search the worst initial state from the local minima of a map.
 
-    A small grid around each of the lowest local minima is moved to its best
-    point and shrunk repeatedly; the best result is refined by the
-    Nelder-Mead simplex method.
+    Each is moved by the Nelder-Mead simplex method; the best result counts.
 
     Args:
         game: Parameters of the game.
@@ -191,14 +187,13 @@ def find_worst_start(
 
     centers, best = _local_minima(start_map)
     cell = (box.high - box.low) / np.maximum(np.array(start_map.shape) - 1, 1)
-    for _ in range(_LEVELS):
-        if best.min() <= capture_distance:
+    winner, worst = centers[0], float(best[0])
+    for center, least in zip(centers, best.tolist(), strict=True):
+        if worst <= capture_distance:
             break
-        centers, best = _refine(lowest, box, centers, best, cell)
-        cell = cell * _SHRINK
-    winner, worst = centers[best.argmin()], float(best.min())
-    if worst > capture_distance:
-        winner, worst = _polish(lowest, box, winner, worst, cell)
+        found, value = _polish(lowest, box, center, least, cell)
+        if value < worst:
+            winner, worst = found, value
     captured = worst <= capture_distance * (1.0 + 1e-9)
     r, a, psi = winner.tolist()
     return WorstStart(RelativeStart(r, a, psi), worst, captured, played)
@@ -218,24 +213,6 @@ def _local_minima(start_map: StartMap) -> tuple[Array, Array]:
     return np.stack(starts, axis=-1), values.ravel()[order]
 
 
-def _refine(
-    lowest: ClosestApproach,
-    box: StartBox,
-    centers: Array,
-    best: Array,
-    cell: Array,
-) -> tuple[Array, Array]:
-    """Move each centre to the best point of a small grid around it."""
-    spots = np.linspace(-1.0, 1.0, _FINE)
-    offsets = np.stack(np.meshgrid(spots, spots, spots), -1).reshape(-1, 3)
-    tried = np.clip(centers[:, None] + cell * offsets, box.low, box.high)
-    found = lowest(tried.reshape(-1, 3)).reshape(len(centers), -1)
-    pick, least = found.argmin(axis=1), found.min(axis=1)
-    better = (least < best)[:, None]
-    moved = np.where(better, tried[np.arange(len(centers)), pick], centers)
-    return moved, np.minimum(best, least)
-
-
 def _polish(
     lowest: ClosestApproach,
     box: StartBox,
@@ -246,7 +223,7 @@ def _polish(
     """Improve a state by a simplex search, if that succeeds."""
     from scipy.optimize import minimize
 
-    simplex = winner + np.vstack([np.zeros(3), 2.0 * np.diag(cell)])
+    simplex = winner + np.vstack([np.zeros(3), np.diag(cell)])
     result = minimize(
         lambda start: float(lowest(np.array([start]))[0]),
         winner,
@@ -254,7 +231,7 @@ def _polish(
         bounds=list(zip(box.low, box.high, strict=True)),
         options={
             "initial_simplex": np.clip(simplex, box.low, box.high),
-            "maxfev": 120,
+            "maxfev": _GAMES,
         },
     )
     if result.fun < worst:
