@@ -6,7 +6,6 @@ import numpy as np
 import pytest
 
 from stepaside.arena import Box, Disc, Obstacle
-from stepaside.arena.polygon_cover import cover
 from stepaside.core.poses import Array
 from stepaside.perception.camera_model import CameraModel
 from stepaside.perception.camera_pose import CameraPose
@@ -17,6 +16,7 @@ from stepaside.perception.floor_map import (
     wide_areas,
 )
 from stepaside.perception.images import DepthImage
+from stepaside.perception.polygon_cover import cover
 
 CAMERA = CameraModel.of_field_of_view(80, 60, 1.01, 0.785)
 EYE, HIGH, FAR = 0.5, 0.6, 3.5

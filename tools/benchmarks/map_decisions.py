@@ -28,12 +28,12 @@ from stepaside.arena import (
     draw_initial_poses,
     generate_room,
 )
-from stepaside.arena.polygon_cover import cover
 from stepaside.control.clearance.guard import Guard
 from stepaside.control.clearance.surroundings import HERE
 from stepaside.control.clearance.swept_outline import lateral_sway
 from stepaside.core.poses import Pose, wrap_angle
 from stepaside.locomotion.maneuver_selection import GuardDecision
+from stepaside.perception.polygon_cover import cover
 from stepaside.planning import (
     CenterState,
     Direction,

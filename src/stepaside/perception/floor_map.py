@@ -7,11 +7,11 @@ from numpy.lib.stride_tricks import sliding_window_view
 from numpy.typing import NDArray
 
 from ..arena import Polygon
-from ..arena.polygon_cover import cover
 from ..core.poses import Array, wrap_angles
 from ..robots.robot_tree import NAO_SIZE, OWN_MARGIN, BodySize
 from .camera_pose import CameraPose
 from .images import DepthImage
+from .polygon_cover import cover
 
 CELL = 0.05  # side of a cell, in [m]
 HALF_SIDE = 6.0  # of the map around the start, in [m]

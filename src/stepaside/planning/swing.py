@@ -1,6 +1,6 @@
 """Swing-foot trajectories with zero velocity at lift-off and touch-down."""
 
-from typing import Literal, TypeVar
+from typing import Any, Literal
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -18,12 +18,7 @@ _PROGRESS: dict[SwingProfile, tuple[float, ...]] = {
 """Coefficients of the progress, by powers of the phase."""
 
 
-Phase = TypeVar("Phase", float, Array)
-
-
-def swing_progress(
-    phase: Phase, profile: SwingProfile = "minimum-jerk"
-) -> Phase:
+def swing_progress(phase: Any, profile: SwingProfile = "minimum-jerk") -> Any:
     """Return the fraction of the path that a swing foot has covered.
 
     Velocity and acceleration vanish at both ends. The minimum-jerk
@@ -38,7 +33,6 @@ def swing_progress(
     Returns:
         Fraction in [0, 1], like the phase.
     """
-    s = phase
     if isinstance(phase, float):
         s = min(max(phase, 0.0), 1.0)
     else:

@@ -3,9 +3,9 @@
 import numpy as np
 from numpy.typing import NDArray
 
+from ..arena import Polygon
 from ..core.convex import Point, lower_hull, signed_area
 from ..core.poses import Array
-from .shapes import Polygon
 
 # Largest area of a hull over that of its cells; a diagonal line of cells
 # has 2.
