@@ -24,7 +24,7 @@ def rotation(roll: float, pitch: float, yaw: float) -> Array:
 def angles_of(axes: Array) -> tuple[float, float, float]:
     """Return roll, pitch and yaw of a rotation; see :func:`rotation`."""
     (xx, xy, _), (yx, yy, _), (zx, zy, zz) = axes.tolist()
-    pitch = asin(max(-1.0, min(1.0, -zx)))
+    pitch = asin(max(min(-zx, 1.0), -1.0))
     if abs(zx) > 1.0 - 1e-12:  # roll and yaw are about one axis
         return 0.0, pitch, atan2(-xy, yy)
     return atan2(zy, zz), pitch, atan2(yx, xx)

@@ -17,7 +17,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from ..core.errors import ConfigurationError, ModelError
-from ..core.rotations import rotation, rotation_of
+from ..core.rotations import angles_of, rotation, rotation_of
 from ..perception.measurement import RobotState, Sighting
 from .joint_robot import JointRobot, JointTargets
 from .robot_address import RobotRequest
@@ -182,15 +182,15 @@ class LeagueRobot(JointRobot):
                 f"{', '.join(found)} and {len(motions)} joints"
             ) from error
         now = STEP * round((now + TRUNCATED) / STEP)
-        torso = rotation_of((w, x, y, z))
-        roll = float(np.arctan2(torso[2, 1], torso[2, 2]))
-        tilt = roll, float(-np.arcsin(np.clip(torso[2, 0], -1.0, 1.0)))
+        roll, pitch, _ = angles_of(rotation_of((w, x, y, z)))
         seen = nearest_opponent(found.get("See", []), self._team)
         if seen is not None:
-            head, pitch = (
+            head, nod = (
                 joints[self.joints.index(name), 0] for name in (HEAD, PITCH)
             )
-            level = rotation(*tilt, 0.0) @ rotation(0.0, pitch, head) @ seen
+            level = (
+                rotation(roll, pitch, 0.0) @ rotation(0.0, nod, head) @ seen
+            )
             ahead = float(level[0]) + self._camera
             self._sighting = Sighting.of_position(now, ahead, float(level[1]))
         return RobotState(
@@ -200,7 +200,7 @@ class LeagueRobot(JointRobot):
             force,
             sighting=self._sighting,
             joint_velocities=joints[:, 1],
-            tilt=tilt,
+            tilt=(roll, pitch),
         )
 
     def _own(self) -> list[tuple[float, float]]:

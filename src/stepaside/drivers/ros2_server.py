@@ -11,6 +11,7 @@ from math import cos, hypot, isfinite, sin
 from typing import Any
 
 from ..core.poses import Pose, wrap_angle
+from ..core.rotations import quaternion_of
 from ..perception.images import ColourImage
 from ..perception.measurement import Sighting
 from ..strategies.velocity_set import BodyVelocity
@@ -145,16 +146,8 @@ def diagonal(x: float, y: float, turn: float) -> list[float]:
 
 def rotation_message(roll: float, pitch: float, yaw: float) -> Any:
     """Return the rotation Rz(yaw) Ry(pitch) Rx(roll), angles in [rad]."""
-    cr, sr = cos(0.5 * roll), sin(0.5 * roll)
-    cp, sp = cos(0.5 * pitch), sin(0.5 * pitch)
-    cy, sy = cos(0.5 * yaw), sin(0.5 * yaw)
-    return make(
-        "geometry_msgs/Quaternion",
-        sr * cp * cy - cr * sp * sy,
-        cr * sp * cy + sr * cp * sy,
-        cr * cp * sy - sr * sp * cy,
-        cr * cp * cy + sr * sp * sy,
-    )
+    w, x, y, z = quaternion_of(roll, pitch, yaw)
+    return make("geometry_msgs/Quaternion", x, y, z, w)
 
 
 class Ros2Server:
