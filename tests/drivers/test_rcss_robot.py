@@ -63,7 +63,7 @@ def message(now: float, head: float = 0.0) -> bytes:
     joints = "".join(
         f"(HJ (n q_{motor.replace('e', 'j')})"
         f"(ax {head if motor == 'he1' else 0.5})(vx 90))"
-        for motor in MODELS["K1"].motors.values()
+        for motor in MODELS["K1"][0].values()
     )
     return (
         f"(time (now {now}))(GS (t 0) (pm BeforeKickOff))"
@@ -204,8 +204,7 @@ def described_k1(tmp_path: Path) -> Path:
     with pytest.raises(SystemExit) as ended:
         main(arguments)
     assert not ended.value.code
-    legs = [name for name in MODELS["K1"].motors if "le" in
-            MODELS["K1"].motors[name]]  # fmt: skip
+    legs = [name for name, motor in MODELS["K1"][0].items() if "le" in motor]
     contract = {
         "joints": legs,
         "terms": ["base_ang_vel", "projected_gravity", "command"],

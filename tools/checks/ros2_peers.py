@@ -413,6 +413,7 @@ def main() -> int:
     parser.add_argument("--output", type=Path, default=RESULT)
     arguments = parser.parse_args()
     os.environ["ROS_AUTOMATIC_DISCOVERY_RANGE"] = "LOCALHOST"
+    os.environ["PYTHONPATH"] = str(Path("src").resolve())  # cyclone_node.py
     os.environ["ROS_DOMAIN_ID"] = str(DOMAIN)
     os.environ["RMW_IMPLEMENTATION"] = "rmw_fastrtps_cpp"
     found = []

@@ -12,7 +12,7 @@ import socket
 from collections.abc import Callable, Mapping
 from functools import partial
 from math import cos, degrees, radians, sin
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 
@@ -42,20 +42,8 @@ GAINS = {"he": (20.0, 0.2), "ae": (20.0, 0.5), "te": (200.0, 5.0),
          "le": (200.0, 5.0)}  # fmt: skip
 
 
-class LeagueModel(NamedTuple):
-    """Robot model of the simulator.
-
-    Attributes:
-        motors: Motor of each joint of the model.
-        camera: Distance of the camera ahead of the torso, in [m].
-    """
-
-    motors: Mapping[str, str]
-    camera: float
-
-
-def _league_model(shoulder: str, waist: bool, camera: float) -> LeagueModel:
-    """Return a model; ``shoulder`` precedes the names of the first joints."""
+def _motors(shoulder: str, *, waist: bool) -> dict[str, str]:
+    """Return motors by joint; ``shoulder`` precedes the first in an arm."""
     motors = {HEAD: "he1", PITCH: "he2"}
     for side, letter in (("Left", "l"), ("Right", "r")):
         for number, name in enumerate(ARM, 1):
@@ -65,12 +53,13 @@ def _league_model(shoulder: str, waist: bool, camera: float) -> LeagueModel:
             motors[f"{side}_{name}"] = f"{letter}le{number}"
     if waist:
         motors["Waist"] = "te1"
-    return LeagueModel(motors, camera)
+    return motors
 
 
+# Motors, and distance of the camera ahead of the torso in [m], by model.
 MODELS = {
-    "K1": _league_model("A", waist=False, camera=0.066),
-    "T1": _league_model("", waist=True, camera=0.11),
+    "K1": (_motors("A", waist=False), 0.066),
+    "T1": (_motors("", waist=True), 0.11),
 }
 
 
@@ -107,6 +96,7 @@ class LeagueRobot(JointRobot):
         """Join the game, facing the other half of the field."""
         self._socket = socket.create_connection(self._address, TIMEOUT)
         self._socket.setsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY, 1)
+        self._stream = self._socket.makefile("rb")
         self._send(f"(init {self._model} {self._team} 1)")
         x, y = START
         try:
@@ -152,6 +142,7 @@ class LeagueRobot(JointRobot):
 
     def close(self) -> None:
         """Leave the game."""
+        self._stream.close()
         self._socket.close()
 
     def _report(self, entries: list[Any]) -> RobotState:
@@ -211,19 +202,15 @@ class LeagueRobot(JointRobot):
         self._socket.sendall(len(data).to_bytes(4, "big") + data)
 
     def _receive(self) -> bytes:
-        length = int.from_bytes(self._exactly(4), "big")
+        head = self._stream.read(4)
+        length = int.from_bytes(head, "big")
         if length > LONGEST:
-            raise ConnectionError(f"a message of {length} bytes: is this the "
-                                  "port for agents?")  # fmt: skip
-        return self._exactly(length)
-
-    def _exactly(self, count: int) -> bytes:
-        data = b""
-        while len(data) < count:
-            part = self._socket.recv(count - len(data))
-            if not part:
-                raise ConnectionError("the simulator closed the connection")
-            data += part
+            raise ConnectionError(
+                f"a message of {length} bytes: is this the port for agents?"
+            )
+        data = self._stream.read(length)
+        if len(head) < 4 or len(data) < length:
+            raise ConnectionError("the simulator closed the connection")
         return data
 
 
@@ -270,10 +257,7 @@ def nearest_opponent(detections: list[Any], team: str) -> Any:
         if kind != "P" or parts.pop("team", team) == team:
             continue
         parts.pop("id", None)
-        polar = {
-            name: [float(v) for v in value[1:4]]
-            for name, value in parts.items()
-        }
+        polar = {n: [float(v) for v in p[1:4]] for n, p in parts.items()}
         if polar:
             values = polar.get("head") or np.mean(list(polar.values()), axis=0)
             found.append(tuple(float(value) for value in values))
@@ -305,8 +289,8 @@ def make_robot(request: RobotRequest) -> Callable[[], LeagueRobot]:
     address = found["host"] or "127.0.0.1", int(found["port"])
     description = request.description
     joints = set(description.speed_limits)
-    for name, model in MODELS.items():
-        if joints == set(model.motors):
+    for name, (motors, _) in MODELS.items():
+        if joints == set(motors):
             standing = description.standing
             return partial(LeagueRobot, address, name, request.role, standing)
     raise ModelError(
