@@ -7,7 +7,8 @@ In each round one learns while the other is fixed. Run it alone:
 ``python examples/self_play.py``; numbers after that are those of
 rounds and of updates in each.
 The policies are written to self-evader.onnx and self-pursuer.onnx:
-``stepaside tournament --evader self-evader.onnx --pursuer self-pursuer.onnx``.
+``stepaside study tournament --set evader=self-evader.onnx --set
+pursuer=self-pursuer.onnx``.
 """
 
 import sys

@@ -21,10 +21,10 @@ from stepaside.envs.policy_optimisation import (
     PolicyOptimiser,
 )
 from stepaside.strategies import StepGame
-from stepaside.studies.strategy_rating import rating_rows, rating_study
+from stepaside.studies import load_study, run_study
 
 ROOMS = {"open": None, "discs": RoomRecipe(discs=3)}
-WORLDS = {"open": ["open floor", "any heading"], "discs": ["3 x 3 m, 3 discs"]}
+FLOORS = {"open": "open*,any*", "discs": "*discs"}
 
 
 def main(floor: str, updates: int) -> None:
@@ -49,15 +49,22 @@ def main(floor: str, updates: int) -> None:
             print(f"{process_time():4.0f} s: {curve[-1]:.3f} m, {n}")
     draw_curve(curve, f"training-{floor}.png")
     learner.strategy().save(f"evader-{floor}.onnx")
-    rated = [(f"evader-{floor}.onnx", "evader"), ("aside", "evader")]
-    study = rating_study(rated, max(2, updates // 2), 60.0, WORLDS[floor])
-    for row in rating_rows([study.measure(case) for case in study.cases]):
-        if row["mean_ratio"] is not None:
-            print(
-                f"{row['strategy']} in {row['world']}: survived "
-                f"{row['survived']:.2f}, closest approach over bound "
-                f"{row['mean_ratio']:.3f} +- {row['mean_ratio_pm']:.3f}"
-            )
+    study = load_study(
+        "rating",
+        [
+            f"evader=evader-{floor}.onnx,evasion(safety_radius=100)",
+            f"floor={FLOORS[floor]}",
+            "pursuer=pursuit",
+            f"seed=0:{max(2, updates // 2)}",
+        ],
+    )
+    for row in run_study(study).table(values=["survived", "of_bound"]):
+        over = row["of_bound"]
+        print(
+            f"{row['evader']} on {row['floor']}: survived "
+            f"{row['survived']['share']:.2f}, closest approach over bound "
+            f"{over['mean']:.3f} +- {over['half']:.3f}"
+        )
 
 
 def draw_curve(curve: list[float], file: str) -> None:

@@ -8,6 +8,7 @@ from math import inf, nan, pi, tau
 from pathlib import Path
 from pkgutil import walk_packages
 from re import split
+from tempfile import TemporaryDirectory
 from typing import Any
 
 import numpy as np
@@ -28,6 +29,13 @@ from stepaside.strategies.learned import (
     StrategyContract,
     dense_network,
     load_learned_strategy,
+)
+from stepaside.studies import (
+    Study,
+    StudyRun,
+    load_study,
+    merge_results,
+    run_study,
 )
 from stepaside.theory.value import load_table
 
@@ -95,6 +103,7 @@ def kept(tmp_path_factory: pytest.TempPathFactory) -> Path:
     folder = tmp_path_factory.mktemp("kept")
     stepaside.write_run(folder / "run", a_run(), drawn=False)
     (folder / "duel.toml").write_text("seed = 3\n")
+    (folder / "study.toml").write_text("game = 'duel'\ngrid.seed = '0:7'\n")
     (folder / "room.toml").write_text("width = 3.0\ndepth = 2.0\n")
     a_bound().save(folder / "bound.npz")
     a_network().save(folder / "evader.onnx")
@@ -110,17 +119,35 @@ READERS: dict[str, tuple[str, Callable[[Any], Any]]] = {
     "load_robot": ("robot", lambda p: stepaside.load_robot(p).torso),
     "load_table": ("bound.npz", lambda p: load_table(p).grid),
     "load_room": ("room.toml", load_room),
+    "load_study": ("study.toml", lambda p: len(load_study(p).cases)),
     "load_learned_strategy": (
         "evader.onnx",
         lambda p: load_learned_strategy(p).contract,
     ),
 }
+
+
+def a_study() -> Study[Any]:
+    """Return a study of one case."""
+    return Study("one", [1], lambda case: {"case": case}, str)
+
+
+def merge_one(file: Any) -> None:
+    """Merge a file of one record."""
+    with TemporaryDirectory() as folder:
+        run_study(a_study(), f"{folder}/part.sqlite")
+        merge_results([f"{folder}/part.sqlite"], file)
+
+
 # What is written: the name of the file or folder, and how.
 WRITERS: dict[str, tuple[str, Callable[[Any], Any]]] = {
     "write_run": (
         "run",
         lambda p: stepaside.write_run(p, a_run(), drawn=False),
     ),
+    "StudyRun": ("study.sqlite", lambda p: StudyRun(a_study(), p)),
+    "run_study": ("study.sqlite", lambda p: run_study(a_study(), p)),
+    "merge_results": ("study.sqlite", merge_one),
     "write_page": ("page.html", lambda p: stepaside.write_page(a_run(), p)),
     "draw_duel": ("duel.svg", lambda p: stepaside.draw_duel(a_run(), p)),
     "draw_comparison": (
@@ -161,6 +188,8 @@ def test_any_kind_of_path_is_written(
 @pytest.mark.parametrize("name", [*READERS, *WRITERS])
 @pytest.mark.parametrize("bad", [None, 5, b"bytes", ["list"], "null\0"])
 def test_what_is_no_path_is_refused_by_name(name: str, bad: Any) -> None:
+    if bad is None and name in ("StudyRun", "run_study"):
+        return  # without a file nothing is stored
     _, call = {**READERS, **WRITERS}[name]
     with pytest.raises(StepAsideError, match="(path|file|folder|robot) must"):
         call(bad)

@@ -81,12 +81,12 @@ axes.legend()
 # ## From the command line
 #
 # In a file of its own, the class plays in every command:
-# `stepaside duel --strategy evader.py:BackAndAside`, also in `tournament`,
+# `stepaside duel --strategy evader.py:BackAndAside`, also in `study`,
 # `view`, and `play` on a robot. A strategy must be pure: what it remembers
 # goes through `memory` ([strategies](../strategies.md)).
 #
-# Many games say more than one: `stepaside rate evader.py:BackAndAside aside
-# look-ahead --role evader` rates it beside built-in evaders against a fixed
-# suite of opponents, and `stepaside duels --strategy
-# evader.py:BackAndAside --seeds 0:100` plays humanoids from a hundred random
-# starts ([campaigns](../campaigns.md)).
+# Many games say more than one: `stepaside study rating --set
+# evader=evader.py:BackAndAside,evasion` rates it beside the paper's evader
+# against a fixed suite of opponents, and `stepaside study duels --set
+# evader_strategy=evader.py:BackAndAside` plays humanoids from forty random
+# starts ([studies](../campaigns.md)).

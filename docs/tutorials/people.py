@@ -18,7 +18,7 @@ Image("person/duel.png", width=720)
 # ## How near does a person come?
 #
 # The paper's legs walk at most 0.26 m/s, so the answer depends on when the
-# robot begins. `robustness --kind person` measures it for speeds, directions
+# robot begins. `stepaside study people` measures it for speeds, directions
 # and aims ([evading people](../people.md)); with a learned walking policy
 # (`--legs FILE.onnx`) a humanoid moves at about 1 m/s, also sideways
 # ([learned legs](../legs.md)).

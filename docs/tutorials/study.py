@@ -39,9 +39,8 @@ distance = [0.8, 1.2]
 import sqlite3
 
 with sqlite3.connect("angle.sqlite") as table:
-    (name,) = table.execute("select name from sqlite_master").fetchone()
     rows = table.execute(
-        f"select distance, angle, closest_m from {name} order by angle"
+        "select distance, angle, closest_m from results order by angle"
     ).fetchall()
 rows[:3]
 
@@ -61,5 +60,5 @@ plt.legend()
 # %% [markdown]
 # Against this pursuer a smaller angle keeps farther away: the evader backs
 # off more and crosses less. Physics takes the same file with `game = "duel"`
-# and the settings of a duel ([campaigns](../campaigns.md)); several machines
+# and the settings of a duel ([studies](../campaigns.md)); several machines
 # share one study with `--shard` or a cluster with `--executor`.

@@ -80,5 +80,5 @@ Image("game/duel.png", width=720)
 
 # %% [markdown]
 # `examples/train_evader.py` trains longer and compares the result with the
-# best possible closest approach; `stepaside rate` does so for any strategy
-# ([learning](../learning.md)).
+# best possible closest approach; `stepaside study rating` does so for any
+# strategy ([learning](../learning.md)).

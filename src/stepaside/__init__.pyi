@@ -48,6 +48,10 @@ from .strategies import Knowledge as Knowledge
 from .strategies import Pursuit as Pursuit
 from .strategies import Strategy as Strategy
 from .strategies import load_strategy as load_strategy
+from .studies import load_study as load_study
+from .studies import make_study as make_study
+from .studies import run_study as run_study
+from .studies import tabulate as tabulate
 from .theory.unicycle import RelativeStart as RelativeStart
 from .theory.unicycle import find_circle as find_circle
 from .theory.unicycle import make_game as make_game
@@ -107,12 +111,16 @@ __all__ = [
     "load_robot",
     "load_run",
     "load_strategy",
+    "load_study",
     "load_tree",
     "make_game",
+    "make_study",
     "play_games",
     "run_duel",
+    "run_study",
     "run_walk",
     "simulate",
+    "tabulate",
     "write_page",
     "write_run",
 ]

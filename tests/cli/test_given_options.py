@@ -25,10 +25,8 @@ from stepaside.sim.push import Push
 
 KINDS: dict[str, Any] = {
     "duel": DuelSettings,
-    "duels": DuelSettings,
     "view": DuelSettings,
     "walk": WalkSettings,
-    "robustness": WalkSettings,
     "plan": PlanSettings,
 }
 SWITCHES = """
@@ -105,7 +103,7 @@ def test_printed_configuration_repeats_the_run(tmp_path: Path) -> None:
     assert first == again
 
 
-@pytest.mark.parametrize("name", ["duel", "view", "walk", "robustness"])
+@pytest.mark.parametrize("name", ["duel", "view", "walk"])
 def test_every_command_takes_gait_body_and_floor(name: str) -> None:
     found = settings(
         f"{name} --gait as-printed --set gait.single_support=0.2 "
@@ -130,7 +128,7 @@ def test_safety_radius_and_release_distance_change_together() -> None:
         "--set strategy.safety_radius=1.2 --set strategy.release_distance=1.5 "
         "--set strategy.side_hysteresis=5deg"
     )
-    for name in ("duel", "duels", "view"):
+    for name in ("duel", "view"):
         strategy = settings(f"{name} {line}").strategy
         assert (strategy.safety_radius, strategy.release_distance) == (
             1.2,
@@ -275,10 +273,9 @@ def test_pushes_are_replaced_or_removed_and_name_the_player(
         assert f"push player must be one of {who}," in refused.stderr
 
 
-def test_plan_and_robustness_take_files_of_duels(file: Path) -> None:
+def test_plan_takes_files_of_duels(file: Path) -> None:
     file.write_text(f"{SWITCHES}[gait]\nspeed = 0.08\n", encoding="utf-8")
-    for name in ("plan", "robustness"):
-        assert settings(f"{name} --config {file}").gait.speed == 0.08
+    assert settings(f"plan --config {file}").gait.speed == 0.08
     file.write_text("weather = 1", encoding="utf-8")
     refused = run(f"plan --config {file}")
     assert refused.exit_code == 2 and "unknown entry weather" in refused.stderr
@@ -314,7 +311,6 @@ def test_a_file_that_lacks_what_it_must_say_is_refused(
         ("duel --set cameras.colour.renderer=paint", "'paint' is not one of"),
         ("plan --role evader", "Missing option '--bearing'"),
         ("plan --bearing 1", "Missing option '--role'"),
-        ("robustness --kind wind", "'wind' is not one of 'push'"),
         ("view --set room.walls=0.5", "walls must lie in"),
     ],
 )
@@ -361,19 +357,11 @@ def test_invalid_settings_are_refused_in_one_line(
             "--reconnect requires joint control",
         ),
         ("serve --domain 3", "--domain requires --ros2"),
-        ("tournament --evader aside --alpha 1", "requires --evader alpha"),
         ("bound --pursuer-turn 2", "--pursuer-turn requires --against any"),
         ("bound --response 1", "--response requires --against person"),
         (
             "bound --against person --horizon 2",
             "--horizon requires --against pursuit or any, got person",
-        ),
-        ("robustness --kind push --sensing cameras", "requires --kind person"),
-        ("robustness --kind push --rear-camera", "requires --kind person"),
-        ("robustness --depth-camera d455", "requires --kind person"),
-        (
-            "robustness --kind person --sensing lidar --rear-camera",
-            "--rear-camera requires --sensing cameras",
         ),
     ],
 )
@@ -416,7 +404,7 @@ def test_inner_sections_change_after_outer_ones() -> None:
     assert found.body == changed(BODIES["delayed"], {"backlash": 0.01})
 
 
-@pytest.mark.parametrize("command", ["duel", "duels", "view"])
+@pytest.mark.parametrize("command", ["duel", "view"])
 def test_map_seen_implies_cameras(command: str, tmp_path: Path) -> None:
     room = f"{command} --room 3 --set map.source=seen"
     assert printed(room)["sensing"] == "cameras"

@@ -118,15 +118,14 @@ def test_a_campaign_interrupted_anywhere_names_its_records(
     def interrupt(*_: Any, **__: Any) -> None:
         raise KeyboardInterrupt
 
-    monkeypatch.setattr("stepaside.games.game_file.load_game", interrupt)
+    file = tmp_path / "games.sqlite"
     if recorded:
         study = Study("games", [1], lambda case: {"case": case}, str)
-        run_study(study, tmp_path / "games.sqlite")
-    (tmp_path / "game.toml").write_text("")
-    result = CliRunner().invoke(
-        main, ["games", f"{tmp_path}/game.toml", f"--output={tmp_path}"]
-    )
+        run_study(study, file)
+    monkeypatch.setattr("stepaside.studies.study.run_study", interrupt)
+    words = ["study", "duels", "--output", str(file)]
+    result = CliRunner().invoke(main, words)
     assert result.exit_code == 130
-    kept = f"finished cases are saved in {tmp_path}; run the same command"
+    kept = f"finished cases are saved in {file}; run the same command"
     assert (kept in result.stderr) == recorded
     assert ("nothing is saved" in result.stderr) != recorded

@@ -33,10 +33,9 @@ def test_every_command_has_help(command: str) -> None:
 
 
 def test_help_shows_defaults() -> None:
-    for command in ("duel", "duels"):
-        text = " ".join(run(command, "--help").stdout.split())
-        assert "Simulated time [s]. [default: 120]" in text
-        assert "Imperfections of the body. [default: ideal]" in text
+    text = " ".join(run("duel", "--help").stdout.split())
+    assert "Simulated time [s]. [default: 120]" in text
+    assert "Imperfections of the body. [default: ideal]" in text
 
 
 def test_plan_prints_footsteps_and_a_10_ms_grid() -> None:

@@ -17,8 +17,8 @@ from stepaside.cli.options.parameter_types import (
 )
 
 SETTINGS = (
-    *("duel", "duels", "play", "serve", "view"),
-    *("walk", "robustness", "plan"),
+    *("duel", "play", "serve", "view"),
+    *("walk", "plan"),
 )
 
 

@@ -16,7 +16,6 @@ pytestmark = pytest.mark.usefixtures("blank_figures", "inline_workers")
 
 TABLES = [
     "duel --duration 1",
-    "duels --seeds 0:2 --duration 1 --workers 1",
     "walk --duration 20",
     "plan --role evader --bearing 0.3",
     "unicycles --speed 0.1 --gain 0.2",
@@ -27,14 +26,15 @@ TABLES = [
     "bound --grid 16 --refine 1 --games 10 --horizon 0.1",
     "bound --grid 16 --refine 0 --games 0 --horizon 0.1 --against any",
     "bound --against person --evader-speed 0.6 --grid 16 --refine 0",
-    "tournament --seeds 0:1 --duration 1 --evader aside --workers 1",
+    "study tournament --set seed=0:1 --set game.duration=1 "
+    "--set evader=evasion --workers 1",
     "room --discs 2 --doors 1",
     "robot nao",
 ]
 
 
 # Commands that show their progress.
-LONG = ("duel", "walk", "duels", "circle", "map", "bound", "tournament")
+LONG = ("duel", "walk", "circle", "map", "bound")
 
 
 def shown_by(words: str) -> Result:

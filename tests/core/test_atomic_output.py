@@ -29,6 +29,7 @@ from stepaside.games.duel_settings import DuelSettings
 from stepaside.games.run import DuelRun
 from stepaside.report import duel_figure, unicycle_sweep
 from stepaside.report.run_folder import save_run, write_run
+from stepaside.studies import Study, run_study
 from vendor_humanoid import mjcf
 
 pytestmark = pytest.mark.usefixtures("blank_figures")
@@ -219,7 +220,7 @@ STUDY = """
 game = "tournament"
 settings.game.duration = 3.0
 [grid]
-evader = ["aside", "look-ahead"]
+evader = ["evasion", "look-ahead"]
 seed = "0:5"
 """
 
@@ -230,7 +231,14 @@ def study(folder: Path) -> Path:
     return file
 
 
+def records(folder: Path) -> Path:
+    file = folder / "part.sqlite"
+    run_study(Study("one", [1], lambda case: {"case": case}, str), file)
+    return file
+
+
 READ: dict[str, Callable[[Path], Path]] = {
+    "merge": records,
     "study": study,
     "robot check": lambda _: Path("nao"),
     "robot init": mjcf,
@@ -250,12 +258,8 @@ NEEDED = {
         "unicycle",
         "--json",
     ],
-    "duels": ["--seeds", "0:1", "--duration", "1"],
-    "robustness": ["--kind", "delay"],
     "room": [],
     "walk": [],
-    "rate": ["aside", "--games", "1", "--duration", "1"],
-    "tournament": ["--seeds", "0:1", "--duration", "1", "--room", "open"],
 }
 
 

@@ -9,8 +9,7 @@ from click.testing import CliRunner
 
 from stepaside.cli.main import main
 from stepaside.strategies.table_cache import pursuit_bound
-from stepaside.studies import tournament_record
-from stepaside.studies.sweep import load_sweep
+from stepaside.studies import load_study, tournament_record
 
 PAGE = (Path(__file__).parents[2] / "docs" / "campaigns.md").read_text("utf-8")
 
@@ -29,14 +28,16 @@ def test_queries_of_a_tournament_run(
     monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path))
     monkeypatch.setattr(tournament_record, "CELLS", 16)
     pursuit_bound.cache_clear()
-    line = "tournament --seeds 0:2 --duration 4 --workers 1 --output"
-    words = [*line.split(), "runs/games", "--evader", "optimal"]
-    answer = CliRunner().invoke(main, [*words, "--evader", "look-ahead"])
+    line = "study tournament --set seed=0:2 --set game.duration=4"
+    words = [*line.split(), "--workers", "1", "--output", "games.sqlite"]
+    answer = CliRunner().invoke(
+        main, [*words, "--set", "evader=optimal,robust"]
+    )
     pursuit_bound.cache_clear()
     assert answer.exit_code == 0, answer.output
-    query, study = blocks("python")
+    study, query = blocks("python")
     exec(compile(query, "docs/campaigns.md", "exec"), {})
-    assert "look-ahead" in capsys.readouterr().out
+    assert "robust" in capsys.readouterr().out
     exec(compile(study, "docs/campaigns.md", "exec"), {})
 
 
@@ -45,4 +46,4 @@ def test_the_study_file_is_one(tmp_path: Path) -> None:
     file = tmp_path / "radius.toml"
     file.write_text(text)
     assert tomllib.loads(text)["game"] == "duel"
-    assert len(load_sweep(file).cases) == 3 * 2 * 40
+    assert len(load_study(file).cases) == 3 * 2 * 40 * 2

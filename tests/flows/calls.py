@@ -223,39 +223,21 @@ def own_duel(evader: Any, *, distance: float, duration: float) -> Any:
     )
 
 
-def rate_evaders(*evaders: object, games: int) -> Any:
-    """Rate evaders against the fixed suite."""
-    return stepaside(
-        *("rate", *evaders, "--role", "evader", "--games", games, "--json")
-    ).json
+def rows_of(source: object, *words: object) -> Any:
+    """Play a study in one process; return the rows of its table."""
+    return stepaside("study", source, *words, "--workers", 1, "--json").json[
+        "rows"
+    ]
 
 
-def tournament(
-    evaders: Sequence[object],
-    pursuers: Sequence[str],
-    *,
-    room: str,
-    seeds: str,
-    duration: float,
-) -> Any:
-    """Play every evader against every pursuer; return the rows."""
+def changes(**settings: object) -> list[object]:
+    """Return the words that change settings of a study."""
     words: list[object] = []
-    for evader in evaders:
-        words += ["--evader", evader]
-    for pursuer in pursuers:
-        words += ["--pursuer", pursuer]
-    return stepaside(
-        *("tournament", *words, "--room", room, "--seeds", seeds, "--json"),
-        *("--duration", duration, "--workers", 1),
-    ).json["rows"]
-
-
-def robustness(kind: str, *words: object, seeds: int = 1) -> Any:
-    """Measure how many walks survive a disturbance, in open loop."""
-    return stepaside(
-        *("robustness", "--kind", kind, "--seeds", seeds, "--json", *words),
-        *("--method", "open-loop", "--workers", 1),
-    ).json
+    for name, value in settings.items():
+        each = value if isinstance(value, list | tuple) else [value]
+        path = name.replace("__", ".")
+        words += ["--set", f"{path}={','.join(map(str, each))}"]
+    return words
 
 
 def walk_on_uneven_floor(height: float, *, seed: int) -> Any:
@@ -278,27 +260,19 @@ def game_of_file(file: Path) -> Any:
     return stepaside("game", file, "--json").json
 
 
-def games_of_file(file: Path, seeds: str) -> Any:
-    """Play the game of a file with seeds; return the only row."""
-    (row,) = stepaside(
-        "games", file, "--seeds", seeds, "--workers", 1, "--json"
-    ).json["rows"]
-    return row
-
-
 def study(file: Path, output: Path, *words: object, **process: Any) -> Output:
     """Run a study in one process; its output is one JSON object."""
-    kept = ("--output", output, "--workers", 1, "--json")
+    kept = ("--output", table_in(output), "--workers", 1, "--json")
     return stepaside("study", file, *kept, *words, **process)
 
 
 def table_in(output: Path) -> Path:
-    """The file with the table of a study in its folder of results."""
-    return output / "study.sqlite"
+    """The file of a study by a name."""
+    return output.with_suffix(".sqlite")
 
 
 def records_in(output: Path) -> int:
-    """How many cases of a study are stored in its folder so far."""
+    """How many cases of a study are stored so far."""
     if not table_in(output).exists():
         return 0
     with closing(sqlite3.connect(table_in(output))) as table:
@@ -313,7 +287,7 @@ def start_study(
     file: Path, output: Path, **environment: str
 ) -> "subprocess.Popen[str]":
     """Start a study, which is ended before it has finished."""
-    words = ("study", file, "--output", output, "--workers", 2)
+    words = ("study", file, "--output", table_in(output), "--workers", 2)
     return start_stepaside(*words, env=environment)
 
 
@@ -325,15 +299,14 @@ def commands() -> list[str]:
 
 def merge(output: Path, *parts: Path) -> Output:
     """Join the results of shards."""
-    return stepaside("merge", *parts, "--output", output)
+    files = map(table_in, parts)
+    return stepaside("merge", *files, "--output", table_in(output))
 
 
-def frame_of_duels(settings: Any, seeds: Sequence[int]) -> Any:
+def frame_of_duels(settings: dict[str, Any], seeds: Sequence[int]) -> Any:
     """Play duels as a study in Python; return the data frame."""
-    from stepaside.studies.duel_campaign import duel_study
-    from stepaside.studies.study import run_study
-
-    return run_study(duel_study(settings, seeds)).to_frame()
+    study = sa.make_study("duel", settings, {"seed": seeds})
+    return sa.run_study(study).to_frame()
 
 
 def environment(role: str, **settings: Any) -> Any:

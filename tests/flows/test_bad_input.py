@@ -32,8 +32,8 @@ CASES = {  # of each line: what the message names
     "duel --output run": ("run",),
     "walk --push 1@x:2 --output new": ("--push", "x"),
     "game alone.toml --output new": ("a ", "opponent"),
-    "study study.toml --output new": ("speeed",),
-    "tournament --seeds 5:2 --output new": ("--seeds", "5:2"),
+    "study study.toml --output new.sqlite": ("speeed",),
+    "study tournament --set seed=5:2 --output new.sqlite": ("at least one",),
     "robot init robot.urdf --output new": ("robot.urdf", "XML"),
     "legs inspect junk.onnx": ("junk.onnx", "ONNX"),
     "show run -o new.html": ("run", "summary.json"),
@@ -67,7 +67,7 @@ def test_what_is_bad_is_named_in_one_line(line: str, tmp_path: Path) -> None:
         found = [word in answer.err for word in words.split("|")]
         assert any(found), answer.err
     assert contents(tmp_path) == before
-    assert not (tmp_path / "new").exists()
+    assert not list(tmp_path.glob("new*"))
 
 
 @pytest.mark.parametrize(
@@ -88,12 +88,10 @@ def test_what_is_bad_is_refused_in_python(
 
 
 def test_joining_only_damaged_results_is_refused(tmp_path: Path) -> None:
-    part = tmp_path / "part" / "study.sqlite"
-    part.parent.mkdir()
+    part, whole = tmp_path / "part.sqlite", tmp_path / "all.sqlite"
     part.write_text("half a li")
-    calls.stepaside(
-        *("merge", tmp_path / "part", "--output", tmp_path / "all"), status=2
-    )
+    calls.stepaside("merge", part, "--output", whole, status=2)
+    assert not whole.exists()
 
 
 def test_a_game_file_may_begin_with_a_byte_order_mark(tmp_path: Path) -> None:

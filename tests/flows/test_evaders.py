@@ -124,32 +124,28 @@ def test_a_network_of_two_outputs_is_the_file_of_the_same_law(
 
 def test_a_rating_compares_by_the_same_games() -> None:
     """Who stands is caught; the best possible is that of the starts."""
-    card = calls.rate_evaders(own("Still"), ASIDE, games=2)
-    rows = {
-        (row["strategy"], row["world"], row["opponent"]): row
-        for row in card["rows"]
-    }
+    evaders = calls.changes(evader=[own("Still"), ASIDE], seed="0:2")
+    card = calls.rows_of("rating", *evaders)
+    rows = {(r["evader"], r["floor"], r["pursuer"]): r for r in card}
     caught = rows[own("Still"), "open floor", "pursuit"]
-    assert caught["survived"] == 0.0
-    assert 0.35 - STRIDE <= caught["mean_closest_m"] <= 0.35
-    assert caught["mean_regret_m"] > 0.5
-    for (name, world, opponent), row in rows.items():
-        other = rows[ASIDE, world, opponent]
-        if name != ASIDE and row["mean_regret_m"] is not None:
-            assert sum(best_of(row)) == pytest.approx(sum(best_of(other)))
-    assert [score["strategy"] for score in card["scores"]] == [
-        ASIDE,
-        own("Still"),
-    ]
-    for score in card["scores"]:
-        closest = [
-            row["mean_closest_m"]
-            for row in card["rows"]
-            if row["strategy"] == score["strategy"]
+    assert caught["survived"]["share"] == 0.0
+    assert 0.35 - STRIDE <= caught["reached_m"]["mean"] <= 0.35
+    assert caught["regret_m"]["mean"] > 0.5
+    for (_, floor, pursuer), row in rows.items():
+        other = rows[ASIDE, floor, pursuer]
+        assert best_of(row) == pytest.approx(best_of(other))
+    scores = calls.rows_of("rating", *evaders, "--by", "evader")
+    assert [score["evader"] for score in scores] == [own("Still"), ASIDE]
+    assert scores[0]["reached_m"]["mean"] < scores[1]["reached_m"]["mean"]
+    for score in scores:
+        reached = [
+            row["reached_m"]["mean"]
+            for row in card
+            if row["evader"] == score["evader"]
         ]
-        assert score["score_m"] == pytest.approx(np.mean(closest))
+        assert score["reached_m"]["mean"] == pytest.approx(np.mean(reached))
 
 
-def best_of(row: dict[str, Any]) -> tuple[float, float]:
-    """Closest approach, and what it lacks to the best possible."""
-    return row["mean_closest_m"], row["mean_regret_m"]
+def best_of(row: dict[str, Any]) -> float:
+    """Best possible closest approach: what is reached, and the regret."""
+    return float(row["reached_m"]["mean"] + row["regret_m"]["mean"])

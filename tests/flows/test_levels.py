@@ -8,11 +8,11 @@ import numpy as np
 import pytest
 
 import stepaside as sa
+from flows import calls
 from flows.calls import (
     arena_duel,
     kept_summary,
     play_duel,
-    summary,
     trajectories,
 )
 from flows.circles import PACE, apart, arc, circle
@@ -138,17 +138,18 @@ def test_an_episode_is_the_game_of_the_tournament() -> None:
     """Arena and start are those of its seed; the evader is the paper's."""
     pytest.importorskip("gymnasium")
     pytest.importorskip("pettingzoo")
-    table = summary(
-        *("tournament", "--level", "steps", "--room", "open"),
-        *("--evader", ASIDE, "--pursuer", "pursuit", "--seeds", "3:4"),
-        *("--duration", 60, "--workers", 1),
+    (row,) = calls.rows_of(
+        "tournament",
+        *calls.changes(level="steps", floor="open", seed="3:4"),
+        *calls.changes(evader=ASIDE, pursuer="pursuit", game__duration=60),
     )
-    (row,) = table["rows"]
     goal = circle()
-    assert row["games"] == 1 and row["survived"] == 1.0
-    assert row["circle_distance_m"] == pytest.approx(goal.distance)
+    assert row["number"] == 1 and row["survived"]["share"] == 1.0
+    assert row["circle_m"]["mean"] == pytest.approx(goal.distance)
     steps = play_by_the_paper(level="steps", arenas=1, first_arena=3)
-    assert steps["closest_m"] == pytest.approx(row["mean_closest_m"], abs=1e-6)
+    assert steps["closest_m"] == pytest.approx(
+        row["closest_m"]["mean"], abs=1e-6
+    )
     unicycle = play_by_the_paper(level="unicycle", arenas=1, first_arena=3)
     for info in (steps, unicycle):
         assert info["distance_m"] == pytest.approx(goal.distance, rel=0.01)

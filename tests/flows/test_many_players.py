@@ -7,6 +7,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from flows import calls
 from flows.calls import Arrays, kept_summary, summary, trajectories
 from flows.circles import GAIN, PACE, SPEED, apart
 
@@ -58,18 +59,19 @@ def test_two_pursuers_walk_at_their_evader(tmp_path: Path) -> None:
 
 def test_an_evader_that_knows_its_pursuers_is_not_captured() -> None:
     """Three assigned pursuers catch one of two who each know one of them."""
-    table = summary(
-        *("games", EXAMPLES / "teams.toml", "--pursuer", "assigned"),
-        *("--evader", "evasion", "--evader", "team-evasion"),
-        *("--seeds", "2:3", "--duration", 45, "--workers", 1),
+    found = calls.rows_of(
+        EXAMPLES / "teams.toml",
+        *calls.changes(pursuers="assigned"),
+        *calls.changes(evaders=["evasion", "team-evasion"]),
+        *calls.changes(seed="2:3", duration=45),
     )
-    rows = {row["evaders"]: row for row in table["rows"]}
+    rows = {row["evaders"]: row for row in found}
     caught, free = rows["evasion"], rows["team-evasion"]
-    assert caught["games"] == free["games"] == 1
-    assert caught["captured"]["number"] == 1
-    assert caught["least_closest_m"] <= 0.35
-    assert free["captured"]["number"] == 0
-    assert free["least_closest_m"] > 0.35
+    assert caught["number"] == free["number"] == 1
+    assert caught["captured"]["count"] == 1
+    assert caught["closest_m"]["min"] <= 0.35
+    assert free["captured"]["count"] == 0
+    assert free["closest_m"]["min"] > 0.35
 
 
 def test_an_evader_leaves_between_pursuers_at_a_right_angle(

@@ -26,52 +26,57 @@ def wilson(number: int, of: int) -> tuple[float, float]:
 
 def test_a_tournament_tells_how_each_game_ended() -> None:
     """Who stands is caught, who walks straight on meets a wall."""
-    rows = calls.tournament(
-        [STILL, STRAIGHT, ASIDE],
-        ["pursuit"],
-        room="3x3",
-        seeds="0:3",
-        duration=60.0,
+    rows = calls.rows_of(
+        "tournament",
+        *calls.changes(evader=[STILL, STRAIGHT, ASIDE], seed="0:3"),
+        *calls.changes(game__duration=60),
     )
     still, straight, aside = rows
     assert [row["evader"] for row in rows] == [STILL, STRAIGHT, ASIDE]
-    assert [row["captured"] for row in rows] == [1.0, 0.0, 0.0]
-    assert [row["touched_obstacle"] for row in rows] == [0.0, 1.0, 0.0]
-    assert [row["survived"] for row in rows] == [0.0, 0.0, 1.0]
-    assert CAPTURE - STRIDE <= still["mean_closest_m"] <= CAPTURE
-    assert 0.0 < straight["mean_survival_s"] < 3.0 * sqrt(2.0) / 0.1
-    assert aside["mean_survival_s"] == pytest.approx(60.0)
+    for name, shares in (
+        ("captured", [1.0, 0.0, 0.0]),
+        ("touched_obstacle", [0.0, 1.0, 0.0]),
+        ("survived", [0.0, 0.0, 1.0]),
+    ):
+        assert [row[name]["share"] for row in rows] == shares
+    assert CAPTURE - STRIDE <= still["closest_m"]["mean"] <= CAPTURE
+    assert 0.0 < straight["survived_s"]["mean"] < 3.0 * sqrt(2.0) / 0.1
+    assert aside["survived_s"]["mean"] == pytest.approx(60.0)
     for row, survived in zip(rows, (0, 0, 3), strict=True):
-        interval = row["survived_low"], row["survived_high"]
+        interval = row["survived"]["low"], row["survived"]["high"]
         assert interval == pytest.approx(wilson(survived, 3), abs=1e-6)
 
 
 def test_a_campaign_of_walks_is_those_walks() -> None:
     """On the roughest floor; on the flattest one none falls."""
-    rows = calls.robustness("unevenness", "--seed", 3)["survival"]
-    flat, rough = rows[0], rows[-1]
-    assert flat["strength"] == 0.0 < rough["strength"]
-    alone = calls.walk_on_uneven_floor(rough["strength"], seed=3)
+    flat, rough = calls.rows_of(
+        "robustness",
+        *calls.changes(method="open-loop", seed="3:4"),
+        *calls.changes(disturbance=["unevenness 0 mm", "unevenness 8 mm"]),
+    )
+    alone = calls.walk_on_uneven_floor(0.008, seed=3)
     assert alone["outcome"] == "fall"
-    assert (flat["survived"], rough["survived"]) == (1, 0)
-    for row in rows:
-        interval = row["low"], row["high"]
-        assert row["trials"] == 1
-        assert interval == pytest.approx(wilson(row["survived"], 1), abs=1e-6)
+    assert (flat["survived"]["count"], rough["survived"]["count"]) == (1, 0)
+    for row in (flat, rough):
+        interval = row["survived"]["low"], row["survived"]["high"]
+        assert row["number"] == 1
+        assert interval == pytest.approx(
+            wilson(row["survived"]["count"], 1), abs=1e-6
+        )
 
 
 def test_people_who_walk_straight_touch_a_robot_that_stands() -> None:
-    """They are aimed up to 0.6 m beside it."""
-    words = ("--people", 2, "--strategy", "stand", "--sensing", "lidar")
-    person = calls.robustness("person", *words)["person"]
-    assert person["planned"] == person["done"] == 2
-    rows = person["reactions"]
-    assert [row["reaction"] for row in rows] == ["straight"] * 2
-    assert sorted(row["hard"] for row in rows) == [False, True]
-    for row in rows:
-        assert (row["number"], row["contacts"]) == (1, 1)
-        assert row["causes"] == {"did not start": 1}
-        assert 0.1 < row["closest_m"] < 0.6
+    """They are aimed 0.23 and 0.11 m beside it."""
+    (row,) = calls.rows_of(
+        "people",
+        *calls.changes(person="straight", drawn="true", seed="[1,3]"),
+        *calls.changes(speed=1.0, bearing=0),
+        *calls.changes(duel__evader_strategy="stand", duel__sensing="lidar"),
+        *("--by", "person"),
+    )
+    assert row["number"] == row["contact"]["count"] == 2
+    assert row["cause"]["did not start"]["count"] == 2
+    assert 0.1 < row["closest_m"]["min"] <= row["closest_m"]["max"] < 0.5
 
 
 @pytest.mark.parametrize(
@@ -123,9 +128,9 @@ def test_the_closest_approach_is_that_of_opponents(tmp_path: Path) -> None:
             duration=1.0,
         )
     )
-    row = calls.games_of_file(file, "0:1")
-    assert row["least_closest_m"] == row["mean_closest_m"] == 2.0
-    assert row["captured"]["number"] == 0
+    (row,) = calls.rows_of(file, *calls.changes(seed="0:1"))
+    assert row["closest_m"]["min"] == row["closest_m"]["mean"] == 2.0
+    assert row["captured"]["count"] == 0
 
 
 @pytest.mark.parametrize("aside", [0.0, 2.0])

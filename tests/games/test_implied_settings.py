@@ -26,7 +26,7 @@ from stepaside.locomotion.zmp.control_settings import ControlSettings
 from stepaside.planning import PRESETS
 from stepaside.sim.body_settings import BODIES
 from stepaside.strategies import Evasion
-from stepaside.studies.sweep import load_sweep
+from stepaside.studies.study_games import settings_of
 
 DUEL = DuelSettings()
 FAST = replace(DUEL, gait=PRESETS["fast"])
@@ -147,9 +147,7 @@ def test_settings_imply_the_same_from_every_door(
     file = load_configuration(write(tmp_path / "duel.toml", entries))
     assert file.resolved() == resolved
 
-    grid = {"game": "duel", "settings": entries, "grid": {"seed": [1]}}
-    sweep = load_sweep(write(tmp_path / "study.toml", grid))
-    assert sweep.settings(sweep.cases[0]).resolved() == resolved
+    assert settings_of(DuelSettings, entries).resolved() == resolved
 
     body, pursuer = entries.pop("body"), entries.pop("pursuer")
     evader = {"name": "blue", "role": "evader", **entries}

@@ -31,12 +31,8 @@ COMMANDS = {
     "chauffeur": "bound --against person --evader-speed 0.6 --grid 16 "
     "--refine 0",
     "room": "room --discs 2 --doors 1",
-    "duels": "duels --seeds 0:2 --duration 1 --workers 1",
-    "tournament": "tournament --seeds 0:1 --duration 1 --evader evasion "
-    "--workers 1",
-    "rating": "rate evasion --games 1 --duration 1 --workers 1",
-    "robustness": "robustness --kind delay --seeds 1 --method open-loop "
-    "--body ideal --workers 1",
+    "study": "study tournament --set seed=0:2 --set game.duration=1 "
+    "--set evader=evasion,optimal --workers 1",
 }
 
 pytestmark = pytest.mark.usefixtures("inline_workers")

@@ -223,7 +223,6 @@ def test_exit_status_is_0_if_every_claim_holds_else_1(
 def test_interrupt_ends_worker_processes_with_status_130(
     bench: Bench, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    """Also with one worker, which runs in its own process."""
     requests: list[int | None] = []
 
     def pool(number: int | None) -> ThreadPoolExecutor:
@@ -232,7 +231,7 @@ def test_interrupt_ends_worker_processes_with_status_130(
 
     bench.stop_at = 1
     monkeypatch.setattr(workers, "worker_pool", pool)
-    call = ["reproduce", "--workers", "1", "--output", str(tmp_path)]
+    call = ["reproduce", "--workers", "2", "--output", str(tmp_path)]
     result = CliRunner().invoke(main, call)
-    assert (result.exit_code, requests) == (130, [1])
+    assert (result.exit_code, requests) == (130, [2])
     assert not (tmp_path / "claims.json").exists()

@@ -107,8 +107,10 @@ def test_what_a_strategy_prints_is_not_among_json(tmp_path: Path) -> None:
 
 def test_what_workers_print_is_not_among_json(tmp_path: Path) -> None:
     name = strategy(tmp_path, decide="print('noise', flush=True)")
-    words = ("tournament", "--seeds", "1:2", "--duration", "1", "--evader")
-    found = command(*words, name, "--json")
+    words = ["study", "tournament", "--workers", "2", "--json"]
+    for change in (f"evader={name}", "seed=1:3", "game.duration=1"):
+        words += ["--set", change]
+    found = command(*words)
     assert found.returncode == 0, found.stderr
     assert json.loads(found.stdout)
     assert "noise" in found.stderr
@@ -128,7 +130,7 @@ def test_json_goes_out_where_standard_error_is_closed(tmp_path: Path) -> None:
 
 
 def test_json_and_a_configuration_are_printed_as_before() -> None:
-    for words in (("walk",), ("robustness",), ("duel",)):
+    for words in (("walk",), ("duel",)):
         result = CliRunner().invoke(
             main, [*words, "--json", "--print-config"], catch_exceptions=False
         )
@@ -168,9 +170,3 @@ def test_a_model_without_the_robot_is_refused(
     result = CliRunner().invoke(main, [*words, place])
     assert result.exit_code == 2, result.output
     assert result.output.startswith("stepaside: ")
-
-
-CAMPAIGNS: dict[str, tuple[str, ...]] = {
-    "duels": ("duels", "--seeds", "1:25", "--duration", "0.05"),
-    "tournament": ("tournament", "--seeds", "1:4", "--duration", "1"),
-}

@@ -13,7 +13,6 @@ import pytest
 
 from stepaside.core.errors import CampaignError, ConfigurationError
 from stepaside.studies import study as studies
-from stepaside.studies.case_grid import CaseGrid
 from stepaside.studies.executors import open_executor
 from stepaside.studies.study import (
     MOST_CASES,
@@ -128,9 +127,8 @@ def test_an_error_of_a_case_is_raised_after_the_others_of_its_block(
 
 
 def test_a_study_with_too_many_cases_is_refused() -> None:
-    grid = CaseGrid(*[range(1000)] * 4)
     with pytest.raises(ConfigurationError, match=f"at most {MOST_CASES}"):
-        run_study(study_of(grid))
+        run_study(study_of(range(10**12)))
 
 
 @pytest.mark.parametrize("content", [b"no database", b"SQLite format 3\0x"])
@@ -256,14 +254,3 @@ def test_an_unknown_executor_is_refused(name: str) -> None:
     with pytest.raises((ConfigurationError, TypeError)):
         with open_executor(name):
             pass
-
-
-def test_a_grid_is_a_product_in_the_order_of_nested_loops() -> None:
-    grid = CaseGrid("ab", range(2), (0.5,))
-    items = [("a", 0, 0.5), ("a", 1, 0.5), ("b", 0, 0.5), ("b", 1, 0.5)]
-    assert list(grid) == items and len(grid) == 4
-    assert list(grid[1::2]) == items[1::2]
-    assert list(grid[::2][1:]) == [items[2]]
-    assert grid[-1] == items[-1]
-    with pytest.raises(IndexError):
-        grid[4]

@@ -37,10 +37,20 @@ def people(store: Store, file: Path) -> None:
     draw_people(result["origins"], result["clearance_m"], file)
 
 
+UNITS = {
+    "push": "N s",
+    "friction": "1",
+    "unevenness": "m",
+    "delay": "cycles",
+    "backlash": "deg",
+    "noise": "times the preset",
+    "model": "relative mass error",
+}
+
+
 def survival_on_hardware(store: Store, file: Path) -> None:
     """Draw survival over the strength of each disturbance."""
     from stepaside.report.robustness_figure import draw_survival
-    from stepaside.studies.robustness_trial import UNITS
 
     rows = [
         # This result has a former name of backlash.

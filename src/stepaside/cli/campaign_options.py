@@ -1,19 +1,22 @@
-"""Options of campaigns: workers, executor, shard, output."""
+"""Options of studies: workers, executor, shard; and their progress."""
 
 import re
 from collections.abc import Callable
 from functools import partial, wraps
 from pathlib import Path
-from typing import Any, NamedTuple, TypeVar
+from typing import TYPE_CHECKING, Any, NamedTuple, TypeVar
 
 import click
 
-from ..core.atomic_output import check_folder
+from ..core.progress import show_progress
 from ..studies.executors import PROCESSES, SPECIFICATIONS, check_executor
 from .options.common_options import workers_option
 from .options.parameter_types import TextType
 from .output_files import note_records, saved_text
-from .terminal import exit_interrupted
+from .terminal import echo, exit_interrupted, resume_message
+
+if TYPE_CHECKING:
+    from ..studies.study import Study, StudyProgress, StudyRun
 
 C = TypeVar("C")
 
@@ -55,99 +58,103 @@ executor_option = partial(
     show_default=True,
     help=f"Where cases run: {SPECIFICATIONS}; see docs/campaigns.md.",
 )
-shard_option = partial(
-    click.option,
-    "--shard",
-    type=ShardType(),
-    help="Run every N-th case only, from the I-th; `stepaside merge` joins "
-    "the outputs.",
-)
 
 
 class CampaignOptions(NamedTuple):
-    """Where a campaign runs, which part of it, and where results go.
+    """Where a study runs, and which part of it.
 
     Attributes:
         workers: Number of processes; all cores if None.
         executor: Specification of the executor; see
             :func:`~stepaside.studies.executors.open_executor`.
         shard: Number of the shard, from 1, and number of shards.
-        output: Folder of results; None to store nothing.
     """
 
-    workers: int | None = None
-    executor: str = PROCESSES
-    shard: tuple[int, int] | None = None
-    output: Path | None = None
-
-    def file_of(self, study: str) -> Path | None:
-        """Return the file of the records of a study; None to store none."""
-        return None if self.output is None else self.output / f"{study}.sqlite"
-
-    def with_default(self, output: Path) -> "CampaignOptions":
-        """Return the options with an output folder if there was none.
-
-        Raises:
-            ConfigurationError: If it cannot be written to.
-        """
-        if self.output is not None:
-            return self
-        check_folder(output, new=False)
-        made = self._replace(output=output)
-        note_records(output)
-        return made
-
-    @property
-    def is_whole(self) -> bool:
-        """Whether this is the whole campaign."""
-        return self.shard is None
-
-    def share(self, cases: int) -> int:
-        """Return how many of some cases are in the shard, about."""
-        return cases if self.shard is None else -(-cases // self.shard[1])
+    workers: int | None
+    executor: str
+    shard: tuple[int, int]
 
 
-def campaign_options(
-    output_help: str,
-) -> Callable[[Callable[..., Any]], Callable[..., Any]]:
-    """Add the options of a campaign, passed as ``campaign``.
+def campaign_options(function: Callable[..., Any]) -> Callable[..., Any]:
+    """Add the options of a study, passed as ``campaign``."""
+
+    @workers_option()
+    @executor_option()
+    @click.option(
+        "--shard",
+        type=ShardType(),
+        default=(1, 1),
+        help="Run every N-th case only, from the I-th; `stepaside merge` "
+        "joins the files.",
+    )
+    @wraps(function)
+    def command(
+        workers: int | None,
+        executor: str,
+        shard: tuple[int, int],
+        **values: Any,
+    ) -> Any:
+        campaign = CampaignOptions(workers, executor, shard)
+        try:
+            return function(campaign=campaign, **values)
+        except KeyboardInterrupt:
+            exit_interrupted(saved_text(click.get_current_context()))
+
+    return command
+
+
+def run_campaign(
+    study: "Study[C]",
+    file: Path | None,
+    campaign: CampaignOptions,
+    unit: str,
+) -> "StudyRun[C]":
+    """Run a study, or one shard of it, with progress on standard error.
 
     Args:
-        output_help: Help of ``--output``.
+        study: Study; a single case is measured in this process.
+        file: SQLite file of the records; None to store nothing.
+        campaign: Options.
+        unit: Unit of the progress, like ``games``.
+
+    Returns:
+        The results; see :func:`finish_campaign`.
     """
+    from ..studies.study import run_study
 
-    def decorate(function: Callable[..., Any]) -> Callable[..., Any]:
-        @wraps(function)
-        def command(
-            *args: Any,
-            workers: int | None,
-            executor: str,
-            shard: tuple[int, int] | None,
-            output: Path | None,
-            **values: Any,
-        ) -> Any:
-            if output is not None:
-                check_folder(output, new=False)
-            campaign = CampaignOptions(workers, executor, shard, output)
-            if output is not None:
-                note_records(output)
-            try:
-                return function(*args, campaign=campaign, **values)
-            except KeyboardInterrupt:
-                exit_interrupted(saved_text(click.get_current_context()))
+    inline = campaign.executor == PROCESSES and (
+        len(study.cases) == 1 or campaign.workers == 1
+    )
+    if file is not None:
+        note_records(file)
+    number, of = campaign.shard
+    total = len(range(number - 1, len(study.cases), of))
+    with show_progress(study.name, total, unit) as bar:
 
-        output_option = click.option(
-            "--output",
-            type=click.Path(file_okay=False, path_type=Path),
-            help=output_help,
+        def report(progress: "StudyProgress") -> None:
+            bar.initial, bar.n = progress.reused, progress.finished
+            bar.refresh()
+
+        return run_study(
+            study,
+            file,
+            executor=None if inline else campaign.executor,
+            workers=None if inline else campaign.workers,
+            shard=campaign.shard,
+            report=report,
+            warn=lambda message: echo(message, err=True),
         )
-        for option in (
-            output_option,
-            shard_option(),
-            executor_option(),
-            workers_option(),
-        ):
-            command = option(command)
-        return command
 
-    return decorate
+
+def finish_campaign(run: "StudyRun[C]", unit: str) -> None:
+    """End a command whose study could not be completed.
+
+    Raises:
+        OutputError: If a record could not be written.
+        SystemExit: After Ctrl-C, with the status of its signal.
+    """
+    if run.failure is not None:
+        raise run.failure
+    if run.interrupted:
+        done = f"{run.finished} of {run.total} {unit}"
+        exit_interrupted(resume_message(done, run.file))

@@ -68,16 +68,9 @@ def _files(context: click.Context) -> dict[str, tuple[int, ...]]:
     return existing
 
 
-def note_records(folder: Path) -> None:
-    """Note where the command records a campaign, for its interruption."""
-    click.get_current_context().meta[RECORDS] = folder
-
-
-def has_records(folder: Path) -> bool:
-    """Return whether a folder holds records of studies."""
-    from ..studies.study import count_records
-
-    return any(count_records(file) for file in folder.glob("*.sqlite"))
+def note_records(file: Path) -> None:
+    """Note where the command records a study, for its interruption."""
+    click.get_current_context().meta[RECORDS] = file
 
 
 def saved_text(
@@ -93,9 +86,15 @@ def saved_text(
     old = now if before is None else before
     new = [file for file, stat in now.items() if old.get(file) != stat]
     records = context.meta.get(RECORDS)
-    if records is not None and has_records(records):
+    if records is not None and _has_records(records):
         return resume_message(", ".join(["finished cases", *new]), records)
     return f"saved: {', '.join(new)}" if new else NOTHING_SAVED
+
+
+def _has_records(file: Path) -> bool:
+    from ..studies.study import count_records
+
+    return count_records(file) > 0
 
 
 def _check(context: click.Context, overwrite: bool) -> None:
@@ -140,7 +139,6 @@ def attempt(write: Callable[[], Any]) -> bool:
 __all__ = [
     "OutputFile",
     "attempt",
-    "has_records",
     "note_records",
     "saved_text",
     "writes_files",

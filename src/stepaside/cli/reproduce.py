@@ -6,10 +6,14 @@ from typing import Any
 
 import click
 
-from ..core.atomic_output import atomic_draft
+from ..core.atomic_output import atomic_draft, check_folder
 from ..core.errors import OutputError
-from .campaign_options import CampaignOptions, campaign_options
-from .campaign_reports import finish_campaign, run_campaign
+from .campaign_options import (
+    CampaignOptions,
+    campaign_options,
+    finish_campaign,
+    run_campaign,
+)
 from .options.common_options import (
     json_option,
     seed_option,
@@ -17,6 +21,7 @@ from .options.common_options import (
 from .progress import announce_effort
 from .terminal import echo, exit_interrupted, print_json, resume_message
 
+RECORDS = "claims.sqlite"
 SKIPPED = (
     "  skipped the paper's game on learned legs: --legs-robot names a robot "
     "with a walking policy"
@@ -42,15 +47,21 @@ SKIPPED = (
     help="Folder of a robot whose description names a walking policy: also "
     "measure the paper's game on its learned legs.",
 )
-@campaign_options(
-    "Folder of the report. Measurements in it are reused if settings and "
-    "results version are the same.  [default: runs/reproduce]"
+@click.option(
+    "--output",
+    type=click.Path(file_okay=False, path_type=Path),
+    default=Path("runs/reproduce"),
+    show_default=True,
+    help="Folder of the report. Measurements in it are reused if settings "
+    "and results version are the same.",
 )
+@campaign_options
 @json_option
 def reproduce(
     seed: int,
     runs: int,
     legs_robot: str,
+    output: Path,
     campaign: CampaignOptions,
     as_json: bool,
 ) -> None:
@@ -62,18 +73,16 @@ def reproduce(
     """
     from ..studies.claim_campaign import claim_rows, claim_study
 
-    campaign = campaign.with_default(Path("runs/reproduce"))
-    assert campaign.output is not None
-    output = campaign.output
+    check_folder(output, new=False)
     study = claim_study(range(seed, seed + runs), legs_robot)
     announce_effort(
         f"every claim of the paper, {runs} runs of those in physics",
-        campaign.share(60 + 120 * runs),
+        (60 + 120 * runs) / campaign.shard[1],
         campaign.workers,
     )
-    run = run_campaign(study, campaign, "runs")
-    finish_campaign(run, campaign, "runs")
-    if not campaign.is_whole:
+    run = run_campaign(study, output / RECORDS, campaign, "runs")
+    finish_campaign(run, "runs")
+    if campaign.shard[1] > 1:
         echo(f"results: {output}", err=as_json)
         return
     rows = claim_rows(run)

@@ -11,6 +11,7 @@ from .terminal import echo
 UNITS = {
     "_per_s": "1/s",
     "_rad_s": "rad/s",
+    "_n_s": "N s",
     "_m_s": "m/s",
     "_rad": "deg",
     "_deg": "deg",

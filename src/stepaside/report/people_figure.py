@@ -16,7 +16,7 @@ def draw_people(
     Ahead of the robot is up. A cross marks a contact.
 
     Args:
-        rows: Of :func:`~stepaside.studies.people_statistics.origin_rows`.
+        rows: Closest approach by sensing, speed and bearing.
         clearance: Clearance that the robot tries to keep, in [m].
         file: Figure to write.
     """

@@ -29,7 +29,7 @@ def draw_survival(
     """Draw survival rates with 95 % intervals by kind and direction.
 
     Args:
-        rows: Of :func:`~stepaside.studies.survival_statistics.survival_rows`.
+        rows: Survival by method, kind, direction and strength.
         units: Unit of the strength of each kind of disturbance.
         file: Figure to write.
     """
@@ -111,7 +111,7 @@ def draw_limits(rows: Sequence[Mapping[str, Any]], file: Path) -> None:
     """Draw the largest push survived over the gait phase, with bounds.
 
     Args:
-        rows: Of :func:`~stepaside.studies.survival_statistics.limit_rows`.
+        rows: Limits and bounds by method, direction and phase.
         file: Figure to write.
     """
     directions = list(dict.fromkeys(r["direction"] for r in rows))

@@ -1,1 +1,5 @@
-"""Many games, and what they say."""
+"""Studies: a grid of settings, played anywhere, and a table of records."""
+
+from ..core.lazy_exports import lazy_exports
+
+__getattr__, __dir__, __all__ = lazy_exports(__name__, __file__)

@@ -1,11 +1,8 @@
 """Record of a duel: what a campaign stores of it."""
 
-import json
-from dataclasses import asdict, replace
 from hashlib import sha256
 from math import isfinite
 from time import perf_counter
-from typing import Any
 
 import numpy as np
 
@@ -15,61 +12,23 @@ from ..games.duel import run_duel, run_duels
 from ..games.duel_settings import DuelSettings
 from ..games.outcome import Outcome
 from ..games.run import DuelRun
-from ..strategies.registry import file_of
 from ..theory.unicycle.certificate import certify
 from ..theory.unicycle.relative_coordinates import RelativeStart
 from ..theory.unicycle.unicycle_game import make_game
 from .tabulation import Record
 
-
-def settings_hash(settings: DuelSettings) -> str:
-    """Return a fingerprint of the settings of a duel without its seed.
-
-    Only differences from the default settings count, so that a setting that
-    is added later does not change it. The content of strategy files is
-    included, that of their imports is not.
-    """
-    settings = settings.resolved()
-    default = asdict(DuelSettings(seed=0).resolved())
-    entries = _differences(asdict(replace(settings.named(), seed=0)), default)
-    for name in (settings.evader_strategy, settings.pursuer_strategy):
-        file = file_of(name) if isinstance(name, str) else None
-        if file is not None and file.is_file():
-            entries[f"content of {name}"] = file.read_bytes().hex()
-    text = json.dumps(entries, sort_keys=True)
-    return sha256(text.encode()).hexdigest()[:12]
+BEFORE = 2.0 / 3.0  # of a duel; means are taken over the rest
 
 
-def _differences(
-    entries: dict[str, Any], default: dict[str, Any]
-) -> dict[str, Any]:
-    """Return the entries that differ from the default ones, by section."""
-    found: dict[str, Any] = {}
-    for name, value in entries.items():
-        usual = default.get(name)
-        if isinstance(value, dict) and isinstance(usual, dict):
-            value = _differences(value, usual)
-            if value:
-                found[name] = value
-        elif name not in default or value != usual:
-            found[name] = value
-    return found
-
-
-def play_seed(settings: DuelSettings, seed: int) -> Record:
-    """Play the duel of a seed and return its record."""
-    return play_record(replace(settings, seed=seed))
-
-
-def play_seeds(settings: DuelSettings, seeds: list[int]) -> list[Record]:
-    """Play the duels of seeds side by side and return their records."""
+def play_duels(settings: list[DuelSettings]) -> list[Record]:
+    """Play duels side by side and return their records."""
     began = perf_counter()
-    runs = run_duels([replace(settings, seed=seed) for seed in seeds])
-    wall = (perf_counter() - began) / len(seeds)
+    runs = run_duels(settings)
+    wall = (perf_counter() - began) / len(settings)
     return [_record_of(run, wall) for run in runs]
 
 
-def play_record(settings: DuelSettings) -> Record:
+def play_duel(settings: DuelSettings) -> Record:
     """Play one duel and return its record.
 
     Returns:
@@ -100,19 +59,36 @@ def _record_of(run: DuelRun, wall: float) -> Record:
         "distance_m": summary.distance_m,
         "relative_orientation_deg": summary.relative_orientation_deg,
         "converged_at_s": summary.converged_at_s,
+        "on_circle": summary.converged_at_s is not None,
+        "on_circle_in_time": _in_time(run),
         "min_distance_m": summary.min_distance_m,
         "triggered_at_s": summary.triggered_at_s,
         "triggered_at_distance_m": summary.triggered_at_distance_m,
         "min_zmp_margin_m": summary.min_zmp_margin_m,
         "max_com_velocity_jump_m_s": summary.max_com_velocity_jump_m_s,
+        "theory_radius_m": summary.theory.radius_m,
+        "theory_distance_m": summary.theory.distance_m,
+        "theory_orientation_deg": summary.theory.relative_orientation_deg,
         **_evasion(run),
     }
+    closest, certified = (
+        record["evading_min_distance_m"],
+        record["certified_m"],
+    )
+    both = closest is not None and certified is not None
+    record["over_certificate_m"] = closest - certified if both else None
     if summary.sight is not None:
         for name in ("lost_s", "detection_rate", "false_detections"):
             record[name] = getattr(summary.sight, name)
     record["digest"] = digest_of(run)
     record["wall_s"] = round(wall, 3)
     return record
+
+
+def _in_time(run: DuelRun) -> bool:
+    """Return whether a duel is on its circle before its last third."""
+    since = run.summary.converged_at_s
+    return since is not None and since < BEFORE * run.settings.duration
 
 
 def _evasion(run: DuelRun) -> Record:

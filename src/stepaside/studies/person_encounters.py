@@ -1,35 +1,23 @@
 """Encounters with approaching people."""
 
-import json
-from collections.abc import Iterator, Sequence
-from dataclasses import dataclass, replace
-from hashlib import sha256
-from math import atan2, cos, radians, sin
+from dataclasses import dataclass, field, replace
+from math import atan2, cos, pi, radians, sin
 
 import numpy as np
 
+from ..core.errors import ConfigurationError
 from ..core.poses import wrap_angle
-from ..games.configuration_file import settings_entries
+from ..core.random_streams import named_generator
 from ..games.duel import run_duel, run_duels
 from ..games.duel_settings import DuelSettings, StartSettings
 from ..games.outcome import Outcome
-from ..games.robot_settings import with_legs
 from ..games.run import DuelRun
-from ..games.walk_settings import WalkSettings
-from ..locomotion.policy.legs_settings import LegsSettings
-from ..sim.camera_settings import CameraSettings
 from ..sim.crowd_motion import REACTIONS
 from ..sim.person_settings import PersonSettings
-from ..strategies import DashEvasion, Evasion
-from ..strategies.shield_settings import ShieldSettings
+from ..strategies import DashEvasion
+from ..theory.unicycle.lateral_evasion import lateral_clearance
 from .tabulation import Record
 
-SPEEDS = (0.3, 0.6, 1.0, 1.4)  # of people, in [m/s]
-BEARINGS = (0, 45, -90, 135, 180)  # from which they approach, in [deg]
-SPEEDS_ON_LEGS = (0.5, 1.0, 1.4, 1.8)  # likewise, of robots on learned legs
-OFFSETS_ON_LEGS = (0.0, 1.2)
-BEARINGS_ON_LEGS = tuple(range(0, 360, 30))
-OFFSETS = (0.0, 0.3, -0.3, 1.2)  # lateral, of their path, in [m]
 LADDER = (  # of what people do near the robot
     "straight",
     "halting",
@@ -37,13 +25,10 @@ LADDER = (  # of what people do near the robot
     "backing",
     *(name for name in REACTIONS if name not in ("none", "avoid-people")),
 )
-HALTS_AT = 1.2  # distance from the robot at which people halt, in [m]
-TURNS_AT = 1.6  # likewise at which they turn towards it
-TURNING_OFFSET = 1.2  # of the path of people before they turn, in [m]
-NO_LEGS = LegsSettings()
-NO_SHIELD = ShieldSettings()
-CAMERAS = CameraSettings()
-PASSING = 1.0  # least offset of people who only pass, in [m]
+SEEN_AT = 3.5  # distance at which a depth camera detects people, in [m]
+LEAST = np.array([0.5, -180.0, -0.6, 0.8])  # speed [m/s], bearing [deg],
+MOST = np.array([1.4, 180.0, 0.6, 3.0])  # offset [m], change at [m]
+TURNING = 0.6, 1.4  # offset of drawn people who turn, to either side, in [m]
 STANDING = 1.5  # time before a person can trigger evasion, in [s]
 WALL_CLEARANCE = 4.0  # from the person to the walls with cameras, in [m]
 PAST = 2.5  # distance that they walk on behind the robot, in [m]
@@ -64,52 +49,73 @@ class Encounter:
             in [deg].
         offset: Lateral offset of the path from the robot, to its left, in
             [m].
-        sensing: Sensing of the robot, as in :class:`DuelSettings`.
-        seed: Seed of the game.
-        base: All other settings of the game.
         reaction: What the person does near the robot, one of ``LADDER``.
         change_at: Distance from the robot at which a person halts or turns
             towards it, in [m].
+        drawn: Whether these but the reaction are drawn by the seed instead.
+        seed: Seed of the game.
+        duel: All other settings of the game.
     """
 
-    speed: float
-    bearing: float
-    offset: float
-    sensing: str
-    seed: int
-    base: DuelSettings
+    speed: float = 1.0
+    bearing: float = 0.0
+    offset: float = 0.0
     reaction: str = "straight"
-    change_at: float = 0.0
+    change_at: float = 1.2
+    drawn: bool = False
+    seed: int = 1
+    duel: DuelSettings = field(
+        default_factory=lambda: DuelSettings(pursuer="person")
+    )
+
+    def __post_init__(self) -> None:
+        """Validate the settings."""
+        if self.reaction not in LADDER:
+            raise ConfigurationError(
+                f"reaction must be one of {', '.join(LADDER)}, got "
+                f"{self.reaction!r:.40}"
+            )
 
     @property
-    def key(self) -> str:
-        """Key among records."""
-        text = json.dumps(settings_entries(self.base), sort_keys=True)
-        digest = sha256(text.encode()).hexdigest()[:12]
-        path = (self.speed, self.bearing, self.offset, self.sensing)
-        reaction = self.reaction, self.change_at
-        return json.dumps([*path, self.seed, digest, *reaction])
-
-    @property
-    def passes(self) -> bool:
-        """Whether the person would pass a robot that does not move."""
-        return self.reaction == "straight" and abs(self.offset) >= PASSING
+    def person(self) -> "Encounter":
+        """The encounter with what is drawn by the seed."""
+        if not self.drawn:
+            return self
+        shares = named_generator(self.seed, "person").random(4)
+        values = np.round(LEAST + shares * (MOST - LEAST), 6).tolist()
+        speed, bearing, offset, change = values
+        if self.reaction == "turning":
+            low, high = TURNING
+            size = low + abs(2.0 * float(shares[2]) - 1.0) * (high - low)
+            offset = size if offset >= 0.0 else -size
+        return replace(
+            self,
+            speed=speed,
+            bearing=bearing,
+            offset=offset,
+            change_at=change,
+            drawn=False,
+        )
 
     @property
     def settings(self) -> DuelSettings:
         """Settings of the game, with the person far enough away at first."""
-        strategy = self.base.strategy
+        duel = self.duel.resolved()
+        strategy = replace(duel.strategy, trigger="time")
+        if duel.legs.walks:
+            strategy = replace(strategy, clearance=DashEvasion().clearance)
         ahead = strategy.contact_time + STANDING
         distance = strategy.clearance + self.speed * ahead
-        room, lingers = self.base.room, self.reaction != "straight"
-        if self.sensing == "cameras":
+        room, lingers = duel.room, self.reaction != "straight"
+        if duel.sensing == "cameras":
             # A near wall would be detected before the person.
             room = replace(room, walls=distance + WALL_CLEARANCE)
         return replace(
-            self.base,
+            duel,
             seed=self.seed,
             duration=(distance + PAST) / self.speed + lingers * LINGERING,
-            sensing=self.sensing,
+            pursuer="person",
+            strategy=strategy,
             room=room,
             person=self._person(distance),
             start=StartSettings(
@@ -138,117 +144,64 @@ class Encounter:
         return replace(walk, turn_after=walked, turn=turn)
 
 
-def base_settings(
-    walk: WalkSettings,
-    legs: LegsSettings = NO_LEGS,
-    strategy: str = "",
-    shield: ShieldSettings = NO_SHIELD,
-    cameras: CameraSettings = CAMERAS,
-) -> DuelSettings:
-    """Return the game settings of a campaign.
-
-    Args:
-        walk: Robot, gait, physics, body and control.
-        legs: Walking policy.
-        strategy: Strategy of the robot; by default that for its legs.
-        shield: Shield of the robot.
-        cameras: Its cameras, with the sensing of cameras.
-    """
-    base = DuelSettings(
-        robot=walk.robot,
-        gait=walk.gait,
-        physics=walk.physics,
-        body=walk.body,
-        control=walk.control,
-        pursuer="person",
-        strategy=Evasion(trigger="time"),
-        shield=shield,
-        cameras=cameras,
-    )
-    if legs.walks:
-        base = replace(
-            with_legs(base, legs.network),
-            legs=legs,
-            strategy=replace(base.strategy, clearance=DashEvasion().clearance),
-        )
-    return replace(base, evader_strategy=strategy)
-
-
-def encounters(
-    base: DuelSettings,
-    sensings: Sequence[str],
-    seeds: Sequence[int],
-    *,
-    speeds: Sequence[float] | None = None,
-    bearings: Sequence[int] | None = None,
-    offsets: Sequence[float] | None = None,
-    reactions: Sequence[str] = ("straight",),
-) -> Iterator[Encounter]:
-    """Yield the encounters of a grid.
-
-    People who react are aimed at the robot, and those who turn beside it.
-
-    Args:
-        base: Settings of the robot; see :func:`base_settings`.
-        sensings: Kinds of sensing, as in :class:`DuelSettings`.
-        seeds: Seeds of each combination.
-        speeds: Speeds of people, in [m/s]; by default those for the legs.
-        bearings: Initial bearings of people, in [deg]; likewise.
-        offsets: Lateral offsets of straight paths, in [m]; likewise.
-        reactions: What they do near the robot, of ``LADDER``.
-
-    Raises:
-        ConfigurationError: If the robot cannot sense like that.
-    """
-    walks = base.legs.walks
-    speeds = speeds or (SPEEDS_ON_LEGS if walks else SPEEDS)
-    bearings = bearings or (BEARINGS_ON_LEGS if walks else BEARINGS)
-    offsets = offsets or (OFFSETS_ON_LEGS if walks else OFFSETS)
-    kinds: list[tuple[str, float, float]] = []
-    for reaction in reactions:
-        if reaction == "straight":
-            kinds += [(reaction, offset, 0.0) for offset in offsets]
-        elif reaction == "turning":
-            kinds.append((reaction, TURNING_OFFSET, TURNS_AT))
-        else:
-            kinds.append((reaction, 0.0, HALTS_AT))
-    for sensing in sensings:
-        replace(base, sensing=sensing)
-        for speed in speeds:
-            for bearing in bearings:
-                for reaction, offset, change in kinds:
-                    for seed in seeds:
-                        yield Encounter(
-                            *(speed, bearing, offset, sensing, seed, base),
-                            reaction=reaction,
-                            change_at=change,
-                        )
-
-
 def play_encounter(encounter: Encounter) -> Record:
     """Play an encounter and return its record."""
-    run = run_duel(encounter.settings)
+    person = encounter.person
+    run = run_duel(person.settings)
     if run.outcome is Outcome.INTERRUPTED:
         raise KeyboardInterrupt
-    return _record_of(run)
+    return _record_of(person, run)
 
 
 def play_encounters(encounters: list[Encounter]) -> list[Record]:
     """Play encounters side by side and return their records."""
-    return [_record_of(r) for r in run_duels([e.settings for e in encounters])]
+    people = [encounter.person for encounter in encounters]
+    runs = run_duels([person.settings for person in people])
+    return [_record_of(*each) for each in zip(people, runs, strict=True)]
 
 
-def _record_of(run: DuelRun) -> Record:
+def _record_of(person: Encounter, run: DuelRun) -> Record:
     summary = run.summary
+    triggered = summary.triggered_at_s is not None
     return {
+        "speed": person.speed,
+        "bearing": person.bearing,
+        "offset": person.offset,
         "outcome": run.outcome.value,
+        "contact": run.outcome is Outcome.CONTACT,
+        "fell": run.outcome is Outcome.FALL,
         "duration_s": run.duration,
+        "triggered": triggered,
         "triggered_at_s": summary.triggered_at_s,
         "triggered_at_distance_m": summary.triggered_at_distance_m,
         "closest_m": summary.min_distance_m,
         "theory_closest_m": summary.theory.closest_approach_m,
+        "theory_clearance_m": theory_clearance(run.settings, person.speed),
         "cause": cause_of(run),
     }
+
+
+def theory_clearance(settings: DuelSettings, speed: float) -> float | None:
+    """Return the theoretical clearance from a person detected at 3.5 m.
+
+    Args:
+        settings: Settings of the game.
+        speed: Speed of the person, in [m/s].
+
+    Returns:
+        Clearance, in [m]; None on learned legs.
+    """
+    if settings.legs.walks:
+        return None
+    gait = settings.gait
+    time_scale = gait.path_interval / gait.step_duration
+    return lateral_clearance(
+        gait.speed * time_scale,
+        0.5 * pi * gait.gain * time_scale,
+        person_speed=speed,
+        distance=SEEN_AT,
+        first_step=gait.start_support,
+    )
 
 
 def cause_of(run: DuelRun) -> str | None:

@@ -14,19 +14,25 @@ from concurrent.futures import (
     Future,
     wait,
 )
-from contextlib import contextmanager
+from contextlib import closing, contextmanager
 from dataclasses import dataclass
 from math import ceil
 from pathlib import Path
 from time import perf_counter
 from typing import Any, Generic, NamedTuple, TypeVar
 
-from ..core.errors import CampaignError, ConfigurationError, OutputError
+from ..core.errors import (
+    AnyPath,
+    CampaignError,
+    ConfigurationError,
+    OutputError,
+    as_path,
+)
 from ..core.progress import show_progress
 from ..core.worker_pool import cancel_pending
 from .executors import is_loss, open_executor, workers_of
 from .results_version import RESULTS, library_versions
-from .tabulation import Record, to_frame
+from .tabulation import Record, tabulate, to_frame
 
 C = TypeVar("C")
 MOST_CASES = 10_000_000  # of a study; they take 9 bytes each
@@ -61,6 +67,8 @@ class Study(Generic[C]):
         measure_together: Function from several cases to their records, equal
             to those of ``measure``; None to measure one after the other.
         together: Number of cases that are measured together.
+        by: Values that tell the rows of the table apart.
+        values: Values of the table.
     """
 
     name: str
@@ -69,6 +77,8 @@ class Study(Generic[C]):
     key_of: Callable[[C], str]
     measure_together: Callable[[list[C]], list[Record]] | None = None
     together: int = 1
+    by: tuple[str, ...] = ()
+    values: tuple[str, ...] = ()
 
 
 class StudyProgress(NamedTuple):
@@ -102,7 +112,7 @@ class StudyRun(Generic[C]):
     def __init__(
         self,
         study: Study[C],
-        file: Path | str | None = None,
+        file: AnyPath | None = None,
         shard: tuple[int, int] = (1, 1),
     ) -> None:
         """Find the records of a study in a file.
@@ -124,7 +134,10 @@ class StudyRun(Generic[C]):
                 f"a study must have at most {MOST_CASES} cases, got "
                 f"{len(study.cases)}"
             )
-        self.study, self.file = study, None if file is None else Path(file)
+        self.study, self.file = (
+            study,
+            None if file is None else Path(as_path(file, "file")),
+        )
         self.interrupted = False
         self.failure: OutputError | None = None
         self._base = _opened(self.file)
@@ -187,6 +200,19 @@ class StudyRun(Generic[C]):
         """Yield the records of the finished cases, in order of cases."""
         return (record for _, record in self.items())
 
+    def table(
+        self, by: Sequence[str] = (), values: Sequence[str] = ()
+    ) -> list[Record]:
+        """Tabulate the records; see :func:`.tabulation.tabulate`.
+
+        Args:
+            by: Values that tell the rows apart; by default those of the
+                study.
+            values: Values of the table; by default those of the study.
+        """
+        names = tuple(by) or self.study.by, tuple(values) or self.study.values
+        return tabulate(self.records(), *names)
+
     def to_frame(self, library: str = "polars") -> Any:
         """Return the records as a data frame, one row per case.
 
@@ -232,12 +258,12 @@ class StudyRun(Generic[C]):
         self.finished += len(rows)
 
 
-def merge_results(parts: Iterable[Path], whole: Path) -> int:
+def merge_results(parts: Iterable[AnyPath], file: AnyPath) -> int:
     """Join the records of files in another one.
 
     Args:
         parts: Files of shards, or of other parts of a study; they stay.
-        whole: File to write; what it has stays, too.
+        file: File to write; what it has stays, too.
 
     Returns:
         Number of records in the file.
@@ -246,10 +272,14 @@ def merge_results(parts: Iterable[Path], whole: Path) -> int:
         ConfigurationError: If a file has no records of a study.
         OutputError: If the file cannot be written.
     """
+    whole = Path(as_path(file, "file"))
+    files = [Path(as_path(part, "parts")) for part in parts]
+    if not sum(map(count_records, files)):
+        raise ConfigurationError("parts must have a record, got none")
     base = _opened(whole)
     try:
         columns = dict.fromkeys(_columns_of(base))
-        for part in parts:
+        for part in files:
             with _reading(part):
                 base.execute("ATTACH ? AS part", [str(part)])
                 columns |= dict.fromkeys(_columns_of(base, "part"))
@@ -271,11 +301,8 @@ def count_records(file: Path) -> int:
     """Return the number of records in a file; 0 if it does not exist."""
     if not file.is_file():
         return 0
-    base = _opened(file)
-    try:
+    with _reading(file), closing(sqlite3.connect(file, BUSY)) as base:
         (number,) = base.execute("SELECT COUNT(*) FROM records").fetchone()
-    finally:
-        base.close()
     return int(number)
 
 
@@ -374,7 +401,7 @@ def measure_block(
 
 def run_study(
     study: Study[C],
-    file: Path | str | None = None,
+    file: AnyPath | None = None,
     *,
     executor: Executor | str | None = None,
     workers: int | None = None,

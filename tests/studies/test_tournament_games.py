@@ -1,28 +1,22 @@
-"""Test tournaments: games, records, rows, figures and the command."""
+"""Test games of tournaments, and their records."""
 
-import json
 from dataclasses import replace
 from math import cos, pi, sin
-from pathlib import Path
 from types import SimpleNamespace
 from typing import Any
 
 import numpy as np
 import pytest
-from click.testing import CliRunner, Result
 
 from stepaside.arena import RoomRecipe
-from stepaside.cli.main import main
 from stepaside.core.convex import grown_hull_area
 from stepaside.core.poses import wrap_angles
 from stepaside.games.outcome import Outcome
 from stepaside.strategies import StepGame
 from stepaside.strategies import table_cache as tables
 from stepaside.studies import tournament_record as studied
-from stepaside.studies.study import count_records, run_study
-from stepaside.studies.tournament_campaign import tournament_study
+from stepaside.studies.study_games import circle_distance
 from stepaside.studies.tournament_record import play_record, play_track
-from stepaside.studies.tournament_rows import tournament_rows
 from stepaside.studies.tournament_settings import TournamentSettings
 
 ASIDE = "evasion(safety_radius=100)"
@@ -117,50 +111,15 @@ def test_the_bound_is_that_of_the_start() -> None:
     assert away < 0.8  # it walks into the pursuer first
 
 
-def record(**changes: Any) -> dict[str, Any]:
-    return {
-        "evader": ASIDE, "pursuer": "pursuit", "seed": 0,
-        "outcome": "survived", "survived_s": 180.0, "closest_m": 0.8,
-        "bound_m": 1.0, "floor_m2": 2.0, "turning_rad_s": 0.1, "unseen": 0.0,
-        "decision_s": 1e-3, "longest_decision_s": 2e-3,
-    } | changes  # fmt: skip
-
-
 @pytest.mark.parametrize("ratio", [0.5, 1.7, 2.9])
 def test_the_circle_of_a_gain_balances_both_players(ratio: float) -> None:
     """V cos a = v cos u, and both turn at the rate of the line of sight."""
     game = replace(SHORT, speed=0.3, gain=0.7)
-    (row,) = tournament_rows([record(pursuer=f"pursuit(gain={ratio})")], game)
     pursuer_gain = ratio * 0.7
     a = 0.5 * pi / (1.0 + pursuer_gain / 0.7)  # a + b = alpha, kp a = ke b
     distance = 2.0 * 0.3 * sin(a) / (pursuer_gain * a)
-    assert row["circle_distance_m"] == pytest.approx(distance)
-
-
-def call(*words: str) -> Result:
-    return CliRunner().invoke(main, ["tournament", *words])
-
-
-def test_the_command_plays_draws_and_goes_on(tmp_path: Path) -> None:
-    folder, figure = tmp_path / "games", tmp_path / "front.svg"
-    words = (
-        *("--evader", ASIDE, "--evader", "look-ahead", "--discs", "1"),
-        *("--duration", "8", "--output", str(folder), "--workers", "1"),
-        *("--overwrite", "--figure", str(figure)),
-    )
-    one = call(*words, "--seeds", "0:2", "--json")
-    assert one.exit_code == 0, one.output
-    rows = json.loads(one.stdout)["rows"]
-    assert [row["evader"] for row in rows] == [ASIDE, "look-ahead"]
-    assert all(row["games"] == 2 for row in rows)
-    assert count_records(folder / "tournament.sqlite") == 4
-    paths = tmp_path / "worst.png"
-    two = call(*words, "--seeds", "0:3", "--paths", str(paths))
-    assert two.exit_code == 0 and "look-ahead" in two.output
-    assert count_records(folder / "tournament.sqlite") == 6
-    assert figure.stat().st_size > 0 and paths.stat().st_size > 0
-    summary = json.loads((folder / "summary.json").read_text("utf-8"))
-    assert summary["rows"][0]["games"] == 3
+    found = circle_distance(game, f"pursuit(gain={ratio})")
+    assert found == pytest.approx(distance)
 
 
 def test_sharp_and_herding_capture_a_survivor_of_the_papers_pursuer() -> None:
@@ -177,18 +136,6 @@ def test_sharp_and_herding_capture_a_survivor_of_the_papers_pursuer() -> None:
     assert survived["sharp"] == 0 and survived["herding"] <= 1
 
 
-def test_a_room_from_a_file_is_played(tmp_path: Path) -> None:
-    file = tmp_path / "room.toml"
-    file.write_text(
-        "width=4.0\ndepth=4.0\npursuer={x=0,y=0}\nevader={x=1,y=0,theta=3}\n",
-        encoding="utf-8",
-    )
-    words = ("--room", str(file), "--evader", ASIDE, "--seeds", "5")
-    answer = call(*words, "--duration", "8", "--json")
-    room = json.loads(answer.stdout)["settings"]["room"]
-    assert room["width"] == 4.0 and room["evader"]["theta"] == 3.0
-
-
 def test_humanoids_play_by_the_same_words() -> None:
     """A second of a duel: the figures are those that steps have as well."""
     settings = replace(SETTINGS, level="physics", game=StepGame(duration=1.0))
@@ -203,13 +150,12 @@ def test_humanoids_play_by_the_same_words() -> None:
     assert found["closest_m"] == pytest.approx(apart, abs=0.05)
     for player in ("pursuer", "evader"):
         assert 0.1 < found[f"{player}_clearance_m"] < 1.5
-    assert tournament_rows([found])[0]["fell"] == 0.0
     assert settings.entries()["map"] == "given"
     assert "map" not in SETTINGS.entries()
 
 
-def test_a_duel_that_is_stopped_is_no_game_and_stops_the_others(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+def test_a_duel_that_is_stopped_is_no_game(
+    monkeypatch: pytest.MonkeyPatch,
 ) -> None:
     """Games in this process, without workers, are interrupted."""
     ended = SimpleNamespace(outcome=Outcome.INTERRUPTED)
@@ -221,6 +167,6 @@ def test_a_duel_that_is_stopped_is_no_game_and_stops_the_others(
 
     monkeypatch.setattr("stepaside.games.duel.run_duel", cut_short)
     settings = replace(SETTINGS, level="physics", game=StepGame(duration=1.0))
-    study = tournament_study(settings, [(ASIDE, "pursuit")], [3, 4])
-    run = run_study(study, tmp_path / "kept.sqlite")
-    assert run.interrupted and len(played) == 1 and not run.finished
+    with pytest.raises(KeyboardInterrupt):
+        play_record(settings, (ASIDE, "pursuit"), 3)
+    assert played == [3]

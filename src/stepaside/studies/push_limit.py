@@ -1,0 +1,198 @@
+"""Largest push that a walk survives, by bisection, and its bound."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field, replace
+from functools import cache
+from math import radians
+
+from ..core.errors import ConfigurationError, check_within
+from ..games.outcome import Outcome
+from ..games.robot_settings import game_settings_from_description
+from ..games.walk_game import run_walk
+from ..games.walk_settings import WalkSettings
+from ..planning import Direction, Foot, ManeuverPlanner
+from ..planning.push_bound import FootReach, push_bound
+from ..planning.steady_gait import steady_plan
+from ..robots.description import load_robot
+from ..robots.forward_kinematics import ForwardKinematics
+from ..sim.push import Push
+from .tabulation import Record
+
+DIRECTIONS = {"left": 90.0, "right": -90.0, "forward": 0.0, "backward": 180.0}
+BEFORE = 6  # steps before a push
+AFTER = 4.0  # time after a push, in [s]
+LASTS = 0.1  # duration of a push, in [s]
+REFERENCE = "nao"  # robot to which strengths of pushes refer
+# In [N s] for NAO; see :func:`push_scale`.
+RESOLUTION = 0.1  # to which a limit is found
+STRIDE = 0.4  # between pushes before bisection
+LARGEST = 8.0
+
+
+@dataclass(frozen=True)
+class PushSettings:
+    """Search for the largest push that a walk survives.
+
+    Attributes:
+        walk: Settings of the walk; duration and pushes are ignored.
+        direction: Direction of the push, a key of ``DIRECTIONS``.
+        phase: Phase at which it begins, as a fraction of the gait cycle.
+        seed: Seed of the walk.
+    """
+
+    walk: WalkSettings = field(default_factory=WalkSettings)
+    direction: str = "left"
+    phase: float = 0.0
+    seed: int = 1
+
+    def __post_init__(self) -> None:
+        """Validate the settings."""
+        if self.direction not in DIRECTIONS:
+            raise ConfigurationError(
+                f"direction must be one of {', '.join(DIRECTIONS)}, got "
+                f"{self.direction!r:.40}"
+            )
+        check_within(self.phase, 0.0, 1.0, "phase", "1", ConfigurationError)
+
+    def pushed(self, strength: float) -> WalkSettings:
+        """Return the walk with a push of a strength, in [N s] for NAO."""
+        walk = self.walk.resolved()
+        begins = walk.gait.start_support + float(bool(walk.control.feedback))
+        time = begins + (BEFORE + 2.0 * self.phase) * walk.gait.step_duration
+        push = Push(
+            strength * push_scale(walk.robot),
+            time,
+            radians(DIRECTIONS[self.direction]),
+        )
+        return replace(
+            walk, seed=self.seed, duration=time + AFTER, pushes=(push,)
+        )
+
+
+def limit_of(outcomes: Mapping[float, bool]) -> float:
+    """Return the largest strength survived with all smaller ones tried."""
+    failed = min((s for s, ok in outcomes.items() if not ok), default=None)
+    return max(
+        (
+            s
+            for s, ok in outcomes.items()
+            if ok and (failed is None or s < failed)
+        ),
+        default=0.0,
+    )
+
+
+def next_strength(outcomes: Mapping[float, bool]) -> float | None:
+    """Return the next strength to try, in [N s]; None once the limit is known.
+
+    Pushes grow by a stride until one is not survived; then the interval
+    below it is bisected. Strengths above the first failure are not tried.
+    """
+    limit = limit_of(outcomes)
+    failed = min((s for s, ok in outcomes.items() if not ok), default=None)
+    if failed is None:
+        larger = limit + STRIDE
+        return round(larger, 6) if larger <= LARGEST else None
+    parts = round((failed - limit) / RESOLUTION)
+    if parts <= 1:
+        return None
+    return round(limit + parts // 2 * RESOLUTION, 6)
+
+
+def play_push(settings: PushSettings) -> Record:
+    """Walk until the largest push that the walk survives is known.
+
+    Returns:
+        ``limit_n_s``, the bounds of a push and of an impulse on the linear
+        inverted pendulum in [N s], their ratios, and the number of walks.
+    """
+    outcomes: dict[float, bool] = {}
+    while (strength := next_strength(outcomes)) is not None:
+        run = run_walk(settings.pushed(strength), record=False)
+        if run.outcome is Outcome.INTERRUPTED:
+            raise KeyboardInterrupt
+        outcomes[strength] = run.outcome is Outcome.COMPLETED
+    walk = settings.walk.resolved()
+    limit = limit_of(outcomes) * push_scale(walk.robot)
+    bound, impulse = (
+        push_bound_at(settings.direction, settings.phase, walk, impulse=each)
+        for each in (False, True)
+    )
+    return {
+        "limit_n_s": limit,
+        "limit_m_s": limit / mass_of(walk.robot),
+        "bound_n_s": bound,
+        "impulse_bound_n_s": impulse,
+        "of_bound": limit / bound,
+        "of_impulse_bound": limit / impulse,
+        "above_bound": limit > bound,
+        "walks": len(outcomes),
+    }
+
+
+@cache
+def mass_of(robot: str) -> float:
+    """Return the mass of a robot, in [kg]."""
+    return float(ForwardKinematics(load_robot(robot)).mass)
+
+
+def push_scale(robot: str) -> float:
+    """Return the factor on pushes of NAO for the same effect on a robot.
+
+    It is the ratio of the push units of their descriptions, which scale with
+    mass and pendulum speed; without them, the ratio of the masses.
+    """
+    own, nao = (
+        game_settings_from_description(load_robot(name))
+        for name in (robot, REFERENCE)
+    )
+    if own is None or nao is None:
+        return mass_of(robot) / mass_of(REFERENCE)
+    return own.push_unit / nao.push_unit
+
+
+def push_bound_at(
+    direction: str,
+    phase: float,
+    walk: WalkSettings,
+    *,
+    impulse: bool = False,
+) -> float:
+    """Return the push bound of the linear inverted pendulum, in [N s].
+
+    The walk is in its steady gait cycle when it is pushed.
+
+    Args:
+        direction: Direction of the push, a key of ``DIRECTIONS``.
+        phase: Phase at which the push begins, as a fraction of the gait
+            cycle.
+        walk: Robot, gait, heading and reach.
+        impulse: Whether to replace the push by an impulse at its middle.
+            That does not bound the push, during whose first half the ZMP
+            can already react.
+    """
+    gait, gains = walk.gait, walk.control.stabiliser
+    cycle = 2.0 * gait.step_duration
+    lasts = 0.0 if impulse else LASTS
+    passed = (phase * cycle + (0.5 * LASTS if impulse else 0.0)) % cycle
+    foot = Foot.LEFT if passed < gait.step_duration else Foot.RIGHT
+    plan = steady_plan(
+        ManeuverPlanner(gait),
+        walk.bearing,
+        Direction.BACKWARD if walk.backward else Direction.FORWARD,
+        first_foot=foot,
+    )
+    reach = FootReach(
+        gains.reach_forward,
+        gains.reach_backward,
+        gains.reach_outward,
+        gains.gap,
+    )
+    return push_bound(
+        plan,
+        passed % gait.step_duration,
+        radians(DIRECTIONS[direction]),
+        mass_of(walk.robot),
+        reach,
+        lasts=lasts,
+    )

@@ -1,0 +1,365 @@
+"""Studies from files, presets and Python: a grid or list of settings."""
+
+import json
+import tomllib
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from fnmatch import fnmatchcase
+from functools import cache, partial
+from hashlib import sha256
+from math import prod
+from pathlib import Path
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from ..core.entries import load_entries
+from ..core.errors import AnyPath, ConfigurationError, as_path
+from ..strategies.registry import file_of
+from .study import MOST_CASES, Study
+from .study_games import GAMES, nested, on_legs, settings_of
+from .tabulation import Record
+
+PRESETS = Path(__file__).with_name("presets")
+SEED = "seed"
+SECTIONS = ("game", "settings", "grid", "variants", "cases", "by", "values")
+SPACING = {"first", "last", "number"}  # of evenly spaced values
+SEEDS_OF_A_GAME = "0:20"  # of a game file
+TOGETHER = 16  # games on learned legs side by side; each takes about 10 MB
+
+Case = Mapping[str, Any]
+"""Varied settings by name with dots; the name of each variant."""
+
+
+class Cases(Sequence[Case]):
+    """Product of axes, as a sequence that is not in memory.
+
+    The last axis changes fastest, as in nested loops.
+    """
+
+    def __init__(self, axes: Sequence[tuple[str, Sequence[Any]]]) -> None:
+        """Make the product.
+
+        Args:
+            axes: Name and values of each axis; without a name each value is
+                a dictionary of settings.
+        """
+        self.axes = axes
+
+    def __len__(self) -> int:
+        """Return the number of cases."""
+        return prod(len(values) for _, values in self.axes)
+
+    def __getitem__(self, at: Any) -> Any:
+        """Return the case of a number."""
+        number, chosen = range(len(self))[at], list[Case]()
+        for name, values in reversed(self.axes):
+            number, i = divmod(number, len(values))
+            chosen.append({name: values[i]} if name else values[i])
+        return {k: v for case in reversed(chosen) for k, v in case.items()}
+
+
+class _Design(NamedTuple):
+    """What all cases share, and what the variants mean."""
+
+    game: str
+    settings: Mapping[str, Any]
+    variants: Mapping[str, Mapping[str, Mapping[str, Any]]]
+
+    def settings_of(self, case: Case) -> Any:
+        """Return the settings of a case."""
+        entries = nested(self.settings)
+        for name, value in case.items():
+            changes = {name: value}
+            if name in self.variants:
+                changes = dict(self.variants[name][value])
+            entries = nested(changes, entries)
+        return settings_of(GAMES[self.game].settings, entries)
+
+    def measure(self, case: Case) -> Record:
+        """Play the game of a case; return its record."""
+        return {**case, **GAMES[self.game].play(self.settings_of(case))}
+
+    def measure_together(self, cases: list[Case]) -> list[Record]:
+        """Play games side by side; return their records."""
+        play = GAMES[self.game].play_together
+        assert play is not None
+        records = play([self.settings_of(case) for case in cases])
+        return [
+            {**case, **record}
+            for case, record in zip(cases, records, strict=True)
+        ]
+
+    def fingerprint(self, axes: Sequence[tuple[str, Sequence[Any]]]) -> str:
+        """Return a hash of what all share and of the strategy files."""
+        found = [json.dumps(self)]
+        varied = [
+            values for _, values in axes if not isinstance(values, range)
+        ]
+        for word in dict.fromkeys(_texts([*self, *varied])):
+            own = ".py:" in word or word.endswith(".onnx")
+            file = file_of(word) if own else None
+            if file is not None and file.is_file():
+                found.append(file.read_bytes().hex())
+        return sha256(" ".join(found).encode()).hexdigest()[:12]
+
+
+def make_study(
+    game: str | Callable[..., Record],
+    settings: Mapping[str, Any] | None = None,
+    grid: Mapping[str, Sequence[Any]] | None = None,
+    *,
+    variants: Mapping[str, Mapping[str, Mapping[str, Any]]] | None = None,
+    cases: Sequence[Case] = ({},),
+    by: Sequence[str] = (),
+    values: Sequence[str] = (),
+    name: str = "study",
+) -> Study[Case]:
+    """Return the study of all combinations of some settings.
+
+    Args:
+        game: Name of a game: duel, walk, push, person, game, tournament or
+            unicycles; or a function that takes the settings of a case by
+            name and returns its record.
+        settings: Settings that all cases share, nested, or by name with dots
+            like ``strategy.safety_radius``.
+        grid: Values of each setting that varies, by name with dots.
+        variants: Axes whose values change several settings: for each axis
+            the settings by the name of the variant.
+        cases: List of settings, each combined with all others.
+        by: Values that tell the rows of the table apart; by default all
+            that vary but the seed.
+        values: Values of the table; by default those of the game.
+        name: Name of the study.
+
+    Raises:
+        ConfigurationError: If there is no case or are too many, or if a
+            setting is unknown or out of its range.
+    """
+    shared, variants = dict(settings or {}), dict(variants or {})
+    axes: list[tuple[str, Sequence[Any]]] = [("", cases)]
+    axes += [(axis, list(named)) for axis, named in variants.items()]
+    axes += [(axis, each) for axis, each in (grid or {}).items()]
+    every = Cases(axes)
+    number = prod(len(values) for _, values in axes)
+    if not 1 <= number <= MOST_CASES:
+        raise ConfigurationError(
+            f"grid must have at least one and at most {MOST_CASES} cases, "
+            f"got {number}"
+        )
+    varied = tuple(by) or tuple(each for each in every[0] if each != SEED)
+    if not isinstance(game, str):
+        own = f"{game.__module__}.{game.__qualname__} {shared}"
+        return Study(
+            name,
+            every,
+            partial(_call, game, shared),
+            lambda case: f"{own} {json.dumps(case, sort_keys=True)}",
+            by=varied,
+            values=tuple(values),
+        )
+    if game not in GAMES:
+        raise ConfigurationError(
+            f"game must be one of {', '.join(GAMES)}, got {game!r:.40}"
+        )
+    design = _Design(game, shared, variants)
+    _check(design, every)
+    together = GAMES[game].play_together is not None and on_legs(
+        design.settings_of(every[0])
+    )
+    own_of = cache(lambda: design.fingerprint(axes))
+    return Study(
+        name,
+        every,
+        design.measure,
+        lambda case: f"{own_of()} {json.dumps(case, sort_keys=True)}",
+        design.measure_together if together else None,
+        TOGETHER if together else 1,
+        varied,
+        tuple(values) or GAMES[game].values,
+    )
+
+
+def load_study(file: AnyPath, sets: Sequence[str] = ()) -> Study[Case]:
+    """Return the study of a file or of a preset.
+
+    A file has ``game``; ``settings`` that all cases share; ``grid``, a table
+    of lists whose combinations are played; ``variants``, tables of named
+    settings; ``cases``, a list of tables; ``by`` and ``values``, the table.
+    In a grid ``"0:40"`` for the seed is a range without its end, and
+    ``{first, last, number}`` gives evenly spaced values. A game file is the
+    study of its game with 20 seeds.
+
+    Args:
+        file: TOML file, or the name of a preset.
+        sets: Changes like ``duration=60``, ``evader=robust,look-ahead`` or
+            ``seed=0:10``: the setting at a path, its values, or the variants
+            of an axis, which may have wildcards.
+
+    Raises:
+        ConfigurationError: If the file is not TOML, or an entry is unknown,
+            of the wrong type or out of its range.
+    """
+    entries = study_entries(file, sets)
+    game = entries.pop("game")
+    if not isinstance(game, str):
+        raise ConfigurationError(f"{file}: game must be a name, got {game}")
+    return make_study(game, **entries, name=Path(as_path(file, "file")).stem)
+
+
+def preset_file(file: AnyPath) -> Path:
+    """Return the file of a study: of a preset, or the file itself."""
+    own = Path(as_path(file, "file"))
+    preset = PRESETS / f"{own}.toml"
+    return preset if preset.is_file() else own
+
+
+def study_entries(file: AnyPath, sets: Sequence[str] = ()) -> dict[str, Any]:
+    """Return the arguments of :func:`make_study`; see :func:`load_study`."""
+    given, file = file, preset_file(file)
+    if not file.is_file():
+        presets = sorted(each.stem for each in PRESETS.glob("*.toml"))
+        raise ConfigurationError(
+            f"a study must be a file or one of {', '.join(presets)}, got "
+            f"{str(given)!r:.80}"
+        )
+    entries = load_entries(file)
+    if "game" not in entries and "players" in entries:
+        entries = {
+            "game": "game",
+            "settings": entries,
+            "grid": {SEED: SEEDS_OF_A_GAME},
+        }
+    for name in entries:
+        if name not in SECTIONS:
+            raise ConfigurationError(
+                f"{file}: unknown entry {name}; there are "
+                f"{', '.join(SECTIONS)}"
+            )
+    entries = {
+        "game": "",
+        "settings": {},
+        "grid": {},
+        "variants": {},
+    } | entries
+    for name in ("settings", "grid", "variants"):
+        if not isinstance(entries[name], dict):
+            raise ConfigurationError(
+                f"{file}: {name} must be a table, got {entries[name]!r:.40}"
+            )
+    entries["grid"] = dict(_flat(entries["grid"]))
+    entries["settings"] = dict(_flat(entries["settings"]))
+    entries["cases"] = [dict(_flat(c)) for c in entries.get("cases", [{}])]
+    for text in sets:
+        _set(entries, text)
+    entries["grid"] = {
+        axis: _values(axis, each, file)
+        for axis, each in entries["grid"].items()
+    }
+    return entries
+
+
+def _set(entries: dict[str, Any], text: str) -> None:
+    """Change one setting, its values, or the variants of an axis."""
+    path, equals, word = text.partition("=")
+    if not equals or not path:
+        raise ConfigurationError(
+            f"a change must be PATH=VALUE like duration=60, got {text!r:.60}"
+        )
+    value = _value(word)
+    named = entries["variants"].get(path)
+    if named is not None:
+        patterns = value if isinstance(value, list) else [value]
+        chosen = {
+            name: changes
+            for name, changes in named.items()
+            if any(fnmatchcase(name, str(each)) for each in patterns)
+        }
+        if not chosen:
+            raise ConfigurationError(
+                f"{path} must be of {', '.join(named)}, got {word!r:.60}"
+            )
+        entries["variants"][path] = chosen
+    elif isinstance(value, list | dict) or (path == SEED and ":" in word):
+        entries["settings"].pop(path, None)
+        entries["grid"][path] = value
+    elif path in entries["grid"]:
+        entries["grid"][path] = [value]
+    else:
+        entries["settings"][path] = value
+
+
+def _value(word: str) -> Any:
+    """Return what a word of a change means: TOML, a list, or text."""
+    try:
+        return tomllib.loads(f"value = {word}")["value"]
+    except tomllib.TOMLDecodeError:
+        parts, depth, start = list[str](), 0, 0
+        for i, letter in enumerate(word):
+            depth += (letter in "([{") - (letter in ")]}")
+            if letter == "," and not depth:
+                parts.append(word[start:i])
+                start = i + 1
+        parts.append(word[start:])
+        return [_value(p) for p in parts] if len(parts) > 1 else word
+
+
+def _values(axis: str, value: Any, file: Path) -> Sequence[Any]:
+    """Return the values along an axis of a grid."""
+    if isinstance(value, list):
+        return value
+    if axis == SEED and isinstance(value, str):
+        first, colon, end = value.partition(":")
+        if colon and first.isdigit() and end.isdigit():
+            return range(int(first), int(end))
+    if isinstance(value, dict) and set(value) == SPACING:
+        try:
+            number = min(value["number"], MOST_CASES + 1)
+            spaced = np.linspace(value["first"], value["last"], number)
+        except (TypeError, ValueError) as error:
+            raise ConfigurationError(f"{file}: {axis}: {error}") from error
+        return [float(x) for x in spaced]
+    raise ConfigurationError(
+        f"{file}: {axis} must be a list, {{first, last, number}}, or for "
+        f"{SEED} a range like '0:40', got {value!r:.60}"
+    )
+
+
+def _flat(entries: Any, prefix: str = "") -> Iterator[tuple[str, Any]]:
+    """Yield the entries of nested tables by their names with dots."""
+    if not isinstance(entries, dict):
+        raise ConfigurationError(
+            f"grid and cases must be tables, got {entries!r:.40}"
+        )
+    for name, value in entries.items():
+        if isinstance(value, dict) and set(value) != SPACING:
+            yield from _flat(value, f"{prefix}{name}.")
+        else:
+            yield f"{prefix}{name}", value
+
+
+def _check(design: _Design, cases: Cases) -> None:
+    """Build the settings for each value of each axis, others at the first."""
+    first = cases[0]
+    for name, values in cases.axes:
+        ends = values if len(values) < 1000 else (values[0], values[-1])
+        for value in ends:
+            change = {name: value} if name else value
+            design.settings_of({**first, **change})
+
+
+def _call(
+    function: Callable[..., Record], settings: Mapping[str, Any], case: Case
+) -> Record:
+    return {**case, **function(**{**settings, **case})}
+
+
+def _texts(value: Any) -> Iterator[str]:
+    """Yield all texts in nested values."""
+    if isinstance(value, str):
+        yield value
+    elif isinstance(value, Mapping):
+        for each in value.values():
+            yield from _texts(each)
+    elif isinstance(value, list | tuple):
+        for each in value:
+            yield from _texts(each)

@@ -1,0 +1,434 @@
+"""Games that a study can play: settings from entries, and flat records."""
+
+from collections.abc import Callable, Mapping
+from dataclasses import asdict, dataclass, field, fields, replace
+from math import pi
+from typing import Any, NamedTuple, get_type_hints
+
+from ..arena import Room, RoomRecipe, draw_any_start, load_room
+from ..core.errors import ConfigurationError
+from ..core.player_identity import Role
+from ..games.configuration_file import parse_settings
+from ..games.duel_settings import DuelSettings
+from ..games.game_file import parse_game
+from ..games.game_match import run_game
+from ..games.game_settings import GameSettings
+from ..games.outcome import Outcome
+from ..games.robot_settings import (
+    body_of_robot,
+    with_legs,
+    with_players,
+    with_robot,
+)
+from ..games.strategy_resolution import check_strategy_names
+from ..games.walk_game import run_walk
+from ..games.walk_settings import WalkSettings
+from ..planning import PRESETS
+from ..sim.body_settings import BODIES
+from ..strategies import load_strategy
+from ..strategies.registry import check_strategy_name
+from ..strategies.strategy_game import StepGame
+from ..theory.unicycle.adaptive_simulation import simulate
+from ..theory.unicycle.circles import find_circle
+from ..theory.unicycle.relative_coordinates import RelativeStart
+from ..theory.unicycle.unicycle_game import MOVE_ASIDE, make_game
+from .duel_record import play_duel, play_duels
+from .person_encounters import Encounter, play_encounter, play_encounters
+from .push_limit import PushSettings, play_push
+from .tabulation import Record, flat
+from .tournament_record import play_record
+from .tournament_settings import TournamentSettings
+from .tournament_strategies import gain_of
+
+EARLIEST_CAPTURE = 0.02  # with any heading capture ends no game, in [m]
+FLOORS = ("room", "open", "any heading")
+
+
+@dataclass(frozen=True)
+class PairingSettings:
+    """Settings of one game of a tournament.
+
+    Attributes:
+        evader: Name of the evader.
+        pursuer: Name of the pursuer.
+        seed: Seed of the room and of the initial poses.
+        level: Level of simulation; see :class:`TournamentSettings`.
+        floor: "room"; "open" without walls, with the starts of duels; or
+            "any heading", open with any headings, where no game ends by
+            capture.
+        room: Recipe of the random room.
+        room_file: File of a room that all games share, instead.
+        game: Rules of the game.
+        map: Map of the humanoids.
+    """
+
+    evader: str = "look-ahead"
+    pursuer: str = "pursuit"
+    seed: int = 0
+    level: str = "steps"
+    floor: str = "room"
+    room: RoomRecipe = field(default_factory=RoomRecipe)
+    room_file: str = ""
+    game: StepGame = field(default_factory=StepGame)
+    map: str = "given"
+
+    def __post_init__(self) -> None:
+        """Validate the settings."""
+        if self.floor not in FLOORS:
+            raise ConfigurationError(
+                f"floor must be one of {', '.join(FLOORS)}, got "
+                f"{self.floor!r:.40}"
+            )
+        load_strategy(self.evader)
+        load_strategy(self.pursuer)
+        TournamentSettings(self.level, self.room, map=self.map)
+
+    @property
+    def tournament(self) -> TournamentSettings:
+        """Settings of the game, with its room."""
+        room: Room | RoomRecipe = self.room
+        game = self.game
+        if self.room_file:
+            room = load_room(self.room_file)
+        elif self.floor == "open":
+            room = replace(self.room, width=None, depth=None)
+        elif self.floor == "any heading":
+            room = Room(starts=draw_any_start(self.seed))
+            game = replace(game, capture=EARLIEST_CAPTURE)
+        return TournamentSettings(self.level, room, game, self.map)
+
+
+@dataclass(frozen=True)
+class UnicycleSettings:
+    """Settings of one game of two unicycles.
+
+    Attributes:
+        pursuer_speed: Speed of the pursuer, in [m/s].
+        evader_speed: Speed of the evader, in [m/s].
+        pursuer_gain: Gain of the pursuer, in [1/s].
+        evader_gain: Gain of the evader, in [1/s].
+        angle: Evasion angle, in [rad].
+        law: Turning law of the evader.
+        side_rule: Rule by which the evader chooses its side.
+        distance: Initial distance, in [m].
+        aim: Initial bearing of the evader in the pursuer's frame, in [rad].
+        bearing: Initial bearing of the pursuer in the evader's frame, in
+            [rad].
+        duration: Duration of the game, in [s].
+    """
+
+    pursuer_speed: float = 0.1
+    evader_speed: float = 0.1
+    pursuer_gain: float = 0.2
+    evader_gain: float = 0.2
+    angle: float = MOVE_ASIDE
+    law: str = "proportional"
+    side_rule: str = "behind"
+    distance: float = 1.0
+    aim: float = 0.0
+    bearing: float = 0.0
+    duration: float = 60.0
+
+
+@dataclass(frozen=True)
+class TeamGame:
+    """A game, with one strategy for all of a role.
+
+    Attributes:
+        game: Settings of the game.
+        pursuers: Strategy of all pursuers; empty for those of the game.
+        evaders: Strategy of all evaders; empty for those of the game.
+    """
+
+    game: GameSettings
+    pursuers: str = ""
+    evaders: str = ""
+
+    def __post_init__(self) -> None:
+        """Validate the strategies."""
+        for name, role in (
+            (self.pursuers, "pursuer"),
+            (self.evaders, "evader"),
+        ):
+            if name:
+                check_strategy_name(name, role)
+
+    @property
+    def settings(self) -> GameSettings:
+        """Settings of the game with these strategies."""
+        names: dict[str, str] = {
+            Role.PURSUER: self.pursuers,
+            Role.EVADER: self.evaders,
+        }
+        players = tuple(
+            replace(own, strategy=names.get(own.role) or own.strategy)
+            if own.decides
+            else own
+            for own in self.game.players
+        )
+        return replace(self.game, players=players)
+
+
+class StudyGame(NamedTuple):
+    """Game that a study can play.
+
+    Attributes:
+        settings: Class of its settings.
+        play: Plays a game; returns its record.
+        values: Values of a record that are tabulated by default.
+        play_together: Plays several games side by side, where the robots
+            walk on learned legs; returns their records.
+    """
+
+    settings: type[Any]
+    play: Callable[[Any], Record]
+    values: tuple[str, ...]
+    play_together: Callable[[list[Any]], list[Record]] | None = None
+
+
+def nested(
+    changes: Mapping[str, Any], below: Mapping[str, Any] | None = None
+) -> dict[str, Any]:
+    """Return nested entries with changes by name with dots.
+
+    A preset, like ``body = "hardware"``, below changes of its entries
+    becomes the entry with an empty name among them.
+    """
+    found = dict(below or {})
+    for name, value in changes.items():
+        head, dot, rest = name.partition(".")
+        if dot or isinstance(value, dict):
+            own = found.get(head, {})
+            own = own if isinstance(own, dict) else {"": own}
+            found[head] = nested({rest: value} if dot else value, own)
+        else:
+            found[head] = value
+    return found
+
+
+def settings_of(kind: type[Any], entries: Mapping[str, Any]) -> Any:
+    """Return settings from nested entries.
+
+    ``robot`` and ``legs.network`` bring the gait, control and distances of
+    the robot; ``gait`` and ``body`` may be names of presets.
+
+    Raises:
+        StepAsideError: If an entry is unknown or out of its range, or if
+            there is no such robot.
+    """
+    entries = dict(entries)
+    if kind is TeamGame:
+        own = {
+            k: entries.pop(k) for k in ("pursuers", "evaders") if k in entries
+        }
+        return TeamGame(parse_game(entries, "the settings"), **own)
+    if kind is Encounter:
+        entries["duel"] = {"pursuer": "person", **entries.get("duel", {})}
+    names = {each.name for each in fields(kind)}
+    hints = get_type_hints(kind)
+    inner = {
+        name: settings_of(hints[name], entries.pop(name, {}))
+        for name in ("walk", "duel")
+        if name in names
+    }
+    base = replace(kind(), **inner)
+    if "robot" in names:
+        base = with_robot(base, str(entries.pop("robot", base.robot)))
+        robots = {
+            player: str(entries.pop(f"{player}_robot"))
+            for player in ("pursuer", "evader")
+            if isinstance(entries.get(f"{player}_robot"), str)
+        }
+        base = with_players(base, robots) if robots else base
+        network = dict(entries.get("legs", {})).get("network")
+        base = with_legs(base, network) if network else base
+        for name in {"gait", "body"} & names:
+            given = entries.get(name)
+            preset = given.pop("", None) if isinstance(given, dict) else given
+            if isinstance(preset, str):
+                presets = PRESETS if name == "gait" else BODIES
+                if preset not in presets:
+                    raise ConfigurationError(
+                        f"{name} must be one of {', '.join(presets)}, got "
+                        f"{preset!r:.40}"
+                    )
+                value = (
+                    PRESETS[preset]
+                    if name == "gait"
+                    else body_of_robot(base.robot, preset)
+                )
+                base = replace(base, **{name: value})
+                if not isinstance(given, dict):
+                    del entries[name]
+    objects = {
+        name: entries.pop(name)
+        for name in ("evader_strategy", "pursuer_strategy")
+        if not isinstance(entries.get(name, ""), str)
+    }
+    made = parse_settings(kind, entries, "the settings", base=base)
+    made = replace(made, **inner, **objects)
+    if kind is DuelSettings and not objects:
+        check_strategy_names(made)
+    return made
+
+
+def on_legs(settings: Any) -> bool:
+    """Return whether a robot of a game walks on learned legs."""
+    duel = getattr(settings, "duel", settings)
+    return isinstance(duel, DuelSettings) and any(
+        duel.robot_of(each).legs.walks for each in duel.robots
+    )
+
+
+def _play_walk(settings: WalkSettings) -> Record:
+    run = run_walk(settings)
+    if run.outcome is Outcome.INTERRUPTED:
+        raise KeyboardInterrupt
+    return {
+        "outcome": run.outcome.value,
+        "survived": run.outcome is Outcome.COMPLETED,
+        "message": run.message,
+        "duration_s": run.duration,
+        **flat(asdict(run.summary)),
+    }
+
+
+def _play_pairing(settings: PairingSettings) -> Record:
+    tournament = settings.tournament
+    pairing = settings.evader, settings.pursuer
+    record = play_record(tournament, pairing, settings.seed)
+    outcome, closest = record["outcome"], record["closest_m"]
+    reached = 0.0 if outcome == "touched" else closest
+    return record | {
+        "survived": outcome == "survived",
+        "captured": outcome == "captured",
+        "touched_obstacle": outcome == "touched",
+        "of_bound": closest / record["bound_m"],
+        "reached_m": reached,
+        "regret_m": record["bound_m"] - reached,
+        "circle_m": circle_distance(tournament.game, settings.pursuer),
+    }
+
+
+def circle_distance(game: StepGame, pursuer: str) -> float | None:
+    """Return the distance on the paper's circle for a pursuer.
+
+    The evader moves aside, with the gain of the game. If this distance is at
+    most the capture distance, it is captured.
+
+    Args:
+        game: Rules of the games.
+        pursuer: Name of the pursuer in a tournament.
+
+    Returns:
+        Distance, in [m]; None for a pursuer that does not steer by eq. (2),
+        or of another speed.
+    """
+    ratio = gain_of(pursuer)
+    if ratio is None or game.pursuer_speed_ratio != 1.0:
+        return None
+    circle = find_circle(
+        game.speed,
+        game.speed,
+        ratio * game.gain,
+        game.gain,
+        0.5 * pi,
+        "proportional",
+    )
+    return float(circle.distance_m) if circle.exists else None
+
+
+def _play_unicycles(settings: UnicycleSettings) -> Record:
+    try:
+        game = make_game(
+            settings.pursuer_speed,
+            settings.evader_speed,
+            settings.pursuer_gain,
+            settings.evader_gain,
+            settings.angle,
+            settings.law,
+            side_rule=settings.side_rule,
+        )
+    except ValueError as error:
+        raise ConfigurationError(f"a game of unicycles: {error}") from error
+    start = RelativeStart(settings.distance, settings.aim, settings.bearing)
+    played = simulate(game, start, settings.duration)
+    (end,) = played.states([played.end_time])
+    return {
+        "outcome": "captured" if played.captured else "completed",
+        "duration_s": played.end_time,
+        "closest_m": played.closest_distance,
+        "closest_at_s": played.closest_time,
+        "distance_m": float(end[0]),
+    }
+
+
+def _play_game(settings: TeamGame) -> Record:
+    """Play a game of any number of players; return its record.
+
+    For robots among people the measures of crowd navigation have their name
+    in front.
+    """
+    run = run_game(settings.settings)
+    if run.outcome is Outcome.INTERRUPTED:
+        raise KeyboardInterrupt
+    summary = run.summary
+    opposed = {frozenset(pair) for pair in run.opponents}
+    closest = min(
+        (
+            pair.closest_m
+            for pair in summary.pairs
+            if frozenset(pair.players) in opposed
+        ),
+        default=None,
+    )
+    record: Record = {
+        "outcome": run.outcome.value,
+        "message": run.message,
+        "duration_s": run.duration,
+        "captured": summary.captured_at_s is not None,
+        "captured_at_s": summary.captured_at_s,
+        "contact": run.outcome is Outcome.CONTACT,
+        "fell": bool(summary.fallen),
+        "closest_m": closest,
+        "fallen": list(summary.fallen),
+        "touched": list(summary.touched),
+    }
+    for each in summary.crowd:
+        record |= {
+            f"{each.name}.success": each.success,
+            f"{each.name}.collided": each.collisions > 0,
+            f"{each.name}.time_s": each.time_s if each.success else None,
+            f"{each.name}.below_0_45_m": each.below_0_45_m_s / run.duration,
+            f"{each.name}.below_1_2_m": each.below_1_2_m_s / run.duration,
+        }
+    return record
+
+
+GAMES: Mapping[str, StudyGame] = {
+    "duel": StudyGame(
+        DuelSettings, play_duel, ("outcome", "min_distance_m"), play_duels
+    ),
+    "walk": StudyGame(WalkSettings, _play_walk, ("survived", "speed_ratio")),
+    "push": StudyGame(
+        PushSettings, play_push, ("limit_n_s", "bound_n_s", "of_bound")
+    ),
+    "person": StudyGame(
+        Encounter,
+        play_encounter,
+        ("contact", "fell", "closest_m"),
+        play_encounters,
+    ),
+    "game": StudyGame(
+        TeamGame, _play_game, ("captured", "contact", "fell", "closest_m")
+    ),
+    "tournament": StudyGame(
+        PairingSettings,
+        _play_pairing,
+        ("survived", "captured", "touched_obstacle", "closest_m"),
+    ),
+    "unicycles": StudyGame(
+        UnicycleSettings, _play_unicycles, ("outcome", "closest_m")
+    ),
+}
+"""Games by the entry ``game`` of a study."""

@@ -1,0 +1,189 @@
+"""Test studies from files, presets and Python, before and after play."""
+
+import sqlite3
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+import stepaside as sa
+from stepaside.core.errors import ConfigurationError
+from stepaside.games.duel_settings import DuelSettings
+from stepaside.sim.body_settings import BODIES
+from stepaside.strategies.table_cache import pursuit_bound
+from stepaside.studies import tournament_record
+from stepaside.studies.study_design import PRESETS
+from stepaside.studies.study_games import settings_of
+
+
+@pytest.fixture(scope="module", autouse=True)
+def coarse_table(tmp_path_factory: pytest.TempPathFactory) -> Iterator[None]:
+    """The bound is solved on few cells."""
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setenv("XDG_CACHE_HOME", str(tmp_path_factory.mktemp("cache")))
+        patch.setattr(tournament_record, "CELLS", 16)
+        pursuit_bound.cache_clear()
+        yield
+    pursuit_bound.cache_clear()
+
+
+def keys(study: Any) -> set[str]:
+    return {study.key_of(case) for case in study.cases}
+
+
+def unicycles(**more: Any) -> Any:
+    grid = more.pop("grid", {"angle": [0.4, 0.8], "distance": [1.0, 2.0]})
+    return sa.make_study("unicycles", {"duration": 1.0}, grid, **more)
+
+
+def test_cases_are_all_combinations_in_the_order_of_nested_loops() -> None:
+    study = unicycles(
+        variants={"speed": {"slow": {"evader_speed": 0.05}, "same": {}}},
+        cases=[{"law": "saturated"}, {"law": "proportional"}],
+    )
+    assert len(study.cases) == 16
+    assert study.cases[0] == {
+        "law": "saturated",
+        "speed": "slow",
+        "angle": 0.4,
+        "distance": 1.0,
+    }
+    assert [case["distance"] for case in study.cases] == [1.0, 2.0] * 8
+    assert study.by == ("law", "speed", "angle", "distance")
+    with pytest.raises(IndexError):
+        study.cases[16]
+
+
+def test_a_record_has_what_varies_and_what_came_out() -> None:
+    rows = sa.run_study(unicycles()).table()
+    assert [(row["angle"], row["distance"]) for row in rows] == [
+        (0.4, 1.0),
+        (0.4, 2.0),
+        (0.8, 1.0),
+        (0.8, 2.0),
+    ]
+    assert all(row["closest_m"]["mean"] < row["distance"] for row in rows)
+
+
+def test_whatever_changes_a_result_changes_its_key(tmp_path: Path) -> None:
+    """The content of a strategy file, too."""
+    file = tmp_path / "own.py"
+    text = (
+        Path(__file__).parents[1] / "flows" / "own_strategies.py"
+    ).read_text()
+    file.write_text(text)
+    own = {"evader_strategy": f"{file}:Still", "duration": 1.0}
+    before = keys(sa.make_study("duel", own))
+    assert keys(sa.make_study("duel", own)) == before
+    file.write_text(text + "\n# other\n")
+    assert keys(sa.make_study("duel", own)).isdisjoint(before)
+    for other in (
+        unicycles(grid={"angle": [0.5, 0.9]}),
+        sa.make_study("unicycles", {"duration": 2.0}, {"angle": [0.4]}),
+        unicycles(variants={"speed": {"slow": {"evader_speed": 0.05}}}),
+    ):
+        assert keys(other).isdisjoint(keys(unicycles()))
+
+
+def test_a_function_of_ones_own_is_a_game() -> None:
+    def add(a: int, b: int) -> dict[str, Any]:
+        return {"sum": a + b}
+
+    study = sa.make_study(add, {"a": 1}, {"b": [2, 3]}, values=["sum"])
+    run = sa.run_study(study)
+    assert list(run.records()) == [{"b": 2, "sum": 3}, {"b": 3, "sum": 4}]
+    assert [row["sum"]["mean"] for row in run.table()] == [3.0, 4.0]
+
+
+@pytest.mark.parametrize(
+    ("changes", "words"),
+    [
+        ({"settings": {"speeed": 1.0}}, "unknown entry speeed"),
+        ({"settings": {"duration": "long"}}, "duration"),
+        ({"grid": {"duration": [1.0, -1.0]}}, "duration"),
+        ({"grid": {"evader_strategy": ["nobody"]}}, "nobody"),
+        ({"grid": {"body": ["nobodys"]}}, "body must be one of ideal"),
+        ({"grid": {"seed": []}}, "at least one"),
+        ({"game": "chess"}, "game must be one of duel"),
+    ],
+)
+def test_a_bad_study_is_refused_before_it_plays(
+    changes: dict[str, Any], words: str
+) -> None:
+    given: dict[str, Any] = {"game": "duel"} | changes
+    with pytest.raises(sa.StepAsideError, match=words):
+        sa.make_study(**given)
+
+
+def test_presets_of_gait_and_body_may_be_changed_further() -> None:
+    entries = {"gait": "fast", "body": {"": "hardware", "backlash": 0.1}}
+    made = settings_of(DuelSettings, entries)
+    assert made.gait.is_fast
+    assert made.body.backlash == 0.1
+    assert made.body.efficiency == BODIES["hardware"].efficiency
+
+
+@pytest.mark.parametrize("name", sorted(p.stem for p in PRESETS.iterdir()))
+def test_a_preset_is_a_study(name: str) -> None:
+    study = sa.load_study(name)
+    assert study.name == name and len(study.cases) > 10
+    assert study.values
+
+
+def test_a_preset_is_changed_by_words() -> None:
+    study = sa.load_study(
+        "robustness",
+        [
+            "disturbance=friction*,mass 3 %",
+            "method=mpc",
+            "seed=4:6",
+            "duration=3",
+        ],
+    )
+    cases = list(study.cases)
+    assert len(cases) == 7 * 2
+    assert {case["method"] for case in cases} == {"mpc"}
+    assert {case["seed"] for case in cases} == {4, 5}
+    names = sa.load_study(
+        "rating", ["evader=pursuit(gain=2, lead=1),sharp", "floor=open*"]
+    )
+    assert [case["evader"] for case in list(names.cases)[::200]] == [
+        "pursuit(gain=2, lead=1)",
+        "sharp",
+    ]
+
+
+@pytest.mark.parametrize(
+    ("word", "words"),
+    [
+        ("duration", "PATH=VALUE"),
+        ("method=mcp", "method must be of open-loop, measured, mpc"),
+        ("durations=3", "unknown entry durations"),
+    ],
+)
+def test_a_bad_change_is_refused(word: str, words: str) -> None:
+    with pytest.raises(ConfigurationError, match=words):
+        sa.load_study("robustness", [word])
+
+
+def test_an_unknown_study_is_refused_with_those_that_exist() -> None:
+    with pytest.raises(ConfigurationError, match="people, .*tournament"):
+        sa.load_study("nothing")
+
+
+def test_a_tournament_is_stored_as_a_table(tmp_path: Path) -> None:
+    changes = ["evader=optimal,evasion", "seed=0:2", "game.duration=4"]
+    file = tmp_path / "games.sqlite"
+    run = sa.run_study(sa.load_study("tournament", changes), file)
+    (optimal, evasion) = run.table()
+    assert optimal["survived"] == evasion["survived"]
+    assert optimal["of_bound"]["mean"] > 0.0
+    with sqlite3.connect(file) as table:
+        rows = table.execute("SELECT evader, seed, survived FROM results")
+        assert rows.fetchall() == [
+            ("optimal", 0, 1),
+            ("optimal", 1, 1),
+            ("evasion", 0, 1),
+            ("evasion", 1, 1),
+        ]
