@@ -275,15 +275,9 @@ def test_strategies_of_two_files_of_one_name_can_be_pickled(
     assert [each.turn for each in again] == [0.1, 1.1]
 
 
-@pytest.mark.xfail(
-    strict=True, reason="Ctrl-C loses the duels that had finished"
-)
 def test_duels_that_had_finished_survive_an_interruption() -> None:
     long = replace(SHORT, duration=9.0, evader_strategy=Own(presses_at=1.5))
-    try:
-        first, second = run_duels([SHORT, long])
-    except KeyboardInterrupt:
-        pytest.fail("both duels are lost")
+    first, second = run_duels([SHORT, long])
     assert first.outcome is sa.Outcome.COMPLETED
     assert second.outcome is sa.Outcome.INTERRUPTED
 

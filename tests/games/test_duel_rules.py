@@ -71,15 +71,15 @@ def lay_down(duel: Duel, number: int) -> None:
 def test_a_fall_ends_a_duel_and_is_reported(
     monkeypatch: pytest.MonkeyPatch, fallen: tuple[int, ...], message: str
 ) -> None:
-    tick = Duel.tick
+    decide = Duel.decide
 
     def clumsy(duel: Duel) -> Outcome | None:
         if duel.world.ticks == 4:
             for number in fallen:
                 lay_down(duel, number)
-        return tick(duel)
+        return decide(duel)
 
-    monkeypatch.setattr(Duel, "tick", clumsy)
+    monkeypatch.setattr(Duel, "decide", clumsy)
     result = run_duel(DuelSettings(start=START, duration=1.0))
     assert result.outcome is Outcome.FALL and result.message == message
     assert result.duration == pytest.approx(0.02)

@@ -170,12 +170,12 @@ def run_duels(settings: Sequence[DuelSettings]) -> list[DuelRun]:
         settings: Settings of each duel.
 
     Returns:
-        The runs, equal to those of :func:`run_duel`.
+        The runs, equal to those of :func:`run_duel`. A KeyboardInterrupt
+        ends the duels that still go on.
 
     Raises:
         StepAsideError: If settings contradict each other or cannot be met by
             the robots.
-        KeyboardInterrupt: If playing was interrupted.
     """
     networks = NetworkPool()
     duels = [Duel(each, networks=networks) for each in settings]

@@ -179,54 +179,33 @@ def play(
     duration: float,
     report: Callable[[Progress], None] | None = None,
 ) -> tuple[Outcome, float]:
-    """Play a match to its end.
-
-    At any end, including a KeyboardInterrupt, the observers keep the record
-    of what was played, and the players are closed.
-
-    Args:
-        match: The match.
-        duration: Simulated time after which it is completed, in [s].
-        report: Called about five times a second with the progress.
-
-    Returns:
-        Outcome, and computing time in [s].
-    """
-    ticks = ceil(duration / match.world.physics.tick - 1e-9)
-    outcome = Outcome.COMPLETED
-    began = perf_counter()
-    try:
-        with DeferredInterrupt() as interrupt:
-            outcome = _play_ticks(match, ticks, interrupt, began, report)
-    except KeyboardInterrupt:
-        outcome = Outcome.INTERRUPTED
-        match.message = f"interrupted at {match.world.time:.2f} s"
-    finally:
-        match.close()
-    wall = perf_counter() - began
-    _end(match, outcome)
-    return outcome, wall
+    """Play a match to its end; see :func:`play_together`."""
+    return play_together([match], [duration], report)[0]
 
 
 def play_together(
-    matches: Sequence[Match], durations: Sequence[float]
+    matches: Sequence[Match],
+    durations: Sequence[float],
+    report: Callable[[Progress], None] | None = None,
 ) -> list[tuple[Outcome, float]]:
     """Play matches side by side, with one evaluation of their networks.
 
-    Each match has the same bits as when it is played alone.
+    Each match has the same bits as when it is played alone. At any end,
+    including a KeyboardInterrupt, which interrupts those that still go on,
+    the observers keep the record of what was played, and the players are
+    closed.
 
     Args:
         matches: Matches, which share their networks.
         durations: Simulated time after which each is completed, in [s].
+        report: Called about five times a second with the progress of the
+            first match.
 
     Returns:
         Outcome, and share of the computing time in [s], of each match.
-
-    Raises:
-        KeyboardInterrupt: If playing was interrupted.
     """
     outcomes: dict[Match, Outcome] = {}
-    began = perf_counter()
+    began = reported = perf_counter()
     ends = {
         match: ceil(duration / match.world.physics.tick - 1e-9)
         for match, duration in zip(matches, durations, strict=True)
@@ -234,9 +213,8 @@ def play_together(
     pools = {match.networks for match in matches}
     try:
         with DeferredInterrupt() as interrupt:
-            while len(outcomes) < len(matches):
+            while playing := [m for m in matches if m not in outcomes]:
                 interrupt.let_through()
-                playing = [m for m in matches if m not in outcomes]
                 for match in playing:
                     if (ended := match.decide()) is not None:
                         outcomes[match] = ended
@@ -249,6 +227,20 @@ def play_together(
                         outcomes[match] = ended
                     elif match.world.ticks >= ends[match]:
                         outcomes[match] = Outcome.COMPLETED
+                first = matches[0]
+                if report is None or first not in playing:
+                    continue
+                if first.world.ticks % 25:
+                    continue
+                now, time = perf_counter(), first.world.time
+                if now - reported > REPORT_PERIOD:
+                    reported, factor = now, time / (now - began)
+                    report(Progress(time, first.distance, factor))
+    except KeyboardInterrupt:
+        for match in matches:
+            if match not in outcomes:
+                outcomes[match] = Outcome.INTERRUPTED
+                match.message = f"interrupted at {match.world.time:.2f} s"
     finally:
         for match in matches:
             match.close()
@@ -264,26 +256,3 @@ def _end(match: Match, outcome: Outcome) -> None:
         match.message = f"played {match.world.time:.2f} s"
     for observer in match.observers:
         observer.ended(match, outcome)
-
-
-def _play_ticks(
-    match: Match,
-    ticks: int,
-    interrupt: DeferredInterrupt,
-    began: float,
-    report: Callable[[Progress], None] | None,
-) -> Outcome:
-    """Play a number of ticks, or to an end; interrupts wait for a tick."""
-    world, reported = match.world, began
-    while world.ticks < ticks:
-        interrupt.let_through()
-        ended = match.tick()
-        if ended is not None:
-            return ended
-        if report is not None and world.ticks % 25 == 0:
-            now = perf_counter()
-            if now - reported > REPORT_PERIOD:
-                reported = now
-                factor = world.time / (now - began)
-                report(Progress(world.time, match.distance, factor))
-    return Outcome.COMPLETED

@@ -24,6 +24,8 @@ def play_duels(settings: list[DuelSettings]) -> list[Record]:
     """Play duels side by side and return their records."""
     began = perf_counter()
     runs = run_duels(settings)
+    if any(run.outcome is Outcome.INTERRUPTED for run in runs):
+        raise KeyboardInterrupt
     wall = (perf_counter() - began) / len(settings)
     return [_record_of(run, wall) for run in runs]
 

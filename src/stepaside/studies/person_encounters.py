@@ -157,6 +157,8 @@ def play_encounters(encounters: list[Encounter]) -> list[Record]:
     """Play encounters side by side and return their records."""
     people = [encounter.person for encounter in encounters]
     runs = run_duels([person.settings for person in people])
+    if any(run.outcome is Outcome.INTERRUPTED for run in runs):
+        raise KeyboardInterrupt
     return [_record_of(*each) for each in zip(people, runs, strict=True)]
 
 
