@@ -105,7 +105,7 @@ class FloorAgent(DecisionMaker):
         if not known:
             return None
         self._before = now, seen
-        self._known = tuple(known) if len(known) > 1 else ()
+        self._known = tuple(known)
         opponent = known[0]
         if len(known) > 1:
             present = choose_opponent(
@@ -121,19 +121,14 @@ class FloorAgent(DecisionMaker):
         return self.observe(
             now,
             own,
-            Sighting(
-                now,
-                opponent.bearing,
-                opponent.distance,
-                identity=opponent.identity,
-            ),
+            Sighting(now, opponent.bearing, opponent.distance),
             moving=moving,
             obstacles=self.obstacles,
             velocity=opponent.velocity,
         )
 
     def _others(self, now: float, pose: Pose) -> tuple[OtherPlayer, ...]:
-        """Return all other players, if there are several."""
+        """Return all other players."""
         return self._known
 
     def _other(
@@ -247,7 +242,9 @@ class FloorWalk:
         if strategy.saturated:  # rate of (6), up to the bearing
             turn, most = intent.heading, min(self._share, most)
         turn = min(max(turn, -most), most)
-        way = min(intent.speed_factor, limits.stride_share(turn))
+        way = intent.speed_factor
+        if limits.outer_stride is not None:
+            way = min(way, limits.stride_share(turn))
         if strategy.direction is Direction.BACKWARD:
             way = -way
         self._left = way * limits.stride / parts, turn / parts
@@ -495,7 +492,7 @@ class FloorWorld:
         for motion in self.motions.values():
             if motion.due <= now:
                 motion.decide(self.time, self._seen)
-        self.until = min(motion.due for motion in self.motions.values())
+        self.until = min([motion.due for motion in self.motions.values()])
 
     def step(self, limit: float = inf) -> None:
         """Move all players to the next decision, or to a time, in [s]."""
