@@ -233,7 +233,7 @@ def measure(humanoid: Humanoid, model: Path) -> dict[str, Any]:
             "torques": len(asked["torques"]),
             "speed_limits": len(asked["speed_limits"]),
         },
-        "omitted_meshes": facts["left_out_meshes"],
+        "omitted_meshes": facts["omitted_meshes"],
         "reference_plans": [],
         "summary": {
             key: value
