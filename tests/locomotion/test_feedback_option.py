@@ -4,9 +4,9 @@ from dataclasses import replace
 
 import click
 import pytest
-from click.core import ParameterSource
 
 from stepaside.cli.connection_settings import with_feedback
+from stepaside.cli.options.settings_options import GIVEN
 from stepaside.games.duel_settings import DuelSettings
 from stepaside.locomotion.zmp.control_settings import (
     OPEN_LOOP,
@@ -20,16 +20,11 @@ LEARNS = replace(OPEN_LOOP, learn_turns=True)
 def chosen(control: ControlSettings, *said: str) -> ControlSettings:
     """Control of settings after an option of the command was or was not."""
     with click.Context(click.Command("serve")) as context:
-        for name in ("control__feedback", "control__method"):
-            given = name in said
-            source = ParameterSource.COMMANDLINE if given else None
-            context.set_parameter_source(
-                name, source or ParameterSource.DEFAULT
-            )
+        context.meta[GIVEN] = frozenset(said)
         return with_feedback(DuelSettings(control=control)).control
 
 
-@pytest.mark.parametrize("name", ["control__feedback", "control__method"])
+@pytest.mark.parametrize("name", ["control.feedback", "control.method"])
 def test_an_explicit_feedback_option_holds(name: str) -> None:
     assert chosen(OPEN_LOOP, name) == OPEN_LOOP
 
@@ -43,4 +38,4 @@ def test_feedback_is_the_default() -> None:
 def test_to_learn_turns_takes_no_feedback_away() -> None:
     """A real robot's joints would walk in open loop."""
     assert chosen(LEARNS) == replace(STABILISED, learn_turns=True)
-    assert chosen(LEARNS, "control__feedback") == LEARNS
+    assert chosen(LEARNS, "control.feedback") == LEARNS
