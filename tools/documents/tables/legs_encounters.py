@@ -1,9 +1,7 @@
 """People who approach or chase a robot on learned legs."""
 
 import json
-from collections import defaultdict
-from collections.abc import Mapping, Sequence
-from statistics import median
+from collections.abc import Mapping
 from typing import Any
 
 from stepaside.sim.body_settings import BODIES
@@ -67,62 +65,3 @@ def people(*results: Mapping[str, Any]) -> str:
         *("mean [m]", "template's closest [m]", "begun at [m]"),
     )
     return table(head, rows)
-
-
-def passers_by(*results: Mapping[str, Any]) -> str:
-    """List false triggers with passing pedestrians, by body."""
-    return table(
-        ("body", "passers-by", "false triggers", "touched"),
-        [
-            (
-                body_of(result["settings"]),
-                str(row["number"]),
-                counted(row["false_triggers"], row["number"]),
-                counted(row["contacts"], row["number"]),
-            )
-            for result in results
-            for row in result["passing"]
-        ],
-    )
-
-
-def chasers(*results: Mapping[str, Any]) -> str:
-    """List chases by robot, sensing, and person.
-
-    Each distance is the median over the directions, and the least.
-    """
-    rows = []
-    for result in results:
-        groups: dict[tuple[bool, float], list[Mapping[str, Any]]]
-        groups = defaultdict(list)
-        for row in result["chases"]:
-            groups[row["feints"], row["turning_radius_m"]].append(row)
-        for (feints, radius), found in groups.items():
-            outcomes = [row["outcome"] for row in found]
-            shares = [
-                row["closest_m"] / row["template_closest_m"] for row in found
-            ]
-            rows.append(
-                (
-                    result["settings"]["robot"].upper(),
-                    seen_by(result["settings"], result["settings"]["sensing"]),
-                    "feints" if feints else "steers",
-                    f"{radius:g}",
-                    number(result["closed_form_m"][f"{radius:g}"], 2),
-                    _middle([row["template_closest_m"] for row in found]),
-                    _middle([row["closest_m"] for row in found]),
-                    _middle(shares),
-                    str(len(found)),
-                    counted(outcomes.count("fall"), len(found)),
-                )
-            )
-    head = (
-        *("robot", "seen by", "person", "turning radius [m]", "c* [m]"),
-        *("point [m]", "in physics [m]", "physics / point", "games", "fell"),
-    )
-    return table(head, rows)
-
-
-def _middle(values: Sequence[float]) -> str:
-    """Return the median and, in brackets, the least value."""
-    return f"{number(median(values), 2)} ({number(min(values), 2)})"

@@ -3,7 +3,7 @@
 from collections.abc import Mapping
 from typing import Any
 
-from .markdown import NONE, number, table
+from .markdown import number, table
 
 Result = Mapping[str, Any]
 POLICIES = {
@@ -58,43 +58,3 @@ def _falls(found: Result) -> str:
         f"{found['falls']} of {len(found['trials'])}; at random commands "
         f"{fell} of {random['walks']}"
     )
-
-
-def circles(results: Mapping[str, Result]) -> str:
-    """List the duels of each policy, relative to the circle of theory."""
-    head = (
-        *("policy", "duels", "played to the end", "distance"),
-        *("pursuer's radius", "evader's radius", "angle", "on it after"),
-    )
-    rows = []
-    for name, words in POLICIES.items():
-        if name not in results:
-            continue
-        duels = list(results[name]["duels"].values())
-        played = [row for row in duels if row["outcome"] == "completed"]
-        percents = (
-            _range([100.0 * (row[key] - 1.0) for row in played], 1, "%")
-            for key in ("distance_ratio", "pursuer_ratio", "evader_ratio")
-        )
-        rows.append(
-            (
-                words,
-                str(len(duels)),
-                str(len(played)),
-                *percents,
-                _range([row["angle_deg"] for row in played], 1, "°"),
-                _range([row["converged_at_s"] for row in played], 0, "s"),
-            )
-        )
-    return table(head, rows)
-
-
-def _range(values: list[float | None], digits: int, unit: str) -> str:
-    """Return least and greatest value; a dash where one is missing."""
-    known = [value for value in values if value is not None]
-    if len(known) < len(values):
-        return NONE
-    sign = "+" if unit == "%" else ""
-    low, high = min(known), max(known)
-    gap = "" if unit == "°" else " "
-    return f"{low:{sign}.{digits}f} to {high:{sign}.{digits}f}{gap}{unit}"
