@@ -1,4 +1,4 @@
-"""Survival in rooms by opponent, closest approach, floor area used."""
+"""Survival in rooms by opponent and by size of the room."""
 
 from collections.abc import Mapping
 from typing import Any
@@ -6,47 +6,6 @@ from typing import Any
 from .markdown import NONE, interval, number, table
 
 Result = Mapping[str, Any]
-
-
-def worlds(result: Result) -> str:
-    """List every evader in every room against one pursuer."""
-    head = (
-        "world",
-        "evader",
-        "pursuer",
-        "games",
-        "survived",
-        "95 %",
-        "touched",
-        "captured",
-        "closest [m]",
-        "of the bound",
-        "floor used [m²]",
-        "turning [rad/s]",
-        "decision [ms]",
-    )
-    rows = []
-    for world, found in result["worlds"].items():
-        for row in found:
-            low, high = row["survived_low"], row["survived_high"]
-            rows.append(
-                (
-                    world,
-                    row["evader"],
-                    row["pursuer"],
-                    str(row["games"]),
-                    f"{100 * row['survived']:.1f} %",
-                    f"{100 * low:.1f}-{100 * high:.1f}",
-                    f"{100 * row['touched_obstacle']:.1f} %",
-                    f"{100 * row['captured']:.1f} %",
-                    number(row["mean_closest_m"], 3),
-                    number(row["closest_over_bound"], 3),
-                    number(row["floor_used_m2"], 2),
-                    number(row["turning_rad_s"], 3),
-                    number(row["decision_ms"], 2),
-                )
-            )
-    return table(head, rows)
 
 
 def opponents(result: Result) -> str:
@@ -97,67 +56,31 @@ def sizes(result: Result) -> str:
 
 
 def ladder(result: Result) -> str:
-    """List survival against each pursuer, beside an offline search."""
+    """List survival of both evaders, beside an offline search."""
     head = (
-        "world",
-        "pursuer",
-        "evader",
-        "games",
-        "survived",
-        "mean survival [s]",
-        "offline search [s]",
-        "of it",
-        "decision [ms]",
-        "longest [ms]",
+        *("world", "pursuer", "games"),
+        *("look-ahead", "robust"),
+        *("look-ahead [s]", "robust [s]", "offline search [s]"),
+        "robust decides, mean and longest [ms]",
     )
     rows = []
     for world, found in result["worlds"].items():
+        evaders: dict[str, dict[str, Any]] = {}
         for row in found["rows"]:
-            times = found["offline_s"].get(row["pursuer"])
-            best = sum(times) / len(times) if times else None
-            same = row["survival_in_searched_rooms_s"]
-            low, high = row["survived_low"], row["survived_high"]
-            share = f"{100 * row['survived']:.0f} %"
+            evaders.setdefault(row["pursuer"], {})[row["evader"]] = row
+        for pursuer, by_name in evaders.items():
+            both = [by_name[name] for name in ("look-ahead", "robust")]
+            times = found["offline_s"].get(pursuer)
             rows.append(
                 (
                     world,
-                    row["pursuer"],
-                    row["evader"],
-                    str(row["games"]),
-                    f"{share} ({100 * low:.0f}-{100 * high:.0f})",
-                    number(row["mean_survival_s"], 1),
-                    NONE if best is None else number(best, 1),
-                    NONE
-                    if best is None
-                    else number(sum(same) / len(same) / best, 2),
-                    number(row["decision_ms"], 1),
-                    number(row["longest_decision_ms"], 0),
+                    pursuer,
+                    str(both[0]["games"]),
+                    *(_survived(row) for row in both),
+                    *(number(row["mean_survival_s"], 1) for row in both),
+                    number(sum(times) / len(times), 1) if times else NONE,
+                    f"{both[1]['decision_ms']:.0f}, "
+                    f"{both[1]['longest_decision_ms']:.0f}",
                 )
             )
     return table(head, rows)
-
-
-def open_floor(*results: Result) -> str:
-    """List survival on an open floor by the value of two cars."""
-    head = (
-        *("pursuer", "evader", "starts that must be survived", "survived"),
-        *("other starts", "survived of these"),
-    )
-    rows = [
-        (
-            row["pursuer"],
-            row["evader"],
-            str(row["sure"]),
-            _of(row["sure_survived"], row["sure"]),
-            str(row["open"]),
-            _of(row["open_survived"], row["open"]),
-        )
-        for result in results
-        for row in result["rows"]
-    ]
-    return table(head, rows)
-
-
-def _of(number_of: int, total: int) -> str:
-    """Return a number of starts, or a dash where there are none."""
-    return str(number_of) if total else NONE
