@@ -41,30 +41,6 @@ def people(*results: Mapping[str, Any]) -> str:
     return table(head, rows)
 
 
-def passers_by(*results: Mapping[str, Any]) -> str:
-    """List false triggers with passing pedestrians, by body and sensing."""
-    return table(
-        (
-            "body of who is passed",
-            "seen by",
-            "passers-by",
-            "false triggers",
-            "an hour",
-        ),
-        [
-            (
-                result["settings"]["body"],
-                row["sensing"],
-                str(row["number"]),
-                counted(row["false_triggers"], row["number"]),
-                number(row["false_triggers_per_hour"], 1),
-            )
-            for result in results
-            for row in result["passing"]
-        ],
-    )
-
-
 def seen(*results: Mapping[str, Any]) -> str:
     """List people who approach a robot with cameras or a lidar."""
     rows = []
@@ -112,51 +88,5 @@ def reactions(*results: Mapping[str, Any]) -> str:
     head = (
         *("seen by", "reaction", "people", "games", "touched", "fell"),
         *("closest [m]", "median [m]", "causes"),
-    )
-    return table(head, rows)
-
-
-def passed_by(*results: Mapping[str, Any]) -> str:
-    """List false triggers of a robot with cameras or a lidar."""
-    return table(
-        (
-            *("seen by", "body", "speed [m/s]", "passers-by"),
-            *("false triggers", "touched"),
-        ),
-        [
-            (
-                passed["sensing"],
-                result["settings"]["body"],
-                f"{result['settings']['speed_m_s']:g}",
-                str(passed["number"]),
-                counted(passed["false_triggers"], passed["number"]),
-                counted(passed["contacts"], passed["number"]),
-            )
-            for result in results
-            for passed in [result["passed"]]
-        ],
-    )
-
-
-def fast_gait(*results: Mapping[str, Any]) -> str:
-    """List people from ahead who approach or pass, one per seed."""
-    rows = [
-        (
-            *(row["body"], row["sensing"], f"{row['speed_m_s']:g}"),
-            "past it" if row["miss_m"] else "at it",
-            str(row["number"]),
-            counted(row["contacts"], row["number"]),
-            counted(row["falls"], row["number"]),
-            counted(row["begun"], row["number"]),
-            number(row["begun_at_m"], 1),
-            number(row["closest_m"], 2),
-            number(row["mean_closest_m"], 2),
-        )
-        for result in results
-        for row in result["rows"]
-    ]
-    head = (
-        *("body", "seen by", "speed [m/s]", "walks", "people", "touched"),
-        *("fell", "begun", "begun at [m]", "closest [m]", "mean [m]"),
     )
     return table(head, rows)

@@ -3,7 +3,7 @@
 from collections.abc import Mapping
 from typing import Any
 
-from .markdown import interval, number, table
+from .markdown import interval, table
 
 WALKS = {
     "steers-slowly": "steers, 0.073 m/s, 0.146 1/s",
@@ -33,19 +33,3 @@ def ranges(result: Mapping[str, Any]) -> str:
             )
         )
     return table(("walk", "duels", "touched", "fell", *FIGURES.values()), rows)
-
-
-def each(result: Mapping[str, Any]) -> str:
-    """List each path with each seed."""
-    return table(
-        ("walk", "seed", "outcome", *FIGURES.values()),
-        [
-            (
-                WALKS[row["walk"]],
-                str(row["seed"]),
-                row["message"],
-                *(number(row[key]) for key in FIGURES),
-            )
-            for row in result["rows"]
-        ],
-    )
