@@ -1,17 +1,16 @@
 """Output files: checked before the work begins, replaced atomically."""
 
 import os
-import shutil
 import tempfile
 from collections.abc import Iterator, Sequence
-from contextlib import contextmanager, suppress
+from contextlib import contextmanager
 from pathlib import Path
 from stat import S_IMODE, S_ISREG
 
 from .errors import ConfigurationError, OutputError
 
 FIGURES = (".png", ".svg", ".pdf")
-DRAFT = ".draft-"  # prefix of unfinished output
+DRAFT = ".draft-"  # prefix of the folders of unfinished output
 
 
 def check_file(
@@ -32,23 +31,21 @@ def check_file(
     Raises:
         ConfigurationError: If it cannot be written, with the reason.
     """
+    there, rule = _existing(file, name), ""
     if suffixes and file.suffix.lower() not in suffixes:
-        raise ConfigurationError(
-            f"{name} must end in {', '.join(suffixes)}, got {str(file)!r}"
-        )
-    if file.name in ("", ".", ".."):
-        raise ConfigurationError(f"{name} must be a file, got {str(file)!r}")
-    there = _existing(file, name)
-    if there is not None and not S_ISREG(there.st_mode):
-        raise ConfigurationError(
-            f"{name} must be a regular file, got {str(file)!r}"
-        )
+        rule = f"end in {', '.join(suffixes)}"
+    elif file.name in ("", ".", ".."):
+        rule = "be a file"
+    elif there is not None and not S_ISREG(there.st_mode):
+        rule = "be a regular file"
+    if rule:
+        raise ConfigurationError(f"{name} must {rule}, got {str(file)!r}")
     if there is not None and not overwrite:
         raise ConfigurationError(
             f"{name} must be a file that does not exist yet, got "
             f"{str(file)!r}; --overwrite replaces it"
         )
-    _check_writable(_target(file).parent, file, name)
+    _check_writable(Path(os.path.realpath(file)).parent, file, name)
 
 
 def check_folder(folder: Path, name: str = "output", *, new: bool) -> None:
@@ -58,18 +55,14 @@ def check_folder(folder: Path, name: str = "output", *, new: bool) -> None:
         folder: Folder of the output files.
         name: Name of the option, for messages.
         new: Whether it must be new or empty.
-
-    Raises:
-        ConfigurationError: If it cannot be written, with the reason.
     """
-    there = _existing(folder, name)
-    if there is None:
-        _check_writable(folder.absolute().parent, folder, name)
-        return
-    if not folder.is_dir() or (new and any(folder.iterdir())):
+    place = folder
+    if _existing(folder, name) is None:
+        place = folder.absolute().parent
+    elif not folder.is_dir() or (new and any(folder.iterdir())):
         kind = "a new or an empty folder" if new else "a folder"
         raise ConfigurationError(f"{name} must be {kind}, got {folder}")
-    _check_writable(folder, folder, name)
+    _check_writable(place, folder, name)
 
 
 def free_file(file: Path) -> Path:
@@ -91,35 +84,17 @@ def atomic_draft(file: Path) -> Iterator[Path]:
     Raises:
         OutputError: If it cannot be written; the draft is removed.
     """
-    draft = None
-    try:
-        target = _target(file)
-        target.parent.mkdir(parents=True, exist_ok=True)
-        handle, draft = tempfile.mkstemp(
-            prefix=DRAFT, suffix=file.suffix, dir=target.parent
-        )
-        os.close(handle)
-        yield Path(draft)
-        mode = 0o666 & ~_mask()
+    target = Path(os.path.realpath(file))
+    with _draft_of(target) as draft:
+        yield draft
         if target.exists():
-            mode = S_IMODE(target.stat().st_mode)
-        os.chmod(draft, mode)
-        os.replace(draft, target)
-    except OutputError:
-        raise
-    except OSError as error:
-        raise OutputError(
-            f"{file} could not be written: {reason_of(error)}"
-        ) from error
-    finally:
-        if draft is not None:
-            with suppress(OSError):
-                os.unlink(draft)
+            draft.chmod(S_IMODE(target.stat().st_mode))
+        draft.replace(target)
 
 
 @contextmanager
 def folder_draft(folder: Path) -> Iterator[Path]:
-    """Yield an unfinished folder beside a folder that is to be written.
+    """Yield an unfinished folder for a folder that is to be written.
 
     The caller renames it when it is complete; otherwise it is removed.
 
@@ -129,21 +104,26 @@ def folder_draft(folder: Path) -> Iterator[Path]:
     Raises:
         OutputError: If it cannot be written.
     """
-    draft = None
-    try:
-        folder.parent.mkdir(parents=True, exist_ok=True)
-        draft = Path(tempfile.mkdtemp(prefix=DRAFT, dir=folder.parent))
-        draft.chmod(0o777 & ~_mask())
+    with _draft_of(folder) as draft:
+        draft.mkdir()
         yield draft
+
+
+@contextmanager
+def _draft_of(path: Path) -> Iterator[Path]:
+    """Yield a path of the same name in a temporary folder beside a path."""
+    try:
+        path.parent.mkdir(parents=True, exist_ok=True)
+        with tempfile.TemporaryDirectory(
+            prefix=DRAFT, dir=path.parent, ignore_cleanup_errors=True
+        ) as folder:
+            yield Path(folder, path.name)
     except OutputError:
         raise
     except OSError as error:
         raise OutputError(
-            f"{folder} could not be written: {reason_of(error)}"
+            f"{path} could not be written: {reason_of(error)}"
         ) from error
-    finally:
-        if draft is not None:
-            shutil.rmtree(draft, ignore_errors=True)
 
 
 def reason_of(error: BaseException) -> str:
@@ -152,32 +132,19 @@ def reason_of(error: BaseException) -> str:
     return (text or type(error).__name__).lower()
 
 
-def _mask() -> int:
-    mask = os.umask(0)
-    os.umask(mask)
-    return mask
-
-
-def _target(file: Path) -> Path:
-    return Path(os.path.realpath(file))
-
-
 def _existing(path: Path, name: str) -> os.stat_result | None:
     """Return the status of a path, following links; None if missing."""
     try:
         return path.stat()
-    except FileNotFoundError as error:
-        if not os.path.lexists(path):
-            return None
-        cause: BaseException = error
-        reason = "it is a dangling link"
     except (OSError, ValueError) as error:
-        cause = error
-        reason = reason_of(error)
-    raise ConfigurationError(
-        f"{name} must be a path that can be written, got {_short(path)}: "
-        f"{reason}"
-    ) from cause
+        missing = isinstance(error, FileNotFoundError)
+        if missing and not os.path.lexists(path):
+            return None
+        reason = "it is a dangling link" if missing else reason_of(error)
+        raise ConfigurationError(
+            f"{name} must be a path that can be written, got {_short(path)}: "
+            f"{reason}"
+        ) from error
 
 
 def _short(path: Path) -> str:

@@ -1,8 +1,10 @@
 """Errors raised by this package, and checks of values."""
 
 import os
+import re
 import sys
-from math import inf, tau
+from contextlib import suppress
+from math import tau
 from numbers import Integral, Real
 from pathlib import Path
 
@@ -11,8 +13,6 @@ AnyPath = str | os.PathLike[str]
 # Outside this range cubes and ratios may overflow a double; no length, time
 # or rate of a robot lies there.
 LARGEST, LEAST = 1e12, 1e-12
-GREATEST = sys.float_info.max
-LONGEST_WORD = 240  # in a message, in [characters]; paths are shorter
 
 
 class StepAsideError(Exception):
@@ -21,6 +21,9 @@ class StepAsideError(Exception):
     def __str__(self) -> str:
         """Return the message with overlong words cut."""
         return shorten_words(super().__str__())
+
+
+Kind = type[StepAsideError]
 
 
 class PlanError(StepAsideError, ValueError):
@@ -56,98 +59,39 @@ class CampaignError(StepAsideError, RuntimeError):
 
 
 def shorten_words(text: str) -> str:
-    """Return a text with overlong words cut, like a number of 1,000 digits."""
-    if len(text) <= LONGEST_WORD:
-        return text
-    words = text.split(" ")
-    return " ".join(
-        w if len(w) <= LONGEST_WORD else f"{w[:60]}..." for w in words
-    )
+    """Return a text with words cut that are longer than any path."""
+    return re.sub(r"(\S{60})\S{181,}", r"\1...", text)
 
 
 def shown(value: object) -> str:
-    """Return a short text of any value, for a message.
-
-    Python refuses to convert integers of thousands of digits.
-    """
-    if isinstance(value, int) and abs(value) >= 2**128:
-        return "an integer of more than 38 digits"
-    text = _spelled(value)
+    """Return a short text of any value, for a message."""
+    try:
+        # 0.5 even where NumPy writes np.float64(0.5)
+        text = str(value) if isinstance(value, Real) else repr(value)
+    except (ValueError, RecursionError):  # an integer of 5,000 digits
+        text = f"a value of type {type(value).__name__}"
+    text = " ".join(text.split())
     return text if len(text) <= 80 else f"{text[:60]}..."
 
 
-def _spelled(value: object) -> str:
-    if isinstance(value, Real):
-        return str(value)  # 0.5 even where NumPy writes np.float64(0.5)
-    try:
-        return " ".join(repr(value).split())
-    except (ValueError, RecursionError):
-        return f"a {type(value).__name__}"
-
-
 def as_number(value: object, *, whole: bool = False) -> float | None:
-    """Return a number in double precision; None for any other type.
+    """Return a number in double precision, or an integer, which stays exact.
 
-    NumPy would compare a half or single precision number with the bounds in
-    that precision, where they may round to zero or infinity.
+    NumPy would compare a half or single precision number with bounds in that
+    precision, where they may round to zero or infinity.
 
-    Args:
-        value: Value to convert; ``bool`` is not a number.
-        whole: Whether it must be an integer, which stays exact.
+    Returns:
+        The number; None for any other type, such as ``bool``, and for an
+        integer beyond double precision.
     """
-    if type(value) is float and not whole:
-        return value
-    kind = Integral if whole else Real
-    if isinstance(value, bool) or not isinstance(value, kind):
+    if isinstance(value, bool):
         return None
-    if whole:
-        return int(value)  # type: ignore[call-overload, no-any-return]
     try:
-        return float(value)
+        if whole:
+            return int(value) if isinstance(value, Integral) else None
+        return float(value) if isinstance(value, Real) else None
     except OverflowError:
-        return inf if value > 0 else -inf  # type: ignore[operator]
-
-
-def check_finite(
-    value: float,
-    name: str,
-    unit: str,
-    error: type[StepAsideError] = PlanError,
-) -> None:
-    """Raise ``error`` unless ``value`` is a finite number."""
-    number = as_number(value)
-    if number is None or not -GREATEST <= number <= GREATEST:
-        raise error(f"{name} must be finite [{unit}], got {shown(value)}")
-
-
-def check_positive(
-    value: float,
-    name: str,
-    unit: str,
-    error: type[StepAsideError] = PlanError,
-) -> None:
-    """Raise ``error`` unless ``value`` is finite and above zero."""
-    number = as_number(value)
-    if number is None or not LEAST <= number <= LARGEST:
-        raise error(
-            f"{name} must be finite and > 0 [{unit}], {LEAST:g} to "
-            f"{LARGEST:g}, got {shown(value)}"
-        )
-
-
-def check_not_negative(
-    value: float,
-    name: str,
-    unit: str,
-    error: type[StepAsideError] = PlanError,
-) -> None:
-    """Raise ``error`` unless ``value`` is finite and at least zero."""
-    number = as_number(value)
-    if number is None or not 0.0 <= number <= LARGEST:
-        raise error(
-            f"{name} must be finite and >= 0 [{unit}], at most "
-            f"{LARGEST:g}, got {shown(value)}"
-        )
+        return None
 
 
 def check_within(
@@ -156,52 +100,59 @@ def check_within(
     high: float,
     name: str,
     unit: str,
-    error: type[StepAsideError] = PlanError,
+    error: Kind = PlanError,
+    rule: str = "lie in [{:g}, {:g}]",
 ) -> None:
     """Raise ``error`` unless ``low <= value <= high``."""
     number = as_number(value)
     if number is None or not low <= number <= high:
-        raise error(
-            f"{name} must lie in [{low:g}, {high:g}] [{unit}], "
-            f"got {shown(value)}"
-        )
+        told = f"{name} must {rule.format(low, high)} [{unit}]"
+        raise error(f"{told}, got {shown(value)}")
 
 
-def check_bearing(
-    value: float,
-    name: str,
-    error: type[StepAsideError] = PlanError,
+def check_finite(
+    value: float, name: str, unit: str, error: Kind = PlanError
 ) -> None:
+    """Raise ``error`` unless ``value`` is a finite number."""
+    top = sys.float_info.max
+    check_within(value, -top, top, name, unit, error, "be finite")
+
+
+def check_positive(
+    value: float, name: str, unit: str, error: Kind = PlanError
+) -> None:
+    """Raise ``error`` unless ``value`` is finite and above zero."""
+    rule = "be finite and > 0"
+    check_within(value, LEAST, LARGEST, name, unit, error, rule)
+
+
+def check_not_negative(
+    value: float, name: str, unit: str, error: Kind = PlanError
+) -> None:
+    """Raise ``error`` unless ``value`` is finite and at least zero."""
+    rule = "be finite and >= 0"
+    check_within(value, 0.0, LARGEST, name, unit, error, rule)
+
+
+def check_bearing(value: float, name: str, error: Kind = PlanError) -> None:
     """Raise ``error`` unless ``value`` is an angle within one turn, [rad]."""
-    check_finite(value, name, "rad", error)
     check_within(value, -tau, tau, name, "rad", error)
 
 
 def as_path(
-    path: AnyPath,
-    name: str,
-    error: type[StepAsideError] = ConfigurationError,
+    path: AnyPath, name: str, error: Kind = ConfigurationError
 ) -> Path:
     """Return a path as a :class:`~pathlib.Path`.
 
-    Args:
-        path: Text or any ``os.PathLike`` of text.
-        name: Name of the argument, for the message.
-        error: Class of the error.
-
     Raises:
-        StepAsideError: Of class ``error``, if it is no path or contains a
-            null character.
+        StepAsideError: Of class ``error``, with the name, if it is no path
+            or contains a null character.
     """
-    try:
+    with suppress(TypeError):
         found = Path(path)
-    except TypeError as wrong:
-        raise error(
-            f"{name} must be a path, str or os.PathLike, got {shown(path)}"
-        ) from wrong
-    if "\0" in str(found):
-        raise error(
-            f"{name} must be a path without a null character, "
-            f"got {shown(path)}"
-        )
-    return found
+        if "\0" not in str(found):
+            return found
+    raise error(
+        f"{name} must be a path, str or os.PathLike, without a null "
+        f"character, got {shown(path)}"
+    )

@@ -1,10 +1,10 @@
 """Public names of a package, imported when they are first used.
 
 The names stand once, in the stub ``__init__.pyi`` beside the package, which
-type checkers read too. Nothing but ``importlib`` is needed, so that a package
-loads before any library does.
+type checkers read too, one statement a line.
 """
 
+import re
 from importlib import import_module
 
 TYPE_CHECKING = False  # of typing, which takes longer to load than this
@@ -21,17 +21,15 @@ def lazy_exports(
     Args:
         package: Its ``__name__``.
         file: Its ``__file__``; the stub has the same name and ends in
-            ``.pyi``. Every import in it is ``from .module import name``.
+            ``.pyi``. Every import in it is ``from .module import names``.
     """
-    homes: dict[str, str] = {}
     with open(f"{file.removesuffix('.py')}.pyi", encoding="utf-8") as stub:
-        statements = ("\n" + stub.read()).split("\nfrom ")[1:]
-    for statement in statements:
-        module, _, rest = statement.partition(" import ")
-        names = rest.partition(")")[0] if rest[0] == "(" else rest
-        for name in names.partition("\n\n")[0].strip("(\n ").split(","):
-            if name.strip():
-                homes[name.split(" as ")[-1].strip()] = package + module
+        found = re.findall(r"(?m)^from (\S+) import (.+)$", stub.read())
+    homes = {
+        name.split(" as ")[-1]: package + module
+        for module, names in found
+        for name in names.split(", ")
+    }
 
     def get(name: str) -> "Any":
         if name not in homes:

@@ -2,7 +2,7 @@
 
 from typing import NamedTuple
 
-from .errors import ConfigurationError, StepAsideError, as_number, shown
+from .errors import ConfigurationError, Kind, as_number, shown
 
 
 class Range(NamedTuple):
@@ -28,17 +28,9 @@ class Range(NamedTuple):
     also: tuple[float | None, ...] = ()
 
     def check(
-        self,
-        value: object,
-        name: str,
-        error: type[StepAsideError] = ConfigurationError,
+        self, value: object, name: str, error: Kind = ConfigurationError
     ) -> None:
         """Check that a value is a number in the range; a ``bool`` is not.
-
-        Args:
-            value: Value to check.
-            name: Name of the setting, for the message.
-            error: Class of the error.
 
         Raises:
             StepAsideError: Of class ``error``, with name, range, unit and
@@ -55,15 +47,11 @@ class Range(NamedTuple):
 
     def holds(self, value: object) -> bool:
         """Return whether a value is permitted."""
-        if value is None:
-            return None in self.also
         number = as_number(value, whole=self.whole)
         if number is None:
-            return False
-        within = self.low <= number <= self.high
-        return (
-            within and not (self.above and number == self.low)
-        ) or number in self.also
+            return value is None and None in self.also
+        least = number > self.low if self.above else number >= self.low
+        return (least and number <= self.high) or number in self.also
 
     @property
     def text(self) -> str:
@@ -83,26 +71,18 @@ class Range(NamedTuple):
         return "".join(f" or {name}" for name in named)
 
 
-def check_count(
-    values: object,
-    most: int,
-    name: str,
-    error: type[StepAsideError] = ConfigurationError,
-) -> None:
+def check_count(values: object, most: int, name: str) -> None:
     """Check that a value is a list or tuple of at most ``most`` entries."""
-    if not isinstance(values, list | tuple) or len(values) > most:
-        got = len(values) if isinstance(values, list | tuple) else values
-        raise error(
+    count = len(values) if isinstance(values, list | tuple) else None
+    if count is None or count > most:
+        got = values if count is None else count
+        raise ConfigurationError(
             f"{name} must be a list of at most {most} entries, "
             f"got {shown(got)}"
         )
 
 
 SEEDS = Range(
-    0,
-    2**128 - 1,
-    "1",
-    "random generators take seeds of 128 bits",
-    whole=True,
+    0, 2**128 - 1, "1", "random generators take seeds of 128 bits", whole=True
 )
 RUNTIME = Range(1e-3, 86400.0, "s", "from a physics step to a day")

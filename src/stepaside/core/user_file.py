@@ -2,10 +2,8 @@
 
 import re
 import sys
-from importlib.machinery import SourceFileLoader
-from importlib.util import module_from_spec, spec_from_file_location
 from pathlib import Path
-from types import CodeType, ModuleType
+from types import ModuleType
 from typing import Any
 
 from .errors import ConfigurationError
@@ -13,20 +11,6 @@ from .errors import ConfigurationError
 FILE_AND_NAME = re.compile(r"(?P<file>.+\.py):(?P<name>[^:]*)", re.DOTALL)
 # sys.exit() in user code must not end the program.
 FAILURES = (Exception, SystemExit)
-
-
-class _UncachedLoader(SourceFileLoader):
-    """Loader that ignores and writes no bytecode cache.
-
-    Python's cache is stale for a file of the same size that was written in
-    the same second.
-    """
-
-    def get_code(self, fullname: str) -> CodeType:
-        """Compile the file."""
-        source = self.get_data(self.path)
-        code: CodeType = self.source_to_code(source, self.path)
-        return code
 
 
 def load_user_file(path: str, where: str) -> ModuleType:
@@ -45,21 +29,20 @@ def load_user_file(path: str, where: str) -> ModuleType:
     module = f"stepaside_user_{file.stem}"
     while getattr(sys.modules.get(module), "__file__", str(file)) != str(file):
         module += "_"  # another file of this name
-    loader = _UncachedLoader(module, str(file))
-    spec = spec_from_file_location(module, file, loader=loader)
-    assert spec is not None and spec.loader is not None
-    loaded = module_from_spec(spec)
+    loaded = ModuleType(module)
+    loaded.__file__ = str(file)
     folder = str(file.parent)
     if folder not in sys.path:
         sys.path.append(folder)
     before = sys.modules.get(module)
     sys.modules[module] = loaded  # dataclasses look their module up there
     try:
-        spec.loader.exec_module(loaded)
+        # Not by a loader: a cache of bytecode is stale for a file of the same
+        # size that was written in the same second.
+        exec(compile(file.read_bytes(), file, "exec"), vars(loaded))
     except FAILURES as error:
-        if before is None:
-            del sys.modules[module]
-        else:
+        del sys.modules[module]
+        if before is not None:
             sys.modules[module] = before
         raise ConfigurationError(
             f"{where}: the file fails to run: {type(error).__name__}: {error}"

@@ -11,7 +11,6 @@ from numpy.typing import NDArray
 
 from ..core.constants import GRAVITY
 from ..core.errors import ModelError
-from ..core.index_span import span_of
 from ..core.poses import Array, Pose
 from ..perception.measurement import RobotState, Sighting
 from ..robots.description import REMEDY, RobotDescription
@@ -142,14 +141,12 @@ class SimulatedRobot:
         model, data = world.model, world.data
         self.joint_names = names = kinematics.joint_names
         joints = [model.joint(f"{name}/{n}") for n in names]
-        self._qpos = span_of([int(j.qposadr[0]) for j in joints])
+        self._qpos = np.array([j.qposadr[0] for j in joints])
         ids = np.array([motor_of(model, j.id) for j in joints])
         if gains is not None:
             set_joint_gains(model, ids, names, gains)
         self._dofs = (
-            None
-            if gains is None
-            else span_of([int(j.dofadr[0]) for j in joints])
+            None if gains is None else np.array([j.dofadr[0] for j in joints])
         )
         self.servos = self._make_servos(
             description, names, ids, body, feedforward=gains is None
@@ -225,7 +222,6 @@ class SimulatedRobot:
         self._accelerometer_view: Array = data.sensordata[self._accelerometer]
         pressing = [self._sensor(foot).start for foot in sensors.feet]
         self._force_addresses = np.array(pressing)
-        self._force_span = span_of(pressing)
         sites = [model.site(f"{self.name}/{f}").id for f in sensors.feet]
         self._corner_sites = np.array(sites)
 
@@ -276,16 +272,16 @@ class SimulatedRobot:
                 now, *(EMPTY,) * 4, first, percepts, place, players=seen
             )
         self.world.update_sensors()
-        angles = self._qpos_view[self._qpos].copy()
+        angles = self._qpos_view.take(self._qpos)
         velocities = latest = None
         if self._dofs is not None:
-            velocities = self._qvel_view[self._dofs].copy()
+            velocities = self._qvel_view.take(self._dofs)
         if self._imu is not None:
             gyro, specific_force, latest = self._imu.read()
         else:
             gyro = self._gyro_view.copy()
             specific_force = self._accelerometer_view.copy()
-        forces = self._sensordata[self._force_span].copy()
+        forces = self._sensordata.take(self._force_addresses)
         if self._errors is not None:
             angles = self._errors.encoders(angles)
             if velocities is not None:

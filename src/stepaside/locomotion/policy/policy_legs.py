@@ -4,7 +4,6 @@ import numpy as np
 
 from ...core.compilation import bound, compiled
 from ...core.errors import PolicyError
-from ...core.index_span import span_of
 from ...core.poses import Array, Pose
 from ...perception.measurement import RobotState
 from ...robots.description import RobotDescription
@@ -99,7 +98,7 @@ class PolicyLegs:
         )
         forward = ForwardKinematics(description)
         joints = [forward.tree.motor_of(name) for name in contract.joints]
-        self._joints = span_of(joints)
+        self._joints = np.array(joints)
         self.coupled = tuple(
             [i for i, shared in enumerate(joints) if shared == motor]
             for motor in sorted({m for m in joints if joints.count(m) > 1})
