@@ -39,9 +39,6 @@ def lower_hull(
         ordered: Points (x, y) in ascending order; in descending order they
             give the upper half.
         tolerance: See :func:`convex_hull`.
-
-    Returns:
-        Corners from the first point to the last.
     """
     hull: list[Point] = []
     for p in ordered:
@@ -90,16 +87,13 @@ def signed_area(polygon: Array) -> float:
 
 
 def grown_hull_area(points: Array, radius: float) -> float:
-    """Return the area of the convex hull of points, grown by a radius.
+    """Return the area of the hull of points grown by a radius, in [m^2].
 
     For positions of a disc it is the smallest convex floor for its path.
 
     Args:
         points: Points (x, y) in one frame, in [m]. Shape (n, 2).
         radius: Radius of the disc, in [m].
-
-    Returns:
-        Area, in [m^2].
     """
     hull = convex_hull(np.asarray(points, dtype=np.float64))
     perimeter = float(np.hypot(*(np.roll(hull, -1, axis=0) - hull).T).sum())

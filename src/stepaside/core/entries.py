@@ -1,5 +1,6 @@
 """Files of entries: TOML and JSON, read into dataclasses and written."""
 
+import errno
 import json
 import tomllib
 from collections.abc import Callable, Collection, Mapping
@@ -9,12 +10,21 @@ from pathlib import Path
 from typing import Any, TypeVar
 
 from .errors import ConfigurationError, StepAsideError
-from .regular_files import check_regular
 from .setting import EntryReader, Readers
 
 S = TypeVar("S")
 ERROR = ConfigurationError
 MAX_CHARACTERS = 2**20  # of a file
+
+
+def check_regular(path: Path) -> None:
+    """Refuse a pipe, a socket or a device, whose reading may never end.
+
+    Raises:
+        OSError: If it is one.
+    """
+    if path.exists() and not (path.is_file() or path.is_dir()):
+        raise OSError(errno.EINVAL, "not a regular file", str(path))
 
 
 def load_entries(

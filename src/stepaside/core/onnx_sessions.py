@@ -3,9 +3,9 @@
 from pathlib import Path
 from typing import Any
 
+from .entries import check_regular
 from .errors import PolicyError
 from .extras import install_hint
-from .regular_files import check_regular
 
 
 def open_session(network: str | bytes) -> Any:
@@ -36,11 +36,7 @@ def open_session(network: str | bytes) -> Any:
 
 
 def check_readable(path: Path) -> None:
-    """Check that a file of a network can be read.
-
-    Raises:
-        PolicyError: If not.
-    """
+    """Raise :class:`PolicyError` unless a file can be read."""
     try:
         check_regular(path)
         path.open("rb").close()

@@ -2,7 +2,6 @@
 
 import sys
 from time import monotonic
-from types import TracebackType
 from typing import Any
 
 PERIOD = 10.0  # between two lines if standard error is not a terminal, in [s]
@@ -57,12 +56,7 @@ class PlainProgress:
         """Return the display; print nothing yet."""
         return self
 
-    def __exit__(
-        self,
-        kind: type[BaseException] | None,
-        error: BaseException | None,
-        trace: TracebackType | None,
-    ) -> None:
+    def __exit__(self, *error: object) -> None:
         """Print nothing: the result follows."""
 
     def update(self, more: float = 1) -> None:
@@ -82,19 +76,16 @@ class PlainProgress:
             return
         self._printed = now
         elapsed = now - self._began
-        done = f"{self.n:.0f}"
+        done = f"{self.n:.0f} {self._unit}".rstrip()
         remaining = ""
         if self.total:
-            fraction = self.n / self.total
-            done = f"{100.0 * fraction:.0f} %"
+            done = f"{100.0 * self.n / self.total:.0f} %"
             if self._unit:
                 done += f", {self.n:.0f} of {self.total:.0f} {self._unit}"
             if self.n > self.initial:
                 pace = elapsed / (self.n - self.initial)
                 seconds = pace * (self.total - self.n)
                 remaining = f", about {seconds:.0f} s left"
-        elif self._unit:
-            done += f" {self._unit}"
         print(
             f"stepaside: {self._name}: {done}{self._postfix}; "
             f"{elapsed:.0f} s so far{remaining}",

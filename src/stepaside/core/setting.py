@@ -73,11 +73,11 @@ class Setting:
     def text(self) -> str:
         """The meaning with its unit, as a sentence."""
         text = self.meaning
-        counts = self.range is None or self.range.whole
-        if not counts and "{unit}" not in text:
+        if self.range is None:
+            return text + "."
+        if not self.range.whole and "{unit}" not in text:
             text += " {unit}"
-        unit = f"[{self.range.unit}]" if self.range else ""
-        return text.replace("{unit}", unit) + "."
+        return text.replace("{unit}", f"[{self.range.unit}]") + "."
 
     @property
     def full_text(self) -> str:
@@ -96,18 +96,11 @@ def setting(
     range: Range | None = None,  # noqa: A002 (the term of the field)
     **more: Any,
 ) -> T:
-    """Declare a field of a dataclass of settings.
-
-    Args:
-        default: Default value, or ``REQUIRED``.
-        meaning: Meaning.
-        range: Range of a number.
-        more: Further attributes of :class:`Setting`.
-    """
+    """Declare a field of settings, described by a :class:`Setting`."""
+    described = Setting(meaning, range, **more)
     kind: dict[str, Any] = {"default": default}
     if isinstance(default, list | dict):
         kind = {"default_factory": default.copy}
-    described = Setting(meaning, range, **more)
     made: T = field(**kind, metadata={_KEY: described})
     return made
 
@@ -123,15 +116,6 @@ def settings_of(kind: type[Any]) -> Mapping[str, Setting]:
             described = replace(described, names=get_args(each.type))
         found[each.name] = described
     return found
-
-
-def ranges_of(kind: type[Any]) -> dict[str, Range]:
-    """Return the ranges of the numbers of a class of settings."""
-    return {
-        name: described.range
-        for name, described in settings_of(kind).items()
-        if described.range is not None
-    }
 
 
 class _Entry(NamedTuple):
@@ -180,12 +164,7 @@ class EntryReader:
     def __init__(
         self, readers: Readers | None = None, *, ignoring: bool = False
     ) -> None:
-        """Begin without problems.
-
-        Args:
-            readers: Functions that read some classes from tables.
-            ignoring: Whether unknown entries are ignored.
-        """
+        """Begin; see :func:`~.entries.read_entries`."""
         self.problems: list[str] = []
         self._readers, self._ignoring = readers or {}, ignoring
 
@@ -211,7 +190,7 @@ class EntryReader:
             hint: The type.
             path: Path, for messages.
             described: Description of the field.
-            base: Value that holds for entries that a table omits.
+            base: Value for entries that a table omits.
         """
         range = described.range
         if hint is float and type(value) is float and range:  # most often
@@ -287,14 +266,11 @@ class EntryReader:
         if not unknown:
             return
         near = [x for u in unknown for x in get_close_matches(u, entries, 1)]
-        self.problems.append(
-            f"unknown entry {', '.join(_joined(path, u) for u in unknown)}"
-            + (
-                f"; did you mean {' or '.join(near)}?"
-                if near
-                else f"; there are {', '.join(entries)}"
-            )
-        )
+        hint = f"there are {', '.join(entries)}"
+        if near:
+            hint = f"did you mean {' or '.join(near)}?"
+        listed = ", ".join(_joined(path, name) for name in unknown)
+        self.problems.append(f"unknown entry {listed}; {hint}")
 
     def _read_any(
         self,
@@ -380,14 +356,12 @@ class EntryReader:
         self, value: Any, kind: Any, path: str, range: Range | None
     ) -> Any:
         number = as_number(value, whole=kind is int)
-        if range is None:
-            if number is not None and isfinite(number):
-                return number
+        if range is not None:
+            fits, rule = range.holds(value), range.rule
+        else:
+            fits = number is not None and isfinite(number)
             rule = "be an integer" if kind is int else "be a finite number"
-            return self._note(path, rule, value)
-        if not range.holds(value):
-            return self._note(path, range.rule, value)
-        return number
+        return number if fits else self._note(path, rule, value)
 
 
 _TYPE_NAMES = {bool: "true or false", str: "text"}

@@ -86,12 +86,17 @@ class DeferredInterrupt:
             self._before[number](number, sys._getframe())
 
     def _defer(self, number: int, frame: FrameType | None) -> None:
-        if self._pending is None:
-            self._pending = number
-            self._timer = _send_later(number, LONGEST_DELAY)
-        else:
+        if self._pending is not None:
             self._take_pending()
             self._before[number](number, frame)
+            return
+        self._pending = number
+        main = threading.main_thread().ident or 0
+        self._timer = threading.Timer(
+            LONGEST_DELAY, signal.pthread_kill, (main, number)
+        )
+        self._timer.daemon = True
+        self._timer.start()
 
     def _take_pending(self) -> int | None:
         """Return the pending signal and clear it."""
@@ -106,21 +111,8 @@ def interrupt(number: int, frame: FrameType | None) -> None:
 
     When a terminal closes, both the shell and the kernel send SIGHUP; only
     the first one raises, so that the second does not interrupt the cleanup.
-
-    Raises:
-        KeyboardInterrupt: Unless this is a repeated SIGHUP.
     """
     if number == signal.SIGHUP and number in _raised:
         return
     _raised.append(number)
     raise KeyboardInterrupt
-
-
-def _send_later(number: int, delay: float) -> threading.Timer:
-    """Send a signal to the main thread after a delay, in [s]."""
-    main = threading.main_thread().ident
-    assert main is not None
-    timer = threading.Timer(delay, signal.pthread_kill, (main, number))
-    timer.daemon = True
-    timer.start()
-    return timer
