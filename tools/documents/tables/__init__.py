@@ -57,7 +57,6 @@ TABLES: dict[str, Callable[..., str]] = {
     "push-methods": pushes.methods,
     "ranges": person_approaches.ranges,
     "ros2-peers": ros2_sessions.peers,
-    "rating": learning.rating,
     "rating-scores": learning.scores,
     "teams": games_of_many.teams,
     "crowds": games_of_many.crowds,
