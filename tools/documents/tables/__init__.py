@@ -67,7 +67,6 @@ TABLES: dict[str, Callable[..., str]] = {
     "settings": settings.settings,
     "settings-of-commands": settings.options,
     "spreads": many_duels.spreads,
-    "worst-seeds": many_duels.worst_seeds,
 }
 
 __all__ = ["TABLES"]

@@ -1,4 +1,4 @@
-"""Studies of many duels: outcomes, values with intervals, worst seeds."""
+"""Studies of many duels: outcomes, values with intervals, certificates."""
 
 from collections.abc import Mapping
 from typing import Any
@@ -11,11 +11,6 @@ KINDS = {
     "duels-ideal": "ideal",
     "duels-hardware": "hardware-like",
     "duels-cameras": "ideal, with cameras",
-}
-OPTIONS = {
-    "duels-ideal": "",
-    "duels-hardware": " --body hardware",
-    "duels-cameras": " --sensing cameras",
 }
 
 
@@ -60,30 +55,6 @@ def spreads(result: Result) -> str:
                 f"{number(row['greatest'], digits)}",
             )
         )
-    return table(head, rows)
-
-
-def worst_seeds(results: Mapping[str, Result]) -> str:
-    """List the seeds of the worst duels, and the command that repeats them."""
-    head = ("body", "what", "value", "again")
-    rows = []
-    for name, words in KINDS.items():
-        if name not in results:
-            continue
-        figures = results[name]["summary"]["figures"]
-        for key, row in figures.items():
-            if row["least"] == row["greatest"]:
-                continue
-            label, digits = words_of(key)
-            rows.append(
-                (
-                    words,
-                    label,
-                    number(row["worst"], digits),
-                    f"`stepaside duel --seed {row['worst_seed']}"
-                    f"{OPTIONS[name]}`",
-                )
-            )
     return table(head, rows)
 
 
