@@ -29,9 +29,7 @@ from . import (
 
 TABLES: dict[str, Callable[..., str]] = {
     "benchmark": benchmark.all_rows,
-    "barrier": bounds.barrier,
     "bound-evaders": bounds.evaders,
-    "bound-refinement": bounds.refinement,
     "certified": many_duels.certified,
     "certified-starts": unicycles.certified_starts,
     "chauffeur": bounds.chauffeur,

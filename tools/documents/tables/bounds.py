@@ -1,4 +1,4 @@
-"""Bound of the closest approach, its accuracy, and evaders beside it."""
+"""Bound of the closest approach, and evaders beside it."""
 
 from collections.abc import Mapping
 from typing import Any
@@ -6,51 +6,6 @@ from typing import Any
 from .markdown import NONE, counted, number, table
 
 Result = Mapping[str, Any]
-GAMES = {"pursuit": "against eqs. (1)-(2)", "cars": "two identical cars"}
-
-
-def refinement(result: Result) -> str:
-    """List differences between grids."""
-    head = ("game", "cells", "mean", "above it", "95 %", "worst")
-    rows = [
-        (
-            words,
-            f"{row['cells']} beside {row['finer']}",
-            number(row["mean"], 4),
-            f"{100.0 * row['above_mean']:.0f} %",
-            number(row["most"], 4),
-            number(row["worst"], 2),
-        )
-        for game, words in GAMES.items()
-        for row in result[game]["refinement"]
-    ]
-    return table(head, rows)
-
-
-def barrier(result: Result) -> str:
-    """Compare the table with points of the closed-form barrier."""
-    head = (
-        "capture [v/ω]",
-        "points",
-        "value off, median",
-        "mean",
-        "worst",
-        "barrier off, median",
-        "mean",
-    )
-    rows = [
-        (
-            number(row["capture"], 1),
-            str(row["points"]),
-            number(row["median"], 4),
-            number(row["mean"], 4),
-            number(row["worst"], 2),
-            number(row["apart_median"], 4),
-            number(row["apart_mean"], 4),
-        )
-        for row in result["cars"]["barrier"]
-    ]
-    return table(head, rows)
 
 
 def evaders(result: Result) -> str:
