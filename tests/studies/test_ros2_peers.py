@@ -10,7 +10,6 @@ from pathlib import Path
 import pytest
 
 from stepaside.studies.result_files import read_result
-from tools.documents.tables.ros2_sessions import peers
 
 ROOT = Path(__file__).parents[2]
 
@@ -33,26 +32,3 @@ def test_ros_and_we_hear_each_other(name: str, tmp_path: Path) -> None:
         "ROS 2 to us",
         "us to ROS 2",
     }
-
-
-def test_what_was_not_heard_is_in_the_table() -> None:
-    rows = [
-        {
-            "topic": topic,
-            "type": "nav_msgs/Odometry",
-            "way": "us to ROS 2",
-            "heard": 0,
-            "passed": False,
-        }
-        for topic in ("odom", "serve's robot is walked")
-    ]
-    good = [{**row, "heard": 9, "passed": True} for row in rows]
-    found = [
-        {"name": "Jazzy", "middleware": "Fast DDS 2.14.5", "rows": good},
-        {"name": "Kilted", "middleware": "Fast DDS 3.2.3", "rows": rows},
-    ]
-    lines = peers({"distributions": found}).splitlines()
-    assert "Jazzy (Fast DDS 2.14.5) | Kilted (Fast DDS 3.2.3)" in lines[0]
-    assert lines[2] == "| us | ROS 2 | `odom` | nav_msgs/Odometry | yes | no |"
-    with pytest.raises(ValueError, match="rows of distributions differ"):
-        peers({"distributions": [found[0], {**found[1], "rows": rows[::-1]}]})

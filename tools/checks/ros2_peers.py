@@ -15,8 +15,8 @@ uses a Python that has them. For Humble, which has no wheels,
 runs the same nodes on CycloneDDS 0.10, its middleware (``cyclone_node.py``).
 All nodes are in a separate domain on the
 loopback interface (``ROS_AUTOMATIC_DISCOVERY_RANGE=LOCALHOST``). The result is
-written to ``docs/results/ros2-peers.json``, whose table is in
-``docs/robots-real.md``; the exit status is 1 if a message was not received.
+written to ``docs/results/ros2-peers.json``; the exit status is 1 if a message
+was not received.
 """
 
 import argparse
