@@ -80,7 +80,8 @@ def test_upper_sum_is_just_above_the_comparison_equation() -> None:
             if rho > 0.0:
                 slow = (r_star + rho) * delta**2 / (4 * r_star * rho)
             rho += h * min(delta, slow)
-        upper = _largest_spread(rho0, d0, alpha, 1.0, 1.0, r_star)
+        game = make_game(1, 1, 1, 1, alpha)
+        upper = _largest_spread(rho0, d0, game, r_star)
         assert rho - 1e-3 < upper < 1.05 * rho + 1e-3
 
 
@@ -182,8 +183,9 @@ def test_unequal_players_are_refused() -> None:
 
 
 def test_tail_of_the_upper_sum_is_speed_times_error_over_gain() -> None:
+    game = make_game(3.0, 3.0, 0.5, 0.5, 1.1)
     for d in (8e-7, -8e-7, 0.0):
-        upper = _largest_spread(0.25, d, 1.1, 3.0, 0.5, 4.0)
+        upper = _largest_spread(0.25, d, game, 4.0)
         assert upper - 0.25 == pytest.approx(6.0 * abs(d), rel=1e-6)
 
 

@@ -69,7 +69,7 @@ def test_facing_evader_outside_the_safety_area_stays_clear() -> None:
 def test_evader_looking_away_can_walk_into_its_pursuer() -> None:
     box = StartBox(0.8, 1.2)
     options = {"step": 0.05, "capture_distance": 0.3}
-    found = map_starts(NAO, box, 40.0, shape=(2, 19, 19), **options)  # type: ignore[arg-type]
+    found = map_starts(NAO, box, 40.0, shape=(2, 19, 19), **options)
     worst = find_worst_start(NAO, found, box, 40.0, **options)
     assert worst.captured
     run = simulate(NAO, worst.start, 40.0, capture_distance=0.3)
@@ -92,7 +92,7 @@ def test_map_covers_its_box_from_corner_to_corner() -> None:
 def test_captured_point_of_a_grid_ends_the_search() -> None:
     box = StartBox(0.8, 1.2)
     options = {"step": 0.05, "capture_distance": 0.5}
-    found = map_starts(FAST, box, 5.0, shape=(2, 7, 7), **options)  # type: ignore[arg-type]
+    found = map_starts(FAST, box, 5.0, shape=(2, 7, 7), **options)
     caught = found.outcomes.captured
     assert 0 < caught.sum() < caught.size
     worst = find_worst_start(FAST, found, box, 5.0, **options)

@@ -17,7 +17,7 @@ from numpy.typing import ArrayLike, NDArray
 from ...core.brief_repr import brief_repr
 from ...core.errors import StepAsideError, check_positive
 from ...core.poses import Pose
-from .relative_coordinates import RelativeStart, world_poses
+from .relative_coordinates import RelativeStart
 from .relative_motion import (
     SLACK,
     Mode,
@@ -89,7 +89,10 @@ class PlayedGame:
         Returns:
             Poses (x [m], y [m], theta [rad]) in the world. Shape (n, 3) each.
         """
-        return world_poses(self.states(times))
+        r, a, psi, sight, x, y = self.states(times).T
+        ends = x + r * np.cos(sight), y + r * np.sin(sight)
+        pursuer = np.column_stack([x, y, sight - a])
+        return pursuer, np.column_stack([*ends, sight + np.pi - psi])
 
 
 @dataclass(frozen=True)
@@ -197,12 +200,8 @@ def simulate(
         tolerance: Relative tolerance of a step; the absolute tolerance is a
             tenth of it.
 
-    Returns:
-        The game, with dense output.
-
     Raises:
-        PlanError: If a value is out of range.
-        StepAsideError: If the integrator fails.
+        StepAsideError: If a value is out of range or the integrator fails.
     """
     check_positive(duration, "duration", "s")
     check_positive(capture_distance, "capture_distance", "m")

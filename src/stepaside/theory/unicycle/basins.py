@@ -1,7 +1,7 @@
 """Basins of attraction of the limit circles, by random sampling."""
 
-from collections.abc import Callable
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -72,35 +72,22 @@ def find_basins(
     game: Game,
     starts: Array,
     *,
-    capture_distance: float = 1e-6,
     duration: float | None = None,
-    progress: Callable[[int], None] | None = None,
+    **options: Any,
 ) -> Basins:
     """Play a game from many initial states and classify the outcomes.
 
     Args:
         game: Parameters of the game.
         starts: Rows of r [m], a, psi [rad]. Shape (n, 3).
-        capture_distance: Distance at which a game ends, in [m].
         duration: Duration of each game, in [s]; if None, long enough to
             reach all stable circles of the game.
-        progress: Called with the number of games finished since the last
-            call.
-
-    Returns:
-        Fractions of the games that settled on each circle.
+        options: Further options of :func:`.batch.play_games`.
     """
     circles = circles_of(game)
     until_all, step = duration_and_step(game)
     duration = until_all if duration is None else duration
-    out = play_games(
-        game,
-        starts,
-        duration,
-        step=step,
-        capture_distance=capture_distance,
-        progress=progress,
-    )
+    out = play_games(game, starts, duration, step=step, **options)
     captured = float(out.captured.mean())
     return Basins(
         circles,
@@ -114,14 +101,8 @@ def find_basins(
 
 
 def duration_and_step(game: Game) -> tuple[float, float]:
-    """Return duration and time step of games that reach stable circles.
-
-    Returns:
-        Duration, long enough to reach every stable circle of the game, and
-        time step, in [s].
-    """
-    slow = min(game.pursuer.gain, game.evader.gain)
-    fast = max(game.pursuer.gain, game.evader.gain)
+    """Return duration and time step of games that reach stable circles."""
+    slow, fast = sorted((game.pursuer.gain, game.evader.gain))
     constants = [c.time_constant_s for c in circles_of(game) if c.stable]
     duration = 40.0 / slow + _SETTLE * max(constants, default=0.0)
     return min(duration, _LONGEST / slow), min(0.02 / slow, 0.1 / fast)

@@ -8,10 +8,9 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ...core.brief_repr import brief_repr
-from ...core.errors import PlanError, check_positive, shown
+from ...core.errors import PlanError, check_bearing, check_positive, shown
 from ...core.poses import wrap_angles
 from .circles import Circle, circles_of
-from .relative_coordinates import check_bearings
 from .relative_motion import RelativeState, deviation, rules_of
 from .unicycle_game import Game, check_side
 
@@ -79,9 +78,6 @@ def play_games(
         progress: Called with the number of games of each finished chunk of
             16,384.
 
-    Returns:
-        Outcomes of the games, in the order of the initial states.
-
     Raises:
         PlanError: If a value is out of range.
     """
@@ -113,10 +109,9 @@ def play_games(
 
 
 def accurate_step(game: Game) -> float:
-    """Return the step size that keeps closest approaches to 1e-7 m, in [s].
+    """Return the step, in [s], that keeps closest approaches to 1e-7 m.
 
-    Args:
-        game: Parameters of the game, at speeds of about 1 m/s.
+    At speeds of about 1 m/s.
     """
     return STEP_TIMES_GAIN / max(game.pursuer.gain, game.evader.gain)
 
@@ -132,20 +127,15 @@ def circle_states(circles: Sequence[Circle]) -> Array:
 def circle_deviations(
     circles: Array, states: Array, sides: ArrayLike
 ) -> Array:
-    """Return the deviations of states from circles, relative or in [rad].
+    """Return the deviations (n, m) of states from circles: the largest each.
 
     Args:
         circles: Rows of r [m], a, psi [rad] at side +1. Shape (n, 3).
         states: Rows of r [m], a, psi [rad]. Shape (m, 3).
         sides: Side of each state. Shape (m,).
-
-    Returns:
-        The largest of the three deviations. Shape (n, m).
     """
-    circle = RelativeState(*circles.T[..., None])
-    found: Array = deviation(
-        RelativeState(*states.T), np.asarray(sides), circle
-    )
+    circle, state = RelativeState(*circles.T[..., None]), states.T
+    found: Array = deviation(RelativeState(*state), np.asarray(sides), circle)
     return found
 
 
@@ -161,7 +151,8 @@ def _wrapped(starts: ArrayLike) -> Array:
     if not (np.isfinite(states).all() and (states[:, 0] > 0.0).all()):
         raise PlanError("starts must be finite with distance > 0 [m]")
     angles = states[:, 1:]
-    check_bearings(angles, "bearings of starts")
+    if angles.size:
+        check_bearing(float(np.abs(angles).max()), "bearings of starts")
     far = np.abs(angles) > np.pi  # wrapping would turn pi into -pi
     angles[far] = wrap_angles(angles[far])
     return states

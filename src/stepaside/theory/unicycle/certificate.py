@@ -32,7 +32,7 @@ Proofs in ``docs/unicycles.md``.
 
 from cmath import exp
 from dataclasses import dataclass
-from math import asin, inf, log, pi, sin
+from math import asin, log, pi, sin
 
 import numpy as np
 
@@ -74,12 +74,6 @@ def certify(game: Game, start: RelativeStart, *, side: int = 0) -> Certificate:
             and an angle above zero.
         start: Initial relative coordinates.
         side: Initial side, +1 or -1; 0 for the one behind the evader.
-
-    Returns:
-        The bound, and whether it is proved for this initial state.
-
-    Raises:
-        PlanError: If the parameters do not satisfy these assumptions.
     """
     if game.pursuer != game.evader or game.saturated or game.angle == 0.0:
         raise PlanError(
@@ -99,7 +93,7 @@ def certify(game: Game, start: RelativeStart, *, side: int = 0) -> Certificate:
     d, x = a - b, 0.5 * (a + b - alpha)
     spread = abs(r * exp(1j * x) - radius)
     plain = radius - spread - speed * abs(d) / gain
-    spread = _largest_spread(spread, d, alpha, speed, gain, radius)
+    spread = _largest_spread(spread, d, game, radius)
     bound = radius - spread
     unwrapped = stays_unwrapped(game, a, psi) or _unwrapped(
         game, bound, radius, d
@@ -133,24 +127,19 @@ def stays_unwrapped(game: Game, pursuer_error: float, bearing: float) -> bool:
 
 
 def _largest_spread(
-    spread: float,
-    d: float,
-    alpha: float,
-    speed: float,
-    gain: float,
-    radius: float,
+    spread: float, d: float, game: Game, radius: float
 ) -> float:
     """Return an upper sum of the comparison equation over the decay of d."""
+    speed, gain = game.pursuer.speed, game.pursuer.gain
     size, sign = abs(d), 1.0 if d > 0.0 else -1.0
     while size > _TAIL:
         smaller = _FACTOR * size
         ends = sorted((sign * size, sign * smaller))
-        largest = 2.0 * speed * largest_change(alpha, ends[0], ends[1])
-        slow = inf
+        largest = 2.0 * speed * largest_change(game.angle, *ends)
         if spread > 0.0:
             slow = (radius + spread) * largest**2
-            slow /= 4.0 * gain * radius * spread
-        spread += min(largest, slow) * log(1.0 / _FACTOR) / gain
+            largest = min(largest, slow / (4.0 * gain * radius * spread))
+        spread += largest * log(1.0 / _FACTOR) / gain
         size = smaller
     return spread + speed * size / gain
 

@@ -65,9 +65,6 @@ def circle_at(
         circles: Circles of the game.
         state: r [m], a, psi [rad]. Shape (3,).
         side: Side of the evader, +1 or -1.
-
-    Returns:
-        The nearest circle, or None.
     """
     if not circles:
         return None
@@ -85,9 +82,7 @@ def settling_time(game: Game, *, precision: float = 1e-6) -> float:
         for circle in circles_of(game)
         if circle.stable
     ]
-    if not ends:
-        return 60.0 / gain
-    return float(30.0 / gain + max(ends))
+    return float(30.0 / gain + max(ends, default=30.0 / gain))
 
 
 def measure(run: PlayedGame, *, count: int = 361) -> FittedCircle:

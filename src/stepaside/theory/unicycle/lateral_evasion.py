@@ -8,7 +8,7 @@ HALF_WIDTHS = 0.55  # sum for a person and a NAO, with arms, in [m]
 
 
 def lateral_displacement(speed: float, turning: float, time: float) -> float:
-    r"""Return the lateral displacement of a unicycle that moves aside.
+    r"""Return the lateral displacement, in [m], of a unicycle moving aside.
 
     It faces the person first and turns at its full rate until it drives
     across the line of sight: :math:`y = \frac{v}{\omega} (1 - \cos \omega t)`
@@ -18,12 +18,6 @@ def lateral_displacement(speed: float, turning: float, time: float) -> float:
         speed: Driving speed v, in [m/s].
         turning: Largest turning rate, in [rad/s].
         time: Time since the begin of the motion, in [s].
-
-    Returns:
-        Displacement, in [m].
-
-    Raises:
-        PlanError: If an argument is out of range.
     """
     check_positive(speed, "speed", "m/s")
     check_positive(turning, "turning", "rad/s")
@@ -55,9 +49,6 @@ def lateral_clearance(
     Returns:
         Clearance when the person passes the initial position of the
         unicycle, in [m]; negative for a contact.
-
-    Raises:
-        PlanError: If an argument is out of range.
     """
     check_positive(person_speed, "person_speed", "m/s")
     check_not_negative(distance, "distance", "m")

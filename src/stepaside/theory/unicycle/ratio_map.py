@@ -48,12 +48,6 @@ def map_ratios(
         law: Turning law of the evader.
         speed_ratios: Pursuer's over evader's speed. Shape (n,).
         gain_ratios: Evader's over pursuer's gain. Shape (m,).
-
-    Returns:
-        Distances over the grid.
-
-    Raises:
-        PlanError: If the law or a value is not valid.
     """
     speeds = np.asarray(speed_ratios, dtype=np.float64)
     gains = np.asarray(gain_ratios, dtype=np.float64)

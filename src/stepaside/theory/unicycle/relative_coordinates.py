@@ -9,13 +9,8 @@ r"""Relative coordinates of two unicycles.
 from dataclasses import dataclass
 from math import atan2, cos, hypot, pi, sin
 
-import numpy as np
-from numpy.typing import ArrayLike, NDArray
-
 from ...core.errors import check_bearing, check_positive
 from ...core.poses import Pose, wrap_angle
-
-Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True, slots=True)
@@ -69,33 +64,3 @@ class RelativeStart:
         """Return the poses of both in the initial frame of the pursuer."""
         origin = Pose(0.0, 0.0, 0.0)
         return origin, self.evader_pose(origin)
-
-
-def check_bearings(angles: ArrayLike, name: str) -> None:
-    """Raise :class:`PlanError` unless all angles lie within one turn.
-
-    Args:
-        angles: Angles of any shape, in [rad].
-        name: Name of the angles, for the message.
-    """
-    flat = np.asarray(angles, dtype=np.float64).ravel()
-    if flat.size:
-        check_bearing(float(flat[np.abs(flat).argmax()]), name)
-
-
-def world_poses(states: ArrayLike) -> tuple[Array, Array]:
-    """Compute the poses of both players in the world.
-
-    Args:
-        states: Columns r [m], a, psi, direction of the line of sight in the
-            world [rad], x, y of the pursuer in the world [m]. Shape (n, 6).
-
-    Returns:
-        Poses (x [m], y [m], theta [rad]) of pursuer and evader, each of
-        shape (n, 3).
-    """
-    r, a, psi, sight, x, y = np.asarray(states, dtype=np.float64).T
-    pursuer = np.stack([x, y, sight - a], axis=-1)
-    evader_x, evader_y = x + r * np.cos(sight), y + r * np.sin(sight)
-    heading = sight + np.pi - psi
-    return pursuer, np.stack([evader_x, evader_y, heading], axis=-1)

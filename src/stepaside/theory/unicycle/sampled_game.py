@@ -85,18 +85,16 @@ def _drive(
 ) -> tuple[Pose, Pose, float]:
     """Move both players along arcs; also return the least distance [m]."""
     times = span * np.arange(1, _PARTS + 1) / _PARTS
-    speeds = game.pursuer.speed, -game.evader.speed
-    arcs = [
-        arc(speed * times, 0.0, turn * times)
-        for speed, turn in zip(speeds, turns, strict=True)
-    ]
-    ends = [Pose(*part[-1].tolist()) for part in arcs]
-    p, e = (
-        pose.transform_points(part[:, :2])
-        for pose, part in zip((pursuer, evader), arcs, strict=True)
-    )
-    closest = float(np.hypot(*(e - p).T).min())
-    return pursuer.compose(ends[0]), evader.compose(ends[1]), closest
+    ends, ways = [], []
+    for pose, speed, turn in (
+        (pursuer, game.pursuer.speed, turns[0]),
+        (evader, -game.evader.speed, turns[1]),
+    ):
+        along = arc(speed * times, 0.0, turn * times)
+        ends.append(pose.compose(Pose(*along[-1].tolist())))
+        ways.append(pose.transform_points(along[:, :2]))
+    closest = float(np.hypot(*(ways[1] - ways[0]).T).min())
+    return ends[0], ends[1], closest
 
 
 def simulate_sampled(
@@ -122,12 +120,6 @@ def simulate_sampled(
         side: Initial side, +1 or -1; 0 for the one behind the evader.
         capture_distance: Distance at which the game ends, in [m].
         pursuer: Initial pose of the pursuer in the world.
-
-    Returns:
-        The game at its sampling times.
-
-    Raises:
-        PlanError: If a value is out of its range.
     """
     check_positive(duration, "duration", "s")
     check_positive(sample_time, "sample_time", "s")
@@ -150,8 +142,8 @@ def simulate_sampled(
         turn_p, turn_e, side = choose_turning(
             game, RelativeStart(*states[-1]), side
         )
-        queue.append((turn_p, turn_e))
         rates.append((turn_p, turn_e))
+        queue.append(rates[-1])
         sides.append(side)
         old = queue.popleft()
         for turns, span in ((old, late), (queue[0], sample_time - late)):

@@ -44,13 +44,15 @@ def smooth_circle(game: Game) -> Circle:
     return circle
 
 
-def _geometry(game: Game, circle: Circle) -> tuple[Array, Array]:
-    """Linearise the relative motion with the turning rates held.
+def _linearised(game: Game) -> tuple[Array, Array, Array]:
+    """Linearise the relative motion about the circle, and the laws.
 
     Returns:
-        Derivative of the rates of (r, a, psi) by the state, shape (3, 3),
-        and by the turning rates of pursuer and evader, shape (3, 2).
+        Derivative of the rates of (r, a, psi) by the state, shape (3, 3), and
+        by the turning rates of pursuer and evader, shape (3, 2); derivative
+        of the turning rates that the laws give by the state, shape (2, 3).
     """
+    circle = smooth_circle(game)
     by_state = relative_jacobian(
         game.pursuer.speed,
         game.evader.speed,
@@ -58,13 +60,9 @@ def _geometry(game: Game, circle: Circle) -> tuple[Array, Array]:
         circle.pursuer_error_rad,
         circle.bearing_rad,
     )
-    return by_state, np.array([[0.0, 0.0], [-1.0, 0.0], [0.0, -1.0]])
-
-
-def _feedback(game: Game) -> Array:
-    """Return the derivative of the turning rates by (r, a, psi), (2, 3)."""
-    evader = 0.0 if game.saturated else game.evader.gain
-    return np.array([[0.0, game.pursuer.gain, 0.0], [0.0, 0.0, evader]])
+    gains = game.pursuer.gain, 0.0 if game.saturated else game.evader.gain
+    laws = np.diag([0.0, *gains])[1:]
+    return by_state, -np.eye(3)[:, 1:], laws
 
 
 def _held_transition(
@@ -93,14 +91,10 @@ def step_map(game: Game, sample_time: float, delay: float = 0.0) -> Array:
     Returns:
         Map of (r, a, psi, queued turning rates, newest first) over one
         period. Shape (n, n) with n = 3, or more with a delay.
-
-    Raises:
-        PlanError: If a value is out of range or there is no smooth circle.
     """
     check_positive(sample_time, "sample_time", "s")
     check_not_negative(delay, "delay", "s")
-    state, turning = _geometry(game, smooth_circle(game))
-    feedback = _feedback(game)
+    state, turning, feedback = _linearised(game)
     whole = floor(delay / sample_time + 1e-12)
     if whole > MAX_DEPTH:
         raise PlanError(
@@ -153,7 +147,7 @@ def delayed_eigenvalues(
         Eigenvalues, the slowest first, in [1/s].
     """
     check_positive(delay, "delay", "s")
-    state, turning = _geometry(game, smooth_circle(game))
+    state, turning, feedback = _linearised(game)
     n = nodes
     k = np.arange(n + 1)
     x = np.cos(pi * k / n)
@@ -164,7 +158,7 @@ def delayed_eigenvalues(
     full = np.kron(d * (2.0 / delay), np.eye(3))
     full[:3] = 0.0
     full[:3, :3] = state
-    full[:3, -3:] += turning @ _feedback(game)
+    full[:3, -3:] += turning @ feedback
     return sorted_eigenvalues(np.linalg.eigvals(full))[:count]
 
 

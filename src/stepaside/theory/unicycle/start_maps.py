@@ -1,8 +1,8 @@
 """Maps of outcomes over initial states, and the worst initial state."""
 
-from collections.abc import Callable
 from dataclasses import dataclass
 from math import pi
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -112,9 +112,7 @@ def map_starts(
     duration: float,
     *,
     shape: tuple[int, int, int] = (8, 37, 37),
-    step: float | None = None,
-    capture_distance: float = 1e-6,
-    progress: Callable[[int], None] | None = None,
+    **options: Any,
 ) -> StartMap:
     """Play a game from every point of a grid of initial states.
 
@@ -123,28 +121,13 @@ def map_starts(
         box: Box of initial states.
         duration: Duration of each game, in [s].
         shape: Points along distance, pursuer error and bearing.
-        step: Step size of the integration, in [s]; see
-            :func:`.batch.play_games`.
-        capture_distance: Distance at which a game ends, in [m].
-        progress: Called with the number of games finished since the last
-            call.
+        options: Options of :func:`.batch.play_games`.
     """
     bounds = zip(box.low, box.high, shape, strict=True)
     axes = [np.linspace(low, high, count) for low, high, count in bounds]
     starts = np.stack(np.meshgrid(*axes, indexing="ij"), axis=-1)
-    outcomes = play_games(
-        game,
-        starts.reshape(-1, 3),
-        duration,
-        step=step,
-        capture_distance=capture_distance,
-        progress=progress,
-    )
+    outcomes = play_games(game, starts.reshape(-1, 3), duration, **options)
     return StartMap(axes[0], axes[1], axes[2], outcomes)
-
-
-ClosestApproach = Callable[[Array], Array]
-"""Closest approaches, shape (n,), of games from states of shape (n, 3)."""
 
 
 def find_worst_start(
@@ -153,8 +136,8 @@ def find_worst_start(
     box: StartBox,
     duration: float,
     *,
-    step: float | None = None,
     capture_distance: float = 1e-6,
+    **options: Any,
 ) -> WorstStart:
     """Search the worst initial state from the local minima of a map.
 
@@ -165,35 +148,41 @@ def find_worst_start(
         start_map: Map over the same box.
         box: Box of initial states.
         duration: Duration of each game, in [s].
-        step: Step size of the integration, in [s]; see
-            :func:`.batch.play_games`.
         capture_distance: Distance at which a game ends, in [m].
-
-    Returns:
-        The worst initial state found.
+        options: Options of :func:`.batch.play_games`.
     """
+    from scipy.optimize import minimize
+
     played = start_map.outcomes.closest_distance.size
+    options["capture_distance"] = capture_distance
 
-    def lowest(starts: Array) -> Array:
+    def closest(start: Array) -> float:
         nonlocal played
-        played += len(starts)
-        return play_games(
-            game,
-            np.clip(starts, box.low, box.high),
-            duration,
-            step=step,
-            capture_distance=capture_distance,
-        ).closest_distance
+        played += 1
+        inside = np.clip(start, box.low, box.high)
+        out = play_games(game, inside[None], duration, **options)
+        return float(out.closest_distance[0])
 
-    centers, best = _local_minima(start_map)
     cell = (box.high - box.low) / np.maximum(np.array(start_map.shape) - 1, 1)
+    centers, best = _local_minima(start_map)
     winner, worst = centers[0], float(best[0])
-    for center, least in zip(centers, best.tolist(), strict=True):
+    for center in centers:
         if worst <= capture_distance:
             break
-        found, value = _polish(lowest, box, center, least, cell)
-        if value < worst:
-            winner, worst = found, value
+        simplex = center + np.vstack([np.zeros(3), np.diag(cell)])
+        found = minimize(
+            closest,
+            center,
+            method="Nelder-Mead",
+            bounds=list(zip(box.low, box.high, strict=True)),
+            options={
+                "initial_simplex": np.clip(simplex, box.low, box.high),
+                "maxfev": _GAMES,
+            },
+        )
+        if found.fun < worst:
+            winner = np.clip(found.x, box.low, box.high)
+            worst = float(found.fun)
     captured = worst <= capture_distance * (1.0 + 1e-9)
     r, a, psi = winner.tolist()
     return WorstStart(RelativeStart(r, a, psi), worst, captured, played)
@@ -211,29 +200,3 @@ def _local_minima(start_map: StartMap) -> tuple[Array, Array]:
     axes = (start_map.distances, start_map.pursuer_errors, start_map.bearings)
     starts = [axis[i] for axis, i in zip(axes, index, strict=True)]
     return np.stack(starts, axis=-1), values.ravel()[order]
-
-
-def _polish(
-    lowest: ClosestApproach,
-    box: StartBox,
-    winner: Array,
-    worst: float,
-    cell: Array,
-) -> tuple[Array, float]:
-    """Improve a state by a simplex search, if that succeeds."""
-    from scipy.optimize import minimize
-
-    simplex = winner + np.vstack([np.zeros(3), np.diag(cell)])
-    result = minimize(
-        lambda start: float(lowest(np.array([start]))[0]),
-        winner,
-        method="Nelder-Mead",
-        bounds=list(zip(box.low, box.high, strict=True)),
-        options={
-            "initial_simplex": np.clip(simplex, box.low, box.high),
-            "maxfev": _GAMES,
-        },
-    )
-    if result.fun < worst:
-        return np.clip(result.x, box.low, box.high), float(result.fun)
-    return winner, worst
