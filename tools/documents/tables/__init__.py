@@ -41,7 +41,6 @@ TABLES: dict[str, Callable[..., str]] = {
     "floors": duels.floors,
     "headlines": benchmark.headlines,
     "humanoids": humanoids.reached,
-    "humanoid-origins": humanoids.origins,
     "legs-people": legs_encounters.people,
     "long-walks": walking.long_walks,
     "outcomes": many_duels.outcomes,

@@ -17,28 +17,11 @@ HEAD = (
     "angle [deg]",
     "closest [m]",
 )
-ORIGINS = ("humanoid", "model", "what sets it apart", "asked for by name")
 
 
 def reached(result: Mapping[str, Any]) -> str:
     """List the result of each, with lengths relative to theory."""
     return table(HEAD, (_reached(row) for row in result["rows"]))
-
-
-def origins(result: Mapping[str, Any]) -> str:
-    """List where each model is published, and which values it lacks."""
-    return table(
-        ORIGINS,
-        (
-            (
-                row["name"],
-                f"`{row['path']}` of {row['source']}",
-                row["kinematics"],
-                _asked(row["missing_values"]),
-            )
-            for row in result["rows"]
-        ),
-    )
 
 
 def _reached(row: Mapping[str, Any]) -> tuple[str, ...]:
@@ -70,11 +53,3 @@ def _by(value: float | None, theory: float | None) -> str:
     if value is None or not theory:
         return "-"
     return f"{100.0 * (value / theory - 1.0):+.1f} %"
-
-
-def _asked(asked: Mapping[str, Any]) -> str:
-    words = ["the sole"] if asked["sole"] else []
-    for key, said in (("torques", "torques"), ("speed_limits", "speeds")):
-        if asked[key]:
-            words.append(f"{said} of {asked[key]} joints")
-    return ", ".join(words) or "nothing"
