@@ -9,10 +9,7 @@ from .extras import install_hint
 
 
 def open_session(network: str | bytes) -> Any:
-    """Return a session of a network.
-
-    Args:
-        network: Path or content of an ONNX file.
+    """Return a session of an ONNX file, by its path or content.
 
     Raises:
         PolicyError: If the runtime cannot read it, with its own reason.

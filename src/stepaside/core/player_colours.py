@@ -5,6 +5,7 @@ of one role differ in brightness, and in figures also by markers.
 """
 
 from collections.abc import Mapping
+from itertools import cycle
 
 from .player_identity import PlayerIdentity, Role
 
@@ -16,13 +17,7 @@ Colour = tuple[float, float, float, float]  # red, green, blue, opacity
 
 
 def shade(colour: Rgb, number: int) -> Rgb:
-    """Return a shade of a colour.
-
-    Args:
-        colour: Red, green and blue, 0 to 1.
-        number: Number of the shade; 0 is the colour itself. Shades repeat
-            after eight.
-    """
+    """Return one of eight shades of a colour; 0 is the colour itself."""
     mix = MIXES[number % len(MIXES)]
     end = 1.0 if mix > 0.0 else 0.0
     red, green, blue = (c + abs(mix) * (end - c) for c in colour)
@@ -32,12 +27,7 @@ def shade(colour: Rgb, number: int) -> Rgb:
 def shades_of(
     identities: Mapping[str, PlayerIdentity], base: Mapping[Role, Rgb]
 ) -> dict[str, Rgb]:
-    """Return the colour of each player: a shade of its role's.
-
-    Args:
-        identities: Identities by name.
-        base: Colour of the first player of each role.
-    """
+    """Return the colour of each player: a shade of its role's."""
     counts = dict.fromkeys(Role, 0)
     found = {}
     for name, identity in identities.items():
@@ -48,10 +38,7 @@ def shades_of(
 
 def markers_of(names: Mapping[str, object]) -> dict[str, str]:
     """Return a marker of Matplotlib for each player, by name."""
-    return {
-        name: MARKERS[number % len(MARKERS)]
-        for number, name in enumerate(names)
-    }
+    return dict(zip(names, cycle(MARKERS), strict=False))
 
 
 def from_hex(colour: str) -> Rgb:

@@ -28,19 +28,11 @@ ALL_AROUND = (Sector(0.0, pi),)
 def in_sectors(
     sectors: Sequence[Sector], angles: ArrayLike
 ) -> NDArray[np.bool_]:
-    """Return whether angles, in [rad], lie in any of several sectors.
-
-    Args:
-        sectors: The sectors.
-        angles: Angles. Shape (...).
-
-    Returns:
-        Shape (...).
-    """
-    found = np.zeros(np.shape(angles), dtype=np.bool_)
+    """Return whether angles, in [rad], lie in any of several sectors."""
+    angles = np.asarray(angles, dtype=np.float64)
+    found = np.zeros(angles.shape, dtype=np.bool_)
     for middle, half in sectors:
-        offsets = np.asarray(angles, dtype=np.float64) - middle
-        found |= np.abs(wrap_angles(offsets)) <= half
+        found |= np.abs(wrap_angles(angles - middle)) <= half
     return found
 
 
@@ -56,16 +48,7 @@ def wrap_angles(angles: ArrayLike) -> Array:
 
 
 def rotate(x: ArrayLike, y: ArrayLike, angle: ArrayLike) -> Array:
-    """Turn vectors to the left by angles, in [rad].
-
-    Args:
-        x: First components.
-        y: Second components. All arguments are broadcast.
-        angle: Angles.
-
-    Returns:
-        Both components. Shape (2, ...).
-    """
+    """Turn vectors to the left by angles, in [rad]. Shape (2, ...)."""
     c, s = np.cos(angle), np.sin(angle)
     return np.stack([c * x - s * y, s * x + c * y])
 

@@ -6,10 +6,5 @@ import numpy as np
 
 
 def named_generator(seed: int, name: str) -> np.random.Generator:
-    """Return the random generator of one purpose.
-
-    Args:
-        seed: Seed of the run.
-        name: Purpose; different names give independent streams.
-    """
+    """Return the random generator of one purpose, independent of others."""
     return np.random.default_rng([seed, crc32(name.encode())])

@@ -67,10 +67,7 @@ def worker_pool(workers: int | None = None) -> WorkerPool:
 
     Workers ignore Ctrl-C: the parent handles it and terminates them, so that
     none returns a truncated result or breaks the pool first. They also exit
-    when the parent was killed.
-
-    Args:
-        workers: Number of processes; the number of cores by default.
+    when the parent was killed. By default there is one for each core.
     """
     os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
     return WorkerPool(workers, get_context("spawn"), initializer=_begin)

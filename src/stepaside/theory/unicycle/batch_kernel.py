@@ -37,11 +37,11 @@ EDGE, CLOSEST, CAPTURE = 0, 1, 2  # events at which a step is divided
 
 
 class _Step(NamedTuple):
-    """A game after one step.
+    """A game after one step, or at the capture within it.
 
     Attributes:
-        state: State at the end, or at the capture.
-        mode: Mode at that time.
+        state: State.
+        mode: Mode.
         closest: Closest approach within the step, in [m].
         when: Its time since the begin of the step, in [s].
         captured: Whether the step ended there by capture.

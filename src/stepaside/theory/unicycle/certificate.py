@@ -106,18 +106,14 @@ def certify(game: Game, start: RelativeStart, *, side: int = 0) -> Certificate:
 def stays_unwrapped(game: Game, pursuer_error: float, bearing: float) -> bool:
     """Return whether no error of a game between equal players ever wraps.
 
+    It is proved inside the diamond, for an evader with the side rule "behind"
+    (its error never exceeds the angle), or for one that keeps its side at an
+    angle of at most pi / 2 and whose initial error is below pi.
+
     Args:
         game: Parameters, with equal speeds and gains, proportional law.
-        pursuer_error: Pursuer's error, mirrored to side +1, in [-pi, pi], in
-            [rad].
-        bearing: Bearing of the pursuer, mirrored to side +1, in [-pi, pi],
-            in [rad].
-
-    Returns:
-        True where it is proved: inside the diamond, for an evader with the
-        side rule "behind" (its error never exceeds the angle), or for one
-        that keeps its side at an angle of at most pi / 2 and whose initial
-        error is below pi.
+        pursuer_error: Pursuer's error in [-pi, pi], mirrored to side +1.
+        bearing: Bearing of the pursuer, likewise.
     """
     if not abs(pursuer_error) + abs(bearing) < pi:
         return False

@@ -169,8 +169,7 @@ def relative_jacobian(vp: Any, ve: Any, r: Any, a: Any, psi: Any) -> Array:
         psi: Bearing of the pursuer in the evader's frame, in [rad].
 
     Returns:
-        Derivative of the rates of (r, a, psi) by the state. Shape
-        (..., 3, 3).
+        Derivatives of the rates of (r, a, psi). Shape (..., 3, 3).
     """
     rate = (vp * np.sin(a) - ve * np.sin(psi)) / r  # of the line of sight
     opening = np.array([0.0 * rate, vp * np.sin(a), -ve * np.sin(psi)])
@@ -186,9 +185,6 @@ def find_equilibria(games: GameParameters, *, saturated: bool) -> Equilibria:
     Args:
         games: Parameters of the games, of shape (n,).
         saturated: Whether the evader turns by (6) rather than by (4).
-
-    Returns:
-        Equilibria with a positive distance.
     """
     found = _saturated(games) if saturated else _proportional(games)
     index, rate, b, sliding = found
@@ -269,12 +265,7 @@ def circle_of(game: Game) -> Circle:
 
 
 def find_circle(*values: Any, **named: Any) -> Circle:
-    """Find the main circle (:func:`circle_of`) of a game by its values.
-
-    Args:
-        values: Parameters of :func:`.make_game`.
-        named: Those by name.
-    """
+    """Find the main circle of the game of :func:`.make_game`."""
     return circle_of(make_game(*values, **named))
 
 
@@ -298,9 +289,8 @@ def imbalance(games: GameParameters, rate: Array) -> Array:
 def _slope(games: GameParameters, rate: Array) -> Array:
     """Return the derivative of the imbalance by the turning rate, in [m]."""
     vp, ve, kp, ke, alpha = games
-    evader = ve / ke * np.sin(alpha - rate / ke)
-    found: Array = evader + vp / kp * np.sin(rate / kp)
-    return found
+    found: Array = ve / ke * np.sin(alpha - rate / ke)
+    return found + vp / kp * np.sin(rate / kp)
 
 
 def _proportional(games: GameParameters) -> Found:
@@ -322,14 +312,11 @@ def _proportional(games: GameParameters) -> Found:
     low, high = knots[piece, index], knots[piece + 1, index]
     turn = _bisect(_slope, games.pick(index), low, high)
     beyond = (imbalance(games.pick(index), turn) > 0.0) != above[piece, index]
-    piece, index, turn = piece[beyond], index[beyond], turn[beyond]
-    lows = [knots[piece, index], turn]
-    highs = [turn, knots[piece + 1, index]]
-    where = [index, index]
-    piece, index = np.nonzero(crosses)
-    low = np.concatenate([*lows, knots[piece, index]])
-    high = np.concatenate([*highs, knots[piece + 1, index]])
-    index = np.concatenate([*where, index])
+    low, high, turn = low[beyond], high[beyond], turn[beyond]
+    piece, single = np.nonzero(crosses)
+    index = np.concatenate([index[beyond], index[beyond], single])
+    low = np.concatenate([low, turn, knots[piece, single]])
+    high = np.concatenate([turn, high, knots[piece + 1, single]])
     rate = _bisect(imbalance, games.pick(index), low, high)
     sliding = np.zeros(len(index), dtype=np.bool_)
     return index, rate, rate / games.evader_gain[index], sliding

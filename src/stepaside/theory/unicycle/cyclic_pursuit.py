@@ -76,13 +76,8 @@ class CyclicPolygon:
     def poses(self) -> Array:
         """Return poses (x [m], y [m], heading [rad]). Shape (n, 3)."""
         angles = tau * self.density * np.arange(self.count) / self.count
-        return np.column_stack(
-            [
-                self.radius * np.cos(angles),
-                self.radius * np.sin(angles),
-                angles + 0.5 * pi,
-            ]
-        )
+        x, y = self.radius * np.cos(angles), self.radius * np.sin(angles)
+        return np.column_stack([x, y, angles + 0.5 * pi])
 
     def eigenvalues(self) -> NDArray[np.complex128]:
         """Return the eigenvalues of the linearised shape, in [1/s].
@@ -115,12 +110,8 @@ class CyclicPolygon:
             np.linalg.eigvals(itself + np.exp(1j * tau * m / n) * following)
             for m in range(n)
         ]
-        for mode, neutral in (
-            (0, 0.0),
-            (self.density, 1j * rate),
-            (n - self.density, -1j * rate),
-        ):
-            nearest = np.abs(modes[mode] - neutral).argmin()
+        for mode, turns in ((0, 0), (self.density, 1), (-self.density, -1)):
+            nearest = np.abs(modes[mode] - 1j * turns * rate).argmin()
             modes[mode] = np.delete(modes[mode], nearest)
         found = np.concatenate(modes)
         ordered: NDArray[np.complex128] = found[np.argsort(-found.real)]

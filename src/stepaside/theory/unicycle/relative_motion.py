@@ -40,18 +40,7 @@ NEAR = 0.02  # tolerance of being on a circle: 2 % and 0.02 rad
 class Rules(NamedTuple):
     """Parameters of a game as plain numbers; see :class:`.Game`.
 
-    Attributes:
-        pursuer_speed: Speed of the pursuer, in [m/s].
-        evader_speed: Speed of the evader, in [m/s].
-        pursuer_gain: Gain of the pursuer, in [1/s].
-        evader_gain: Gain of the evader, in [1/s]; saturated, its turning
-            rate, in [rad/s].
-        angle: Evasion angle, in [rad].
-        hysteresis: Angle of the pursuer beyond the evader's axis at which
-            the side changes, in [rad].
-        keeps_side: Whether the side never changes.
-        saturated: Whether the evader turns by (6) rather than by (4).
-        capture_distance: Distance at which a game ends, in [m].
+    The game ends at the capture distance, in [m].
     """
 
     pursuer_speed: float
@@ -110,14 +99,7 @@ class RelativeState(NamedTuple):
 
 
 class Rates(NamedTuple):
-    """Rates of a state.
-
-    Attributes:
-        r: Rate of the distance, in [m/s].
-        a: Rate of the bearing of the evader, in [rad/s].
-        psi: Rate of the bearing of the pursuer, in [rad/s].
-        sight: Turning rate of the line of sight, in [rad/s].
-    """
+    """Rates of a state, and of the direction of the line of sight."""
 
     r: Any
     a: Any
@@ -173,14 +155,9 @@ def rk4(
     piece: SmoothPiece,
     rules: Rules,
 ) -> RelativeState:
-    """Advance by one Runge-Kutta step of fourth order.
+    """Advance by one Runge-Kutta step of fourth order, from its first rates.
 
-    Args:
-        state: State at the begin of the step.
-        first: Rates of that state.
-        step: Step size, in [s].
-        piece: Smooth piece; its law is extended beyond its edges.
-        rules: Rules of the game.
+    The law of the piece is extended beyond its edges.
     """
     half = 0.5 * step
     second = rates_of(moved(state, first, half), piece, rules)
@@ -240,14 +217,8 @@ def initial_mode(
 ) -> tuple[RelativeState, Mode]:
     """Return state and mode at the start of a game.
 
-    Args:
-        state: State with both bearings in [-pi, pi].
-        side: +1 or -1, or 0 for the side behind the evader.
-        rules: Rules of the game.
-
-    Returns:
-        State, its bearing up to a whole turn away from the given one, and
-        mode.
+    Side 0 stands for the one behind the evader. The bearing that is returned
+    may be a whole turn away from the given one, which is in [-pi, pi].
     """
     if side == 0:
         side = side_behind(state.psi)
@@ -308,14 +279,8 @@ def cross(
 def deviation(state: RelativeState, side: Any, circle: RelativeState) -> Any:
     """Return the largest deviation of a state from a circle.
 
-    Args:
-        state: State of a game.
-        side: Its side.
-        circle: State on the circle at side +1.
-
-    Returns:
-        The largest of the deviations of r, relative to the circle's, and of
-        a and psi, in [rad].
+    It is the largest of that of r, relative to the circle's, and those of a
+    and psi, in [rad]. The circle is given at side +1.
     """
     angles = np.maximum(
         abs(side * state.a - circle.a), abs(side * state.psi - circle.psi)

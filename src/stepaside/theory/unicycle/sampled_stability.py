@@ -163,15 +163,10 @@ def delayed_eigenvalues(
 
 
 def largest_stable_sample_time(game: Game, delay: float = 0.0) -> float:
-    """Return the sampling period at which the circle loses stability.
+    """Return the sampling period, in [s], at which the circle loses stability.
 
-    Args:
-        game: Parameters of the game.
-        delay: Age of a perception when it takes effect, in [s].
-
-    Returns:
-        The period, in [s]; 0 if none is found to be stable with this delay.
-        With a delay the search starts at a twentieth of it.
+    It is 0 if none is found to be stable with this delay, in [s], at a
+    twentieth of which the search starts.
     """
     gain = max(game.pursuer.gain, game.evader.gain)
 
@@ -185,16 +180,11 @@ def largest_stable_sample_time(game: Game, delay: float = 0.0) -> float:
 
 
 def largest_stable_delay(game: Game, sample_time: float = 0.0) -> float:
-    """Return the delay at which the circle loses stability.
+    """Return the delay, in [s], at which the circle loses stability.
 
-    Args:
-        game: Parameters of the game.
-        sample_time: Sampling period, in [s]; 0 without sampling.
-
-    Returns:
-        The delay, in [s]; 0 if the circle is unstable without delay.
+    It is 0 if the circle is unstable without delay. A sample time of 0, in
+    [s], stands for no sampling.
     """
-    circle = smooth_circle(game)
     gain = max(game.pursuer.gain, game.evader.gain)
 
     def excess(delay: float) -> float:
@@ -202,7 +192,7 @@ def largest_stable_delay(game: Game, sample_time: float = 0.0) -> float:
             return abs(step_eigenvalues(game, sample_time, delay)[0]) - 1.0
         return delayed_eigenvalues(game, delay)[0].real / gain
 
-    if sample_time == 0.0 and not circle.stable:
+    if sample_time == 0.0 and not smooth_circle(game).stable:
         return 0.0
     low = 0.0 if sample_time > 0.0 else 1e-3 / gain
     return _first_crossing(excess, low, 0.02 / gain, 4000)
