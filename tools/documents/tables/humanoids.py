@@ -8,9 +8,6 @@ from .markdown import number, table
 HEAD = (
     "humanoid",
     "mass [kg]",
-    "CoM [m]",
-    "stride [m]",
-    "step [s]",
     "outcome",
     "distance",
     "radii",
@@ -25,7 +22,7 @@ def reached(result: Mapping[str, Any]) -> str:
 
 
 def _reached(row: Mapping[str, Any]) -> tuple[str, ...]:
-    summary, gait = row["summary"], row["gait"]
+    summary = row["summary"]
     theory = summary["theory"]
     outcome = summary["outcome"]
     if outcome != "completed":
@@ -38,9 +35,6 @@ def _reached(row: Mapping[str, Any]) -> tuple[str, ...]:
     return (
         row["name"],
         number(row["mass_kg"], 1),
-        number(row["com_height_m"], 2),
-        number(gait["stride"]),
-        number(gait["single_support"] + gait["double_support"], 2),
         outcome,
         _by(summary["distance_m"], theory["distance_m"]),
         f"{pursuer}, {evader}",
