@@ -14,6 +14,7 @@ from stepaside.studies.claim_jobs import JOBS
 from stepaside.studies.claims import Claim
 from stepaside.studies.evasion_claims import DURATION
 from stepaside.studies.evasion_measurements import PlayedGames
+from stepaside.studies.tournament_strategies import ASIDE
 
 BEST = 1.0  # bound of all starts, in [m]
 Fault = Callable[[PlayedGames], PlayedGames]
@@ -58,11 +59,11 @@ def played() -> PlayedGames:
     return PlayedGames(
         {
             "open": {
-                "aside": 5 * (game(0.7),),
+                ASIDE: 5 * (game(0.7),),
                 "look-ahead": 5 * (game(0.99),),
             },
             "room": {
-                "aside": 5 * (TOUCHED,),
+                ASIDE: 5 * (TOUCHED,),
                 "look-ahead": 5 * (game(),),
             },
         }
@@ -83,7 +84,7 @@ AHEAD = "look-ahead"
 EVADING: dict[str, tuple[Fault, ...]] = {
     "farther": (
         with_games("open", AHEAD, game(0.8)),
-        with_games("open", "aside", game(0.9)),
+        with_games("open", ASIDE, game(0.9)),
     ),
     "best": (with_games("open", AHEAD, game(0.9), game(0.95)),),
     "survives": (
@@ -92,7 +93,7 @@ EVADING: dict[str, tuple[Fault, ...]] = {
     ),
     "clear": (with_games("room", AHEAD, *(4 * (game(),)), game(clear=0.199)),),
     "aside": (
-        with_games("room", "aside", *(5 * (game(),))),
+        with_games("room", ASIDE, *(5 * (game(),))),
         with_games("room", AHEAD, *(5 * (TOUCHED,))),
     ),
     "decision": (with_games("room", AHEAD, game(), game(decision=0.03)),),
