@@ -372,9 +372,7 @@ def test_a_client_that_sends_garbage_is_dropped(
     LolaClient(tmp_path / "s").close()  # and the next may come
 
 
-def test_a_path_is_listened_at_once_and_a_stale_socket_replaced(
-    world: World, tmp_path: Path
-) -> None:
+def test_stale_sockets(world: World, tmp_path: Path) -> None:
     with pytest.raises(ConfigurationError, match="another program listens"):
         World(tmp_path / "s")
     (tmp_path / "file").write_text("mine")

@@ -53,9 +53,6 @@ def file(tmp_path: Path) -> Path:
     return made
 
 
-@pytest.mark.xfail(
-    strict=True, reason="games at level steps have no walls and obstacles"
-)
 def test_a_box_ends_a_game_in_steps(tmp_path: Path) -> None:
     file = tmp_path / "box.toml"
     file.write_text("""
@@ -276,7 +273,7 @@ def test_strategies_of_two_files_of_one_name_can_be_pickled(
 
 
 def test_duels_that_had_finished_survive_an_interruption() -> None:
-    long = replace(SHORT, duration=9.0, evader_strategy=Own(presses_at=1.5))
+    long = replace(SHORT, duration=9.0, evader_strategy=Own(presses_at=6.0))
     first, second = run_duels([SHORT, long])
     assert first.outcome is sa.Outcome.COMPLETED
     assert second.outcome is sa.Outcome.INTERRUPTED

@@ -141,12 +141,9 @@ def recorded_claims(folder: Path, shard: str) -> Any:
         *("reproduce", "--runs", 1, "--shard", shard, "--workers", 1),
         *("--output", folder),
     )
-    (records,) = (folder / "records").glob("*.jsonl")
-    lines = [json.loads(line) for line in records.read_text().splitlines()]
-    return {
-        line["key"].partition("/")[0]: line["record"]["readings"]
-        for line in lines
-    }
+    with closing(sqlite3.connect(folder / "claims.sqlite")) as table:
+        rows = table.execute("select key, record from records").fetchall()
+    return {key.partition("/")[0]: json.loads(record) for key, record in rows}
 
 
 def arena_duel(**settings: Any) -> Any:

@@ -96,6 +96,8 @@ def play(
     from ..drivers.status_line import StatusLine
     from .robot_connections import open_loop
 
+    if connection.robot.startswith(ROS2):  # before it joins a domain
+        _refuse_unused(settings, connection, joints=False)
     make = connection.robot_maker(settings)
     robot = make()
     joints = isinstance(robot, JointRobot)
