@@ -208,14 +208,14 @@ def test_interrupted_duel_reports_its_run(
 ) -> None:
     from stepaside.games.duel import Duel
 
-    tick = Duel.tick
+    tick = Duel.advance
 
     def impatient(self: Duel) -> Any:
         if self.world.ticks >= 300:
             raise KeyboardInterrupt
         return tick(self)
 
-    monkeypatch.setattr(Duel, "tick", impatient)
+    monkeypatch.setattr(Duel, "advance", impatient)
     folder = tmp_path / "run"
     result = run("duel", "--seed", "2", "--output", str(folder))
     assert result.exit_code == 130

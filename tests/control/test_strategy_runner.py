@@ -126,7 +126,7 @@ def test_zero_speed_factor_halts() -> None:
     ("answer", "said"),
     [
         (lambda: dict[str, int]()["lost"], "KeyError: 'lost'"),
-        (lambda: (Intent(nan), None), "PlanError: heading must be finite"),
+        (lambda: (Intent(nan), None), "PlanError: heading must lie in"),
         (lambda: None, "TypeError: cannot unpack"),
         (lambda: (0.3, None), "decide must return an Intent, got 0.3"),
     ],
