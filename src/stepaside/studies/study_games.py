@@ -223,7 +223,10 @@ def settings_of(kind: type[Any], entries: Mapping[str, Any]) -> Any:
         }
         return TeamGame(parse_game(entries, "the settings"), **own)
     if kind is Encounter:
-        entries["duel"] = {"pursuer": "person", **entries.get("duel", {})}
+        duel = {"pursuer": "person", **entries.get("duel", {})}
+        if not duel.get("robot") and not duel.get("legs", {}).get("network"):
+            duel.setdefault("gait", "fast")  # NAO's, if none is chosen
+        entries["duel"] = duel
     names = {each.name for each in fields(kind)}
     hints = get_type_hints(kind)
     inner = {
