@@ -89,13 +89,13 @@ def test_a_fall_is_detected_by_truth_reach_or_the_robot_itself() -> None:
 
 
 def test_a_walk_that_falls_ends_there(monkeypatch: pytest.MonkeyPatch) -> None:
-    tick = WalkGame.tick
+    tick = WalkGame.advance
 
     def clumsy(walking: WalkGame) -> Outcome | None:
         tick(walking)
         return None if walking.world.ticks < 40 else Outcome.FALL
 
-    monkeypatch.setattr(WalkGame, "tick", clumsy)
+    monkeypatch.setattr(WalkGame, "advance", clumsy)
     result = run_walk(WalkSettings(duration=3.0))
     assert result.outcome is Outcome.FALL
     assert result.duration == pytest.approx(0.16)
@@ -167,7 +167,7 @@ def solved(iterations: int) -> MpcResult:
 
 
 def test_feedback_is_summarised(monkeypatch: pytest.MonkeyPatch) -> None:
-    tick = WalkGame.tick
+    tick = WalkGame.advance
 
     def adapted(walking: WalkGame) -> Outcome | None:
         balance: Any = walk_of(walking.walker.scheme).balance
@@ -176,7 +176,7 @@ def test_feedback_is_summarised(monkeypatch: pytest.MonkeyPatch) -> None:
         balance.stabiliser.zmp_feedback.solved = answer
         return tick(walking)
 
-    monkeypatch.setattr(WalkGame, "tick", adapted)
+    monkeypatch.setattr(WalkGame, "advance", adapted)
     result = run_walk(WalkSettings(duration=0.012, control=STABILISED))
     assert result.summary.adapted_steps == 7
     assert result.summary.qp is not None and result.summary.qp.solves == 3

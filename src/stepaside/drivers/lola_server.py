@@ -25,7 +25,7 @@ SILENT = 8  # ticks without a command before stiffness decays: 0.1 s
 FADING = 0.5  # from full stiffness to none, in [s]
 SETTLED = 40  # ticks after which constant stiffness counts as final
 NO_ECHO = 2.55  # reading of a sonar without an echo, in [m]
-MAX_PATH = 107 - len(SIGHT_SUFFIX) - len(".early")  # of a socket, in bytes
+MAX_PATH = 107 - len(".early")  # of a socket, in bytes
 log = logging.getLogger(__name__)
 
 
