@@ -74,6 +74,7 @@ def test_cameras_on_learned_legs_are_where_the_loaded_foot_puts_them(
     )
     settings = replace(
         settings,
+        evader_strategy="evasion",
         gait=replace(settings.gait, speed=0.06, gain=0.2),
         pursuer="person",
         person=PersonSettings("straight", 0.5),
