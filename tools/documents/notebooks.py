@@ -105,7 +105,6 @@ def execute(script: Path) -> None:
             kernel_name="python3",
             resources={"metadata": {"path": folder}},
         ).execute()
-    del notebook.cells[0]  # the line of the modules
     _tidy(notebook.cells)
     notebook.metadata = {
         "kernelspec": {
