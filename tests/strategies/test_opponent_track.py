@@ -24,8 +24,8 @@ def test_nothing_is_known_from_the_first_sightings() -> None:
     track = OpponentTrack(STEP)
     for time in (0.0, 0.0, 0.1, 0.3):
         track = sighted(track, time, 0.3, 1.0)
-        assert track.velocity is None and track.bearing_rate is None
-        assert track.closing_speed is None and track.course is None
+        assert track.velocity is None and track.course is None
+        assert track.sight_rates == (None, None)
 
 
 @pytest.mark.parametrize("every", [0.004, 0.1, STEP])
@@ -35,15 +35,14 @@ def test_a_steady_motion_gives_its_rates(every: float) -> None:
     while time < 3.0:
         track = sighted(track, time, 0.3 * time, 2.0 - 0.2 * time)
         time += every
-    assert track.bearing_rate == pytest.approx(0.3)
-    assert track.closing_speed == pytest.approx(0.2)
+    assert track.sight_rates == pytest.approx((0.3, 0.2))
     assert len(track.rows) < 30
 
 
 def test_the_line_of_sight_wraps() -> None:
     track = sighted(OpponentTrack(STEP), 0.0, pi - 0.1, 1.0)
     track = sighted(track, 1.0, -pi + 0.1, 1.0)
-    assert track.bearing_rate == pytest.approx(0.2)
+    assert track.sight_rates[0] == pytest.approx(0.2)
 
 
 def test_the_sway_of_a_gait_cycle_drops_out() -> None:
@@ -53,8 +52,7 @@ def test_the_sway_of_a_gait_cycle_drops_out() -> None:
         sway = 0.02 * sin(pi * (step + 0.5))
         track = sighted(track, step * STEP, sway, 1.0 + sway)
         if step >= 2:
-            assert track.bearing_rate == pytest.approx(0.0, abs=1e-12)
-            assert track.closing_speed == pytest.approx(0.0, abs=1e-12)
+            assert track.sight_rates == pytest.approx((0.0, 0.0), abs=1e-12)
 
 
 def test_nothing_is_known_after_a_gap() -> None:
@@ -63,7 +61,7 @@ def test_nothing_is_known_after_a_gap() -> None:
         track = sighted(track, time, time, 1.0)
     track = sighted(track, 9.0, 0.0, 5.0)
     assert track.velocity is None and track.course is None
-    assert track.closing_speed is None and track.bearing_rate is None
+    assert track.sight_rates == (None, None)
 
 
 @pytest.mark.parametrize("every", [0.004, 0.1, STEP])

@@ -36,7 +36,6 @@ from stepaside.strategies.search.beam_search import (
 from stepaside.strategies.search.step_motion import (
     BeamRules,
     PursuerModel,
-    arc_end,
     pair_of,
     pursuer_turn,
 )
@@ -126,7 +125,7 @@ def test_plans_keep_a_margin_to_walls(walks: bool, least: float) -> None:
         x, y, theta = known.pose_in_map
         pose, points = (x, y, theta), []
         for turn, speed in memory.moves:
-            pose = arc_end(pose, -0.04 * speed, turn)
+            pose = Pose(*pose).along_arc(-0.04 * speed, turn)
             points.append(pose[:2])
         if points:
             found += known.obstacles_in_map.clearance(points).tolist()
@@ -197,7 +196,7 @@ def test_faster_pursuer_is_seen_to_be_faster() -> None:
     for n in range(5):
         fit = fit.observe(0.4 * n, Pose(*own), pursuer[:2], RULES, 0.4)
         turn = pursuer_turn(pair_of(own, pursuer), model, RULES)
-        pursuer = arc_end(pursuer, 1.3 * 0.04, turn)
+        pursuer = Pose(*pursuer).along_arc(1.3 * 0.04, turn)
     assert fit.speed == pytest.approx(1.3, abs=0.01)
 
 
@@ -218,8 +217,8 @@ def sights_of_walkers(
         fit = fit.observe(0.4 * n, Pose(*own), (x, y), RULES, 0.4, sways=True)
         yield fit, pursuer
         turn = pursuer_turn(pair_of(own, pursuer), model, RULES)
-        pursuer = arc_end(pursuer, 0.04, turn)
-        own = arc_end(own, -0.04, 0.2 if n % 16 < 8 else -0.2)
+        pursuer = Pose(*pursuer).along_arc(0.04, turn)
+        own = Pose(*own).along_arc(-0.04, 0.2 if n % 16 < 8 else -0.2)
 
 
 def test_a_pursuer_that_sways_is_not_seen_to_be_faster() -> None:
@@ -306,9 +305,9 @@ def decisions(
         intent, memory = evader.decide(known, memory)
         yield known, memory
         turn = pursuer_turn(pair_of(own, pursuer), model, RULES)
-        pursuer = arc_end(pursuer, model.speed * 0.04, turn)
+        pursuer = Pose(*pursuer).along_arc(model.speed * 0.04, turn)
         turn = RULES.share * intent.heading
-        own = arc_end(own, -0.04 * intent.speed_factor, turn)
+        own = Pose(*own).along_arc(-0.04 * intent.speed_factor, turn)
 
 
 def test_plan_that_keeps_its_promise_is_kept() -> None:

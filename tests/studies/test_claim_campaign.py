@@ -1,7 +1,11 @@
 """Test the campaign of claims: verdicts, stored readings, command, page."""
 
 import json
-from concurrent.futures import ProcessPoolExecutor, ThreadPoolExecutor
+from concurrent.futures import (
+    Executor,
+    ProcessPoolExecutor,
+    ThreadPoolExecutor,
+)
 from dataclasses import replace
 from multiprocessing import get_context
 from pathlib import Path
@@ -22,6 +26,7 @@ from stepaside.studies.claims import (
     Readings,
 )
 from stepaside.studies.results_version import RESULTS
+from stepaside.studies.study import run_study
 
 NAN, INF = float("nan"), float("inf")
 
@@ -98,10 +103,17 @@ def bench(monkeypatch: pytest.MonkeyPatch) -> Bench:
     return bench
 
 
+def rows_of(
+    file: Path | None, seeds: tuple[int, ...], executor: Executor | None = None
+) -> list[Any]:
+    study = reproduce.claim_study(seeds)
+    return reproduce.claim_rows(run_study(study, file, executor=executor))
+
+
 def again(bench: Bench, folder: Path, *seeds: int) -> list[tuple[str, int]]:
     """Run the campaign on a folder; return what it measured."""
     bench.measured.clear()
-    reproduce.reproduce(folder / "kept.sqlite", seeds)
+    run_study(reproduce.claim_study(seeds), folder / "kept.sqlite")
     return sorted(bench.measured)
 
 
@@ -112,14 +124,14 @@ def test_stored_reading_is_not_measured_again(
     bench: Bench, tmp_path: Path
 ) -> None:
     store = tmp_path / "kept.sqlite"
-    rows = reproduce.reproduce(store, (1, 2))
+    rows = rows_of(store, (1, 2))
     assert sorted(bench.measured) == ALL
     assert [row["name"] for row in rows] == ["seeded.it", "once.it"]
     assert [row["runs"] for row in rows] == [2, 1]
     assert again(bench, tmp_path, 1, 2) == []
-    assert reproduce.reproduce(store, (1, 2)) == rows
+    assert rows_of(store, (1, 2)) == rows
     assert again(bench, tmp_path, 1, 2, 3) == [("seeded", 3)]
-    assert reproduce.reproduce(None, (1, 2)) == rows
+    assert rows_of(None, (1, 2)) == rows
 
 
 def test_changed_settings_are_measured_again(
@@ -135,9 +147,7 @@ def test_interrupted_campaign_keeps_finished_readings(
     bench: Bench, tmp_path: Path
 ) -> None:
     bench.stop_at = 2
-    with pytest.raises(KeyboardInterrupt):
-        reproduce.reproduce(tmp_path / "kept.sqlite", (1, 2, 3))
-    assert bench.measured == [("once", 0), ("seeded", 1)]
+    assert again(bench, tmp_path, 1, 2, 3) == [("once", 0), ("seeded", 1)]
     bench.stop_at = None
     assert again(bench, tmp_path, 1, 2, 3) == [("seeded", 2), ("seeded", 3)]
 
@@ -148,7 +158,7 @@ def test_missing_reading_stays_missing_and_fails(
     job = replace(bench.jobs["once"], measure=lambda _: {"it": NAN})
     monkeypatch.setattr(reproduce, "JOBS", {"once": job})
     for _ in range(2):
-        (row,) = reproduce.reproduce(tmp_path / "kept.sqlite", (1,))
+        (row,) = rows_of(tmp_path / "kept.sqlite", (1,))
         assert (row["verdict"], row["measured"]) == ("fails", None)
 
 
@@ -156,9 +166,9 @@ def test_worker_process_measures_the_same(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(reproduce, "JOBS", {"path": JOBS["path"]})
-    here = reproduce.reproduce(None, (1,))
+    here = rows_of(None, (1,))
     with ProcessPoolExecutor(1, get_context("spawn")) as executor:
-        there = reproduce.reproduce(tmp_path / "kept.sqlite", (1,), executor)
+        there = rows_of(tmp_path / "kept.sqlite", (1,), executor)
     assert there == here
 
 

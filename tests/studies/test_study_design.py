@@ -11,6 +11,7 @@ import stepaside as sa
 from stepaside.core.errors import ConfigurationError
 from stepaside.games.duel_settings import DuelSettings
 from stepaside.sim.body_settings import BODIES
+from stepaside.strategies import LookAhead
 from stepaside.strategies.table_cache import pursuit_bound
 from stepaside.studies import tournament_record
 from stepaside.studies.study_design import PRESETS
@@ -165,6 +166,15 @@ def test_a_preset_is_changed_by_words() -> None:
 def test_a_bad_change_is_refused(word: str, words: str) -> None:
     with pytest.raises(ConfigurationError, match=words):
         sa.load_study("robustness", [word])
+
+
+def test_a_strategy_object_cannot_be_stored(tmp_path: Path) -> None:
+    """Two objects of a class cannot be told apart; so they do not vary."""
+    with pytest.raises(ConfigurationError, match="name of a strategy"):
+        sa.make_study("duel", grid={"evader_strategy": [LookAhead()]})
+    study = sa.make_study("duel", {"evader_strategy": LookAhead()})
+    with pytest.raises(ConfigurationError, match="name of a strategy"):
+        sa.run_study(study, tmp_path / "games.sqlite")
 
 
 def test_an_unknown_study_is_refused_with_those_that_exist() -> None:

@@ -344,8 +344,7 @@ class EntryReader:
             value = Path(value)
         elif issubclass(kind, Enum) and value in {each.value for each in kind}:
             return kind(value)
-        protocol = getattr(kind, "_is_protocol", False)  # not in a file
-        if protocol or not isinstance(value, kind):
+        if not isinstance(value, kind):
             expected = _TYPE_NAMES.get(kind, f"a {kind.__name__}")
             return self._note(path, f"be {expected}", value)
         if "\0" in str(value):  # not valid in a file name

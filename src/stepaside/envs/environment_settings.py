@@ -10,6 +10,7 @@ from ..core.errors import (
     check_within,
 )
 from ..games.duel_settings import DuelSettings
+from ..games.floor_world import PARTS
 from ..planning import Direction
 from ..strategies.learned.observation_terms import (
     FULL_STATE_TERMS,
@@ -26,7 +27,6 @@ from .arena_pool import ArenaPool
 
 PLAYERS = ("pursuer", "evader")
 LEVELS = ("unicycle", "steps", "physics")
-FEEDBACK = 8  # decisions per step at level "unicycle"
 ALL_TERMS: dict[str, ObservedTerm] = SENSED_TERMS | FULL_STATE_TERMS
 ACTIONS = ("continuous", "discrete")
 
@@ -108,8 +108,9 @@ class EnvironmentSettings:
     @property
     def step_game(self) -> StepGame:
         """Rules of the game at levels "unicycle" and "steps"."""
-        parts = FEEDBACK if self.level == "unicycle" else 1
-        return replace(self.game, duration=self.duration, decisions=parts)
+        return replace(
+            self.game, duration=self.duration, decisions=PARTS[self.level]
+        )
 
     @property
     def in_rooms(self) -> bool:

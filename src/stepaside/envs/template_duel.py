@@ -115,7 +115,6 @@ class TemplateDuel:
         self._strategies = strategies
         self._world = floor_of_two(game, (pursuer, evader), starts, self.room)
         rules = rules_of_two(game)
-        self._duration = rules.duration
         self._game = GameInPlay(self._world, replace(rules, duration=inf))
         self._duration = game.whole_duration
         self.ended = ""

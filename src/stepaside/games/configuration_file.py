@@ -23,15 +23,6 @@ READERS = {Room: room_from_entries}
 WRITERS = {Room: room_to_entries}
 
 
-def over(below: dict[str, Any], above: dict[str, Any]) -> dict[str, Any]:
-    """Merge two nested tables; entries of ``above`` take precedence."""
-    merged = below | above
-    for key in below.keys() & above.keys():
-        if isinstance(below[key], dict) and isinstance(above[key], dict):
-            merged[key] = over(below[key], above[key])
-    return merged
-
-
 def parse_settings(
     kind: type[S],
     entries: Mapping[str, Any],

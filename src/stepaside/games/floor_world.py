@@ -196,7 +196,7 @@ class FloorWalk:
         self.decision_times: list[float] = []
         limits = agent.limits
         self._parts, self._delay = parts, delay
-        self._share = limits.gain * limits.stride / limits.speed
+        self._share = limits.share
         self._largest = largest_turn or pi * self._share
         self._alert = alert or limits.step_duration / parts
         self._walls, self._radius = walls, radius

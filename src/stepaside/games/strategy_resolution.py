@@ -68,25 +68,6 @@ def resolve_strategies(
     return DuelStrategies(strategy, evader, pursuer)
 
 
-def check_strategy_names(settings: Any) -> None:
-    """Reject strategy objects where records are stored by settings.
-
-    Args:
-        settings: Settings of a duel.
-
-    Raises:
-        ConfigurationError: If a strategy has no name, as records cannot
-            distinguish two objects of the same class.
-    """
-    for name in ("evader_strategy", "pursuer_strategy"):
-        played = getattr(settings, name)
-        if not isinstance(played, str):
-            raise ConfigurationError(
-                f"{name} must be a name or a file where records are "
-                f"stored, got a Python object, {type(played).__name__}"
-            )
-
-
 def _check(name: str, value: Any) -> None:
     """Check that a value is a name or has the methods of a strategy."""
     if isinstance(value, str) and name != "strategy":

@@ -104,8 +104,7 @@ def correcting_heading(error: float, limits: Limits) -> float:
         error: Heading error, in [rad].
         limits: Limits of the own gait.
     """
-    share = limits.gain * limits.stride / limits.speed
-    heading = wrap_angle(error) / share
+    heading = wrap_angle(error) / limits.share
     return min(max(heading, -MAX_HEADING), MAX_HEADING)
 
 
@@ -127,7 +126,7 @@ def predict_clearance(
     Returns:
         Least distance from now on, in [m].
     """
-    share = limits.gain * limits.stride / limits.speed
+    share = limits.share
     step = limits.step_duration
     x, y, u, v = approach
     theta = 0.0

@@ -49,6 +49,11 @@ class Limits:
     foot_spacing: float = 0.0
     views: tuple[Sector, ...] = ALL_AROUND
 
+    @property
+    def share(self) -> float:
+        """Turn of a step per desired heading, kappa."""
+        return self.gain * self.stride / self.speed
+
     def stride_share(self, turn: float) -> float:
         """Return the fraction of the stride that a turn allows.
 

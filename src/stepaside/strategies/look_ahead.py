@@ -29,60 +29,6 @@ from .search.value_lookup import NO_VALUE
 from .strategy import BackwardStrategy
 from .table_cache import pursuit_table
 
-
-def poses_at_sighting(
-    track: OpponentTrack, model: PursuerModel, rules: StepRules
-) -> PlayerPair:
-    """Return the poses of both players at the last sighting, in the map.
-
-    The heading of the pursuer is that of its model along the last sightings.
-    One that has not moved is assumed to face the own robot.
-
-    Args:
-        track: At least one sighting.
-        model: Model of its steps.
-        rules: Rules of a step.
-    """
-    rows = track.rows[-SIGHTINGS:]
-    first, last = rows[0], rows[-1]
-    own = last.own
-    heading = atan2(own.y - last.y, own.x - last.x)
-    way = hypot(last.x - first.x, last.y - first.y)
-    least = MIN_MOTION * (len(rows) - 1) * rules.stride
-    if len(rows) > 1 and way >= least:
-        path = [(*row.own, row.x, row.y, n) for n, row in enumerate(rows)]
-        (_, _, heading), _ = fit_heading(np.array(path), model, rules)
-    return pair_of(own, (last.x, last.y, heading))
-
-
-def predict_poses(
-    both: PlayerPair, knowledge: Knowledge, begins: Pose
-) -> PlayerPair:
-    """Predict the poses of both players when the decided step begins.
-
-    A body passes the landed foot half a step after its landing; the pursuer
-    walks straight on until then.
-
-    Args:
-        both: Poses at the sighting.
-        knowledge: Knowledge, for the own limits and the sighting's age.
-        begins: Pose at which the step begins, in the own odometry.
-    """
-    limits = knowledge.limits
-    steps = 0.5 + knowledge.age / limits.step_duration
-    way = limits.stride * steps
-    there = both.px + way * both.pc, both.py + way * both.ps
-    return PlayerPair(
-        begins.x,
-        begins.y,
-        cos(begins.theta),
-        sin(begins.theta),
-        *there,
-        both.pc,
-        both.ps,
-    )
-
-
 MARGIN = 0.005  # in addition to the required clearance, in [m]
 PENALTY = 60.0  # per metre of missing clearance: 1 cm costs 0.6 m
 MAP_ERROR_COST = 0.5  # of missing clearance as large as the map error, [m]
@@ -270,13 +216,12 @@ class LookAhead(BackwardStrategy):
         self, limits: Limits, *, valued: bool
     ) -> CandidateManeuvers:
         """Return the candidate maneuvers; fewer with a value table."""
-        share = step_rules(limits).share
         return maneuvers_of(
             self.pieces[:TABLE_PIECES] if valued else self.pieces,
             self.turns,
             0 if valued else self.tail,
             self.angle,
-            share * self.largest_error,
+            limits.share * self.largest_error,
             0 if valued else SPOT_STEPS,
         )
 
@@ -296,10 +241,62 @@ class LookAhead(BackwardStrategy):
         return bool(then < min(self.body_radius, now))
 
 
+def poses_at_sighting(
+    track: OpponentTrack, model: PursuerModel, rules: StepRules
+) -> PlayerPair:
+    """Return the poses of both players at the last sighting, in the map.
+
+    The heading of the pursuer is that of its model along the last sightings.
+    One that has not moved is assumed to face the own robot.
+
+    Args:
+        track: At least one sighting.
+        model: Model of its steps.
+        rules: Rules of a step.
+    """
+    rows = track.rows[-SIGHTINGS:]
+    first, last = rows[0], rows[-1]
+    own = last.own
+    heading = atan2(own.y - last.y, own.x - last.x)
+    way = hypot(last.x - first.x, last.y - first.y)
+    least = MIN_MOTION * (len(rows) - 1) * rules.stride
+    if len(rows) > 1 and way >= least:
+        path = [(*row.own, row.x, row.y, n) for n, row in enumerate(rows)]
+        (_, _, heading), _ = fit_heading(np.array(path), model, rules)
+    return pair_of(own, (last.x, last.y, heading))
+
+
+def predict_poses(
+    both: PlayerPair, knowledge: Knowledge, begins: Pose
+) -> PlayerPair:
+    """Predict the poses of both players when the decided step begins.
+
+    A body passes the landed foot half a step after its landing; the pursuer
+    walks straight on until then.
+
+    Args:
+        both: Poses at the sighting.
+        knowledge: Knowledge, for the own limits and the sighting's age.
+        begins: Pose at which the step begins, in the own odometry.
+    """
+    limits = knowledge.limits
+    steps = 0.5 + knowledge.age / limits.step_duration
+    way = limits.stride * steps
+    there = both.px + way * both.pc, both.py + way * both.ps
+    return PlayerPair(
+        begins.x,
+        begins.y,
+        cos(begins.theta),
+        sin(begins.theta),
+        *there,
+        both.pc,
+        both.ps,
+    )
+
+
 def step_rules(limits: Limits) -> StepRules:
     """Return the rules of a step of given limits."""
-    share = limits.gain * limits.stride / limits.speed
-    return StepRules(limits.stride, share, pi * share)
+    return StepRules(limits.stride, limits.share, pi * limits.share)
 
 
 @lru_cache(maxsize=16)

@@ -10,7 +10,6 @@ from .search.heading_fit import fit_heading
 from .search.step_motion import (
     PursuerModel,
     Rules,
-    arc_end,
     pair_of,
     pursuer_turn,
 )
@@ -157,12 +156,12 @@ class ModelFit(NamedTuple):
             rules: Rules of the steps.
             ahead: Time since the end of the path, in steps.
         """
-        pose = self.poses[number]
+        pose = Pose(*self.poses[number])
         if not len(self.path):
-            return Pose(*pose)
+            return pose
         both = pair_of(tuple(self.path[-1, :3].tolist()), pose)
         turn = ahead * pursuer_turn(both, MODELS[number], rules)
-        return Pose(*arc_end(pose, ahead * self.speed * rules.stride, turn))
+        return pose.along_arc(ahead * self.speed * rules.stride, turn)
 
     def weights(self) -> Array:
         """Return the weight of each model, 1 for the best; 0 if ruled out."""

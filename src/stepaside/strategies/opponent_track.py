@@ -111,23 +111,10 @@ class OpponentTrack(NamedTuple):
         return way + 0.5 * wrap_angle(way - earlier)
 
     @property
-    def bearing_rate(self) -> float | None:
-        """Turning rate of the line of sight over the floor, in [rad/s].
-
-        None while unknown.
-        """
-        return self.sight_rates[0]
-
-    @property
-    def closing_speed(self) -> float | None:
-        """Decrease of the distance, in [m/s]; None while unknown."""
-        return self.sight_rates[1]
-
-    @property
     def sight_rates(self) -> tuple[float, float] | tuple[None, None]:
         """Turning rate of the line of sight, and decrease of its length.
 
-        They are those over the last gait cycle.
+        In [rad/s] and [m/s], over the last gait cycle; None while unknown.
         """
         now = self.rows[-1]
         begin = now.time - CYCLE * self.step - 1e-9

@@ -16,7 +16,7 @@ from ..planning import Direction
 from ..theory import laws
 from .approach import correcting_heading
 from .knowledge import STAND, Intent, Knowledge, Limits
-from .opponent_track import OpponentTrack, track_of_steps
+from .opponent_track import OpponentTrack, opponent_position, track_of_steps
 from .table_cache import cars_bound, unit_cars
 
 FREE_STRIDES = 3.0  # straight ahead that allow turning by (2)
@@ -182,8 +182,7 @@ class Pursuit:
 
         A step turns by a fraction of it, which depends on the gait.
         """
-        share = limits.gain * limits.stride / limits.speed
-        ratio = min(self.gain, max(1.0, 1.0 / share))
+        ratio = min(self.gain, max(1.0, 1.0 / limits.share))
         return min(max(ratio * laws.pursuit_heading(bearing), -pi), pi)
 
     def _is_blocked(self, knowledge: Knowledge) -> bool:
@@ -200,13 +199,12 @@ class Pursuit:
     def _path_bearing(self, knowledge: Knowledge, side: int) -> float:
         """Return the bearing of the first vertex of the path, in [rad]."""
         x, y, theta = knowledge.pose_in_map
-        sight = theta + knowledge.bearing
-        evader = (
-            x + knowledge.distance * cos(sight),
-            y + knowledge.distance * sin(sight),
-        )
         u, v = first_waypoint(
-            knowledge.obstacles_in_map, (x, y), evader, self.body_radius, side
+            knowledge.obstacles_in_map,
+            (x, y),
+            opponent_position(knowledge),
+            self.body_radius,
+            side,
         )
         return wrap_angle(atan2(v - y, u - x) - theta)
 

@@ -145,7 +145,7 @@ class RobustEvasion(BackwardStrategy):
             walks: Whether it is a walker.
         """
         limits = knowledge.limits
-        share = limits.gain * limits.stride / limits.speed
+        share = limits.share
         capture, clearance = self.capture + MARGIN, self.body_radius + MARGIN
         caution = 0.0
         if walks:  # an evader that is too near may leave

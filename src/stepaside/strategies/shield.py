@@ -289,8 +289,7 @@ def _intent_of(held: HeldMotion, model: ShieldModel, own: Pose) -> Intent:
         return Intent(velocity=BodyVelocity(u, v, rate))
     limits = model.limits
     turn = rate * limits.step_duration
-    share = limits.gain * limits.stride / limits.speed
-    heading = turn if model.saturated else turn / share
+    heading = turn if model.saturated else turn / limits.share
     speed = abs(ahead) * limits.step_duration / limits.stride
     return Intent(min(max(heading, -pi), pi), min(speed, 1.0))
 

@@ -154,7 +154,7 @@ class ShieldModel:
     @property
     def turn(self) -> float:
         """Largest turn of a step of a unicycle, in [rad]."""
-        share = self.limits.gain * self.limits.stride / self.limits.speed
+        share = self.limits.share
         return share if self.saturated else pi * share
 
     def twist(self, intent: Intent) -> tuple[BodyVelocity, float]:
@@ -168,8 +168,7 @@ class ShieldModel:
             twist = BodyVelocity(ahead, 0.0, rate)
             return self.velocities.nearest(twist), limits.step_duration
         duration = limits.step_duration / intent.pace
-        share = limits.gain * limits.stride / limits.speed
-        turn = intent.heading * (1.0 if self.saturated else share)
+        turn = intent.heading * (1.0 if self.saturated else limits.share)
         turn = min(max(turn, -self.turn), self.turn)
         share = min(intent.speed_factor, limits.stride_share(turn))
         ahead = sign * share * limits.stride

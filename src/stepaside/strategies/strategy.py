@@ -1,6 +1,6 @@
 """Interface of a strategy: a pure function with its memory as a value."""
 
-from typing import Any, ClassVar, Protocol
+from typing import Any, ClassVar, Protocol, runtime_checkable
 
 from ..core.errors import StrategyError
 from ..core.user_file import FAILURES
@@ -9,6 +9,7 @@ from .knowledge import Intent, Knowledge
 from .nearest_unicycle_intent import unicycle_intent
 
 
+@runtime_checkable
 class Strategy(Protocol):
     """Pure function from knowledge and memory to an intent.
 

@@ -4,7 +4,6 @@ from collections.abc import Callable, Mapping
 from contextlib import suppress
 from functools import lru_cache
 from hashlib import sha256
-from pathlib import Path
 from typing import TYPE_CHECKING, Any
 from zipfile import BadZipFile
 
@@ -34,7 +33,8 @@ def cached(
         key: All that the arrays depend on; equal keys have equal ``repr``.
         solve: Computes the arrays.
     """
-    file = cache_file(name, key)
+    digest = sha256(repr((FORMAT, key)).encode()).hexdigest()
+    file = cache_folder() / f"{name}-{digest[:16]}.npz"
     try:
         with np.load(file) as saved:
             return dict(saved)
@@ -48,21 +48,6 @@ def cached(
     ):
         np.savez_compressed(out, **found)
     return found
-
-
-def cache_file(name: str, key: object) -> Path:
-    """Return the file of :func:`cached`."""
-    digest = sha256(repr((FORMAT, key)).encode()).hexdigest()
-    return cache_folder() / f"{name}-{digest[:16]}.npz"
-
-
-def is_pursuit_bound_cached(cells: int) -> bool:
-    """Return whether :func:`pursuit_bound` is cached.
-
-    Args:
-        cells: Number of cells of the table.
-    """
-    return cache_file("pursuit", cells).is_file()
 
 
 @lru_cache(maxsize=8)

@@ -84,7 +84,7 @@ class TeamEvasion(BackwardStrategy):
         if not evading:
             return STAND, False
         limits = knowledge.limits
-        share = limits.gain * limits.stride / limits.speed
+        share = limits.share
         turns = candidate_turns(pi * share)
         closest, final = closest_approaches(
             pursuers_of(knowledge), turns, limits.stride, share

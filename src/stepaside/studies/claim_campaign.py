@@ -1,17 +1,15 @@
 """Campaign that measures every claim of the paper over many runs."""
 
 import json
-from collections.abc import Callable, Sequence
-from concurrent.futures import Executor
+from collections.abc import Sequence
 from hashlib import sha256
 from math import isfinite, nan
-from pathlib import Path
 from typing import Any, NamedTuple
 
 from .claim_jobs import JOBS
 from .claims import ClaimJob, ClaimRow
 from .legs_claims import NAME, learned_legs_job
-from .study import Study, StudyProgress, StudyRun, run_study
+from .study import Study, StudyRun
 from .tabulation import Record
 
 
@@ -109,35 +107,6 @@ def claim_rows(run: StudyRun[ClaimTrial]) -> list[dict[str, Any]]:
         if name in trials:
             rows += _job_of(trials[name]).rows(name, readings[name])
     return [row.to_json() for row in rows]
-
-
-def reproduce(
-    file: Path | str | None,
-    seeds: Sequence[int],
-    executor: Executor | str | None = None,
-    report: Callable[[StudyProgress], None] | None = None,
-) -> list[dict[str, Any]]:
-    """Measure every claim; readings in the file are reused.
-
-    Args:
-        file: SQLite file of the readings; None stores nothing.
-        seeds: Seeds of the physical runs.
-        executor: As of :func:`~stepaside.studies.study.run_study`.
-        report: Called with the progress.
-
-    Returns:
-        Rows, as JSON objects.
-
-    Raises:
-        OutputError: If readings cannot be stored.
-        KeyboardInterrupt: After Ctrl-C.
-    """
-    run = run_study(claim_study(seeds), file, executor=executor, report=report)
-    if run.failure is not None:
-        raise run.failure
-    if run.interrupted:
-        raise KeyboardInterrupt
-    return claim_rows(run)
 
 
 def settings_of_jobs(seed: int, legs: str = "") -> dict[str, str]:

@@ -8,7 +8,7 @@ import numpy as np
 
 from ..core.errors import PlanError
 from ..core.poses import Pose
-from ..games.duel import run_duel, run_duels
+from ..games.duel import run_duels
 from ..games.duel_settings import DuelSettings
 from ..games.outcome import Outcome
 from ..games.run import DuelRun
@@ -40,11 +40,7 @@ def play_duel(settings: DuelSettings) -> Record:
     Raises:
         KeyboardInterrupt: If the duel was interrupted.
     """
-    began = perf_counter()
-    run = run_duel(settings)
-    if run.outcome is Outcome.INTERRUPTED:
-        raise KeyboardInterrupt
-    return _record_of(run, perf_counter() - began)
+    return play_duels([settings])[0]
 
 
 def _record_of(run: DuelRun, wall: float) -> Record:

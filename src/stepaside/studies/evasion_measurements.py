@@ -113,12 +113,11 @@ def read_room(run: DuelRun, clear: Clear = clearance) -> Readings:
         clear: Function from duel and player to the least clearance, in [m].
     """
     least: Sequence[float | None] = [clear(run, name) for name in PLAYERS]
-    ended = outcome_of(run)
     clean = run.outcome is Outcome.COMPLETED or players_touched(run)
     return {
         "touched": float(not clean),
         "clear": min(inf if k is None else k for k in least),
-        "free": run.duration if ended == "survived" else 0.0,
+        "free": run.duration if outcome_of(run) is Outcome.COMPLETED else 0.0,
     }
 
 

@@ -8,7 +8,7 @@ import numpy as np
 from ..core.errors import ConfigurationError
 from ..core.poses import wrap_angle
 from ..core.random_streams import named_generator
-from ..games.duel import run_duel, run_duels
+from ..games.duel import run_duels
 from ..games.duel_settings import DuelSettings, StartSettings
 from ..games.outcome import Outcome
 from ..games.run import DuelRun
@@ -146,11 +146,7 @@ class Encounter:
 
 def play_encounter(encounter: Encounter) -> Record:
     """Play an encounter and return its record."""
-    person = encounter.person
-    run = run_duel(person.settings)
-    if run.outcome is Outcome.INTERRUPTED:
-        raise KeyboardInterrupt
-    return _record_of(person, run)
+    return play_encounters([encounter])[0]
 
 
 def play_encounters(encounters: list[Encounter]) -> list[Record]:

@@ -57,8 +57,8 @@ class Study(Generic[C]):
     Attributes:
         name: Name of the study, one word.
         cases: Cases in the order of the results. Each is a value that can be
-            pickled. A long list need not be in memory: a ``range`` or a
-            :class:`~stepaside.studies.case_grid.CaseGrid` computes its items.
+            pickled. A long list need not be in memory: a ``range`` computes
+            its items.
         measure: Function from a case to its record, a flat dictionary of
             values for JSON. It must be importable in a worker process, and
             depend neither on other cases nor on the executor.

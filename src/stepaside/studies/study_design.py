@@ -91,7 +91,7 @@ class _Design(NamedTuple):
 
     def fingerprint(self, axes: Sequence[tuple[str, Sequence[Any]]]) -> str:
         """Return a hash of what all share and of the strategy files."""
-        found = [json.dumps(self)]
+        found = [_json(self)]
         varied = [
             values for _, values in axes if not isinstance(values, range)
         ]
@@ -153,7 +153,7 @@ def make_study(
             name,
             every,
             partial(_call, game, shared),
-            lambda case: f"{own} {json.dumps(case, sort_keys=True)}",
+            lambda case: f"{own} {_json(case)}",
             by=varied,
             values=tuple(values),
         )
@@ -171,7 +171,7 @@ def make_study(
         name,
         every,
         design.measure,
-        lambda case: f"{own_of()} {json.dumps(case, sort_keys=True)}",
+        lambda case: f"{own_of()} {_json(case)}",
         design.measure_together if together else None,
         TOGETHER if together else 1,
         varied,
@@ -344,6 +344,7 @@ def _check(design: _Design, cases: Cases) -> None:
         ends = values if len(values) < 1000 else (values[0], values[-1])
         for value in ends:
             change = {name: value} if name else value
+            _json(change)
             design.settings_of({**first, **change})
 
 
@@ -351,6 +352,21 @@ def _call(
     function: Callable[..., Record], settings: Mapping[str, Any], case: Case
 ) -> Record:
     return {**case, **function(**{**settings, **case})}
+
+
+def _json(value: Any) -> str:
+    """Return a value of a record, or of its key, as JSON.
+
+    Raises:
+        ConfigurationError: If it has an object, such as a strategy.
+    """
+    try:
+        return json.dumps(value, sort_keys=True)
+    except TypeError as error:
+        raise ConfigurationError(
+            "values that vary or are stored must be numbers, texts or "
+            f"arrays, such as the name of a strategy: {error}"
+        ) from error
 
 
 def _texts(value: Any) -> Iterator[str]:

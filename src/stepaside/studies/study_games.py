@@ -20,7 +20,6 @@ from ..games.robot_settings import (
     with_players,
     with_robot,
 )
-from ..games.strategy_resolution import check_strategy_names
 from ..games.walk_game import run_walk
 from ..games.walk_settings import WalkSettings
 from ..planning import PRESETS
@@ -263,16 +262,8 @@ def settings_of(kind: type[Any], entries: Mapping[str, Any]) -> Any:
                 base = replace(base, **{name: value})
                 if not isinstance(given, dict):
                     del entries[name]
-    objects = {
-        name: entries.pop(name)
-        for name in ("evader_strategy", "pursuer_strategy")
-        if not isinstance(entries.get(name, ""), str)
-    }
     made = parse_settings(kind, entries, "the settings", base=base)
-    made = replace(made, **inner, **objects)
-    if kind is DuelSettings and not objects:
-        check_strategy_names(made)
-    return made
+    return replace(made, **inner)
 
 
 def on_legs(settings: Any) -> bool:
@@ -303,7 +294,7 @@ def _play_pairing(settings: PairingSettings) -> Record:
     outcome, closest = record["outcome"], record["closest_m"]
     reached = 0.0 if outcome == "touched" else closest
     return record | {
-        "survived": outcome == "survived",
+        "survived": outcome == "completed",
         "captured": outcome == "captured",
         "touched_obstacle": outcome == "touched",
         "of_bound": closest / record["bound_m"],

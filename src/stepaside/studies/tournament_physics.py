@@ -2,7 +2,7 @@
 
 from dataclasses import replace
 from math import isfinite
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 
@@ -21,7 +21,6 @@ from ..strategies import Evasion, load_strategy
 from .tournament_strategies import SIGHT
 
 SEEN = "seen"
-OUTCOMES = {Outcome.COMPLETED: "survived", Outcome.FALL: "fell"}
 
 
 def duel_settings(
@@ -58,26 +57,6 @@ def duel_settings(
     )
 
 
-class DuelPaths(NamedTuple):
-    """Paths of two humanoids in the world.
-
-    Attributes:
-        outcome: Outcome, see :func:`outcome_of`.
-        pursuer: Poses (x [m], y [m], theta [rad]). Shape (n, 3).
-        evader: Poses of the evader, likewise.
-    """
-
-    outcome: str
-    pursuer: Array
-    evader: Array
-
-
-def paths_of(run: DuelRun) -> DuelPaths:
-    """Return the paths of the players of a duel."""
-    pursuer, evader = (run.tracks[name].unicycle for name in PLAYERS)
-    return DuelPaths(outcome_of(run), pursuer, evader)
-
-
 def record_values_of(run: DuelRun, radius: float) -> dict[str, Any]:
     """Return the record values of a duel as a tournament game.
 
@@ -93,12 +72,12 @@ def record_values_of(run: DuelRun, radius: float) -> dict[str, Any]:
         ``decision_s`` is the time of a whole replan.
     """
     summary = run.summary
-    outcome, pursuer, evader = paths_of(run)
+    pursuer, evader = (run.tracks[name].unicycle for name in PLAYERS)
     aims = pursuer[:, :2] - evader[:, :2]
     bearings = np.arctan2(aims[:, 1], aims[:, 0]) - evader[:, 2]
     seconds = max(run.duration, 1e-9)
     return {
-        "outcome": outcome,
+        "outcome": outcome_of(run).value,
         "contact": players_touched(run),
         "touched": list(summary.touched),
         "survived_s": run.duration
@@ -121,19 +100,17 @@ def players_touched(run: DuelRun) -> bool:
     return contact and set(run.summary.touched) == set(PLAYERS)
 
 
-def outcome_of(run: DuelRun) -> str:
+def outcome_of(run: DuelRun) -> Outcome:
     """Return the outcome of a duel as that of a tournament game.
 
-    Returns:
-        "captured" if the distance was at most the capture distance at any
-        time; else "survived", "contact" between the players, "touched" for
-        contact with an obstacle, "fell", or the outcome of the duel.
+    It is captured if the distance was at most the capture distance at any
+    time; a contact with an obstacle is told apart from one of the players.
     """
     if run.summary.captured_at_s is not None:
-        return "captured"
-    if run.outcome is Outcome.CONTACT:
-        return "contact" if players_touched(run) else "touched"
-    return OUTCOMES.get(run.outcome) or str(run.outcome.value)
+        return Outcome.CAPTURED
+    if run.outcome is Outcome.CONTACT and not players_touched(run):
+        return Outcome.TOUCHED
+    return run.outcome
 
 
 def clearance(run: DuelRun, name: str) -> float | None:

@@ -1,26 +1,22 @@
 """Games of a tournament, and the record of each."""
 
+from dataclasses import replace
 from math import isfinite, pi
-from typing import TYPE_CHECKING
 
 import numpy as np
 
 from ..arena import Room
 from ..core.convex import grown_hull_area
 from ..core.poses import Array, rotate, wrap_angles
-from ..games.floor_games import StrategyTrack
+from ..games.floor_games import StrategyTrack, play_strategies
+from ..games.floor_world import PARTS
 from ..games.outcome import Outcome
 from ..strategies import load_strategy
 from ..strategies.strategy_game import StepGame
 from ..strategies.table_cache import pursuit_bound
 from .tabulation import Record
-from .tournament_games import FEEDBACK, play_game
 from .tournament_settings import HUMANOIDS, TournamentSettings
 from .tournament_strategies import SIGHT
-
-if TYPE_CHECKING:
-    from ..games.run import DuelRun
-    from .tournament_physics import DuelPaths
 
 CELLS = 64  # of the value table of the bound
 
@@ -28,56 +24,14 @@ Pairing = tuple[str, str]
 """Names of an evader and of a pursuer."""
 
 
-def play_paths(
-    settings: TournamentSettings, pairing: Pairing, seed: int
-) -> "tuple[Room, StrategyTrack | DuelPaths]":
-    """Play one game of a tournament; return its room and both paths."""
-    if settings.level != HUMANOIDS:
-        return play_track(settings, pairing, seed)
-    from .tournament_physics import paths_of
-
-    room, run = _play_humanoids(settings, pairing, seed)
-    return room, paths_of(run)
-
-
-def _play_humanoids(
-    settings: TournamentSettings, pairing: Pairing, seed: int
-) -> "tuple[Room, DuelRun]":
-    """Play one game in physics.
-
-    Raises:
-        KeyboardInterrupt: If it was interrupted; it is not recorded then.
-    """
-    from ..games.duel import run_duel
-    from .tournament_physics import duel_settings
-
-    room, starts = settings.arena(seed)
-    run = run_duel(
-        duel_settings(
-            pairing,
-            room,
-            starts,
-            seed=seed,
-            duration=settings.game.duration,
-            source=settings.map,
-        )
-    )
-    if run.outcome is Outcome.INTERRUPTED:
-        raise KeyboardInterrupt
-    return room, run
-
-
 def play_track(
     settings: TournamentSettings, pairing: Pairing, seed: int
 ) -> tuple[Room, StrategyTrack]:
     """Play one game at level "steps" or "unicycle"; return its track."""
-    evader, pursuer = pairing
-    return play_game(
-        settings,
-        load_strategy(evader),
-        load_strategy(pursuer),
-        seed,
-    )
+    evader, pursuer = map(load_strategy, pairing)
+    room, starts = settings.arena(seed)
+    game = replace(settings.game, decisions=PARTS[settings.level])
+    return room, play_strategies(pursuer, evader, starts, room=room, game=game)
 
 
 def play_record(
@@ -106,13 +60,10 @@ def _step_values(
     distances = track.distances
     turns = wrap_angles(np.diff(track.evader[:, 2]))
     moved = np.diff(track.evader[:, :2], axis=0)
-    seconds = (len(distances) - 1) * game.period
-    seconds /= FEEDBACK if settings.level == "unicycle" else 1
+    seconds = (len(distances) - 1) * game.period / PARTS[settings.level]
     clear = float(track.clearances.min())
     return {
-        "outcome": "survived"
-        if track.outcome is Outcome.COMPLETED
-        else str(track.outcome),
+        "outcome": track.outcome.value,
         "survived_s": seconds,
         "closest_m": float(distances.min()),
         "bound_m": bound_of(track.pursuer[0], track.evader[0], game),
@@ -129,10 +80,25 @@ def _step_values(
 def _humanoid_values(
     settings: TournamentSettings, pairing: Pairing, seed: int
 ) -> Record:
-    """Play a game in physics and return its values."""
-    from .tournament_physics import record_values_of
+    """Play a game in physics and return its values.
 
-    _, run = _play_humanoids(settings, pairing, seed)
+    Raises:
+        KeyboardInterrupt: If it was interrupted; it is not recorded then.
+    """
+    from ..games.duel import run_duel
+    from .tournament_physics import duel_settings, record_values_of
+
+    run = run_duel(
+        duel_settings(
+            pairing,
+            *settings.arena(seed),
+            seed=seed,
+            duration=settings.game.duration,
+            source=settings.map,
+        )
+    )
+    if run.outcome is Outcome.INTERRUPTED:
+        raise KeyboardInterrupt
     pursuer, evader = (
         track.unicycle[0] for track in (run.pursuer, run.evader)
     )

@@ -1,16 +1,12 @@
 """Settings of a tournament."""
 
-import json
-from dataclasses import asdict, dataclass, field
-from hashlib import sha256
-from typing import Any
+from dataclasses import dataclass, field
 
 from ..arena import (
     Room,
     RoomRecipe,
     draw_initial_poses,
     generate_room,
-    room_to_entries,
 )
 from ..core.errors import ConfigurationError
 from ..core.poses import Pose
@@ -75,20 +71,3 @@ class TournamentSettings:
         room = generate_room(self.room, seed)
         assert room.starts is not None
         return room, room.starts
-
-    def entries(self) -> dict[str, Any]:
-        """Return the settings as values for JSON."""
-        room = self.room
-        physics = {"map": self.map} if self.level == HUMANOIDS else {}
-        return {
-            "level": self.level,
-            "room": room_to_entries(room)
-            if isinstance(room, Room)
-            else asdict(room),
-            "game": asdict(self.game),
-        } | physics
-
-    def fingerprint(self) -> str:
-        """Return a fingerprint of all settings."""
-        text = json.dumps(self.entries(), sort_keys=True)
-        return sha256(text.encode()).hexdigest()[:12]

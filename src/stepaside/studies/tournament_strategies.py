@@ -1,4 +1,4 @@
-"""Entrants of a tournament that are not named."""
+"""Gains of pursuers in a tournament, and the evader that moves aside."""
 
 from math import inf, radians
 
@@ -7,15 +7,6 @@ from ..strategies.registry import file_of
 
 SIGHT = radians(148.0)  # greatest bearing in view of a turned head, in [rad]
 ASIDE = "evasion(safety_radius=100)"  # beyond every distance of these games
-ALPHA = "evasion(angle=45deg, safety_radius=100)"
-EVADERS = (
-    "look-ahead",
-    ASIDE,
-    "evasion(saturated=true, safety_radius=100)",
-    ALPHA,
-    "optimal",
-    "robust",
-)
 
 
 def gain_of(name: str) -> float | None:

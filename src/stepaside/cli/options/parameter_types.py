@@ -219,27 +219,6 @@ class SizeType(TextType[tuple[float, float] | None]):
         return width, depth
 
 
-class ArenaType(TextType[Any]):
-    """Size like 3x3, ``open``, or a room file."""
-
-    name = "room"
-
-    def get_metavar(self, param: click.Parameter, ctx: click.Context) -> str:
-        """Return the placeholder for the help."""
-        return "[WIDTHxDEPTH|open|FILE]"
-
-    def parse(self, value: Any) -> Any:
-        """Return the path of a room file, else the size."""
-        file = Path(str(value))
-        if file.suffix.lower() in (".toml", ".json"):
-            if not file.is_file():
-                raise click.BadParameter(
-                    f"must be an existing file, got {value!r:.80}"
-                )
-            return file
-        return SizeType().parse(value)
-
-
 class RoomType(TextType[int | Path]):
     """Seed of a random room, or room file."""
 

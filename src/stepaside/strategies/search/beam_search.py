@@ -24,7 +24,7 @@ from .step_motion import (
     BeamRules,
     PlayerPair,
     PursuerModel,
-    arc_end,
+    half_turn,
     pursue,
 )
 
@@ -93,9 +93,9 @@ def action_arcs(actions: Any, stride: float) -> Any:
     arcs = np.empty((len(actions), 4))
     for k in range(len(actions)):
         turn = actions[k, 0]
-        arcs[k, 0], arcs[k, 1], _ = arc_end(
-            (0.0, 0.0, 0.0), -stride * actions[k, 1], turn
-        )
+        c, s, ratio = half_turn(0.5 * turn)
+        way = -stride * actions[k, 1] * ratio
+        arcs[k, 0], arcs[k, 1] = way * c, way * s
         arcs[k, 2], arcs[k, 3] = cos(turn), sin(turn)
     return arcs
 

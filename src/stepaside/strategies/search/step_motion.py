@@ -120,21 +120,6 @@ def half_turn(half: float) -> tuple[float, float, float]:
 
 
 @inlined
-def arc_end(
-    pose: tuple[float, float, float], way: float, turn: float
-) -> tuple[float, float, float]:
-    """Return the pose after an arc of a length [m] and a turn [rad]."""
-    _, _, ratio = half_turn(0.5 * turn)
-    x, y, theta = pose
-    along = theta + 0.5 * turn
-    return (
-        x + way * ratio * cos(along),
-        y + way * ratio * sin(along),
-        (theta + turn),
-    )
-
-
-@inlined
 def pursuer_turn(both: PlayerPair, model: PursuerModel, rules: Rules) -> float:
     """Return the turn of the pursuer's step by a model, in [rad]."""
     dx, dy = both.ex - both.px, both.ey - both.py
