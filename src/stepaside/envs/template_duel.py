@@ -169,9 +169,6 @@ class TemplateDuel:
                 if intent is None:
                     raise StrategyError(f"{name} needs an intent, got none")
                 motion.given = intent
-        self._game.decide()
-        if self._game.failure is not None:
-            raise self._game.failure
         self._game.advance()
         ended = self._game.ended
         self.closest = min(self.closest, self.distance)

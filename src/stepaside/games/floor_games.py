@@ -119,7 +119,7 @@ def play_strategies(
     world = floor_of_two(game, (pursuer, evader), starts, room)
     recorder = FloorRecorder(world)
     played = GameInPlay(world, rules_of_two(game), (recorder,))
-    play([played])
+    play(played)
     return track_of(played, recorder, room)
 
 
@@ -129,11 +129,8 @@ def track_of(
     """Return the record of a finished game of pursuer and evader.
 
     Raises:
-        StrategyError: If a strategy failed.
         KeyboardInterrupt: If the user interrupted it.
     """
-    if game.failure is not None:
-        raise game.failure
     assert game.ended is not None
     if game.ended.outcome is Outcome.INTERRUPTED:
         raise KeyboardInterrupt
@@ -220,7 +217,7 @@ def rules_of(settings: GameSettings) -> GameRules:
     goals = {p.name: p.goal for p in settings.players if p.goal and p.decides}
     return GameRules(
         settings.duration,
-        0.0 if settings.level == "physics" else CAPTURE_DISTANCE,
+        CAPTURE_DISTANCE,
         settings.identities,
         goals,
     )
@@ -243,7 +240,7 @@ def play_floor(
     world = floor_of(settings)
     recorder = FloorRecorder(world, PERIOD)
     game = GameInPlay(world, rules_of(settings), (recorder,))
-    play([game], report)
+    play(game, report)
     return game, recorder
 
 

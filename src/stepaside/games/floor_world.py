@@ -444,11 +444,8 @@ class FloorWorld:
     Attributes:
         motions: Motion of each player, by name.
         time: Time, in [s].
-        networks: None: strategies evaluate their own networks.
         until: Time of the next decision, in [s].
     """
-
-    networks = None
 
     def __init__(
         self,
@@ -501,19 +498,12 @@ class FloorWorld:
             motion.advance(self.time)
         self._seen = {name: own.pose for name, own in self.motions.items()}
 
-    def fallen(self) -> tuple[str, ...]:
-        """Nobody falls."""
-        return ()
-
-    def touching(self) -> list[str]:
-        """Return the first player at an obstacle."""
+    def touching(self) -> str:
+        """Return the name of the first player at an obstacle; or none."""
         for name, own in self._bodies.items():
             if not own.is_clear(own.pose, self._obstacles):
-                return [name]
-        return []
-
-    def close(self) -> None:
-        """Nothing to release."""
+                return name
+        return ""
 
 
 class FloorRecorder:
@@ -534,9 +524,6 @@ class FloorRecorder:
         self.world, self._period = world, period
         self.times: list[float] = []
         self._rows: list[Sequence[Pose]] = []
-
-    def before(self, game: GameInPlay) -> None:
-        """Do nothing: it samples when the players have decided."""
 
     def acted(self, game: GameInPlay) -> None:
         """Sample the motion up to the next decision."""

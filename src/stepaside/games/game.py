@@ -1,7 +1,4 @@
-"""The one game: a world, rules, a judge, and the loop that plays it.
-
-The world is one of bodies in physics or a floor of templates.
-"""
+"""Game without bodies: a world, rules, a judge, and the loop that plays it."""
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
@@ -9,7 +6,6 @@ from math import hypot, inf
 from time import perf_counter
 from typing import NamedTuple, Protocol
 
-from ..core.errors import ReachError, StrategyError
 from ..core.player_identity import PlayerIdentity
 from ..core.poses import Pose
 from ..core.signal_handling import DeferredInterrupt
@@ -17,13 +13,6 @@ from .outcome import Outcome
 
 ARRIVAL = 0.3  # distance from a goal at which it is reached, in [m]
 REPORT_PERIOD = 0.2  # between two progress reports, in [s]
-
-
-class Networks(Protocol):
-    """Networks of players, evaluated between decisions and motion."""
-
-    def flush(self) -> None:
-        """Evaluate all that wait."""
 
 
 class PlayedWorld(Protocol):
@@ -35,10 +24,6 @@ class PlayedWorld(Protocol):
 
     time: float
 
-    @property
-    def networks(self) -> Networks | None:
-        """Networks of the players, which games side by side share."""
-
     def states(self) -> Mapping[str, Pose]:
         """Return the pose of each player in the world, by name."""
 
@@ -46,28 +31,18 @@ class PlayedWorld(Protocol):
         """Let the players decide that are due.
 
         Raises:
-            ReachError: If a robot cannot take its next step.
             StrategyError: If a strategy fails.
         """
 
     def step(self, limit: float) -> None:
         """Move all players on, at most to a time, in [s]."""
 
-    def fallen(self) -> Sequence[str]:
-        """Return the names of the players that have fallen."""
-
-    def touching(self) -> Sequence[str]:
-        """Return the names of bodies in contact, or of one at an obstacle."""
-
-    def close(self) -> None:
-        """Release what the players hold."""
+    def touching(self) -> str:
+        """Return the name of a player at an obstacle; empty for none."""
 
 
 class GameObserver(Protocol):
     """Observer of a game, such as a recorder."""
-
-    def before(self, game: "GameInPlay") -> None:
-        """Observe the world before the players decide."""
 
     def acted(self, game: "GameInPlay") -> None:
         """Observe the world after they have decided, before they move."""
@@ -92,7 +67,7 @@ class Progress(NamedTuple):
 
 @dataclass(frozen=True)
 class GameRules:
-    """What ends a game, at every level.
+    """What ends a game.
 
     Attributes:
         duration: Time limit, in [s].
@@ -114,7 +89,7 @@ class Ended(NamedTuple):
     Attributes:
         outcome: How it ended.
         message: The reason, as text.
-        players: Names of the players and things that ended it.
+        players: Names of the players that ended it.
     """
 
     outcome: Outcome
@@ -130,7 +105,6 @@ class GameInPlay:
         rules: Its rules.
         observers: Its observers.
         ended: How it ended; None while it goes on.
-        failure: Error of a player that ended it.
         goals_at: Time at which players reached their goals, in [s], by name.
     """
 
@@ -144,7 +118,6 @@ class GameInPlay:
         self.world, self.rules = world, rules
         self.observers = tuple(observers)
         self.goals_at: dict[str, float] = {}
-        self.failure: Exception | None = None
         ids = rules.identities
         self._pairs = [
             (evader, pursuer)
@@ -167,22 +140,13 @@ class GameInPlay:
             default=None,
         )
 
-    def decide(self) -> None:
-        """Let the players decide; a failure ends the game."""
-        for observer in self.observers:
-            observer.before(self)
-        try:
-            self.world.decide()
-        except (ReachError, StrategyError) as error:
-            self.failure = error
-            unreachable = isinstance(error, ReachError)
-            self.ended = Ended(
-                Outcome.UNREACHABLE if unreachable else Outcome.FAILED,
-                f"{error} at {self.world.time:.2f} s",
-            )
-
     def advance(self) -> None:
-        """Move the players to the next instant, and judge."""
+        """Let the players decide and move to the next instant, and judge.
+
+        Raises:
+            StrategyError: If a strategy fails.
+        """
+        self.world.decide()
         for observer in self.observers:
             observer.acted(self)
         self.world.step(self.rules.duration)
@@ -192,15 +156,9 @@ class GameInPlay:
         """Apply the rules."""
         world, rules = self.world, self.rules
         now = world.time
-        if names := tuple(world.fallen()):
-            return _ended(Outcome.FALL, names, f"fell at {now:.2f} s")
-        if names := tuple(world.touching()):
-            alone = len(names) == 1
-            return _ended(
-                Outcome.TOUCHED if alone else Outcome.CONTACT,
-                names,
-                f"touched{' an obstacle' * alone} at {now:.2f} s",
-            )
+        if name := world.touching():
+            message = f"{name} touched an obstacle at {now:.2f} s"
+            return Ended(Outcome.TOUCHED, message, (name,))
         if rules.capture:
             poses = world.states()
             for evader, pursuer in self._pairs:
@@ -229,58 +187,31 @@ class GameInPlay:
         return self.goals_at.keys() == self.rules.goals.keys()
 
 
-def _ended(outcome: Outcome, names: tuple[str, ...], what: str) -> Ended:
-    return Ended(outcome, f"{' and '.join(names)} {what}", names)
-
-
 def play(
-    games: Sequence[GameInPlay],
-    report: Callable[[Progress], None] | None = None,
-) -> float:
-    """Play games side by side, each to its end.
-
-    A KeyboardInterrupt ends those that still go on. At any end observers
-    are told, and the worlds are closed.
+    game: GameInPlay, report: Callable[[Progress], None] | None = None
+) -> None:
+    """Play a game to its end; a KeyboardInterrupt ends it, too.
 
     Args:
-        games: The games.
-        report: Called about five times a second with the progress of the
-            first one.
+        game: The game.
+        report: Called about five times a second with the progress.
 
-    Returns:
-        Computing time of each game, in [s].
+    Raises:
+        StrategyError: If a strategy fails.
     """
     began = reported = perf_counter()
-    shared = {id(n): n for g in games if (n := g.world.networks) is not None}
-    playing = [game for game in games if game.ended is None]
     try:
         with DeferredInterrupt() as interrupt:
-            while playing:
+            while game.ended is None:
                 interrupt.let_through()
-                for game in playing:
-                    game.decide()
-                for networks in shared.values():
-                    networks.flush()
-                for game in playing:
-                    if game.ended is None:
-                        game.advance()
-                playing = [game for game in playing if game.ended is None]
-                if report is not None:
-                    now = perf_counter()
-                    if now - reported > REPORT_PERIOD:
-                        reported, first = now, games[0]
-                        time = first.world.time
-                        pace = time / (now - began)
-                        report(Progress(time, first.distance, pace))
+                game.advance()
+                now = perf_counter()
+                if report is not None and now - reported > REPORT_PERIOD:
+                    reported, time = now, game.world.time
+                    report(Progress(time, game.distance, time / (now - began)))
     except KeyboardInterrupt:
-        for game in games:
-            if game.ended is None:
-                message = f"interrupted at {game.world.time:.2f} s"
-                game.ended = Ended(Outcome.INTERRUPTED, message)
-    finally:
-        for game in games:
-            game.world.close()
-    for game in games:
-        for observer in game.observers:
-            observer.ended(game)
-    return (perf_counter() - began) / max(1, len(games))
+        if game.ended is None:
+            message = f"interrupted at {game.world.time:.2f} s"
+            game.ended = Ended(Outcome.INTERRUPTED, message)
+    for observer in game.observers:
+        observer.ended(game)

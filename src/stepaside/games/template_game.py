@@ -71,5 +71,5 @@ def play_template(
     )
     recorder = FloorRecorder(world, step)
     game = GameInPlay(world, GameRules(duration), (recorder,))
-    play([game])
+    play(game)
     return track_of(game, recorder)
