@@ -17,6 +17,7 @@ from stepaside.envs import VectorDuel
 from stepaside.envs.policy_optimisation import (
     OptimisationSettings,
     PolicyOptimiser,
+    TrainingProgress,
 )
 from stepaside.strategies import StepGame, Strategy, load_strategy
 
@@ -50,11 +51,12 @@ def main(rounds: int = 6, updates: int = 30) -> None:
         new = PolicyOptimiser(games, settings, seed=n)
         learner = learners.setdefault(role, new)
         learner.change_games(games, seed=n)
-        found = [learner.update(k, 1 - k / updates) for k in range(updates)]
-        closest = [progress.closest_m for progress in found]
-        print(f"{role}: {closest[1]:.3f} m at first, then {closest[-1]:.3f} m")
-        opponents[other] = learner.strategy()
-        learner.strategy().save(f"self-{role}.onnx")
+        found: list[TrainingProgress] = []
+        policy = learner.train(found.append)
+        first, last = found[1].closest_m, found[-1].closest_m
+        print(f"{role}: {first:.3f} m at first, then {last:.3f} m")
+        opponents[other] = policy
+        policy.save(f"self-{role}.onnx")
 
 
 if __name__ == "__main__":

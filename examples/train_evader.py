@@ -19,6 +19,7 @@ from stepaside.envs import VectorDuel
 from stepaside.envs.policy_optimisation import (
     OptimisationSettings,
     PolicyOptimiser,
+    TrainingProgress,
 )
 from stepaside.strategies import StepGame
 from stepaside.studies import load_study, run_study
@@ -42,13 +43,18 @@ def main(floor: str, updates: int) -> None:
         full_state=True,
     )
     learner = PolicyOptimiser(games, OptimisationSettings(updates), seed=1)
-    curve = []
-    for n in range(updates):
-        curve.append(learner.update(n, 1.0 - n / updates).closest_m)
-        if n % 10 == 0:
-            print(f"{process_time():4.0f} s: {curve[-1]:.3f} m, {n}")
+    curve: list[float] = []
+
+    def note(progress: TrainingProgress) -> None:
+        if len(curve) % 10 == 0:
+            print(
+                f"{process_time():4.0f} s: {progress.closest_m:.3f} m, "
+                f"{len(curve)}"
+            )
+        curve.append(progress.closest_m)
+
+    learner.train(note).save(f"evader-{floor}.onnx")
     draw_curve(curve, f"training-{floor}.png")
-    learner.strategy().save(f"evader-{floor}.onnx")
     study = load_study(
         "rating",
         [

@@ -8,22 +8,25 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..core.errors import ConfigurationError, PlanError
-from ..games.duel_settings import PURSUER
+from ..games.duel_settings import PLAYERS, PURSUER
 from ..locomotion.policy.network_pool import NetworkPool
 from ..strategies.registry import load_strategy
 from ..strategies.strategy import Strategy
 from .distance_reward import reward_sign
 from .environment_settings import (
-    PLAYERS,
     EnvironmentSettings,
     check_choice,
     direction_of,
 )
-from .episode import EnvironmentEpisode, EpisodeSource, check_render_mode
+from .episode import (
+    SEEDS,
+    EnvironmentEpisode,
+    EpisodeSource,
+    check_render_mode,
+)
 from .intent_actions import IntentActions, observation_space
 
 USUAL = {"evader": "pursuit", "pursuer": "evasion"}  # opponent of a role
-SEEDS = 2**31
 
 
 def load_opponent(name: str | Strategy | None, role: str) -> Strategy:
@@ -188,10 +191,6 @@ class DuelEnv(gymnasium.Env[NDArray[np.float32], Any]):
         Raises:
             PlanError: If there is no episode.
         """
-        if self.render_mode is None:
-            return None
-        if self._episode is None:
-            raise PlanError("reset the environment first: nothing to render")
         return self._source.show(self._episode, self.render_mode)
 
     def close(self) -> None:

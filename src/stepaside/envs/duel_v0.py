@@ -8,14 +8,19 @@ from numpy.typing import NDArray
 from pettingzoo import ParallelEnv
 
 from ..core.errors import ConfigurationError, PlanError
+from ..games.duel_settings import PLAYERS
 from .distance_reward import reward_sign
-from .environment_settings import PLAYERS, EnvironmentSettings
-from .episode import EnvironmentEpisode, EpisodeSource, check_render_mode
+from .environment_settings import EnvironmentSettings
+from .episode import (
+    SEEDS,
+    EnvironmentEpisode,
+    EpisodeSource,
+    check_render_mode,
+)
 from .intent_actions import IntentActions, observation_space
 
 Observations = dict[str, NDArray[np.float32]]
 Infos = dict[str, dict[str, Any]]
-SEEDS = 2**31
 
 
 class DuelParallelEnv(ParallelEnv[str, NDArray[np.float32], Any]):
@@ -146,10 +151,6 @@ class DuelParallelEnv(ParallelEnv[str, NDArray[np.float32], Any]):
 
     def render(self) -> Any:
         """Return an image from above; None in mode "human"."""
-        if self.render_mode is None:
-            return None
-        if self._episode is None:
-            raise PlanError("reset the environment first: nothing to render")
         return self._source.show(self._episode, self.render_mode)
 
     def close(self) -> None:

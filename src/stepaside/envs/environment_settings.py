@@ -9,7 +9,7 @@ from ..core.errors import (
     check_not_negative,
     check_within,
 )
-from ..games.duel_settings import DuelSettings
+from ..games.duel_settings import PLAYERS, DuelSettings
 from ..games.floor_world import PARTS
 from ..planning import Direction
 from ..strategies.learned.observation_terms import (
@@ -25,7 +25,6 @@ from ..strategies.learned.strategy_contract import (
 from ..strategies.strategy_game import StepGame
 from .arena_pool import ArenaPool
 
-PLAYERS = ("pursuer", "evader")
 LEVELS = ("unicycle", "steps", "physics")
 ALL_TERMS: dict[str, ObservedTerm] = SENSED_TERMS | FULL_STATE_TERMS
 ACTIONS = ("continuous", "discrete")

@@ -7,6 +7,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from ..core.errors import PlanError
+from ..games.duel_settings import PLAYERS
 from ..locomotion.policy.network_pool import NetworkPool
 from ..report.palette import colours_in
 from ..strategies.knowledge import Intent
@@ -21,7 +23,6 @@ from ..strategies.strategy import Strategy
 from .arena_pool import STRIDE, ArenaPool
 from .distance_reward import DistanceReward
 from .environment_settings import (
-    PLAYERS,
     EnvironmentSettings,
     check_choice,
 )
@@ -209,13 +210,22 @@ class EpisodeSource:
                 return float(end.value)
             self.networks.flush()
 
-    def show(self, episode: EnvironmentEpisode, mode: str) -> Any:
+    def show(
+        self, episode: EnvironmentEpisode | None, mode: str | None
+    ) -> Any:
         """Return an image of an episode, or show it on a page.
 
         Args:
             episode: The episode.
-            mode: "rgb_array" or "human".
+            mode: "rgb_array" or "human"; None does nothing.
+
+        Raises:
+            PlanError: If there is no episode.
         """
+        if mode is None:
+            return None
+        if episode is None:
+            raise PlanError("reset the environment first: nothing to render")
         from .top_view import ImagePage, draw_top_view
 
         game = episode.game

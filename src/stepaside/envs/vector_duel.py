@@ -9,19 +9,19 @@ from gymnasium.vector.utils import batch_space
 from numpy.typing import NDArray
 
 from ..core.errors import ConfigurationError, PlanError
+from ..games.duel_settings import PLAYERS
 from ..strategies.step_batch import RUNNING
 from ..strategies.strategy import Strategy
 from .batched_duel import BatchedDuel
 from .distance_reward import DistanceReward, reward_sign
 from .duel_env import load_opponent
 from .environment_settings import (
-    PLAYERS,
     EnvironmentSettings,
     check_choice,
 )
+from .episode import SEEDS
 from .intent_actions import IntentActions, observation_space
 
-SEEDS = 2**31
 Batch = NDArray[np.float32]
 
 
