@@ -24,8 +24,11 @@ def main() -> None:
         os.write(2, b"stepaside: interrupted; nothing is kept\n")
         raise SystemExit(130) from None
     except SystemExit as ended:
-        if isinstance(ended.code, int) and ended.code > SIGNALLED:
-            # Threads that wait for a lock which Ctrl-C left taken never end.
+        # Threads that wait for a lock which Ctrl-C left taken never end, and
+        # those of NAOqi's library may crash while Python ends.
+        if isinstance(ended.code, int) and (
+            ended.code > SIGNALLED or "qi" in sys.modules
+        ):
             sys.stdout.flush()
             sys.stderr.flush()
             os._exit(ended.code)
