@@ -110,12 +110,10 @@ def check_within(
         raise error(f"{told}, got {shown(value)}")
 
 
-def check_finite(
-    value: float, name: str, unit: str, error: Kind = PlanError
-) -> None:
-    """Raise ``error`` unless ``value`` is a finite number."""
+def check_finite(value: float, name: str, unit: str) -> None:
+    """Raise :class:`PlanError` unless ``value`` is a finite number."""
     top = sys.float_info.max
-    check_within(value, -top, top, name, unit, error, "be finite")
+    check_within(value, -top, top, name, unit, rule="be finite")
 
 
 def check_positive(

@@ -4,7 +4,6 @@ import re
 import sys
 from pathlib import Path
 from types import ModuleType
-from typing import Any
 
 from .errors import ConfigurationError
 
@@ -48,9 +47,3 @@ def load_user_file(path: str, where: str) -> ModuleType:
             f"{where}: the file fails to run: {type(error).__name__}: {error}"
         ) from error
     return loaded
-
-
-def shown_briefly(thing: Any) -> str:
-    """Return the representation of an object in one line, at most 60 long."""
-    text = " ".join(repr(thing).split())
-    return text if len(text) <= 60 else text[:57] + "..."

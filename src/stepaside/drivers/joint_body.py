@@ -11,8 +11,8 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from ..core.errors import shown
 from ..core.poses import Array
-from ..core.user_file import shown_briefly
 from ..perception.measurement import RobotState, Sighting
 from .guardian_process import SessionLost
 from .image_source import ImageSource
@@ -72,10 +72,10 @@ def joint_fault(report: RobotState, motors: Motors) -> str:
     ):
         values = getattr(report, name)
         if not np.all(np.isfinite(values)):
-            return f"{name} must be finite, got {shown_briefly(values)}"
+            return f"{name} must be finite, got {shown(values)}"
     forces = report.foot_forces
     if np.isinf(forces).any() or 0 < np.isnan(forces).sum() < len(forces):
-        return f"foot_forces must be finite, got {shown_briefly(forces)}"
+        return f"foot_forces must be finite, got {shown(forces)}"
     position = report.joint_positions
     off = np.maximum(motors.low - position, position - motors.high)
     if off.max() > BEYOND:

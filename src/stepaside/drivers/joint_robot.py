@@ -7,9 +7,8 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from ..core.errors import ConfigurationError
+from ..core.errors import ConfigurationError, shown
 from ..core.poses import Array
-from ..core.user_file import shown_briefly
 from ..perception.measurement import RobotState
 from ..robots.description import RobotDescription
 from ..robots.tree_cache import load_tree
@@ -151,21 +150,20 @@ def check_joint_robot(kind: type[JointRobot], where: str) -> None:
     tick = getattr(kind, "tick", None)
     if not (isinstance(tick, int | float) and 0.001 <= tick <= 0.1):
         raise ConfigurationError(
-            f"{where}: tick must be in [0.001, 0.1] s, got "
-            f"{shown_briefly(tick)}"
+            f"{where}: tick must be in [0.001, 0.1] s, got {shown(tick)}"
         )
     joints = getattr(kind, "joints", None)
     named = isinstance(joints, Sequence) and not isinstance(joints, str)
     if not named or not all(isinstance(name, str) for name in joints or ()):
         raise ConfigurationError(
             f"{where}: joints must be the names of the joints, in the order "
-            f"of all arrays, got {shown_briefly(joints)}"
+            f"of all arrays, got {shown(joints)}"
         )
     for name in FLAGS:
         if not isinstance(getattr(kind, name), bool):
             raise ConfigurationError(
                 f"{where}: {name} must be True or False, got "
-                f"{shown_briefly(getattr(kind, name))}"
+                f"{shown(getattr(kind, name))}"
             )
     for joint, pair in (kind.gains or {}).items():
         try:
@@ -175,7 +173,7 @@ def check_joint_robot(kind: type[JointRobot], where: str) -> None:
         if not good or len(pair) != 2:
             raise ConfigurationError(
                 f"{where}: gains of {joint} must be a stiffness [N m/rad] "
-                f"and a damping [N m s/rad], got {shown_briefly(pair)}"
+                f"and a damping [N m s/rad], got {shown(pair)}"
             )
 
 

@@ -9,8 +9,8 @@ from typing import Any, NamedTuple, Protocol
 
 import numpy as np
 
-from ..core.errors import ConfigurationError
-from ..core.user_file import FAILURES, shown_briefly
+from ..core.errors import ConfigurationError, shown
+from ..core.user_file import FAILURES
 from ..perception.camera_model import CameraModel
 from ..perception.images import ColourImage, Percept, Pixels
 from .guardian_process import SessionLost
@@ -96,7 +96,7 @@ def check_head_limits(limits: Any, where: str) -> None:
     if not good or max(values) > pi:
         raise ConfigurationError(
             f"{where}: head must be HeadLimits(yaw, up, down), > 0, in [rad], "
-            f"got {shown_briefly(limits)}"
+            f"got {shown(limits)}"
         )
 
 
@@ -160,7 +160,7 @@ def converted_image(got: Any, name: str) -> CameraImage:
     except FAILURES as error:
         raise SessionLost(
             f"{name} must return a CameraImage(time, pixels, focal_x, "
-            f"focal_y, mount) or None, got {shown_briefly(got)}"
+            f"focal_y, mount) or None, got {shown(got)}"
         ) from error
 
 

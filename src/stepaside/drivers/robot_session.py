@@ -10,9 +10,9 @@ from typing import Any
 
 import numpy as np
 
-from ..core.errors import StepAsideError
+from ..core.errors import StepAsideError, shown
 from ..core.poses import Array, Pose
-from ..core.user_file import FAILURES, shown_briefly
+from ..core.user_file import FAILURES
 from ..perception.measurement import RobotState, RobotStatus, Sighting
 from .dead_man_switch import DeadManSwitch
 from .guardian_process import Guardian, SessionLost
@@ -373,7 +373,7 @@ def joint_state(got: Any, name: str, joints: int) -> RobotState:
         raise SessionLost(
             f"{name} must return a RobotState(time, joint_positions, gyro, "
             "accelerometer, joint_velocities=..., tilt=...) with arrays of "
-            f"{joints} joints, or None, got {shown_briefly(got)}"
+            f"{joints} joints, or None, got {shown(got)}"
         ) from error
 
 
@@ -389,7 +389,7 @@ def velocity_state(got: Any, name: str) -> RobotState:
     except FAILURES as error:
         raise SessionLost(
             f"{name} must return a RobotState(time, pose=Pose(x, y, theta)) "
-            f"or None, got {shown_briefly(got)}"
+            f"or None, got {shown(got)}"
         ) from error
 
 

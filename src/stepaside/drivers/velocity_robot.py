@@ -2,8 +2,7 @@
 
 from math import isfinite
 
-from ..core.errors import ConfigurationError
-from ..core.user_file import shown_briefly
+from ..core.errors import ConfigurationError, shown
 from ..perception.measurement import RobotState
 from .robot_camera import (
     CameraImage,
@@ -125,7 +124,7 @@ def check_velocity_robot(kind: type[VelocityRobot], where: str) -> None:
     if not isinstance(limits, VelocityLimits):
         raise ConfigurationError(
             f"{where}: limits must be VelocityLimits(forward=..., "
-            f"backward=..., turn=...), got {shown_briefly(limits)}"
+            f"backward=..., turn=...), got {shown(limits)}"
         )
     for name, unit in (("forward", "m/s"), ("backward", "m/s"),
                        ("turn", "rad/s")):  # fmt: skip
@@ -138,7 +137,7 @@ def check_velocity_robot(kind: type[VelocityRobot], where: str) -> None:
         if not isinstance(getattr(kind, name), bool):
             raise ConfigurationError(
                 f"{where}: {name} must be True or False, got "
-                f"{shown_briefly(getattr(kind, name))}"
+                f"{shown(getattr(kind, name))}"
             )
     if kind.head is not None:
         check_head_limits(kind.head, where)
@@ -147,5 +146,5 @@ def check_velocity_robot(kind: type[VelocityRobot], where: str) -> None:
     if kind.camera is not None and not isinstance(kind.camera, CameraMount):
         raise ConfigurationError(
             f"{where}: camera must be CameraMount(forward, left, up, ...), "
-            f"got {shown_briefly(kind.camera)}"
+            f"got {shown(kind.camera)}"
         )

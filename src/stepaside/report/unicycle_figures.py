@@ -26,20 +26,14 @@ def time_shown(run: PlayedGame) -> float:
     return min(run.end_time, 5.0 * circle.time_constant_s + turn)
 
 
-def draw_game(
-    run: PlayedGame, path: str, *, shown: float | None = None
-) -> None:
+def draw_game(run: PlayedGame, path: str) -> None:
     """Write four snapshots of a game, ticks 0.5 m apart.
 
     Args:
         run: The game.
         path: File to write; its suffix gives the format.
-        shown: Time of the last snapshot, in [s]; by default that of
-            :func:`time_shown`.
     """
-    if shown is None:
-        shown = time_shown(run)
-    times = np.linspace(0.0, shown, 1200)
+    times = np.linspace(0.0, time_shown(run), 1200)
     pursuer, evader = run.poses(times)
     both = np.vstack([pursuer[:, :2], evader[:, :2]])
     middle = 0.5 * (both.min(axis=0) + both.max(axis=0))

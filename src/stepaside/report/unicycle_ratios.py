@@ -9,23 +9,23 @@ from ..theory.unicycle.unicycle_game import Game, TurningLaw
 from .figure_sizes import sheet
 from .figure_style import EVADER, add_common_legend, new_figure, save
 
-_COUNT = 121
+_COUNT = 121  # along each ratio
 _SPEEDS = (0.8, 4.0)  # pursuer's over evader's
 _GAINS = (0.25, 16.0)  # evader's over pursuer's
 
 
-def draw_ratios(game: Game, path: str, *, count: int = _COUNT) -> RatioMap:
+def draw_ratios(game: Game, path: str) -> RatioMap:
     """Draw the ratios at which a stable reversed circle exists.
 
     Args:
         game: Game with the evasion angle; its ratios are marked.
         path: File to write; its suffix gives the format.
-        count: Number of points along each ratio.
 
     Returns:
         The map under the game's own law.
     """
-    speeds, gains = np.geomspace(*_SPEEDS, count), np.geomspace(*_GAINS, count)
+    speeds = np.geomspace(*_SPEEDS, _COUNT)
+    gains = np.geomspace(*_GAINS, _COUNT)
     maps = {
         law: map_ratios(game.angle, law, speeds, gains) for law in TurningLaw
     }

@@ -89,23 +89,16 @@ class BodyKinematics:
     """
 
     def __init__(
-        self,
-        description: RobotDescription,
-        head: HeadDescription,
-        kinematics: ForwardKinematics | None = None,
+        self, description: RobotDescription, head: HeadDescription
     ) -> None:
         """Look up the head joints.
 
         Args:
             description: Robot description.
             head: Head of that robot.
-            kinematics: Kinematics of that robot with this head, to be
-                shared; a new one by default.
         """
-        if kinematics is None:
-            kinematics = ForwardKinematics(description, head.body)
-        self.forward = kinematics
-        names = kinematics.tree.motors
+        self.forward = ForwardKinematics(description, head.body)
+        names = self.forward.tree.motors
         self.yaw, self.pitch = names.index(head.yaw), names.index(head.pitch)
 
     def pose(

@@ -16,12 +16,11 @@ from types import FunctionType, ModuleType
 from typing import Any, NamedTuple
 
 from .. import strategies
-from ..core.errors import ConfigurationError, StepAsideError
+from ..core.errors import ConfigurationError, StepAsideError, shown
 from ..core.user_file import (
     FAILURES,
     FILE_AND_NAME,
     load_user_file,
-    shown_briefly,
 )
 from .evasion import Evasion
 from .strategy import Strategy
@@ -309,14 +308,14 @@ def _create(named: _Named) -> Any:
     if not (callable(thing) or (is_made and is_dataclass(thing))):
         raise ConfigurationError(
             f"{where}: must be a strategy, or a class or function that makes "
-            f"one, got {shown_briefly(thing)}"
+            f"one, got {shown(thing)}"
         )
     try:
         return replace(thing, **given) if is_made else thing(**given)
     except FAILURES as error:
-        shown = ", ".join(f"{key}={value!r}" for key, value in given.items())
+        texts = ", ".join(f"{key}={value!r}" for key, value in given.items())
         raise ConfigurationError(
-            f"{where}: {name}({shown}) must make a strategy, got "
+            f"{where}: {name}({texts}) must make a strategy, got "
             f"{type(error).__name__}: {error}"
         ) from error
 

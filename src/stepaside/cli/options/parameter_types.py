@@ -214,7 +214,7 @@ class SizeType(TextType[tuple[float, float] | None]):
             width = depth = float("nan")
         if not (isfinite(width) and isfinite(depth)):
             raise click.BadParameter(
-                f"must be like 3x3 or 2.5x4 [m], or open, got {value!r:.60}"
+                f"must be like 3x3 or 2.5x4 [m], or open, got {shown(value)}"
             )
         return width, depth
 
@@ -233,7 +233,7 @@ class RoomType(TextType[int | Path]):
         if not Path(value).is_file():
             raise click.BadParameter(
                 "must be an integer >= 0 or an existing file, got "
-                f"{value!r:.60}"
+                f"{shown(value)}"
             )
         return Path(value)
 
@@ -272,7 +272,7 @@ class PushType(TextType[Push | None]):
         if parts is None:
             raise click.BadParameter(
                 "must be IMPULSE@TIME:DIRECTION [N s, s, angle] like "
-                f"1.2@5:90deg, got {value!r}"
+                f"1.2@5:90deg, got {shown(value)}"
             )
         return Push(
             IMPULSE.parse(parts["impulse"]),

@@ -34,7 +34,6 @@ def lateral_clearance(
     person_speed: float,
     distance: float,
     first_step: float,
-    half_widths: float = HALF_WIDTHS,
 ) -> float:
     """Return the clearance to a person who walks straight at a unicycle.
 
@@ -44,7 +43,6 @@ def lateral_clearance(
         person_speed: Speed of the person, in [m/s].
         distance: Distance at which the unicycle reacts, in [m].
         first_step: Time until it moves, in [s].
-        half_widths: Sum of the half widths of both, in [m].
 
     Returns:
         Clearance when the person passes the initial position of the
@@ -53,4 +51,4 @@ def lateral_clearance(
     check_positive(person_speed, "person_speed", "m/s")
     check_not_negative(distance, "distance", "m")
     time = max(0.0, distance / person_speed - first_step)
-    return lateral_displacement(speed, turning, time) - half_widths
+    return lateral_displacement(speed, turning, time) - HALF_WIDTHS

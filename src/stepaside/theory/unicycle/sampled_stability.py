@@ -130,25 +130,21 @@ def step_eigenvalues(
     )
 
 
-def delayed_eigenvalues(
-    game: Game, delay: float, *, count: int = 3, nodes: int = 24
-) -> tuple[complex, ...]:
-    """Return the rightmost eigenvalues of the delayed law without sampling.
+def delayed_eigenvalues(game: Game, delay: float) -> tuple[complex, ...]:
+    """Return the three rightmost eigenvalues of the law without sampling.
 
     The history over one delay is collocated at Chebyshev points.
 
     Args:
         game: Parameters of the game.
         delay: Delay of the perception, in [s].
-        count: Number of eigenvalues to return.
-        nodes: Number of intervals of the collocation.
 
     Returns:
         Eigenvalues, the slowest first, in [1/s].
     """
     check_positive(delay, "delay", "s")
     state, turning, feedback = _linearised(game)
-    n = nodes
+    n = 24  # intervals of the collocation
     k = np.arange(n + 1)
     x = np.cos(pi * k / n)
     c = np.where((k == 0) | (k == n), 2.0, 1.0) * (-1.0) ** k
@@ -159,7 +155,7 @@ def delayed_eigenvalues(
     full[:3] = 0.0
     full[:3, :3] = state
     full[:3, -3:] += turning @ feedback
-    return sorted_eigenvalues(np.linalg.eigvals(full))[:count]
+    return sorted_eigenvalues(np.linalg.eigvals(full))[:3]
 
 
 def largest_stable_sample_time(game: Game, delay: float = 0.0) -> float:

@@ -209,13 +209,12 @@ def solve_chauffeur(
     return replace(table, values=kept, after=kept)
 
 
-def barrier_of(game: ChauffeurGame, capture: float, count: int = 41) -> Array:
+def barrier_of(game: ChauffeurGame, capture: float) -> Array:
     """Return poses on the left half of the barrier, without its ends.
 
     Args:
         game: Game of an evader with the same speed in every direction.
         capture: Capture distance below the guaranteed one, in [m].
-        count: Number of points.
 
     Raises:
         PlanError: If there is no closed form; see
@@ -226,7 +225,7 @@ def barrier_of(game: ChauffeurGame, capture: float, count: int = 41) -> Array:
             "the barrier is known for one speed in every direction"
         )
     radius = game.turning_radius
-    line = chauffeur_barrier(game.ratio, capture / radius, count)[1:-1]
+    line = chauffeur_barrier(game.ratio, capture / radius, 41)[1:-1]
     return np.insert(radius * line, 2, 0.0, axis=1)
 
 

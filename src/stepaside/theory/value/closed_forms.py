@@ -170,16 +170,13 @@ def barrier_slice(
     return points, numbers
 
 
-def barrier_poses(
-    capture: float, angles: int = 18, count: int = COUNT
-) -> tuple[Array, Array]:
+def barrier_poses(capture: float, angles: int = 18) -> tuple[Array, Array]:
     """Compute poses of the evader on the barrier of two identical cars.
 
     Args:
         capture: Distance of capture, in turning radii.
         angles: Number of angles between the motions, over (0, pi]; the rest
             follows by symmetry.
-        count: Points on each piece.
 
     Returns:
         Poses in the pursuer's frame, in turning radii and [rad], shape
@@ -191,7 +188,7 @@ def barrier_poses(
     check_positive(capture, "capture", "radii")
     poses, numbers = [], []
     for theta in np.linspace(0.0, pi, angles + 1)[1:]:
-        points, pieces = barrier_slice(capture, float(theta), count)
+        points, pieces = barrier_slice(capture, float(theta))
         poses.append(np.insert(points, 2, theta, axis=1))
         numbers.append(pieces)
     return np.concatenate(poses), np.concatenate(numbers)

@@ -138,14 +138,6 @@ def worst_answer(
 
 
 @inlined
-def pose_of(
-    x: float, y: float, theta: float, rules: OutcomeRules
-) -> tuple[float, float, float]:
-    """Return a pose, along the line of sight on a grid of one heading."""
-    return x, y, theta if rules.headings > 1 else atan2(y, x)
-
-
-@inlined
 def best_motion(
     v: Any,
     pose: tuple[float, float, float],
