@@ -2,36 +2,36 @@
 
 from dataclasses import dataclass, replace
 from functools import lru_cache
-from math import atan2, cos, hypot, inf, pi, radians, sin
+from math import atan2, hypot, inf, pi, radians
 from typing import NamedTuple
 
 import numpy as np
 
 from ..arena import NO_OBSTACLES
 from ..core.errors import ConfigurationError, shown
-from ..core.poses import Pose
+from ..core.poses import Array, Pose
 from ..core.ranges import Range
 from ..core.setting import check_settings, setting
 from .knowledge import ON_THE_SPOT, STAND, Intent, Knowledge, Limits
 from .opponent_track import OpponentTrack, track_of_steps
-from .search.heading_fit import fit_heading
-from .search.maneuvers import DEEPEST, CandidateManeuvers, ManeuverObjective
 from .search.step_motion import (
     PlayerPair,
     PursuerModel,
     StepRules,
-    half_turn,
+    fit_heading,
     pair_of,
     step_both,
 )
-from .search.turn_search import look_ahead
-from .search.value_lookup import NO_VALUE
+from .search.turn_search import DEEPEST, NO_VALUE, TurnSearch, look_ahead
 from .strategy import BackwardStrategy
 from .table_cache import pursuit_table
 
 MARGIN = 0.005  # in addition to the required clearance, in [m]
 PENALTY = 60.0  # per metre of missing clearance: 1 cm costs 0.6 m
 MAP_ERROR_COST = 0.5  # of missing clearance as large as the map error, [m]
+SIGHT = radians(148.0)  # largest bearing at which the pursuer is visible
+TIGHT = 0.5  # distance to the pursuer below which maneuvers that begin with a
+# turn on the spot are tried too, with obstacles, in [m]
 SPOT_STEPS = 12  # on the spot: 12.5 of the sharpest make half a turn
 MAX_STEPS = 400  # of a maneuver
 STEPS = Range(1, MAX_STEPS, "1", "decisions take longer", whole=True)
@@ -39,6 +39,7 @@ SIGHTINGS = 3  # a step apart: over two steps the sway cancels
 MIN_MOTION = 0.3  # per step, in strides, that determines a heading
 GAIN = 1e-6  # of a maneuver over the present one to replace it, in [m]
 TABLE_PIECES = 3  # used if a value table gives the cost-to-go
+PAPERS = PursuerModel()
 
 
 class LookAheadMemory(NamedTuple):
@@ -57,15 +58,6 @@ class LookAheadMemory(NamedTuple):
     plan: tuple[float, ...] = ()
     planned: float = 0.0
     spot: int = 0
-
-    def rest(self, time: float, step: float) -> tuple[tuple[float, ...], int]:
-        """Return the rest of the plan, for a step duration in [s].
-
-        Returns:
-            Turns, and the number of initial steps that turn on the spot.
-        """
-        made = max(0, round((time - self.planned) / step))
-        return self.plan[made:], max(0, self.spot - made)
 
 
 @dataclass(frozen=True, slots=True)
@@ -108,31 +100,10 @@ class LookAhead(BackwardStrategy):
         "Least distance of the own centre to obstacles",
         Range(0.0, 10.0, "m", "the size of a body"),
     )
-    largest_error: float = setting(
-        pi,
-        "Largest desired heading",
-        Range(0.01, pi, "rad", "pi is the most of the paper's law"),
-    )
-    sight: float = setting(
-        radians(148.0),
-        "Largest bearing at which the pursuer is visible",
-        Range(0.1, pi, "rad", "half a turn"),
-    )
-    lead: float = setting(
-        0.0,
-        "Assumed lead of the pursuer, over the distance",
-        Range(0.0, 10.0, "1", "as of a pursuer"),
-    )
     safety_radius: float = setting(
         inf,
         "Distance at which evasion begins",
         Range(0.0, 1e9, "m", "inf: always", above=True, also=(inf,)),
-    )
-    tight: float = setting(
-        0.5,
-        "Distance to the pursuer below which maneuvers that begin with a "
-        "turn on the spot are tried too, with obstacles",
-        Range(0.0, 1e9, "m", "a distance"),
     )
     cells: int = setting(
         64,
@@ -164,39 +135,29 @@ class LookAhead(BackwardStrategy):
         """Begin the maneuver with the largest closest approach."""
         if not self.obstacles:
             knowledge = replace(knowledge, obstacles_in_map=NO_OBSTACLES)
-        limits = knowledge.limits
-        rules, model = step_rules(limits), PursuerModel(lead=self.lead)
         track = track_of_steps(memory.track, knowledge)
         near = knowledge.distance < self.safety_radius
         if not (memory.evading or near):
             return STAND, LookAheadMemory(False, track)
-        both = poses_at_sighting(track, model, rules)
+        limits = knowledge.limits
+        rules = step_rules(limits)
+        both = poses_at_sighting(track, rules)
         if knowledge.step_start_in_map is not None:
             both = predict_poses(both, knowledge, knowledge.step_start_in_map)
         bounded = bool(knowledge.obstacles_in_map)
-        table = NO_VALUE
-        if not bounded and self.cells and self.pieces:
-            table = pursuit_table(self.cells, limits.speed / limits.gain)
-        map_error = max(knowledge.map_error, GAIN)
-        objective = ManeuverObjective(
-            self.enough if bounded else inf,
-            self.body_radius + MARGIN,
-            min(PENALTY, MAP_ERROR_COST / map_error),
-            self.sight,
-            gain=map_error,
-            tight=self.tight,
-        )
-        plan, spot = memory.rest(knowledge.time, limits.step_duration)
+        valued = not bounded and bool(self.cells and self.pieces)
+        made = round((knowledge.time - memory.planned) / limits.step_duration)
         best = look_ahead(
             both,
-            plan,
-            self._maneuvers(limits, valued=table is not NO_VALUE),
-            model,
+            np.array(memory.plan[max(0, made) :], dtype=np.float64),
+            max(0, memory.spot - max(0, made)),
+            self._search(knowledge, rules.largest, valued=valued),
+            PAPERS,
             rules,
-            objective,
             knowledge.obstacles_in_map.packed,
-            table,
-            planned=spot,
+            pursuit_table(self.cells, limits.speed / limits.gain)
+            if valued
+            else NO_VALUE,
         )
         turn = float(best.turns[0])
         heading = turn / rules.share
@@ -212,17 +173,25 @@ class LookAhead(BackwardStrategy):
             True, track, tuple(ahead.tolist()), knowledge.time, best.spot
         )
 
-    def _maneuvers(
-        self, limits: Limits, *, valued: bool
-    ) -> CandidateManeuvers:
-        """Return the candidate maneuvers; fewer with a value table."""
-        return maneuvers_of(
-            self.pieces[:TABLE_PIECES] if valued else self.pieces,
-            self.turns,
-            0 if valued else self.tail,
+    def _search(
+        self, knowledge: Knowledge, largest: float, *, valued: bool
+    ) -> TurnSearch:
+        """Return the maneuvers and what ranks them; fewer with a value."""
+        pieces = self.pieces[:TABLE_PIECES] if valued else self.pieces
+        tail = 0 if valued else self.tail
+        map_error = max(knowledge.map_error, GAIN)
+        return TurnSearch(
+            np.array(pieces, dtype=np.int64),
+            even_turns(self.turns, largest),
+            sum(pieces) + tail,
             self.angle,
-            limits.share * self.largest_error,
             0 if valued else SPOT_STEPS,
+            self.enough if knowledge.obstacles_in_map else inf,
+            self.body_radius + MARGIN,
+            min(PENALTY, MAP_ERROR_COST / map_error),
+            SIGHT,
+            map_error,
+            TIGHT,
         )
 
     def _touches(
@@ -233,26 +202,18 @@ class LookAhead(BackwardStrategy):
         knowledge: Knowledge,
     ) -> bool:
         """Return whether a step touches an obstacle and standing does not."""
-        half, model = half_turn(0.5 * turn), PursuerModel()
-        after = step_both(both, half, 1.0, model, rules)
+        after = step_both(both, turn, 1.0, PAPERS, rules)
         now, then = knowledge.obstacles_in_map.clearance(
             [(both.ex, both.ey), (after.ex, after.ey)]
         )
         return bool(then < min(self.body_radius, now))
 
 
-def poses_at_sighting(
-    track: OpponentTrack, model: PursuerModel, rules: StepRules
-) -> PlayerPair:
+def poses_at_sighting(track: OpponentTrack, rules: StepRules) -> PlayerPair:
     """Return the poses of both players at the last sighting, in the map.
 
-    The heading of the pursuer is that of its model along the last sightings.
-    One that has not moved is assumed to face the own robot.
-
-    Args:
-        track: At least one sighting.
-        model: Model of its steps.
-        rules: Rules of a step.
+    The heading of the pursuer is that of the paper's along the last
+    sightings. One that has not moved is assumed to face the own robot.
     """
     rows = track.rows[-SIGHTINGS:]
     first, last = rows[0], rows[-1]
@@ -262,7 +223,7 @@ def poses_at_sighting(
     least = MIN_MOTION * (len(rows) - 1) * rules.stride
     if len(rows) > 1 and way >= least:
         path = [(*row.own, row.x, row.y, n) for n, row in enumerate(rows)]
-        (_, _, heading), _ = fit_heading(np.array(path), model, rules)
+        (_, _, heading), _ = fit_heading(np.array(path), PAPERS, rules)
     return pair_of(own, (last.x, last.y, heading))
 
 
@@ -280,18 +241,9 @@ def predict_poses(
         begins: Pose at which the step begins, in the own odometry.
     """
     limits = knowledge.limits
-    steps = 0.5 + knowledge.age / limits.step_duration
-    way = limits.stride * steps
-    there = both.px + way * both.pc, both.py + way * both.ps
-    return PlayerPair(
-        begins.x,
-        begins.y,
-        cos(begins.theta),
-        sin(begins.theta),
-        *there,
-        both.pc,
-        both.ps,
-    )
+    way = limits.stride * (0.5 + knowledge.age / limits.step_duration)
+    x, y = both.px + way * both.pc, both.py + way * both.ps
+    return PlayerPair(*pair_of(begins, (x, y, 0.0))[:6], both.pc, both.ps)
 
 
 def step_rules(limits: Limits) -> StepRules:
@@ -300,19 +252,7 @@ def step_rules(limits: Limits) -> StepRules:
 
 
 @lru_cache(maxsize=16)
-def maneuvers_of(
-    pieces: tuple[int, ...],
-    turns: int,
-    tail: int,
-    angle: float,
-    largest: float,
-    spots: int,
-) -> CandidateManeuvers:
-    """Return maneuvers with evenly spaced turns, the smallest first."""
-    even = np.linspace(-largest, largest, turns) if turns > 1 else np.zeros(1)
-    ordered = np.array(sorted(even.tolist(), key=abs))
-    steps = np.array(pieces, dtype=np.int64)
-    horizon = sum(pieces) + tail
-    return CandidateManeuvers(
-        steps, ordered, horizon, angle, spots, ON_THE_SPOT
-    )
+def even_turns(count: int, largest: float) -> Array:
+    """Return evenly spaced turns, in [rad], the smallest first."""
+    even = np.linspace(-largest, largest, count) if count > 1 else np.zeros(1)
+    return np.array(sorted(even.tolist(), key=abs))

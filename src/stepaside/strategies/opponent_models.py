@@ -6,10 +6,10 @@ from typing import NamedTuple
 import numpy as np
 
 from ..core.poses import Array, Pose, wrap_angle
-from .search.heading_fit import fit_heading
 from .search.step_motion import (
     PursuerModel,
-    Rules,
+    StepRules,
+    fit_heading,
     pair_of,
     pursuer_turn,
 )
@@ -71,7 +71,7 @@ class ModelFit(NamedTuple):
         seen: Own pose, position of the pursuer and time in steps then.
             Shape (6,).
         path: Last observations, a step apart, without sway
-            (:func:`~.search.heading_fit.fit_heading`). Shape (n, 6).
+            (:func:`~.search.step_motion.fit_heading`). Shape (n, 6).
         poses: Pose of the pursuer at the end of the path by each model.
         errors: Forgetting mean of the mean squared distance of each model
             from the path, in [m^2].
@@ -92,7 +92,7 @@ class ModelFit(NamedTuple):
         time: float,
         own: Pose,
         position: tuple[float, float],
-        rules: Rules,
+        rules: StepRules,
         period: float,
         sways: bool = False,
     ) -> "ModelFit":
@@ -102,7 +102,7 @@ class ModelFit(NamedTuple):
             time: Time of the observation, in [s].
             own: Own pose, with the centre of the room as origin.
             position: Position of the pursuer, likewise, in [m].
-            rules: Rules of the steps.
+            rules: StepRules of the steps.
             period: Duration of a step, in [s].
             sways: Whether the observations alternate from step to step with
                 the sway of walking bodies; then the path is that of the mean
@@ -131,7 +131,7 @@ class ModelFit(NamedTuple):
         kept = path[1 - fitting.window :]
         return now._fitted(np.array([*kept, point]), rules)
 
-    def _fitted(self, path: Array, rules: Rules) -> "ModelFit":
+    def _fitted(self, path: Array, rules: StepRules) -> "ModelFit":
         """Return the fit to a path with a new point."""
         fits = [fit_heading(path, model, rules) for model in MODELS]
         moved = self._replace(path=path, poses=tuple(pose for pose, _ in fits))
@@ -148,18 +148,18 @@ class ModelFit(NamedTuple):
             speed=max(1.0, FORGETTING * self.speed, min(speed, 2.0)),
         )
 
-    def pose(self, number: int, rules: Rules, ahead: float) -> Pose:
+    def pose(self, number: int, rules: StepRules, ahead: float) -> Pose:
         """Return the pose of the pursuer by a model.
 
         Args:
             number: Number of the model.
-            rules: Rules of the steps.
+            rules: StepRules of the steps.
             ahead: Time since the end of the path, in steps.
         """
         pose = Pose(*self.poses[number])
         if not len(self.path):
             return pose
-        both = pair_of(tuple(self.path[-1, :3].tolist()), pose)
+        both = pair_of(self.path[-1], pose)
         turn = ahead * pursuer_turn(both, MODELS[number], rules)
         return pose.along_arc(ahead * self.speed * rules.stride, turn)
 

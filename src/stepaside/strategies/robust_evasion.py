@@ -2,7 +2,7 @@
 
 from dataclasses import dataclass
 from functools import lru_cache
-from math import atan2, cos, pi, sin
+from math import atan2, cos, sin
 from typing import NamedTuple
 
 import numpy as np
@@ -13,9 +13,10 @@ from ..core.poses import Array, Pose, wrap_angle
 from ..core.ranges import Range
 from ..core.setting import check_settings, setting
 from .knowledge import ON_THE_SPOT, Intent, Knowledge
+from .look_ahead import step_rules
 from .opponent_models import ASSUMED, MODELS, ModelFit
-from .search.beam_search import beam_search, play_moves
-from .search.step_motion import BeamRules, PursuerModel
+from .search.beam_search import BeamRules, beam_search, play_moves
+from .search.step_motion import PursuerModel
 from .strategy import BackwardStrategy
 
 MARGIN = 0.005  # in addition to the required clearance, in [m]
@@ -23,7 +24,7 @@ SWAY = 0.03  # by which the torsos of walkers, which lead their reference
 # points by 2 cm and sway, are nearer to each other than these, in [m]
 WALL_SWAY = 0.01  # in addition to the clearance of walkers, in [m]; with
 # none the guard of the walk refuses turns beside walls
-CAUTION = 2.0  # of walkers (:class:`~.search.step_motion.BeamRules`)
+CAUTION = 2.0  # of walkers (:class:`~.search.beam_search.BeamRules`)
 HEADING_ERROR = 0.2  # of a walking pursuer, to either side, in [rad]
 NEARER = 0.015  # that it may be than it seems, in [m]
 KEPT_STEPS = 3  # by which a walker's new plan must survive longer than the
@@ -108,20 +109,16 @@ class RobustEvasion(BackwardStrategy):
         rules = self._rules(knowledge, walks=walks)
         sight = own.theta + knowledge.bearing
         if walks:
+            most = rules.step.largest
             turned = wrap_angle(own.theta - float(memory.fit.seen[2]))
-            turned = min(max(turned, -rules.largest), rules.largest)
-            sight -= TORSO_LAG * turned
+            sight -= TORSO_LAG * min(max(turned, -most), most)
         position = (
             own.x + knowledge.distance * cos(sight),
             own.y + knowledge.distance * sin(sight),
         )
+        time = knowledge.time - knowledge.age
         fit = memory.fit.observe(
-            knowledge.time - knowledge.age,
-            own,
-            position,
-            rules,
-            limits.step_duration,
-            sways=walks,
+            time, own, position, rules.step, limits.step_duration, sways=walks
         )
         assumed = tuple(fit.plausible())
         game = planned_game(knowledge, position, fit, assumed, rules)
@@ -134,27 +131,24 @@ class RobustEvasion(BackwardStrategy):
             rest, promised = game.plan(rest)
             memory = memory._replace(assumed=assumed, planned=len(rest))
         memory = memory._replace(fit=fit, moves=rest, promised=promised)
-        turn, speed = rest[0] if len(rest) else (rules.largest, ON_THE_SPOT)
-        return Intent(float(turn) / rules.share, float(speed)), memory
+        largest = rules.step.largest
+        turn, speed = rest[0] if len(rest) else (largest, ON_THE_SPOT)
+        return Intent(float(turn) / limits.share, float(speed)), memory
 
     def _rules(self, knowledge: Knowledge, *, walks: bool) -> BeamRules:
-        """Return the rules of the steps.
-
-        Args:
-            knowledge: Knowledge of the evader.
-            walks: Whether it is a walker.
-        """
-        limits = knowledge.limits
-        share = limits.share
+        """Return the rules of the games, which differ for walkers."""
         capture, clearance = self.capture + MARGIN, self.body_radius + MARGIN
-        caution = 0.0
         if walks:  # an evader that is too near may leave
             capture = min(capture + SWAY, knowledge.distance - SWAY)
-            clearance, caution = clearance + WALL_SWAY, CAUTION
+            clearance += WALL_SWAY
         return BeamRules(
-            limits.stride, share, pi * share, capture, clearance,
-            self.width, self.horizon, caution,
-        )  # fmt: skip
+            step_rules(knowledge.limits),
+            capture,
+            clearance,
+            self.width,
+            self.horizon,
+            CAUTION if walks else 0.0,
+        )
 
 
 class PlannedGame(NamedTuple):
@@ -206,7 +200,7 @@ class PlannedGame(NamedTuple):
             of steps that they survive. Shape (n, 2).
         """
         rules, candidates = self.rules, []
-        actions = actions_of(rules.largest)
+        actions = actions_of(rules.step.largest)
         for n in range(self.searched):
             start, model = self.starts[n], self.models[n]
             path = beam_search(start, actions, model, self.packed, rules)
@@ -237,42 +231,33 @@ def planned_game(
         position: Position of the pursuer that was seen, in [m].
         fit: Fit of the models.
         assumed: Numbers of the models that are searched.
-        rules: Rules of the steps.
+        rules: Rules of the games.
     """
     weights = fit.weights()
     others = [n for n in range(len(MODELS)) if weights[n] and n not in assumed]
     numbers = [*assumed, *others]
     models = tuple(MODELS[n]._replace(speed=fit.speed) for n in numbers)
     weights = weights[numbers] / weights[numbers].sum()
-    packed = knowledge.obstacles_in_map.packed
-    begins = knowledge.step_start_in_map
+    begins, kept = knowledge.step_start_in_map, 0
     if begins is None:
-        own, horizon = knowledge.pose_in_map, rules.horizon * ASSUMED
-        return PlannedGame(
-            models,
-            [np.array([*own, *position, fit.poses[n][2]]) for n in numbers],
-            weights,
-            len(assumed),
-            0,
-            packed,
-            rules._replace(horizon=horizon // len(assumed)),
-        )
-    # Humanoids walk less predictably.
-    ahead = AHEAD + knowledge.age / knowledge.limits.step_duration
-    poses = [fit.pose(n, rules, ahead) for n in numbers]
-    poses += [
-        approached(begins, pose, side)
-        for side in (-HEADING_ERROR, HEADING_ERROR)
-        for pose in poses
-    ]
+        begins = knowledge.pose_in_map
+        poses = [Pose(*position, fit.poses[n][2]) for n in numbers]
+        horizon = rules.horizon * ASSUMED // len(assumed)
+        rules = rules._replace(horizon=horizon)
+    else:  # humanoids walk less predictably
+        ahead = AHEAD + knowledge.age / knowledge.limits.step_duration
+        poses = [fit.pose(n, rules.step, ahead) for n in numbers]
+        poses += [
+            approached(begins, pose, side)
+            for side in (-HEADING_ERROR, HEADING_ERROR)
+            for pose in poses
+        ]
+        kept, models = KEPT_STEPS, models * 3
+        weights = np.tile(weights / 3.0, 3)
+    starts = [np.array([*begins, *pose]) for pose in poses]
+    packed = knowledge.obstacles_in_map.packed
     return PlannedGame(
-        models * 3,
-        [np.array([*begins, *pose]) for pose in poses],
-        np.tile(weights / 3.0, 3),
-        len(assumed),
-        KEPT_STEPS,
-        packed,
-        rules,
+        models, starts, weights, len(assumed), kept, packed, rules
     )
 
 

@@ -12,7 +12,7 @@ import numpy as np
 from ..core.atomic_output import atomic_draft
 from ..core.compilation import cache_folder
 from ..core.poses import Array
-from .search.value_lookup import PursuitValues
+from .search.turn_search import PursuitValues
 
 if TYPE_CHECKING:  # the solver imports Numba
     from ..theory.value import CarGame, ValueTable

@@ -21,11 +21,13 @@ from ...core.compilation import (
 )
 from .distance_field import DistanceField, distance_field, field_clearance
 from .step_motion import (
-    BeamRules,
-    PlayerPair,
     PursuerModel,
-    half_turn,
+    StepRules,
+    pair_in,
+    pair_of,
     pursue,
+    store,
+    walk_arc,
 )
 
 EVADER_CELL, PURSUER_CELL = 0.08, 0.12  # that count as alike, in [m]
@@ -44,6 +46,27 @@ BEST = FARTHEST + BESIDE * pi + CLEAR * CLEAR + 3.0 * ENOUGH  # rank, in [m]
 GRAINS = int(BEST / GRAIN) + 2
 
 
+class BeamRules(NamedTuple):
+    """Rules of the games, and size of the search.
+
+    Attributes:
+        step: Rules of a step.
+        capture: Capture distance, in [m].
+        clearance: Least clearance of the evader's centre, in [m].
+        width: Number of states that go on.
+        horizon: Number of steps.
+        caution: Worth of the least distance of a game so far, in [m] per
+            [m], at most 3.
+    """
+
+    step: StepRules
+    capture: float
+    clearance: float
+    width: int
+    horizon: int
+    caution: float = 0.0
+
+
 class Successors(NamedTuple):
     """Successors of the states of a beam.
 
@@ -52,8 +75,8 @@ class Successors(NamedTuple):
             distance so far [m]. Shape (n, 5).
         ranks: Ranks, in [m]. Shape (n,).
         keys: Keys, which nearly equal states have in common. Shape (n,).
-        actions: Numbers of the actions. Shape (n,).
-        parents: Numbers of the states that they come from. Shape (n,).
+        origins: Number of the state and of the action that they come from.
+            Shape (n, 2).
         order: Working memory: their order. Shape (n,).
         firsts: Working memory of the sorting. Shape (GRAINS + 1,).
     """
@@ -61,8 +84,7 @@ class Successors(NamedTuple):
     poses: Any
     ranks: Any
     keys: Any
-    actions: Any
-    parents: Any
+    origins: Any
     order: Any
     firsts: Any
 
@@ -82,9 +104,7 @@ def arc_cosine(value: float) -> float:
 
 @inlined
 def action_arcs(actions: Any, stride: float) -> Any:
-    """Return way ahead and to the left [m], and turn, of each action.
-
-    The turn is given by its cosine and sine.
+    """Return way ahead and to the left [m], cosine and sine of each turn.
 
     Args:
         actions: Turn [rad] and speed factor of each. Shape (k, 2).
@@ -92,10 +112,9 @@ def action_arcs(actions: Any, stride: float) -> Any:
     """
     arcs = np.empty((len(actions), 4))
     for k in range(len(actions)):
-        turn = actions[k, 0]
-        c, s, ratio = half_turn(0.5 * turn)
-        way = -stride * actions[k, 1] * ratio
-        arcs[k, 0], arcs[k, 1] = way * c, way * s
+        turn, way = actions[k, 0], -stride * actions[k, 1]
+        x, y, _, _ = walk_arc(0.0, 0.0, 1.0, 0.0, way, turn)
+        arcs[k, 0], arcs[k, 1] = x, y
         arcs[k, 2], arcs[k, 3] = cos(turn), sin(turn)
     return arcs
 
@@ -141,18 +160,9 @@ def expand(
         new: Output.
         made: Number of successors in it before.
     """
-    ex, ey, forward, leftward = state[0], state[1], state[2], state[3]
-    both = PlayerPair(
-        ex,
-        ey,
-        forward,
-        leftward,
-        state[4],
-        state[5],
-        state[6],
-        state[7],
-    )
-    px, py, ahead, left = pursue(both, model, rules)
+    both = pair_in(state)
+    ex, ey, forward, leftward = both.ex, both.ey, both.ec, both.es
+    px, py, ahead, left = pursue(both, model, rules.step)
     state[4], state[5], state[6], state[7] = px, py, ahead, left
     # An evader that is too near to an obstacle may turn, or leave it.
     near = field_clearance(field, ex, ey) - rules.clearance
@@ -169,13 +179,12 @@ def expand(
         if square <= rules.capture * rules.capture:
             continue
         clear = field_clearance(field, x, y) - rules.clearance
-        walks = abs(arcs[k, 0]) > SLOW * rules.stride
+        walks = abs(arcs[k, 0]) > SLOW * rules.step.stride
         if clear < (walking if walks else turning):
             continue
         away = sqrt(square)
         aim = arc_cosine((ahead * dx + left * dy) / away)
-        new.poses[made, 0] = x
-        new.poses[made, 1] = y
+        new.poses[made, 0], new.poses[made, 1] = x, y
         c = forward * arcs[k, 2] - leftward * arcs[k, 3]
         s = leftward * arcs[k, 2] + forward * arcs[k, 3]
         new.poses[made, 2], new.poses[made, 3] = c, s
@@ -187,7 +196,7 @@ def expand(
             + CLEAR * min(clear, CLEAR)
             + rules.caution * least
         )
-        new.actions[made] = k
+        new.origins[made, 1] = k
         key = (chased + cell_of(x, 1.0 / EVADER_CELL)) * 8191
         key = (key + cell_of(y, 1.0 / EVADER_CELL)) * HEADINGS
         new.keys[made] = key + sector_of(c, s)
@@ -204,21 +213,12 @@ def expand_beam(
     rules: BeamRules,
     new: Successors,
 ) -> int:
-    """Write the successors of all states; return their number.
-
-    Args:
-        beam: States (:func:`expand`). Shape (n, 9).
-        arcs: Arcs of the actions.
-        model: Model of the pursuer.
-        field: Distance from obstacles.
-        rules: Rules of the steps.
-        new: Output.
-    """
+    """Write the successors of all states; return their number."""
     made = 0
     for b in range(len(beam)):
         more = expand(beam[b], arcs, model, field, rules, new, made)
         for m in range(made, more):
-            new.parents[m] = b
+            new.origins[m, 0] = b
         made = more
     return made
 
@@ -286,12 +286,12 @@ def select_best(
             if not alike and not is_new(new.keys[m], table):
                 continue
             new.order[n] = -1
-            parent = new.parents[m]
+            parent = new.origins[m, 0]
             for i in range(4):
                 beam[count, i] = new.poses[m, i]
                 beam[count, 4 + i] = old[parent, 4 + i]
             beam[count, 8] = new.poses[m, 4]
-            chosen[count, 0], chosen[count, 1] = parent, new.actions[m]
+            chosen[count, 0], chosen[count, 1] = parent, new.origins[m, 1]
             count += 1
     return count
 
@@ -303,8 +303,7 @@ def successors(number: int) -> Successors:
         np.zeros((number, 5)),
         np.zeros(number),
         np.zeros(number, dtype=np.int64),
-        np.zeros(number, dtype=np.int32),
-        np.zeros(number, dtype=np.int32),
+        np.zeros((number, 2), dtype=np.int32),
         np.zeros(number, dtype=np.int64),
         np.zeros(GRAINS + 1, dtype=np.int64),
     )
@@ -313,10 +312,7 @@ def successors(number: int) -> Successors:
 @inlined
 def begin(start: Any, state: Any) -> None:
     """Write the first state of a game."""
-    for i in range(2):
-        state[4 * i], state[4 * i + 1] = start[3 * i], start[3 * i + 1]
-        heading = start[3 * i + 2]
-        state[4 * i + 2], state[4 * i + 3] = cos(heading), sin(heading)
+    store(pair_of(start[:3], start[3:]), state)
     state[8] = ENOUGH
 
 
@@ -336,18 +332,15 @@ def beam_search(
         actions: Turn [rad] and speed factor of each action. Shape (k, 2).
         model: Model of the pursuer.
         packed: Obstacles.
-        rules: Rules of the steps, and size of the search.
+        rules: Rules of the games, and size of the search.
 
     Returns:
         Number of the action of each step; fewer than the horizon if no
         state of the beam survives it. Shape (n,).
     """
-    arcs, width, horizon = (
-        action_arcs(actions, rules.stride),
-        rules.width,
-        rules.horizon,
-    )
-    reach = horizon * rules.stride + 0.2
+    arcs = action_arcs(actions, rules.step.stride)
+    width, horizon = rules.width, rules.horizon
+    reach = horizon * rules.step.stride + 0.2
     field = distance_field(
         packed, rules.clearance + CLEAR, start[0], start[1], reach
     )
@@ -381,20 +374,20 @@ def play_moves(
     packed: PackedObstacles,
     rules: BeamRules,
 ) -> tuple[int, float]:
-    """Return the steps that given moves survive, and their least distance.
+    """Return the steps that moves survive, and their least distance.
 
     Args:
         start: As in :func:`beam_search`.
         moves: Turn [rad] and speed factor of each step. Shape (n, 2).
         model: Model of the pursuer.
         packed: Obstacles.
-        rules: Rules of the steps.
+        rules: Rules of the games.
 
     Returns:
         Number of steps, and least distance in them, in [m], at most 0.8.
     """
     field = distance_field(packed, rules.clearance + CLEAR, 0.0, 0.0, 0.0)
-    arcs = action_arcs(moves, rules.stride)
+    arcs = action_arcs(moves, rules.step.stride)
     state, new = np.zeros(9), successors(1)
     begin(start, state)
     for n in range(len(moves)):

@@ -9,34 +9,232 @@ is no better than the best maneuver so far. If no sequence is good, it also
 tries sequences that begin with a turn on the spot.
 """
 
-from math import inf
-from typing import Any
+from math import atan2, hypot, inf, pi
+from typing import Any, NamedTuple
 
 import numpy as np
 
 from ...arena.obstacles import PackedObstacles
-from ...core.compilation import compiled, copy_values
-from .distance_field import distance_field
-from .maneuvers import (
-    DEEPEST,
-    BestManeuver,
-    CandidateManeuvers,
-    ManeuverObjective,
-    SearchProblem,
-    follow,
-    judge,
-)
+from ...core.compilation import compiled, copy_values, inlined
+from ...theory.value.interpolation import OutcomeRules, look_up
+from ..knowledge import ON_THE_SPOT
+from .distance_field import DistanceField, distance_field, field_clearance
 from .step_motion import (
     PlayerPair,
     PursuerModel,
     StepRules,
-    half_turn,
+    pair_in,
     step_both,
+    store,
 )
-from .value_lookup import PursuitValues
 
+DEEPEST = 8  # most pieces of a maneuver, plus one
+MOST = 40_000  # rolled-out steps after which no further maneuver is begun
+BLINDNESS = 0.1  # cost of a bearing beyond sight, in [m] per [rad]
 NO_STEPS: Any = np.int64(0)
 """Zero steps; a literal zero would compile a version of its own."""
+
+
+class PursuitValues(NamedTuple):
+    """Optimal closest approach on an open floor, by relative pose.
+
+    Attributes:
+        values: Values of the left half of a grid, in length units; empty for
+            no table. Shape (x, y, heading).
+        left: x of its first node, in length units.
+        spacing: Spacing of its positions, in length units.
+        unit: Length unit, in [m].
+    """
+
+    values: Any
+    left: float
+    spacing: float
+    unit: float
+
+
+NO_VALUE = PursuitValues(np.zeros((0, 0, 0), dtype=np.float32), 0.0, 1.0, 1.0)
+"""No value table after the horizon."""
+
+
+class TurnSearch(NamedTuple):
+    """Maneuvers that the search tries, and the objective that ranks them.
+
+    Attributes:
+        pieces: Number of steps of each piece, in order. Shape (n,).
+        turns: Turns per step that are tried in each piece, in [rad], the
+            preferred ones first. Shape (m,).
+        horizon: Number of steps of a maneuver, law included, without those
+            on the spot.
+        angle: Strategy alpha of the law, in [rad].
+        spots: Largest number of steps that turn on the spot, by the largest
+            turn, before the first piece; every second number is tried.
+        enough: Distance to the pursuer beyond which no more is gained, [m].
+        clearance: Required clearance of the own centre, in [m].
+        penalty: Cost of missing clearance, in [m] per [m].
+        sight: Largest bearing at which the pursuer is visible, in [rad].
+        gain: Improvement over the present maneuver that replaces it, in [m].
+        tight: Score below which turns on the spot are tried as well, [m].
+    """
+
+    pieces: Any
+    turns: Any
+    horizon: int
+    angle: float = pi / 2
+    spots: int = 0
+    enough: float = inf
+    clearance: float = 0.2
+    penalty: float = 5.0
+    sight: float = inf
+    gain: float = 1e-6
+    tight: float = -inf
+
+
+class SearchProblem(NamedTuple):
+    """All that a rollout needs: search, models, obstacles and value table."""
+
+    search: TurnSearch
+    model: PursuerModel
+    rules: StepRules
+    field: DistanceField
+    table: PursuitValues
+
+
+class BestManeuver(NamedTuple):
+    """Result of the search.
+
+    Attributes:
+        score: Score of the maneuver, in [m].
+        turns: Turn of each of its steps, in [rad], those of the law
+            included. Shape (horizon + spot,).
+        steps: Number of steps that the search rolled out.
+        spot: Number of initial steps that turn on the spot.
+    """
+
+    score: float
+    turns: Any
+    steps: int
+    spot: int
+
+
+@inlined
+def judge(
+    both: PlayerPair, score: float, search: TurnSearch, field: DistanceField
+) -> float:
+    """Return the score after one more step, given the score before it."""
+    dx, dy = both.px - both.ex, both.py - both.ey
+    reward = min((dx * dx + dy * dy) ** 0.5, search.enough)
+    if reward < score:
+        score = reward
+    missing = search.clearance - field_clearance(field, both.ex, both.ey)
+    if search.sight < pi:
+        psi = abs(
+            atan2(both.ec * dy - both.es * dx, both.ec * dx + both.es * dy)
+        )
+        if psi > search.sight:
+            score = min(score, reward - BLINDNESS * (psi - search.sight))
+    if missing > 0.0:
+        score = min(score, reward - search.penalty * missing)
+    return score
+
+
+@inlined
+def law_turn(
+    both: PlayerPair, side: float, angle: float, share: float
+) -> float:
+    """Return the turn of a step by eqs. (4)-(5), in [rad]."""
+    dx, dy = both.px - both.ex, both.py - both.ey
+    psi = atan2(both.ec * dy - both.es * dx, both.ec * dx + both.es * dy)
+    heading = psi + side * angle
+    if heading > pi:
+        heading -= 2.0 * pi
+    elif heading < -pi:
+        heading += 2.0 * pi
+    return share * heading
+
+
+@inlined
+def value_at(table: PursuitValues, both: PlayerPair) -> float:
+    """Return the optimal closest approach from a state, in [m]."""
+    columns, rows, headings = table.values.shape
+    rules = OutcomeRules(
+        table.left, 0.0, table.spacing, columns, rows, headings, inf,
+        0.0, False, 1, 0.0, 0.0, 0.0,
+    )  # fmt: skip
+    dx, dy = both.ex - both.px, both.ey - both.py
+    x = (both.pc * dx + both.ps * dy) / table.unit
+    y = (both.pc * dy - both.ps * dx) / table.unit
+    # The evader walks backwards: it moves against its heading.
+    theta = atan2(
+        both.ec * both.ps - both.es * both.pc,
+        -both.ec * both.pc - both.es * both.ps,
+    )
+    found = look_up(table.values, x, y, theta, rules)
+    value: float = min(hypot(dx, dy), found * table.unit)
+    return value
+
+
+@compiled
+def roll_out(
+    both: PlayerPair,
+    score: float,
+    turns: Any,
+    given: int,
+    spot: int,
+    worst: float,
+    problem: SearchProblem,
+) -> tuple[PlayerPair, float, int]:
+    """Roll out given turns, then the law; return state, score and steps.
+
+    Args:
+        both: Initial state of both players.
+        score: Score so far.
+        turns: Turn of each step; those of the law are filled in. Shape
+            (steps,).
+        given: Number of given turns.
+        spot: Number of initial steps on the spot.
+        worst: Score at or below which the rollout is aborted.
+        problem: Search, models and obstacles.
+    """
+    search, rules = problem.search, problem.rules
+    field, model = problem.field, problem.model
+    side = 0.0
+    for n in range(len(turns)):
+        if n >= given:
+            if side == 0.0:
+                dx, dy = both.px - both.ex, both.py - both.ey
+                left = both.ec * dy - both.es * dx
+                side = -1.0 if left > 0.0 else 1.0
+            turns[n] = law_turn(both, side, search.angle, rules.share)
+        pace = ON_THE_SPOT if n < spot else 1.0
+        both = step_both(both, turns[n], pace, model, rules)
+        score = judge(both, score, search, field)
+        if score <= worst:
+            return both, score, n + 1
+    return both, score, len(turns)
+
+
+@compiled
+def roll_to_end(
+    both: PlayerPair,
+    score: float,
+    turns: Any,
+    given: int,
+    spot: int,
+    worst: float,
+    problem: SearchProblem,
+) -> tuple[float, int]:
+    """Roll out to the horizon and the value there; return score and steps.
+
+    The arguments are those of :func:`roll_out`.
+    """
+    both, score, made = roll_out(
+        both, score, turns, given, spot, worst, problem
+    )
+    table = problem.table
+    if score > worst and table.values.shape[0] > 0:
+        value = value_at(table, both)
+        score = min(score, min(value, problem.search.enough))
+    return score, made
 
 
 @compiled
@@ -50,7 +248,7 @@ def descend(
     chosen: Any,
     work: Any,
 ) -> tuple[float, int]:
-    """Descend the tree of pieces.
+    """Descend the tree of pieces; return best score and steps rolled out.
 
     Args:
         both: State of both players at the root.
@@ -58,57 +256,51 @@ def descend(
         first: Number of steps before the root; their turns are in ``work``.
         made: Number of steps rolled out before.
         best: Best score so far.
-        problem: Maneuvers, objective and rules.
+        problem: Search, models and obstacles.
         chosen: Output: turns of the best maneuver, if better. Shape
             (horizon + spots,).
         work: Scratch array of the same shape.
-
-    Returns:
-        Best score, and total number of steps rolled out.
     """
-    maneuvers, objective = problem.maneuvers, problem.objective
-    rules, field, model = problem.rules, problem.field, problem.model
-    pieces, turns = maneuvers.pieces, maneuvers.turns
+    search = problem.search
+    pieces, turns = search.pieces, search.turns
     last, level = len(pieces) - 1, 0
     index = np.zeros(DEEPEST, dtype=np.int64)
     begins = np.zeros(DEEPEST, dtype=np.int64)
     scores = np.zeros(DEEPEST)
     states = np.zeros((DEEPEST, 8))
     scores[0], begins[0] = start, first
-    for i in range(8):
-        states[0, i] = both[i]
-    while level >= 0 and made < maneuvers.most:
+    store(both, states[0])
+    while level >= 0 and made < MOST:
         if index[level] == len(turns):
             level -= 1
             continue
-        u = turns[index[level]]
+        at, worst = begins[level], best + search.gain
+        piece = work[at : at + pieces[level]]
+        for n in range(len(piece)):
+            piece[n] = turns[index[level]]
         index[level] += 1
-        p = states[level]
-        here = PlayerPair(p[0], p[1], p[2], p[3], p[4], p[5], p[6], p[7])
-        score, at = scores[level], begins[level]
-        half = half_turn(0.5 * u)
-        for n in range(pieces[level]):
-            here = step_both(here, half, 1.0, model, rules)
-            score = judge(here, score, objective, field)
-            work[at + n] = u
-            made += 1
-            if score <= best + objective.gain:
-                break
-        if score <= best + objective.gain:
+        here, score, more = roll_out(
+            pair_in(states[level]),
+            scores[level],
+            piece,
+            len(piece),
+            0,
+            worst,
+            problem,
+        )
+        made += more
+        if score <= worst:
             continue
-        at += pieces[level]
+        at += len(piece)
         if level < last:
             level += 1
             index[level], begins[level], scores[level] = 0, at, score
-            for i in range(8):
-                states[level, i] = here[i]
+            store(here, states[level])
             continue
-        rest = work[at : first + maneuvers.horizon]
-        score, more = follow(
-            here, score, rest, 0, 0, best + objective.gain, problem
-        )
+        rest = work[at : first + search.horizon]
+        score, more = roll_to_end(here, score, rest, 0, 0, worst, problem)
         made += more
-        if score > best + objective.gain:
+        if score > worst:
             best = score
             copy_values(work, chosen)
             if best >= start:
@@ -128,34 +320,23 @@ def search_on_spot(
 ) -> tuple[float, int, int]:
     """Try sequences behind turns on the spot, by the sharpest turn.
 
-    Args:
-        both: State of both players.
-        best: Best score so far.
-        made: Number of steps rolled out before.
-        spot: Number of initial steps on the spot of the best maneuver.
-        problem: Maneuvers, objective and rules.
-        chosen: Turns of the best maneuver; replaced by better ones.
-        work: Scratch array of the same shape.
-
-    Returns:
-        Best score, number of steps rolled out, and number of initial steps
-        on the spot.
+    The arguments are those of :func:`descend`, and the number of initial
+    steps on the spot of the best maneuver, which is returned as well.
     """
-    maneuvers, objective = problem.maneuvers, problem.objective
+    search = problem.search
     most = 0.0
-    for u in maneuvers.turns:
+    for u in search.turns:
         most = max(most, abs(u))
     for side in (-1.0, 1.0):
-        here, score = both, objective.enough
-        half = half_turn(0.5 * side * most)
-        for n in range(maneuvers.spots):
-            here = step_both(
-                here, half, maneuvers.still, problem.model, problem.rules
-            )
-            score = judge(here, score, objective, problem.field)
+        here, score = both, search.enough
+        for n in range(search.spots):
             work[n] = side * most
-            made += 1
-            if score <= best + objective.gain:
+            worst, turn = best + search.gain, work[n : n + 1]
+            here, score, more = roll_out(
+                here, score, turn, 1, 1, worst, problem
+            )
+            made += more
+            if score <= worst:
                 break
             if n % 2 == 0:
                 continue
@@ -168,69 +349,15 @@ def search_on_spot(
 
 
 @compiled
-def search(
+def look_ahead(
     both: PlayerPair,
     plan: Any,
     planned: int,
-    maneuvers: CandidateManeuvers,
+    search: TurnSearch,
     model: PursuerModel,
     rules: StepRules,
-    objective: ManeuverObjective,
     packed: PackedObstacles,
     table: PursuitValues,
-) -> tuple[float, int, int, Any]:
-    """Find the best maneuver; see :func:`look_ahead`.
-
-    Returns:
-        Its score, the number of steps rolled out, the number of initial
-        steps on the spot, and the turn of each step.
-    """
-    horizon = maneuvers.horizon
-    chosen = np.zeros(horizon + maneuvers.spots)
-    work = np.zeros(len(chosen))
-    reach = len(chosen) * rules.stride
-    field = distance_field(
-        packed, objective.clearance, both.ex, both.ey, reach
-    )
-    problem = SearchProblem(maneuvers, objective, model, rules, field, table)
-    start, spot = objective.enough, 0
-    rest = chosen[:horizon]
-    best, made = follow(both, start, rest, 0, 0, -inf, problem)
-    if len(plan) > 0:
-        copy_values(plan, work)
-        # A tie keeps the plan.
-        worst = best - objective.gain
-        score, more = follow(
-            both, start, work[:horizon], len(plan), planned, worst, problem
-        )
-        made += more
-        if score > worst:
-            best, spot = score, planned
-            copy_values(work, chosen)
-    if len(maneuvers.pieces) > 0 and best < start:
-        found, made = descend(
-            both, start, NO_STEPS, made, best, problem, chosen, work
-        )
-        if found > best:
-            best, spot = found, 0
-        if best < objective.tight:
-            best, made, spot = search_on_spot(
-                both, best, made, spot, problem, chosen, work
-            )
-    return best, made, spot, chosen
-
-
-def look_ahead(
-    both: PlayerPair,
-    plan: tuple[float, ...],
-    maneuvers: CandidateManeuvers,
-    model: PursuerModel,
-    rules: StepRules,
-    objective: ManeuverObjective,
-    packed: PackedObstacles,
-    table: PursuitValues,
-    *,
-    planned: int = 0,
 ) -> BestManeuver:
     """Find the best maneuver.
 
@@ -242,24 +369,43 @@ def look_ahead(
     Args:
         both: State of both players.
         plan: Turns of the previously planned steps to come, in [rad].
-        maneuvers: Candidate maneuvers.
+        planned: Number of initial planned steps on the spot.
+        search: Maneuvers, and the objective that ranks them.
         model: Model of the pursuer.
         rules: Rules of a step.
-        objective: Objective that ranks the maneuvers.
         packed: Obstacles.
         table: Value table after the horizon.
-        planned: Number of initial planned steps on the spot.
     """
-    horizon = maneuvers.horizon
-    score, steps, spot, turns = search(
-        both,
-        np.array(plan[:horizon], dtype=np.float64),
-        min(planned, horizon),
-        maneuvers,
-        model,
-        rules,
-        objective,
-        packed,
-        table,
+    horizon = search.horizon
+    chosen = np.zeros(horizon + search.spots)
+    work = np.zeros(len(chosen))
+    reach = len(chosen) * rules.stride
+    field = distance_field(packed, search.clearance, both.ex, both.ey, reach)
+    problem = SearchProblem(search, model, rules, field, table)
+    start, spot = search.enough, 0
+    best, made = roll_to_end(
+        both, start, chosen[:horizon], 0, 0, -inf, problem
     )
-    return BestManeuver(score, turns[: horizon + spot], steps, spot)
+    given = min(len(plan), horizon)
+    if given > 0:
+        copy_values(plan[:given], work)
+        planned = min(planned, horizon)
+        worst = best - search.gain  # a tie keeps the plan
+        score, more = roll_to_end(
+            both, start, work[:horizon], given, planned, worst, problem
+        )
+        made += more
+        if score > worst:
+            best, spot = score, planned
+            copy_values(work, chosen)
+    if len(search.pieces) > 0 and best < start:
+        found, made = descend(
+            both, start, NO_STEPS, made, best, problem, chosen, work
+        )
+        if found > best:
+            best, spot = found, 0
+        if best < search.tight:
+            best, made, spot = search_on_spot(
+                both, best, made, spot, problem, chosen, work
+            )
+    return BestManeuver(best, chosen[: horizon + spot], made, spot)
