@@ -11,23 +11,22 @@ from stepaside.games import play_strategies
 from stepaside.strategies import Pursuit, StepGame, Strategy
 from stepaside.strategies.robust_evasion import actions_of
 from stepaside.strategies.search.beam_search import (
-    GRAIN,
-    GRAINS,
+    BeamRules,
     arc_cosine,
     beam_search,
     play_moves,
     sector_of,
-    sort_ranks,
 )
 from stepaside.strategies.search.step_motion import (
-    BeamRules,
     PursuerModel,
+    StepRules,
     pair_of,
     pursue,
 )
 from stepaside.studies.tournament_settings import TournamentSettings
 
-RULES = BeamRules(0.04, 0.08, 0.08 * pi, 0.35, 0.2, 60, 50)
+STEP = StepRules(0.04, 0.08, 0.08 * pi)
+RULES = BeamRules(STEP, 0.35, 0.2, 60, 50)
 MODEL, SHARP = PursuerModel(), PursuerModel(12.5)
 START = np.array([0.5, 0.2, 0.3, -0.5, -0.1, 0.9])
 
@@ -56,13 +55,13 @@ def test_model_walks_as_the_strategy_does(
     for before, own, after in zip(
         track.pursuer, track.evader, track.pursuer[1:], strict=False
     ):
-        end = pursue(pair_of(tuple(own), tuple(before)), model, RULES)
+        end = pursue(pair_of(tuple(own), tuple(before)), model, STEP)
         np.testing.assert_allclose(end[:2], after[:2], atol=1e-6)
 
 
 def test_path_survives_as_long_as_it_says() -> None:
     packed = Room(3.0, 3.0).solid_set.packed
-    actions = actions_of(RULES.largest)
+    actions = actions_of(STEP.largest)
     path = beam_search(START, actions, SHARP, packed, RULES)
     steps, least = play_moves(START, actions[path], SHARP, packed, RULES)
     assert steps == len(path) == RULES.horizon
@@ -96,7 +95,7 @@ def test_evader_that_is_too_near_to_a_wall_may_only_leave_it() -> None:
 def test_wider_beams_survive_longer_in_a_small_room() -> None:
     packed = Room(1.8, 1.8).solid_set.packed
     start = np.array([0.3, 0.2, 0.3, -0.3, -0.1, 0.9])
-    actions = actions_of(RULES.largest)
+    actions = actions_of(STEP.largest)
     found = [
         len(
             beam_search(
@@ -137,24 +136,13 @@ def test_sectors_are_equal() -> None:
         assert len(set(found[first : first + 10])) == 1
 
 
-def test_ranks_fall_and_equal_ones_keep_their_order() -> None:
-    ranks = np.random.default_rng(3).uniform(0.3, 2.2, 500)
-    ranks[100:200] = ranks[:100]
-    order = np.zeros(500, dtype=np.int64)
-    sort_ranks(ranks, 500, order, np.zeros(GRAINS + 1, dtype=np.int64))
-    grains = (ranks[order] / GRAIN).astype(int)
-    assert (np.diff(grains) <= 0).all()
-    assert (np.diff(order)[np.diff(grains) == 0] > 0).all()
-    assert sorted(order) == list(range(500))
-
-
 def test_alike_states_fill_the_places_that_are_left() -> None:
     """A start in a corner, where the best of each cell alone is captured."""
     room, (pursuer, evader) = TournamentSettings(room=RoomRecipe()).arena(2018)
     rules = RULES._replace(width=200, horizon=100)
     path = beam_search(
         np.array([*evader, *pursuer]),
-        actions_of(RULES.largest),
+        actions_of(STEP.largest),
         SHARP,
         room.solid_set.packed,
         rules,

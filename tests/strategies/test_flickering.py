@@ -98,7 +98,7 @@ def test_a_map_that_is_exact_is_taken_at_its_word(
     looked = turn_search.look_ahead
 
     def look(*given: Any, **named: Any) -> Any:
-        told.append(given[5])
+        told.append(given[3])
         return looked(*given, **named)
 
     monkeypatch.setattr("stepaside.strategies.look_ahead.look_ahead", look)

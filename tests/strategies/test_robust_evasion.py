@@ -30,18 +30,20 @@ from stepaside.strategies.robust_evasion import (
     planned_game,
 )
 from stepaside.strategies.search.beam_search import (
+    BeamRules,
     beam_search,
     play_moves,
 )
 from stepaside.strategies.search.step_motion import (
-    BeamRules,
     PursuerModel,
+    StepRules,
     pair_of,
     pursuer_turn,
 )
 from stepaside.studies.tournament_settings import TournamentSettings
 
-RULES = BeamRules(0.04, 0.08, 0.08 * pi, 0.35, 0.2, 1, 1)
+STEPS = StepRules(0.04, 0.08, 0.08 * pi)
+RULES = BeamRules(STEPS, 0.35, 0.2, 1, 1)
 LIMITS = Limits(0.1, 0.2, 0.04, 0.4)
 ROOMS = TournamentSettings(room=RoomRecipe())
 
@@ -136,7 +138,7 @@ def test_walkers_plan_against_pursuers_that_are_nearer_and_turned() -> None:
     """By 1.5 cm and 0.2 rad to either side; each counts as much."""
     own, fit = Pose(0.3, -0.2, 1.0), ModelFit()
     position = (-0.5, 0.4)
-    fit = fit.observe(0.0, own, position, RULES, 0.4, sways=True)
+    fit = fit.observe(0.0, own, position, STEPS, 0.4, sways=True)
     known = Knowledge(
         0.0, 0.0, 1.0, LIMITS, pose_in_map=own, step_start_in_map=own
     )
@@ -194,8 +196,8 @@ def test_faster_pursuer_is_seen_to_be_faster() -> None:
     model = PursuerModel(2.0, speed=1.3)
     pursuer, own, fit = (-0.6, 0.1, 1.2), (1.4, -0.2, 2.0), ModelFit()
     for n in range(5):
-        fit = fit.observe(0.4 * n, Pose(*own), pursuer[:2], RULES, 0.4)
-        turn = pursuer_turn(pair_of(own, pursuer), model, RULES)
+        fit = fit.observe(0.4 * n, Pose(*own), pursuer[:2], STEPS, 0.4)
+        turn = pursuer_turn(pair_of(own, pursuer), model, STEPS)
         pursuer = Pose(*pursuer).along_arc(1.3 * 0.04, turn)
     assert fit.speed == pytest.approx(1.3, abs=0.01)
 
@@ -214,9 +216,9 @@ def sights_of_walkers(
         x = pursuer[0] - side * sin(pursuer[2]) + side * sin(own[2])
         y = pursuer[1] + side * cos(pursuer[2]) - side * cos(own[2])
         x, y = np.array([x, y]) + noise * generator.normal(size=2)
-        fit = fit.observe(0.4 * n, Pose(*own), (x, y), RULES, 0.4, sways=True)
+        fit = fit.observe(0.4 * n, Pose(*own), (x, y), STEPS, 0.4, sways=True)
         yield fit, pursuer
-        turn = pursuer_turn(pair_of(own, pursuer), model, RULES)
+        turn = pursuer_turn(pair_of(own, pursuer), model, STEPS)
         pursuer = Pose(*pursuer).along_arc(0.04, turn)
         own = Pose(*own).along_arc(-0.04, 0.2 if n % 16 < 8 else -0.2)
 
@@ -251,7 +253,7 @@ def test_pose_of_a_swaying_pursuer_is_known_within_2_mm(number: int) -> None:
     """Half a step after the mean of two positions the body is at the last."""
     walks = list(sights_of_walkers(MODELS[number], 0.0125, 0.0))
     for fit, (x, y, theta) in walks[8:]:
-        pose = fit.pose(number, RULES, 0.5)
+        pose = fit.pose(number, STEPS, 0.5)
         assert hypot(pose.x - x, pose.y - y) < 0.002
         assert abs(wrap_angle(pose.theta - theta)) < 0.01
 
@@ -277,8 +279,8 @@ def test_lag_of_the_own_torso_is_removed_from_sightings() -> None:
 
 def test_unseen_steps_begin_the_path_anew() -> None:
     *_, (fit, _) = sights_of_walkers(MODELS[0], 0.0125, 0.0)
-    later = fit.observe(30.0, Pose(0.5, 0.5, 0.0), (1.0, 0.5), RULES, 0.4)
-    assert later.pose(0, RULES, 0.0) == pytest.approx((1.0, 0.5, pi))
+    later = fit.observe(30.0, Pose(0.5, 0.5, 0.0), (1.0, 0.5), STEPS, 0.4)
+    assert later.pose(0, STEPS, 0.0) == pytest.approx((1.0, 0.5, pi))
     assert later.errors == fit.errors
 
 
@@ -304,9 +306,9 @@ def decisions(
         )
         intent, memory = evader.decide(known, memory)
         yield known, memory
-        turn = pursuer_turn(pair_of(own, pursuer), model, RULES)
+        turn = pursuer_turn(pair_of(own, pursuer), model, STEPS)
         pursuer = Pose(*pursuer).along_arc(model.speed * 0.04, turn)
-        turn = RULES.share * intent.heading
+        turn = STEPS.share * intent.heading
         own = Pose(*own).along_arc(-0.04 * intent.speed_factor, turn)
 
 
@@ -350,7 +352,7 @@ def test_sharp_pursuer_needs_0_8_of_the_time_of_an_offline_search() -> None:
     room, (pursuer, evader) = ROOMS.arena(1000)
     path = beam_search(
         np.array([*evader, *pursuer]),
-        actions_of(RULES.largest),
+        actions_of(STEPS.largest),
         PursuerModel(12.5),
         room.solid_set.packed,
         RULES._replace(width=1000, horizon=450),

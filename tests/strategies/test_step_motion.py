@@ -23,12 +23,6 @@ from stepaside.strategies.search.distance_field import (
     distance_field,
     field_clearance,
 )
-from stepaside.strategies.search.maneuvers import (
-    CandidateManeuvers,
-    ManeuverObjective,
-    judge,
-    law_turn,
-)
 from stepaside.strategies.search.step_motion import (
     PlayerPair,
     PursuerModel,
@@ -37,10 +31,14 @@ from stepaside.strategies.search.step_motion import (
     pair_of,
 )
 from stepaside.strategies.search.step_motion import step_both as step
-from stepaside.strategies.search.turn_search import look_ahead
-from stepaside.strategies.search.value_lookup import (
+from stepaside.strategies.search.turn_search import (
     NO_VALUE,
+    BestManeuver,
     PursuitValues,
+    TurnSearch,
+    judge,
+    law_turn,
+    look_ahead,
     value_at,
 )
 from stepaside.theory.value import PoseGrid, ValueTable
@@ -57,12 +55,19 @@ def place(evader: Pose, pursuer: Pose) -> PlayerPair:
 
 
 def step_both(both: PlayerPair, turn: float, pace: float = 1.0) -> PlayerPair:
-    return step(both, half_turn(0.5 * turn), pace, MODEL, RULES)
+    return step(both, turn, pace, MODEL, RULES)
 
 
-def field_of(
-    packed: Any, aims: ManeuverObjective, both: PlayerPair
-) -> DistanceField:
+def found_by(
+    both: PlayerPair,
+    tried: TurnSearch,
+    packed: Any = NOTHING,
+    table: PursuitValues = NO_VALUE,
+) -> BestManeuver:
+    return look_ahead(both, np.zeros(0), 0, tried, MODEL, RULES, packed, table)
+
+
+def field_of(packed: Any, aims: TurnSearch, both: PlayerPair) -> DistanceField:
     """Return the field that a search from a state uses."""
     return distance_field(packed, aims.clearance, both.ex, both.ey, 1.0)
 
@@ -156,32 +161,31 @@ def test_the_value_in_loops_is_that_of_the_table(bound: ValueTable) -> None:
 
 def brute(
     both: PlayerPair,
-    maneuvers: CandidateManeuvers,
-    aims: ManeuverObjective,
+    tried: TurnSearch,
     packed: Any,
     table: Any,
     *,
     law: bool = True,
 ) -> float:
     """Best score of all sequences and of the law, without leaving any out."""
-    best, field = -inf, field_of(packed, aims, both)
-    pieces = maneuvers.pieces.tolist()
+    best, field = -inf, field_of(packed, tried, both)
+    pieces = tried.pieces.tolist()
     sequences = [
         [u for u, n in zip(each, pieces, strict=True) for _ in range(n)]
-        for each in product(maneuvers.turns.tolist(), repeat=len(pieces))
+        for each in product(tried.turns.tolist(), repeat=len(pieces))
     ]
     for turns in [*([[]] if law else []), *sequences]:
-        here, score, side = both, aims.enough, 0.0
-        for n in range(maneuvers.horizon):
+        here, score, side = both, tried.enough, 0.0
+        for n in range(tried.horizon):
             if n < len(turns):
                 u = turns[n]
             else:
                 dx, dy = here.px - here.ex, here.py - here.ey
                 left = here.ec * dy - here.es * dx
                 side = side or (-1.0 if left > 0.0 else 1.0)
-                u = law_turn(here, side, maneuvers.angle, RULES.share)
+                u = law_turn(here, side, tried.angle, RULES.share)
             here = step_both(here, u)
-            score = judge(here, score, aims, field)
+            score = judge(here, score, tried, field)
         if table.values.size:
             score = min(score, value_at(table, here))
         best = max(best, score)
@@ -198,19 +202,24 @@ def test_the_search_matches_brute_force(
     evader = Pose(*random.uniform([-1, -1, -pi], [1, 1, pi]).tolist())
     pursuer = Pose(*random.uniform([-1, -1, -pi], [1, 1, pi]).tolist())
     both = place(evader, pursuer)
-    maneuvers = CandidateManeuvers(
-        np.array([2, 3, 6]), np.array([0.0, -0.1, 0.1, -0.25, 0.25]), 20
+    tried = TurnSearch(
+        np.array([2, 3, 6]),
+        np.array([0.0, -0.1, 0.1, -0.25, 0.25]),
+        20,
+        enough=0.7,
+        clearance=0.25,
+        sight=2.0,
+        gain=0.0,
     )
-    aims = ManeuverObjective(0.7, 0.25, 5.0, 2.0, gain=0.0)
     packed = NOTHING if valued else PACKED
     table = value_table(bound) if valued else NO_VALUE
-    found = look_ahead(both, (), maneuvers, MODEL, RULES, aims, packed, table)
-    expected = brute(both, maneuvers, aims, packed, table)
+    found = found_by(both, tried, packed, table)
+    expected = brute(both, tried, packed, table)
     assert found.score == pytest.approx(expected, abs=1e-7)
-    score, here, field = aims.enough, both, field_of(packed, aims, both)
+    score, here, field = tried.enough, both, field_of(packed, tried, both)
     for turn in found.turns:
         here = step_both(here, turn)
-        score = judge(here, score, aims, field)
+        score = judge(here, score, tried, field)
     if valued:
         score = min(score, value_at(table, here))
     assert score == pytest.approx(expected, abs=1e-7)
@@ -220,13 +229,11 @@ def test_a_branch_is_left_at_the_first_step_that_is_no_better() -> None:
     """Both walk away from each other: the first step is the nearest."""
     both = place(Pose(0.8, 0.0, pi), Pose(0.0, 0.0, pi))
     turns = np.array([0.0, -0.1, 0.1, -0.2, 0.2])
-    law = CandidateManeuvers(np.array([], int), turns, 12)
-    every = CandidateManeuvers(np.array([2, 3]), turns, 12, spots=4)
-    aims = ManeuverObjective(2.0, gain=0.01, tight=inf)
-    alone, found = (
-        look_ahead(both, (), tried, MODEL, RULES, aims, NOTHING, NO_VALUE)
-        for tried in (law, every)
+    every = TurnSearch(
+        np.array([2, 3]), turns, 12, spots=4, enough=2.0, gain=0.01, tight=inf
     )
+    law = every._replace(pieces=np.array([], int), spots=0)
+    alone, found = (found_by(both, tried) for tried in (law, every))
     assert found.score == alone.score and found.spot == 0
     # One step of each turn, and one on the spot to either side.
     assert (alone.steps, found.steps) == (12, 12 + len(turns) + 2)
@@ -239,14 +246,14 @@ def test_missing_clearance_and_lost_sight_are_penalised() -> None:
     near = both._replace(
         ex=x + radius + 0.15, ey=y, px=x + radius + 1.15, py=y
     )
-    aims = ManeuverObjective(0.9, 0.2, 3.0)
+    aims = TurnSearch(np.zeros(0), np.zeros(0), 1, enough=0.9, penalty=3.0)
     assert judge(near, 0.9, aims, field_of(disc, aims, near)) == pytest.approx(
         0.9 - 3.0 * 0.05
     )
     behind = both._replace(px=cos(2.5), py=sin(2.5))
-    aims = ManeuverObjective(0.9, sight=2.0, blindness=0.2)
+    aims = aims._replace(sight=2.0)
     blind = judge(behind, 0.9, aims, field_of(NOTHING, aims, behind))
-    assert blind == pytest.approx(0.9 - 0.2 * 0.5)
+    assert blind == pytest.approx(0.9 - 0.1 * 0.5)
     assert atan2(behind.py, behind.px) == pytest.approx(2.5)
 
 
@@ -256,35 +263,33 @@ def test_it_turns_on_the_spot_first_only_if_that_is_better(seed: int) -> None:
     random = np.random.default_rng(seed)
     evader = Pose(1.2, 1.2, float(random.uniform(-pi, pi)))
     pursuer = Pose(*random.uniform([0.3, 0.3, -pi], [0.7, 0.7, pi]).tolist())
-    both, packed = place(evader, pursuer), PACKED
-    maneuvers = CandidateManeuvers(
-        np.array([2, 3]), np.array([0.0, -0.25, 0.25]), 9, spots=4
+    both = place(evader, pursuer)
+    tried = TurnSearch(
+        np.array([2, 3]),
+        np.array([0.0, -0.25, 0.25]),
+        9,
+        spots=4,
+        enough=0.8,
+        penalty=60.0,
+        tight=inf,
     )
-    aims = ManeuverObjective(0.8, penalty=60.0, tight=inf)
-    best = brute(both, maneuvers, aims, packed, NO_VALUE)
-    field = field_of(packed, aims, both)
+    best = brute(both, tried, PACKED, NO_VALUE)
+    field = field_of(PACKED, tried, both)
     for side in (-0.25, 0.25):
-        here, score = both, aims.enough
+        here, score = both, tried.enough
         for n in range(4):
             here = step_both(here, side, 0.05)
-            score = judge(here, score, aims, field)
+            score = judge(here, score, tried, field)
             if n % 2:
-                behind = brute(
-                    here,
-                    maneuvers,
-                    aims._replace(enough=score),
-                    packed,
-                    NO_VALUE,
-                    law=False,
+                behind = tried._replace(enough=score)
+                best = max(
+                    best, brute(here, behind, PACKED, NO_VALUE, law=False)
                 )
-                best = max(best, behind)
-    found = look_ahead(
-        both, (), maneuvers, MODEL, RULES, aims, packed, NO_VALUE
-    )
+    found = found_by(both, tried, PACKED)
     assert found.score == pytest.approx(best, abs=1e-5)
     assert len(found.turns) == 9 + found.spot
-    here, score = both, aims.enough
+    here, score = both, tried.enough
     for n, turn in enumerate(found.turns):
         here = step_both(here, turn, 0.05 if n < found.spot else 1.0)
-        score = judge(here, score, aims, field)
+        score = judge(here, score, tried, field)
     assert score == pytest.approx(found.score, abs=1e-9)
