@@ -20,11 +20,12 @@ from stepaside.locomotion.walk_snapshots import Phase
 from stepaside.report.viewer import live_session as live
 from stepaside.report.viewer import plot_history as trails
 from stepaside.report.viewer import run_saving as saving
+from stepaside.report.viewer.drive_panel import TURN
 from stepaside.report.viewer.live_match import LiveMatch
 from stepaside.report.viewer.live_session import LiveSession
 from stepaside.report.viewer.status_text import outlook, status_text
+from stepaside.strategies import Walk
 from stepaside.strategies.approach import Approach
-from stepaside.strategies.teleoperation import TURN, TeleoperatedPursuit
 
 START = StartSettings(distance=1.0, pursuer_offset=0.0, evader_offset=0.0)
 SETTINGS = DuelSettings(start=START)
@@ -264,18 +265,18 @@ def test_errors_in_the_loop_are_told(session: LiveSession) -> None:
 def test_the_hand_steers_the_same_planner(session: LiveSession) -> None:
     scheme = walker(session).scheme
 
-    def hold(hand: TeleoperatedPursuit) -> None:
+    def hold(hand: Walk) -> None:
         session.change(lambda duel: scheme.decisions.adopt(hand))
 
-    hold(TeleoperatedPursuit(turn=1.0, going=True))
+    hold(Walk(TURN))
     run_until(session, 3.0)
     plan = scheme.state.plan
     assert plan is not None and plan.bearing == pytest.approx(TURN)
-    hold(TeleoperatedPursuit(turn=-0.5, going=True))
+    hold(Walk(-0.5 * TURN))
     run_until(session, 4.5)
     plan = scheme.state.plan
     assert plan is not None and plan.bearing == pytest.approx(-0.5 * TURN)
-    hold(TeleoperatedPursuit(turn=-0.5, going=False))
+    hold(Walk(-0.5 * TURN, speed_factor=0.0))
     run_until(session, 8.0)
     assert scheme.phase is Phase.STANDING
 

@@ -20,10 +20,8 @@ from stepaside.strategies import (
     Pursuit,
     StandStill,
     Strategy,
-    TeleoperatedPursuit,
     Walk,
 )
-from stepaside.strategies.teleoperation import TURN
 
 LIMITS = Limits(0.1, 0.2, 0.04, 0.547)
 ALL: list[Strategy] = [
@@ -32,7 +30,6 @@ ALL: list[Strategy] = [
     Evasion(angle=1.0, saturated=True, release_distance=1.1),
     Walk(0.3),
     StandStill(),
-    TeleoperatedPursuit(0.5, True),
 ]
 BEARINGS = st.floats(-pi, pi)
 DISTANCES = st.floats(0.1, 3.0)
@@ -53,7 +50,6 @@ def test_players_of_the_paper_drive_as_it_says() -> None:
     assert Pursuit().direction is Direction.FORWARD
     assert Evasion().direction is Direction.BACKWARD
     assert Walk().direction is Direction.FORWARD
-    assert TeleoperatedPursuit().direction is Direction.FORWARD
     assert not any(s.saturated for s in (Pursuit(), Evasion(), Walk()))
     assert Pursuit(saturated=True).saturated and Evasion(saturated=True)
 
@@ -73,27 +69,6 @@ def test_a_constant_walk_ignores_the_opponent() -> None:
     assert heading(Walk(), 1.0) == 0.0
     with pytest.raises(PlanError, match="speed_factor"):
         Walk(speed_factor=1.5)
-
-
-@pytest.mark.parametrize("turn", [-1.0, -0.4, 0.0, 1.0])
-def test_teleoperation_heads_for_a_fraction_of_the_full_deflection(
-    turn: float,
-) -> None:
-    for bearing in (-1.0, 0.0, 2.0):
-        intent, _ = TeleoperatedPursuit(turn, True).decide(
-            known(bearing), None
-        )
-        assert intent == Intent(turn * TURN)
-    assert radians(50.0) == TURN
-
-
-def test_teleoperation_walks_while_commanded() -> None:
-    assert not TeleoperatedPursuit(1.0).decide(known(), None)[0].walks
-    assert (
-        TeleoperatedPursuit(1.0, True).decide(known(0.0, 10.0), None)[0].walks
-    )
-    with pytest.raises(ConfigurationError, match="turn"):
-        TeleoperatedPursuit(1.1)
 
 
 def test_evader_of_the_paper_moves_aside_from_0_8_m_on() -> None:

@@ -2,7 +2,7 @@
 
 from dataclasses import replace
 from itertools import permutations
-from math import atan2, cos, hypot, pi, sin
+from math import atan2, hypot, pi
 from typing import Any
 
 import numpy as np
@@ -10,15 +10,15 @@ import pytest
 
 from stepaside.arena import Box, ObstacleSet
 from stepaside.core.player_identity import PlayerIdentity, Role
-from stepaside.core.poses import Pose
+from stepaside.core.poses import Pose, wrap_angle
 from stepaside.strategies.goal_walk import GoalWalk
 from stepaside.strategies.knowledge import Knowledge, Limits, OtherPlayer
 from stepaside.strategies.pursuit import Pursuit
+from stepaside.strategies.search.step_motion import StepRules
 from stepaside.strategies.team_evasion import (
-    SeveralPursuers,
     TeamEvasion,
     candidate_turns,
-    closest_approaches,
+    roll_out_all,
 )
 from stepaside.strategies.team_pursuit import (
     AssignedPursuit,
@@ -135,38 +135,21 @@ def test_pursuers_turn_away_from_teammates_that_are_near() -> None:
 
 
 def test_the_rollout_agrees_with_a_step_by_step_game() -> None:
-    turns = candidate_turns(0.25)
-    pursuers = SeveralPursuers(
-        np.array([1.0, 0.2]), np.array([0.3, -1.1]), np.array([3.0, 1.5])
-    )
-    closest, final = closest_approaches(pursuers, turns, 0.04, 0.08)
-    row = 123
-    own, hunters = (
-        Pose(0.0, 0.0, 0.0),
-        [Pose(*p) for p in zip(*pursuers, strict=True)],
-    )
-    least = [hypot(p.x, p.y) for p in hunters]
+    turns, rules = candidate_turns(0.25), StepRules(0.04, 0.08, 0.25)
+    pursuers = [Pose(1.0, 0.3, 3.0), Pose(0.2, -1.1, 1.5)]
+    least, last = np.full((2, len(turns)), np.inf)
+    roll_out_all(np.array(pursuers), turns, rules, least, last)
+    row, own = 123, Pose(0.0, 0.0, 0.0)
+    nearest = min(hypot(p.x, p.y) for p in pursuers)
     for turn in turns[row]:
-        middle = own.theta + 0.5 * turn
-        own = Pose(
-            own.x - 0.04 * cos(middle),
-            own.y - 0.04 * sin(middle),
-            own.theta + turn,
-        )
-        for i, p in enumerate(hunters):
-            error = atan2(own.y - p.y, own.x - p.x) - p.theta
-            error = 0.08 * ((error + pi) % (2 * pi) - pi)
-            middle = p.theta + 0.5 * error
-            hunters[i] = p = Pose(
-                p.x + 0.04 * cos(middle),
-                p.y + 0.04 * sin(middle),
-                p.theta + error,
-            )
-            least[i] = min(least[i], hypot(own.x - p.x, own.y - p.y))
-    assert closest[row] == pytest.approx(least)
-    assert final[row] == pytest.approx(
-        [hypot(own.x - p.x, own.y - p.y) for p in hunters]
-    )
+        for i, p in enumerate(pursuers):  # all move at once, as in games
+            error = wrap_angle(atan2(own.y - p.y, own.x - p.x) - p.theta)
+            pursuers[i] = p.along_arc(0.04, 0.08 * error)
+        own = own.along_arc(-0.04, turn)
+        away = min(hypot(own.x - p.x, own.y - p.y) for p in pursuers)
+        nearest = min(nearest, away)
+    assert least[row] == pytest.approx(nearest, abs=1e-7)
+    assert last[row] == pytest.approx(away, abs=1e-7)
 
 
 def test_an_evader_between_two_pursuers_leaves_through_the_gap() -> None:

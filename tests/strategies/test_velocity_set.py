@@ -6,7 +6,7 @@ import pytest
 
 from stepaside.planning import Direction
 from stepaside.strategies import STAND, Intent, Limits
-from stepaside.strategies.nearest_unicycle_intent import unicycle_intent
+from stepaside.strategies.strategy import unicycle_intent
 from stepaside.strategies.velocity_set import (
     STILL,
     BodyVelocity,

@@ -105,7 +105,7 @@ class TemplateDuel:
         """
         self.room, starts = arena
         pursuer, evader = (
-            strategy or StandStill(direction)
+            strategy or StandStill(direction=direction)
             for strategy, direction in zip(
                 strategies,
                 (Direction.FORWARD, Direction.BACKWARD),

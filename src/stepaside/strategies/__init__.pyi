@@ -21,7 +21,6 @@ from .team_evasion import TeamEvasion as TeamEvasion
 from .team_pursuit import AssignedPursuit as AssignedPursuit
 from .team_pursuit import CyclicPursuit as CyclicPursuit
 from .team_pursuit import Pincer as Pincer
-from .teleoperation import TeleoperatedPursuit as TeleoperatedPursuit
 
 __all__ = [
     "AssignedPursuit",
@@ -45,7 +44,6 @@ __all__ = [
     "StepGame",
     "Strategy",
     "TeamEvasion",
-    "TeleoperatedPursuit",
     "Walk",
     "load_strategy",
 ]

@@ -30,9 +30,7 @@ class Approach(NamedTuple):
     def of(cls, knowledge: Knowledge) -> "Approach":
         """Extrapolate the last sighting; at rest if without velocity."""
         u, v = knowledge.velocity or (0.0, 0.0)
-        x = knowledge.distance * cos(knowledge.bearing)
-        y = knowledge.distance * sin(knowledge.bearing)
-        age = knowledge.age
+        (x, y), age = knowledge.position, knowledge.age
         return cls(x + age * u, y + age * v, u, v)
 
     @property

@@ -3,7 +3,7 @@
 from dataclasses import dataclass
 
 from ..planning import Direction
-from .knowledge import STAND, Intent, Knowledge
+from .knowledge import Intent, Knowledge
 
 
 @dataclass(frozen=True, slots=True)
@@ -35,26 +35,13 @@ class Walk:
         self, knowledge: Knowledge, memory: None
     ) -> tuple[Intent, None]:
         """Return the constant intent."""
-        return Intent(self.bearing, self.speed_factor, pace=self.pace), None
+        moving = self.speed_factor != 0.0
+        return Intent(self.bearing, self.speed_factor, moving, self.pace), None
 
 
 @dataclass(frozen=True, slots=True)
-class StandStill:
-    """Stand still: the baseline of an evader that does nothing.
-
-    Attributes:
-        direction: Unused: it never steps.
-        saturated: Likewise.
-    """
+class StandStill(Walk):
+    """Stand still: the baseline of an evader that does nothing."""
 
     direction: Direction = Direction.BACKWARD
-    saturated: bool = False
-
-    def begin(self) -> None:
-        """Return no memory."""
-
-    def decide(
-        self, knowledge: Knowledge, memory: None
-    ) -> tuple[Intent, None]:
-        """Return the intent to stand."""
-        return STAND, None
+    speed_factor: float = 0.0

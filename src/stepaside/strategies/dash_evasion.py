@@ -21,7 +21,7 @@ from .dash_rollouts import (
     unseen_shares,
 )
 from .knowledge import STAND, Intent, Knowledge, Limits
-from .opponent_track import OpponentTrack, opponent_position
+from .opponent_track import OpponentTrack
 from .strategy import BackwardStrategy
 from .velocity_set import STILL, BodyVelocity, VelocitySet, respond
 
@@ -159,7 +159,7 @@ class DashEvasion(BackwardStrategy):
         )
         now = knowledge.time
         seen = now - knowledge.age
-        track = memory.track.note(seen, opponent_position(knowledge))
+        track = memory.track.note(seen, knowledge.position_in_map)
         opponent = extrapolate(track, now)
         pose = knowledge.step_start_in_map or knowledge.pose_in_map
         velocity = STILL

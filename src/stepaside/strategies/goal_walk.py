@@ -1,6 +1,6 @@
 """Walk to a goal among other players."""
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from math import atan2, cos, hypot, pi, sin
 from typing import Any
 
@@ -12,7 +12,7 @@ from ..core.ranges import Range
 from ..core.setting import check_settings, setting
 from .dash_rollouts import greatest_velocities
 from .knowledge import STAND, Intent, Knowledge
-from .pursuit import Pursuit, PursuitVariant
+from .pursuit import PursuitVariant
 from .velocity_set import BodyVelocity, VelocitySet
 
 ARRIVED = 0.2  # distance from the goal at which it halts, in [m]
@@ -51,7 +51,6 @@ class GoalWalk(PursuitVariant):
         "Distance that counts as contact",
         Range(0.0, 10.0, "m", "the bodies have a width"),
     )
-    pursuit: Pursuit = field(default_factory=Pursuit)
 
     def __post_init__(self) -> None:
         """Validate the settings."""
@@ -105,13 +104,8 @@ class GoalWalk(PursuitVariant):
     ) -> Intent:
         """Return the velocity in any direction that keeps clear.
 
-        A candidate costs the progress that it loses, and the clearance that
-        it misses, the sooner the more.
-
-        Args:
-            knowledge: Knowledge of the player.
-            bearing: Direction of the way to the goal in the frame, in [rad].
-            velocities: Velocities that the legs deliver.
+        A candidate costs the progress that it loses along the bearing of the
+        goal, and the clearance that it misses, the sooner the more.
         """
         angles = bearing + np.linspace(-pi, pi, DIRECTIONS, endpoint=False)
         fastest = greatest_velocities(angles, velocities)
@@ -128,16 +122,7 @@ class GoalWalk(PursuitVariant):
         return Intent(velocity=velocities.nearest(wanted))
 
     def _wall_cost(self, knowledge: Knowledge, own: Array) -> Array:
-        """Return the cost of headings towards obstacles, in [rad].
-
-        Args:
-            knowledge: Knowledge of the player.
-            own: Velocity along each heading in the frame, in [m/s]. Shape
-                (2, n).
-
-        Returns:
-            Shape (n,).
-        """
+        """Return the cost of own velocities, (2, n), towards obstacles."""
         solids, radius = knowledge.obstacles_in_map, self.pursuit.body_radius
         if not solids:
             return np.zeros(own.shape[1])

@@ -55,11 +55,7 @@ class Limits:
         return self.gain * self.stride / self.speed
 
     def stride_share(self, turn: float) -> float:
-        """Return the fraction of the stride that a turn allows.
-
-        Args:
-            turn: Turn of one step, in [rad].
-        """
+        """Return the fraction of the stride that a turn [rad] allows."""
         return stride_share(
             turn, self.stride, self.outer_stride, self.foot_spacing
         )
@@ -70,22 +66,10 @@ def limits_of(
     velocities: VelocitySet | None = None,
     views: tuple[Sector, ...] = ALL_AROUND,
 ) -> Limits:
-    """Return the limits of a gait.
-
-    Args:
-        gait: Gait of a walker, or template of legs.
-        velocities: Velocities that the legs deliver; None for a unicycle.
-        views: Bearings at which the robot sees others.
-    """
+    """Return the limits of the gait of a walker, or of a template of legs."""
+    step = gait.speed, gait.gain, gait.stride, gait.step_duration
     return Limits(
-        gait.speed,
-        gait.gain,
-        gait.stride,
-        gait.step_duration,
-        velocities,
-        gait.outer_stride,
-        gait.foot_spacing,
-        views,
+        *step, velocities, gait.outer_stride, gait.foot_spacing, views
     )
 
 
@@ -113,10 +97,8 @@ class OtherPlayer:
     @property
     def position(self) -> tuple[float, float]:
         """Position ahead and to the left in the frame, in [m]."""
-        return (
-            self.distance * cos(self.bearing),
-            self.distance * sin(self.bearing),
-        )
+        bearing, distance = self.bearing, self.distance
+        return distance * cos(bearing), distance * sin(bearing)
 
 
 @dataclass(frozen=True, slots=True)
@@ -178,12 +160,21 @@ class Knowledge:
     others: tuple[OtherPlayer, ...] = ()
 
     def __post_init__(self) -> None:
-        """Check the bearing.
-
-        Raises:
-            PlanError: If the bearing is not finite, or beyond one turn.
-        """
+        """Check the bearing."""
         check_bearing(self.bearing, "bearing")
+
+    @property
+    def position(self) -> tuple[float, float]:
+        """Position of the opponent ahead and to the left, in [m]."""
+        bearing, distance = self.bearing, self.distance
+        return distance * cos(bearing), distance * sin(bearing)
+
+    @property
+    def position_in_map(self) -> tuple[float, float]:
+        """Position of the opponent in the map, in [m]."""
+        x, y, theta = self.pose_in_map
+        sight, distance = theta + self.bearing, self.distance
+        return x + distance * cos(sight), y + distance * sin(sight)
 
     @property
     def opponents(self) -> tuple[OtherPlayer, ...]:
@@ -221,9 +212,7 @@ class Knowledge:
     def towards(self, x: float, y: float) -> "Knowledge":
         """Return the same knowledge with a resting point as the opponent.
 
-        Args:
-            x: Position ahead in the frame, in [m].
-            y: Position to the left in the frame, in [m].
+        The point is given ahead and to the left in the frame, in [m].
         """
         return replace(
             self,
@@ -251,7 +240,7 @@ class Intent:
         velocity: Desired velocity of the body in its present frame, in place
             of heading and speed. Legs with a velocity set walk at the nearest
             velocity in it, unicycles follow
-            :func:`~stepaside.strategies.nearest_unicycle_intent.unicycle_intent`.
+            :func:`~stepaside.strategies.strategy.unicycle_intent`.
     """
 
     heading: float = 0.0
@@ -261,13 +250,7 @@ class Intent:
     velocity: BodyVelocity | None = None
 
     def __post_init__(self) -> None:
-        """Validate the intent.
-
-        Raises:
-            PlanError: If the heading is not finite or beyond one turn, a
-                factor is out of its range, moving is no boolean, or a
-                velocity is not finite.
-        """
+        """Validate the intent."""
         check_bearing(self.heading, "heading")
         if type(self.moving) is not bool and not isinstance(
             self.moving, np.bool_

@@ -18,16 +18,8 @@ def choose_opponent(
 
     It is the assigned target. Without a target it is the nearest opponent,
     and another one than at present only when that is nearer by a tenth; in a
-    game without opponents, the nearest player.
-
-    Args:
-        own: Identity of the player that chooses.
-        distances: Distance of each player that has been seen, in [m].
-        target: Name of the assigned target; empty for none.
-        present: Name of the present opponent; empty for none.
-
-    Returns:
-        The name; empty if no player has been seen.
+    game without opponents, the nearest player. The name is empty if no
+    player has been seen.
     """
     if target:
         return target

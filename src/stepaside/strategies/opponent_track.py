@@ -1,6 +1,6 @@
 """Track of the opponent: its motion over the floor, from sightings."""
 
-from math import atan2, cos, hypot, sin
+from math import atan2, hypot
 from typing import NamedTuple
 
 from ..core.poses import Pose, wrap_angle
@@ -130,16 +130,6 @@ class OpponentTrack(NamedTuple):
         return turned / passed, (hypot(u, v) - hypot(x, y)) / passed
 
 
-def opponent_position(knowledge: Knowledge) -> tuple[float, float]:
-    """Return the position of the opponent in the map, in [m]."""
-    pose = knowledge.pose_in_map
-    sight = pose.theta + knowledge.bearing
-    return (
-        pose.x + knowledge.distance * cos(sight),
-        pose.y + knowledge.distance * sin(sight),
-    )
-
-
 def track_of_steps(
     track: OpponentTrack | None, knowledge: Knowledge
 ) -> OpponentTrack:
@@ -154,7 +144,7 @@ def track_of_steps(
     limits, time = knowledge.limits, knowledge.time - knowledge.age
     if track is None:
         track = OpponentTrack(limits.step_duration, 6.0, LEAST)
-    x, y = opponent_position(knowledge)
+    x, y = knowledge.position_in_map
     if track.rows and knowledge.spread > 0.0:
         last = track.rows[-1]
         u, v = track.velocity or (0.0, 0.0)

@@ -1,6 +1,6 @@
 """Pursuit: head for the evader (paper, Sec. II-A), and variations of it."""
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from math import atan2, cos, hypot, inf, pi, sin, tau
 from typing import Any, ClassVar, NamedTuple
 
@@ -16,7 +16,7 @@ from ..planning import Direction
 from ..theory import laws
 from .approach import correcting_heading
 from .knowledge import STAND, Intent, Knowledge, Limits
-from .opponent_track import OpponentTrack, opponent_position, track_of_steps
+from .opponent_track import OpponentTrack, track_of_steps
 from .table_cache import cars_bound, unit_cars
 
 FREE_STRIDES = 3.0  # straight ahead that allow turning by (2)
@@ -142,9 +142,7 @@ class Pursuit:
         course = track.course if track else None
         if course is not None:
             ahead = course - knowledge.pose_in_map.theta
-            reach = self.lead * knowledge.distance
-            x = knowledge.distance * cos(knowledge.bearing)
-            y = knowledge.distance * sin(knowledge.bearing)
+            reach, (x, y) = self.lead * knowledge.distance, knowledge.position
             x, y = x + reach * cos(ahead), y + reach * sin(ahead)
             knowledge = replace(
                 knowledge, bearing=atan2(y, x), distance=hypot(x, y)
@@ -202,7 +200,7 @@ class Pursuit:
         u, v = first_waypoint(
             knowledge.obstacles_in_map,
             (x, y),
-            opponent_position(knowledge),
+            knowledge.position_in_map,
             self.body_radius,
             side,
         )
@@ -241,25 +239,23 @@ class OptimalPursuit:
             return Intent(knowledge.bearing), track
         limits = knowledge.limits
         unit = limits.speed / (pi * limits.gain)  # tightest radius, in [m]
-        away, bearing = knowledge.distance / unit, knowledge.bearing
+        x, y = knowledge.position
         # The evader is a car that faces its direction of motion.
-        turned = track.course - knowledge.pose_in_map.theta
-        pose = away * cos(bearing), away * sin(bearing), turned
+        pose = x / unit, y / unit, track.course - knowledge.pose_in_map.theta
         answer = cars_bound(self.cells).decisions(pose)[1]
         turn = unit_cars().pursuer_twists[answer, 2]
         return Intent(pi * float(turn)), track
 
 
+@dataclass(frozen=True, slots=True)
 class PursuitVariant:
-    """Base of strategies that drive and turn as a pursuit of their own.
+    """Base of strategies that choose a point and head for it by a pursuit.
 
     Attributes:
-        pursuit: Pursuit of the target that the strategy chooses.
+        pursuit: Pursuit of that point.
     """
 
-    __slots__ = ()
-
-    pursuit: Pursuit
+    pursuit: Pursuit = field(default_factory=Pursuit)
 
     @property
     def direction(self) -> Direction:

@@ -14,7 +14,7 @@ from .shield_course import Course, Trace, observed_course
 from .shield_model import ShieldModel
 from .shield_settings import ShieldSettings
 from .shield_template import TemplatePoint
-from .strategy import Strategy
+from .strategy import Strategy, unicycle_intent
 from .velocity_set import BodyVelocity
 
 TRACE = 4.0  # windows for which positions of the opponent are kept
@@ -122,8 +122,6 @@ class ShieldedStrategy:
         )
         if intent.walks and intent.velocity and not model.velocities:
             # The nearest intent of a unicycle is what it will walk.
-            from .nearest_unicycle_intent import unicycle_intent
-
             intent = unicycle_intent(intent, knowledge.limits, self.direction)
         intent, memory = self._filter(intent, model, own, knowledge, memory)
         command = (0.0, 0.0)
@@ -246,13 +244,8 @@ def relative_poses(
 
 def _with_sighting(trace: Trace, knowledge: Knowledge, kept: float) -> Trace:
     """Add the position of the opponent to a trace, and forget old ones."""
-    time, pose = knowledge.time - knowledge.age, knowledge.pose_in_map
-    sight = pose.theta + knowledge.bearing
-    seen = (
-        time,
-        pose.x + knowledge.distance * cos(sight),
-        pose.y + knowledge.distance * sin(sight),
-    )
+    time = knowledge.time - knowledge.age
+    seen = (time, *knowledge.position_in_map)
     return (*(row for row in trace if time - kept <= row[0] < time), seen)
 
 

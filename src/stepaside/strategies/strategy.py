@@ -1,12 +1,14 @@
 """Interface of a strategy: a pure function with its memory as a value."""
 
+from dataclasses import replace
+from math import atan2, cos, hypot, pi
 from typing import Any, ClassVar, Protocol, runtime_checkable
 
 from ..core.errors import StrategyError
+from ..core.poses import wrap_angle
 from ..core.user_file import FAILURES
 from ..planning import Direction
-from .knowledge import Intent, Knowledge
-from .nearest_unicycle_intent import unicycle_intent
+from .knowledge import ON_THE_SPOT, STAND, Intent, Knowledge, Limits
 
 
 @runtime_checkable
@@ -16,10 +18,6 @@ class Strategy(Protocol):
     A strategy has no mutable state. Its memory is a value of its own type
     that is passed in and returned, so that the same knowledge and memory
     always give the same decision, on any level of the game.
-
-    Attributes:
-        direction: Whether the body drives forward (1) or backward (3).
-        saturated: Whether it turns by (6) instead of (8).
     """
 
     @property
@@ -57,15 +55,10 @@ class BackwardStrategy:
 def evaluate_strategy(
     strategy: Strategy, knowledge: Knowledge, memory: Any
 ) -> tuple[Intent, Any]:
-    """Evaluate one decision of a strategy.
+    """Evaluate one decision of a strategy, possibly user code.
 
     A body velocity becomes the nearest intent of a unicycle, unless the legs
     have a velocity set.
-
-    Args:
-        strategy: Strategy, possibly user code.
-        knowledge: Knowledge of the player.
-        memory: Memory of the player.
 
     Returns:
         Intent and new memory.
@@ -83,3 +76,34 @@ def evaluate_strategy(
     if intent.velocity is not None and limits.velocities is None:
         intent = unicycle_intent(intent, limits, strategy.direction)
     return intent, memory
+
+
+def unicycle_intent(
+    intent: Intent, limits: Limits, direction: Direction
+) -> Intent:
+    """Return the intent of a unicycle that is nearest to a body velocity.
+
+    A unicycle has no lateral velocity: it turns its direction of driving to
+    that of the horizontal velocity, and meanwhile drives at the component of
+    the velocity along it, the nearest speed that it has; where that component
+    is negative it turns on the spot. The desired turning rate counts where
+    no horizontal velocity is desired.
+    """
+    if intent.velocity is None:
+        return intent
+    if not intent.walks:
+        return STAND
+    ahead, left, turn = intent.velocity
+    speed = hypot(ahead, left)
+    if speed == 0.0:
+        heading, share = min(max(turn / limits.gain, -pi), pi), 0.0
+    else:
+        reverse = 0.0 if direction is Direction.FORWARD else pi
+        heading = wrap_angle(atan2(left, ahead) + reverse)
+        share = speed * cos(heading) / limits.speed
+    return replace(
+        intent,
+        heading=heading,
+        speed_factor=min(max(share, ON_THE_SPOT), 1.0),
+        velocity=None,
+    )

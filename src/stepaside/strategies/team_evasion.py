@@ -2,37 +2,26 @@
 
 from dataclasses import dataclass
 from functools import lru_cache
-from math import atan2, inf, pi
-from typing import NamedTuple
+from math import atan2, hypot, inf
+from typing import Any
 
 import numpy as np
 
+from ..core.compilation import compiled
 from ..core.errors import ConfigurationError
-from ..core.poses import Array, wrap_angles
+from ..core.poses import Array
 from ..core.ranges import Range
 from ..core.setting import check_settings, setting
 from ..theory import laws
 from .knowledge import STAND, Intent, Knowledge
+from .look_ahead import PAPERS, step_rules
+from .search.step_motion import StepRules, pair_of, step_both
 from .strategy import BackwardStrategy
 
 PIECES = (4, 8, 16)  # steps with a constant turn
 TURNS = 7  # values of the turn of each piece
 FINAL = 0.2  # weight of the distance at the end beside the closest one
 SMALL = 1e-6  # weight of a turn, against ties
-
-
-class SeveralPursuers(NamedTuple):
-    """Poses of pursuers in the frame of a knowledge.
-
-    Attributes:
-        x: Positions ahead, in [m]. Shape (n,).
-        y: Positions to the left, in [m]. Shape (n,).
-        theta: Headings, in [rad]. Shape (n,).
-    """
-
-    x: Array
-    y: Array
-    theta: Array
 
 
 @dataclass(frozen=True, slots=True)
@@ -83,88 +72,67 @@ class TeamEvasion(BackwardStrategy):
         )
         if not evading:
             return STAND, False
-        limits = knowledge.limits
-        share = limits.share
-        turns = candidate_turns(pi * share)
-        closest, final = closest_approaches(
-            pursuers_of(knowledge), turns, limits.stride, share
-        )
-        least, last = closest.min(axis=1), final.min(axis=1)
+        rules = step_rules(knowledge.limits)
+        turns = candidate_turns(rules.largest)
+        least, last = np.full((2, len(turns)), inf)
+        roll_out_all(pursuers_of(knowledge), turns, rules, least, last)
         score = least + FINAL * last - SMALL * np.abs(turns[:, 0])
         best = turns[int(score.argmax()), 0]
-        return Intent(float(best) / share), True
+        return Intent(float(best) / rules.share), True
 
 
-def pursuers_of(knowledge: Knowledge) -> SeveralPursuers:
+def pursuers_of(knowledge: Knowledge) -> Array:
     """Return the poses of all opponents; of the opponent without a team.
 
-    One of unknown velocity is taken to face the evader.
+    One of unknown velocity is taken to face the evader. Shape (n, 3).
     """
     rows = []
     for other in knowledge.opponents or (knowledge,):
-        x = other.distance * np.cos(other.bearing)
-        y = other.distance * np.sin(other.bearing)
-        velocity = other.velocity
-        heading = atan2(-y, -x)
-        if velocity is not None and np.hypot(*velocity) > 0.01:
-            heading = atan2(velocity[1], velocity[0])
-        rows.append((x, y, heading))
-    return SeveralPursuers(*np.array(rows).T)
+        (x, y), (u, v) = other.position, other.velocity or (0.0, 0.0)
+        faces = hypot(u, v) <= 0.01
+        rows.append((x, y, atan2(-y, -x) if faces else atan2(v, u)))
+    return np.array(rows)
 
 
 @lru_cache(maxsize=8)
 def candidate_turns(largest: float) -> Array:
-    """Return turning sequences, one row each, in [rad] per step.
+    """Return turns [rad] per step: all combinations of three pieces.
 
-    Args:
-        largest: Greatest turn of a step, in [rad].
-
-    Returns:
-        Every combination of constant turns in three pieces. Shape
-        (candidates, steps).
+    Shape (candidates, steps).
     """
     even = np.linspace(-largest, largest, TURNS)
     grid = np.meshgrid(*[even] * len(PIECES), indexing="ij")
     pieces = np.stack(grid, axis=-1).reshape(-1, len(PIECES))
     turns: Array = np.repeat(pieces, PIECES, axis=1)
-    turns.setflags(write=False)
     return turns
 
 
-def closest_approaches(
-    pursuers: SeveralPursuers, turns: Array, stride: float, share: float
-) -> tuple[Array, Array]:
-    """Predict the distances to pursuers under turning sequences.
+@compiled
+def roll_out_all(
+    pursuers: Any, turns: Any, rules: StepRules, least: Any, last: Any
+) -> None:
+    """Predict the least distance to any pursuer under turning sequences.
 
     The evader walks backward from the origin of the frame, the pursuers head
     for it by (1)-(2); all have one stride and gain.
 
     Args:
-        pursuers: Their poses in the frame.
+        pursuers: Poses (x [m], y [m], theta [rad]) in the frame. Shape
+            (n, 3).
         turns: Turns of the evader, in [rad] per step. Shape (candidates,
             steps).
-        stride: Length of a step, in [m].
-        share: Turn of a step per desired heading, kappa.
-
-    Returns:
-        Smallest and last distance to each pursuer, in [m]. Shapes
-        (candidates, pursuers).
+        rules: Rules of a step.
+        least: Output: least distance, in [m]; inf before. Shape
+            (candidates,).
+        last: Output: least distance at the end, likewise.
     """
-    count = len(turns)
-    x, y, theta = (np.zeros(count) for _ in range(3))
-    px, py, heading = (np.tile(row, (count, 1)) for row in pursuers)
-    away = np.hypot(px, py)
-    closest = away.copy()
-    for turn in turns.T:
-        middle = theta + 0.5 * turn
-        x, y = x - stride * np.cos(middle), y - stride * np.sin(middle)
-        theta = theta + turn
-        aim = np.arctan2(y[:, None] - py, x[:, None] - px)
-        error = share * wrap_angles(aim - heading)
-        middle = heading + 0.5 * error
-        px = px + stride * np.cos(middle)
-        py = py + stride * np.sin(middle)
-        heading = heading + error
-        away = np.hypot(x[:, None] - px, y[:, None] - py)
-        np.minimum(closest, away, out=closest)
-    return closest, away
+    for j in range(len(turns)):
+        for i in range(len(pursuers)):
+            both = pair_of((0.0, 0.0, 0.0), pursuers[i])
+            away = hypot(both.px, both.py)
+            least[j] = min(least[j], away)
+            for turn in turns[j]:
+                both = step_both(both, turn, 1.0, PAPERS, rules)
+                away = hypot(both.ex - both.px, both.ey - both.py)
+                least[j] = min(least[j], away)
+            last[j] = min(last[j], away)

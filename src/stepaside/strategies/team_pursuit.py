@@ -1,7 +1,7 @@
 """Pursuit in teams: cyclic, assigned, and from both sides."""
 
-from dataclasses import dataclass, field, replace
-from math import atan2, cos, pi, sin
+from dataclasses import dataclass, replace
+from math import atan2, cos, dist, pi, sin
 from typing import Any
 
 import numpy as np
@@ -10,7 +10,7 @@ from ..core.poses import Array, wrap_angle
 from ..core.ranges import Range
 from ..core.setting import check_settings, setting
 from .knowledge import STAND, Intent, Knowledge
-from .pursuit import Pursuit, PursuitVariant
+from .pursuit import PursuitVariant
 
 APART = 0.7  # from teammates from which pursuers turn away, in [m]
 TOO_NEAR = 0.45  # to a teammate ahead at which a pursuer halts, in [m]
@@ -19,14 +19,7 @@ Point = tuple[float, float]
 
 
 @dataclass(frozen=True, slots=True)
-class _TeamPursuit(PursuitVariant):
-    """Base of pursuers that choose a point and head for it as the paper's."""
-
-    pursuit: Pursuit = field(default_factory=Pursuit)
-
-
-@dataclass(frozen=True, slots=True)
-class CyclicPursuit(_TeamPursuit):
+class CyclicPursuit(PursuitVariant):
     """Pursuer of the next player of its own team, in the order of names.
 
     With all players of a team in cyclic pursuit they end on a regular
@@ -48,7 +41,7 @@ class CyclicPursuit(_TeamPursuit):
 
 
 @dataclass(frozen=True, slots=True)
-class AssignedPursuit(_TeamPursuit):
+class AssignedPursuit(PursuitVariant):
     """Pursuer of the evader that its team assigns to it.
 
     Every pursuer computes the assignment with the least total distance from
@@ -61,12 +54,14 @@ class AssignedPursuit(_TeamPursuit):
             knowledge.opponents, key=lambda other: other.identity.name
         )
         if evaders:
-            hunters = fellows_of(knowledge)
-            places = np.array(list(hunters.values()))
-            goals = np.array([other.position for other in evaders])
-            costs = np.hypot(*np.moveaxis(places[:, None] - goals[None], 2, 0))
-            own = knowledge.identity
+            hunters, own = fellows_of(knowledge), knowledge.identity
             assert own is not None
+            costs = np.array(
+                [
+                    [dist(place, other.position) for other in evaders]
+                    for place in hunters.values()
+                ]
+            )
             row = list(hunters).index(own.name)
             knowledge = knowledge.about(evaders[assign(costs)[row]])
         intent, memory = self.pursuit.decide(knowledge, memory)
@@ -74,7 +69,7 @@ class AssignedPursuit(_TeamPursuit):
 
 
 @dataclass(frozen=True, slots=True)
-class Pincer(_TeamPursuit):
+class Pincer(PursuitVariant):
     """Pursuer that approaches from one side while teammates take others.
 
     It aims beside the evader, by an angle seen from there, and straight at
@@ -101,7 +96,7 @@ class Pincer(_TeamPursuit):
         """Head for a point beside the evader, or for the evader itself."""
         hunters = fellows_of(knowledge)
         if len(hunters) > 1 and knowledge.distance > self.near:
-            u, v = position_of_opponent(knowledge)
+            u, v = knowledge.position
             x, y = np.mean(list(hunters.values()), axis=0).tolist()
             middle = atan2(y - v, x - u)
             sides = {
@@ -162,10 +157,6 @@ def keep_apart(knowledge: Knowledge, intent: Intent) -> Intent:
 
     Near a teammate ahead or beside the heading turns away from it; nearer
     still, the pursuer halts while the teammate walks on.
-
-    Args:
-        knowledge: Knowledge of the pursuer.
-        intent: What it wants.
     """
     heading = intent.heading
     for mate in knowledge.teammates:
@@ -178,9 +169,3 @@ def keep_apart(knowledge: Knowledge, intent: Intent) -> Intent:
         closeness = 1.0 - mate.distance / APART
         heading -= side * pi * min(3.0 * closeness, 1.0)
     return replace(intent, heading=min(max(heading, -pi), pi))
-
-
-def position_of_opponent(knowledge: Knowledge) -> Point:
-    """Return the position of the opponent in the frame, in [m]."""
-    bearing, distance = knowledge.bearing, knowledge.distance
-    return distance * cos(bearing), distance * sin(bearing)

@@ -10,11 +10,12 @@ from ...core.errors import StepAsideError
 from ...games.duel_settings import PLAYERS, PURSUER, DuelSettings
 from ...games.match import Match
 from ...games.walker import RobotPlayer
-from ...strategies import Strategy, TeleoperatedPursuit
+from ...strategies import Strategy, Walk
 from .live_match import LiveSettings
 from .live_session import LiveSession
 
 DIRECTIONS = {"left": 90, "right": -90, "forward": 0, "backward": 180}  # [deg]
+TURN = radians(50.0)  # desired heading of a turn
 TURNS = {"left": 1.0, "straight": 0.0, "right": -1.0}
 
 
@@ -77,7 +78,7 @@ class DrivePanel:
             session: Session whose robot is driven.
         """
         self._session = session
-        self._hand: TeleoperatedPursuit | None = None
+        self._hand: Walk | None = None
         self._own: Strategy | None = None  # of the driven robot
         names = drivable(session.settings)
         duel = names == (PURSUER,)
@@ -145,13 +146,14 @@ class DrivePanel:
             return
         hand = self._hand
         if hand is None:
-            hand = TeleoperatedPursuit(going=True)
+            hand = Walk()
         if turn is not None:
-            hand = replace(hand, turn=turn)
+            hand = replace(hand, bearing=turn * TURN)
         if going is not None:
-            hand = replace(hand, going=going)
+            hand = replace(hand, speed_factor=float(going))
         self._set_hand(hand)
-        self._session.record_command(turn=hand.turn, going=hand.going)
+        going = hand.speed_factor > 0.0
+        self._session.record_command(turn=hand.bearing / TURN, going=going)
         self._adopt(name, hand)
 
     def _release(self) -> None:
@@ -162,7 +164,7 @@ class DrivePanel:
         if name:
             self._adopt(name, None)
 
-    def _set_hand(self, hand: TeleoperatedPursuit | None) -> None:
+    def _set_hand(self, hand: Walk | None) -> None:
         """Set and show the command of teleoperation; None for none."""
         self._hand = hand
         self._session.driven = "" if hand is None else self._choice.value
@@ -182,9 +184,9 @@ class DrivePanel:
         if hand is None:
             return f"Not driven: {who} follows its own strategy."
         direction = "straight ahead"
-        if hand.turn:
-            direction = f"to the {'left' if hand.turn > 0.0 else 'right'}"
-        motion = f"walks {direction}" if hand.going else "halts"
+        if hand.bearing:
+            direction = f"to the {'left' if hand.bearing > 0.0 else 'right'}"
+        motion = f"walks {direction}" if hand.speed_factor else "halts"
         return f"**Driven by hand**: {who} {motion}."
 
     def _adopt(self, name: str, strategy: Strategy | None) -> None:
