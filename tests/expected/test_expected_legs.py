@@ -166,10 +166,8 @@ def inspected(network: Path, value: float) -> None:
     assert not stepaside("legs", "inspect", network, "--json").json["findings"]
     loaded = PolicyNetwork(network)
     seen = np.full(18, value)
-    answers = loaded.evaluate(
-        [seen, 2.0 * seen], 2 * [loaded.initial_memory()]
-    )
-    for (actions, _), factor in zip(answers, (1.0, 2.0), strict=True):
+    for factor in (1.0, 2.0):
+        actions, _ = loaded.evaluate(factor * seen, loaded.initial_memory())
         np.testing.assert_allclose(actions, 18.0 * factor * value)
 
 
@@ -318,7 +316,7 @@ def actions_of(network: Path) -> Any:
     loaded = PolicyNetwork(network)
     memory = loaded.initial_memory()
     for _ in range(3):
-        ((actions, memory),) = loaded.evaluate([np.zeros(18)], [memory])
+        actions, memory = loaded.evaluate(np.zeros(18), memory)
     return actions.tolist()
 
 

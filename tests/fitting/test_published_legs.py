@@ -19,10 +19,7 @@ from stepaside.games.duel import run_duel
 from stepaside.games.duel_settings import DuelSettings
 from stepaside.games.outcome import Outcome
 from stepaside.games.robot_settings import with_legs, with_robot
-from stepaside.locomotion.policy.contract_reader import (
-    check_contract,
-    read_contract,
-)
+from stepaside.locomotion.policy.contract_reader import read_contract
 from stepaside.locomotion.policy.legs_settings import LegsSettings
 from stepaside.locomotion.policy.network import PolicyNetwork
 from stepaside.robots.description import load_robot
@@ -50,8 +47,7 @@ def test_metadata_and_convention_complete_the_contract(
     robot: str, kind: str
 ) -> None:
     network = PolicyNetwork(network_of(robot, kind))
-    reading = read_contract(network, motors=(), legs=(), entries={})
-    contract = check_contract(reading, network, ())
+    contract = read_contract(network).check()
     assert contract.convention == "holosoma"
     assert len(contract.joints) == 29
     assert any(angle != 0.0 for angle in contract.default_posture)

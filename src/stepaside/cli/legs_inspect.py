@@ -6,14 +6,12 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from ..core.errors import PolicyError
 from .options.common_options import json_option
 from .tables import print_table
 from .terminal import echo, print_json
 
 if TYPE_CHECKING:
     from ..locomotion.policy.contract_reader import ContractReading
-    from ..locomotion.policy.network import PolicyNetwork
 
 
 @click.command("inspect")
@@ -34,53 +32,29 @@ def inspect(
     not fit the network or the robot, or is implausible. The exit status is 2
     if the network cannot run.
     """
-    from ..locomotion.policy.contract_reader import examine, read_contract
+    from ..locomotion.policy.contract_reader import RobotJoints, read_contract
     from ..locomotion.policy.network import PolicyNetwork
 
-    loaded = PolicyNetwork(network)
-    motors: tuple[str, ...] = ()
-    driven: tuple[str, ...] = ()
-    legs: tuple[str, ...] = ()
-    entries: dict[str, Any] = {}
-    published: dict[str, dict[str, float]] = {}
+    loaded, joints = PolicyNetwork(network), RobotJoints()
     if robot is not None:
         from ..robots.description import load_robot
-        from ..robots.tree_cache import load_tree
 
-        description = load_robot(robot)
-        tree = load_tree(description)
-        motors, driven = tree.motors, tree.driven_joints
-        legs, entries = description.legs, description.locomotion
-        published = description.published
-    reading = read_contract(
-        loaded,
-        motors=motors,
-        legs=legs,
-        entries=entries,
-        published=published,
-        convention=legs_contract,
-    )
-    findings = examine(reading, loaded, driven)
+        joints = RobotJoints.of(load_robot(robot))
+    reading = read_contract(loaded, joints, legs_contract)
     if as_json:
-        facts = _facts(reading, loaded)
-        facts["findings"] = [each._asdict() for each in findings]
-        print_json(facts)
+        print_json(_facts(reading))
     else:
-        _print(reading, loaded)
-        for finding in findings:
+        _print(reading)
+        for finding in reading.findings:
             echo(f"{finding.severity}: {finding.text}")
-        if not findings:
+        if not reading.findings:
             echo("no findings")
-    errors = [each for each in findings if each.severity == "error"]
-    if errors:
-        raise PolicyError(f"legs: {network}: {errors[0].text}")
+    reading.check()
 
 
-def _facts(
-    reading: "ContractReading", network: "PolicyNetwork"
-) -> dict[str, Any]:
+def _facts(reading: "ContractReading") -> dict[str, Any]:
     """Return contract and network as JSON values."""
-    used = reading.convention
+    used, network = reading.convention, reading.network
     return {
         "network": str(network.path),
         "input": str(network.observation),
@@ -90,6 +64,7 @@ def _facts(
         "source": None if used is None else used.source,
         "contract": {k: _plain(v) for k, v in reading.values.items()},
         "sources": reading.sources,
+        "findings": [each._asdict() for each in reading.findings],
     }
 
 
@@ -107,9 +82,9 @@ def _plain(value: Any) -> Any:
     return value
 
 
-def _print(reading: "ContractReading", network: "PolicyNetwork") -> None:
+def _print(reading: "ContractReading") -> None:
     """Print the contract as tables, each value with its source."""
-    values, sources = reading.values, reading.sources
+    values, sources, network = reading.values, reading.sources, reading.network
     rows = [
         ("input", str(network.observation)),
         ("output", str(network.action)),

@@ -18,8 +18,7 @@ from stepaside.locomotion.policy.contract import (
     PhaseClock,
     PolicyContract,
 )
-from stepaside.locomotion.policy.network import Memory, PolicyNetwork
-from stepaside.locomotion.policy.network_pool import NetworkPool
+from stepaside.locomotion.policy.network import PolicyNetwork
 from stepaside.locomotion.policy.runner import BodyMotion, PolicyRunner
 
 Term = ObservationTerm
@@ -63,7 +62,7 @@ class Walker:
             getattr(self._motion, name)[:] = value
         self.runner.loop()
         seen = self.runner.observation()
-        (answer,) = self.network.evaluate([seen], [self.runner.memory])
+        answer = self.network.evaluate(seen, self.runner.memory)
         return self.runner.act(*answer)
 
 
@@ -266,45 +265,3 @@ def test_a_file_that_is_no_network_is_refused(tmp_path: Path) -> None:
     path.write_text("no network")
     with pytest.raises(PolicyError, match="a.onnx is not an ONNX network"):
         PolicyNetwork(path)
-
-
-@pytest.mark.parametrize("states", [0, 2])
-def test_walkers_evaluated_together_have_the_bits_of_each_alone(
-    states: int, tmp_path: Path
-) -> None:
-    """Also those of a pool, which several walkers share."""
-    rng = np.random.default_rng(1)
-    file = write_policy(
-        tmp_path / "a.onnx",
-        rng.normal(size=(3, 3)),
-        rng.normal(size=3),
-        states=states,
-    )
-    pool = NetworkPool()
-    network = pool.load(file)
-    assert pool.load(file) is network
-    seen = rng.normal(size=(7, 3))
-    memories = [network.initial_memory() for _ in seen]
-    for _ in range(3):
-        received: list[tuple[Array, Memory]] = []
-        for row, memory in zip(seen, memories, strict=True):
-            pool.submit(
-                *(network, row, memory),
-                lambda *found, to=received: to.append(found),
-            )
-        assert not received
-        pool.flush()
-        for row, memory, found in zip(seen, memories, received, strict=True):
-            ((action, after),) = network.evaluate([row], [memory])
-            assert np.array_equal(action, found[0])
-            assert np.array_equal(after, found[1])
-        memories = [memory for _, memory in received]
-
-
-def test_a_network_for_one_walker_serves_each_in_turn(tmp_path: Path) -> None:
-    """Its graph contains the shape of one observation."""
-    file = write_policy(tmp_path / "a.onnx", np.eye(3), np.zeros(3), one=True)
-    network = PolicyNetwork(file)
-    seen = [np.arange(3.0), np.arange(3.0, 6.0)]
-    found = network.evaluate(seen, [(), ()])
-    np.testing.assert_array_equal([action for action, _ in found], seen)

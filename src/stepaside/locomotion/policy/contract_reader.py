@@ -8,40 +8,30 @@ file of ``conventions``.
 
 import json
 import tomllib
-from collections.abc import Collection, Mapping, Sequence
-from dataclasses import dataclass, field, fields
+from collections.abc import Mapping
+from dataclasses import dataclass, field, fields, replace
 from functools import cache
-from math import inf, isfinite
+from math import isfinite
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import Any, NamedTuple, get_type_hints
 
 import numpy as np
 
 from ...core.errors import PolicyError
-from ...core.setting import EntryReader
-from .contract import (
-    PER_JOINT,
-    CommandRanges,
-    HistoryOrder,
-    ObservationTerm,
-    PhaseClock,
-    PolicyContract,
-)
+from ...core.setting import EntryReader, settings_of
+from ...robots.description import RobotDescription
+from ...robots.tree_cache import load_tree
+from .contract import PER_JOINT, PolicyContract
 from .network import PolicyNetwork
 
 OWN_ENTRY = "stepaside_contract"
 """Metadata entry with such entries as JSON."""
 
 FOLDER = Path(__file__).parent / "conventions"
-NOTHING: Mapping[str, Mapping[str, float]] = {}
 MALFORMED = AttributeError, KeyError, RecursionError, TypeError, ValueError
 PERIODS = 0.002, 0.1  # plausible control periods, in [s]
 ANGLE = 3.2  # greatest plausible default angle, in [rad]
-DEFAULTS: Mapping[str, Any] = {
-    each.name: each.default
-    for each in fields(PolicyContract)
-    if isinstance(each.default, bool | int | float | str | CommandRanges)
-} | {"clock": None}
+UNSET = ("convention", "joints", "terms", *PER_JOINT)  # without defaults
 SPELLINGS = {
     "dof_pos": "joint_pos",
     "dof_vel": "joint_vel",
@@ -105,44 +95,6 @@ def conventions() -> Mapping[str, Convention]:
     }
 
 
-class TermEntry(NamedTuple):
-    """Term of an observation with its scale and clip."""
-
-    name: str
-    scale: float | tuple[float, ...] = 1.0
-    clip: float = inf
-
-
-ByJoint = float | tuple[float, ...] | dict[str, float]
-
-
-@dataclass(frozen=True)
-class LocomotionEntries:
-    """Entries of ``[locomotion]`` in a robot description.
-
-    Those of :class:`.PolicyContract`; values of joints also as one for all,
-    or by joint.
-    """
-
-    network: str | None = None
-    convention: str | None = None
-    joints: tuple[str, ...] | None = None
-    terms: tuple[str | TermEntry, ...] | None = None
-    default_posture: ByJoint | None = None
-    stiffness: ByJoint | None = None
-    damping: ByJoint | None = None
-    action_scale: ByJoint | None = None
-    action_clip: float | None = None
-    observes_clipped: bool | None = None
-    action_filter: float | None = None
-    history: int | None = None
-    history_order: HistoryOrder | None = None
-    period: float | None = None
-    clock: PhaseClock | None = None
-    command_ranges: CommandRanges | None = None
-    command_rate: float | None = None
-
-
 class Finding(NamedTuple):
     """One remark about a contract.
 
@@ -155,171 +107,108 @@ class Finding(NamedTuple):
     text: str
 
 
+class RobotJoints(NamedTuple):
+    """What a contract takes from a robot; empty if it is not known.
+
+    Attributes:
+        motors: Actuated joints, in the order of the model.
+        driven: All joints that motors move.
+        legs: Leg joints, in the order of the description.
+        entries: ``[locomotion]`` of the description.
+        published: Gains and posture of the model, by joint, which fill in
+            what is missing.
+    """
+
+    motors: tuple[str, ...] = ()
+    driven: tuple[str, ...] = ()
+    legs: tuple[str, ...] = ()
+    entries: Mapping[str, Any] = {}
+    published: Mapping[str, Mapping[str, float]] = {}
+
+    @classmethod
+    def of(cls, description: RobotDescription) -> "RobotJoints":
+        """Return those of a description."""
+        tree, own = load_tree(description), description
+        joints = tree.motors, tuple(tree.driven_joints), own.legs
+        return cls(*joints, own.locomotion, own.published)
+
+
 @dataclass
 class ContractReading:
     """Values of a contract with their sources; some may be missing.
 
     Attributes:
+        network: The network.
+        convention: Convention in use; None if none was named or recognised.
         values: Values by field of the contract.
         sources: Source of each value, as text.
-        convention: Convention in use; None if none was named or recognised.
+        findings: What is missing, wrong or implausible.
+        contract: The contract; None if it is incomplete or invalid.
     """
 
+    network: PolicyNetwork
+    convention: Convention | None
     values: dict[str, Any] = field(default_factory=dict)
     sources: dict[str, str] = field(default_factory=dict)
-    convention: Convention | None = None
+    findings: list[Finding] = field(default_factory=list)
+    contract: PolicyContract | None = None
 
-    def put(self, name: str, value: Any, source: str) -> None:
-        """Set a value, in place of an earlier one."""
-        self.values[name], self.sources[name] = value, source
+    def put(self, entries: Mapping[str, Any], source: str) -> None:
+        """Set values of entries, in place of earlier ones."""
+        for key, value in entries.items():
+            if key in ("network", "convention"):
+                continue
+            if key == "terms" and isinstance(value, list):
+                value = list(map(_term, value))
+            self.values[key], self.sources[key] = value, source
 
-    def put_entries(self, entries: Mapping[str, Any], source: str) -> None:
-        """Set values of entries as in ``[locomotion]``.
-
-        Raises:
-            PolicyError: If one is unknown or of another type.
-        """
-        reader = EntryReader()
-        own = reader.read_table(entries, LocomotionEntries, "locomotion")
-        if reader.problems:
-            raise PolicyError(reader.text)
-        for key in entries:
-            if key == "terms":
-                self.put(key, tuple(map(_term, own.terms)), source)
-            elif key not in ("network", "convention"):
-                self.put(key, getattr(own, key), source)
-
-    @property
-    def missing(self) -> tuple[str, ...]:
-        """Fields of the contract without a value."""
-        return tuple(
-            each.name
-            for each in fields(PolicyContract)
-            if each.name not in self.values
-        )
-
-    def contract(self) -> PolicyContract:
-        """Return the complete contract.
+    def check(self) -> PolicyContract:
+        """Return the contract of a network that can run.
 
         Raises:
-            PolicyError: If a value is missing or does not fit the others.
+            PolicyError: Names the first error.
         """
-        if self.missing:
-            raise PolicyError(
-                f"legs: {', '.join(self.missing)} of the contract must be "
-                "given in [locomotion] of robot.toml, or by --set "
-                "legs.contract=NAME"
-            )
-        return PolicyContract(**self.values)
+        errors = [each for each in self.findings if each.severity == "error"]
+        if errors or self.contract is None:
+            raise PolicyError(f"legs: {self.network.path}: {errors[0].text}")
+        return self.contract
 
 
 def read_contract(
     network: PolicyNetwork,
-    *,
-    motors: Sequence[str],
-    legs: Sequence[str],
-    entries: Mapping[str, Any],
-    published: Mapping[str, Mapping[str, float]] = NOTHING,
+    robot: RobotJoints = RobotJoints(),  # noqa: B008 (immutable)
     convention: str = "",
 ) -> ContractReading:
-    """Collect the contract of a network.
+    """Collect and examine the contract of a network.
 
     Args:
         network: The network.
-        motors: Actuated joints of the robot, in the order of its model.
-        legs: Leg joints of the robot, in the order of its description.
-        entries: Entries of ``[locomotion]`` of the robot description.
-        published: Gains and posture of the robot's model, by joint, which
-            fill in what is missing.
+        robot: Robot that is to walk by it.
         convention: Name of the convention; empty to recognise it.
 
     Raises:
-        PolicyError: If an entry is unknown or malformed.
+        PolicyError: If a convention is unknown, or metadata or a deployment
+            file are malformed.
     """
     own = _own_entries(network)
-    name = convention or entries.get("convention", own.get("convention", ""))
-    used = _convention_of(str(name), network.metadata)
-    reading = ContractReading(convention=used)
-    for key, value in DEFAULTS.items():
-        reading.put(key, value, "default")
-    reading.put("convention", "none", "default")
+    name = convention or robot.entries.get("convention", own.get("convention"))
+    used = _convention_of(str(name or ""), network.metadata)
+    reading = ContractReading(network, used)
+    known = {each.name: each.default for each in fields(PolicyContract)}
+    reading.put({k: known[k] for k in known if k not in UNSET}, "default")
+    reading.values["convention"] = "none" if used is None else used.name
+    reading.sources["convention"] = "given" if name else "recognised"
     if used is not None:
-        reading.put("convention", used.name, "given" if name else "recognised")
-        reading.put_entries(used.values, used.name)
-        _put_metadata(reading, network.metadata, used)
+        reading.put(used.values, used.name)
+        _put_metadata(reading, used)
         beside = network.path.with_suffix(".yaml")
         if used.deployment and beside.is_file():
             _put_deployment(reading, beside, used)
-    reading.put_entries(own, f"metadata {OWN_ENTRY}")
-    reading.put_entries(entries, "robot.toml")
-    for names, words in ((motors, "all joints"), (legs, "leg joints")):
-        fits = len(names) == network.action.width
-        if "joints" not in reading.values and fits:
-            reading.put("joints", tuple(names), f"assumed: {words} in order")
-    if used is not None:
-        _put_robot_values(reading, used)
-    joints = reading.values.get("joints", ())
-    for key, values in published.items():
-        own = {name: values[name] for name in joints if name in values}
-        if key not in reading.values and len(own) == len(joints) > 0:
-            reading.put(key, own, "model")
-    _spread(reading)
-    _drop_unobserved_velocity(reading, network)
+    reading.put(own, f"metadata {OWN_ENTRY}")
+    reading.put(robot.entries, "robot.toml")
+    _complete(reading, robot)
+    _examine(reading, robot)
     return reading
-
-
-def examine(
-    reading: ContractReading, network: PolicyNetwork, joints: Collection[str]
-) -> tuple[Finding, ...]:
-    """Return what is missing or wrong in a contract.
-
-    Args:
-        reading: Values that were read.
-        network: Network of the policy.
-        joints: Joints of the robot; empty if the robot is not known.
-    """
-    errors = [f"{name} is missing" for name in reading.missing]
-    if not errors:
-        try:
-            errors += _misfits(reading.contract(), network)
-        except PolicyError as error:
-            errors.append(str(error))
-    if joints:
-        errors += [
-            f"the robot has no joint {name!r}"
-            for name in reading.values.get("joints", ())
-            if name not in joints
-        ]
-    used, read = reading.convention, {OWN_ENTRY}
-    if used is not None:
-        read |= {*used.metadata, *used.unused}
-    warnings = [
-        f"metadata key {key!r} is not read"
-        for key in network.metadata
-        if key not in read
-    ]
-    if network.draws:
-        warnings.append(
-            "the network draws random numbers: the same walk never comes again"
-        )
-    return (
-        *(Finding("error", text) for text in errors),
-        *(Finding("warning", t) for t in warnings + _implausible(reading)),
-    )
-
-
-def check_contract(
-    reading: ContractReading, network: PolicyNetwork, joints: Collection[str]
-) -> PolicyContract:
-    """Return the contract of a network that can run on a robot.
-
-    Raises:
-        PolicyError: Names the first error.
-    """
-    for finding in examine(reading, network, joints):
-        if finding.severity == "error":
-            raise PolicyError(f"legs: {network.path}: {finding.text}")
-    return reading.contract()
 
 
 def _convention_of(
@@ -340,7 +229,6 @@ def _convention_of(
 
 
 def _own_entries(network: PolicyNetwork) -> dict[str, Any]:
-    """Return the entries in the metadata of the network."""
     text = network.metadata.get(OWN_ENTRY, "{}")
     try:
         return dict(json.loads(text))
@@ -350,64 +238,84 @@ def _own_entries(network: PolicyNetwork) -> dict[str, Any]:
         ) from error
 
 
-def _put_metadata(
-    reading: ContractReading, metadata: Mapping[str, str], used: Convention
-) -> None:
-    """Read the keys of an exporter: JSON, or values separated by commas."""
+def _put_metadata(reading: ContractReading, used: Convention) -> None:
+    """Read the keys of an exporter."""
     for key, target in used.metadata.items():
-        text = metadata.get(key, "null")
+        text = reading.network.metadata.get(key, "null")
         if text in ("null", ""):
             continue
         try:
-            try:
-                value = json.loads(text)
-            except ValueError:
-                value = [part.strip() for part in text.split(",")]
-                value = value[0] if len(value) == 1 else value
+            value = _parsed(text)
             if target.startswith("terms."):
                 _change_terms(reading, target[6:], value)
             elif target == "flattened":
                 _check_flattened(reading, value)
             else:
-                if target == "history":  # exporters write 0 for none
-                    value = [max(1.0, float(x)) for x in _listed(value)]
-                value = _value_of(target, value)
-                reading.put(target, value, f"metadata {key}")
+                value = _converted(target, value)
+                reading.put({target: value}, f"metadata {key}")
         except MALFORMED as error:
             raise PolicyError(
                 f"legs: metadata entry {key!r} is malformed: {text[:60]!r}"
             ) from error
 
 
+def _parsed(text: str) -> Any:
+    """Return JSON, or values separated by commas."""
+    try:
+        return json.loads(text)
+    except ValueError:
+        parts = [part.strip() for part in text.split(",")]
+    numbers = [float(x) if _is_number(x) else x for x in parts]
+    return numbers if len(numbers) > 1 else numbers[0]
+
+
+def _is_number(text: str) -> bool:
+    try:
+        return isfinite(float(text))
+    except ValueError:
+        return False
+
+
+def _converted(target: str, value: Any) -> Any:
+    """Turn a value of an exporter into that of an entry."""
+    if target == "command_ranges":
+        named = {AXES.get(key, key): limits for key, limits in value.items()}
+        return {axis: limits for axis, limits in named.items() if axis}
+    if target == "history":  # exporters write 0 for none
+        lengths = {max(1.0, float(each)) for each in _listed(value)}
+        return int(*lengths) if len(lengths) == 1 else value
+    if target in ("joints", "terms", *PER_JOINT):
+        return value if isinstance(value, dict) else _listed(value)
+    return value
+
+
 def _change_terms(reading: ContractReading, key: str, given: Any) -> None:
     """Change one property of all terms, in order or by name."""
-    terms: tuple[ObservationTerm, ...] = reading.values["terms"]
-    values = _listed(given)
+    terms, values = reading.values["terms"], _listed(given)
     if isinstance(given, Mapping):
-        values = [given.get(term.name) for term in terms]
-    changed = [
-        term if value is None else term._replace(**_property(key, value))
+        values = [given.get(term["name"]) for term in terms]
+    reading.values["terms"] = [
+        term if value is None else term | _property(key, value)
         for term, value in zip(terms, values, strict=True)
     ]
-    reading.values["terms"] = tuple(changed)
 
 
 def _property(key: str, value: Any) -> dict[str, Any]:
     """Return the property of a term by a value of metadata."""
     parts = value.split(";") if isinstance(value, str) else value
-    numbers = tuple(map(float, _listed(parts)))
-    if key == "clip":
-        low, high = (-numbers[0], *numbers)[-2:]
-        if low != -high:
-            raise ValueError(value)
-        return {"clip": high}
-    return {"scale": numbers}
+    numbers = list(map(float, _listed(parts)))
+    if key == "scale":
+        return {"scale": numbers}
+    low, high = (-numbers[0], *numbers)[-2:]
+    if low != -high:
+        raise ValueError(value)
+    return {"clip": high} if isfinite(high) else {}
 
 
 def _check_flattened(reading: ContractReading, value: Any) -> None:
     """Refuse an input in which the past has an axis of its own."""
     flat = (1, 1.0, "1", "1.0", "1.000", "true", "True")
-    if reading.values["history"] > 1:
+    if reading.values["history"] != 1:
         if any(each not in flat for each in _listed(value)):
             raise ValueError(value)
 
@@ -433,10 +341,9 @@ def _put_deployment(
         for key in PER_JOINT:
             if isinstance(entries.get(key), list):
                 entries[key] = entries[key][moved]
-        for key, value in entries.items():
-            reading.put(key, _value_of(key, value), path.name)
         found = {name: _found(given, where) for name, where in scales.items()}
         _change_terms(reading, "scale", found)
+        reading.put(entries, path.name)
         reading.sources["terms"] = path.name
     except OSError as error:
         raise PolicyError(
@@ -458,58 +365,139 @@ def _found(given: Any, where: Any) -> Any:
     return given
 
 
-def _put_robot_values(reading: ContractReading, used: Convention) -> None:
-    """Add what the convention knows of the robot with these joints."""
-    joints = reading.values.get("joints", ())
-    for joint, values in used.by_joint.items():
-        for key, value in values.items():
-            if joint in joints and reading.sources.get(key) == used.name:
-                source = f"{used.name}, for {joint}"
-                reading.put_entries({key: value}, source)
-    if any(name in used.postures for name in joints):
-        if "default_posture" not in reading.values:
-            angles = tuple(used.postures.get(name, 0.0) for name in joints)
-            reading.put("default_posture", angles, used.name)
+def _complete(reading: ContractReading, robot: RobotJoints) -> None:
+    """Add what the robot and its convention tell, joint by joint."""
+    values, used = reading.values, reading.convention
+    width = reading.network.action.width
+    for names, words in ((robot.motors, "all"), (robot.legs, "leg")):
+        if "joints" not in values and len(names) == width:
+            source = f"assumed: {words} joints in order"
+            reading.put({"joints": list(names)}, source)
+    joints = values.get("joints", [])
+    if used is not None:
+        for joint, known in used.by_joint.items():
+            for key, value in known.items():
+                if joint in joints and reading.sources[key] == used.name:
+                    reading.put({key: value}, f"{used.name}, for {joint}")
+        if not used.postures.keys().isdisjoint(joints):
+            if "default_posture" not in values:
+                angles = [used.postures.get(name, 0.0) for name in joints]
+                reading.put({"default_posture": angles}, used.name)
+    for key, given in robot.published.items():
+        own = [given[name] for name in joints if name in given]
+        if key not in values and len(own) == len(joints) > 0:
+            reading.put({key: own}, "model")
+    for key in PER_JOINT:
+        if key in values:
+            values[key] = _by_joint(key, values[key], joints)
 
 
-def _spread(reading: ContractReading) -> None:
-    """Turn single values and values by joint into one for each joint."""
-    joints = reading.values.get("joints", ())
-    for name in PER_JOINT:
-        value = reading.values.get(name)
-        if isinstance(value, float):
-            reading.values[name] = (value,) * len(joints)
-        elif isinstance(value, Mapping):
-            for joint in value:
-                if joint not in joints:
-                    raise PolicyError(
-                        f"locomotion.{name}: {joint!r} is not a joint of "
-                        f"the policy; there are {', '.join(joints)}"
-                    )
-            rest = 0.0 if name == "default_posture" else None
-            absent = [joint for joint in joints if joint not in value]
-            if absent and rest is None:
-                raise PolicyError(f"locomotion.{name}.{absent[0]} is missing")
-            reading.values[name] = tuple(value.get(j, rest) for j in joints)
+def _by_joint(key: str, value: Any, joints: Any) -> Any:
+    """Spread one value for all, or values by joint, over the joints."""
+    if isinstance(value, int | float):
+        return [value] * len(joints)
+    if not isinstance(value, Mapping):
+        return value
+    for joint in value:
+        if joint not in joints:
+            raise PolicyError(
+                f"locomotion.{key}: {joint!r} is not a joint of the policy; "
+                f"there are {', '.join(joints)}"
+            )
+    absent = [joint for joint in joints if joint not in value]
+    if absent and key != "default_posture":
+        raise PolicyError(f"locomotion.{key}.{absent[0]} is missing")
+    return [value.get(joint, 0.0) for joint in joints]
 
 
-def _drop_unobserved_velocity(
-    reading: ContractReading, network: PolicyNetwork
-) -> None:
+def _term(given: Any) -> Any:
+    """Return a term, given by name or as a table, as a table."""
+    entry = {"name": given} if isinstance(given, str) else given
+    if not isinstance(entry, Mapping):
+        return given
+    name, scale = entry.get("name"), entry.get("scale", 1.0)
+    return {
+        **entry,
+        "name": SPELLINGS.get(str(name), name),
+        "scale": list(scale) if isinstance(scale, list | tuple) else [scale],
+    }
+
+
+def _examine(reading: ContractReading, robot: RobotJoints) -> None:
+    """Build the contract, and note what is missing or wrong."""
+    values, network = reading.values, reading.network
+    missing = [f"{name} is missing" for name in UNSET if name not in values]
+    errors = _read_fields(reading) + missing
+    if not errors:
+        try:
+            contract = _fitted(reading, PolicyContract(**reading.values))
+            reading.contract = contract
+            errors += _misfits(contract, network)
+        except PolicyError as error:
+            errors.append(str(error))
+    if robot.driven:
+        errors += [
+            f"the robot has no joint {name!r}"
+            for name in values.get("joints", ())
+            if name not in robot.driven
+        ]
+    used, read = reading.convention, {OWN_ENTRY}
+    if used is not None:
+        read |= {*used.metadata, *used.unused}
+    warnings = [
+        f"metadata key {key!r} is not read"
+        for key in network.metadata
+        if key not in read
+    ]
+    if network.draws:
+        warnings.append(
+            "the network draws random numbers: the same walk never comes again"
+        )
+    reading.findings += [Finding("error", text) for text in errors]
+    warnings += _implausible(values)
+    reading.findings += [Finding("warning", text) for text in warnings]
+
+
+def _read_fields(reading: ContractReading) -> list[str]:
+    """Turn the values into those of a contract; return what does not fit."""
+    hints, known = get_type_hints(PolicyContract), settings_of(PolicyContract)
+    problems = []
+    for name, value in list(reading.values.items()):
+        source = reading.sources[name]
+        if name not in hints:
+            problems.append(
+                f"unknown entry locomotion.{name} ({source}); there are "
+                f"{', '.join(hints)}"
+            )
+            continue
+        reader = EntryReader()
+        path = f"locomotion.{name}"
+        read = reader.read(value, hints[name], path, known[name])
+        reading.values[name] = read
+        if reader.problems:
+            del reading.values[name]
+            problems.append(f"{reader.text} ({source})")
+    return problems
+
+
+def _fitted(
+    reading: ContractReading, contract: PolicyContract
+) -> PolicyContract:
     """Leave out the linear velocity where the input is narrower by it.
 
     Trainers drop it for robots that cannot measure it.
     """
-    used = reading.convention
-    if reading.missing or used is None:
-        return
-    terms = reading.values["terms"]
-    without = tuple(t for t in terms if t.name != "base_lin_vel")
-    if reading.sources["terms"] != used.name or without == terms:
-        return
-    narrower = PolicyContract(**(reading.values | {"terms": without}))
-    if narrower.observation_width == network.observation.width:
-        reading.put("terms", without, f"{used.name}, without base_lin_vel")
+    used, sources = reading.convention, reading.sources
+    without = tuple(t for t in contract.terms if t.name != "base_lin_vel")
+    if used is None or sources["terms"] != used.name or not without:
+        return contract
+    narrower = replace(contract, terms=without)
+    width = reading.network.observation.width
+    if narrower == contract or narrower.observation_width != width:
+        return contract
+    reading.values["terms"] = without
+    sources["terms"] = f"{used.name}, without base_lin_vel"
+    return narrower
 
 
 def _misfits(contract: PolicyContract, network: PolicyNetwork) -> list[str]:
@@ -533,9 +521,9 @@ def _misfits(contract: PolicyContract, network: PolicyNetwork) -> list[str]:
     return found
 
 
-def _implausible(reading: ContractReading) -> list[str]:
+def _implausible(values: Mapping[str, Any]) -> list[str]:
     """Find values that occur in published files and cannot be meant."""
-    values, texts = reading.values, []
+    texts = []
     arrays = {
         name: np.array(values[name]) for name in PER_JOINT if name in values
     }
@@ -560,65 +548,10 @@ def _implausible(reading: ContractReading) -> list[str]:
         texts.append(
             f"default_posture exceeds {ANGLE} rad: the unit must be [rad]"
         )
-    if not PERIODS[0] <= values["period"] <= PERIODS[1]:
+    period = values.get("period", PERIODS[0])
+    if not PERIODS[0] <= period <= PERIODS[1]:
         texts.append(
             f"period must lie in [{PERIODS[0]}, {PERIODS[1]}] [s], got "
-            f"{values['period']}"
+            f"{period}"
         )
     return texts
-
-
-def _value_of(target: str, value: Any) -> Any:
-    """Convert a value of metadata or of YAML to that of a field."""
-    if target == "terms":
-        return tuple(_term(each) for each in value)
-    if target == "joints":
-        return tuple(str(each) for each in value)
-    if target == "command_ranges":
-        named = {AXES.get(key, key): limits for key, limits in value.items()}
-        ranges = CommandRanges()._asdict()
-        for axis, (low, high) in named.items():
-            if axis:
-                ranges[axis] = float(low), float(high)
-        return CommandRanges(**ranges)
-    if target == "clock":
-        return PhaseClock(**{key: _plain(x) for key, x in value.items()})
-    if target == "history":
-        (length,) = {float(each) for each in _listed(value)}  # all alike
-        if not length.is_integer():
-            raise ValueError(value)
-        return int(length)
-    if target in PER_JOINT:
-        if isinstance(value, Mapping):
-            return {key: _number(x) for key, x in value.items()}
-        if isinstance(value, list):
-            return tuple(_number(x) for x in value)
-        return _number(value)
-    if target in ("period", "action_clip", "action_filter", "command_rate"):
-        return _number(value)
-    return value
-
-
-def _plain(value: Any) -> Any:
-    return tuple(map(float, value)) if isinstance(value, list) else value
-
-
-def _number(value: Any) -> float:
-    number = float(value)
-    if not isfinite(number):
-        raise ValueError(value)
-    return number
-
-
-def _term(given: Any) -> ObservationTerm:
-    """Return a term given by name, table or :class:`TermEntry`."""
-    entry = given
-    if isinstance(given, str):
-        entry = TermEntry(given)
-    elif isinstance(given, Mapping):
-        entry = TermEntry(**given)
-    name = SPELLINGS.get(entry.name, entry.name)
-    scales = entry.scale
-    if isinstance(scales, int | float):
-        scales = (scales,)
-    return ObservationTerm(name, tuple(map(float, scales)), entry.clip)

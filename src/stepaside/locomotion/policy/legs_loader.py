@@ -3,9 +3,8 @@
 from pathlib import Path
 
 from ...robots.description import RobotDescription
-from ...robots.tree_cache import load_tree
 from .contract import PolicyContract
-from .contract_reader import check_contract, read_contract
+from .contract_reader import RobotJoints, read_contract
 from .legs_settings import LegsSettings
 from .network import PolicyNetwork
 from .network_pool import NetworkPool
@@ -30,16 +29,8 @@ def load_policy(
         PolicyError: If the network cannot run on the robot.
     """
     network = (pool or NetworkPool()).load(Path(legs.network))
-    tree = load_tree(description)
-    reading = read_contract(
-        network,
-        motors=tree.motors,
-        legs=description.legs,
-        entries=description.locomotion,
-        published=description.published,
-        convention=legs.contract,
-    )
-    return check_contract(reading, network, tree.driven_joints), network
+    robot = RobotJoints.of(description)
+    return read_contract(network, robot, legs.contract).check(), network
 
 
 def load_legs(
@@ -55,8 +46,7 @@ def load_legs(
         legs: Settings of the legs.
         description: Description of the robot.
         tick: Control period, in [s].
-        pool: Pool that evaluates the network for many walkers when it is
-            flushed; by default it is evaluated at once for this one.
+        pool: Pool whose walkers share networks, if any.
 
     Raises:
         PolicyError: If the network cannot run on the robot.
@@ -69,5 +59,4 @@ def load_legs(
         tick=tick,
         response=load_response(description.folder, network.path),
         learns=legs.learn,
-        pool=pool,
     )

@@ -1,9 +1,7 @@
 """Network of a walking policy, evaluated by ONNX Runtime on one thread."""
 
 import re
-from collections.abc import Mapping, Sequence
-from contextlib import suppress
-from functools import cached_property
+from collections.abc import Mapping
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -22,7 +20,6 @@ KINDS: Mapping[str, type[np.floating[Any]]] = {
 }
 LARGEST_ACTION = 1e4  # beyond, a simulation becomes unstable
 DIRECTIONS = {"in", "out", "input", "output", "prev", "next", "new", "old"}
-BATCHES = 2, 5, 16, 33  # numbers of rows in which bits are compared
 
 
 class TensorShape(NamedTuple):
@@ -48,35 +45,17 @@ class TensorShape(NamedTuple):
         sizes = ("any" if size is None else str(size) for size in self.shape)
         return f"{self.name} [{', '.join(sizes)}]"
 
-    @property
-    def batch_axis(self) -> int | None:
-        """Axis of the walkers: one left open, else the last but one.
-
-        None for a single row of values.
-        """
-        leading = self.shape[:-1]
-        if None in leading:
-            return leading.index(None)
-        return len(leading) - 1 if leading else None
-
-    def zeros(self, count: int) -> NDArray[np.floating[Any]]:
-        """Return zeros for a number of walkers."""
-        sizes = [size or 1 for size in self.shape]
-        if self.batch_axis is not None:
-            sizes[self.batch_axis] = count
-        return np.zeros(sizes, KINDS[self.kind])
+    def zeros(self) -> NDArray[np.floating[Any]]:
+        """Return zeros for one walker."""
+        return np.zeros([size or 1 for size in self.shape], KINDS[self.kind])
 
 
 class PolicyNetwork:
-    """Network that maps observations to actions, of one walker or of many.
+    """Network that maps observations to actions.
 
     Inputs beside the observation are recurrent states: each is fed back from
     the output of its name and shape, see :func:`_stem`, and is zero at the
     start.
-
-    Networks are exported for one walker. Their batch axis is freed, and
-    several walkers are evaluated at once where this gives the same bits;
-    otherwise each is evaluated by itself.
 
     Attributes:
         path: File of the network.
@@ -126,15 +105,15 @@ class PolicyNetwork:
                 raise PolicyError(
                     f"legs: {port} of {path} must have one to three axes"
                 )
-        self._bindings: dict[int, _BoundArrays] = {}
         self.draws = self._try()
+        self._bind()
 
     def _try(self) -> bool:
         """Evaluate once, and again to see whether outputs repeat."""
         draw = np.random.default_rng(0).standard_normal
         feed = {}
         for port in self._inputs:
-            zeros = port.zeros(1)
+            zeros = port.zeros()
             feed[port.name] = draw(zeros.shape).astype(zeros.dtype)
         try:
             once, again = (
@@ -154,156 +133,54 @@ class PolicyNetwork:
 
     def initial_memory(self) -> Memory:
         """Return recurrent states of zero, for one walker."""
-        return tuple(given.zeros(1) for given, _ in self.states)
+        return tuple(given.zeros() for given, _ in self.states)
 
     def evaluate(
-        self, observations: Sequence[Array], memories: Sequence[Memory]
-    ) -> list[tuple[Array, Memory]]:
-        """Return actions and new recurrent states of some walkers.
+        self, observation: Array, memory: Memory
+    ) -> tuple[Array, Memory]:
+        """Return action and new recurrent states.
 
         Args:
-            observations: Observation of each. Shape (width of the input,).
-            memories: Recurrent states of each.
+            observation: Shape (width of the input,).
+            memory: Recurrent states.
 
         Raises:
             PolicyError: If an output is NaN, infinite or huge.
         """
-        if len(observations) == 1:
-            return self._run(self._session, observations, memories)
-        if self._batched is not None:
-            return self._run(self._batched, observations, memories)
-        return [
-            self._run(self._session, [seen], [memory])[0]
-            for seen, memory in zip(observations, memories, strict=True)
-        ]
+        first, *states = self._given
+        first.reshape(-1)[:] = observation
+        for state, before in zip(states, memory, strict=True):
+            state[:] = before
+        self._session.run_with_iobinding(self._binding)
+        action: Array = self._found[0].astype(np.float64).ravel()
+        if not action @ action < 0.5 * LARGEST_ACTION**2:  # most often it is
+            self._check(action)
+        return action, tuple(state.copy() for state in self._found[1:])
 
-    @cached_property
-    def _batched(self) -> Any:
-        """Session for many walkers; None if it would give other bits."""
-        with suppress(Exception):
-            batched = open_session(_with_free_batch(self.path))
-            if self._gives_equal_bits(batched):
-                return batched
-        return None
-
-    def _run(
-        self,
-        session: Any,
-        observations: Sequence[Array],
-        memories: Sequence[Memory],
-    ) -> list[tuple[Array, Memory]]:
-        """Evaluate walkers together."""
-        count = len(observations)
-        bound = self._bindings.get(count)
-        if bound is None:
-            bound = _BoundArrays(session, self._inputs, self._outputs, count)
-            self._bindings[count] = bound
-        rows = bound.inputs[0].reshape(count, -1)  # a view
-        for row, observation in zip(rows, observations, strict=True):
-            row[:] = observation
-        for i, (given, _) in enumerate(self.states):
-            if given.batch_axis is None:
-                bound.inputs[1 + i][:] = memories[0][i]
-                continue
-            np.concatenate(
-                [memory[i] for memory in memories],
-                axis=given.batch_axis,
-                out=bound.inputs[1 + i],
-            )
-        session.run_with_iobinding(bound.binding)
-        found = bound.outputs
-        actions: Array = found[0].astype(np.float64).reshape(count, -1)
-        flat = actions.ravel()
-        if not flat @ flat < 0.5 * LARGEST_ACTION**2:  # faster than for each
-            self._check(actions)
-        if not self.states:
-            return [(action, ()) for action in actions]
-        split = [
-            np.split(value.copy(), count, axis=given.batch_axis or 0)
-            for (given, _), value in zip(self.states, found[1:], strict=True)
-        ]
-        return list(zip(actions, zip(*split, strict=True), strict=True))
-
-    def _check(self, actions: Array) -> None:
-        """Refuse actions that are NaN, infinite or huge."""
-        usable = np.abs(actions) <= LARGEST_ACTION  # NaN is not
+    def _check(self, action: Array) -> None:
+        """Refuse an action that is NaN, infinite or huge."""
+        usable = np.abs(action) <= LARGEST_ACTION  # NaN is not
         if not usable.all():
-            row, at = np.argwhere(~usable)[0].tolist()
+            at = int(np.argmin(usable))
             raise PolicyError(
                 f"legs: output {at} of {self.path} must be finite and at most "
-                f"{LARGEST_ACTION:g}, got {actions[row, at]:g}"
+                f"{LARGEST_ACTION:g}, got {action[at]:g}"
             )
 
-    def _gives_equal_bits(self, batched: Any) -> bool:
-        """Compare a session with a free batch axis to that for one walker."""
-        draw = np.random.default_rng(0).standard_normal
-        for count in BATCHES:
-            together = {}
-            for port in self._inputs:
-                zeros = port.zeros(count)
-                together[port.name] = draw(zeros.shape).astype(zeros.dtype)
-            outputs = batched.run(self._outputs, together)
-            axes = [port.batch_axis for port in self._inputs]
-            for k in range(count):
-                feed = {
-                    port.name: np.take(together[port.name], [k], axis=axis)
-                    for port, axis in zip(self._inputs, axes, strict=True)
-                }
-                alone = self._session.run(self._outputs, feed)
-                for one, all_, axis in zip(alone, outputs, axes, strict=True):
-                    if not np.array_equal(one, np.take(all_, [k], axis=axis)):
-                        return False
-        return True
-
-
-class _BoundArrays:
-    """Inputs and outputs of a session, which reads and writes them in place.
-
-    Passing arrays at each call takes a third longer.
-
-    Attributes:
-        inputs: Inputs, to be filled.
-        outputs: Outputs of the last run.
-        binding: Binding of the session to them.
-    """
-
-    def __init__(
-        self,
-        session: Any,
-        shapes: Sequence[TensorShape],
-        outputs: Sequence[str],
-        count: int,
-    ) -> None:
-        """Bind new arrays for a number of walkers."""
-        self.inputs = [shape.zeros(count) for shape in shapes]
-        names = [shape.name for shape in shapes]
+    def _bind(self) -> None:
+        """Bind arrays to the session; to pass them takes a third longer."""
         # Networks may leave sizes of outputs open: a run shows them.
-        self.outputs: list[NDArray[np.floating[Any]]] = session.run(
-            outputs, dict(zip(names, self.inputs, strict=True))
-        )
-        self.binding = session.io_binding()
-        for bind, keys, arrays in (
-            (self.binding.bind_input, names, self.inputs),
-            (self.binding.bind_output, outputs, self.outputs),
-        ):
-            for key, array in zip(keys, arrays, strict=True):
+        feed = {port.name: port.zeros() for port in self._inputs}
+        self._given = list(feed.values())
+        self._found = self._session.run(self._outputs, feed)
+        self._binding = binding = self._session.io_binding()
+        names = list(feed), self._outputs
+        binds = binding.bind_input, binding.bind_output
+        arrays = self._given, self._found
+        for bind, keys, own in zip(binds, names, arrays, strict=True):
+            for key, array in zip(keys, own, strict=True):
                 place = array.__array_interface__["data"][0]
                 bind(key, "cpu", 0, array.dtype.type, array.shape, place)
-
-
-def _with_free_batch(path: Path) -> bytes:
-    """Return an ONNX network whose inputs may have any number of rows."""
-    import onnx
-
-    model = onnx.load(path)
-    for node in (*model.graph.input, *model.graph.output):
-        sizes = node.type.tensor_type.shape.dim
-        if all(size.HasField("dim_value") for size in sizes[:-1]):
-            sizes[-2].ClearField("dim_value")
-            sizes[-2].dim_param = "walkers"
-    del model.graph.value_info[:]
-    freed: bytes = model.SerializeToString()
-    return freed
 
 
 def _shape_of(node: Any) -> TensorShape:

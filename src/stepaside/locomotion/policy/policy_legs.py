@@ -14,7 +14,6 @@ from .gravity_filter import GravityFilter
 from .initial_posture import InitialPosture
 from .leg_odometry import LegOdometry
 from .network import PolicyNetwork
-from .network_pool import NetworkPool
 from .runner import BodyMotion, PolicyRunner
 from .velocity_response import VelocityResponse
 
@@ -67,7 +66,6 @@ class PolicyLegs:
         tick: float,
         response: VelocityResponse | None = None,
         learns: bool = True,
-        pool: NetworkPool | None = None,
     ) -> None:
         """Begin in the default posture.
 
@@ -78,8 +76,6 @@ class PolicyLegs:
             tick: Control period, in [s].
             response: Measured response; by default commands are delivered.
             learns: Whether velocities are corrected by gyro and odometry.
-            pool: Pool that evaluates the network for many walkers at once
-                when it is flushed; by default at once for this one.
 
         Raises:
             PolicyError: If the period of the policy is no multiple of the
@@ -106,7 +102,7 @@ class PolicyLegs:
         angles = zip(contract.joints, contract.default_posture, strict=True)
         self.standing = InitialPosture(forward, dict(angles))
         self._targets = self.standing.joint_targets.copy()
-        self._network, self._pool = network, pool
+        self._network = network
         self.odometry = odometry = LegOdometry(
             forward, self._targets, self.response.odometry_ratio
         )
@@ -142,11 +138,7 @@ class PolicyLegs:
 
     @property
     def joint_targets(self) -> Array:
-        """Joint targets, in [rad], in the order of the motors.
-
-        With a pool they are those of this tick once the pool has been
-        flushed. Shape (joints,).
-        """
+        """Joint targets, in [rad], in the order of the motors."""
         targets = self._runner.targets
         for joints in self.coupled:
             targets[joints] = targets[joints].mean()
@@ -200,10 +192,6 @@ class PolicyLegs:
             motion.command.fill(0.0)
         for loop in self._stand if stands else self._walk:
             loop()
-        runner, network = self._runner, self._network
+        runner = self._runner
         seen = runner.observation()
-        if self._pool is not None:
-            self._pool.submit(network, seen, runner.memory, runner.act)
-            return
-        (answer,) = network.evaluate([seen], [runner.memory])
-        runner.act(*answer)
+        runner.act(*self._network.evaluate(seen, runner.memory))
