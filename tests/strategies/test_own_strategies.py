@@ -1,6 +1,8 @@
 """Test the loading of strategies by name and from files."""
 
 import os
+import pickle
+import subprocess
 import sys
 from dataclasses import replace
 from math import pi
@@ -142,6 +144,17 @@ def test_a_strategy_of_a_file_takes_arguments(
 ) -> None:
     strategy: Any = load_strategy(f"{file}:{name}")
     assert strategy.factor == factor
+
+
+def test_a_strategy_of_a_file_can_be_sent_to_another_process(
+    file: Path,
+) -> None:
+    code = "import pickle, sys; print(pickle.load(sys.stdin.buffer))"
+    sent = pickle.dumps(load_strategy(f"{file}:Timid(factor=0.3)"))
+    got = subprocess.run(
+        [sys.executable, "-c", code], input=sent, capture_output=True
+    )
+    assert got.stdout.startswith(b"Timid(factor=0.3"), got.stderr
 
 
 def test_names_take_arguments() -> None:

@@ -2,14 +2,57 @@
 
 import re
 import sys
+from collections.abc import Sequence
+from importlib import import_module
+from importlib.abc import MetaPathFinder
+from importlib.machinery import ModuleSpec, SourceFileLoader
+from importlib.util import spec_from_file_location
 from pathlib import Path
-from types import ModuleType
+from types import CodeType, ModuleType
 
 from .errors import ConfigurationError
 
 FILE_AND_NAME = re.compile(r"(?P<file>.+\.py):(?P<name>[^:]*)", re.DOTALL)
 # sys.exit() in user code must not end the program.
 FAILURES = (Exception, SystemExit)
+# Files are modules of this one by their path, so that other processes can
+# import what a pickle names.
+__path__: list[str] = []
+_DOT = "%2E"
+
+
+class _Loader(SourceFileLoader):
+    """Loader without a cache of bytecode.
+
+    One is stale for a file of the same size that was written in the same
+    second.
+    """
+
+    def get_code(self, fullname: str) -> CodeType:
+        folder = str(Path(self.path).parent)
+        if folder not in sys.path:
+            sys.path.append(folder)
+        code: CodeType = compile(self.get_data(self.path), self.path, "exec")
+        return code
+
+
+class _Finder(MetaPathFinder):
+    def find_spec(
+        self,
+        fullname: str,
+        path: Sequence[str] | None,
+        target: ModuleType | None = None,
+    ) -> ModuleSpec | None:
+        own, _, name = fullname.rpartition(".")
+        if own != __name__:
+            return None
+        file = name.replace(_DOT, ".")
+        return spec_from_file_location(
+            fullname, file, loader=_Loader(fullname, file)
+        )
+
+
+sys.meta_path.append(_Finder())
 
 
 def load_user_file(path: str, where: str) -> ModuleType:
@@ -25,25 +68,13 @@ def load_user_file(path: str, where: str) -> ModuleType:
     file = Path(path).expanduser().resolve()
     if not file.is_file():
         raise ConfigurationError(f"{where}: there is no file {path}")
-    module = f"stepaside_user_{file.stem}"
-    while getattr(sys.modules.get(module), "__file__", str(file)) != str(file):
-        module += "_"  # another file of this name
-    loaded = ModuleType(module)
-    loaded.__file__ = str(file)
-    folder = str(file.parent)
-    if folder not in sys.path:
-        sys.path.append(folder)
-    before = sys.modules.get(module)
-    sys.modules[module] = loaded  # dataclasses look their module up there
+    module = f"{__name__}.{file.as_posix().replace('.', _DOT)}"
+    before = sys.modules.pop(module, None)
     try:
-        # Not by a loader: a cache of bytecode is stale for a file of the same
-        # size that was written in the same second.
-        exec(compile(file.read_bytes(), file, "exec"), vars(loaded))
+        return import_module(module)
     except FAILURES as error:
-        del sys.modules[module]
         if before is not None:
             sys.modules[module] = before
         raise ConfigurationError(
             f"{where}: the file fails to run: {type(error).__name__}: {error}"
         ) from error
-    return loaded

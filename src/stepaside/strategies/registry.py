@@ -7,7 +7,7 @@ is imported when the strategy is made.
 
 import re
 from ast import literal_eval
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import fields, is_dataclass, replace
 from difflib import get_close_matches
 from math import inf, radians
@@ -17,11 +17,7 @@ from typing import Any, NamedTuple
 
 from .. import strategies
 from ..core.errors import ConfigurationError, StepAsideError, shown
-from ..core.user_file import (
-    FAILURES,
-    FILE_AND_NAME,
-    load_user_file,
-)
+from ..core.user_file import FAILURES, load_user_file
 from .evasion import Evasion
 from .strategy import Strategy
 from .strategy_validation import validate_strategy
@@ -79,51 +75,42 @@ OF_EVASION = ("evasion",)  # strategies that use settings of an Evasion
 OTHERS = "FILE.py:NAME or FILE.onnx"
 _OBJECT = re.compile(r"object [\w.<>]+\(.*\)", re.DOTALL)
 _CALL = re.compile(
-    r"(?P<name>.+\.py:\w+|[^():]+)\((?P<arguments>.*)\)", re.DOTALL
+    r"(?P<name>(?P<file>.+\.(?:py(?=:)|onnx))(?::(?P<own>\w+))?|[^():]+)"
+    r"(?:\((?P<arguments>.*)\))?",
+    re.DOTALL,
 )
 _COMMA = re.compile(r",(?![^(\[]*[)\]])")  # not one within a tuple
 _WORDS = {"inf": inf, "true": True, "false": False, "none": None}
-_NETWORK = re.compile(r"(?P<file>.+\.onnx)", re.DOTALL)
 
 
 class _Named(NamedTuple):
-    """Parts of the name of a strategy.
-
-    Attributes:
-        name: Name without arguments.
-        arguments: Arguments by name.
-        file: Its file; None for one of :data:`STRATEGIES`.
-    """
+    """Name of a strategy, its arguments, and NAME of FILE.py:NAME."""
 
     name: str
     arguments: dict[str, Any]
     file: Path | None
+    own: str | None
 
 
 def describe_strategy(strategy: str | Strategy) -> str:
     """Return the text that records a strategy: its name, or its class.
 
-    Args:
-        strategy: A name, which is returned, or a strategy, whose class and
-            plain values are.
+    A strategy object is recorded by its class and plain values.
     """
     if isinstance(strategy, str):
         return strategy
     kind = type(strategy)
-    values: list[tuple[str, Any]] = (
-        [
-            (each.name, getattr(strategy, each.name))
-            for each in fields(strategy)
-        ]
-        if is_dataclass(strategy)
-        else []
-    )
+    values: dict[str, Any] = {}
+    if is_dataclass(strategy):
+        values = {f.name: getattr(strategy, f.name) for f in fields(strategy)}
     plain = ", ".join(
         f"{name}={value!r}"
-        for name, value in values
+        for name, value in values.items()
         if isinstance(value, bool | int | float | str | None)
     )
-    return f"object {kind.__module__}.{kind.__qualname__}({plain})"
+    module = Path(kind.__module__).name  # without the folders of a file
+    module = module.partition("%")[0]
+    return f"object {module}.{kind.__qualname__}({plain})"
 
 
 def is_described(name: str) -> bool:
@@ -184,12 +171,12 @@ def load_strategy(
     named = _parse(name)
     if named.file is None:
         return _make(named, evasion or Evasion())
-    if _NETWORK.fullmatch(named.name):
+    if named.own is None:
         from .learned import load_learned_strategy
 
         made: Any = load_learned_strategy(named.file)
     else:
-        made = _create(named)
+        made = _create(named, named.file, named.own)
     validate_strategy(made, name)
     strategy: Strategy = made
     return strategy
@@ -197,26 +184,17 @@ def load_strategy(
 
 def absolute_name(name: str) -> str:
     """Return the name with an absolute file path."""
-    named = _parse(name)
-    if named.file is None:
+    file, found = file_of(name), _CALL.fullmatch(name)
+    if file is None or found is None:
         return name
-    rest = name[len(named.name) :]
-    found = FILE_AND_NAME.fullmatch(named.name)
-    own = f":{found['name']}" if found else ""
-    return f"{named.file.resolve()}{own}{rest}"
+    return f"{file.resolve()}{name[found.end('file') :]}"
 
 
 def file_of(name: str) -> Path | None:
     """Return the file that a name denotes; None for any other text."""
-    text = name if _NETWORK.fullmatch(name) else _split(name)[0]
-    found = FILE_AND_NAME.fullmatch(text) or _NETWORK.fullmatch(text)
-    return None if found is None else Path(found["file"]).expanduser()
-
-
-def _split(text: str) -> tuple[str, str]:
-    """Return name and arguments of NAME(ARGUMENTS)."""
-    call = _CALL.fullmatch(text)
-    return (call["name"].strip(), call["arguments"]) if call else (text, "")
+    found = _CALL.fullmatch(name)
+    file = found and found["file"]
+    return Path(file).expanduser() if file else None
 
 
 def _parse(text: str, what: str = "strategy") -> _Named:
@@ -225,8 +203,11 @@ def _parse(text: str, what: str = "strategy") -> _Named:
     Raises:
         ConfigurationError: If the name is unknown, or no call.
     """
-    name, listed = _split(text)
+    found = _CALL.fullmatch(text)
+    name = found["name"].strip() if found else text
+    own, file = found and found["own"], file_of(text)
     arguments: dict[str, Any] = {}
+    listed = (found and found["arguments"]) or ""
     for each in filter(str.strip, _COMMA.split(listed)):
         key, is_pair, value = (part.strip() for part in each.partition("="))
         if not (is_pair and key.isidentifier() and value):
@@ -234,21 +215,23 @@ def _parse(text: str, what: str = "strategy") -> _Named:
                 f"{what} {name} must have arguments like gain=2, got {each!r}"
             )
         arguments[key] = _value(value)
-    if name in STRATEGIES:
-        return _Named(name, arguments, None)
-    if _NETWORK.fullmatch(name) and arguments:
+    if file and not own and arguments:
         raise ConfigurationError(
             f"{what} {name} must have no arguments, got {', '.join(arguments)}"
         )
-    found, file = FILE_AND_NAME.fullmatch(name), file_of(name)
-    if file is not None and (not found or found["name"].isidentifier()):
-        return _Named(name, arguments, file)
-    near = get_close_matches(name, STRATEGIES, 1)
-    hint = f"; did you mean {near[0]}?" if near else ""
+    is_file = file and own is None and name.endswith(".onnx")
+    if name in STRATEGIES or is_file or (own and own.isidentifier()):
+        return _Named(name, arguments, file, own)
     raise ConfigurationError(
         f"{what} must be one of {', '.join(STRATEGIES)}, {OTHERS}, "
-        f"got {text!r:.80}{hint}"
+        f"got {text!r:.80}{_hint(name, STRATEGIES)}"
     )
+
+
+def _hint(name: str, known: Iterable[str]) -> str:
+    """Return the end of a message that names what may have been meant."""
+    near = get_close_matches(name, known, 1)
+    return f"; did you mean {near[0]}?" if near else ""
 
 
 def _value(text: str) -> Any:
@@ -274,11 +257,9 @@ def _make(named: _Named, evasion: Evasion, what: str = "strategy") -> Strategy:
     known = [each.name for each in fields(made)]
     for key in named.arguments:
         if key not in known:
-            near = get_close_matches(key, known, 1)
-            hint = f"; did you mean {near[0]}?" if near else ""
             raise ConfigurationError(
                 f"{what} {named.name} must have arguments of "
-                f"{', '.join(known) or 'none'}, got {key!r}{hint}"
+                f"{', '.join(known) or 'none'}, got {key!r}{_hint(key, known)}"
             )
     try:
         if named.name in OF_EVASION:
@@ -289,13 +270,10 @@ def _make(named: _Named, evasion: Evasion, what: str = "strategy") -> Strategy:
     return strategy
 
 
-def _create(named: _Named) -> Any:
+def _create(named: _Named, file: Path, name: str) -> Any:
     """Return the strategy that a name in a file denotes, created if needed."""
-    found = FILE_AND_NAME.fullmatch(named.name)
-    assert found is not None
-    path, name, given = found["file"], found["name"], named.arguments
-    where = f"strategy {named.name}"
-    loaded = load_user_file(path, where)
+    given, where = named.arguments, f"strategy {named.name}"
+    loaded = load_user_file(str(file), where)
     if not hasattr(loaded, name):
         available = ", ".join(_strategies_in(loaded)) or "no strategy"
         raise ConfigurationError(
@@ -313,9 +291,9 @@ def _create(named: _Named) -> Any:
     try:
         return replace(thing, **given) if is_made else thing(**given)
     except FAILURES as error:
-        texts = ", ".join(f"{key}={value!r}" for key, value in given.items())
+        listed = ", ".join(f"{key}={value!r}" for key, value in given.items())
         raise ConfigurationError(
-            f"{where}: {name}({texts}) must make a strategy, got "
+            f"{where}: {name}({listed}) must make a strategy, got "
             f"{type(error).__name__}: {error}"
         ) from error
 
@@ -323,8 +301,7 @@ def _create(named: _Named) -> Any:
 def _strategies_in(loaded: ModuleType) -> list[str]:
     """Return the names of possible strategies that a file defines.
 
-    Functions are included: whether one returns a strategy shows only when it
-    is called.
+    Whether a function returns a strategy shows only when it is called.
     """
     found = []
     for name, thing in vars(loaded).items():

@@ -1,6 +1,6 @@
 """Validation of a strategy by trial decisions."""
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from math import pi
 from typing import Any
 
@@ -16,15 +16,8 @@ def trial_knowledge() -> Iterator[Knowledge]:
     """Yield the knowledge of a walker, from the first sighting on."""
     yield Knowledge(0.0, 0.0, 2.0, LIMITS)
     for i, bearing in enumerate((0.4, -0.4, pi, -pi)):
-        time, distance = 0.5 * (i + 1), 1.5 - 0.4 * i
         yield Knowledge(
-            time,
-            bearing,
-            distance,
-            LIMITS,
-            0.1,
-            0.2,
-            0.05,
+            *(0.5 * (i + 1), bearing, 1.5 - 0.4 * i, LIMITS, 0.1, 0.2, 0.05),
             moving=i > 0,
             velocity=(-0.3, 0.1),
         )
@@ -43,55 +36,60 @@ def validate_strategy(candidate: Any, name: str) -> None:
             different decisions.
     """
 
-    def refuse(rule: str, got: object) -> ConfigurationError:
-        text = " ".join(str(got).split())
-        return ConfigurationError(f"strategy {name}: {rule}, got {text}")
+    def require(met: bool, rule: str, got: object) -> None:
+        if not met:
+            text = " ".join(str(got).split())
+            raise ConfigurationError(f"strategy {name}: {rule}, got {text}")
+
+    def attempt(rule: str, call: Callable[[], Any]) -> Any:
+        try:
+            return call()
+        except FAILURES as error:
+            require(False, rule, f"{type(error).__name__}: {error}")
 
     kind = type(candidate).__name__
     for method in ("begin", "decide"):
-        if not callable(getattr(candidate, method, None)):
-            raise refuse(f"must have a method {method}", f"a {kind} without")
-    try:
-        direction = getattr(candidate, "direction", None)
-        saturated = getattr(candidate, "saturated", None)
-    except FAILURES as error:
-        raise refuse(
-            "must have direction and saturated",
-            f"{type(error).__name__}: {error}",
-        ) from error
-    if not isinstance(direction, Direction):
-        raise refuse("direction must be a Direction", repr(direction))
-    if not isinstance(saturated, bool):
-        raise refuse("saturated must be true or false", repr(saturated))
-
-    def decide(knowledge: Knowledge, memory: Any) -> tuple[Intent, Any]:
-        try:
-            result = candidate.decide(knowledge, memory)
-        except FAILURES as error:
-            raise refuse(
-                "decide(knowledge, memory) must return (Intent, memory)",
-                f"{type(error).__name__}: {error}",
-            ) from error
-        if not (
-            isinstance(result, tuple)
-            and len(result) == 2
-            and isinstance(result[0], Intent)
-        ):
-            raise refuse("decide must return (Intent, memory)", repr(result))
-        return result
-
-    try:
-        memory = candidate.begin()
-    except FAILURES as error:
-        raise refuse(
-            "begin() must return a memory", f"{type(error).__name__}: {error}"
-        ) from error
+        require(
+            callable(getattr(candidate, method, None)),
+            f"must have a method {method}",
+            f"a {kind} without",
+        )
+    direction, saturated = attempt(
+        "must have direction and saturated",
+        lambda: [
+            getattr(candidate, each, None)
+            for each in ("direction", "saturated")
+        ],
+    )
+    require(
+        isinstance(direction, Direction),
+        "direction must be a Direction",
+        repr(direction),
+    )
+    require(
+        isinstance(saturated, bool),
+        "saturated must be true or false",
+        repr(saturated),
+    )
+    memory = attempt("begin() must return a memory", candidate.begin)
     for knowledge in trial_knowledge():
-        intent, after = decide(knowledge, memory)
-        again, _ = decide(knowledge, memory)
-        if again != intent:
-            raise refuse(
-                "the same knowledge and memory must give the same intent",
-                f"{intent} and then {again}",
+        found = [
+            attempt(
+                "decide(knowledge, memory) must return (Intent, memory)",
+                lambda: candidate.decide(knowledge, memory),  # noqa: B023
             )
-        memory = after
+            for _ in range(2)
+        ]
+        for each in found:
+            fits = isinstance(each, tuple) and len(each) == 2
+            require(
+                fits and isinstance(each[0], Intent),
+                "decide must return (Intent, memory)",
+                repr(each),
+            )
+        require(
+            found[0][0] == found[1][0],
+            "the same knowledge and memory must give the same intent",
+            f"{found[0][0]} and then {found[1][0]}",
+        )
+        memory = found[0][1]
