@@ -1,14 +1,16 @@
 """Synthetic instrumented duels: two robots on the circle of the theory."""
 
 from dataclasses import replace
-from math import pi, radians, sin, sqrt
-from typing import Any
+from math import pi, radians, sin
+from types import SimpleNamespace
+from typing import Any, cast
 
 import numpy as np
 
 from stepaside.core.poses import Array
 from stepaside.games.duel_settings import PLAYERS, DuelSettings
 from stepaside.games.outcome import Outcome
+from stepaside.games.run import DuelRun
 from stepaside.games.trajectory import Trajectory
 from stepaside.studies.instrumented_duel import InstrumentedDuel, WalkedPlan
 
@@ -59,17 +61,31 @@ def walked_duel(
         )
     sway = np.column_stack([0.07 * ticks, 0.03 * np.sin(5.0 * ticks)])
     return InstrumentedDuel(
-        settings=settings,
-        outcome=outcome,
-        duration=duration,
-        times=times,
-        tracks=tracks,
+        run=_run(settings, outcome, duration, times, tracks),
         ticks=ticks,
         loads={name: loads.copy() for name in PLAYERS},
         feet={name: feet.copy() for name in PLAYERS},
         references={name: sway.copy() for name in PLAYERS},
         plans=dict.fromkeys(PLAYERS, plans),
     )
+
+
+def _run(
+    settings: DuelSettings,
+    outcome: Outcome,
+    duration: float,
+    times: Array,
+    tracks: dict[str, Trajectory],
+) -> DuelRun:
+    """Return a run without summary."""
+    run = SimpleNamespace(
+        settings=settings,
+        outcome=outcome,
+        duration=duration,
+        times=times,
+        tracks=tracks,
+    )
+    return cast(DuelRun, run)
 
 
 def _plans(settings: DuelSettings, duration: float) -> tuple[WalkedPlan, ...]:
@@ -107,13 +123,17 @@ def changed(duel: InstrumentedDuel, **arrays: Any) -> InstrumentedDuel:
         duel: The duel.
         arrays: Functions by player and array, as in ``evader_torso``.
     """
-    tracks = dict(duel.tracks)
+    run = duel.run
+    tracks = dict(run.tracks)
     for full_name, change in arrays.items():
         player, name = full_name.split("_", 1)
         track = tracks[player]
         values = change(getattr(track, name).copy())
         tracks[player] = replace(track, **{name: values})
-    return replace(duel, tracks=tracks)
+    changed_run = _run(
+        run.settings, run.outcome, run.duration, run.times, tracks
+    )
+    return replace(duel, run=changed_run)
 
 
 def standing_duel() -> InstrumentedDuel:
@@ -125,8 +145,3 @@ def standing_duel() -> InstrumentedDuel:
         loads=dict.fromkeys(PLAYERS, loads),
         plans=dict.fromkeys(PLAYERS, ()),
     )
-
-
-def apart(radius: float) -> float:
-    """Return the distance of the robots on a circle, in [m]."""
-    return sqrt(2.0) * radius

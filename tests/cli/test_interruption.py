@@ -91,7 +91,8 @@ def test_reproduce_interrupted_while_drawing_reports_saved_runs(
     def interrupt(*_: Any) -> None:
         raise KeyboardInterrupt
 
-    monkeypatch.setattr("stepaside.studies.claim_campaign.JOBS", {})
+    monkeypatch.setattr("stepaside.studies.claims.ONCE", {})
+    monkeypatch.setattr("stepaside.studies.claims.SEEDED", {})
     monkeypatch.setattr(reproduce_figures, "draw_figures", interrupt)
     result = CliRunner().invoke(main, ["reproduce", f"--output={tmp_path}"])
     assert result.exit_code == 130

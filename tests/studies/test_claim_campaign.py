@@ -1,38 +1,38 @@
-"""Test the campaign of claims: verdicts, stored readings, command, page."""
+"""Test the study of claims: verdicts, stored readings, command, page."""
 
 import json
-from concurrent.futures import (
-    Executor,
-    ProcessPoolExecutor,
-    ThreadPoolExecutor,
-)
+from collections.abc import Callable
+from concurrent.futures import ThreadPoolExecutor
 from dataclasses import replace
-from multiprocessing import get_context
+from math import degrees, pi, sqrt
 from pathlib import Path
+from statistics import fmean, stdev
 from typing import Any
 
 import pytest
 from click.testing import CliRunner
+from hypothesis import given
+from hypothesis import strategies as st
 
 from stepaside.cli import reproduce_figures
 from stepaside.cli.main import main
 from stepaside.core import worker_pool as workers
-from stepaside.studies import claim_campaign as reproduce
-from stepaside.studies.claim_jobs import JOBS
+from stepaside.games.robot_settings import LEGS_GAIT
+from stepaside.studies import claims as studied
 from stepaside.studies.claims import (
+    ONCE,
+    SEEDED,
     Claim,
-    ClaimJob,
-    ClaimRow,
     Readings,
+    claim_rows,
+    claim_study,
+    load_claims,
 )
 from stepaside.studies.results_version import RESULTS
 from stepaside.studies.study import run_study
 
 NAN, INF = float("nan"), float("inf")
-
-
-def claim(relation: Any = "=", key: str = "it") -> Claim:
-    return Claim(key, "it is one", "I", "paper", 1.0, "m", 0.1, relation)
+IT = Claim("it is one", "I", "paper", 1.0, "m", 0.1)
 
 
 @pytest.mark.parametrize(
@@ -59,9 +59,67 @@ def claim(relation: Any = "=", key: str = "it") -> Claim:
 def test_verdict(
     relation: Any, values: tuple[float, ...], holds: bool
 ) -> None:
-    row = ClaimRow("a.it", claim(relation), values)
-    assert row.holds is holds
-    assert row.to_json()["verdict"] == ("holds" if holds else "fails")
+    claim = replace(IT, relation=relation)
+    assert claim.holds(values) is holds
+    row = claim.row("a.it", values)
+    assert row["verdict"] == ("holds" if holds else "fails")
+
+
+@given(st.lists(st.floats(-5.0, 5.0), min_size=1, max_size=9))
+def test_measured_value_is_the_mean_of_all_runs(values: list[float]) -> None:
+    row = IT.row("job.x", values)
+    assert row["measured"] == pytest.approx(fmean(values))
+    spread = stdev(values) if len(values) > 1 else 0.0
+    assert row["spread"] == pytest.approx(spread, abs=1e-9)
+    assert (row["least"], row["greatest"]) == (min(values), max(values))
+    assert row["runs"] == len(values)
+
+
+# --- the table --------------------------------------------------------------
+
+SPEED, GAIN, STRIDE = 0.1, 0.2, 0.04  # of Sec. IV, in [m/s], [1/s], [m]
+STEP = 0.425 + 0.122  # of the supports, in [s]
+RADIUS = 4.0 * SPEED / (pi * GAIN)
+LEGS_RADIUS = 4.0 * LEGS_GAIT["speed"] / (pi * LEGS_GAIT["gain"])
+EXPECTED = {
+    "circle.pursuer_radius": 4.0 / (pi * 0.5),
+    "circle.evader_radius": 4.0 / (pi * 0.5),
+    "circle.distance": sqrt(2.0) * 4.0 / (pi * 0.5),
+    "circle.orientation": pi / 2,
+    "saturated.radius": 1.0 / 0.5,
+    "saturated.namely": pi - 2.0,
+    "strategies.unbounded": 2.0 / 0.5,
+    "sampled.radius": RADIUS,
+    "sampled.distance": sqrt(2.0) * RADIUS,
+    "path.way": SPEED / GAIN,
+    "footsteps.stepsize": STRIDE,
+    "com.reached": degrees(0.9),
+    "humanoids.pursuer_radius": RADIUS,
+    "humanoids.evader_radius": RADIUS,
+    "humanoids.distance": sqrt(2.0) * RADIUS,
+    "humanoids.landings": STEP,
+    "humanoids.at_its_end": 0.5 * 0.122,
+    "durations.distance": STRIDE / STEP * (30.0 - 0.8),
+    "durations.speed": STRIDE / STEP,
+    "learned-legs.pursuer_radius": LEGS_RADIUS,
+    "learned-legs.evader_radius": LEGS_RADIUS,
+    "learned-legs.distance": sqrt(2.0) * LEGS_RADIUS,
+}
+
+
+@pytest.mark.parametrize("name", EXPECTED)
+def test_expected_values_follow_from_the_numbers_of_the_paper(
+    name: str,
+) -> None:
+    job, key = name.split(".")
+    claim = load_claims()[job][key]
+    assert claim.expected == pytest.approx(EXPECTED[name], rel=1e-12)
+
+
+def test_every_job_has_its_claims() -> None:
+    claims = load_claims()
+    assert [*ONCE, *SEEDED, "learned-legs"] == list(claims)
+    assert sum(len(claims[job]) for job in (*ONCE, *SEEDED)) == 61
 
 
 # --- stored readings ---------------------------------------------------------
@@ -72,78 +130,67 @@ class Bench:
 
     def __init__(self) -> None:
         self.measured: list[tuple[str, int]] = []
-        self.settings = "as they are"
         self.stop_at: int | None = None
-        self.jobs = {
-            "seeded": self.job("seeded", True),
-            "once": self.job("once", False),
-        }
+        self.value = 1.0
 
-    def job(self, name: str, seeded: bool) -> ClaimJob:
-        """Return a job that notes its measurements."""
+    def once(self) -> Readings:
+        """Measure the job without a seed."""
+        return self.seeded(0, "once")
 
-        def measure(seed: int) -> Readings:
-            if seed == self.stop_at:
-                raise KeyboardInterrupt
-            self.measured.append((name, seed))
-            return {"it": 1.0 + 0.01 * seed}
-
-        return ClaimJob(
-            (claim(),),
-            measure,
-            lambda _: self.settings if seeded else "",
-            seeded,
-        )
+    def seeded(self, seed: int, name: str = "seeded") -> Readings:
+        """Note a measurement."""
+        if seed == self.stop_at:
+            raise KeyboardInterrupt
+        self.measured.append((name, seed))
+        return {"it": self.value + 0.01 * seed}
 
 
 @pytest.fixture
 def bench(monkeypatch: pytest.MonkeyPatch) -> Bench:
     bench = Bench()
-    monkeypatch.setattr(reproduce, "JOBS", bench.jobs)
+    monkeypatch.setattr(studied, "ONCE", {"once": bench.once})
+    monkeypatch.setattr(studied, "SEEDED", {"seeded": bench.seeded})
+    table = {"once": {"it": IT}, "seeded": {"it": IT}}
+    monkeypatch.setattr(studied, "load_claims", lambda: table)
     return bench
 
 
-def rows_of(
-    file: Path | None, seeds: tuple[int, ...], executor: Executor | None = None
-) -> list[Any]:
-    study = reproduce.claim_study(seeds)
-    return reproduce.claim_rows(run_study(study, file, executor=executor))
+@pytest.fixture
+def only_paths(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(studied, "ONCE", {"path": ONCE["path"]})
+    monkeypatch.setattr(studied, "SEEDED", {})
+
+
+def rows_of(file: Path | None, *seeds: int) -> list[Any]:
+    return claim_rows(run_study(claim_study(seeds), file))
 
 
 def again(bench: Bench, folder: Path, *seeds: int) -> list[tuple[str, int]]:
-    """Run the campaign on a folder; return what it measured."""
+    """Run the study on a folder; return what it measured."""
     bench.measured.clear()
-    run_study(reproduce.claim_study(seeds), folder / "kept.sqlite")
+    run_study(claim_study(seeds), folder / "kept.sqlite")
     return sorted(bench.measured)
-
-
-ALL = [("once", 0), ("seeded", 1), ("seeded", 2)]
 
 
 def test_stored_reading_is_not_measured_again(
     bench: Bench, tmp_path: Path
 ) -> None:
     store = tmp_path / "kept.sqlite"
-    rows = rows_of(store, (1, 2))
-    assert sorted(bench.measured) == ALL
-    assert [row["name"] for row in rows] == ["seeded.it", "once.it"]
-    assert [row["runs"] for row in rows] == [2, 1]
+    rows = rows_of(store, 1, 2)
+    assert sorted(bench.measured) == [
+        ("once", 0),
+        ("seeded", 1),
+        ("seeded", 2),
+    ]
+    assert [row["name"] for row in rows] == ["once.it", "seeded.it"]
+    assert [row["runs"] for row in rows] == [1, 2]
     assert again(bench, tmp_path, 1, 2) == []
-    assert rows_of(store, (1, 2)) == rows
+    assert rows_of(store, 1, 2) == rows
     assert again(bench, tmp_path, 1, 2, 3) == [("seeded", 3)]
-    assert rows_of(None, (1, 2)) == rows
+    assert rows_of(None, 1, 2) == rows
 
 
-def test_changed_settings_are_measured_again(
-    bench: Bench, tmp_path: Path
-) -> None:
-    assert again(bench, tmp_path, 1, 2) == ALL
-    bench.settings = "others"
-    assert again(bench, tmp_path, 1, 2) == [("seeded", 1), ("seeded", 2)]
-    assert again(bench, tmp_path, 1, 2) == []
-
-
-def test_interrupted_campaign_keeps_finished_readings(
+def test_interrupted_study_keeps_finished_readings(
     bench: Bench, tmp_path: Path
 ) -> None:
     bench.stop_at = 2
@@ -153,39 +200,39 @@ def test_interrupted_campaign_keeps_finished_readings(
 
 
 def test_missing_reading_stays_missing_and_fails(
-    bench: Bench, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+    bench: Bench, tmp_path: Path
 ) -> None:
-    job = replace(bench.jobs["once"], measure=lambda _: {"it": NAN})
-    monkeypatch.setattr(reproduce, "JOBS", {"once": job})
+    bench.value = NAN
     for _ in range(2):
-        (row,) = rows_of(tmp_path / "kept.sqlite", (1,))
+        (row,) = rows_of(tmp_path / "kept.sqlite")
         assert (row["verdict"], row["measured"]) == ("fails", None)
-
-
-def test_worker_process_measures_the_same(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    monkeypatch.setattr(reproduce, "JOBS", {"path": JOBS["path"]})
-    here = rows_of(None, (1,))
-    with ProcessPoolExecutor(1, get_context("spawn")) as executor:
-        there = rows_of(tmp_path / "kept.sqlite", (1,), executor)
-    assert there == here
 
 
 # --- page and command -----------------------------------------------------
 
+Call = Callable[..., Any]
 
-def test_command_prints_rows_and_writes_the_page(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    monkeypatch.setattr(reproduce, "JOBS", {"path": JOBS["path"]})
+
+@pytest.fixture
+def reproduce(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Call:
     monkeypatch.setattr(workers, "worker_pool", ThreadPoolExecutor)
     monkeypatch.setattr(reproduce_figures, "draw_figures", lambda *_: [])
-    call = ["reproduce", "--workers", "1", "--output", str(tmp_path)]
-    result = CliRunner().invoke(main, [*call, "--json"])
+
+    def call(*words: str) -> Any:
+        line = ["reproduce", "--workers", "1", "--output", str(tmp_path)]
+        return CliRunner().invoke(main, [*line, *words])
+
+    return call
+
+
+@pytest.mark.usefixtures("only_paths")
+def test_command_prints_rows_and_writes_the_page(
+    tmp_path: Path, reproduce: Call
+) -> None:
+    result = reproduce("--json")
     assert result.exit_code == 0, result.stderr
     rows = json.loads(result.stdout)
-    assert len(rows) == len(JOBS["path"].claims)
+    assert len(rows) == len(load_claims()["path"])
     for row in rows:
         assert row["measured"] is not None
         assert (row["runs"], row["spread"]) == (1, 0.0)
@@ -194,54 +241,37 @@ def test_command_prints_rows_and_writes_the_page(
     assert stored["rows"] == rows
     assert (stored["seed"], stored["runs"]) == (1, 10)
     assert stored["results"] == RESULTS
-    assert "'single_support': 0.425" in stored["settings"]["path"]
     html = (tmp_path / "claims.html").read_text()
     first = html.split("</table>")[0]
     assert first.count("<tr>") == len(rows) + 1
     assert first.count("<td") == 10 * len(rows)  # bars do not split cells
     assert "|theta*|" in html
-    text = CliRunner().invoke(main, call)
-    assert f"{len(rows)} of {len(rows)} hold" in text.stdout
+    assert f"{len(rows)} of {len(rows)} hold" in reproduce().stdout
 
 
 @pytest.mark.parametrize(
     ("value", "status"), [(1.0, 0), (NAN, 1)], ids=["holds", "fails"]
 )
-@pytest.mark.parametrize("as_json", [True, False])
 def test_exit_status_is_0_if_every_claim_holds_else_1(
-    bench: Bench,
-    tmp_path: Path,
-    monkeypatch: pytest.MonkeyPatch,
-    value: float,
-    status: int,
-    as_json: bool,
+    bench: Bench, tmp_path: Path, reproduce: Call, value: float, status: int
 ) -> None:
-    job = replace(bench.jobs["once"], measure=lambda _: {"it": value})
-    bench.jobs["once"] = job
-    monkeypatch.setattr(workers, "worker_pool", ThreadPoolExecutor)
-    monkeypatch.setattr(reproduce_figures, "draw_figures", lambda *_: [])
-    call = ["reproduce", "--runs", "1", "--output", str(tmp_path)]
-    result = CliRunner().invoke(main, [*call, *["--json"] * as_json])
+    bench.value = value
+    result = reproduce("--runs", "1")
     assert result.exit_code == status, result.output
-    if as_json:
-        assert len(json.loads(result.stdout)) == 2
-    else:
-        assert f"{2 - status} of 2 hold" in result.stdout
+    assert f"{2 - 2 * status} of 2 hold" in result.stdout
     assert (tmp_path / "claims.html").exists()
 
 
-def test_interrupt_ends_worker_processes_with_status_130(
-    bench: Bench, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+def test_without_runs_only_what_needs_one_is_measured(
+    bench: Bench, reproduce: Call
 ) -> None:
-    requests: list[int | None] = []
+    assert "1 of 1 hold" in reproduce("--runs", "0").stdout
+    assert bench.measured == [("once", 0)]
 
-    def pool(number: int | None) -> ThreadPoolExecutor:
-        requests.append(number)
-        return ThreadPoolExecutor(number)
 
+def test_interrupt_ends_with_status_130(
+    bench: Bench, tmp_path: Path, reproduce: Call
+) -> None:
     bench.stop_at = 1
-    monkeypatch.setattr(workers, "worker_pool", pool)
-    call = ["reproduce", "--workers", "2", "--output", str(tmp_path)]
-    result = CliRunner().invoke(main, call)
-    assert (result.exit_code, requests) == (130, [2])
+    assert reproduce().exit_code == 130
     assert not (tmp_path / "claims.json").exists()

@@ -20,9 +20,8 @@ from stepaside.planning import (
 )
 from stepaside.planning.footsteps import place_footsteps
 from stepaside.planning.plan import PlanSamples
-from stepaside.studies import balance_claims, unicycle_claims
-from stepaside.studies.claim_jobs import JOBS
-from stepaside.studies.claims import Claim
+from stepaside.studies import planner_claims, unicycle_claims
+from stepaside.studies.claims import ONCE, load_claims
 from stepaside.theory.unicycle.adaptive_simulation import PlayedGame
 from stepaside.theory.unicycle.sampled_game import simulate_sampled
 from stepaside.theory.unicycle.unicycle_game import Game
@@ -127,7 +126,7 @@ def samples_as(change: Callable[[PlanSamples], PlanSamples]) -> Patch:
 def slow_clock(monkeypatch: pytest.MonkeyPatch) -> None:
     """Advance the clock by 20 ms at every reading."""
     clock = iter(np.arange(0.0, 1e3, 0.02))
-    monkeypatch.setattr(balance_claims, "process_time", lambda: next(clock))
+    monkeypatch.setattr(planner_claims, "process_time", lambda: next(clock))
 
 
 def one_side(path: UnicycleTrajectory, _: Array, poses: Array) -> Array:
@@ -312,17 +311,15 @@ FAULTS: dict[str, tuple[Patch, ...]] = {
     "timing.planning": (slow_clock,),
 }
 CLAIMS = {
-    f"{name}.{claim.key}": claim
-    for name, job in JOBS.items()
-    for claim in job.claims
-    if not job.seeded
+    f"{job}.{key}": claim
+    for job in ONCE
+    for key, claim in load_claims()[job].items()
 }
 
 
 def holds(name: str) -> bool:
     job, key = name.split(".")
-    claim: Claim = CLAIMS[name]
-    return claim.holds([JOBS[job].measure(0)[key]])
+    return CLAIMS[name].holds([ONCE[job]()[key]])
 
 
 @pytest.mark.parametrize("name", CLAIMS)
@@ -330,7 +327,7 @@ def test_every_claim_holds_and_fails_under_a_fault(
     name: str, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     if name == "timing.planning":  # depends on the speed of the computer
-        monkeypatch.setattr(balance_claims, "process_time", lambda: 0.0)
+        monkeypatch.setattr(planner_claims, "process_time", lambda: 0.0)
     assert holds(name)
     for fault in FAULTS[name]:
         with monkeypatch.context() as patches:
@@ -365,5 +362,5 @@ def test_plans_cover_both_sides_and_both_directions(
         return right(self, bearing, direction, **k)
 
     monkeypatch.setattr(ManeuverPlanner, "plan", spy)
-    JOBS["footsteps"].measure(0)
+    ONCE["footsteps"]()
     assert len(asked) == 4

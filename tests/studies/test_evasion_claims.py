@@ -1,7 +1,6 @@
 """Test the claims on evading: each fails under a synthetic fault."""
 
 from collections.abc import Callable
-from dataclasses import replace
 from types import SimpleNamespace
 from typing import Any
 
@@ -9,15 +8,14 @@ import numpy as np
 import pytest
 
 from stepaside.games import Outcome, StrategyTrack
-from stepaside.studies import evasion_measurements as read
-from stepaside.studies.claim_jobs import JOBS
-from stepaside.studies.claims import Claim
+from stepaside.studies import evasion_claims as read
+from stepaside.studies.claims import Claim, load_claims
 from stepaside.studies.evasion_claims import DURATION
-from stepaside.studies.evasion_measurements import PlayedGames
 from stepaside.studies.tournament_strategies import ASIDE
 
 BEST = 1.0  # bound of all starts, in [m]
-Fault = Callable[[PlayedGames], PlayedGames]
+Games = dict[tuple[str, str], tuple[StrategyTrack, ...]]
+Fault = Callable[[Games], Games]
 
 
 @pytest.fixture(autouse=True)
@@ -26,7 +24,7 @@ def known_bound(monkeypatch: pytest.MonkeyPatch) -> None:
 
 
 def claims(job: str) -> dict[str, Claim]:
-    return {claim.key: claim for claim in JOBS[job].claims}
+    return load_claims()[job]
 
 
 def game(
@@ -54,30 +52,19 @@ TOUCHED = game(outcome=Outcome.TOUCHED, clear=0.19)
 CAPTURED = game(0.34, Outcome.CAPTURED)
 
 
-def played() -> PlayedGames:
+def played() -> Games:
     """Return five games of each evader."""
-    return PlayedGames(
-        {
-            "open": {
-                ASIDE: 5 * (game(0.7),),
-                "look-ahead": 5 * (game(0.99),),
-            },
-            "room": {
-                ASIDE: 5 * (TOUCHED,),
-                "look-ahead": 5 * (game(),),
-            },
-        }
-    )
+    return {
+        ("open", ASIDE): 5 * (game(0.7),),
+        ("open", "look-ahead"): 5 * (game(0.99),),
+        ("room", ASIDE): 5 * (TOUCHED,),
+        ("room", "look-ahead"): 5 * (game(),),
+    }
 
 
 def with_games(tournament: str, evader: str, *games: StrategyTrack) -> Fault:
     """Replace the games of an evader in a tournament."""
-
-    def fault(found: PlayedGames) -> PlayedGames:
-        changed = found.games[tournament] | {evader: games}
-        return replace(found, games=found.games | {tournament: changed})
-
-    return fault
+    return lambda found: found | {(tournament, evader): games}
 
 
 AHEAD = "look-ahead"

@@ -4,16 +4,12 @@ from collections.abc import Callable
 from pathlib import Path
 
 
-def draw_figures(
-    folder: Path, seed: int, *, duration: float = 120.0, marks: int = 7
-) -> list[tuple[str, str]]:
+def draw_figures(folder: Path, seed: int | None) -> list[tuple[str, str]]:
     """Draw counterparts of Fig. 2 and Fig. 5, and a sweep over strategies.
 
     Args:
         folder: Folder of the figures.
-        seed: Seed of the duel.
-        duration: Simulated time of the duel, in [s].
-        marks: Number of simulated games along each line of the sweep.
+        seed: Seed of the duel; None to leave it out.
 
     Returns:
         Caption and file name of each figure.
@@ -28,14 +24,17 @@ def draw_figures(
             "sweep.png",
             "The circle over angle and ratios: theory as lines, simulation "
             "as marks",
-            lambda file: _draw_sweep(file, marks),
-        ),
-        (
-            f"duel-seed{seed}.png",
-            "Two NAOs in physics, in the manner of Fig. 5",
-            lambda file: _draw_duel(file, seed, duration),
+            _draw_sweep,
         ),
     ]
+    if seed is not None:
+        figures.append(
+            (
+                f"duel-seed{seed}.png",
+                "Two NAOs in physics, in the manner of Fig. 5",
+                lambda file: _draw_duel(file, seed),
+            )
+        )
     for name, _, draw in figures:
         draw(folder / name)
     return [(caption, name) for name, caption, _ in figures]
@@ -65,20 +64,20 @@ def _draw_game(file: Path) -> None:
     draw_game(play(FIG_2), str(file))
 
 
-def _draw_sweep(file: Path, marks: int) -> None:
+def _draw_sweep(file: Path) -> None:
     from ..report.unicycle_sweep import draw_sweep
     from ..studies.unicycle_claims import FIG_2
 
-    draw_sweep(FIG_2, str(file), marks=marks)
+    draw_sweep(FIG_2, str(file), marks=7)
 
 
-def _draw_duel(file: Path, seed: int, duration: float) -> None:
+def _draw_duel(file: Path, seed: int) -> None:
     from ..games.duel import run_duel
     from ..games.duel_settings import DuelSettings
     from ..games.outcome import Outcome
     from ..report.duel_figure import draw_duel
 
-    result = run_duel(DuelSettings(seed=seed, duration=duration))
+    result = run_duel(DuelSettings(seed=seed, duration=120.0))
     if result.outcome is Outcome.INTERRUPTED:
         raise KeyboardInterrupt  # do not draw a partial duel
     draw_duel(result, file)

@@ -1,59 +1,77 @@
-"""Claims of the paper and their measurements."""
+"""Claims of the paper: their texts, measurements and verdicts."""
 
+import tomllib
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
-from math import inf, isfinite, nan
-from typing import Any, Literal
+from functools import cache, partial
+from hashlib import sha256
+from math import isfinite, nan
+from pathlib import Path
+from typing import Any, NamedTuple
 
 import numpy as np
 
-Readings = dict[str, float]
+from ..games.configuration_file import dump_configuration
+from ..locomotion.policy.response_file import digest_of
+from . import evasion_claims as evading
+from . import physics_claims as physics
+from . import planner_claims as planner
+from . import unicycle_claims as unicycles
+from .study import Study, StudyRun
+from .tabulation import Record
 
-
-def most_deviating(values: Sequence[float], expected: float) -> float:
-    """Return the value farthest from an expected one; NaN without values."""
-    if not len(values):
-        return nan
-    return float(max(values, key=lambda value: _deviation(value, expected)))
-
-
-def _deviation(value: float, expected: float) -> float:
-    """Return the distance from an expected value; inf for NaN and inf."""
-    return abs(value - expected) if isfinite(value) else inf
-
-
-Relation = Literal["=", "<", ">"]
+FILE = Path(__file__).with_suffix(".toml")
 RUN_FACTOR = 2.0  # tolerance of a single run over that of the mean
+LEGS = "learned-legs"  # job on the learned legs of a robot
+
+Readings = dict[str, float]
+ONCE: dict[str, Callable[[], Readings]] = {
+    "circle": unicycles.read_circle,
+    "saturated": unicycles.read_saturated,
+    "strategies": unicycles.read_strategies,
+    "sampled": unicycles.read_sampled,
+    "path": planner.read_path,
+    "footsteps": planner.read_footsteps,
+    "com": planner.read_com,
+    "timing": planner.read_timing,
+}
+"""Jobs that need one run; each measures a reading for each of its claims."""
+SEEDED: dict[str, Callable[[int], Readings]] = {
+    "humanoids": physics.measure_humanoids,
+    "durations": physics.measure_durations,
+    "slip": physics.measure_slip,
+    "evading": evading.measure_evading,
+    "rooms": evading.measure_room,
+}
+"""Jobs with random initial poses, by a seed."""
 
 
 @dataclass(frozen=True, slots=True)
 class Claim:
-    """One claim, figure or number of the paper.
+    """One claim, figure or number of the paper; an entry of ``claims.toml``.
 
     Attributes:
-        key: Name of its reading in the job that measures it.
-        text: Claim of the paper, corrected where necessary.
+        claim: Claim of the paper, corrected where necessary.
         section: Section or figure of the paper.
-        level: Level at which it is measured: closed form, unicycles,
-            sampled, planner or physics.
+        level: Level at which it is measured: closed form, unicycle,
+            sampled, planner, steps or physics.
         expected: Expected value.
         unit: Unit of the values.
         tolerance: Largest difference at which the claim holds; zero for an
             inequality.
-        relation: Whether the measured value must equal, be below or be
-            above the expected one.
-        as_printed: The printed text, where it differs.
+        relation: "=", "<" or ">": how measured values must compare with the
+            expected one.
+        printed: The printed text, where it differs.
     """
 
-    key: str
-    text: str
+    claim: str
     section: str
     level: str
     expected: float
     unit: str
     tolerance: float = 0.0
-    relation: Relation = "="
-    as_printed: str | None = None
+    relation: str = "="
+    printed: str | None = None
 
     def holds(self, values: Sequence[float]) -> bool:
         """Return whether the runs confirm the claim.
@@ -61,112 +79,140 @@ class Claim:
         Every run must have a finite value. An inequality must hold in every
         run. For an equality the mean must be within the tolerance, and every
         single run within twice the tolerance.
-
-        Args:
-            values: Measured value of each run; at least one.
         """
         if not values or not all(isfinite(value) for value in values):
             return False
-        differences = [value - self.expected for value in values]
+        differences = np.asarray(values) - self.expected
         if self.relation == "<":
-            return max(differences) < 0.0
+            return bool((differences < 0.0).all())
         if self.relation == ">":
-            return min(differences) > 0.0
-        mean = float(np.mean(values)) - self.expected
-        largest = max(abs(difference) for difference in differences)
-        return (
-            abs(mean) <= self.tolerance
-            and largest <= RUN_FACTOR * self.tolerance
+            return bool((differences > 0.0).all())
+        return bool(
+            abs(np.mean(values) - self.expected) <= self.tolerance
+            and (np.abs(differences) <= RUN_FACTOR * self.tolerance).all()
         )
 
+    def row(self, name: str, values: Sequence[float]) -> dict[str, Any]:
+        """Return claim and measured values as a JSON object.
 
-@dataclass(frozen=True, slots=True)
-class ClaimRow:
-    """Claim with its measured values.
-
-    Attributes:
-        name: Job and key of the claim, as in ``footsteps.stepsize``.
-        claim: The claim.
-        values: Measured value of each run.
-    """
-
-    name: str
-    claim: Claim
-    values: tuple[float, ...]
-
-    @property
-    def measured(self) -> float:
-        """Mean of the runs; NaN if one of them has no finite value."""
-        if not self.values or not all(isfinite(v) for v in self.values):
-            return nan
-        return float(np.mean(self.values))
-
-    @property
-    def spread(self) -> float:
-        """Standard deviation of the runs; 0 for a single run."""
-        if len(self.values) < 2 or not isfinite(self.measured):
-            return 0.0 if len(self.values) == 1 else nan
-        return float(np.std(self.values, ddof=1))
-
-    @property
-    def holds(self) -> bool:
-        """Whether the runs confirm the claim; see :meth:`Claim.holds`."""
-        return self.claim.holds(self.values)
-
-    def to_json(self) -> dict[str, Any]:
-        """Return the row as a JSON object; null for missing values."""
-        claim = self.claim
-        finite = [value for value in self.values if isfinite(value)]
+        Args:
+            name: Job and key, as in ``footsteps.stepsize``.
+            values: Measured value of each run.
+        """
+        finite = [value for value in values if isfinite(value)]
+        whole = bool(values) and len(finite) == len(values)
+        spread = float(np.std(values, ddof=1)) if len(finite) > 1 else 0.0
         return {
-            "name": self.name,
-            "claim": claim.text,
-            "section": claim.section,
-            "level": claim.level,
-            "expected": claim.expected,
-            "relation": claim.relation,
-            "tolerance": claim.tolerance,
-            "unit": claim.unit,
-            "measured": _number(self.measured),
-            "spread": _number(self.spread),
+            "name": name,
+            "claim": self.claim,
+            "section": self.section,
+            "level": self.level,
+            "expected": self.expected,
+            "relation": self.relation,
+            "tolerance": self.tolerance,
+            "unit": self.unit,
+            "measured": float(np.mean(values)) if whole else None,
+            "spread": spread if whole else None,
             "least": min(finite, default=None),
             "greatest": max(finite, default=None),
-            "runs": len(self.values),
-            "verdict": "holds" if self.holds else "fails",
-            "as_printed": claim.as_printed,
+            "runs": len(values),
+            "verdict": "holds" if self.holds(values) else "fails",
+            "as_printed": self.printed,
         }
 
 
-@dataclass(frozen=True, slots=True)
-class ClaimJob:
-    """Measurement of several claims in one run.
+@cache
+def load_claims() -> dict[str, dict[str, Claim]]:
+    """Return all claims, by job and key of the reading."""
+    jobs = tomllib.loads(FILE.read_text(encoding="utf-8"))
+    found: dict[str, dict[str, Claim]] = {}
+    for job, entries in jobs.items():
+        shared = {k: v for k, v in entries.items() if isinstance(v, str)}
+        found[job] = {
+            key: Claim(**(shared | entry))
+            for key, entry in entries.items()
+            if key not in shared
+        }
+    return found
+
+
+class ClaimTrial(NamedTuple):
+    """One run of a job.
 
     Attributes:
-        claims: The claims.
-        measure: Function from a seed to a reading for each claim.
-        settings: Function from a seed to the settings, as text; empty by
-            default.
-        seeded: Whether the readings depend on the seed; if not, one run is
-            enough.
+        job: Name of the job.
+        seed: Seed of the run; 0 where it does not matter.
+        legs: Folder of the robot whose learned legs the job measures.
     """
 
-    claims: tuple[Claim, ...]
-    measure: Callable[[int], Readings]
-    settings: Callable[[int], str] = lambda _: ""
-    seeded: bool = False
+    job: str
+    seed: int = 0
+    legs: str = ""
 
-    def rows(
-        self, name: str, runs: Sequence[Mapping[str, float]]
-    ) -> list[ClaimRow]:
-        """Return one row per claim from the readings of runs."""
-        return [
-            ClaimRow(
-                f"{name}.{claim.key}",
-                claim,
-                tuple(run[claim.key] for run in runs),
-            )
-            for claim in self.claims
+
+def claim_study(seeds: Sequence[int], legs: str = "") -> Study[ClaimTrial]:
+    """Return the study of all claims.
+
+    Args:
+        seeds: Seeds of the games from random poses; without any, only what
+            needs one run is measured. Cases are ordered by seed, so that an
+            interrupted study has complete seeds.
+        legs: Folder of a robot whose description names a walking policy; the
+            paper's game is measured on it, too.
+
+    Raises:
+        ConfigurationError: If the description names no policy.
+    """
+    jobs = [*SEEDED, *([LEGS] if legs else [])]
+    trials = [ClaimTrial(job) for job in ONCE]
+    for seed in seeds:
+        trials += [
+            ClaimTrial(job, seed, legs if job == LEGS else "") for job in jobs
         ]
+    return Study("claims", trials, run_trial, partial(_key, legs_key(legs)))
 
 
-def _number(value: float) -> float | None:
-    return value if isfinite(value) else None
+def legs_key(legs: str) -> str:
+    """Return a hash of the settings and the network of learned legs."""
+    if not legs:
+        return ""
+    settings = physics.legs_settings(legs, 0)
+    words = (
+        dump_configuration(settings),
+        digest_of(Path(settings.legs.network)),
+    )
+    return sha256(repr(words).encode()).hexdigest()[:12]
+
+
+def _key(legs: str, trial: ClaimTrial) -> str:
+    own = f"/{legs}" if trial.legs else ""
+    return f"{trial.job}/{trial.seed}{own}"
+
+
+def run_trial(trial: ClaimTrial) -> Record:
+    """Measure the claims of a job once; NaN and inf become null."""
+    job, seed, legs = trial
+    if legs:
+        found = physics.measure_legs(legs, seed)
+    else:
+        found = ONCE[job]() if job in ONCE else SEEDED[job](seed)
+    return {
+        key: found[key] if isfinite(found[key]) else None
+        for key in load_claims()[job]
+    }
+
+
+def claim_rows(run: StudyRun[ClaimTrial]) -> list[dict[str, Any]]:
+    """Return one row per claim from a completed run, as JSON objects."""
+    readings: dict[str, list[Mapping[str, Any]]] = {}
+    for trial, record in run.items():
+        readings.setdefault(trial.job, []).append(record)
+    return [
+        claim.row(
+            f"{job}.{key}",
+            [nan if r[key] is None else float(r[key]) for r in readings[job]],
+        )
+        for job, claims in load_claims().items()
+        if job in readings
+        for key, claim in claims.items()
+    ]

@@ -1,105 +1,110 @@
-"""Claims of the conclusion (Sec. V) and of the follow-up paper."""
+"""Readings of games in rooms for the conclusion (Sec. V) and its sequel."""
 
-from .claims import Claim
+from collections.abc import Callable, Mapping
+from math import inf
 
-STEPS, PHYSICS = "steps", "physics"
-CONCLUSION = "V"
-SEQUEL = "V; De Simone et al., IROS 2017"
+import numpy as np
+
+from ..arena import RoomRecipe, generate_room
+from ..games.duel import run_duel
+from ..games.duel_settings import PLAYERS, DuelSettings
+from ..games.floor_games import StrategyTrack
+from ..games.outcome import Outcome
+from ..games.run import DuelRun
+from ..sim.camera_settings import SceneSettings
+from ..strategies.strategy_game import StepGame
+from .tournament_physics import clearance, outcome_of, players_touched
+from .tournament_record import bound_of, play_track
+from .tournament_settings import TournamentSettings
+from .tournament_strategies import ASIDE
+
 DURATION = 40.0  # of the duels in rooms, in [s]
+GAMES_PER_SEED = 5  # of each evader in each setting
+GAME = StepGame(duration=120.0)
+TOURNAMENTS = {
+    "open": TournamentSettings(room=RoomRecipe(None, None), game=GAME),
+    "room": TournamentSettings(room=RoomRecipe(discs=3), game=GAME),
+}
+AHEAD = "look-ahead"
 
-EVADING = (
-    Claim(
-        "farther",
-        "against the paper's pursuer there are better strategies than "
-        "moving aside (closest approach of look-ahead over that of moving "
-        "aside, on an open floor)",
-        CONCLUSION,
-        STEPS,
-        1.2,
-        "1",
-        relation=">",
-    ),
-    Claim(
-        "best",
-        "and none is much better than look-ahead (its closest approach over "
-        "the best possible one against this pursuer)",
-        CONCLUSION,
-        STEPS,
-        0.95,
-        "1",
-        relation=">",
-    ),
-    Claim(
-        "survives",
-        "an evader plays among obstacles (fraction of games of two minutes "
-        "against the paper's pursuer, in rooms of 3 x 3 m with three discs, "
-        "that look-ahead survives: without capture, at 0.35 m, and without "
-        "contact with an obstacle)",
-        SEQUEL,
-        STEPS,
-        1.0,
-        "1",
-        0.1,
-    ),
-    Claim(
-        "clear",
-        "and touches none (least clearance of its centre, less its body "
-        "radius)",
-        SEQUEL,
-        STEPS,
-        -1e-9,
-        "m",
-        relation=">",
-    ),
-    Claim(
-        "aside",
-        "where moving aside walks into them (fraction that look-ahead "
-        "survives against the paper's pursuer, less that of moving aside)",
-        SEQUEL,
-        STEPS,
-        0.1,
-        "1",
-        relation=">",
-    ),
-    Claim(
-        "decision",
-        "in the 10 ms that planning may take (mean time of its decisions, "
-        "on the computer that made this report, not on a NAO)",
-        CONCLUSION,
-        STEPS,
-        10.0,
-        "ms",
-        relation="<",
-    ),
-)
-ROOM = (
-    Claim(
-        "touched",
-        "two NAOs play in rooms of 3 x 3 m with three discs; neither falls or "
-        "touches an obstacle (1 if one does)",
-        SEQUEL,
-        PHYSICS,
-        0.0,
-        "1",
-    ),
-    Claim(
-        "clear",
-        "and both keep clear (least distance of a trunk from obstacles and "
-        "walls)",
-        SEQUEL,
-        PHYSICS,
-        0.0,
-        "m",
-        relation=">",
-    ),
-    Claim(
-        "free",
-        "nor does the paper's pursuer capture the evader, at 0.35 m, or "
-        "touch it (time for which the evader is free)",
-        SEQUEL,
-        PHYSICS,
-        DURATION,
-        "s",
-        1e-6,
-    ),
-)
+Tracks = tuple[StrategyTrack, ...]
+"""Games of one evader, from the initial poses of a seed each."""
+
+
+def measure_evading(seed: int) -> dict[str, float]:
+    """Play the games of a seed at the level of steps."""
+    seeds = range(GAMES_PER_SEED * seed, GAMES_PER_SEED * (seed + 1))
+    return read_evading(
+        {
+            (where, evader): tuple(
+                play_track(tournament, (evader, "pursuit"), each)[1]
+                for each in seeds
+            )
+            for where, tournament in TOURNAMENTS.items()
+            for evader in (ASIDE, AHEAD)
+        }
+    )
+
+
+def read_evading(games: Mapping[tuple[str, str], Tracks]) -> dict[str, float]:
+    """Compare evaders on the open floor and among obstacles.
+
+    Args:
+        games: Games by "open" or "room", and by evader.
+    """
+    ahead = games["room", AHEAD]
+    bounds = [
+        bound_of(g.pursuer[0], g.evader[0], GAME) for g in games["open", AHEAD]
+    ]
+    closest = {
+        evader: np.mean([g.distances.min() for g in games["open", evader]])
+        for evader in (ASIDE, AHEAD)
+    }
+    survived = {
+        evader: np.mean(
+            [g.outcome is Outcome.COMPLETED for g in games["room", evader]]
+        )
+        for evader in (ASIDE, AHEAD)
+    }
+    return {
+        "farther": float(closest[AHEAD] / closest[ASIDE]),
+        "best": float(closest[AHEAD] / np.mean(bounds)),
+        "survives": float(survived[AHEAD]),
+        "clear": float(min(g.clearances.min() for g in ahead))
+        - GAME.body_radius,
+        "aside": float(survived[AHEAD] - survived[ASIDE]),
+        "decision": 1e3 * float(np.mean([g.decision for g in ahead])),
+    }
+
+
+def measure_room(seed: int) -> dict[str, float]:
+    """Play a duel in the room of a seed, with a given map."""
+    run = run_duel(
+        DuelSettings(
+            seed=seed,
+            duration=DURATION,
+            evader_strategy=AHEAD,
+            room=SceneSettings(plan=generate_room(RoomRecipe(discs=3), seed)),
+        )
+    )
+    if run.outcome is Outcome.INTERRUPTED:
+        raise KeyboardInterrupt
+    return read_room(run)
+
+
+def read_room(
+    run: DuelRun, clear: Callable[[DuelRun, str], float | None] = clearance
+) -> dict[str, float]:
+    """Read contacts, clearance and free time of a duel in a room.
+
+    Args:
+        run: The duel.
+        clear: Function from duel and player to the least clearance, in [m].
+    """
+    least = [clear(run, name) for name in PLAYERS]
+    clean = run.outcome is Outcome.COMPLETED or players_touched(run)
+    return {
+        "touched": float(not clean),
+        "clear": min(inf if k is None else k for k in least),
+        "free": run.duration if outcome_of(run) is Outcome.COMPLETED else 0.0,
+    }

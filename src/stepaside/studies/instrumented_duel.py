@@ -1,20 +1,17 @@
 """Duels with forces, feet, references and plans recorded at every tick."""
 
-from collections.abc import Mapping
-from dataclasses import dataclass
-from math import ceil
+from dataclasses import dataclass, field
 from typing import NamedTuple
 
 import numpy as np
 
-from ..control import ControlScheme
 from ..core.poses import Array
 from ..games.duel import Duel
-from ..games.duel_settings import DuelSettings
+from ..games.duel_settings import PLAYERS, DuelSettings
+from ..games.match import Match, play
 from ..games.outcome import Outcome
-from ..games.trajectory import Trajectory
+from ..games.run import DuelRun
 from ..games.walker import SimulatedPlayer
-from ..planning import ManeuverPlan
 from ..robots.description import load_robot
 
 
@@ -37,11 +34,7 @@ class InstrumentedDuel:
     """Duel with records of every control tick.
 
     Attributes:
-        settings: Settings, with the initial poses that were drawn.
-        outcome: Outcome of the duel.
-        duration: Simulated time, in [s].
-        times: Times of the samples of the trajectories, in [s]. Shape (m,).
-        tracks: Trajectory of each robot, by name.
+        run: The duel.
         ticks: Times of the control ticks, in [s]. Shape (n,).
         loads: By robot, loads of left and right foot at the end of each
             tick, in [N]. Shape (n, 2).
@@ -52,90 +45,78 @@ class InstrumentedDuel:
         plans: By robot, the plans that were walked.
     """
 
-    settings: DuelSettings
-    outcome: Outcome
-    duration: float
-    times: Array
-    tracks: Mapping[str, Trajectory]
+    run: DuelRun
     ticks: Array
-    loads: Mapping[str, Array]
-    feet: Mapping[str, Array]
-    references: Mapping[str, Array]
-    plans: Mapping[str, tuple[WalkedPlan, ...]]
+    loads: dict[str, Array] = field(default_factory=dict)
+    feet: dict[str, Array] = field(default_factory=dict)
+    references: dict[str, Array] = field(default_factory=dict)
+    plans: dict[str, tuple[WalkedPlan, ...]] = field(default_factory=dict)
 
 
 def play_instrumented(settings: DuelSettings) -> InstrumentedDuel:
-    """Play a duel to its end, as ``run_duel`` does, recording every tick.
-
-    Raises:
-        StepAsideError: If the settings are invalid.
-    """
-    duel = Duel(settings)
-    world = duel.world
-    period = world.physics.tick
-    count = ceil(settings.duration / period - 1e-9)
-    recorders = [
-        _TickRecorder(duel, player, count)
-        for player in duel.players
-        if isinstance(player, SimulatedPlayer)
-    ]
-    outcome: Outcome | None = None
-    while outcome is None and world.ticks < count:
-        tick, now = world.ticks, world.time
-        outcome = duel.tick()
-        for recorder in recorders:
-            recorder.record(tick, now)
-    duel.close()
-    outcome = outcome or Outcome.COMPLETED
-    duel.recorder.ended(duel, outcome)
-    done = world.ticks
-    return InstrumentedDuel(
-        settings=duel.settings,
-        outcome=outcome,
-        duration=world.time,
-        times=duel.recorder.times,
-        tracks=duel.recorder.tracks(),
-        ticks=np.arange(done, dtype=np.float64) * period,
-        loads={r.name: r.loads[:done] for r in recorders},
-        feet={r.name: r.feet[:done] for r in recorders},
-        references={r.name: r.references[:done] for r in recorders},
-        plans={r.name: tuple(r.plans) for r in recorders},
+    """Play a duel to its end, as ``run_duel`` does, recording every tick."""
+    observers = {name: _TickObserver(settings, name) for name in PLAYERS}
+    duel = Duel(settings, tuple(observers.values()))
+    run = duel.run(*play(duel, settings.duration))
+    if run.outcome is Outcome.INTERRUPTED:
+        raise KeyboardInterrupt
+    found = InstrumentedDuel(
+        run,
+        duel.world.physics.tick
+        * np.arange(duel.world.ticks, dtype=np.float64),
     )
+    for name, observer in observers.items():
+        loads, feet, references = zip(*observer.rows, strict=True)
+        found.loads[name] = np.array(loads)
+        found.feet[name] = np.array(feet)
+        found.references[name] = np.array(references)
+        found.plans[name] = tuple(observer.plans)
+    return found
 
 
-class _TickRecorder:
-    """Recorder of one robot of a duel at every tick."""
+class _TickObserver:
+    """Observer of one robot of a match: its state at the end of each tick."""
 
-    def __init__(
-        self, duel: Duel, walker: SimulatedPlayer, count: int
-    ) -> None:
-        """Find the sensors and allocate arrays for a number of ticks."""
-        self.name = walker.name
-        self._scheme: ControlScheme = walker.scheme
-        self._plan: ManeuverPlan | None = None
-        self._world, model = duel.world, duel.world.model
-        robot = load_robot(duel.settings.robot_of(self.name).robot)
-        feet = robot.sensors.feet
-        sensors = [model.sensor(f"{self.name}/{f}") for f in feet]
-        addresses = [int(sensor.adr[0]) for sensor in sensors]
-        self._sensors = np.array(addresses).reshape(2, -1)  # left, right
-        soles = (robot.left_foot, robot.right_foot)
-        self._sites = [model.site(f"{self.name}/{s}").id for s in soles]
-        self.loads = np.zeros((count, 2))
-        self.feet = np.zeros((count, 2, 2))
-        self.references = np.zeros((count, 2))
+    def __init__(self, settings: DuelSettings, name: str) -> None:
+        self.rows: list[tuple[Array, Array, Array]] = []
         self.plans: list[WalkedPlan] = []
+        self._name, self._plan = name, object()
+        self._robot = load_robot(settings.robot_of(name).robot)
 
-    def record(self, tick: int, now: float) -> None:
-        """Record the state after a tick that began at ``now``, in [s]."""
-        scheme, data = self._scheme, self._world.data
-        self._world.update_sensors()
-        self.loads[tick] = data.sensordata[self._sensors].sum(axis=1)
-        self.feet[tick] = data.site_xpos[self._sites, :2]
-        self.references[tick] = scheme.state.reference.com[:2]
-        plan = scheme.state.plan
-        if plan is not self._plan and plan is not None:
-            standing = plan.schedule.standing
-            start_time = scheme.state.plan_started
-            self.plans.append(WalkedPlan(start_time, now, standing))
-        self._plan = plan
+    def before(self, match: Match) -> None:
+        """Record the state after the previous tick."""
+        world, robot = match.world, self._robot
+        if len(self.rows) == world.ticks:
+            return
+        player = match.player(self._name)
+        assert isinstance(player, SimulatedPlayer)
+        state = player.scheme.state
+        world.update_sensors()
+        data = world.data
+        forces = [
+            data.sensor(f"{self._name}/{sensor}").data[0]
+            for sensor in robot.sensors.feet  # of the left one first
+        ]
+        sites = [
+            data.site(f"{self._name}/{sole}").xpos[:2]
+            for sole in (robot.left_foot, robot.right_foot)
+        ]
+        self.rows.append(
+            (
+                np.reshape(forces, (2, -1)).sum(axis=1),
+                np.array(sites),
+                np.array(state.reference.com[:2]),
+            )
+        )
+        if state.plan is not self._plan and state.plan is not None:
+            sent = (world.ticks - 1) * world.physics.tick
+            standing = state.plan.schedule.standing
+            self.plans.append(WalkedPlan(state.plan_started, sent, standing))
+        self._plan = state.plan
+
+    def acted(self, match: Match) -> None:
+        """Do nothing."""
+
+    def ended(self, match: Match, outcome: Outcome) -> None:
+        """Record the state after the last tick."""
+        self.before(match)

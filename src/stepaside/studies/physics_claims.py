@@ -1,230 +1,200 @@
-"""Claims of Sec. III-E and IV, measured on two NAOs in physics."""
+"""Readings of duels in physics for the claims of Sec. III-E and IV."""
 
-from math import pi, sqrt
+from dataclasses import replace
+from math import degrees, nan
 
-from .claims import Claim
-from .physics_measurements import SLIPPERY
+import numpy as np
 
-LEVEL = "physics"
-SPEED, GAIN = 0.1, 0.2  # of Sec. IV, in [m/s] and [1/s]
-SINGLE, DOUBLE = 0.425, 0.122  # support, exchanged, in [s]
-STRIDE, STEP = 0.04, SINGLE + DOUBLE
-RADIUS = 4.0 * SPEED / (pi * GAIN)
-DISTANCE = sqrt(2.0) * RADIUS
-START = 0.8  # double support before the first step, in [s]
-WALK = 30.0  # simulated time of the walks of "durations", in [s]
+from ..core.errors import ConfigurationError
+from ..games.duel import run_duel
+from ..games.duel_circle import (
+    angle_between,
+    circle_of_theory,
+    convergence_time,
+    distance_between,
+)
+from ..games.duel_settings import PLAYERS, DuelSettings, StartSettings
+from ..games.outcome import Outcome
+from ..games.robot_settings import with_robot
+from ..games.run import DuelRun
+from ..planning import PRESETS
+from ..theory.unicycle.circle_fit import fit_circle
+from .instrumented_duel import InstrumentedDuel, play_instrumented
+from .planner_claims import most_deviating
+from .walk_measures import (
+    distance_walked,
+    largest_tilt,
+    mean_foot_slip,
+    reference_jumps,
+    replanning_support,
+    step_times,
+    walked_arc_fraction,
+    walking_speed,
+)
+
+SLIPPERY = 0.05  # sliding friction of a floor on which feet slip
+MIN_SPEED = 0.5  # fraction of the gait's speed below which a robot is stuck
+CIRCLE_TIME = 120.0  # of the duel of Fig. 5, in [s]
+WALK_TIME, SLIP_TIME = 30.0, 80.0  # of the others, in [s]
 
 
-CIRCLE = tuple(
-    Claim(key, text, "IV, Fig. 5", LEVEL, expected, unit, tolerance)
-    for key, text, expected, unit, tolerance in (
-        (
-            "pursuer_radius",
-            "the pursuer converges to a circle (of the last third)",
-            RADIUS,
-            "m",
-            0.04 * RADIUS,
-        ),
-        (
-            "evader_radius",
-            "the evader converges to a circle",
-            RADIUS,
-            "m",
-            0.04 * RADIUS,
-        ),
-        (
-            "one_circle",
-            "both circles coincide (distance of the centres)",
-            0.0,
-            "m",
-            0.02,
-        ),
-        (
-            "distance",
-            "their distance converges",
-            DISTANCE,
-            "m",
-            0.04 * DISTANCE,
-        ),
-        (
-            "orientation",
-            "their relative orientation is pi/2",
-            90.0,
-            "deg",
-            3.0,
-        ),
-        (
-            "same_speed",
-            "they travel along it at the same speed (ratio)",
-            1.0,
-            "1",
-            0.04,
-        ),
+def walk_settings(
+    seed: int,
+    preset: str = "nao",
+    duration: float = WALK_TIME,
+    friction: float | None = None,
+) -> DuelSettings:
+    """Return the settings of a duel in which both walk from the begin."""
+    settings = DuelSettings(
+        seed=seed,
+        duration=duration,
+        gait=PRESETS[preset],
+        start=StartSettings(distance=0.7),
     )
-)
-REPLANNING = (
-    Claim(
-        "settled",
-        "they converge before the last third of the run (time from which "
-        "distance and orientation stay within 5 % and 5 deg of theory)",
-        "IV, Fig. 5",
-        LEVEL,
-        80.0,
-        "s",
-        relation="<",
-    ),
-    Claim(
-        "landings",
-        "feet land every 0.547 s (by the foot forces; the interval farthest "
-        "from it)",
-        "III-E, IV",
-        LEVEL,
-        STEP,
-        "s",
-        0.02,
-    ),
-    Claim(
-        "both_feet",
-        "a new plan follows each landing, and replaces the old one while "
-        "both feet are on the ground (fraction of the plans, by the foot "
-        "forces; the plan unloads one foot at that moment, so a foot "
-        "unloaded less than 30 ms before counts as on the ground)",
-        "III-E",
-        LEVEL,
-        1.0,
-        "1",
-    ),
-    Claim(
-        "at_its_end",
-        "namely at the end of double support (longest time from a plan to "
-        "the next lift-off; a double support lasts 0.122 s)",
-        "III-E",
-        LEVEL,
-        0.5 * DOUBLE,
-        "s",
-        relation="<",
-    ),
-    Claim(
-        "straight_part",
-        "the straight part is never travelled (largest fraction of t_s for "
-        "which a plan was walked before it was replaced)",
-        "III-E",
-        LEVEL,
-        1.0,
-        "1",
-        relation="<",
-    ),
-    Claim(
-        "place_jump",
-        "replanning does not destabilise (largest jump of the CoM reference "
-        "of the joint targets)",
-        "III-E",
-        LEVEL,
-        0.0,
-        "m",
-        1e-8,
-    ),
-    Claim(
-        "velocity_jump",
-        "nor does the velocity of that reference jump (by finite differences)",
-        "III-E",
-        LEVEL,
-        0.0,
-        "m/s",
-        1e-6,
-        as_printed="(15) alone lets the velocity jump by eta times the "
-        "change of x_u",
-    ),
-)
-HUMANOIDS = CIRCLE + REPLANNING
-DURATIONS = (
-    Claim(
-        "printed_slide",
-        "with single support 0.122 s and double support 0.425 s the joints "
-        "are too slow, and the stance feet slip (ratio of their slip "
-        "distance per step to that with the durations exchanged)",
-        "IV",
-        LEVEL,
-        1.0,
-        "1",
-        relation=">",
-        as_printed="single and double support of 0.122 s and 0.425 s",
-    ),
-    Claim(
-        "printed_tilt",
-        "and the torso sways (ratio of its largest tilt angles, likewise)",
-        "IV",
-        LEVEL,
-        3.0,
-        "1",
-        relation=">",
-    ),
-    Claim(
-        "upright_for",
-        "with the durations exchanged they walk to the end (time walked)",
-        "IV",
-        LEVEL,
-        WALK,
-        "s",
-        1e-6,
-    ),
-    Claim(
-        "tilt",
-        "upright (greatest angle of a torso from the vertical)",
-        "IV",
-        LEVEL,
-        10.0,
-        "deg",
-        relation="<",
-    ),
-    Claim(
-        "distance",
-        "and advance (distance walked by the robot that walks less far)",
-        "IV",
-        LEVEL,
-        STRIDE / STEP * (WALK - START),
-        "m",
-        0.05 * STRIDE / STEP * (WALK - START),
-    ),
-    Claim(
-        "speed",
-        "at 0.04 m every 0.547 s, slower than the path's 0.1 m/s (the speed "
-        "farther from it)",
-        "IV",
-        LEVEL,
-        STRIDE / STEP,
-        "m/s",
-        0.004,
-        as_printed="0.1 m/s",
-    ),
-)
-SLIP = (
-    Claim(
-        "slide",
-        f"on a floor with friction {SLIPPERY} feet slip more than on one "
-        "with 0.8 (ratio of their slip distances per step)",
-        "IV, Fig. 6",
-        LEVEL,
-        1.0,
-        "1",
-        relation=">",
-    ),
-    Claim(
-        "slower",
-        "the robots are slower (ratio of the speeds)",
-        "IV, Fig. 6",
-        LEVEL,
-        1.0,
-        "1",
-        relation="<",
-    ),
-    Claim(
-        "smaller",
-        "and their circle is smaller (ratio of the radii)",
-        "IV, Fig. 6",
-        LEVEL,
-        1.0,
-        "1",
-        relation="<",
-    ),
-)
+    if friction is None:
+        return settings
+    physics = replace(settings.physics, friction=friction)
+    return replace(settings, physics=physics)
+
+
+def measure_humanoids(seed: int) -> dict[str, float]:
+    """Play the duel of Fig. 5 from the random initial poses of a seed."""
+    return read_circle(
+        play_instrumented(DuelSettings(seed=seed, duration=CIRCLE_TIME))
+    )
+
+
+def read_circle(duel: InstrumentedDuel) -> dict[str, float]:
+    """Measure the circle of Sec. IV and the replanning of Sec. III-E."""
+    landings = [step for name in PLAYERS for step in step_times(duel, name)]
+    gait = duel.run.settings.gait
+    shares = [walked_arc_fraction(duel.plans[name], gait) for name in PLAYERS]
+    jumps = [reference_jumps(duel, name) for name in PLAYERS]
+    on_feet = [replanning_support(duel, name) for name in PLAYERS]
+    position, velocity = np.max(jumps, axis=0).tolist()
+    pursuer, evader = (walking_speed(duel, name) for name in PLAYERS)
+    return last_circle(duel.run) | {
+        "same_speed": evader / pursuer if pursuer > 0.0 else nan,
+        "landings": most_deviating(landings, gait.step_duration),
+        "both_feet": float(np.min([share for share, _ in on_feet])),
+        "at_its_end": float(np.max([late for _, late in on_feet])),
+        "straight_part": float(np.max(shares)),
+        "place_jump": position,
+        "velocity_jump": velocity,
+    }
+
+
+def last_circle(run: DuelRun) -> dict[str, float]:
+    """Measure the circle of the last third; NaN if the duel ended early."""
+    keys = (
+        *("settled", "pursuer_radius", "evader_radius", "one_circle"),
+        *("distance", "orientation"),
+    )
+    if run.outcome is not Outcome.COMPLETED:
+        return dict.fromkeys(keys, nan)
+    times, settings = run.times, run.settings
+    pursuer, evader = (run.tracks[name].unicycle for name in PLAYERS)
+    theory = circle_of_theory(settings)
+    since = convergence_time(times, pursuer, evader, settings, theory)
+    tail = times >= times[-1] * 2.0 / 3.0
+    (centre, radius), (other_centre, other_radius) = (
+        fit_circle(poses[tail, :2]) for poses in (pursuer, evader)
+    )
+    values = (
+        nan if since is None else since,
+        radius,
+        other_radius,
+        float(np.hypot(*(centre - other_centre))),
+        float(distance_between(pursuer, evader)[tail].mean()),
+        degrees(float(angle_between(pursuer, evader)[tail].mean())),
+    )
+    return dict(zip(keys, values, strict=True))
+
+
+def measure_durations(seed: int) -> dict[str, float]:
+    """Play duels with the durations as printed, and exchanged."""
+    printed, exchanged = (
+        play_instrumented(walk_settings(seed, preset, WALK_TIME))
+        for preset in ("as-printed", "nao")
+    )
+    return read_durations(printed, exchanged)
+
+
+def read_durations(
+    printed: InstrumentedDuel, walked: InstrumentedDuel
+) -> dict[str, float]:
+    """Compare the support durations as printed with the exchanged ones."""
+    gait = walked.run.settings.gait
+    speeds = [walking_speed(walked, name) for name in PLAYERS]
+    slid, tilt = mean_foot_slip(walked), largest_tilt(walked)
+    return {
+        "printed_slide": mean_foot_slip(printed) / slid if slid > 0.0 else nan,
+        "printed_tilt": largest_tilt(printed) / tilt,
+        "upright_for": walked.run.duration,
+        "tilt": tilt,
+        "distance": min(distance_walked(walked, name) for name in PLAYERS),
+        "speed": most_deviating(speeds, gait.stride / gait.step_duration),
+    }
+
+
+def measure_slip(seed: int) -> dict[str, float]:
+    """Play duels on a floor with normal friction and on a slippery one."""
+    grip, slip = (
+        play_instrumented(walk_settings(seed, "nao", SLIP_TIME, friction))
+        for friction in (None, SLIPPERY)
+    )
+    return read_slip(grip, slip)
+
+
+def read_slip(
+    grip: InstrumentedDuel, slip: InstrumentedDuel
+) -> dict[str, float]:
+    """Compare a slippery floor with one of normal friction.
+
+    The ratios are NaN unless the robots walk in both duels.
+    """
+    (slid, speed, radius), slippery = _walk_of(grip), _walk_of(slip)
+    return {
+        "slide": slippery[0] / slid if slid > 0.0 else nan,
+        "slower": slippery[1] / speed,
+        "smaller": slippery[2] / radius,
+    }
+
+
+def _walk_of(duel: InstrumentedDuel) -> tuple[float, float, float]:
+    """Return slip, speed and radius; NaN unless both robots walk."""
+    gait = duel.run.settings.gait
+    speeds = [walking_speed(duel, name) for name in PLAYERS]
+    least = MIN_SPEED * gait.stride / gait.step_duration
+    circle = last_circle(duel.run)
+    if duel.run.outcome is not Outcome.COMPLETED or not min(speeds) > least:
+        return nan, nan, nan
+    radius = 0.5 * (circle["pursuer_radius"] + circle["evader_radius"])
+    return mean_foot_slip(duel), float(np.mean(speeds)), radius
+
+
+def legs_settings(robot: str, seed: int) -> DuelSettings:
+    """Return the settings of the duel of Fig. 5 on learned legs.
+
+    Args:
+        robot: Folder of a robot whose description names a policy.
+        seed: Seed of the initial poses.
+
+    Raises:
+        ConfigurationError: If the description names no policy.
+    """
+    settings = with_robot(DuelSettings(seed=seed, duration=CIRCLE_TIME), robot)
+    if not settings.legs.walks:
+        raise ConfigurationError(
+            f"the robot {robot!r} must have learned legs: its robot.toml "
+            "names no network in [locomotion]"
+        )
+    return settings
+
+
+def measure_legs(robot: str, seed: int) -> dict[str, float]:
+    """Play the duel of Fig. 5 on the learned legs of a robot."""
+    run = run_duel(legs_settings(robot, seed))
+    if run.outcome is Outcome.INTERRUPTED:
+        raise KeyboardInterrupt
+    return last_circle(run)

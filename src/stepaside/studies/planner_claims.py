@@ -1,18 +1,21 @@
-"""Claims of Sec. III on paths and footsteps, measured on the planner."""
+"""Readings for the claims of Sec. III on paths, footsteps and the CoM."""
 
-from typing import NamedTuple
+from collections.abc import Sequence
+from math import degrees, inf, isfinite, nan
+from time import process_time
 
 import numpy as np
 
 from ..core.poses import Array, wrap_angle, wrap_angles
 from ..planning import (
+    CenterState,
     Direction,
     Foot,
     GaitSettings,
+    ManeuverPlan,
     ManeuverPlanner,
     UnicycleTrajectory,
 )
-from .claims import Claim, Readings, most_deviating
 
 BEARING = 0.9  # desired heading, in [rad]
 GAIT = GaitSettings()
@@ -23,22 +26,37 @@ CASES = tuple(
     for direction in Direction
 )
 COUNT = 20  # footsteps: some on the arc, some on the straight line
+REST = 4.0  # time after the last step that is evaluated, in [s]
+PLANS = 400  # number of timed plans
 
 
-def path_of(bearing: float, direction: Direction) -> UnicycleTrajectory:
-    """Return the path of the gait to a desired heading, in [rad]."""
+def most_deviating(values: Sequence[float], expected: float) -> float:
+    """Return the value farthest from an expected one; NaN without values."""
+    return max(
+        values,
+        key=lambda v: abs(v - expected) if isfinite(v) else inf,
+        default=nan,
+    )
+
+
+def _path_of(bearing: float, direction: Direction) -> UnicycleTrajectory:
     return UnicycleTrajectory(bearing, GAIT.speed, GAIT.gain, direction)
 
 
-def read_path() -> Readings:
+def _plan_of(bearing: float, direction: Direction) -> ManeuverPlan:
+    return ManeuverPlanner(GAIT).plan(
+        bearing, direction, first_foot=Foot.LEFT, standing=True, count=COUNT
+    )
+
+
+def read_path() -> dict[str, float]:
     """Measure the trajectory (9)-(14) to both sides and in both directions."""
     deviations, lengths, headings, angles = [], [], [], []
     for bearing, direction in CASES:
-        path = path_of(bearing, direction)
-        velocity = direction.value * GAIT.speed
+        path = _path_of(bearing, direction)
         arc = path.poses(np.linspace(0.0, ARC, 2001))
         # The centre is at v/omega to the left, with the signs of both.
-        radius = velocity / (GAIT.gain * bearing)
+        radius = direction.value * GAIT.speed / (GAIT.gain * bearing)
         to_centre = np.hypot(arc[:, 0], arc[:, 1] - radius)
         deviations.append(float(np.abs(to_centre - abs(radius)).max()))
         chords = np.diff(arc[:, :2], axis=0)
@@ -56,85 +74,22 @@ def read_path() -> Readings:
     }
 
 
-PATH = (
-    Claim(
-        "arc",
-        "until t_s the path is an arc of radius v/(k |theta*|), on the side "
-        "of theta* (greatest distance from it)",
-        "III-B",
-        "closed form",
-        0.0,
-        "m",
-        1e-9,
-        as_printed="(10) has a factor sign(theta*) that bends every arc to "
-        "one side",
-    ),
-    Claim(
-        "way",
-        "it is travelled at v (path length until t_s)",
-        "III-B",
-        "closed form",
-        GAIT.speed * ARC,
-        "m",
-        1e-6,
-    ),
-    Claim(
-        "heading",
-        "at t_s the heading is theta* (ratio)",
-        "III-B",
-        "closed form",
-        1.0,
-        "1",
-        1e-9,
-        as_printed="(11) ends at sign(theta*) 1 rad",
-    ),
-    Claim(
-        "line",
-        "after it the path is a straight line along theta* (greatest angle "
-        "between the path and theta*)",
-        "III-B",
-        "closed form",
-        0.0,
-        "rad",
-        1e-9,
-    ),
-)
+def _footstep_offsets(bearing: float, direction: Direction) -> Array:
+    """Return the footsteps of a plan relative to its path.
 
-
-class FootstepOffset(NamedTuple):
-    """Pose of a footstep relative to the path.
-
-    Attributes:
-        arc_length: Arc length of the path up to its nearest point, in [m].
-        lateral: Offset from that point, positive to the left, in [m].
-        heading: Heading minus that of the tangent, in [rad].
+    Returns:
+        Rows of arc length up to the nearest point in [m], lateral offset
+        from it in [m], positive to the left, and heading less that of the
+        tangent in [rad]. Shape (COUNT, 3).
     """
-
-    arc_length: float
-    lateral: float
-    heading: float
-
-
-def footstep_offsets(
-    bearing: float, direction: Direction
-) -> list[FootstepOffset]:
-    """Return the offsets of the footsteps of a plan from its path."""
-    plan = ManeuverPlanner(GAIT).plan(
-        bearing,
-        direction,
-        first_foot=Foot.LEFT,
-        standing=True,
-        count=COUNT,
-    )
-    path = path_of(bearing, direction)
+    path = _path_of(bearing, direction)
     times = np.linspace(0.0, (COUNT + 4) * GAIT.path_interval, 4001)
-    line = path.poses(times)[:, :2]
+    chords = np.diff(path.poses(times)[:, :2], axis=0)
+    lengths = np.concatenate([[0.0], np.hypot(*chords.T).cumsum()])
     # The path begins midway between the feet, in the frame of the right one.
     origin = np.array([0.0, 0.5 * GAIT.foot_spacing])
-    chords = np.hypot(*np.diff(line, axis=0).T)
-    lengths = np.concatenate([[0.0], chords.cumsum()])
     offsets = []
-    for x, y, theta in plan.placements[2:].tolist():
+    for x, y, theta in _plan_of(bearing, direction).placements[2:].tolist():
         position = np.array([x, y]) - origin
         time, h = _nearest(path, times, position), 1e-5
         after, before = path.poses([time + h, time - h])[:, :2]
@@ -143,13 +98,13 @@ def footstep_offsets(
         aside = position - path.poses([time])[0, :2]
         heading = float(np.arctan2(tangent[1], tangent[0]))
         offsets.append(
-            FootstepOffset(
-                float(np.interp(time, times, lengths)),
-                float(tangent[0] * aside[1] - tangent[1] * aside[0]),
+            (
+                np.interp(time, times, lengths),
+                tangent[0] * aside[1] - tangent[1] * aside[0],
                 wrap_angle(theta - heading),
             )
         )
-    return offsets
+    return np.array(offsets, dtype=np.float64)
 
 
 def _nearest(path: UnicycleTrajectory, times: Array, point: Array) -> float:
@@ -162,55 +117,80 @@ def _nearest(path: UnicycleTrajectory, times: Array, point: Array) -> float:
     return float(times[100])
 
 
-def read_footsteps() -> Readings:
+def read_footsteps() -> dict[str, float]:
     """Measure footsteps (Sec. III-C) to both sides and in both directions."""
-    strides, laterals, headings = [], [], []
+    found = np.array([_footstep_offsets(*case) for case in CASES])
+    lengths, laterals, headings = np.moveaxis(found, 2, 0)
+    strides = np.diff(lengths, axis=1, prepend=0.0)
     sides = np.where(np.arange(COUNT) % 2 == 0, 1.0, -1.0)  # left foot first
-    for bearing, direction in CASES:
-        offsets = footstep_offsets(bearing, direction)
-        lengths = [0.0, *(offset.arc_length for offset in offsets)]
-        strides += np.diff(lengths).tolist()
-        laterals += [
-            s * o.lateral for s, o in zip(sides, offsets, strict=True)
-        ]
-        headings += [abs(offset.heading) for offset in offsets]
+    half = 0.5 * GAIT.foot_spacing
     return {
-        "stepsize": most_deviating(strides, GAIT.stride),
-        "sides": most_deviating(laterals, 0.5 * GAIT.foot_spacing),
-        "tangent": max(headings),
+        "stepsize": most_deviating(strides.ravel().tolist(), GAIT.stride),
+        "sides": most_deviating((sides * laterals).ravel().tolist(), half),
+        "tangent": float(np.abs(headings).max()),
     }
 
 
-FOOTSTEPS = (
-    Claim(
-        "stepsize",
-        "footsteps lie at a constant stepsize along the path (arc length "
-        "between successive footsteps; the value farthest from the expected "
-        "one)",
-        "III-C",
-        "planner",
-        GAIT.stride,
-        "m",
-        1e-6,
-    ),
-    Claim(
-        "sides",
-        "displaced alternately to its left and right (lateral offset to the "
-        "foot's side; the value farthest from the expected one)",
-        "III-C",
-        "planner",
-        0.5 * GAIT.foot_spacing,
-        "m",
-        1e-6,
-    ),
-    Claim(
-        "tangent",
-        "with the orientation of its tangent (greatest angle to a finite "
-        "difference of the path)",
-        "III-C",
-        "planner",
-        0.0,
-        "rad",
-        1e-5,
-    ),
-)
+def read_com() -> dict[str, float]:
+    """Measure the bounded CoM (15)-(17) of a plan, and its final heading."""
+    left, right = (
+        _plan_of(bearing, Direction.BACKWARD)
+        for bearing in (BEARING, -BEARING)
+    )
+    samples = left.sample(np.arange(0.0, left.schedule.duration + REST, 0.01))
+    ends = [
+        degrees(float(left.placements[-1, 2])),
+        -degrees(float(right.placements[-1, 2])),
+    ]
+    return {
+        "bounded": float(np.hypot(*(samples.com - samples.zmp).T).max()),
+        "pendulum": _pendulum_error(left),
+        "integral": _quadrature_error(left),
+        "reached": most_deviating(ends, degrees(BEARING)),
+    }
+
+
+def _pendulum_error(plan: ManeuverPlan) -> float:
+    """Return the largest residual of x'' = eta^2 (x - z), in [m/s^2].
+
+    By finite differences in the middle of each phase of the plan, where the
+    CoM is smooth.
+    """
+    h = 1e-3
+    starts = plan.schedule.starts
+    middles = 0.5 * (starts[1:] + starts[:-1])
+    before, here, after = (
+        plan.sample(middles + shift) for shift in (-h, 0.0, h)
+    )
+    rate = (after.com - 2.0 * here.com + before.com) / h**2
+    expected = GAIT.eta**2 * (here.com - here.zmp)
+    return float(np.abs(rate - expected).max())
+
+
+def _quadrature_error(plan: ManeuverPlan) -> float:
+    """Return the largest difference of the DCM to (16), by midpoint rule."""
+    h = 5e-4
+    middles = np.arange(0.5 * h, plan.schedule.duration + REST, h)
+    zmp = plan.sample(middles).zmp
+    errors = []
+    for time in (0.0, 1.0, 3.3, 7.1):
+        ahead = middles > time
+        weight = GAIT.eta * np.exp(-GAIT.eta * (middles[ahead] - time)) * h
+        rest = np.exp(-GAIT.eta * (middles[-1] + 0.5 * h - time))
+        integral = weight @ zmp[ahead] / (weight.sum() + rest)
+        errors.append(np.abs(integral - plan.sample([time]).dcm).max())
+    return float(max(errors))
+
+
+def read_timing() -> dict[str, float]:
+    """Measure the processor time of plans of a walking robot, in [ms]."""
+    planner = ManeuverPlanner(GAIT)
+    state = CenterState((0.0, 0.03), (0.05, -0.1))
+    spent = []
+    for bearing in np.linspace(-1.5, 1.5, PLANS).tolist():
+        start = process_time()
+        planner.plan(
+            bearing, Direction.FORWARD, first_foot=Foot.LEFT, state=state
+        )
+        spent.append(process_time() - start)
+    return {"planning": 1e3 * float(np.quantile(spent, 0.99))}

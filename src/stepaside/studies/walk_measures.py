@@ -1,7 +1,6 @@
 """Measures of steps, plans, references and tilt of an instrumented duel."""
 
 from math import acos, degrees, inf, nan
-from typing import NamedTuple
 
 import numpy as np
 
@@ -31,24 +30,27 @@ def swing_intervals(ticks: Array, load: Array, single_support: float) -> Array:
         Rows (lift-off, landing), in [s]. Shape (m, 2).
     """
     on = load > CONTACT_LOAD
-    least = SWING_FRACTION * single_support
     changes = np.flatnonzero(on[1:] != on[:-1]) + 1
-    rows = [
-        (ticks[a], ticks[b])
-        for a, b in zip(changes, changes[1:], strict=False)
-        if not on[a] and ticks[b] - ticks[a] > least
+    pairs = np.stack([changes[:-1], changes[1:]], axis=-1)
+    swings: Array = ticks[pairs[~on[pairs[:, 0]]]]
+    long = np.ptp(swings, axis=1) > SWING_FRACTION * single_support
+    found: Array = swings[long]
+    return found
+
+
+def _swings(duel: InstrumentedDuel, name: str) -> list[Array]:
+    """Return the swings of left and right foot."""
+    single = duel.run.settings.gait.single_support
+    return [
+        swing_intervals(duel.ticks, load, single)
+        for load in duel.loads[name].T
     ]
-    return np.array(rows, dtype=np.float64).reshape(-1, 2)
 
 
 def step_times(duel: InstrumentedDuel, name: str) -> list[float]:
     """Return the times between landings of either foot, in [s], or [inf]."""
-    feet = duel.loads[name].T
-    single = duel.settings.gait.single_support
-    landings = np.concatenate(
-        [swing_intervals(duel.ticks, load, single)[:, 1] for load in feet]
-    )
-    intervals: list[float] = np.diff(np.sort(landings)).tolist()
+    landings = np.sort(np.concatenate(_swings(duel, name))[:, 1])
+    intervals: list[float] = np.diff(landings).tolist()
     return intervals or [inf]
 
 
@@ -66,12 +68,8 @@ def replanning_support(
         landing, while both feet are in contact; and the longest time from a
         plan to the next lift-off, in [s]. NaN without plans.
     """
-    single = duel.settings.gait.single_support
-    feet = duel.loads[name].T
-    flights = np.concatenate(
-        [swing_intervals(duel.ticks, load, single) for load in feet]
-    )
-    lifts, landings = np.sort(flights[:, 0]), np.sort(flights[:, 1])
+    flights = np.concatenate(_swings(duel, name))
+    lifts, landings = np.sort(flights, axis=0).T
     sent = np.array([plan.first_sent_time for plan in duel.plans[name]])
     if not len(lifts):
         return nan, nan
@@ -96,52 +94,40 @@ def walked_arc_fraction(
     The gait walks along the path slower than the template drives it. NaN
     for fewer than two plans.
     """
-    time_scale = gait.path_interval / gait.step_duration
-    fractions = [
-        (
-            later.first_sent_time
-            - plan.first_sent_time
-            - plan.from_standing * gait.start_support
-        )
-        * time_scale
-        * gait.gain
+    times = [
+        later.first_sent_time
+        - plan.first_sent_time
+        - plan.from_standing * gait.start_support
         for plan, later in zip(plans, plans[1:], strict=False)
     ]
-    return max(fractions, default=nan)
+    time_scale = gait.path_interval / gait.step_duration
+    return max(times, default=nan) * time_scale * gait.gain
 
 
-class ReferenceJump(NamedTuple):
-    """Jump of a reference.
-
-    Attributes:
-        position: Jump of the position, in [m].
-        velocity: Jump of the velocity, in [m/s].
-    """
-
-    position: float
-    velocity: float
-
-
-def reference_jumps(duel: InstrumentedDuel, name: str) -> ReferenceJump:
+def reference_jumps(duel: InstrumentedDuel, name: str) -> tuple[float, float]:
     """Return the largest jump of the CoM reference at a replan.
 
     Position and velocity on either side are those of polynomials through
     the references of the last ticks before and of the first ticks after the
-    replan. NaN without plans.
+    replan.
+
+    Returns:
+        Jumps of position, in [m], and velocity, in [m/s]; NaN without plans.
     """
     sent, ticks = duel.references[name], duel.ticks
     jumps = []
     for plan in duel.plans[name]:
         first = int(np.searchsorted(ticks, plan.start_time - 1e-9))
         if FIT_TICKS <= first <= len(ticks) - FIT_TICKS:
-            start = plan.start_time
-            before = _extrapolate(ticks, sent, start, first - FIT_TICKS)
-            after = _extrapolate(ticks, sent, start, first)
+            before, after = (
+                _extrapolate(ticks, sent, plan.start_time, number)
+                for number in (first - FIT_TICKS, first)
+            )
             jumps.append(np.abs(after - before).max(axis=1))
     if not jumps:
-        return ReferenceJump(nan, nan)
+        return nan, nan
     position, velocity = np.max(jumps, axis=0).tolist()
-    return ReferenceJump(position, velocity)
+    return position, velocity
 
 
 def _extrapolate(
@@ -156,49 +142,51 @@ def _extrapolate(
     return values
 
 
-def walking_speed(duel: InstrumentedDuel, name: str) -> float:
-    """Return the speed over the last third, in [m/s]; NaN if too short.
+def _samples_of_cycle(duel: InstrumentedDuel) -> int:
+    """Return the number of samples in a gait cycle.
 
-    The chords span a gait cycle, so that sway does not contribute.
+    Chords over a cycle have no sway.
     """
-    times = duel.times
-    period = float(times[1] - times[0])
-    cycle = round(2.0 * duel.settings.gait.step_duration / period)
-    positions = duel.tracks[name].unicycle[len(times) * 2 // 3 :, :2]
-    if len(positions) <= cycle:
+    times = duel.run.times
+    step = duel.run.settings.gait.step_duration
+    return round(2.0 * step / float(times[1] - times[0]))
+
+
+def walking_speed(duel: InstrumentedDuel, name: str) -> float:
+    """Return the speed over the last third, in [m/s]; NaN if too short."""
+    times, cycle = duel.run.times, _samples_of_cycle(duel)
+    last = duel.run.tracks[name].unicycle[len(times) * 2 // 3 :, :2]
+    if len(last) <= cycle:
         return nan
-    chords = np.hypot(*(positions[cycle:] - positions[:-cycle]).T)
-    return float(chords.mean() / (cycle * period))
+    chords = np.hypot(*(last[cycle:] - last[:-cycle]).T)
+    return float(chords.mean() / (cycle * (times[1] - times[0])))
 
 
 def distance_walked(duel: InstrumentedDuel, name: str) -> float:
-    """Return the path length of the torso by chords of a cycle, in [m]."""
-    times = duel.times
-    period = float(times[1] - times[0])
-    cycle = round(2.0 * duel.settings.gait.step_duration / period)
-    positions = duel.tracks[name].torso[:, :2]
-    corners = np.vstack([positions[::cycle], positions[-1:]])
+    """Return the path length of the torso, in [m]."""
+    positions = duel.run.tracks[name].torso[:, :2]
+    corners = np.vstack(
+        [positions[:: _samples_of_cycle(duel)], positions[-1:]]
+    )
     return float(np.hypot(*np.diff(corners, axis=0).T).sum())
 
 
 def largest_tilt(duel: InstrumentedDuel) -> float:
     """Return the largest angle of a torso from the vertical, in [deg]."""
-    postures = [duel.tracks[name].qpos for name in PLAYERS]
-    upward = [
-        1.0 - 2.0 * (qpos[:, 4:6] ** 2).sum(axis=1)
+    postures = [duel.run.tracks[name].qpos for name in PLAYERS]
+    upward = min(
+        float((1.0 - 2.0 * (qpos[:, 4:6] ** 2).sum(axis=1)).min())
         for qpos in postures
         if qpos is not None
-    ]
-    return degrees(acos(max(-1.0, min(1.0, float(np.min(upward))))))
+    )
+    return degrees(acos(max(-1.0, min(1.0, upward))))
 
 
 def mean_foot_slip(duel: InstrumentedDuel) -> float:
     """Return the mean slip of a foot from landing to lift-off, in [m]."""
     slips = []
     for name in PLAYERS:
-        for side, load in enumerate(duel.loads[name].T):
-            single = duel.settings.gait.single_support
-            flights = swing_intervals(duel.ticks, load, single)
+        for side, flights in enumerate(_swings(duel, name)):
             feet = duel.feet[name][:, side]
             landed = np.searchsorted(duel.ticks, flights[:-1, 1])
             lifted = np.searchsorted(duel.ticks, flights[1:, 0]) - 1
