@@ -8,15 +8,12 @@ import pytest
 
 from stepaside.core.errors import ConfigurationError
 from stepaside.sim.camera_settings import (
-    DEPTH_CAMERAS,
     CameraSettings,
     ColourSettings,
     DepthSettings,
-    RearSettings,
     RoomObject,
     SceneSettings,
     SonarSettings,
-    depth_camera_of,
 )
 
 
@@ -27,8 +24,8 @@ from stepaside.sim.camera_settings import (
         (ColourSettings, {"width": 7}, "width"),
         (DepthSettings, {"near": 0.0}, "near"),
         (DepthSettings, {"missing": 1.1}, "missing"),
-        (RearSettings, {"near": 3.0, "far": 2.0}, r"far must lie in \[3"),
-        (RearSettings, {"across": 3.0}, "across must lie"),
+        (DepthSettings, {"near": 3.0, "far": 2.0}, r"far must lie in \[3"),
+        (DepthSettings, {"across": 3.0}, "across must lie"),
         (SonarSettings, {"near": 0.5, "far": 0.4}, "far must lie"),
         (CameraSettings, {"drop_frames": -0.1}, "drop_frames"),
         (SceneSettings, {"walls": 1.0}, "walls"),
@@ -53,20 +50,13 @@ def field_of_view(kind: ColourSettings | DepthSettings) -> tuple[float, ...]:
 
 
 def test_optics_are_those_of_the_vendors() -> None:
-    """SoftBank's for NAO V5 and V6, ASUS's for the Xtion."""
+    """SoftBank's for NAO, ASUS's for the Xtion, RealSense's for the D455."""
     assert field_of_view(ColourSettings()) == pytest.approx((60.9, 47.6))
     six = ColourSettings(optics="v6")
     assert field_of_view(six) == pytest.approx((54.7, 42.5))
     assert field_of_view(DepthSettings()) == pytest.approx((58.0, 45.0))
+    rear = CameraSettings().rear
+    assert field_of_view(rear) == pytest.approx((87.0, 58.0))
+    assert (rear.near, rear.far) == (0.6, 6.0)
     with pytest.raises(ConfigurationError, match="got 'v7'"):
         ColourSettings(optics="v7")
-
-
-def test_depth_cameras_of_a_head_have_names() -> None:
-    d455 = DEPTH_CAMERAS["d455"]
-    assert (d455.near, d455.far) == (0.6, 6.0)
-    assert type(d455) is DepthSettings  # as a configuration file makes it
-    assert depth_camera_of(CameraSettings()) == ""
-    assert depth_camera_of(CameraSettings(depth=d455)) == "d455"
-    own = CameraSettings(depth=DepthSettings(far=3.0))
-    assert depth_camera_of(own) == ""

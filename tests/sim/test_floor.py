@@ -16,7 +16,7 @@ def floor(seed: int = 1, **changes: Any) -> mujoco.MjModel:
     spec = mujoco.MjSpec()
     physics = PhysicsSettings(**changes)
     tilt_gravity(spec, physics)
-    add_floor(spec, physics, named_generator(seed, "floor"), 1)
+    add_floor(spec, physics, named_generator(seed, "floor"))
     return spec.compile()
 
 

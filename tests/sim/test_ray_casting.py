@@ -12,13 +12,8 @@ from stepaside.core.rotations import rotation
 from stepaside.perception.camera_model import CameraModel
 from stepaside.robots.head import Mount
 from stepaside.sim.camera_settings import DepthSettings, SonarSettings
-from stepaside.sim.ray_casting import (
-    DepthCaster,
-    RayCaster,
-    SonarCaster,
-    _edges,
-    cone,
-)
+from stepaside.sim.ray_casting import RayCaster, geoms_in_cone
+from stepaside.sim.sensor_suite import cast_depths, cast_echo, cone, edges
 
 CAMERA = CameraModel.of_field_of_view(40, 30, radians(58.0), radians(45.0))
 AHEAD = Mount(np.array([0.1, 0.0, 0.0]), np.eye(3))
@@ -85,7 +80,7 @@ def depths(
     at: str = 'pos="0 0 0.5"',
 ) -> np.ndarray:
     _, caster = cast(things, CAMERA.rays().reshape(-1, 3), mount, at)
-    return DepthCaster(caster, CAMERA, settings, generator()).take()
+    return cast_depths(caster, CAMERA, settings, generator())
 
 
 def test_depth_is_along_the_axis_and_not_along_the_ray() -> None:
@@ -150,18 +145,18 @@ def test_surfaces_seen_at_a_grazing_angle_send_nothing_back(
     )
     _, caster = cast(leaf, np.array([[1.0, 0.0, 0.0]]))
     single = CameraModel(1, 1, 10.0, 10.0)
-    eye = DepthCaster(caster, single, CLEAN, generator())
-    assert (eye.take()[0, 0] > 0.0) is np.bool_(seen)
+    image = cast_depths(caster, single, CLEAN, generator())
+    assert (image[0, 0] > 0.0) is np.bool_(seen)
     assert caster.slants[0] == pytest.approx(slant, rel=1e-3)
 
 
 def test_what_is_left_of_a_near_edge_lies_in_its_shadow() -> None:
     row = np.array([[2.0, 2.0, 1.6, 1.6, 2.0, 2.0, 0.0, 2.0]])
-    assert _edges(row).tolist() == [
+    assert edges(row).tolist() == [
         [False, True, False, False, False, False, False, False]
     ]
-    assert not _edges(np.array([[2.0, 1.71]])).any()
-    assert _edges(np.array([[2.0, 1.69]])).any()
+    assert not edges(np.array([[2.0, 1.71]])).any()
+    assert edges(np.array([[2.0, 1.69]])).any()
 
 
 def test_the_shadow_of_an_edge_is_dark_in_the_image() -> None:
@@ -176,7 +171,7 @@ def hear(
     things: str, settings: SonarSettings = QUIET, at: str = 'pos="0 0 0.5"'
 ) -> float | None:
     _, caster = cast(things, cone(settings.cone), AHEAD, at)
-    return SonarCaster(caster, settings, generator()).listen()
+    return cast_echo(caster, settings, generator())
 
 
 def test_a_sonar_measures_the_nearest_object_not_the_floor() -> None:
@@ -224,11 +219,13 @@ def test_a_sonar_has_its_far_limit() -> None:
 def test_sonar_noise_has_the_set_deviation() -> None:
     settings = replace(QUIET, noise=0.02, step=1e-4)
     _, caster = cast(wall(0.6), cone(settings.cone))
-    sonar = SonarCaster(caster, settings, generator())
-    heard = np.array([sonar.listen() for _ in range(500)], dtype=float)
+    draw = generator()
+    heard = np.array(
+        [cast_echo(caster, settings, draw) for _ in range(500)], dtype=float
+    )
     assert heard.std() == pytest.approx(0.02, rel=0.1)
-    quiet = SonarCaster(caster, replace(settings, noise=0.0), generator())
-    assert heard.mean() == pytest.approx(quiet.listen(), abs=0.003)
+    quiet = cast_echo(caster, replace(settings, noise=0.0), draw)
+    assert heard.mean() == pytest.approx(quiet, abs=0.003)
 
 
 @pytest.mark.parametrize(("angle", "heard"), [(57.0, True), (63.0, False)])
@@ -242,11 +239,44 @@ def test_oblique_surfaces_give_no_echo(angle: float, heard: bool) -> None:
     assert (hear(leaf, narrow) is not None) is heard
 
 
-def test_a_cone_is_filled_by_a_grid_of_rays() -> None:
-    """Of six by six those within it; the outermost are not on its rim."""
-    rays = cone(radians(60.0))
-    angles = np.degrees(np.arctan(np.hypot(rays[:, 1], rays[:, 2])))
-    assert len(rays) == 16 and (rays[:, 0] == 1.0).all()
-    assert 26.0 < angles.max() < 30.0
-    np.testing.assert_allclose(rays.mean(axis=0), (1, 0, 0), atol=1e-12)
-    assert np.unique(np.round(rays[:, 1:], 9), axis=0).shape == (16, 2)
+EYE = np.array([0.1, -0.2, 0.5])
+
+
+def balls(places: Array, radii: Array) -> tuple[mujoco.MjModel, mujoco.MjData]:
+    """Return balls above a floor, which is geom 0."""
+    text = "".join(
+        f'<geom size="{r}" pos="{x} {y} {z}"/>'
+        for (x, y, z), r in zip(places.tolist(), radii.tolist(), strict=True)
+    )
+    model = mujoco.MjModel.from_xml_string(
+        "<mujoco><worldbody>"
+        f'<geom type="plane" size="9 9 1"/>{text}</worldbody></mujoco>'
+    )
+    data = mujoco.MjData(model)
+    mujoco.mj_kinematics(model, data)
+    return model, data
+
+
+@pytest.mark.parametrize("half_angle", [radians(20.0), radians(40.0)])
+def test_what_any_ray_of_the_cone_hits_is_shown(half_angle: float) -> None:
+    """Each ball alone before a dense cone of rays."""
+    random = np.random.default_rng(3)
+    places = EYE + random.normal(size=(200, 3))
+    radii = random.uniform(0.02, 0.3, 200)
+    model, data = balls(places, radii)
+    axis = np.array([0.6, 0.64, -0.48])
+    directions = random.normal(size=(20000, 3))
+    directions /= np.linalg.norm(directions, axis=1)[:, None]
+    inside = directions[directions @ axis > np.cos(half_angle)]
+    before = model.geom_group.copy()
+    with geoms_in_cone(model, data, EYE, axis, half_angle):
+        shown = model.geom_group == before
+    np.testing.assert_array_equal(model.geom_group, before)
+    along = (places - EYE) @ inside.T
+    squares = np.square(places - EYE).sum(axis=1)[:, None]
+    misses = np.sqrt(np.maximum(squares - along**2, 0.0))
+    hit = ((misses < radii[:, None]) & (along > 0.0)).any(axis=1)
+    hit |= squares[:, 0] < radii**2
+    assert shown[0]  # the floor
+    assert shown[1:][hit].all()
+    assert 20 < (~shown).sum() < 200 - hit.sum() + 1

@@ -35,7 +35,6 @@ from stepaside.robots.description import load_robot
 from stepaside.sim.camera_settings import (
     DEPTH_CAMERAS,
     CameraSettings,
-    depth_camera_of,
 )
 from stepaside.sim.person_settings import PersonSettings
 from stepaside.studies.result_files import header, write_result
@@ -192,7 +191,7 @@ def main() -> None:
         rear_camera=asked.rear_camera,
     )
     chosen = {
-        "depth_camera": depth_camera_of(cameras),
+        "depth_camera": asked.depth_camera,
         "rear_camera": cameras.rear_camera,
     }
     head = header(

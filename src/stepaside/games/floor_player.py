@@ -58,7 +58,7 @@ class MarkerBody:
 
     def move(self, pose: Pose) -> None:
         """Move to a pose in the world."""
-        self.truth.move(pose)
+        self.truth.pose = pose
         pose_template(self.world.model, self.world.data, self.name, pose)
 
 

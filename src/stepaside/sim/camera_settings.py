@@ -1,6 +1,6 @@
 """Settings of cameras and sonars, and of the scene around the robots."""
 
-from dataclasses import asdict, dataclass
+from dataclasses import dataclass
 from math import radians
 
 from ..arena import Room
@@ -75,10 +75,10 @@ class ColourSettings:
 
 @dataclass(frozen=True, slots=True)
 class DepthSettings:
-    """Settings of the ASUS Xtion on the evader's head."""
+    """Settings of a depth camera; by default the ASUS Xtion."""
 
-    width: int = setting(80, "Image columns that are used, of 640", PIXELS)
-    height: int = setting(60, "Image rows that are used, of 480", PIXELS)
+    width: int = setting(80, "Image columns that are used", PIXELS)
+    height: int = setting(60, "Image rows that are used", PIXELS)
     across: float = setting(radians(58.0), "Horizontal field of view", VIEW)
     down: float = setting(radians(45.0), "Vertical field of view", VIEW)
     rate: float = setting(15.0, "Frame rate {unit}; the sensor gives 30", RATE)
@@ -125,34 +125,13 @@ class DepthSettings:
         )
 
 
-@dataclass(frozen=True, slots=True)
-class RearSettings(DepthSettings):
-    """Settings of a RealSense D455 on the evader's torso.
-
-    Rate, latency and noise are those of the camera on the head: the noise
-    that the vendor's formula gives for this camera is the same, too.
-    """
-
-    width: int = setting(106, "Image columns that are used, of 848", PIXELS)
-    height: int = setting(60, "Image rows that are used, of 480", PIXELS)
-    across: float = setting(radians(87.0), "Horizontal field of view", VIEW)
-    down: float = setting(radians(58.0), "Vertical field of view", VIEW)
-    near: float = setting(
-        0.6,
-        "Shortest distance that is measured",
-        Range(0.01, 20.0, "m", "the size of a lens"),
-    )
-    far: float = setting(
-        6.0,
-        "Longest distance that is measured",
-        Range(0.01, 20.0, "m", "from near to the size of a room"),
-    )
-
-
-# Depth cameras for a head, by name.
+# Depth cameras, by name. Rate, latency and noise of the second are as of the
+# first: the noise that the vendor's formula gives for it is the same, too.
 DEPTH_CAMERAS = {
     "xtion": DepthSettings(),
-    "d455": DepthSettings(**asdict(RearSettings())),
+    "d455": DepthSettings(
+        width=106, across=radians(87.0), down=radians(58.0), near=0.6, far=6.0
+    ),
 }
 
 
@@ -252,9 +231,10 @@ class CameraSettings:
         False,
         "Whether the evader uses the depth cameras on its torso",
     )
-    rear: RearSettings = setting(
-        RearSettings(),
+    rear: DepthSettings = setting(
+        DEPTH_CAMERAS["d455"],
         "Depth cameras on the evader's torso",
+        presets=DEPTH_CAMERAS,
         needs=("cameras.rear_camera", ""),
     )
     sonar: SonarSettings = setting(
@@ -278,14 +258,6 @@ class CameraSettings:
     def depth_of(self, mount: Mount) -> DepthSettings:
         """Return the settings of the depth camera on a mount."""
         return self.rear if mount.on_torso else self.depth
-
-
-def depth_camera_of(cameras: CameraSettings) -> str:
-    """Return the name of the depth camera on the head; empty if default."""
-    names = {
-        name for name, own in DEPTH_CAMERAS.items() if own == cameras.depth
-    }
-    return "" if cameras.depth == DepthSettings() else "".join(names)
 
 
 @dataclass(frozen=True, slots=True)

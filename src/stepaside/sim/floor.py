@@ -1,15 +1,19 @@
-"""Floor of the simulated world: slope, friction and unevenness."""
+"""Floor of the simulated world, and geoms that rest on it."""
 
+from collections.abc import Sequence
 from math import cos, sin
+from typing import Any
 
 import mujoco
 import numpy as np
 
 from .physics_settings import PhysicsSettings
 
+FLOOR_BIT = 1  # contact type of floor, walls and obstacles
 HALF_SIDE = 4.0  # of an uneven floor, in [m]
 GRAIN = 0.1  # spacing of independent heights of an uneven floor, in [m]
 CELLS = 2  # grid cells per grain
+TONES = (0.86, 0.86, 0.84), (0.80, 0.80, 0.78)
 
 
 def tilt_gravity(spec: mujoco.MjSpec, physics: PhysicsSettings) -> None:
@@ -20,29 +24,75 @@ def tilt_gravity(spec: mujoco.MjSpec, physics: PhysicsSettings) -> None:
     spec.option.gravity = [g * s * cos(down), g * s * sin(down), -g * c]
 
 
+def add_geom(
+    body: mujoco.MjsBody,
+    kind: str,
+    size: Sequence[float],
+    colour: Sequence[float],
+    *,
+    at: Sequence[float] = (0.0, 0.0, 0.0),
+    yaw: float = 0.0,
+    bit: int = FLOOR_BIT,
+    **more: Any,
+) -> None:
+    """Add a geom that robots collide with, unless its contact type is 0.
+
+    Args:
+        body: Body of the geom.
+        kind: Kind, like "BOX".
+        size: Sizes as MuJoCo has them, in [m].
+        colour: Red to opacity.
+        at: Position in the body, in [m].
+        yaw: Rotation about the vertical, in [rad].
+        bit: Contact type.
+        more: Further attributes.
+    """
+    body.add_geom(
+        type=getattr(mujoco.mjtGeom, f"mjGEOM_{kind}"),
+        size=[*size, *(0.0,) * (3 - len(size))],
+        rgba=list(colour),
+        pos=list(at),
+        quat=[cos(0.5 * yaw), 0.0, 0.0, sin(0.5 * yaw)],
+        contype=bit,
+        conaffinity=0,
+        **more,
+    )
+
+
+def add_tiles(
+    spec: mujoco.MjSpec,
+    name: str,
+    tones: Sequence[Sequence[float]],
+    pixels: int,
+    repeat: int,
+    reflectance: float = 0.0,
+) -> None:
+    """Add a material of tiles of two tones."""
+    spec.add_texture(
+        name=name,
+        type=mujoco.mjtTexture.mjTEXTURE_2D,
+        builtin=mujoco.mjtBuiltin.mjBUILTIN_CHECKER,
+        rgb1=list(tones[0]),
+        rgb2=list(tones[1]),
+        width=pixels,
+        height=pixels,
+    )
+    material = spec.add_material(
+        name=name,
+        texrepeat=[repeat, repeat],
+        texuniform=True,
+        reflectance=reflectance,
+    )
+    material.textures[mujoco.mjtTextureRole.mjTEXROLE_RGB] = name
+
+
 def add_floor(
     spec: mujoco.MjSpec,
     physics: PhysicsSettings,
     generator: np.random.Generator,
-    bit: int,
 ) -> None:
-    """Add floor, sky and light.
-
-    Args:
-        spec: Specification of the world.
-        physics: Friction and unevenness.
-        generator: Random generator of the heights of an uneven floor.
-        bit: Contact type of the floor.
-    """
-    spec.add_texture(
-        name="floor",
-        type=mujoco.mjtTexture.mjTEXTURE_2D,
-        builtin=mujoco.mjtBuiltin.mjBUILTIN_CHECKER,
-        rgb1=[0.86, 0.86, 0.84],
-        rgb2=[0.80, 0.80, 0.78],
-        width=256,
-        height=256,
-    )
+    """Add floor, sky and light; the generator is of an uneven floor."""
+    add_tiles(spec, "floor", TONES, 256, 2, reflectance=0.05)
     spec.add_texture(
         name="sky",
         type=mujoco.mjtTexture.mjTEXTURE_SKYBOX,
@@ -52,10 +102,6 @@ def add_floor(
         width=64,
         height=384,
     )
-    floor = spec.add_material(
-        name="floor", texrepeat=[2, 2], texuniform=True, reflectance=0.05
-    )
-    floor.textures[mujoco.mjtTextureRole.mjTEXROLE_RGB] = "floor"
     uneven = physics.unevenness > 0.0
     if uneven:
         _add_heights(spec, physics.unevenness, generator)
@@ -70,7 +116,7 @@ def add_floor(
         hfieldname="floor" if uneven else "",
         material="floor",
         friction=[physics.friction, 0.005, 0.0001],
-        contype=bit,
+        contype=FLOOR_BIT,
         conaffinity=0,
     )
     spec.worldbody.add_light(

@@ -1,12 +1,13 @@
 """True state of players, known to the simulator only."""
 
 from math import atan2, cos, hypot, radians, sin
-from typing import Protocol
+from typing import NamedTuple, Protocol
 
 import mujoco
 import numpy as np
 
 from ..core.poses import Array, Pose
+from ..core.rotations import angles_of
 from ..robots.description_types import ReferencePoint
 
 FALLEN = cos(radians(45.0))  # upward component of the torso's axis
@@ -55,19 +56,11 @@ class FloorTruth:
         reach: Radius that contains the whole body, in [m].
     """
 
+    has_fallen = False
+
     def __init__(self, pose: Pose, *, reach: float, height: float) -> None:
-        """Begin at a pose.
-
-        Args:
-            pose: Initial pose in the world.
-            reach: Radius that contains the whole body, in [m].
-            height: Height that stands for that of the CoM, in [m].
-        """
+        """Begin at a pose; ``height`` stands for that of the CoM, in [m]."""
         self.pose, self.reach, self._height = pose, reach, height
-
-    def move(self, pose: Pose) -> None:
-        """Move to a pose in the world."""
-        self.pose = pose
 
     @property
     def position_com_in_world(self) -> Array:
@@ -79,20 +72,12 @@ class FloorTruth:
         """Position, in [m]."""
         return self.pose[:2]
 
-    @property
-    def position_reference_in_world(self) -> tuple[float, float]:
-        """Position, in [m]."""
-        return self.pose[:2]
+    position_reference_in_world = position_torso_in_world
 
     @property
     def heading_in_world(self) -> float:
         """Heading, in [rad]."""
         return self.pose.theta
-
-    @property
-    def has_fallen(self) -> bool:
-        """Return false: it does not fall."""
-        return False
 
 
 class TrueRobotState:
@@ -121,16 +106,10 @@ class TrueRobotState:
         com_forward: float = 0.0,
         place: ReferencePoint | None = None,
     ) -> None:
-        """Read the state of a robot.
+        """Read the state of a robot by the name of its torso body.
 
-        Args:
-            model: Compiled model.
-            data: Its state.
-            torso: Name of its torso body.
-            com_forward: Offset of the CoM ahead of the reference point in
-                its gait, in [m].
-            place: Position of the hips in the torso frame, and reach of the
-                robot.
+        ``com_forward`` is the offset of the CoM ahead of the reference point
+        in its gait, in [m].
         """
         self._com_forward = com_forward
         place = place or ReferencePoint()
@@ -153,9 +132,9 @@ class TrueRobotState:
     @property
     def position_reference_in_world(self) -> tuple[float, float]:
         """Reference point, in [m]."""
-        return self._below_com(
-            self.position_com_in_world.tolist(), self.heading_in_world
-        )
+        x, y, _ = self.position_com_in_world.tolist()
+        heading, ahead = self.heading_in_world, self._com_forward
+        return x - ahead * cos(heading), y - ahead * sin(heading)
 
     @property
     def heading_in_world(self) -> float:
@@ -173,8 +152,6 @@ class TrueRobotState:
     ) -> tuple[Array, Array]:
         """Return the poses of reference point and torso in the world.
 
-        They have the bits of the properties.
-
         Args:
             com: Recorded values of ``position_com_in_world``. Shape (n, 3).
             origin: Those of ``origin_torso_in_world``. Shape (n, 3).
@@ -184,19 +161,47 @@ class TrueRobotState:
             Rows (x [m], y [m], theta [rad]) of both. Shapes (n, 3).
         """
         forward = axes[:, [0, 3]]
-        headings = [atan2(y, x) for x, y in forward.tolist()]
-        turned = [(cos(angle), sin(angle)) for angle in headings]
-        reference = com[:, :2] - self._com_forward * np.reshape(
-            turned, (-1, 2)
-        )
+        heading = np.arctan2(forward[:, 1], forward[:, 0])
+        turned = np.column_stack([np.cos(heading), np.sin(heading)])
+        reference = com[:, :2] - self._com_forward * turned
         torso = origin[:, :2] + self._hips_forward * forward
         return (
-            np.column_stack([reference, headings]),
-            np.column_stack([torso, headings]),
+            np.column_stack([reference, heading]),
+            np.column_stack([torso, heading]),
         )
 
-    def _below_com(
-        self, com: list[float], heading: float
-    ) -> tuple[float, float]:
-        ahead = self._com_forward
-        return com[0] - ahead * cos(heading), com[1] - ahead * sin(heading)
+
+class TrueStance(NamedTuple):
+    """Torso, feet and velocity of a robot in its world.
+
+    Attributes:
+        velocity: CoM velocity (x, y), in [m/s].
+        tilt: Roll and pitch of the torso, in [rad].
+        left_sole: Pose of the left sole.
+        right_sole: Pose of the right sole.
+    """
+
+    velocity: tuple[float, float]
+    tilt: tuple[float, float]
+    left_sole: Pose
+    right_sole: Pose
+
+
+def true_stance(
+    model: mujoco.MjModel, data: mujoco.MjData, torso: int, soles: list[int]
+) -> TrueStance:
+    """Return the stance by the body of the torso and the sites of the soles.
+
+    The left sole is first.
+    """
+    mujoco.mj_subtreeVel(model, data)
+    vx, vy, _ = data.subtree_linvel[torso].tolist()
+    roll, pitch, _ = angles_of(data.xmat[torso].reshape(3, 3))
+    left, right = (_pose(data, sole) for sole in soles)
+    return TrueStance((vx, vy), (roll, pitch), left, right)
+
+
+def _pose(data: mujoco.MjData, site: int) -> Pose:
+    x, y, _ = data.site_xpos[site].tolist()
+    frame = data.site_xmat[site]
+    return Pose(x, y, atan2(frame[3], frame[0]))

@@ -7,7 +7,7 @@ from math import atan2, hypot
 import numpy as np
 
 from ..core.player_identity import PlayerIdentity
-from ..core.poses import Pose, wrap_angle
+from ..core.poses import wrap_angle
 from ..perception.measurement import Sighting
 from .ground_truth import GroundTruth
 from .physics_settings import SightSettings
@@ -35,15 +35,9 @@ class IdealLineOfSight:
         identity: PlayerIdentity | None = None,
         between: Sequence[GroundTruth] = (),
     ) -> None:
-        """Measure a player from a robot.
+        """Measure a player, recognised if its identity is given.
 
-        Args:
-            own: True state of the robot.
-            opponent: True state of the player that is measured.
-            settings: Errors of the sensor.
-            generator: Random generator of the errors.
-            identity: Identity of the player, if the sensor recognises it.
-            between: True states of players that can hide it.
+        ``between`` are players that can hide it.
         """
         self._own, self._opponent = own, opponent
         self._settings = settings
@@ -66,7 +60,8 @@ class IdealLineOfSight:
         settings = self._settings
         if now * settings.rate >= self._count - 1e-9 or now == 0.0:
             self._count = 1 if now == 0.0 else self._count + 1
-            if not self._is_hidden():
+            own, other = self._own, self._opponent
+            if not any(hides(body, own, other) for body in self._between):
                 self._pending.append(self._measure(now))
         while (
             self._pending
@@ -74,12 +69,6 @@ class IdealLineOfSight:
         ):
             self._latest = self._pending.popleft()
         return self._latest
-
-    def _is_hidden(self) -> bool:
-        """Return whether another player hides the player."""
-        return any(
-            hides(other, self._own, self._opponent) for other in self._between
-        )
 
     def _measure(self, now: float) -> Sighting:
         x, y = self._own.position_reference_in_world
@@ -105,16 +94,9 @@ def hides(body: GroundTruth, eye: GroundTruth, seen: GroundTruth) -> bool:
     The body is a cylinder around its reference point. It hides what is
     behind it if the line between the reference points passes through it, and
     if it is about as tall as the hidden player.
-
-    Args:
-        body: True state of the body in between.
-        eye: True state of the player that looks.
-        seen: True state of the player that is looked at.
     """
-    (x, y), (u, v) = (
-        eye.position_reference_in_world,
-        seen.position_reference_in_world,
-    )
+    x, y = eye.position_reference_in_world
+    u, v = seen.position_reference_in_world
     p, q = body.position_reference_in_world
     dx, dy = u - x, v - y
     length = hypot(dx, dy)
@@ -126,19 +108,3 @@ def hides(body: GroundTruth, eye: GroundTruth, seen: GroundTruth) -> bool:
         return False
     own, other = body.position_com_in_world, seen.position_com_in_world
     return bool(own[2] >= TALL_ENOUGH * other[2])
-
-
-class IdealPose:
-    """Sensor of the true CoM and heading of a robot in its room.
-
-    It replaces localisation on a given map.
-    """
-
-    def __init__(self, own: GroundTruth) -> None:
-        """Measure the pose of a robot."""
-        self._own = own
-
-    def read(self) -> Pose:
-        """Return the CoM on the floor, [m], and the torso heading, [rad]."""
-        x, y, _ = self._own.position_com_in_world.tolist()
-        return Pose(x, y, self._own.heading_in_world)

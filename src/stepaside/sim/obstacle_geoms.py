@@ -1,15 +1,13 @@
 """Geoms of the obstacles and walls of a room."""
 
 from collections.abc import Callable
-from math import cos, sin
-from typing import Any
 
 import mujoco
 import numpy as np
 
-from ..arena import Box, Disc, Obstacle, Polygon, Room
+from ..arena import Box, Disc, Obstacle, Room
+from .floor import add_geom
 
-FLOOR_BIT = 1  # contact type of the floor, with which robots collide
 HEIGHT = 0.6  # of all obstacles, a little above a NAO's head, in [m]
 GREY = (0.54, 0.56, 0.60, 1.0)
 BROWN = (0.60, 0.44, 0.28, 1.0)  # of moving boxes
@@ -21,10 +19,6 @@ def add_solids(spec: mujoco.MjSpec, room: Room) -> None:
 
     Each is a separate body, which names its contacts: "disc 1", "box 1",
     "polygon 1", "wall 1" and so on.
-
-    Args:
-        spec: Specification of the world.
-        room: The room; its frame is that of the world.
     """
     for name, solid in named_solids(room):
         colour = PALE if name.startswith("wall") else GREY
@@ -36,16 +30,7 @@ def add_solids(spec: mujoco.MjSpec, room: Room) -> None:
 def obstacle_mover(
     model: mujoco.MjModel, data: mujoco.MjData, room: Room
 ) -> Callable[[float], None]:
-    """Return the function that moves the moving boxes of a room.
-
-    Args:
-        model: Model of the world.
-        data: Its state.
-        room: The room.
-
-    Returns:
-        Function of the time, in [s].
-    """
+    """Return the function of time, in [s], that moves the moving boxes."""
     numbers = [
         int(model.body(_name(number)).mocapid[0])
         for number in range(1, len(room.moving) + 1)
@@ -89,47 +74,16 @@ def _add_solid(
 ) -> None:
     x, y = solid.centre
     body = spec.worldbody.add_body(name=name, pos=[x, y, 0.0], mocap=moves)
-    body.add_geom(
-        **_GEOMS[solid.kind](spec, name, solid),
-        rgba=list(colour),
-        contype=FLOOR_BIT,
-        conaffinity=0,
-    )
-
-
-def _cylinder(spec: mujoco.MjSpec, name: str, disc: Disc) -> dict[str, Any]:
-    return {
-        "type": mujoco.mjtGeom.mjGEOM_CYLINDER,
-        "pos": [0.0, 0.0, 0.5 * HEIGHT],
-        "size": [disc.radius, 0.5 * HEIGHT, 0.0],
-    }
-
-
-def _cuboid(spec: mujoco.MjSpec, name: str, box: Box) -> dict[str, Any]:
-    turn = 0.5 * box.heading
-    return {
-        "type": mujoco.mjtGeom.mjGEOM_BOX,
-        "pos": [0.0, 0.0, 0.5 * HEIGHT],
-        "size": [0.5 * box.width, 0.5 * box.depth, 0.5 * HEIGHT],
-        "quat": [cos(turn), 0.0, 0.0, sin(turn)],
-    }
-
-
-def _prism(spec: mujoco.MjSpec, name: str, polygon: Polygon) -> dict[str, Any]:
-    around = polygon.points - polygon.centre
-    corners = [(*p, z) for p in around.tolist() for z in (0.0, HEIGHT)]
-    mesh = spec.add_mesh(name=name)
-    mesh.uservert = np.array(corners).ravel().tolist()
-    return {
-        "type": mujoco.mjtGeom.mjGEOM_MESH,
-        "meshname": name,
-        "pos": [0.0, 0.0, 0.0],
-    }
-
-
-# Geom of each kind of obstacle.
-_GEOMS: dict[str, Callable[..., dict[str, Any]]] = {
-    Disc.kind: _cylinder,
-    Box.kind: _cuboid,
-    Polygon.kind: _prism,
-}
+    half = 0.5 * HEIGHT
+    if isinstance(solid, Disc):
+        size = solid.radius, half
+        add_geom(body, "CYLINDER", size, colour, at=(0.0, 0.0, half))
+    elif isinstance(solid, Box):
+        size3 = 0.5 * solid.width, 0.5 * solid.depth, half
+        at, yaw = (0.0, 0.0, half), solid.heading
+        add_geom(body, "BOX", size3, colour, at=at, yaw=yaw)
+    else:
+        around = solid.points - solid.centre
+        corners = [(*p, z) for p in around.tolist() for z in (0.0, HEIGHT)]
+        spec.add_mesh(name=name).uservert = np.array(corners).ravel().tolist()
+        add_geom(body, "MESH", (), colour, meshname=name)

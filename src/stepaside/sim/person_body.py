@@ -7,9 +7,10 @@ import mujoco
 from ..core.player_colours import Colour
 from ..core.poses import Pose
 from ..core.rotations import quaternion_of
+from .floor import FLOOR_BIT, add_geom
 from .ground_truth import FloorTruth
 from .pedestrian_appearance import FIGURES, HIP, PedestrianModel
-from .world import CONTACT_BITS, FLOOR_BIT, World
+from .world import CONTACT_BITS, World
 
 SKIN = (0.85, 0.68, 0.56, 1.0)
 ADULT = FIGURES["adult"]
@@ -47,14 +48,14 @@ def add_person(
         radius: float,
         colour: Colour,
     ) -> None:
-        body.add_geom(
-            type=mujoco.mjtGeom.mjGEOM_CAPSULE,
+        add_geom(
+            body,
+            "CAPSULE",
+            (figure.size * radius,),
+            colour,
+            bit=FLOOR_BIT if solid else UNTOUCHABLE_BIT,
             fromto=[figure.size * value for value in (*start, *end)],
-            size=[figure.size * radius, 0.0, 0.0],
-            rgba=list(colour),
             group=2,
-            contype=FLOOR_BIT if solid else UNTOUCHABLE_BIT,
-            conaffinity=0,
         )
 
     shirt, trousers = shirt or figure.shirt, figure.trousers
@@ -138,6 +139,6 @@ class PersonBody:
         """Move to a pose in the world."""
         before = self.truth.pose
         self._walked += hypot(pose.x - before.x, pose.y - before.y)
-        self.truth.move(pose)
+        self.truth.pose = pose
         data, walked = self.world.data, self._walked
         set_person_pose(data, self._parts, pose, walked, self._figure)

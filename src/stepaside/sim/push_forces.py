@@ -1,7 +1,7 @@
 """Forces of pushes on a body of the world."""
 
 from collections import deque
-from math import cos, sin
+from math import atan2, cos, sin
 
 import mujoco
 
@@ -19,10 +19,7 @@ class PushApplier:
     """
 
     def __init__(
-        self,
-        model: mujoco.MjModel,
-        data: mujoco.MjData,
-        torso: int,
+        self, model: mujoco.MjModel, data: mujoco.MjData, torso: int
     ) -> None:
         """Prepare pushes of the body with an index."""
         self._force = data.xfrc_applied[torso]
@@ -55,21 +52,10 @@ class PushApplier:
 
     def _start(self, push: Push, time: float) -> None:
         """Start a push, in the direction of the torso's heading."""
-        x, y = self._frame[0], self._frame[3]
-        length = (x * x + y * y) ** 0.5 or 1.0
-        x, y = x / length, y / length
-        c, s = cos(push.direction), sin(push.direction)
+        angle = atan2(self._frame[3], self._frame[0]) + push.direction
         force = push.impulse / push.duration
-        fx, fy = force * (c * x - s * y), force * (c * y + s * x)
+        fx, fy = force * cos(angle), force * sin(angle)
         self._active.append((time + push.duration, fx, fy))
-        position = self._position.tolist()
-        self.given.append(
-            ScheduledPush(
-                time,
-                push.duration,
-                position[0],
-                position[1],
-                fx * push.duration,
-                fy * push.duration,
-            )
-        )
+        x, y, _ = self._position.tolist()
+        whole = fx * push.duration, fy * push.duration
+        self.given.append(ScheduledPush(time, push.duration, x, y, *whole))

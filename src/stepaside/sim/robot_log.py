@@ -28,8 +28,8 @@ class RobotLog:
         Args:
             sources: Views of the arrays, by name. Shapes (n,).
             prepare: Function that computes them for a sample.
-            convert: Function of all samples, by name, that returns what the
-                log gives. Shapes (samples, n).
+            convert: Function from all samples to what the log gives. Shapes
+                (samples, n).
         """
         self._names, self._sources = tuple(sources), tuple(sources.values())
         self._prepare, self._convert = prepare, convert
@@ -61,12 +61,8 @@ def state_log(
 ) -> RobotLog:
     """Return a log of CoM, poses, ZMP and posture; see ``Trajectory``.
 
-    Args:
-        world: World of the robot.
-        truth: True state of the robot.
-        qpos: Part of qpos of the robot.
-        forces: Addresses of the foot force sensors in ``sensordata``.
-        corners: Indices of the sites of these sensors.
+    ``forces`` are addresses of the foot force sensors, ``corners`` their
+    sites.
     """
     data = world.data
     # One contiguous range that contains all is copied faster.
@@ -113,16 +109,7 @@ def sensor_log(
     """Return a log of what sensors without errors measure, and of efforts.
 
     Values are those of the last step of the physics; see ``RobotSignals`` of
-    the games.
-
-    Args:
-        model: Model of the world.
-        data: Its state.
-        torso: Body of the torso.
-        dofs: Part of ``qvel``: free joint, then hinges in the order of qpos.
-        gyro: Part of ``sensordata``.
-        accelerometer: Part of ``sensordata``.
-        forces: Addresses of the foot force sensors in ``sensordata``.
+    the games. ``dofs`` are free joint, then hinges in the order of qpos.
     """
     sensors = slice(int(forces.min()), int(forces.max()) + 1)
 

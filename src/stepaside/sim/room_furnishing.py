@@ -8,8 +8,8 @@ import numpy as np
 
 from ..robots.head import HeadDescription, Mount
 from .camera_settings import SceneSettings
+from .floor import add_geom, add_tiles
 
-FLOOR_BIT = 1  # contact type of the floor, with which robots collide
 HIDDEN = 3  # geom group that only the cameras of robots render
 HALF_WALL_HEIGHT = 1.2  # in [m]
 SIDES = ((1, 0), (-1, 0), (0, 1), (0, -1))
@@ -104,74 +104,38 @@ def _wall(x: int, y: int) -> str:
 
 
 def _add_walls(spec: mujoco.MjSpec, distance: float) -> None:
-    spec.add_texture(
-        name="wall",
-        type=mujoco.mjtTexture.mjTEXTURE_2D,
-        builtin=mujoco.mjtBuiltin.mjBUILTIN_CHECKER,
-        rgb1=list(TONES[0]),
-        rgb2=list(TONES[1]),
-        width=128,
-        height=128,
-    )
-    material = spec.add_material(
-        name="wall", texrepeat=[1, 1], texuniform=True
-    )
-    material.textures[mujoco.mjtTextureRole.mjTEXROLE_RGB] = "wall"
+    add_tiles(spec, "wall", TONES, 128, 1)
     for x, y in SIDES:
-        spec.worldbody.add_geom(
+        across, along = 0.05 if x else distance, 0.05 if y else distance
+        add_geom(
+            spec.worldbody,
+            "BOX",
+            (across, along, HALF_WALL_HEIGHT),
+            (0.5, 0.5, 0.5, 1.0),
+            at=(x * distance, y * distance, HALF_WALL_HEIGHT),
             name=_wall(x, y),
-            type=mujoco.mjtGeom.mjGEOM_BOX,
-            pos=[x * distance, y * distance, HALF_WALL_HEIGHT],
-            size=[
-                0.05 if x else distance,
-                0.05 if y else distance,
-                HALF_WALL_HEIGHT,
-            ],
             material="wall",
-            contype=FLOOR_BIT,
-            conaffinity=0,
         )
 
 
 def _add_thing(body: mujoco.MjsBody, kind: str) -> None:
     if kind in BOXES:
-        body.add_geom(
-            type=mujoco.mjtGeom.mjGEOM_BOX,
-            pos=[0.0, 0.0, 0.2],
-            size=[0.12, 0.12, 0.2],
-            rgba=list(BOXES[kind]),
-            contype=FLOOR_BIT,
-            conaffinity=0,
-        )
+        add_geom(body, "BOX", (0.12, 0.12, 0.2), BOXES[kind], at=(0, 0, 0.2))
         return
     for place, size in FIGURE:
-        body.add_geom(
-            type=mujoco.mjtGeom.mjGEOM_ELLIPSOID,
-            pos=list(place),
-            size=list(size),
-            rgba=list(WHITE),
-            contype=FLOOR_BIT,
-            conaffinity=0,
-        )
+        add_geom(body, "ELLIPSOID", size, WHITE, at=place)
 
 
 def _add_housing(
     body: mujoco.MjsBody, mount: Mount, size: tuple[float, float, float]
 ) -> None:
     """Add the massless housing of a depth camera to its body."""
-    depth, width, height = size
     x, y, z = mount.position_in_body.tolist()
-    forward = mount.axes_in_body[:, 0]
-    yaw = atan2(forward[1], forward[0])
-    body.add_geom(
-        type=mujoco.mjtGeom.mjGEOM_BOX,
-        # The mount is at the front face of the housing.
-        pos=[x - 0.5 * depth * cos(yaw), y - 0.5 * depth * sin(yaw), z],
-        quat=[cos(0.5 * yaw), 0.0, 0.0, sin(0.5 * yaw)],
-        size=[0.5 * depth, 0.5 * width, 0.5 * height],
-        rgba=[0.1, 0.1, 0.1, 1.0],
-        group=2,
-        contype=0,
-        conaffinity=0,
-        mass=0.0,
+    yaw = atan2(mount.axes_in_body[1, 0], mount.axes_in_body[0, 0])
+    back = 0.5 * size[0]  # from the mount, which is at the front face
+    at = x - back * cos(yaw), y - back * sin(yaw), z
+    half = [0.5 * side for side in size]
+    black = 0.1, 0.1, 0.1, 1.0
+    add_geom(
+        body, "BOX", half, black, at=at, yaw=yaw, bit=0, group=2, mass=0.0
     )

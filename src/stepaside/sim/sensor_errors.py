@@ -2,83 +2,12 @@
 
 from collections import deque
 from collections.abc import Iterator
-from math import atan2, sqrt
 
 import mujoco
 import numpy as np
 
-from ..core.compilation import bound, compiled
 from ..core.poses import Array
 from .body_settings import BodySettings
-
-
-@compiled
-def strapdown(
-    quaternion: Array,
-    velocity: Array,
-    spin: Array,
-    place: Array,
-    mount: Array,
-    gravity: Array,
-    clock: Array,
-    last: Array,
-    out: Array,
-) -> None:
-    """Set mean rate, mean specific force and rate of a strapdown IMU."""
-    w, x, y, z = quaternion[0], quaternion[1], quaternion[2], quaternion[3]
-    axx, axy = 1.0 - 2.0 * (y * y + z * z), 2.0 * (x * y - w * z)
-    axz, ayx = 2.0 * (x * z + w * y), 2.0 * (x * y + w * z)
-    ayy, ayz = 1.0 - 2.0 * (x * x + z * z), 2.0 * (y * z - w * x)
-    azx, azy = 2.0 * (x * z - w * y), 2.0 * (y * z + w * x)
-    azz = 1.0 - 2.0 * (x * x + y * y)
-    p, q, r = spin[0], spin[1], spin[2]
-    sx = q * place[2] - r * place[1]
-    sy = r * place[0] - p * place[2]
-    sz = p * place[1] - q * place[0]
-    u = velocity[0] + (axx * sx + axy * sy + axz * sz)
-    v = velocity[1] + (ayx * sx + ayy * sy + ayz * sz)
-    h = velocity[2] + (azx * sx + azy * sy + azz * sz)
-    gx, gy, gz = gravity[0], gravity[1], gravity[2]
-    mx, my, mz = p, q, r
-    fx = -(gx * axx + gy * ayx + gz * azx)
-    fy = -(gx * axy + gy * ayy + gz * azy)
-    fz = -(gx * axz + gy * ayz + gz * azz)
-    passed = clock[0] - last[0]
-    if last[0] >= 0.0 and passed > 0.0:
-        a, b, c, d = last[1], last[2], last[3], last[4]
-        cosine = a * w + b * x + c * y + d * z
-        tx = a * x - b * w - c * z + d * y
-        ty = a * y + b * z - c * w - d * x
-        tz = a * z - b * y + c * x - d * w
-        side = -1.0 if cosine < 0.0 else 1.0
-        sine = sqrt(tx * tx + ty * ty + tz * tz)
-        half = atan2(sine, side * cosine)
-        rate = 2.0 * side * (half / sine if sine > 0.0 else 1.0) / passed
-        mx, my, mz = rate * tx, rate * ty, rate * tz
-        u0 = (u - last[14]) / passed - gx
-        v0 = (v - last[15]) / passed - gy
-        h0 = (h - last[16]) / passed - gz
-        fx = 0.5 * (
-            u0 * (last[5] + axx) + v0 * (last[8] + ayx) + h0 * (last[11] + azx)
-        )
-        fy = 0.5 * (
-            u0 * (last[6] + axy) + v0 * (last[9] + ayy) + h0 * (last[12] + azy)
-        )
-        fz = 0.5 * (
-            u0 * (last[7] + axz)
-            + v0 * (last[10] + ayz)
-            + h0 * (last[13] + azz)
-        )
-    last[0] = clock[0]
-    last[1], last[2], last[3], last[4] = w, x, y, z
-    last[5], last[6], last[7] = axx, axy, axz
-    last[8], last[9], last[10] = ayx, ayy, ayz
-    last[11], last[12], last[13] = azx, azy, azz
-    last[14], last[15], last[16] = u, v, h
-    for i in range(3):
-        out[i] = mx * mount[0, i] + my * mount[1, i] + mz * mount[2, i]
-        out[3 + i] = fx * mount[0, i] + fy * mount[1, i] + fz * mount[2, i]
-        out[6 + i] = p * mount[0, i] + q * mount[1, i] + r * mount[2, i]
 
 
 class StrapdownImu:
@@ -104,22 +33,16 @@ class StrapdownImu:
         """
         joint = model.body_jntadr[root]
         at, dof = model.jnt_qposadr[joint], model.jnt_dofadr[joint]
-        self._data = data
-        self._clock, self._out = np.zeros(1), np.zeros(9)
-        self._last = np.zeros(17)  # time, quaternion, axes, velocity
-        self._last[0] = -1.0
+        self._data, self._gravity = data, model.opt.gravity.copy()
+        self._quaternion = data.qpos[at + 3 : at + 7]  # views
+        self._velocity = data.qvel[dof : dof + 3]
+        self._spin = data.qvel[dof + 3 : dof + 6]
+        x, y, z = model.site_pos[site].tolist()
+        self._lever = np.array([[0.0, z, -y], [-z, 0.0, x], [y, -x, 0.0]])
         mount = np.zeros(9)
         mujoco.mju_quat2Mat(mount, model.site_quat[site])
-        self._integrate = bound(
-            strapdown,
-            data.qpos[at + 3 : at + 7],  # views
-            data.qvel[dof : dof + 3],
-            data.qvel[dof + 3 : dof + 6],
-            model.site_pos[site].copy(),
-            mount.reshape(3, 3),
-            model.opt.gravity.copy(),
-            *(self._clock, self._last, self._out),
-        )
+        self._mount = mount.reshape(3, 3)
+        self._last: tuple[float, Array, Array, Array] | None = None
 
     def read(self) -> tuple[Array, Array, Array]:
         """Return mean rate and specific force since the last call, and rate.
@@ -129,10 +52,22 @@ class StrapdownImu:
             [m/s^2], since the last call, and the present angular velocity, in
             the frame of the IMU. Shape (3,) each.
         """
-        self._clock[0] = self._data.time
-        self._integrate()
-        found = self._out.copy()
-        return found[:3], found[3:6], found[6:]
+        now, quaternion = self._data.time, self._quaternion.copy()
+        frame = np.empty(9)
+        mujoco.mju_quat2Mat(frame, quaternion)
+        axes, rate = frame.reshape(3, 3), self._spin.copy()
+        velocity = self._velocity + axes @ (self._lever @ rate)
+        mean, force = rate, -self._gravity @ axes
+        if self._last is not None and now > self._last[0]:
+            then, before, axes_before, velocity_before = self._last
+            turn, passed = np.empty(3), now - then
+            mujoco.mju_subQuat(turn, quaternion, before)
+            mean = turn / passed
+            change = (velocity - velocity_before) / passed - self._gravity
+            force = 0.5 * (change @ (axes_before + axes))
+        self._last = now, quaternion, axes, velocity
+        mount = self._mount
+        return mean @ mount, force @ mount, rate @ mount
 
 
 BLOCK = 64  # readings whose noise is drawn together
@@ -150,10 +85,7 @@ class SensorErrors:
     ) -> None:
         """Draw the constant errors of one robot.
 
-        Args:
-            body: Magnitudes of the errors.
-            generator: Random generator of the errors.
-            force_unit: Weight of the robot relative to NAO's.
+        ``force_unit`` is the weight of the robot relative to NAO's.
         """
         self._body = body
         self._generator = generator

@@ -4,6 +4,7 @@ from collections.abc import Callable
 from math import atan, hypot
 
 import cv2
+import mujoco
 import numpy as np
 
 from ..core.poses import Array
@@ -12,26 +13,31 @@ from ..perception.camera_model import CameraModel
 from ..perception.images import (
     ColourImage,
     DepthImage,
+    Depths,
     Percept,
     Pixels,
     SonarEcho,
 )
 from ..robots.description import RobotDescription
 from ..robots.head import Mount, load_head
-from .camera_settings import CameraSettings
+from .camera_settings import CameraSettings, DepthSettings, SonarSettings
 from .offscreen_rendering import OffscreenRenderer
-from .ray_casting import (
-    ColourCaster,
-    DepthCaster,
-    RayCaster,
-    SonarCaster,
-    cone,
-)
+from .ray_casting import RayCaster, geoms_in_cone
 from .sensor_stream import SensorStream, StreamedSensors, period_of
-from .view_cone import geoms_in_cone
 from .world import World
 
 RAYCAST_WIDTH = 160  # largest width of a ray-cast image, in [pixels]
+SKY = np.array([0.78, 0.84, 0.90])
+WALL = 0.74, 0.75, 0.73
+SUN = np.array([-0.2, -0.3, 1.0]) / np.sqrt(1.13)  # direction to the light
+AMBIENT, DIFFUSE = 0.55, 0.45
+TILE = 0.5  # side of a square of the floor, in [m]
+FARTHEST = 40.0  # that a ray-cast image shows, in [m]
+MIN_COSINE = 0.12  # of the incidence angle for a return to depth cameras
+MIN_COSINE_SONAR = 0.5  # of the incidence angle for an echo
+LEVEL = 0.9  # upward component of normals that reflect sound away
+CONE_RAYS = 6  # across the cone of a sonar
+Generator = np.random.Generator
 
 
 class SensorSuite(StreamedSensors[Percept]):
@@ -74,7 +80,8 @@ class SensorSuite(StreamedSensors[Percept]):
         if with_depth:
             used = self._head.depth_mounts(rear=settings.rear_camera)
             streams += map(self._depth, range(len(used)), used)
-            streams += self._sonars()
+            for key, mount in self._head.sonars.items():
+                streams.append(self._sonar(key, mount))
         super().__init__(streams)
 
     def close(self) -> None:
@@ -83,13 +90,11 @@ class SensorSuite(StreamedSensors[Percept]):
             self._renderer.close()
 
     def _caster(self, mount: Mount, rays: Array) -> RayCaster:
-        """Return a caster of rays in the frame of a mount. Shape (n, 3)."""
         body = f"{self._name}/{self._head.body_of(mount)}"
-        return RayCaster(
-            self._world.model, self._world.data, body, mount, rays
-        )
+        world, rays = self._world, rays.reshape(-1, 3)
+        return RayCaster(world.model, world.data, body, mount, rays)
 
-    def _generator(self, purpose: str) -> np.random.Generator:
+    def _generator(self, purpose: str) -> Generator:
         return named_generator(self._seed, f"eyes/{self._name}/{purpose}")
 
     def _stream(
@@ -119,17 +124,13 @@ class SensorSuite(StreamedSensors[Percept]):
         return self._stream("colour", take, settings.rate, settings.latency)
 
     def _pixels(self, mount: Mount, name: str) -> Callable[[], Pixels]:
-        """Return the function that takes images of one camera of the head.
-
-        Args:
-            mount: Mount of the camera on the head.
-            name: Name of the camera in the model.
-        """
+        """Return the function that takes images of a camera of the model."""
         model, data, camera = self._world.model, self._world.data, self.camera
         screen = self._renderer
         if screen is None:
-            caster = self._caster(mount, camera.rays().reshape(-1, 3))
-            return ColourCaster(model, caster, camera).take
+            return colour_caster(
+                model, self._caster(mount, camera.rays()), camera
+            )
         number = model.camera(f"{self._name}/{name}").id
         vertical = 2.0 * np.arctan(0.5 * camera.height / camera.focal_y)
         model.cam_fovy[number] = np.degrees(vertical)
@@ -146,50 +147,133 @@ class SensorSuite(StreamedSensors[Percept]):
         return draw
 
     def _depth(self, number: int, mount: Mount) -> SensorStream[Percept]:
-        """Return the stream of a depth camera."""
-        settings = self._settings.depth_of(mount)
-        camera, name = settings.model(), f"depth {number}".removesuffix(" 0")
-        caster = self._caster(mount, camera.rays().reshape(-1, 3))
+        own = self._settings.depth_of(mount)
+        camera, name = own.model(), f"depth {number}".removesuffix(" 0")
+        caster = self._caster(mount, camera.rays())
         generator = self._generator(name)
-        depth_caster = DepthCaster(caster, camera, settings, generator)
-        near, far = settings.near, settings.far
 
         def take(now: float) -> Percept:
-            return DepthImage(
-                now, camera, depth_caster.take(), near, far, number
-            )
+            depths = cast_depths(caster, camera, own, generator)
+            return DepthImage(now, camera, depths, own.near, own.far, number)
 
-        return self._stream(name, take, settings.rate, settings.latency)
+        return self._stream(name, take, own.rate, own.latency)
 
-    def _sonars(self) -> list[SensorStream[Percept]]:
-        settings = self._settings.sonar
-        streams = []
-        for key, mount in self._head.sonars.items():
-            caster = self._caster(mount, cone(settings.cone))
-            generator = self._generator(f"sonar {key}")
-            sonar_caster = SonarCaster(caster, settings, generator)
+    def _sonar(self, key: str, mount: Mount) -> SensorStream[Percept]:
+        own, name = self._settings.sonar, f"sonar {key}"
+        caster = self._caster(mount, cone(own.cone))
+        generator = self._generator(name)
 
-            def take(
-                now: float,
-                key: str = key,
-                sonar_caster: SonarCaster = sonar_caster,
-            ) -> Percept:
-                return SonarEcho(now, key, sonar_caster.listen())
+        def take(now: float) -> Percept:
+            return SonarEcho(now, key, cast_echo(caster, own, generator))
 
-            streams.append(
-                self._stream(f"sonar {key}", take, settings.rate, 0.0)
-            )
-        return streams
+        return self._stream(name, take, own.rate, 0.0)
+
+
+def cast_depths(
+    caster: RayCaster,
+    camera: CameraModel,
+    settings: DepthSettings,
+    generator: Generator,
+) -> Depths:
+    """Return a depth image with the errors of structured light.
+
+    Depths are in [m], and 0 without return. Shape (height, width).
+    """
+    caster.cast()
+    hit = caster.distances > 0.0
+    depth = caster.distances * caster.along
+    squared = depth**2
+    draw = generator.standard_normal(depth.size)
+    depth = depth + settings.noise * squared * draw
+    quantum = settings.step * squared + 1e-6
+    depth = np.round(depth / quantum) * quantum
+    missing = generator.random(depth.size) < settings.missing
+    missing |= ~hit | (caster.slants < MIN_COSINE)
+    missing |= (depth < settings.near) | (depth > settings.far)
+    depth[missing] = 0.0
+    image: Depths = depth.reshape(camera.height, camera.width).astype("f4")
+    image[edges(image)] = 0.0
+    return image
+
+
+def edges(image: Depths) -> np.ndarray:
+    """Return pixels in the shadow of a nearer neighbour.
+
+    The projector is to the right of the camera, so the pixels left of a near
+    edge have no return.
+    """
+    edge = np.zeros(image.shape, dtype=bool)
+    jump = image[:, :-1] - image[:, 1:]
+    edge[:, :-1] = (jump > 0.3) & (image[:, 1:] > 0.0)
+    return edge
+
+
+def cast_echo(
+    caster: RayCaster, settings: SonarSettings, generator: Generator
+) -> float | None:
+    """Return the distance of the nearest surface that faces a sonar, in [m].
+
+    None without an echo; the floor reflects sound away from the robot.
+    """
+    caster.cast(settings.far + 0.1)
+    echoes = (caster.distances > 0.0) & (caster.slants > MIN_COSINE_SONAR)
+    echoes &= np.abs(caster.normals[:, 2]) < LEVEL
+    if not echoes.any():
+        return None
+    distance = float(caster.distances[echoes].min())
+    distance += settings.noise * float(generator.standard_normal())
+    distance = round(distance / settings.step) * settings.step
+    return None if distance > settings.far else max(distance, settings.near)
+
+
+def cone(opening: float) -> Array:
+    """Return rays that fill a cone about x. Shape (n, 3)."""
+    reach = np.tan(0.5 * opening)
+    across = np.linspace(-reach, reach, CONE_RAYS)
+    y, z = np.meshgrid(across, across)
+    inside = np.hypot(y, z) <= reach
+    return np.column_stack([np.ones(int(inside.sum())), y[inside], z[inside]])
+
+
+def colour_caster(
+    model: mujoco.MjModel, caster: RayCaster, camera: CameraModel
+) -> Callable[[], Pixels]:
+    """Return the function that casts images with flat colours and one light.
+
+    Shape of an image: (height, width, 3).
+    """
+    palette = model.geom_rgba[:, :3].copy()
+    coated = model.geom_matid >= 0
+    palette[coated] = model.mat_rgba[model.geom_matid[coated], :3]
+    ground = model.geom("floor").id
+    walls = [i for i in range(model.ngeom) if "wall" in model.geom(i).name]
+    palette[walls] = WALL
+
+    def take() -> Pixels:
+        caster.cast(FARTHEST)
+        geoms = caster.geoms
+        colours = np.where((geoms >= 0)[:, None], palette[geoms], SKY[None])
+        floor = geoms == ground
+        points = (
+            caster.origin[:2]
+            + caster.distances[floor, None] * caster.directions[floor, :2]
+        )
+        dark = np.floor(points / TILE).astype(int).sum(axis=1) % 2
+        colours[floor] = (0.86 - 0.06 * dark)[:, None] * (1.0, 1.0, 0.98)
+        light = AMBIENT + DIFFUSE * np.maximum(caster.normals @ SUN, 0.0)
+        light[geoms < 0] = 1.0
+        colours = colours * light[:, None] * 255.0
+        pixels: Pixels = np.clip(colours, 0.0, 255.0).astype(np.uint8)
+        return pixels.reshape(camera.height, camera.width, 3)
+
+    return take
 
 
 class ImageNoise:
     """Pixel noise: one tile of noise, shifted at random for each image."""
 
     def __init__(
-        self,
-        camera: CameraModel,
-        deviation: float,
-        generator: np.random.Generator,
+        self, camera: CameraModel, deviation: float, generator: Generator
     ) -> None:
         """Generate the tile."""
         self._generator = generator
@@ -211,11 +295,9 @@ class ImageNoise:
 
 def _reduced(camera: CameraModel) -> CameraModel:
     """Return the camera model with fewer pixels, for ray casting."""
-    if camera.width <= RAYCAST_WIDTH:
-        return camera
-    scale = RAYCAST_WIDTH / camera.width
+    scale = min(1.0, RAYCAST_WIDTH / camera.width)
     return CameraModel(
-        RAYCAST_WIDTH,
+        round(camera.width * scale),
         round(camera.height * scale),
         camera.focal_x * scale,
         camera.focal_y * scale,

@@ -174,15 +174,7 @@ class RealisticServos(IdealServos):
     ) -> None:
         """Drive consecutive actuators; see :class:`IdealServos`.
 
-        Args:
-            model: Compiled model, whose gains and torque limits are set.
-            data: Its state.
-            actuators: Indices of the actuators, without gaps.
-            speed_limits: No-load speeds of their joints, in [rad/s].
-            cycle: Control period, in [s].
-            body: Settings of the body.
-            backlash: Width of the dead zone of each joint, in [rad].
-            feedforward: As of :class:`IdealServos`.
+        ``backlash`` is the width of the dead zone of each joint, in [rad].
         """
         model.actuator_gainprm[actuators, 0] *= body.servo_gain
         model.actuator_biasprm[actuators, 1] *= body.servo_gain

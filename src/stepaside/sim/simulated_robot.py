@@ -15,8 +15,8 @@ from ..core.poses import Array, Pose
 from ..perception.measurement import RobotState, Sighting
 from ..robots.description import REMEDY, RobotDescription
 from .body_settings import BodySettings
-from .ground_truth import TrueRobotState
-from .ideal_sensors import IdealLineOfSight, IdealPose
+from .ground_truth import TrueRobotState, TrueStance, true_stance
+from .ideal_sensors import IdealLineOfSight
 from .push import Push, ScheduledPush
 from .push_forces import PushApplier
 from .robot_log import RobotLog, centers_of_pressure, sensor_log, state_log
@@ -27,7 +27,6 @@ from .servos import (
     RealisticServos,
     set_joint_gains,
 )
-from .true_stance import TrueStance, true_stance
 from .world import World, transform_free_joint
 
 EMPTY = np.empty(0)
@@ -84,7 +83,8 @@ class SensorSetup:
         sights: Ideal lines of sight to all other players, if any.
         eyes: Cameras and sonars, if any.
         truth: True state of the robot, if it exists already.
-        knows_pose: Whether it has an ideal sensor of its pose.
+        knows_pose: Whether it has an ideal sensor of its pose in a room,
+            which replaces localisation on a given map.
     """
 
     generator: np.random.Generator | None = None
@@ -101,10 +101,8 @@ class SimulatedRobot:
     Attributes:
         name: Name of the robot in the world.
         tick: Control period, in [s].
-        joint_names: Names of the actuated joints.
+        joint_names: Names of the actuated joints, in the order of targets.
         eyes: Cameras and sonars, if any.
-        joint_names: Names of its actuated joints, in the order of targets.
-        place: Ideal sensor of its pose in a room, if any.
         truth: True state, for ideal sensors and for records.
     """
 
@@ -129,10 +127,9 @@ class SimulatedRobot:
             kinematics: Kinematics in the standing posture.
             pose: Pose of the odometry frame in the world.
             body: Errors of the body; none by default.
-            sensors: Its sensors; exact ones of its own joints, IMU and feet
-                by default.
-            gains: Gains of a body that is driven by joint torques; by default
-                its position servos.
+            sensors: Its sensors; by default exact ones of its joints, IMU
+                and feet.
+            gains: Gains of a body that is driven by joint torques.
         """
         body, setup = body or BodySettings(), sensors or SensorSetup()
         self.world, self.name = world, name
@@ -168,9 +165,10 @@ class SimulatedRobot:
         self.truth = setup.truth or TrueRobotState(model, data, root.name)
         feet = description.left_foot, description.right_foot
         self._soles = [model.site(f"{name}/{foot}").id for foot in feet]
-        self.place = IdealPose(self.truth) if setup.knows_pose else None
+        self._knows_pose = setup.knows_pose
         self._imu: StrapdownImu | None = None
-        site = self._imu_site(description.sensors.gyro)
+        gyro = model.sensor(f"{name}/{description.sensors.gyro}").id
+        site = int(model.sensor_objid[gyro])
         if setup.integrates_imu and model.site_bodyid[site] == root.id:
             self._imu = StrapdownImu(model, data, root.id, site)
 
@@ -186,25 +184,12 @@ class SimulatedRobot:
         """Return the servos of the joints with these names."""
         world = self.world
         speeds = np.array([description.speed_limits[n] for n in names])
+        driven = (world.model, world.data, actuators, speeds, self.tick)
         if body.has_ideal_servos:
-            return IdealServos(
-                world.model,
-                world.data,
-                actuators,
-                speeds,
-                self.tick,
-                feedforward=feedforward,
-            )
+            return IdealServos(*driven, feedforward=feedforward)
         legs = np.array([n in description.legs for n in names])
         servos = RealisticServos(
-            world.model,
-            world.data,
-            actuators,
-            speeds,
-            self.tick,
-            body,
-            body.backlash * legs,
-            feedforward=feedforward,
+            *driven, body, body.backlash * legs, feedforward=feedforward
         )
         world.before_step.append(servos.before_step)
         return servos
@@ -234,11 +219,6 @@ class SimulatedRobot:
             ) from None
         return slice(int(found.adr[0]), int(found.adr[0] + found.dim[0]))
 
-    def _imu_site(self, gyro: str) -> int:
-        """Return the index of the site of a gyro."""
-        model = self.world.model
-        return int(model.sensor_objid[model.sensor(f"{self.name}/{gyro}").id])
-
     def _place_in_world(
         self, kinematics: JointPosture, pose: Pose, at: int
     ) -> None:
@@ -266,7 +246,7 @@ class SimulatedRobot:
         seen = self._sightings(now) if sees else ()
         first = seen[0] if seen and len(self._sights) == 1 else None
         percepts = () if self.eyes is None else self.eyes.read(now)
-        place = None if self.place is None else self.place.read()
+        place = self._pose_in_room() if self._knows_pose else None
         if not feels:
             return RobotState(
                 now, *(EMPTY,) * 4, first, percepts, place, players=seen
@@ -304,6 +284,11 @@ class SimulatedRobot:
             seen,
             latest,
         )
+
+    def _pose_in_room(self) -> Pose:
+        """Return the CoM on the floor, [m], and the torso heading, [rad]."""
+        x, y, _ = self.truth.position_com_in_world.tolist()
+        return Pose(x, y, self.truth.heading_in_world)
 
     def _sightings(self, now: float) -> tuple[Sighting, ...]:
         """Return the latest sightings of all other players."""

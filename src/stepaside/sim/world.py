@@ -18,7 +18,6 @@ from .floor import add_floor, tilt_gravity
 from .physics_settings import PhysicsSettings
 from .sensor_errors import perturb_masses
 
-FLOOR_BIT = 1
 NO_SENSORS = int(mujoco.mjtDisableBit.mjDSBL_SENSOR)
 CONTACT_BITS = 0x7FFFFFFF  # of MuJoCo's contact masks, without the sign
 COLOURS: Mapping[str, Colour] = {
@@ -68,7 +67,7 @@ def build_model(
     spec.visual.global_.offheight = 1080
     spec.stat.extent = 1.0
     tilt_gravity(spec, physics)
-    add_floor(spec, physics, named_generator(seed, "floor"), FLOOR_BIT)
+    add_floor(spec, physics, named_generator(seed, "floor"))
     for (name, description), own in zip(
         robots.items(), _contact_types(), strict=False
     ):
