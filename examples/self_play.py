@@ -13,12 +13,13 @@ pursuer=self-pursuer.onnx``.
 
 import sys
 
-from stepaside.envs import VectorDuel
-from stepaside.envs.policy_optimisation import (
+from train_evader import (
     OptimisationSettings,
     PolicyOptimiser,
     TrainingProgress,
 )
+
+from stepaside.envs import VectorDuel
 from stepaside.strategies import StepGame, Strategy, load_strategy
 
 FIRST = {"evader": "pursuit", "pursuer": "evasion"}  # opponents

@@ -2,8 +2,8 @@
 # # Train an evader
 #
 # `stepaside.envs` (extra `learn`) offers the games as environments of
-# Gymnasium and PettingZoo. You look at one, train an evader with the PPO
-# that comes along, and let it play on a humanoid.
+# Gymnasium and PettingZoo. You look at one, train an evader by PPO, and let
+# it play on a humanoid.
 #
 # ## An environment
 #
@@ -30,11 +30,12 @@ print(f"walked straight back: closest approach {info['closest_m']:.3f} m")
 # ## Many at once
 #
 # The vector environment plays hundreds of games in one call, compiled. The
-# learner collects decisions from it and improves a small network.
+# learner, `train_evader.py` of the folder `examples` (put it beside
+# the notebook), collects decisions from it and improves a small network.
 
 # %%
 from stepaside.envs import VectorDuel
-from stepaside.envs.policy_optimisation import (
+from train_evader import (
     OptimisationSettings,
     PolicyOptimiser,
 )

@@ -13,8 +13,7 @@ from pettingzoo.test import parallel_api_test, parallel_seed_test
 
 from stepaside.arena import RoomRecipe
 from stepaside.core.errors import ConfigurationError, PlanError
-from stepaside.envs import DuelEnv, VectorDuel, duel_v0
-from stepaside.envs.registration import IDS
+from stepaside.envs import IDS, DuelEnv, VectorDuel, duel_v0
 from stepaside.games import DuelSettings
 from stepaside.strategies import LookAhead
 from stepaside.theory.unicycle import RelativeStart
@@ -281,5 +280,5 @@ def test_a_person_is_an_opponent_in_physics() -> None:
     env.reset(seed=1)
     assert np.isfinite(env.step(BACK)[0]).all()
     env.close()
-    with pytest.raises(ConfigurationError, match="against a person"):
+    with pytest.raises(ConfigurationError, match="where the pursuer learns"):
         DuelEnv("pursuer", duel=duel, level="physics")

@@ -190,9 +190,6 @@ def test_any_seed_begins_an_episode(file: Path, seed: int) -> None:
     assert set(found) == {"red", "blue"}
 
 
-@pytest.mark.xfail(
-    strict=True, reason="compiled decisions of opponents are local functions"
-)
 def test_a_vector_environment_can_be_pickled() -> None:
     envs = gymnasium.make_vec(
         "stepaside/Evade-v0",

@@ -96,10 +96,6 @@ def test_a_page_says_how_a_network_gets_its_metadata() -> None:
     assert ".metadata()" in pages()
 
 
-@pytest.mark.xfail(
-    strict=True,
-    reason="Stable-Baselines3 needs an adapter that is written nowhere",
-)
 def test_a_page_says_how_stable_baselines_learns() -> None:
     assert "stable_baselines3" in pages()
 

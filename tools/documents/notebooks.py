@@ -98,6 +98,7 @@ def execute(script: Path) -> None:
     # Cells find the command of this environment.
     path = [str(Path(sys.executable).parent), os.environ["PATH"]]
     os.environ["PATH"] = os.pathsep.join(path)
+    os.environ["PYTHONPATH"] = str(ROOT / "examples")
     with TemporaryDirectory() as folder:
         NotebookClient(
             notebook,

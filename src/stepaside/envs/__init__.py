@@ -8,7 +8,7 @@ player; :func:`.duel_v0.parallel_env` is that of both, and
 from ..core.extras import install_hint
 
 try:
-    import gymnasium as _gymnasium  # noqa: F401
+    import gymnasium
     import pettingzoo as _pettingzoo  # noqa: F401
 except ModuleNotFoundError as error:
     hint = install_hint(error)
@@ -17,18 +17,21 @@ except ModuleNotFoundError as error:
 from . import duel_v0, game_v0
 from .duel_env import DuelEnv
 from .environment_settings import EnvironmentSettings
-from .registration import register_environments
 from .vector_duel import VectorDuel
-from .vector_physics import VectorPhysicsDuel
 
-register_environments()
+IDS = {"stepaside/Evade-v0": "evader", "stepaside/Pursue-v0": "pursuer"}
+for _id, _role in IDS.items():
+    gymnasium.register(
+        _id,
+        entry_point="stepaside.envs:DuelEnv",
+        vector_entry_point="stepaside.envs:VectorDuel",
+        kwargs={"role": _role},
+    )
 
 __all__ = [
     "DuelEnv",
     "EnvironmentSettings",
     "VectorDuel",
-    "VectorPhysicsDuel",
     "duel_v0",
     "game_v0",
-    "register_environments",
 ]

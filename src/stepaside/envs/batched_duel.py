@@ -1,6 +1,7 @@
 """Thousands of games of an environment in compiled loops."""
 
 from collections.abc import Sequence
+from functools import partial
 from math import ceil, floor
 from typing import Any
 
@@ -123,7 +124,7 @@ class BatchedDuel:
         if settings.level == "physics":
             raise ConfigurationError(
                 "level must be unicycle or steps for compiled games, got "
-                "physics: use VectorPhysicsDuel"
+                "physics, which plays in vectorization_mode 'sync' or 'async'"
             )
         if not 1 <= number <= MOST_GAMES:
             raise ConfigurationError(
@@ -219,16 +220,21 @@ class BatchedDuel:
         if isinstance(strategy, LearnedStrategy):
             contract = strategy.contract
             terms, width = codes_of(contract.terms), contract.observation_width
-            return lambda: strategy.intents(
-                self._observe(player, terms, width)
-            )
-        law = law_of(strategy)
+            return partial(self._by_network, strategy, player, terms, width)
+        return partial(self._by_law, law_of(strategy), player, rows)
 
-        def decide() -> Array:
-            decide_by_law(self.state, player, law, self.rules, rows)
-            return rows
+    def _by_network(
+        self,
+        strategy: LearnedStrategy,
+        player: int,
+        terms: NDArray[np.int64],
+        width: int,
+    ) -> Array:
+        return strategy.intents(self._observe(player, terms, width))
 
-        return decide
+    def _by_law(self, law: BatchLaw, player: int, rows: Array) -> Array:
+        decide_by_law(self.state, player, law, self.rules, rows)
+        return rows
 
 
 def codes_of(terms: Sequence[str]) -> NDArray[np.int64]:

@@ -1,29 +1,36 @@
 """PettingZoo environment: pursuer and evader act at the same time."""
 
-from typing import Any, ClassVar
+from collections.abc import Mapping, Sequence
+from dataclasses import replace
+from typing import Any
 
 import numpy as np
-from gymnasium.spaces import Space
 from numpy.typing import NDArray
-from pettingzoo import ParallelEnv
 
-from ..core.errors import ConfigurationError, PlanError
+from ..arena import OPEN_FLOOR
+from ..core.errors import ConfigurationError, StrategyError
+from ..games.duel import Duel
 from ..games.duel_settings import PLAYERS
-from .distance_reward import reward_sign
-from .environment_settings import EnvironmentSettings
-from .episode import (
-    SEEDS,
-    EnvironmentEpisode,
-    EpisodeSource,
-    check_render_mode,
+from ..games.floor_games import PAIR, floor_of_two, rules_of_two
+from ..games.game import GameInPlay
+from ..strategies.constant_walk import StandStill
+from ..strategies.learned.observation_terms import (
+    FARTHEST,
+    FULL_STATE_TERMS,
+    length_unit,
+    observe,
 )
-from .intent_actions import IntentActions, observation_space
+from ..strategies.strategy import Strategy
+from .arena_pool import STRIDE
+from .environment_settings import EnvironmentSettings, direction_of
+from .episode_games import EpisodeGame, FloorGame, HeldIntent, PhysicsGame
+from .intent_actions import observation_space
+from .parallel_games import SEEDS, ParallelGames
 
-Observations = dict[str, NDArray[np.float32]]
-Infos = dict[str, dict[str, Any]]
+LONGEST_WAIT = 30.0  # for the first sighting, in [s]
 
 
-class DuelParallelEnv(ParallelEnv[str, NDArray[np.float32], Any]):
+class DuelParallelEnv(ParallelGames):
     """Both players of a duel; a step is one decision of each.
 
     Observations, actions and rewards are those of
@@ -31,144 +38,121 @@ class DuelParallelEnv(ParallelEnv[str, NDArray[np.float32], Any]):
 
     Attributes:
         settings: Settings of the environment.
-        possible_agents: "pursuer" and "evader".
-        agents: The same during an episode, else empty.
-        render_mode: "rgb_array", "human" or None.
     """
 
-    metadata: ClassVar[dict[str, Any]] = {
-        "name": "stepaside_duel_v0",
-        "render_modes": ["human", "rgb_array"],
-        "render_fps": 10,
-        "is_parallelizable": True,
-    }
+    metadata = ParallelGames.metadata | {"name": "stepaside_duel_v0"}
 
     def __init__(
-        self, *, render_mode: str | None = None, **settings: Any
+        self,
+        *,
+        render_mode: str | None = None,
+        opponents: Mapping[str, Strategy] | None = None,
+        **settings: Any,
     ) -> None:
         """Build the environment.
 
         Args:
-            render_mode: "rgb_array" for images from above, "human" for a
-                page with them, or None.
+            render_mode: "rgb_array" for images from above, or None.
+            opponents: Strategy of a player that does not learn, by role.
             settings: Fields of :class:`.EnvironmentSettings`.
 
         Raises:
             ConfigurationError: If a value is invalid.
         """
-        check_render_mode(render_mode, self.metadata)
-        self.render_mode = render_mode
         self.settings = given = EnvironmentSettings(**settings)
+        self._strategies = dict(opponents or {})
+        learners = [name for name in PLAYERS if name not in self._strategies]
         if given.level == "physics" and given.duel.pursuer != "robot":
-            raise ConfigurationError(
-                "duel.pursuer must be robot with two learning players, got "
-                f"{given.duel.pursuer!r}"
-            )
-        self._source = EpisodeSource(
-            given, (None, None), images=render_mode is not None
-        )
-        self._actions = {n: IntentActions(given) for n in PLAYERS}
-        self._observed = {n: observation_space(given.terms) for n in PLAYERS}
-        self.possible_agents = list(PLAYERS)
-        self.agents: list[str] = []
-        self._random = np.random.default_rng()
-        self._seed: int | None = None
-        self._number = 0
-        self._episode: EnvironmentEpisode | None = None
-
-    def observation_space(self, agent: str) -> Space[Any]:
-        """Return the space of observations of an agent, always the same."""
-        return self._observed[agent]
-
-    def action_space(self, agent: str) -> Space[Any]:
-        """Return the space of actions of an agent, always the same."""
-        return self._actions[agent].space
-
-    def reset(
-        self, seed: int | None = None, options: dict[str, Any] | None = None
-    ) -> tuple[Observations, Infos]:
-        """Begin the next episode of a seed.
-
-        Args:
-            seed: Seed; None continues with the next episode.
-            options: Not used.
-        """
-        if seed is not None or self._seed is None:
-            drawn = int(self._random.integers(SEEDS))
-            self._seed, self._number = drawn if seed is None else seed, 0
-        else:
-            self._number += 1
-        self.close()
-        self._episode = self._source.begin(self._seed, self._number)
-        self.agents = list(PLAYERS)
-        return self._observations(), self._infos()
-
-    def step(
-        self, actions: dict[str, Any]
-    ) -> tuple[
-        Observations,
-        dict[str, float],
-        dict[str, bool],
-        dict[str, bool],
-        Infos,
-    ]:
-        """Play one decision of both players.
-
-        Args:
-            actions: Action of each agent.
-
-        Raises:
-            PlanError: If an action is missing or invalid, or the episode is
-                over.
-        """
-        if self._episode is None or not self.agents:
-            raise PlanError("reset the environment first: no episode is on")
-        for name in PLAYERS:
-            if name not in actions:
-                raise PlanError(
-                    f"actions must have one of the {name}, got those of "
-                    f"{', '.join(actions) or 'no agent'}"
+            if "pursuer" in learners:
+                raise ConfigurationError(
+                    "duel.pursuer must be robot where the pursuer learns, "
+                    f"got {given.duel.pursuer!r}"
                 )
-        intents = [self._actions[n].intent(actions[n]) for n in PLAYERS]
-        episode = self._episode
-        reward = self._source.play(episode.step(intents))
-        observed, infos = self._observations(), self._infos()
-        if episode.over:
-            self.agents = []
-        return (
-            observed,
-            {name: reward_sign(name) * reward for name in PLAYERS},
-            dict.fromkeys(PLAYERS, episode.terminated),
-            dict.fromkeys(PLAYERS, episode.truncated),
-            infos,
+        super().__init__(
+            learners, given, observation_space(given.terms), render_mode
         )
+        self._pool = None if given.level == "physics" else given.draw_arenas()
 
-    def state(self) -> NDArray[np.float32]:
-        """Return the poses (x [m], y [m], heading [rad]) of both players."""
-        if self._episode is None:
-            raise PlanError("reset the environment first: there is no state")
-        return np.array(self._episode.game.poses, np.float32).ravel()
+    def begin(self, seed: int, number: int) -> EpisodeGame:
+        """Begin the game of an episode."""
+        settings, pool = self.settings, self._pool
+        if pool is None:
+            return self._begin_in_physics(seed, number)
+        index = int(pool.indices([seed], [number])[0])
+        room, game = pool.rooms[index], settings.step_game
+        pursuer, evader = (
+            self._strategies.get(name)
+            or StandStill(direction=direction_of(name))
+            for name in PLAYERS
+        )
+        world = floor_of_two(game, (pursuer, evader), pool.starts[index], room)
+        return FloorGame(GameInPlay(world, rules_of_two(game)), room)
 
-    def render(self) -> Any:
-        """Return an image from above; None in mode "human"."""
-        return self._source.show(self._episode, self.render_mode)
+    def _begin_in_physics(self, seed: int, number: int) -> EpisodeGame:
+        """Place the robots, and wait until the learners see the others."""
+        settings = self.settings
+        held = {n: HeldIntent(direction_of(n)) for n in self.possible_agents}
+        played: dict[str, Any] = {**self._strategies, **held}
+        duel = replace(
+            settings.duel,
+            seed=(settings.first_arena + seed + STRIDE * number) % SEEDS,
+            duration=settings.duration,
+            evader_strategy=played["evader"],
+        )
+        if duel.pursuer == "robot":
+            duel = replace(duel, pursuer_strategy=played["pursuer"])
+        game = PhysicsGame(
+            Duel(duel, recorded=False),
+            held,
+            duel.room.plan or OPEN_FLOOR,
+            PAIR,
+            settings.duration,
+        )
+        if not game.wait(LONGEST_WAIT):
+            game.close()
+            raise StrategyError(
+                "a player must see its opponent within "
+                f"{LONGEST_WAIT:g} s, got {game.ended or 'no sighting'}"
+            )
+        return game
 
-    def close(self) -> None:
-        """End the episode and release its resources."""
-        if self._episode is not None:
-            self._episode.close()
-            self._episode = None
+    def observe(self, game: EpisodeGame, name: str) -> NDArray[np.float32]:
+        """Return the observation of a player."""
+        known = game.knowledge(name)
+        assert known is not None
+        values = observe(known, self.settings.sensed_terms)
+        if not self.settings.full_state:
+            return values
+        full = [v for n in FULL_STATE_TERMS for v in _full(game, n, name)]
+        return np.concatenate([values, np.array(full, dtype=np.float32)])
 
-    def _observations(self) -> Observations:
-        assert self._episode is not None
+    def unit(self, game: EpisodeGame, name: str) -> float:
+        """Return the unit of length of the first learner, in [m]."""
+        known = game.knowledge(self.possible_agents[0])
+        assert known is not None
+        return length_unit(known.limits)
+
+    def info(self, game: EpisodeGame) -> dict[str, Any]:
+        """Return closest approach, distance [m], time [s] and outcome."""
         return {
-            name: self._episode.observation(n)
-            for n, name in enumerate(PLAYERS)
+            "closest_m": game.closest["evader"],
+            "distance_m": game.distances["evader"],
+            "time_s": game.time,
+            "outcome": game.ended,
         }
 
-    def _infos(self) -> Infos:
-        assert self._episode is not None
-        return {name: self._episode.info() for name in PLAYERS}
+
+def _full(game: EpisodeGame, term: str, name: str) -> Sequence[float]:
+    """Return the values of a term that no sense gives."""
+    if term == "remaining":
+        return (max(0.0, 1.0 - game.time / game.duration),)
+    pursuer, evader = (game.knowledge(player) for player in PLAYERS)
+    assert pursuer is not None and evader is not None
+    if term == "closest":
+        unit = length_unit(evader.limits)
+        return (min(game.closest["evader"] / unit, FARTHEST),)
+    other = evader if name == "pursuer" else pursuer
+    return np.cos(other.bearing), np.sin(other.bearing)
 
 
 def parallel_env(**settings: Any) -> DuelParallelEnv:

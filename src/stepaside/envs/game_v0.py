@@ -2,41 +2,43 @@
 
 from collections.abc import Sequence
 from dataclasses import replace
-from typing import Any, ClassVar
+from typing import Any
 
 import numpy as np
-from gymnasium.spaces import Box, Space
+from gymnasium.spaces import Box
 from numpy.typing import NDArray
-from pettingzoo import ParallelEnv
 
-from ..core.errors import (
-    AnyPath,
-    ConfigurationError,
-    PlanError,
-    check_within,
-)
+from ..arena import OPEN_FLOOR
+from ..core.constants import CAPTURE_DISTANCE
+from ..core.errors import AnyPath, ConfigurationError, check_within
+from ..games.floor_games import floor_of, rules_of
+from ..games.game import GameInPlay
 from ..games.game_file import load_game
+from ..games.game_match import GameMatch
 from ..games.game_settings import GameSettings
-from ..report.palette import colours_in
+from ..games.game_starts import with_starts
+from ..strategies.knowledge import Knowledge, OtherPlayer
 from ..strategies.learned.observation_terms import (
     FARTHEST,
     FASTEST,
     SENSED_TERMS,
+    length_unit,
+    observe,
 )
 from .arena_pool import STRIDE
-from .environment_settings import EnvironmentSettings
-from .episode import SEEDS, check_render_mode
-from .intent_actions import IntentActions
-from .several_players import OTHER_WIDTH, SeveralPlayers, own_terms
-from .top_view import ImagePage, draw_top_view
+from .environment_settings import EnvironmentSettings, direction_of
+from .episode_games import EpisodeGame, FloorGame, HeldIntent, PhysicsGame
+from .parallel_games import SEEDS, ParallelGames
 
-Observations = dict[str, NDArray[np.float32]]
-Infos = dict[str, dict[str, Any]]
+# Values that describe one other player: 1 if there is one, cosine and sine of
+# its bearing, distance [v/k], its velocity ahead and to the left [v], 1 if it
+# is an opponent, 1 if it is a teammate.
 OTHER_LOW = (0.0, -1.0, -1.0, 0.0, -FASTEST, -FASTEST, 0.0, 0.0)
 OTHER_HIGH = (1.0, 1.0, 1.0, FARTHEST, FASTEST, FASTEST, 1.0, 1.0)
+LONGEST_WAIT = 1.0  # for the first decisions in physics, in [s]
 
 
-class GameParallelEnv(ParallelEnv[str, NDArray[np.float32], Any]):
+class GameParallelEnv(ParallelGames):
     """Several players of one game; a step lasts one decision period.
 
     The reward of an evader is the change of its closest approach to any
@@ -49,17 +51,7 @@ class GameParallelEnv(ParallelEnv[str, NDArray[np.float32], Any]):
     Attributes:
         game: Settings of the game.
         period: Duration of a step, in [s].
-        possible_agents: Names of the players that learn.
-        agents: The same during an episode, else empty.
-        render_mode: "rgb_array", "human" or None.
     """
-
-    metadata: ClassVar[dict[str, Any]] = {
-        "name": "stepaside_game_v0",
-        "render_modes": ["human", "rgb_array"],
-        "render_fps": 10,
-        "is_parallelizable": True,
-    }
 
     def __init__(
         self,
@@ -81,166 +73,83 @@ class GameParallelEnv(ParallelEnv[str, NDArray[np.float32], Any]):
                 of the slowest gait.
             action: "continuous" (heading and speed factor) or "discrete".
             headings: Number of headings of discrete actions.
-            render_mode: "rgb_array" for images from above, "human" for a
-                page with them, or None.
+            render_mode: "rgb_array" for images from above, or None.
 
         Raises:
             StepAsideError: If a value is invalid.
         """
-        check_render_mode(render_mode, self.metadata)
-        self.render_mode = render_mode
-        self.game = game if isinstance(game, GameSettings) else load_game(game)
-        self.possible_agents = list(learning_players(self.game, learners))
-        self.period = (
-            self.game.gait.step_duration if period is None else period
+        self.game = given = (
+            game if isinstance(game, GameSettings) else load_game(game)
         )
+        self.period = given.gait.step_duration if period is None else period
         check_within(
             self.period, 0.02, 60.0, "period", "s", ConfigurationError
         )
         choice = EnvironmentSettings(action=action)
         if headings is not None:
             choice = replace(choice, headings=headings)
-        self._actions = {
-            n: IntentActions(choice) for n in self.possible_agents
+        names = learning_players(given, learners)
+        super().__init__(names, choice, _space_of(given), render_mode)
+
+    def begin(self, seed: int, number: int) -> EpisodeGame:
+        """Begin the game of seed s + 7919 n, of episode n of seed s."""
+        settings = self.game
+        held = {
+            name: HeldIntent(direction_of(settings.player(name).role))
+            for name in self.possible_agents
         }
-        space = observation_space_of(self.game)
-        self._observed = {n: Box(space.low, space.high) for n in self._actions}
-        self.agents: list[str] = []
-        self._random = np.random.default_rng()
-        self._seed: int | None = None
-        self._number = 0
-        self._played: SeveralPlayers | None = None
-        self._paths: dict[str, list[Any]] = {}
-        self._page: ImagePage | None = None
+        players = tuple(
+            replace(own, strategy=held.get(own.name, own.strategy))
+            for own in settings.players
+        )
+        seed = (seed + STRIDE * number) % SEEDS
+        settings = with_starts(replace(settings, seed=seed, players=players))
+        room = settings.room or OPEN_FLOOR
+        if settings.level != "physics":
+            played = GameInPlay(floor_of(settings), rules_of(settings))
+            return FloorGame(played, room, self.period)
+        game = PhysicsGame(
+            GameMatch(settings, recorded=False),
+            held,
+            room,
+            settings.identities,
+            settings.duration,
+            period=self.period,
+            capture=CAPTURE_DISTANCE,
+        )
+        game.wait(LONGEST_WAIT)
+        return game
 
-    def observation_space(self, agent: str) -> Space[Any]:
-        """Return the space of observations of an agent, always the same."""
-        return self._observed[agent]
+    def observe(self, game: EpisodeGame, name: str) -> NDArray[np.float32]:
+        """Return the observation of a player.
 
-    def action_space(self, agent: str) -> Space[Any]:
-        """Return the space of actions of an agent, always the same."""
-        return self._actions[agent].space
-
-    def reset(
-        self, seed: int | None = None, options: dict[str, Any] | None = None
-    ) -> tuple[Observations, Infos]:
-        """Begin the next episode of a seed.
-
-        Episode n of seed s is the game of seed s + 7919 n.
-
-        Args:
-            seed: Seed; None continues with the next episode.
-            options: Not used.
+        Its own terms, then the values of each other player, the nearest
+        first; zeros for those that it has not seen.
         """
-        if seed is not None or self._seed is None:
-            drawn = int(self._random.integers(SEEDS))
-            self._seed, self._number = drawn if seed is None else seed, 0
-        else:
-            self._number += 1
-        self.close()
-        game = replace(
-            self.game, seed=(self._seed + STRIDE * self._number) % SEEDS
-        )
-        self._played = SeveralPlayers(game, tuple(self.possible_agents))
-        self.agents = list(self.possible_agents)
-        self._paths = {name: [] for name in self.game.names}
-        self._note()
-        return self._observations(), self._infos()
+        terms = _own_terms(self.game)
+        known = game.knowledge(name)
+        width = sum(SENSED_TERMS[term].width for term in terms)
+        others = np.zeros((len(self.game.players) - 1, len(OTHER_LOW)))
+        own = np.zeros(width, np.float32)
+        if known is not None:
+            own = observe(known, terms)
+            seen = sorted(known.others, key=lambda other: other.distance)
+            for row, other in zip(others, seen, strict=False):
+                row[:] = _describe(known, other)
+        return np.concatenate([own, others.ravel().astype(np.float32)])
 
-    def step(
-        self, actions: dict[str, Any]
-    ) -> tuple[
-        Observations,
-        dict[str, float],
-        dict[str, bool],
-        dict[str, bool],
-        Infos,
-    ]:
-        """Play one decision period.
+    def unit(self, game: EpisodeGame, name: str) -> float:
+        """Return the unit of length of a player, v/k, in [m]."""
+        gait = self.game.player(name).gait
+        return gait.speed / gait.gain
 
-        Args:
-            actions: Action of each agent.
-
-        Raises:
-            PlanError: If an action is missing or invalid, or the episode is
-                over.
-        """
-        played, names = self._played, self.possible_agents
-        if played is None or not self.agents:
-            raise PlanError("reset the environment first: no episode is on")
-        missing = [name for name in names if name not in actions]
-        if missing:
-            raise PlanError(
-                f"actions must have one of {missing[0]}, got those of "
-                f"{', '.join(actions) or 'no agent'}"
-            )
-        intents = {n: self._actions[n].intent(actions[n]) for n in names}
-        before = dict(played.closest)
-        played.play(intents, self.period)
-        self._note()
-        changes = {n: played.closest[n] - before[n] for n in before}
-        late = played.time >= self.game.duration - 1e-9 and not played.ended
-        result = (
-            self._observations(),
-            {n: self._reward(n, changes) / played.unit[n] for n in names},
-            dict.fromkeys(names, bool(played.ended)),
-            dict.fromkeys(names, late),
-            self._infos(),
-        )
-        if played.ended or late:
-            self.agents = []
-        return result
-
-    def render(self) -> Any:
-        """Return an image from above; None in mode "human"."""
-        if self.render_mode is None:
-            return None
-        if self._played is None:
-            raise PlanError("reset the environment first: nothing to render")
-        poses = self._played.poses
-        image = draw_top_view(
-            self._played.room,
-            list(poses.values()),
-            [self._paths[name] for name in poses],
-            [*colours_in("light", poses, self.game.identities).values()],
-        )
-        if self.render_mode == "rgb_array":
-            return image
-        if self._page is None:
-            self._page = ImagePage()
-        self._page.show(image, {"time_s": self._played.time})
-        return None
-
-    def close(self) -> None:
-        """End the episode and release its resources."""
-        if self._played is not None:
-            self._played.close()
-            self._played = None
-
-    def _reward(self, name: str, changes: dict[str, float]) -> float:
-        """Return the reward of a player, in [m]."""
-        if name in changes:
-            return changes[name]
-        return -sum(changes.values()) / len(changes)
-
-    def _observations(self) -> Observations:
-        assert self._played is not None
-        return {n: self._played.observation(n) for n in self.possible_agents}
-
-    def _infos(self) -> Infos:
-        assert self._played is not None
-        played = self._played
-        info = {
-            "closest_m": dict(played.closest),
-            "time_s": played.time,
-            "outcome": played.ended,
+    def info(self, game: EpisodeGame) -> dict[str, Any]:
+        """Return closest approaches [m] by evader, time [s] and outcome."""
+        return {
+            "closest_m": dict(game.closest),
+            "time_s": game.time,
+            "outcome": game.ended,
         }
-        return {name: dict(info) for name in self.possible_agents}
-
-    def _note(self) -> None:
-        if self.render_mode is not None and self._played is not None:
-            for name, pose in self._played.poses.items():
-                self._paths[name].append(pose[:2])
 
 
 def learning_players(
@@ -280,17 +189,42 @@ def learning_players(
     return tuple(chosen)
 
 
-def observation_space_of(game: GameSettings) -> Box:
+def _own_terms(settings: GameSettings) -> tuple[str, ...]:
+    """Return the terms of an observation that describe the player itself."""
+    return ("moving",) if settings.room is None else ("moving", "clearances")
+
+
+def _space_of(game: GameSettings) -> Box:
     """Return the space of observations of a player of a game."""
-    own = [SENSED_TERMS[name] for name in own_terms(game)]
+    own = [SENSED_TERMS[name] for name in _own_terms(game)]
     low = [t.low for t in own for _ in range(t.width)]
     high = [t.high for t in own for _ in range(t.width)]
     others = len(game.players) - 1
-    assert len(OTHER_LOW) == len(OTHER_HIGH) == OTHER_WIDTH
     return Box(
         np.array([*low, *OTHER_LOW * others], np.float32),
         np.array([*high, *OTHER_HIGH * others], np.float32),
     )
+
+
+def _describe(known: Knowledge, other: OtherPlayer) -> list[float]:
+    """Return the values of one other player."""
+    limits, own = known.limits, known.identity
+    assert own is not None
+    # Velocities are sensed in gait time; the speed is that of path time.
+    pace = limits.step_duration * limits.speed / limits.stride
+    velocity = [
+        min(max(v * pace / limits.speed, -FASTEST), FASTEST)
+        for v in other.velocity or (0.0, 0.0)
+    ]
+    return [
+        1.0,
+        np.cos(other.bearing),
+        np.sin(other.bearing),
+        min(other.distance / length_unit(limits), FARTHEST),
+        *velocity,
+        float(own.opposes(other.identity)),
+        float(own.is_with(other.identity)),
+    ]
 
 
 def parallel_env(

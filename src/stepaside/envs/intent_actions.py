@@ -6,9 +6,8 @@ from typing import Any
 
 import numpy as np
 from gymnasium.spaces import Box, Discrete, Space
-from numpy.typing import NDArray
 
-from ..core.errors import PlanError
+from ..core.errors import PlanError, shown
 from ..core.poses import Array
 from ..strategies.knowledge import STAND, Intent
 from .environment_settings import ALL_TERMS, EnvironmentSettings
@@ -75,49 +74,28 @@ class IntentActions:
         Raises:
             PlanError: If the actions have another shape, or are not finite.
         """
+        values = np.array(actions)
         if self.headings:
-            return self._rows[self._codes(actions)]
-        try:
-            values = np.asarray(actions, dtype=np.float64)
-        except (TypeError, ValueError):
-            values = np.zeros(0)
+            codes, count = values.reshape(len(values), -1), len(self.headings)
+            if codes.shape[1] != 1 or codes.dtype.kind not in "iu":
+                raise PlanError(
+                    f"an action must be an integer below {count}, got "
+                    f"{shown(actions[0])}"
+                )
+            if ((codes < 0) | (codes >= count)).any():
+                raise PlanError(
+                    f"an action must be an integer in [0, {count - 1}], got "
+                    f"{codes.min() if codes.min() < 0 else codes.max()}"
+                )
+            found: Array = self._rows[codes[:, 0]]
+            return found
         if values.ndim != 2 or values.shape[1] != 2:
             raise PlanError(
                 "an action must be a heading [rad] and a speed factor [1], "
-                f"shape (2,), got shape {_shape_of(actions)}"
+                f"shape (2,), got shape {values.shape[1:]}"
             )
-        if not np.isfinite(values.sum()):  # or some are large: look again
-            bad = values[~np.isfinite(values).all(axis=1)]
-            if len(bad):
-                got = bad[0].tolist()
-                raise PlanError(f"an action must be finite, got {got}")
-        rows = np.empty_like(values)
-        np.clip(values[:, 0], -pi, pi, out=rows[:, 0])
-        np.clip(values[:, 1], 0.0, 1.0, out=rows[:, 1])
+        rows = np.clip(values.astype(np.float64), (-pi, 0.0), (pi, 1.0))
+        if np.isnan(rows).any():
+            got = values[np.isnan(rows).any(axis=1)][0].tolist()
+            raise PlanError(f"an action must be finite, got {got}")
         return rows
-
-    def _codes(self, actions: Any) -> NDArray[np.int64]:
-        codes = np.asarray(actions)
-        count = len(self.headings)
-        if codes.ndim == 2 and codes.shape[1] == 1:
-            codes = codes[:, 0]
-        if codes.ndim != 1 or not np.issubdtype(codes.dtype, np.integer):
-            raise PlanError(
-                f"an action must be an integer below {count}, got "
-                f"{actions[0]!r:.40}"
-            )
-        if codes.size and not 0 <= codes.min() <= codes.max() < count:
-            bad = codes[(codes < 0) | (codes >= count)][0]
-            raise PlanError(
-                f"an action must be an integer below {count}, got {bad}"
-            )
-        return codes.astype(np.int64)
-
-
-def _shape_of(actions: Any) -> tuple[int, ...]:
-    """Return the shape of one action."""
-    try:
-        shape: tuple[int, ...] = np.shape(actions)[1:]
-    except ValueError:  # ragged
-        return ()
-    return shape

@@ -1,6 +1,6 @@
 """Image of a game from above."""
 
-from collections.abc import Sequence
+from collections.abc import Mapping
 from math import cos, sin
 from typing import Any
 
@@ -17,17 +17,17 @@ BODY = 0.2  # radius of a player, in [m]
 
 def draw_top_view(
     room: Room,
-    poses: Sequence[Pose],
-    paths: Sequence[Any],
-    colours: Sequence[str],
+    poses: Mapping[str, Pose],
+    paths: Mapping[str, Any],
+    colours: Mapping[str, str],
 ) -> NDArray[np.uint8]:
     """Return an image of the players and the room.
 
     Args:
         room: The room.
-        poses: Poses of the players in the room.
-        paths: Their positions so far, in [m]. Each of shape (n, 2).
-        colours: Colour of each player.
+        poses: Pose of each player in the room, by name.
+        paths: Its positions so far, in [m]. Each of shape (n, 2).
+        colours: Its colour.
 
     Returns:
         Shape (400, 400, 3).
@@ -48,14 +48,14 @@ def draw_top_view(
             shape = Outline(solid.outline, closed=True)
         shape.set_facecolor("0.7")
         axes.add_patch(shape)
-    for pose, path, colour in zip(poses, paths, colours, strict=True):
-        if len(path):
-            axes.plot(*np.asarray(path).T, color=colour, lw=1.0)
+    for name, pose in poses.items():
+        colour = colours[name]
+        axes.plot(*np.array(paths[name]).T, color=colour, lw=1.0)
         axes.add_patch(Circle((pose.x, pose.y), BODY, color=colour, alpha=0.5))
         nose = pose.x + BODY * cos(pose.theta), pose.y + BODY * sin(pose.theta)
         axes.plot([pose.x, nose[0]], [pose.y, nose[1]], color="k", lw=2.0)
-    middle = np.mean([pose[:2] for pose in poses], axis=0)
-    apart = np.ptp([pose[:2] for pose in poses], axis=0).max()
+    places = np.array([pose[:2] for pose in poses.values()])
+    middle, apart = places.mean(axis=0), np.ptp(places, axis=0).max()
     reach = max(REACH, 0.5 * apart + 2.0 * BODY)
     if room.width is not None and room.depth is not None:
         middle, reach = np.zeros(2), 0.55 * max(room.width, room.depth)
@@ -64,39 +64,3 @@ def draw_top_view(
     canvas.draw()
     image: NDArray[np.uint8] = np.asarray(canvas.buffer_rgba())
     return image[..., :3].copy()
-
-
-class ImagePage:
-    """Page in the browser that shows the newest image.
-
-    Attributes:
-        address: Address of the page.
-    """
-
-    def __init__(self, port: int = 8080) -> None:
-        """Serve the page at the first free port.
-
-        Args:
-            port: First port to try.
-        """
-        from ..report.viewer.page_server import open_server
-
-        self._server = open_server(port)
-        self._handle: Any = None
-
-    def show(self, image: NDArray[np.uint8], info: dict[str, Any]) -> None:
-        """Replace the image.
-
-        Args:
-            image: Shape (height, width, 3).
-            info: Values below it.
-        """
-        text = ", ".join(
-            f"{key} {value:.2f}" if isinstance(value, float) else f"{value}"
-            for key, value in info.items()
-        )
-        gui = self._server.gui
-        if self._handle is None:
-            self._handle = gui.add_image(image), gui.add_markdown(text)
-        else:
-            self._handle[0].image, self._handle[1].content = image, text

@@ -13,14 +13,14 @@ from ..games.duel_settings import PLAYERS
 from ..strategies.step_batch import RUNNING
 from ..strategies.strategy import Strategy
 from .batched_duel import BatchedDuel
-from .distance_reward import DistanceReward, reward_sign
+from .distance_reward import evader_reward
 from .duel_env import load_opponent
 from .environment_settings import (
     EnvironmentSettings,
     check_choice,
 )
-from .episode import SEEDS
 from .intent_actions import IntentActions, observation_space
+from .parallel_games import SEEDS
 
 Batch = NDArray[np.float32]
 
@@ -74,13 +74,11 @@ class VectorDuel(VectorEnv[Batch, Any, Any]):
         self.role, self.num_envs = role, int(num_envs)
         self.settings = given = EnvironmentSettings(**settings)
         self._index = PLAYERS.index(role)
-        strategies: list[Strategy | None] = [None, None]
-        strategies[1 - self._index] = load_opponent(opponent, role)
+        played = load_opponent(opponent, role)
+        strategies = [played.get(name) for name in PLAYERS]
         self._games = BatchedDuel(given, self.num_envs, strategies)
-        rules = self._games.rules
-        self._reward = DistanceReward(
-            rules.speed / rules.gain, given.shaping, given.discount
-        )
+        unit = self._games.rules.speed / self._games.rules.gain
+        self._scale = (1.0 if role == "evader" else -1.0) / unit
         self._actions = IntentActions(given)
         self.single_action_space = self._actions.space
         self.single_observation_space = observation_space(given.terms)
@@ -142,10 +140,11 @@ class VectorDuel(VectorEnv[Batch, Any, Any]):
         ended = games.outcomes != RUNNING
         late = games.state.decisions >= games.rules.limit
         distances = games.distances
-        rewards = reward_sign(self.role) * self._reward.evader(
+        rewards = self._scale * evader_reward(
             (closest, games.state.closest),
             (self._distances, distances),
             ended.astype(np.float64),
+            (self.settings.shaping, self.settings.discount),
         )
         self._distances = distances
         over, info = ended | late, self._info()

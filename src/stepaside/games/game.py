@@ -140,8 +140,11 @@ class GameInPlay:
             default=None,
         )
 
-    def advance(self) -> None:
+    def advance(self, until: float = inf) -> None:
         """Let the players decide and move to the next instant, and judge.
+
+        Args:
+            until: Time at which the next instant is at the latest, in [s].
 
         Raises:
             StrategyError: If a strategy fails.
@@ -149,7 +152,7 @@ class GameInPlay:
         self.world.decide()
         for observer in self.observers:
             observer.acted(self)
-        self.world.step(self.rules.duration)
+        self.world.step(min(until, self.rules.duration))
         self.ended = self._judge()
 
     def _judge(self) -> Ended | None:

@@ -5,15 +5,15 @@ from typing import Any
 
 import numpy as np
 import pytest
-
-from stepaside.envs import VectorDuel
-from stepaside.envs.policy_optimisation import (
+from train_evader import (
     OptimisationSettings,
     Perceptron,
     PolicyOptimiser,
     log_softmax,
     policy_slope,
 )
+
+from stepaside.envs import VectorDuel
 from stepaside.planning import Direction
 from stepaside.strategies import StepGame
 from stepaside.strategies.learned.observation_terms import observe
