@@ -1,12 +1,12 @@
 """Evasion by straight dashes of legs that walk in any direction."""
 
 from dataclasses import dataclass
-from math import atan2, cos, hypot, inf, pi, sin
+from math import atan2, ceil, cos, hypot, inf, pi, sin
 from typing import NamedTuple
 
 import numpy as np
 
-from ..core.poses import ALL_AROUND, Array, Pose, Sector, wrap_angle
+from ..core.poses import ALL_AROUND, Array, Pose, wrap_angle
 from ..core.ranges import Range
 from ..core.setting import check_settings, setting
 from .dash_rollouts import (
@@ -14,8 +14,7 @@ from .dash_rollouts import (
     Dashes,
     Opponent,
     closest_approaches,
-    greatest_velocities,
-    headings_at,
+    greatest_velocity,
     make_dashes,
     roll_out,
     unseen_shares,
@@ -32,7 +31,6 @@ TRACK = OpponentTrack(0.4, span=1.5, spacing=0.075)
 STILL_OPPONENT = 0.1  # speed below which it is expected to stand, in [m/s]
 HEADING_GAIN = 3.0  # of turning the body along the dash, in [1/s]
 LATER = 0.6  # after which the second set of dashes begins, in [s]
-FEINT = 0.6  # time for which a chaser may turn away first, in [s]
 EFFORT = 0.05  # gain for which a robot begins to walk, or waits, in [m]
 SURPLUS = 0.02  # value of clearance beyond what is enough, per metre
 # Loss while the opponent is out of view all the time, in [m]: more than the
@@ -142,24 +140,21 @@ class DashEvasion(BackwardStrategy):
     def begin(self) -> DashMemory:
         """Return the memory before the first sighting."""
         # Compiles the rollouts now instead of at the first decision.
-        someone = Opponent(1.0, 0.0, 0.0, 0.0)
         still = VelocitySet((0.0, 1.0), (0.0, 1.0), (-1.0, 1.0))
-        pose = Pose(0.0, 0.0, 0.0)
-        dashes = make_dashes(self.directions, pose, still, LATER)
-        paths = roll_out(pose, STILL, dashes, still, 0.1)
-        closest_approaches(paths, someone, inf, NO_FEINT, FEINT)
+        dashes = make_dashes(self.directions, 0.0, still, LATER)
+        paths, _ = roll_out(Pose(0.0, 0.0, 0.0), STILL, dashes, still, 0.1)
+        self._worth(paths, Opponent(1.0, 0.0, 0.0, 0.0), inf)
         return DashMemory()
 
     def decide(
         self, knowledge: Knowledge, memory: DashMemory
     ) -> tuple[Intent, DashMemory]:
         """Begin the dash with the largest worst-case closest approach."""
-        velocities = knowledge.limits.velocities or _of_unicycle(
-            knowledge.limits
+        limits, now = knowledge.limits, knowledge.time
+        velocities = limits.velocities or _of_unicycle(limits)
+        track = memory.track.note(
+            now - knowledge.age, knowledge.position_in_map
         )
-        now = knowledge.time
-        seen = now - knowledge.age
-        track = memory.track.note(seen, knowledge.position_in_map)
         opponent = extrapolate(track, now)
         pose = knowledge.step_start_in_map or knowledge.pose_in_map
         velocity = STILL
@@ -174,17 +169,32 @@ class DashEvasion(BackwardStrategy):
             waits = now - memory.compared < INTERVAL - 1e-9
             if waits or not self._is_near(pose, opponent):
                 return STAND, stands
-        angle, heading = self._best(
-            pose,
-            velocity,
-            velocities,
-            opponent,
-            memory.angle,
-            knowledge.limits.views,
+        looks = limits.views != ALL_AROUND
+        dashes = make_dashes(
+            self.directions, pose.theta, velocities, LATER, both_ends=looks
         )
-        if angle is None:
+        paths, headings = roll_out(
+            pose, velocity, dashes, velocities, self.horizon
+        )
+        value = self._values(paths, opponent)
+        value = value + self._bonus(dashes, memory.angle)
+        if looks:
+            soon = min(ceil(self.contact_time / STEP), len(headings))
+            value -= UNSEEN * unseen_shares(
+                paths[:soon], headings[:soon], opponent, limits.views
+            )
+        best = int(np.argmax(value))
+        if dashes.begins[best] > 0.0:  # it is best to stand, at least for now
             return STAND, stands._replace(compared=now)
-        command = _dash_velocity(pose.theta, angle, heading, velocities)
+        angle = float(dashes.angles[best])
+        turn = HEADING_GAIN * wrap_angle(
+            float(dashes.headings[best]) - pose.theta
+        )
+        low, high = velocities.turn
+        command = BodyVelocity(
+            *greatest_velocity(angle - pose.theta, velocities),
+            min(max(turn, low), high),
+        )
         return Intent(velocity=command), DashMemory(
             track, now, velocity, command, angle, now
         )
@@ -207,47 +217,6 @@ class DashEvasion(BackwardStrategy):
         along = -(x * u + y * v)
         return along > 0.0 and abs(x * v - y * u) < self.clearance
 
-    def _best(
-        self,
-        pose: Pose,
-        velocity: BodyVelocity,
-        velocities: VelocitySet,
-        opponent: Opponent,
-        present: float | None,
-        views: tuple[Sector, ...],
-    ) -> tuple[float | None, float]:
-        """Return angle and body heading of the best dash.
-
-        Args:
-            pose: Own pose in the map.
-            velocity: Own velocity.
-            velocities: Velocities that the legs deliver.
-            opponent: The opponent.
-            present: Angle of the present dash; None while the robot stands.
-            views: Bearings at which the opponent is seen.
-
-        Returns:
-            Angle and heading in the map, in [rad]; no angle if it is best to
-            stand, for now or all the time.
-        """
-        looks = views != ALL_AROUND
-        dashes = make_dashes(
-            self.directions, pose, velocities, LATER, both_ends=looks
-        )
-        paths = roll_out(pose, velocity, dashes, velocities, self.horizon)
-        value = self._values(paths, opponent)
-        value = value + self._bonus(dashes, present)
-        if looks:
-            times = np.arange(0.0, self.contact_time, STEP)[:, None]
-            headings = headings_at(times, pose, dashes, velocities)
-            value -= UNSEEN * unseen_shares(
-                paths[: len(times)], headings, opponent, views
-            )
-        best = int(np.argmax(value))
-        if dashes.begins[best] > 0.0:
-            return None, pose.theta
-        return float(dashes.angles[best]), float(dashes.headings[best])
-
     def _bonus(self, dashes: Dashes, present: float | None) -> Array:
         """Return the value in [m] that prevents changes of little use.
 
@@ -266,12 +235,7 @@ class DashEvasion(BackwardStrategy):
         return np.where(np.isinf(begins), bonus, changes - waits)
 
     def _values(self, paths: Array, opponent: Opponent) -> Array:
-        """Return the value of each dash, in [m]. Shape (n,).
-
-        Args:
-            paths: Positions along each dash. Shape (steps + 1, n, 2).
-            opponent: The opponent.
-        """
+        """Return the value of each dash along its path, in [m]. Shape (n,)."""
         radius = self.turning_radius
         steering = self._worth(paths, opponent, radius)
         if self.doubt == inf or radius == inf:
@@ -283,7 +247,7 @@ class DashEvasion(BackwardStrategy):
     def _worth(self, paths: Array, opponent: Opponent, radius: float) -> Array:
         """Return the value of each dash against one turning radius [m]."""
         feints = NO_FEINT if radius == inf else FEINTS
-        least = closest_approaches(paths, opponent, radius, feints, FEINT)
+        least = closest_approaches(paths, opponent, float(radius), feints)
         value: Array = np.minimum(least, self.enough + SURPLUS * least)
         return value
 
@@ -301,23 +265,6 @@ def extrapolate(track: OpponentTrack, now: float) -> Opponent:
         atan2(v, u),
         speed if speed > STILL_OPPONENT else 0.0,
     )
-
-
-def _dash_velocity(
-    theta: float, angle: float, heading: float, velocities: VelocitySet
-) -> BodyVelocity:
-    """Return the velocity of a dash in the frame of the body.
-
-    Args:
-        theta: Heading of the body in the map, in [rad].
-        angle: Direction of the dash in the map, in [rad].
-        heading: Heading to which the body turns, in [rad].
-        velocities: Velocities that the legs deliver.
-    """
-    ahead, left = greatest_velocities(np.array(angle - theta), velocities)
-    low, high = velocities.turn
-    turn = HEADING_GAIN * wrap_angle(heading - theta)
-    return BodyVelocity(float(ahead), float(left), min(max(turn, low), high))
 
 
 def _of_unicycle(limits: Limits) -> VelocitySet:

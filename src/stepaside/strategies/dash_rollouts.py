@@ -1,19 +1,18 @@
 """Rollouts of straight dashes against behaviours of an opponent."""
 
-from collections.abc import Callable, Sequence
-from dataclasses import dataclass
-from functools import cache
-from math import cos, pi, sin
-from typing import NamedTuple
+from collections.abc import Sequence
+from math import cos, hypot, pi, sin
+from typing import Any, NamedTuple
 
 import numpy as np
 
-from ..core.compilation import compiled
+from ..core.compilation import compiled, inlined
 from ..core.poses import Array, Pose, Sector, in_sectors, wrap_angles
 from .velocity_set import BodyVelocity, VelocitySet, response_share
 
 STEP = 0.1  # of a rollout, in [s]
 STEERING_GAIN = 5.0  # of an opponent who steers at the robot, in [1/s]
+FEINT_STEPS = 6  # for which a chaser may turn away first
 
 
 class Dashes(NamedTuple):
@@ -31,8 +30,7 @@ class Dashes(NamedTuple):
     begins: Array
 
 
-@dataclass(frozen=True, slots=True)
-class Opponent:
+class Opponent(NamedTuple):
     """Motion of an opponent at constant speed.
 
     Attributes:
@@ -50,7 +48,7 @@ class Opponent:
 
 def make_dashes(
     count: int,
-    pose: Pose,
+    theta: float,
     velocities: VelocitySet,
     later: float,
     *,
@@ -62,54 +60,48 @@ def make_dashes(
 
     Args:
         count: Number of directions.
-        pose: Pose of the body in the map.
+        theta: Heading of the body in the map, in [rad].
         velocities: Velocities that the legs deliver.
         later: Time after which the second set begins, in [s].
         both_ends: Whether to add dashes with the other end ahead.
     """
-    angles = pose.theta + 2.0 * pi / count * np.arange(count)
-    ahead = max(velocities.forward[1], -velocities.forward[0])
-    aside = max(velocities.lateral[1], -velocities.lateral[0])
-    along = angles if ahead >= aside else angles + 0.5 * pi
-    turns = wrap_angles(along - pose.theta)
+    angles = theta + 2.0 * pi / count * np.arange(count)
+    ahead, aside = (max(high, -low) for low, high in velocities[:2])
+    turns = wrap_angles(angles - theta + (0.0 if ahead >= aside else pi / 2))
     turns = np.where(turns > 0.5 * pi, turns - pi, turns)
     turns = np.where(turns < -0.5 * pi, turns + pi, turns)
     if both_ends:
         angles = np.concatenate([angles, angles])
         turns = np.concatenate([turns, np.where(turns > 0.0, -pi, pi) + turns])
-    headings = pose.theta + turns
+    headings = theta + turns
     return Dashes(
-        np.concatenate([[pose.theta], angles, angles]),
-        np.concatenate([[pose.theta], headings, headings]),
+        np.concatenate([[theta], angles, angles]),
+        np.concatenate([[theta], headings, headings]),
         np.repeat([np.inf, 0.0, later], [1, angles.size, angles.size]),
     )
 
 
-def greatest_velocities(angles: Array, velocities: VelocitySet) -> Array:
-    """Return the fastest horizontal velocity in some directions of the body.
+@inlined
+def greatest_velocity(angle: float, bounds: Any) -> tuple[float, float]:
+    """Return the fastest horizontal velocity in a direction of the body.
+
+    A unicycle walks at its component of the velocity.
 
     Args:
-        angles: Directions in the frame of the body, in [rad]. Any shape.
-        velocities: Velocities that the legs deliver; an axis that they do not
-            deliver is left out of the velocity.
+        angle: Direction in the frame of the body, in [rad].
+        bounds: Velocities that the legs deliver, or their bounds ahead and
+            to the left, in [m/s].
 
     Returns:
-        Components ahead and to the left, in [m/s]. Shape (2, *angles.shape).
+        Components ahead and to the left, in [m/s].
     """
-    parts = np.stack([np.cos(angles), np.sin(angles)])
-    bounds = (velocities.forward, velocities.lateral)
-    limits = np.stack(
-        [
-            np.where(part > 0.0, high, -low)
-            for part, (low, high) in zip(parts, bounds, strict=True)
-        ]
-    )
-    able = limits > 0.0
-    relative = np.where(able, parts / np.where(able, limits, 1.0), 0.0)
-    if not able.all():  # a unicycle walks at its component of the velocity
-        return np.where(able, parts * limits, 0.0)
-    found: Array = parts / np.hypot(*relative)
-    return found
+    c, s = cos(angle), sin(angle)
+    ahead = bounds[0][1] if c > 0.0 else -bounds[0][0]
+    left = bounds[1][1] if s > 0.0 else -bounds[1][0]
+    if ahead > 0.0 and left > 0.0:
+        speed = 1.0 / hypot(c / ahead, s / left)
+        return speed * c, speed * s
+    return c * max(ahead, 0.0), s * max(left, 0.0)
 
 
 def roll_out(
@@ -118,7 +110,7 @@ def roll_out(
     dashes: Dashes,
     velocities: VelocitySet,
     horizon: float,
-) -> Array:
+) -> tuple[Array, Array]:
     """Roll out dashes of legs with a lag.
 
     Each component of the velocity approaches that of the command with the
@@ -132,54 +124,59 @@ def roll_out(
         horizon: Duration, in [s].
 
     Returns:
-        Positions in the map, the present one included, in [m]. Shape
-        (steps + 1, n, 2).
+        Positions in the map, the present one included, in [m], and headings,
+        in [rad], in steps of 0.1 s. Shapes (steps + 1, n, 2), (steps, n).
     """
-    count = round(horizon / STEP)
-    times = STEP * np.arange(count, dtype=np.float64)[:, None]
-    runs = times >= dashes.begins - 1e-9
-    headings = headings_at(times, pose, dashes, velocities)
-    commands = np.where(
-        runs, greatest_velocities(dashes.angles - headings, velocities), 0.0
+    steps, count = round(horizon / STEP), len(dashes.angles)
+    paths, headings = np.empty((steps + 1, count, 2)), np.empty((steps, count))
+    shares = [response_share(STEP, lag) for lag in velocities.lags[:2]]
+    fill_paths(
+        np.array(pose),
+        np.array([*velocity[:2], *shares], dtype=np.float64),
+        dashes,
+        np.array(velocities[:3], dtype=np.float64),
+        paths,
+        headings,
     )
-    moved = np.empty((2, count, len(dashes.angles)))
-    shares = [response_share(STEP, velocities.lags[i]) for i in range(2)]
-    kernel = _compiled(_fill_responses)
-    kernel(commands, np.array(velocity[:2]), np.array(shares), moved)
-    cosine, sine = np.cos(headings), np.sin(headings)
-    steps = STEP * np.stack(
-        [
-            cosine * moved[0] - sine * moved[1],
-            sine * moved[0] + cosine * moved[1],
-        ],
-        axis=2,
-    )
-    start = np.broadcast_to([pose.x, pose.y], (1, len(dashes.angles), 2))
-    return np.concatenate([start, start + np.cumsum(steps, axis=0)])
+    return paths, headings
 
 
-def headings_at(
-    times: Array, pose: Pose, dashes: Dashes, velocities: VelocitySet
-) -> Array:
-    """Return the headings of the body during dashes, in [rad].
+@compiled
+def fill_paths(
+    pose: Any, start: Any, dashes: Dashes, bounds: Any, paths: Any, out: Any
+) -> None:
+    """Write the paths and headings of :func:`roll_out`.
 
     Args:
-        times: Times since now, in [s]. Shape (m, 1).
-        pose: Pose of the body in the map.
+        pose: Pose of the body in the map. Shape (3,).
+        start: Velocity ahead and to the left, in [m/s], and share of a
+            command that each reaches in a step. Shape (4,).
         dashes: Dashes.
-        velocities: Velocities that the legs deliver.
-
-    Returns:
-        Shape (m, n).
+        bounds: Bounds ahead, to the left, and of turning. Shape (3, 2).
+        paths: Output: positions.
+        out: Output: headings.
     """
-    runs = times >= dashes.begins - 1e-9
-    since = np.where(runs, times - dashes.begins, 0.0)
-    turns = dashes.headings - pose.theta
-    rate = np.where(turns > 0.0, velocities.turn[1], -velocities.turn[0])
-    headings: Array = pose.theta + np.sign(turns) * np.minimum(
-        np.abs(turns), rate * since
-    )
-    return headings
+    for j in range(len(dashes.angles)):
+        x, y, u, v = pose[0], pose[1], start[0], start[1]
+        turn = dashes.headings[j] - pose[2]
+        rate = bounds[2, 1] if turn > 0.0 else -bounds[2, 0]
+        side = 1.0 if turn > 0.0 else -1.0
+        paths[0, j, 0], paths[0, j, 1] = x, y
+        for i in range(len(out)):
+            since, heading = STEP * i - dashes.begins[j], pose[2]
+            ahead = left = 0.0
+            if since >= -1e-9:
+                heading += side * min(abs(turn), rate * since)
+                ahead, left = greatest_velocity(
+                    dashes.angles[j] - heading, bounds
+                )
+            u += start[2] * (ahead - u)
+            v += start[3] * (left - v)
+            c, s = cos(heading), sin(heading)
+            x += STEP * (c * u - s * v)
+            y += STEP * (s * u + c * v)
+            out[i, j] = heading
+            paths[i + 1, j, 0], paths[i + 1, j, 1] = x, y
 
 
 def unseen_shares(
@@ -209,13 +206,10 @@ def unseen_shares(
     return shares
 
 
+@compiled
 def closest_approaches(
-    paths: Array,
-    opponent: Opponent,
-    turning_radius: float,
-    feints: Array,
-    feint_duration: float,
-) -> Array:
+    paths: Any, opponent: Opponent, turning_radius: float, feints: Any
+) -> Any:
     """Return the worst closest approach of some paths.
 
     The opponent steers at the robot, limited by its turning radius, after
@@ -228,77 +222,21 @@ def closest_approaches(
             who walks straight.
         feints: Sides to which it turns first: 1 left, -1 right, 0 none.
             Shape (m,).
-        feint_duration: How long it does, in [s].
 
     Returns:
         Smallest distance over time and feints, in [m]. Shape (n,).
     """
     most = opponent.speed / turning_radius  # turning rate, [rad/s]
-    place = opponent.x, opponent.y, opponent.course
-    least = np.empty(paths.shape[1])
-    _compiled(_fill_least_distances)(
-        np.ascontiguousarray(paths),
-        (*place, opponent.speed, most),
-        feints,
-        round(feint_duration / STEP),
-        least,
-    )
-    return least
-
-
-@cache
-def _compiled(loop: Callable[..., None]) -> Callable[..., None]:
-    """Return a loop, compiled if possible."""
-    return compiled(loop)
-
-
-def _fill_responses(
-    commands: Array, velocity: Array, shares: Array, moved: Array
-) -> None:
-    """Write the velocities that follow commands with a lag.
-
-    Args:
-        commands: Velocities by axis, step and dash, in [m/s]. Shape (2,
-            steps, n).
-        velocity: Velocity before, in [m/s]. Shape (2,).
-        shares: Share of a command that is reached in a step. Shape (2,).
-        moved: Velocities after each step, in [m/s], written in place. Shape
-            (2, steps, n).
-    """
-    for axis in range(2):
-        for j in range(commands.shape[2]):
-            now = velocity[axis]
-            for i in range(commands.shape[1]):
-                now += shares[axis] * (commands[axis, i, j] - now)
-                moved[axis, i, j] = now
-
-
-def _fill_least_distances(
-    paths: Array,
-    opponent: tuple[float, float, float, float, float],
-    feints: Array,
-    feint_steps: int,
-    least: Array,
-) -> None:
-    """Write the smallest distance of each path over time and feints.
-
-    Args:
-        paths: Positions of the robot, in [m]. Shape (steps + 1, n, 2).
-        opponent: Position [m], course [rad], speed [m/s] and greatest turning
-            rate [rad/s] of the opponent.
-        feints: Sides to which it turns first. Shape (m,).
-        feint_steps: Number of steps for which it does.
-        least: Distances, in [m], written in place. Shape (n,).
-    """
-    x0, y0, course0, speed, most = opponent
-    way, sharp = STEP * speed, STEP * most
+    way, sharp = STEP * opponent.speed, STEP * most
     # Up to this error, an opponent steers in proportion to it.
     slope = np.tan(min(most / STEERING_GAIN, 0.49 * pi))
-    turn_c, turn_s = np.cos(sharp), np.sin(sharp)
+    turn_c, turn_s = cos(sharp), sin(sharp)
+    least = np.empty(paths.shape[1])
     for j in range(paths.shape[1]):
         square = np.inf
         for side in feints:
-            x, y, c, s = x0, y0, np.cos(course0), np.sin(course0)
+            x, y = opponent.x, opponent.y
+            c, s = cos(opponent.course), sin(opponent.course)
             for i in range(paths.shape[0]):
                 dx, dy = paths[i, j, 0] - x, paths[i, j, 1] - y
                 square = min(square, dx * dx + dy * dy)
@@ -306,14 +244,15 @@ def _fill_least_distances(
                     # Sine and cosine of the next turn.
                     sine, cosine = turn_s, turn_c
                     ahead, left = c * dx + s * dy, c * dy - s * dx
-                    if side != 0.0 and i < feint_steps:
+                    if side != 0.0 and i < FEINT_STEPS:
                         sine *= side
                     elif abs(left) < slope * ahead:
                         turn = STEP * STEERING_GAIN * np.arctan(left / ahead)
-                        sine, cosine = np.sin(turn), np.cos(turn)
+                        sine, cosine = sin(turn), cos(turn)
                     elif left < 0.0:
                         sine = -sine
                     c, s = c * cosine - s * sine, s * cosine + c * sine
                 x += way * c
                 y += way * s
         least[j] = np.sqrt(square)
+    return least

@@ -10,7 +10,7 @@ from ..arena.shortest_path import first_waypoint
 from ..core.poses import Array, Pose, wrap_angle
 from ..core.ranges import Range
 from ..core.setting import check_settings, setting
-from .dash_rollouts import greatest_velocities
+from .dash_rollouts import greatest_velocity
 from .knowledge import STAND, Intent, Knowledge
 from .pursuit import PursuitVariant
 from .velocity_set import BodyVelocity, VelocitySet
@@ -108,7 +108,9 @@ class GoalWalk(PursuitVariant):
         goal, and the clearance that it misses, the sooner the more.
         """
         angles = bearing + np.linspace(-pi, pi, DIRECTIONS, endpoint=False)
-        fastest = greatest_velocities(angles, velocities)
+        fastest = np.array(
+            [greatest_velocity(each, velocities) for each in angles]
+        ).T
         own = np.concatenate([s * fastest for s in SHARES], axis=1)
         progress = cos(bearing) * own[0] + sin(bearing) * own[1]
         least, when = nearest_passages(knowledge, own, earliest=REACTION)

@@ -3,14 +3,14 @@
 import logging
 from dataclasses import dataclass
 from functools import lru_cache
-from math import asin, cos, pi, sin, tau
+from math import asin, cos, hypot, pi, sin, tau
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
 from ..core.poses import Array
 from ..planning import Direction
-from .dash_rollouts import greatest_velocities
+from .dash_rollouts import greatest_velocity
 from .knowledge import ON_THE_SPOT, Intent, Limits
 from .shield_settings import ShieldSettings
 from .shield_template import LEGS_LOSS, LEGS_PERIOD
@@ -216,18 +216,18 @@ class ShieldModel:
             driven[:, 2] = [turn for _, turn in steps]
             return driven / limits.step_duration
         rate = min(-legs.turn[0], legs.turn[1])
+        side = min(-legs.lateral[0], legs.lateral[1])
+        symmetric = legs.forward, (-side, side)
         angles = tau / LEGS_DIRECTIONS * np.arange(LEGS_DIRECTIONS)
         found = [(0.0, 0.0, sign * rate) for sign in (0.0, -1.0, 1.0)]
         for turn in (0.0, -rate, rate):
             turned = turn * self.period * np.array([0.0, 0.5, 1.0])
-            ahead, left = greatest_velocities(
-                angles[:, None] - turned, _symmetric(legs)
-            )
-            speeds = np.hypot(ahead, left).min(axis=1)
-            found += [
-                (speed * cos(angle), speed * sin(angle), turn)
-                for speed, angle in zip(speeds, angles, strict=True)
-            ]
+            for angle in angles:
+                speed = min(
+                    hypot(*greatest_velocity(angle - part, symmetric))
+                    for part in turned
+                )
+                found.append((speed * cos(angle), speed * sin(angle), turn))
         return np.array(found)
 
     def motions(self) -> Array:
@@ -264,12 +264,6 @@ class ShieldModel:
     def certifies(self, table: "ShieldTable") -> bool:
         """Return whether any state is certified by a table of the model."""
         return table.outside >= self.required
-
-
-def _symmetric(legs: VelocitySet) -> VelocitySet:
-    """Return the velocities that both sides deliver."""
-    side = min(-legs.lateral[0], legs.lateral[1])
-    return legs._replace(lateral=(-side, side))
 
 
 @lru_cache(maxsize=8)
