@@ -1,24 +1,30 @@
-"""Fake session with a robot of three joints, on a clock set by hand."""
+"""Fake robot of three motors, and control of it, on a clock set by hand."""
 
-from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
 
-from stepaside.core.poses import Array
-from stepaside.drivers.guardian_process import SessionLost
-from stepaside.drivers.joint_body import JointBody, SystemClock
-from stepaside.drivers.joint_robot import JointRobot, JointTargets, Motors
-from stepaside.drivers.safety_states import SafetyState
+from stepaside.control.strategy_runner import StrategyRunner
+from stepaside.core.poses import Array, Pose
+from stepaside.drivers.joint_loop import JointLoop
+from stepaside.drivers.method_thread import SessionLost
+from stepaside.drivers.motors import Motors
+from stepaside.drivers.robot import JointRobot, JointTargets
+from stepaside.drivers.robot_reports import plain_report
+from stepaside.drivers.safety import SafetyState
+from stepaside.locomotion.walk_snapshots import Phase, WalkState
 from stepaside.perception.measurement import (
     RobotState,
     RobotStatus,
     Sighting,
 )
+from stepaside.planning import Foot, GaitSettings
+from stepaside.robots.body_reference import BodyReference
+from stepaside.strategies import Evasion, Strategy
 
 TICK = 0.02  # [s]
-JOINTS = ("gripper", "knee", "neck", "hip")  # of the robot
 STANCE = np.array([-0.2, 0.6, 0.0])  # of hip, knee and neck, in [rad]
+STRATEGY = Evasion()
 MOTORS = Motors(
     ("hip", "knee", "neck"),
     low=np.array([-1.0, 0.0, -2.0]),
@@ -35,17 +41,24 @@ class FakeRobot(JointRobot):
     """Robot that a session would call."""
 
     tick, stands = TICK, False
-    joints: Sequence[str] = JOINTS
+    joints = "gripper", "knee", "neck", "hip"
     crouch = {"knee": 1.5}  # noqa: RUF012 (as users write it)
 
     def __init__(self) -> None:
         self.shown: list[SafetyState] = []
+
+    def listen(self) -> RobotState | None:
+        """Return nothing: the session has the reports."""
+        return None
 
     def show(self, state: SafetyState, *, sees: bool) -> None:
         """Note the state."""
         self.shown.append(state)
 
     def command(self, targets: JointTargets) -> None:
+        """Do nothing."""
+
+    def release(self) -> None:
         """Do nothing."""
 
 
@@ -66,35 +79,33 @@ class FakeSession:
     """Session whose robot is where it was told to be.
 
     Each wait is a tick of silence or of a report; ``changes`` are those of
-    the next reports.
+    the next reports, and ``once`` those of one.
     """
 
-    def __init__(self, robot: FakeRobot | None = None) -> None:
-        self.robot: Any = robot or FakeRobot()
+    def __init__(self, **traits: Any) -> None:
+        self.robot: Any = FakeRobot()
+        for name, value in traits.items():
+            setattr(self.robot, name, value)
         self.now, self.time = 1000.0, 50.0
         self.angles = np.array([0.3, 0.6, 0.0, -0.2])
         self.changes: dict[str, Any] = {"status": status()}
+        self.once: dict[str, Any] = {}
         self.sent: list[JointTargets | None] = []
         self.silent = self.broken = self.closed = False
         self.halted = True
         self.hold = ""
 
-    @property
-    def clock(self) -> SystemClock:
-        """Clock of this computer."""
-        return SystemClock(lambda: self.now, self._pause)
-
-    def _pause(self, duration: float) -> None:
+    def pause(self, duration: float) -> None:
+        """Let a time pass, in [s]."""
         self.now += duration
 
     def name_of(self, method: str) -> str:
         """Return the name of a method."""
         return f"{method}() of FakeRobot"
 
-    def listen(self, patience: float, convert: Any) -> RobotState | None:
+    def listen(self, patience: float) -> RobotState | None:
         """Let a tick pass."""
-        if self.broken:
-            raise SessionLost("broken")
+        self.check_blocked()
         if self.silent:
             self.now += max(patience, 0.0)
             return None
@@ -110,10 +121,9 @@ class FakeSession:
             joint_velocities=np.zeros(4),
             tilt=(0.0, 0.0),
         )
-        found: RobotState = convert(
-            report._replace(**self.changes), self.name_of("listen")
-        )
-        return found
+        report = report._replace(**self.changes | self.once)
+        self.once = {}
+        return plain_report(report, self.robot, self.name_of("listen"))
 
     def silence(self, waited: float) -> str:
         """Return what a session says."""
@@ -152,34 +162,117 @@ class FakeSession:
         self.closed = True
 
 
-def play(body: JointBody, ticks: int, targets: Array = STANCE) -> None:
-    """Play some ticks."""
-    for _ in range(ticks):
-        body.read()
-        body.write(targets)
+def standing_still() -> WalkState:
+    """Nothing planned, on both feet."""
+    left, right = Pose(0.0, 0.05, 0.0), Pose(0.0, -0.05, 0.0)
+    return WalkState(
+        phase=Phase.STANDING,
+        gait=GaitSettings(),
+        plan=None,
+        plan_frame=Pose(0.0, 0.0, 0.0),
+        plan_started=0.0,
+        left_foot=left,
+        right_foot=right,
+        first_foot=Foot.LEFT,
+        reference=BodyReference(
+            (0.0, 0.0, 0.27), (*left[:2], 0.0, 0.0), (*right[:2], 0.0, 0.0)
+        ),
+        zmp_reference=(0.0, 0.0),
+        torso_heading=0.0,
+        estimate=None,
+        solved=None,
+        adapted=0,
+    )
 
 
-def press(session: FakeSession, body: JointBody, targets: Array) -> None:
-    """Press the button, and let it go."""
-    for pressed in (True, False):
-        session.changes["status"] = status(pressed=pressed)
-        play(body, 1, targets)
+class FakeScheme:
+    """Control that walks until its strategy wants nothing more."""
+
+    def __init__(self, strategy: Strategy) -> None:
+        self.decisions = StrategyRunner(strategy, GaitSettings())
+        self.phase = Phase.STANDING
+        self.joint_targets, self.wanted = STANCE, STANCE
+        self.read: list[RobotState] = []
+        self.fails: Exception | None = None
+        self.begun = None
+        self.sighting: Sighting | None = None
+        self.locomotion, self.state = self, standing_still()
+        self.pose = Pose(0.0, 0.0, 0.0)
+
+    def update(self, measurement: Any) -> Array:
+        """Walk."""
+        self.read.append(measurement)
+        if self.fails is not None:
+            raise self.fails
+        if self.phase is Phase.FALLEN:
+            return STANCE
+        self.decisions.headings.note(measurement.time, 0.0)
+        self.decisions.templates.note(measurement.time, Pose(0.0, 0.0, 0.0))
+        near = self.sighting = Sighting(measurement.time, 0.0, 0.1)
+        going = self.decisions.starts(measurement.time, near)
+        self.phase = Phase.WALKING if going else Phase.STANDING
+        return self.wanted
 
 
-def body_of(
-    session: FakeSession | None = None, **options: Any
-) -> tuple[JointBody, FakeSession]:
-    """Return a body, and its session."""
-    session = session or FakeSession()
-    made: Any = session
-    body = JointBody(made, MOTORS, STANCE, clock=session.clock, **options)
-    return body, session
+class Game:
+    """Joint loop with a fake robot and fake control schemes."""
+
+    def __init__(
+        self, session: FakeSession | None = None, **options: Any
+    ) -> None:
+        self.schemes: list[FakeScheme] = []
+        self.session = session or FakeSession()
+        made: Any = self.session
+
+        def make(strategy: Strategy) -> Any:
+            self.schemes.append(FakeScheme(strategy))
+            return self.schemes[-1]
+
+        self.loop = JointLoop(
+            lambda: made,
+            MOTORS,
+            STRATEGY,
+            make,
+            clock=lambda: self.session.now,
+            pause=self.session.pause,
+            **options,
+        )
+
+    def play(self, ticks: int, targets: Array | None = None) -> Any:
+        """Play some ticks, and return the last."""
+        for _ in range(ticks):
+            if targets is not None:
+                self.schemes[-1].wanted = targets
+            tick = self.loop.tick()
+        return tick
+
+    def press(self) -> Any:
+        """Press the button, and let it go."""
+        for pressed in (True, False):
+            self.session.changes["status"] = status(pressed=pressed)
+            tick = self.play(1)
+        return tick
+
+    @property
+    def state(self) -> SafetyState:
+        """State of the robot."""
+        return self.loop.state
+
+    @property
+    def reason(self) -> str:
+        """Reason for the state."""
+        return self.loop.reason
+
+    @property
+    def sent(self) -> JointTargets:
+        """Newest command."""
+        assert self.session.sent[-1] is not None
+        return self.session.sent[-1]
 
 
-def walking(**options: Any) -> tuple[JointBody, FakeSession]:
-    """Return the body of a robot that walks since one tick."""
-    body, session = body_of(**options)
-    play(body, 60)
-    press(session, body, STANCE)
-    assert body.state is SafetyState.WALKING
-    return body, session
+def walking(**options: Any) -> Game:
+    """Return a game whose robot has begun to walk."""
+    game = Game(**options)
+    game.play(60)
+    assert game.press().state is SafetyState.WALKING
+    return game

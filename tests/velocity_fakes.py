@@ -1,12 +1,14 @@
 """Fake robots that follow velocity commands."""
 
+import json
 from collections.abc import Callable, Iterable
 from math import cos, sin
+from pathlib import Path
 from time import monotonic, sleep
 from typing import Any
 
-from stepaside.core.poses import Pose
-from stepaside.drivers.joint_body import SystemClock
+from stepaside.core.poses import Array, Pose
+from stepaside.drivers.play_log import METADATA, ROWS, columns_in
 from stepaside.drivers.velocity_limits import REST
 from stepaside.drivers.walking_robot import WalkerState
 from stepaside.perception.measurement import RobotState, Sighting
@@ -35,6 +37,12 @@ def report(time: float, **changes: object) -> RobotState:
     return told._replace(**changes)  # type: ignore[arg-type]
 
 
+def read_log(folder: Path) -> dict[str, Array]:
+    """Return the columns of a play's log so far."""
+    about = json.loads((folder / METADATA).read_text(encoding="utf-8"))
+    return columns_in((folder / ROWS).read_bytes(), about["columns"])
+
+
 class FakeWalker:
     """Session with a robot of scripted reports; None is silence.
 
@@ -47,12 +55,14 @@ class FakeWalker:
         self.asked: list[BodyVelocity] = []
         self.robot: Any = self
 
-    @property
-    def clock(self) -> SystemClock:
-        """Clock of this computer, by hand."""
-        return SystemClock(lambda: self.now, lambda duration: None)
+    def clock(self) -> float:
+        """Time of this computer, by hand."""
+        return self.now
 
-    def listen(self, patience: float, convert: Any) -> RobotState | None:
+    def pause(self, duration: float) -> None:
+        """Do not wait."""
+
+    def listen(self, patience: float) -> RobotState | None:
         """Return the next report of the script."""
         self.now += PERIOD
         return next(self.script, None)

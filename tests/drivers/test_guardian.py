@@ -12,8 +12,8 @@ import pytest
 CONTROL = """
 import sys, time
 from pathlib import Path
-from stepaside.drivers.robot_session import fork_guardian
-guardian = fork_guardian(lambda: Path(sys.argv[1]).touch, 0.5)
+from stepaside.drivers.guardian_process import Guardian
+guardian = Guardian(lambda: Path(sys.argv[1]).touch, 0.5)
 tell = guardian.hold if sys.argv[2] == "moves" else guardian.leave
 for _ in range(10):
     tell()
@@ -73,8 +73,8 @@ def test_a_robot_that_moves_is_stopped_when_control_is_gone(
 JOINING = """
 import sys, time
 from pathlib import Path
-from stepaside.drivers.guardian_process import SessionLost
-from stepaside.drivers.robot_session import fork_guardian
+from stepaside.drivers.guardian_process import Guardian
+from stepaside.drivers.method_thread import SessionLost
 folder = Path(sys.argv[1])
 def join():
     late = (folder / "tried").exists()
@@ -83,7 +83,7 @@ def join():
         raise SessionLost("no robot yet")
     (folder / "joined").touch()
     return (folder / "rest").touch
-guardian = fork_guardian(join, 0.5)
+guardian = Guardian(join, 0.5)
 print("forked", flush=True)
 sys.stdin.readline()
 guardian.hold()

@@ -10,10 +10,11 @@ import numpy as np
 import pytest
 
 from stepaside.cli.main import main
-from stepaside.drivers import joint_check
+from stepaside.drivers import method_check
 from stepaside.drivers.joint_check import JointCheck
-from stepaside.drivers.joint_robot import JointRobot, JointTargets, Motors
 from stepaside.drivers.method_check import AdapterFinding
+from stepaside.drivers.motors import Motors
+from stepaside.drivers.robot import JointRobot, JointTargets
 from stepaside.perception.measurement import RobotState, Sighting
 
 TICK = 0.02
@@ -106,7 +107,7 @@ class ReleasesItself(HangingRobot):
 @pytest.fixture(autouse=True)
 def coarse_clock(monkeypatch: pytest.MonkeyPatch) -> None:
     """Listen four times in each tick, not twenty times."""
-    monkeypatch.setattr(joint_check, "POLL", TICK / 4)
+    monkeypatch.setattr(method_check, "POLL", TICK / 4)
 
 
 def checked(

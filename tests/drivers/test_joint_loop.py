@@ -1,155 +1,338 @@
-"""Test the joint loop with a fake control scheme."""
+"""Test the joint loop: states, limits, refusals and its log."""
 
-import errno
 import io
 import json
+from math import degrees, inf, nan
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
 
-from joint_fakes import MOTORS, STANCE, TICK, FakeSession, status
-from stepaside.control.strategy_runner import StrategyRunner
+from joint_fakes import (
+    MOTORS,
+    STANCE,
+    STRATEGY,
+    TICK,
+    FakeRobot,
+    FakeSession,
+    Game,
+    status,
+    walking,
+)
 from stepaside.core.errors import ConfigurationError, ReachError, StrategyError
-from stepaside.core.poses import Pose
-from stepaside.drivers.joint_body import JointBody
-from stepaside.drivers.joint_loop import JointLoop
+from stepaside.drivers.joint_motion import (
+    HOT,
+    MIN_STIFFNESS,
+    WARM,
+    derate_stiffness,
+)
+from stepaside.drivers.method_thread import SessionLost
+from stepaside.drivers.motors import motors_of
 from stepaside.drivers.play_log import PlayLog
-from stepaside.drivers.row_file import read_rows
-from stepaside.drivers.safety_states import SafetyState
+from stepaside.drivers.safety import SafetyState
 from stepaside.drivers.status_line import StatusLine
-from stepaside.locomotion.walk_snapshots import Phase, WalkState
+from stepaside.locomotion.walk_snapshots import Phase
+from stepaside.perception.images import SonarEcho
 from stepaside.perception.measurement import Sighting
-from stepaside.planning import Foot, GaitSettings
-from stepaside.robots.body_reference import BodyReference
-from stepaside.strategies import Evasion, StandStill, Strategy
-
-WISH = Evasion()
-
-
-def standing_still() -> WalkState:
-    """Nothing planned, on both feet."""
-    left, right = Pose(0.0, 0.05, 0.0), Pose(0.0, -0.05, 0.0)
-    return WalkState(
-        phase=Phase.STANDING,
-        gait=GaitSettings(),
-        plan=None,
-        plan_frame=Pose(0.0, 0.0, 0.0),
-        plan_started=0.0,
-        left_foot=left,
-        right_foot=right,
-        first_foot=Foot.LEFT,
-        reference=BodyReference(
-            (0.0, 0.0, 0.27), (*left[:2], 0.0, 0.0), (*right[:2], 0.0, 0.0)
-        ),
-        zmp_reference=(0.0, 0.0),
-        torso_heading=0.0,
-        estimate=None,
-        solved=None,
-        adapted=0,
-    )
+from stepaside.robots.description import load_robot
+from stepaside.robots.tree_cache import load_tree
+from stepaside.strategies import StandStill
+from velocity_fakes import read_log
 
 
-class FakeMind:
-    """Control that walks until its strategy wants nothing more."""
-
-    def __init__(self, strategy: Strategy) -> None:
-        self.decisions = StrategyRunner(strategy, GaitSettings())
-        self.phase = Phase.STANDING
-        self.joint_targets = STANCE
-        self.times: list[float] = []
-        self.fails: Exception | None = None
-        self.begun = None
-        self.sighting: Sighting | None = None
-        self.locomotion, self.state = self, standing_still()
-        self.pose = Pose(0.0, 0.0, 0.0)
-
-    def update(self, measurement: Any) -> Any:
-        """Walk."""
-        self.times.append(measurement.time)
-        if self.fails is not None:
-            raise self.fails
-        self.decisions.headings.note(measurement.time, 0.0)
-        self.decisions.templates.note(measurement.time, Pose(0.0, 0.0, 0.0))
-        near = self.sighting = Sighting(measurement.time, 0.0, 0.1)
-        going = self.decisions.starts(measurement.time, near)
-        self.phase = Phase.WALKING if going else Phase.STANDING
-        return STANCE + 0.01
-
-
-class Game:
-    """Joint loop with a fake robot and fake control schemes."""
-
-    def __init__(self, *, dry_run: bool = False) -> None:
-        self.minds: list[FakeMind] = []
-        self.session = session = FakeSession()
-        made: Any = session
-
-        def open_body(scheme: Any) -> JointBody:
-            return JointBody(
-                made,
-                MOTORS,
-                scheme.joint_targets,
-                dry_run=dry_run,
-                clock=session.clock,
-            )
-
-        def make(strategy: Any) -> Any:
-            self.minds.append(FakeMind(strategy))
-            return self.minds[-1]
-
-        self.playing = JointLoop(open_body, WISH, make, dry_run=dry_run)
-
-    def play(self, ticks: int) -> Any:
-        """Play some ticks, and return the last."""
-        for _ in range(ticks):
-            tick = self.playing.tick()
-        return tick
-
-    def press(self) -> Any:
-        """Press the button, and let it go."""
-        for pressed in (True, False):
-            self.session.changes["status"] = status(pressed=pressed)
-            tick = self.play(1)
-        return tick
-
-    @property
-    def state(self) -> SafetyState:
-        """State of the robot."""
-        return self.playing.body.state
-
-
-def walking() -> Game:
-    """Return a game whose robot has begun to walk."""
+def test_a_robot_stands_up_slowly_and_walks_by_its_button() -> None:
     game = Game()
-    game.play(60)
-    assert game.press().state is SafetyState.WALKING
-    return game
-
-
-def test_control_runs_only_in_states_that_follow_it() -> None:
-    game = Game()
-    game.play(60)
-    (mind,) = game.minds
-    assert mind.times == []
+    session = game.session
+    session.angles = np.array([0.3, 1.5, 0.0, -0.2])  # of gripper and knee
+    game.play(110)
+    assert game.state is SafetyState.READY
+    np.testing.assert_allclose(session.angles[[3, 1, 2]], STANCE, atol=0.02)
+    sent = [t for t in session.sent if t is not None]
+    shares = [t.stiffness[1] / 80.0 for t in sent]
+    assert shares[0] == pytest.approx(TICK) and shares[60] == 1.0
+    np.testing.assert_allclose(sent[0].angles[1], 1.5, atol=0.02)
+    speeds = np.abs(np.diff([t.angles for t in sent], axis=0)) / TICK
+    assert speeds[:, 1].max() <= 0.5 + 1e-9
+    assert all(t.stiffness[0] == 0.0 for t in sent)  # not described
     game.press()
-    game.play(5)
-    np.testing.assert_allclose(mind.times, TICK * np.arange(6))
+    assert [state.value for state in session.robot.shown] == [
+        *("limp", "reaching", "ready", "walking")
+    ]
 
 
-def test_the_button_stops_the_walk_and_the_next_has_a_new_scheme() -> None:
+def test_control_moves_the_joints_only_while_it_walks() -> None:
+    game = Game()
+    wanted = STANCE + np.array([0.05, 0.05, 0.0])
+    game.play(60, wanted)
+    (scheme,) = game.schemes
+    assert scheme.read == []
+    order = MOTORS.order
+    np.testing.assert_allclose(game.sent.angles[order], STANCE, atol=1e-6)
+    game.press()
+    game.play(5, wanted)
+    np.testing.assert_allclose(game.sent.angles[order], wanted, atol=1e-6)
+    times = [read.time for read in scheme.read]
+    np.testing.assert_allclose(times, TICK * np.arange(6), atol=1e-9)
+
+
+def test_time_counts_ticks_also_of_reports_that_are_missing() -> None:
     game = walking()
-    assert game.play(3).phase is Phase.WALKING
-    game.press()  # control is told, and walks on
-    assert game.state is SafetyState.STOPPING
-    assert isinstance(game.minds[0].decisions.strategy, StandStill)
-    assert game.play(1).state is SafetyState.RESTING
-    assert len(game.minds) == 1
-    game.playing.body.fail("lies on its belly")
+    session = game.session
+    session.time += 2 * TICK
+    session.now += 2 * TICK
+    session.changes["percepts"] = (SonarEcho(session.time, "left", 0.5),)
     game.play(1)
-    assert len(game.minds) == 2
-    assert game.minds[1].decisions.strategy is WISH
+    read = game.schemes[-1].read[-1]
+    assert read.time == pytest.approx(3 * TICK)
+    assert read.sighting is not None
+    assert read.sighting[:3] == pytest.approx((read.time, 0.4, 0.7))
+    assert read.percepts[0].time == pytest.approx(read.time - TICK)
+
+
+def test_targets_stay_in_range_and_within_the_speed_of_their_motor() -> None:
+    game = walking()
+    game.play(60, np.array([5.0, -5.0, 5.0]))
+    hip, knee, neck = game.sent.angles[MOTORS.order]
+    assert hip == pytest.approx(0.99) and knee == pytest.approx(0.01)
+    assert neck == pytest.approx(60 * TICK * 0.25, rel=0.1)
+    sent = [t.angles for t in game.session.sent if t is not None]
+    speeds = np.abs(np.diff(sent, axis=0))[:, MOTORS.order] / TICK
+    assert np.all(speeds <= MOTORS.speed + 1e-9)
+
+
+def test_gains_of_control_hold_only_while_it_walks() -> None:
+    """They are soft, so that its targets are not limited."""
+    game = walking(gains=(np.full(3, 7.0), np.full(3, 0.5)))
+    before, after = game.session.sent[-3], game.session.sent[-1]
+    assert before is not None and after is not None
+    assert before.stiffness[MOTORS.order].tolist() == [100.0, 80.0, 10.0]
+    assert after.stiffness[MOTORS.order].tolist() == [7.0, 7.0, 7.0]
+    game.play(1, np.array([5.0, 5.0, 5.0]))
+    assert game.sent.angles[MOTORS.order].tolist() == [5.0] * 3
+
+
+def test_a_hot_joint_has_half_its_torque() -> None:
+    def share(degrees: float, heat: float = 0.0) -> float:
+        hot = status(temperature=np.full(4, degrees), heat=np.full(4, heat))
+        return float(derate_stiffness(np.ones(4), hot)[0])
+
+    assert share(20.0) == share(WARM) == 1.0
+    assert share(HOT) == share(HOT + 50.0) == MIN_STIFFNESS
+    half = 0.5 * (1.0 + MIN_STIFFNESS)
+    assert share(0.5 * (WARM + HOT)) == pytest.approx(half)
+    assert share(20.0, heat=3.0) == 0.0
+
+
+def test_a_robot_that_stands_by_itself_is_stiff_at_once_and_given_back() -> (
+    None
+):
+    game = Game(FakeSession(stands=True))
+    game.play(60)
+    first = next(t for t in game.session.sent if t is not None)
+    assert first.stiffness[1] == 80.0
+    game.press()
+    game.schemes[-1].fails = ReachError("too short")
+    game.play(3)
+    assert game.session.sent.count(None) == 1
+
+
+@pytest.mark.parametrize(
+    ("changes", "word"),
+    [
+        ({"foot_forces": np.zeros(8)}, "are lifted"),
+        ({"status": status(charge=0.02)}, "battery is at 2 %"),
+        ({"status": status(current=np.array([0, 1.2, 0, 0]))}, "current"),
+        ({"status": status(bumped=True)}, "bumper"),
+        ({"accelerometer": np.zeros(3)}, "accelerometer reads 0.0"),
+        ({"accelerometer": np.array([0, 0, -9.8])}, "tilt of 180 deg"),
+        ({"hindrance": "tired"}, "tired"),
+        ({"status": status(heat=np.array([0, 2, 0, 0]))}, "reports heat"),
+        ({"status": status(temperature=np.full(4, 82.0))}, "has 82 degC"),
+    ],
+)
+def test_a_walk_ends_when_a_sensor_says_that_it_must(
+    changes: dict[str, Any], word: str
+) -> None:
+    game = walking()
+    game.session.changes |= changes
+    for _ in range(40):
+        if game.play(1).state is not SafetyState.WALKING:
+            break
+    assert game.state is SafetyState.STOPPING and word in game.reason
+
+
+@pytest.mark.parametrize("what", ["accelerometer", "all"])
+def test_a_frozen_sensor_ends_a_walk_whose_legs_move(what: str) -> None:
+    game = walking()
+    game.session.changes["accelerometer"] = np.array([0.0, 0.0, 9.8])
+    if what == "all":
+        game.session.changes["joint_positions"] = game.session.angles
+    game.play(40)
+    assert game.state is SafetyState.WALKING  # the legs stand still
+    for i in range(20):
+        game.play(1, STANCE + 0.1 * np.sin(0.5 * i))
+    assert game.state is not SafetyState.WALKING
+    assert "constant while the legs move" in game.reason
+
+
+@pytest.mark.parametrize(
+    "changes",
+    [
+        {"status": status(current=np.array([9.0, 0, 0, 0]))},  # the gripper
+        {"status": status(charge=0.12)},
+        {"status": status(heat=np.array([3, 0, 3, 0]))},  # not of a leg
+        {"gyro": np.array([0.0, 0.0, 5.0])},  # turning is no fall
+        {"sighting": None},  # a robot with a button walks on
+    ],
+)
+def test_a_walk_goes_on_where_all_is_well(changes: dict[str, Any]) -> None:
+    game = walking()
+    game.session.changes |= changes
+    assert game.play(60).state is SafetyState.WALKING
+
+
+@pytest.mark.parametrize(
+    "changes", [{"tilt": (0.7, 0.0)}, {"gyro": np.array([0.0, -5.0, 0.0])}]
+)
+def test_falling_goes_limp_at_once(changes: dict[str, Any]) -> None:
+    game = walking()
+    game.session.changes |= changes
+    game.play(1)
+    assert game.state is SafetyState.LIMP and "falls" in game.reason
+    game.play(40)
+    assert game.session.sent[-1] is None
+
+
+def lost(game: Game, said: str) -> None:
+    """The session ends with a reason, and the robot goes limp softly."""
+    session = game.session
+    before = len(session.sent)
+    with pytest.raises(SessionLost, match=said):
+        game.play(20)
+    assert game.state is SafetyState.LIMP
+    if not session.broken:
+        *fading, last = session.sent[before:]
+        shares = [t.stiffness[1] / 80.0 for t in fading if t is not None]
+        assert last is None and len(shares) > 20
+        assert all(b < a for a, b in zip(shares, shares[1:], strict=False))
+
+
+def test_silence_for_100_ms_ends_the_session() -> None:
+    game = walking()
+    began, game.session.silent = game.session.now, True
+    lost(game, "no new report for 0.10 s")
+    passed = game.session.now - began
+    assert passed == pytest.approx(0.1 + 0.5, abs=0.03)
+
+
+def test_a_simulator_may_pause_for_seconds() -> None:
+    game = Game(FakeSession(paced=False))
+    game.play(10)
+    game.session.now += 9.0
+    assert game.play(1).state is SafetyState.REACHING
+
+
+@pytest.mark.parametrize(
+    ("changes", "said"),
+    [
+        ({"joint_positions": [0, nan, 0, 0]}, "joint_positions must be finit"),
+        (
+            {"joint_positions": [0, 0, 0, degrees(0.5)]},
+            r"hip is at 28.65 rad, outside its range .*degrees",
+        ),
+        ({"joint_velocities": [0, 0, inf, 0]}, "joint_velocities must be fin"),
+        ({"gyro": (0.0, 0.0, degrees(1.0))}, r"gyro .*deg/s"),
+        ({"tilt": (0.0, degrees(0.1))}, "tilt .*degrees"),
+        ({"accelerometer": (0.0, nan, 9.8)}, "accelerometer must be finite"),
+        ({"foot_forces": [nan, *[1.0] * 7]}, "foot_forces must be finite"),
+        ({"sighting": Sighting(0.0, 28.0, 2.0)}, "bearing of the sighting"),
+    ],
+)
+def test_implausible_reports_are_refused_and_end_the_session(
+    changes: dict[str, Any], said: str
+) -> None:
+    game = walking()
+    game.session.changes |= changes
+    lost(game, rf"refused: listen\(\) of .*{said}")
+    assert game.loop.refused >= 4
+
+
+def test_one_damaged_report_is_passed_over() -> None:
+    game = walking()
+    game.session.once = {"gyro": (nan, 0.0, 0.0)}
+    game.play(1)
+    assert game.state is SafetyState.WALKING and game.loop.refused == 1
+
+
+def test_a_joint_that_jumps_stops_the_walk() -> None:
+    """The report that jumps is refused; other ones go on."""
+    game = walking()
+    far = game.session.angles + np.array([0.0, 0.0, 0.0, 0.5])
+    game.session.once = {"joint_positions": far}
+    game.play(1)
+    assert game.state is SafetyState.STOPPING and game.loop.refused == 1
+    assert game.reason == "hip jumped by 0.50 rad in 0.020 s"
+
+
+@pytest.mark.parametrize(
+    ("jump", "said"),
+    [
+        (-60.0, "the time went back"),
+        (3.0, "its times are 3.000 s ahead of the clock"),
+        (nan, "the time must be finite"),
+    ],
+)
+def test_times_that_jump_end_the_session(jump: float, said: str) -> None:
+    game = walking()
+    game.session.time += jump
+    lost(game, said)
+
+
+def test_a_control_that_was_away_finds_its_robot_limp() -> None:
+    game = walking()
+    game.session.now += 1.0
+    game.session.time += 1.0
+    game.session.changes["status"] = status(stiffness=np.full(4, 0.4))
+    game.play(1)
+    assert game.state is SafetyState.LIMP
+    assert "no report was read for 1.0" in game.reason
+    assert game.sent.stiffness[1] < 0.4 * 80.0
+
+
+@pytest.mark.parametrize("kind", ["footing", "strategy", "falling", "nan"])
+def test_control_that_gives_up_lets_the_robot_go_limp(kind: str) -> None:
+    game = walking()
+    scheme = game.schemes[0]
+    if kind == "footing":
+        scheme.fails = ReachError("a leg is too short")
+    elif kind == "strategy":
+        scheme.fails = StrategyError("KeyError: 'x'")
+    elif kind == "nan":
+        scheme.wanted = np.full(3, nan)
+    else:
+        scheme.phase = Phase.FALLEN
+    tick = game.play(1)
+    assert tick.state is SafetyState.LIMP
+    said = {"footing": "too short", "strategy": "'x'", "falling": "a fall"}
+    assert said.get(kind, "NaN or inf") in tick.reason
+    assert np.isfinite(game.sent.angles).all()
+
+
+def test_a_robot_rests_in_its_crouch_before_it_goes_limp() -> None:
+    """Control is told to stop, and the next walk has a scheme of its own."""
+    game = walking()
+    assert game.loop.tick().state is SafetyState.WALKING
+    game.press()
+    assert game.state is SafetyState.STOPPING
+    assert isinstance(game.schemes[0].decisions.strategy, StandStill)
+    assert game.play(1).state is SafetyState.RESTING
+    assert len(game.schemes) == 1
+    tick = game.play(200)
+    assert tick.state is SafetyState.LIMP and game.reason == "rests"
+    assert game.session.angles[1] == pytest.approx(1.5, abs=0.02)
+    assert len(game.schemes) == 2
+    assert game.schemes[1].decisions.strategy is STRATEGY
 
 
 def test_a_robot_that_was_lifted_stands_and_walks_anew_by_the_button() -> None:
@@ -159,73 +342,95 @@ def test_a_robot_that_was_lifted_stands_and_walks_anew_by_the_button() -> None:
     assert tick.state is SafetyState.READY and "are lifted" in tick.reason
     del game.session.changes["foot_forces"]
     assert game.play(5).state is SafetyState.READY
-    assert len(game.minds) == 2
     game.press()
     game.play(1)
     assert game.state is SafetyState.WALKING
-    assert game.minds[1].decisions.strategy is WISH
-    np.testing.assert_allclose(game.minds[1].times, [0.0, TICK])
+    times = [read.time for read in game.schemes[1].read]
+    np.testing.assert_allclose(times, [0.0, TICK], atol=1e-9)
 
 
-@pytest.mark.parametrize("kind", ["footing", "strategy", "falling"])
-def test_control_that_gives_up_lets_the_robot_go_limp(kind: str) -> None:
+def test_closing_leaves_the_robot_limp() -> None:
     game = walking()
-    if kind == "footing":
-        game.minds[0].fails = ReachError("a leg is too short")
-    elif kind == "strategy":
-        game.minds[0].fails = StrategyError("KeyError: 'x'")
-    else:
-        game.minds[0].update = lambda _: STANCE  # type: ignore[assignment, method-assign]
-        game.minds[0].phase = Phase.FALLEN
-    tick = game.play(1)
-    assert tick.state is SafetyState.LIMP
-    said = {"footing": "too short", "strategy": "'x'", "falling": "a fall"}
-    assert said[kind] in tick.reason
+    game.loop.close()
+    assert game.session.closed and game.session.sent[-1] is None
+
+
+def test_a_broken_session_ends_and_is_closed() -> None:
+    game = walking()
+    game.session.broken = True
+    lost(game, "broken")
+    game.loop.close()
+    assert game.session.closed
+
+
+def test_without_a_button_it_walks_when_ready_and_sees_its_opponent() -> None:
+    game = Game()
+    session = game.session
+    session.changes = {"sighting": None}
+    game.play(80)
+    assert game.state is SafetyState.READY
+    assert game.reason == "no sighting of the opponent"
+    session.changes = {}
+    session.hold = "hold the switch"
+    game.play(4)
+    assert game.state is SafetyState.READY
+    assert game.reason == "hold the switch"
+    session.hold = ""
+    assert game.play(4).state is SafetyState.WALKING
+    session.changes = {"sighting": Sighting(session.time - 0.6, 0.4, 0.7)}
+    assert game.play(1).state is SafetyState.STOPPING
+    assert game.reason == "the sighting of the opponent is 0.62 s old"
+
+
+def test_the_papers_walk_needs_foot_forces() -> None:
+    game = Game(needs_forces=True)
+    game.session.changes["foot_forces"] = np.full(8, nan)
+    with pytest.raises(SessionLost, match=r"foot_forces are needed .*--legs"):
+        game.play(1)
 
 
 def test_a_dry_run_thinks_and_moves_nothing() -> None:
     game = Game(dry_run=True)
     game.play(50)
-    assert len(game.minds[0].times) > 40
+    assert len(game.schemes[0].read) > 40
 
 
 def test_a_robot_without_a_button_is_given_up_once_it_is_limp() -> None:
     game = walking()
-    game.playing.body.fail("why not")
+    game.schemes[0].fails = ReachError("why not")
     game.play(1)
-    assert game.playing.given_up == ""  # its button starts it again
+    assert game.loop.given_up == ""  # its button starts it again
     game.session.changes["status"] = None
     game.play(1)
-    assert game.playing.given_up == "the robot was released: why not"
+    assert game.loop.given_up.startswith("the robot was released: ")
+    assert game.loop.given_up.endswith("why not")
 
 
 def test_leaving_ends_with_a_limp_robot() -> None:
     game = walking()
-    game.playing.leave("asked")
+    game.loop.leave("asked")
     assert game.play(1).state is SafetyState.STOPPING
     for _ in range(200):
         game.play(1)
-        if game.playing.ended:
+        if game.loop.ended:
             break
-    assert game.playing.ended and game.state is SafetyState.LIMP
+    assert game.loop.ended and game.state is SafetyState.LIMP
 
 
 def note_walk(game: Game, observer: Any) -> None:
     """Note 62 ticks, at the last of which the robot walks."""
     for i in range(62):
-        pressed = i == 60
-        game.session.changes["status"] = status(pressed=pressed)
-        observer.note(game.playing.tick())
+        game.session.changes["status"] = status(pressed=i == 60)
+        observer.note(game.loop.tick())
 
 
 def test_the_log_keeps_every_tick_and_why_states_changed(
     tmp_path: Path,
 ) -> None:
     log = PlayLog(tmp_path / "log", {"role": "pursuer"})
-    game = Game()
-    note_walk(game, log)
+    note_walk(Game(), log)
     log.close()
-    arrays = read_rows(tmp_path / "log")
+    arrays = read_log(tmp_path / "log")
     assert arrays["joint_positions"].shape == (62, 3)
     assert arrays["sighting"].shape == (62, 3)
     words = json.loads((tmp_path / "log" / "play.json").read_text())
@@ -234,40 +439,24 @@ def test_the_log_keeps_every_tick_and_why_states_changed(
     assert words["changes"][-1]["reason"] == "chest button"
     assert words["states"][int(arrays["state"][-1])] == "walking"
     assert words["role"] == "pursuer"
-
-
-def test_a_folder_with_something_in_it_is_not_written_over(
-    tmp_path: Path,
-) -> None:
-    (tmp_path / "mine").write_text("")
-    with pytest.raises(
-        ConfigurationError, match="record must be a new or an empty folder"
-    ):
-        PlayLog(tmp_path, {})
+    with pytest.raises(ConfigurationError, match="a new or an empty folder"):
+        PlayLog(tmp_path / "log", {})
 
 
 class Terminal(io.StringIO):
-    """A terminal."""
+    """A terminal, which may have hung up."""
+
+    gone = False
 
     def isatty(self) -> bool:
         """Be one."""
         return True
 
-
-class HungUp(Terminal):
-    """Terminal that has hung up."""
-
     def write(self, text: str) -> int:
-        """Fail as the system does."""
-        raise OSError(errno.EIO, "Input/output error")
-
-
-def test_a_terminal_that_hung_up_does_not_end_the_walk() -> None:
-    game = Game()
-    line = StatusLine(HungUp(), clock=game.session.clock.read)
-    note_walk(game, line)
-    line.close()
-    assert game.state is SafetyState.WALKING
+        """Fail as the system does, if it has hung up."""
+        if self.gone:
+            raise OSError("Input/output error")
+        return super().write(text)
 
 
 @pytest.mark.parametrize("stream", [io.StringIO(), Terminal()])
@@ -275,7 +464,7 @@ def test_the_line_says_each_change_and_on_terminals_five_times_a_second(
     stream: io.StringIO,
 ) -> None:
     game = Game()
-    line = StatusLine(stream, clock=game.session.clock.read)
+    line = StatusLine(stream, clock=lambda: game.session.now)
     note_walk(game, line)
     line.close()
     said = stream.getvalue()
@@ -284,3 +473,37 @@ def test_the_line_says_each_change_and_on_terminals_five_times_a_second(
     assert said.count("\n") == (5 if stream.isatty() else 4)
     wanted = (8, 14) if stream.isatty() else (4, 4)
     assert wanted[0] <= said.count(" s  ") <= wanted[1]
+
+
+def test_a_terminal_that_hung_up_does_not_end_the_walk() -> None:
+    game, stream = Game(), Terminal()
+    stream.gone = True
+    note_walk(game, StatusLine(stream, clock=lambda: game.session.now))
+    assert game.state is SafetyState.WALKING
+
+
+class Described(FakeRobot):
+    """NAO with the joints of its description."""
+
+    joints = load_tree(load_robot("nao")).motors[::-1]  # type: ignore[assignment]
+    gains = dict.fromkeys(joints, (50.0, 1.0))  # noqa: RUF012
+
+
+def test_motors_have_the_ranges_of_the_model_and_gains() -> None:
+    nao = load_robot("nao")
+    motors = motors_of(Described(), nao)
+    assert motors.names == tuple(Described.joints)[::-1]
+    assert motors.order.tolist() == list(range(len(motors.names)))[::-1]
+    knee = motors.names.index("LKneePitch")
+    assert (motors.low[knee], motors.high[knee]) == (-0.0923279, 2.11255)
+    assert motors.speed[knee] == nao.speed_limits["LKneePitch"]
+    legs = {motors.names[at] for at in motors.legs}
+    assert "LHipYawPitch" in legs and "HeadYaw" not in legs
+    assert motors.stiffness[knee] == 50.0
+    fewer = Described()
+    fewer.gains = {}
+    with pytest.raises(ConfigurationError, match="gains lack HeadYaw"):
+        motors_of(fewer, nao)
+    fewer.joints = Described.joints[1:]
+    with pytest.raises(ConfigurationError, match="joints lack RAnkleRoll"):
+        motors_of(fewer, nao)

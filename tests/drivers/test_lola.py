@@ -28,10 +28,10 @@ from stepaside.cli.main import main  # noqa: E402
 from stepaside.core.errors import ConfigurationError  # noqa: E402
 from stepaside.core.poses import Array  # noqa: E402
 from stepaside.drivers import lola  # noqa: E402
-from stepaside.drivers.joint_robot import JointTargets  # noqa: E402
 from stepaside.drivers.lola import STALL_CURRENT, LolaRobot  # noqa: E402
 from stepaside.drivers.lola_server import LolaServer  # noqa: E402
-from stepaside.drivers.safety_states import SafetyState  # noqa: E402
+from stepaside.drivers.robot import JointTargets  # noqa: E402
+from stepaside.drivers.safety import SafetyState  # noqa: E402
 from stepaside.perception.images import SonarEcho  # noqa: E402
 from stepaside.perception.measurement import (  # noqa: E402
     RobotState,

@@ -122,7 +122,7 @@ def test_nobody_at_an_address_is_said() -> None:
 LOOK = """
 import sys, time
 from stepaside.drivers.naoqi import make_robot
-from stepaside.drivers.robot_address import RobotRequest
+from stepaside.drivers.robot_loader import RobotRequest
 from stepaside.perception.camera_model import CameraModel
 camera = CameraModel(4, 2, 3.0, 3.0)
 robot = make_robot(RobotRequest(sys.argv[1], camera=camera, latency=0.05))()

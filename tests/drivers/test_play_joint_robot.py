@@ -11,7 +11,7 @@ from time import monotonic, sleep
 import numpy as np
 import pytest
 
-from stepaside.drivers.row_file import read_rows
+from velocity_fakes import read_log
 
 ROBOT = '''
 import os
@@ -185,7 +185,7 @@ def test_a_joint_robot_finds_its_opponent_by_its_camera(
     )
     said = play.communicate(timeout=LONGEST)[1]
     assert "walking" in said, said
-    seen = read_rows(run)["sighting"]
+    seen = read_log(run)["sighting"]
     seen = seen[np.isfinite(seen[:, 0])]
     _, bearing, distance = np.median(seen[-20:], axis=0)
     assert bearing == pytest.approx(0.0, abs=0.1)

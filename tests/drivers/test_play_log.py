@@ -1,17 +1,17 @@
 """Test that each column of a record has its own values."""
 
 from pathlib import Path
+from types import SimpleNamespace
+from typing import Any
 
 import numpy as np
 import pytest
 
 from fake_robot import FIRST, STEP, Run
-from stepaside.core.poses import Array, Pose
-from stepaside.drivers.joint_loop import JointTick
-from stepaside.drivers.play_log import PlayLog
-from stepaside.drivers.row_file import read_rows
-from stepaside.drivers.safety_states import SafetyState
-from stepaside.drivers.velocity_loop import DrivingState, VelocityTick
+from stepaside.core.poses import Array
+from stepaside.drivers.play_log import PlayLog, PlayTick, joint_row
+from stepaside.drivers.safety import SafetyState
+from stepaside.drivers.velocity_loop import DrivingState
 from stepaside.games.play_conversion import (
     opponent_trajectory,
     run_of_play,
@@ -22,7 +22,7 @@ from stepaside.games.play_rows import PlayedRows
 from stepaside.games.play_settings import PlaySettings
 from stepaside.perception.measurement import RobotState, Sighting
 from stepaside.planning import Foot
-from stepaside.strategies.velocity_set import BodyVelocity
+from velocity_fakes import read_log
 
 
 def measured(time: float, seed: int) -> RobotState:
@@ -43,73 +43,37 @@ def test_every_column_has_its_values(tmp_path: Path) -> None:
     run, log = Run(), PlayLog(tmp_path / "play", {})
     ticks = []
     for i, time in enumerate((FIRST - 0.2, FIRST + 0.1, FIRST + STEP + 0.1)):
-        scheme = run.until(time)
-        told = measured(time, i)
-        tick = JointTick(
-            SafetyState.WALKING,
-            "chest button",
-            scheme.phase,
-            told,
-            np.arange(4.0) + 10.0 * i,
-            Sighting(time - 0.05, 0.3 + i, 1.2 + i),
-            0,
-            1 + i,
-            scheme.state,
-            run.steps[-1],
-            scheme.pose,
+        scheme, told = run.until(time), measured(time, i)
+        made = SimpleNamespace(
+            locomotion=scheme, phase=scheme.phase, pose=scheme.pose
         )
-        log.note(tick)
-        ticks.append(tick)
+        targets = np.arange(4.0) + 10.0 * i
+        row = joint_row(told, targets, made, 1 + i, run.steps[-1])  # type: ignore[arg-type]
+        seen = Sighting(time - 0.05, 0.3 + i, 1.2 + i)
+        state = SafetyState.WALKING
+        log.note(PlayTick(state, "chest button", time, seen, "", row))
+        ticks.append((told, targets, seen, scheme.state, run.steps[-1]))
     log.close()
-    rows = read_rows(tmp_path / "play")
-    for i, tick in enumerate(ticks):
-        told, walk = tick.measurement, tick.walk
+    rows = read_log(tmp_path / "play")
+    for i, (told, targets, seen, walk, begun) in enumerate(ticks):
         assert walk is not None
         for name in (
             *("joint_positions", "gyro", "accelerometer", "foot_forces"),
         ):
             np.testing.assert_array_equal(rows[name][i], getattr(told, name))
-        np.testing.assert_array_equal(rows["targets"][i], tick.targets)
+        np.testing.assert_array_equal(rows["targets"][i], targets)
         assert rows["times_s"][i] == told.time
-        assert tick.sighting is not None
-        assert rows["sighting"][i].tolist() == list(tick.sighting[:3])
+        assert rows["sighting"][i].tolist() == list(seen[:3])
         assert rows["mind"][i] == 1 + i
         assert rows["com_reference"][i].tolist() == [*walk.reference.com[:2]]
         assert rows["zmp_reference"][i].tolist() == [*walk.zmp_reference]
-        made = walk.step(told.time)
-        side = 1.0 if made.swing is Foot.RIGHT else -1.0
-        assert rows["support"][i].tolist() == [*made.support, side]
-        assert tick.begun is not None
-        begun = tick.begun
+        step = walk.step(told.time)
+        side = 1.0 if step.swing is Foot.RIGHT else -1.0
+        assert rows["support"][i].tolist() == [*step.support, side]
         side = 1.0 if begun.foot is Foot.LEFT else -1.0
         assert rows["begun"][i].tolist() == [
             *(begun.landing_time, side, *begun.landing, begun.planning_time),
         ]
-
-
-def test_wanted_and_commanded_velocity_are_separate_columns(
-    tmp_path: Path,
-) -> None:
-    log = PlayLog(tmp_path / "play", {})
-    for i in range(3):
-        log.note(
-            VelocityTick(
-                DrivingState.WALKING,
-                "opponent detected",
-                0.1 * i,
-                Pose(1.0 + i, 2.0, 0.3),
-                None,
-                BodyVelocity(0.2, 0.0, -0.4 - i),
-                BodyVelocity(0.1 + i, 0.0, -0.3),
-            )
-        )
-    log.close()
-    rows = read_rows(tmp_path / "play")
-    np.testing.assert_allclose(rows["times_s"], [0.0, 0.1, 0.2])
-    np.testing.assert_allclose(rows["pose"][:, 0], [1.0, 2.0, 3.0])
-    np.testing.assert_allclose(rows["wanted"][:, 1], [-0.4, -1.4, -2.4])
-    np.testing.assert_allclose(rows["velocity"][:, 0], [0.1, 1.1, 2.1])
-    assert np.isnan(rows["sighting"]).all()
 
 
 @pytest.mark.parametrize("late", [0.0, 0.2, 0.5])
@@ -156,17 +120,15 @@ def test_the_summary_covers_only_the_walk(
         walking = 200 <= i < 1000
         angle = 0.2 * period * min(max(i - 200, 0), 800)
         seen = i < 200 or i % 4 == 0 or i >= 1000
-        log.note(
-            VelocityTick(
-                DrivingState.WALKING if walking else DrivingState.STANDING,
-                "opponent detected",
-                now,
-                Pose(radius * np.sin(angle), -radius * np.cos(angle), angle),
-                Sighting(now, 0.3, 1.5 if walking else 0.9) if seen else None,
-                BodyVelocity(0.1, 0.0, 0.2),
-                BodyVelocity(0.1, 0.0, 0.2),
-            )
-        )
+        state = DrivingState.WALKING if walking else DrivingState.STANDING
+        row: Any = {
+            "pose": np.array([*radius * np.array([np.sin(angle),
+                              -np.cos(angle)]), angle]),
+            "wanted": np.array([0.1, 0.2, 0.0]),
+            "velocity": np.array([0.1, 0.2, 0.0]),
+        }  # fmt: skip
+        near = Sighting(now, 0.3, 1.5 if walking else 0.9) if seen else None
+        log.note(PlayTick(state, "opponent detected", now, near, "", row))
     log.close()
     run = run_of_play(tmp_path / "play", PlaySettings())
     found = run.summary

@@ -15,11 +15,11 @@ import pytest
 
 from stepaside import load_run
 from stepaside.cli.main import main
+from stepaside.drivers import watchdog
 from stepaside.drivers.dead_man_switch import FIRST
 from stepaside.drivers.robot_camera import (
     SILENCE as CAMERA,
 )
-from stepaside.drivers.watchdog import WatchSettings
 from stepaside.games.play_settings import PlaySettings
 from stepaside.games.play_summary import PlaySummary
 
@@ -192,7 +192,7 @@ def test_it_stops_when_its_network_fails_and_walks_on_afterwards(
     until(walker.moves)
     kinds = ["states", "commands"] if both else ["states"]
     walker.send(call="lose", **{"for": dict.fromkeys(kinds, 2.0)})
-    within = TIMEOUT if both else WatchSettings().silence
+    within = TIMEOUT if both else watchdog.SILENCE
     assert until(lambda: not walker.moves()) < within + SLACK
     until(walker.moves)
     play.send_signal(signal.SIGINT)

@@ -2,13 +2,10 @@
 
 import subprocess
 import sys
-from pathlib import Path
 
 import pytest
 
 from stepaside.cli.main import main
-from stepaside.core.errors import ConfigurationError
-from stepaside.drivers.row_file import RowWriter, read_rows
 
 PLAY = "from stepaside.cli.main import main; main()"
 TICK = 0.012
@@ -81,16 +78,3 @@ def test_local_topics_name_the_setting_that_ros_needs(words: str) -> None:
     finally:
         process.kill()
         process.communicate(timeout=20.0)
-
-
-def test_rows_keep_their_columns(tmp_path: Path) -> None:
-    with pytest.raises(ConfigurationError, match="no rows in"):
-        read_rows(tmp_path)
-    rows = RowWriter(tmp_path)
-    rows.add({"a": 1.0})
-    with pytest.raises(ValueError, match="must be {'a': 1}"):
-        rows.add({"b": 1.0})
-    rows.close()
-    assert read_rows(tmp_path)["a"].tolist() == [1.0]
-    with pytest.raises(ConfigurationError, match="must be empty"):
-        RowWriter(tmp_path)

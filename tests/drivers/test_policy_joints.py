@@ -16,14 +16,11 @@ pytest.importorskip("onnx")
 from imitated_walk import nao_on_imitated_walk
 from stepaside.core.errors import ModelError
 from stepaside.core.poses import Pose
-from stepaside.drivers.joint_body import JointBody, SystemClock
 from stepaside.drivers.joint_loop import JointLoop
-from stepaside.drivers.joint_robot import JointRobot, JointTargets, motors_of
-from stepaside.drivers.safety_states import SafetyState
-from stepaside.drivers.scheme_factory import (
-    policy_gains,
-    policy_scheme_factory,
-)
+from stepaside.drivers.motors import motors_of
+from stepaside.drivers.robot import JointRobot, JointTargets
+from stepaside.drivers.safety import SafetyState
+from stepaside.drivers.scheme_factory import policy_gains, scheme_factory
 from stepaside.locomotion.policy.initial_posture import InitialPosture
 from stepaside.locomotion.policy.legs_loader import load_policy
 from stepaside.locomotion.policy.legs_settings import LegsSettings
@@ -80,7 +77,7 @@ class GainsRobot(JointRobot):
         self.sent: list[JointTargets] = []
         self.robot: Any = self  # of the session
 
-    def listen(self, patience: float, convert: Any) -> Any:  # type: ignore[override]
+    def listen(self, patience: float = 0.0) -> Any:
         """Produce the report of the next tick."""
         self.now += TICK
         read = self.simulated.read()
@@ -91,7 +88,7 @@ class GainsRobot(JointRobot):
             sighting=Sighting(self.now, 0.0, 0.5),
             tilt=(0.0, 0.0),
         )
-        return convert(report, "listen()")
+        return report
 
     def command(self, call: Any) -> None:
         """Apply targets and gains."""
@@ -125,6 +122,8 @@ class GainsRobot(JointRobot):
     def halt(self) -> None:
         """Stand as placed."""
 
+    release = halt
+
 
 @pytest.fixture(scope="module")
 def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
@@ -142,21 +141,17 @@ def test_a_policy_walks_a_robot_that_takes_targets_and_gains(
     robot = GainsRobot(description, posture)
     motors = motors_of(robot, description)
     gains = policy_gains(contract, motors)
-    order = [posture.joint_names.index(name) for name in motors.names]
-    stance = np.array(posture.joint_targets)[order]
     made: Any = robot
     loop = JointLoop(
-        lambda _: JointBody(
-            made,
-            motors,
-            stance,
-            gains=gains,
-            clock=SystemClock(lambda: robot.now, lambda duration: None),
-        ),
+        lambda: made,
+        motors,
         Pursuit(),
-        policy_scheme_factory(description, legs, GAIT, tick=TICK),
+        scheme_factory(description, GAIT, legs, tick=TICK),
+        gains=gains,
+        clock=lambda: robot.now,
+        pause=lambda duration: None,
     )
-    while loop.body.state is not SafetyState.READY:
+    while loop.state is not SafetyState.READY:
         loop.tick()
         robot.simulated.step()
         assert robot.now < 6.0
@@ -168,7 +163,7 @@ def test_a_policy_walks_a_robot_that_takes_targets_and_gains(
         tick = loop.tick()
         robot.simulated.step()
     assert tick.state is SafetyState.WALKING, tick.words
-    assert tick.walk is None
+    assert np.isnan(tick.row["com_reference"]).all()
     sent = robot.sent[-1]
     assert (sent.stiffness[at], sent.damping[at]) == (200.0, 10.0)
     head = robot.joints.index("HeadYaw")  # the policy does not move it

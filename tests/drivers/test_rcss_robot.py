@@ -15,7 +15,6 @@ import pytest
 
 from stepaside import load_run
 from stepaside.core.errors import ConfigurationError, ModelError
-from stepaside.drivers.joint_robot import JointTargets
 from stepaside.drivers.rcss import (
     MODELS,
     STEP,
@@ -24,7 +23,8 @@ from stepaside.drivers.rcss import (
     nearest_opponent,
     parse_expressions,
 )
-from stepaside.drivers.robot_address import RobotRequest
+from stepaside.drivers.robot import JointTargets
+from stepaside.drivers.robot_loader import RobotRequest
 from stepaside.games.play_settings import PlaySettings
 from stepaside.games.play_summary import PlaySummary
 

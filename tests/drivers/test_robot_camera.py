@@ -2,10 +2,12 @@
 
 import json
 import logging
+import os
 import re
 from collections.abc import Callable
 from functools import partial
 from math import atan2, degrees, hypot, inf, nan
+from pathlib import Path
 from threading import Event
 from time import monotonic, sleep
 from typing import Any
@@ -15,28 +17,28 @@ import pytest
 from simulated_walker import SimulatedWalker
 
 from stepaside.cli.main import main
-from stepaside.core.errors import ConfigurationError
 from stepaside.core.poses import Pose, wrap_angle
-from stepaside.drivers.guardian_process import SessionLost
-from stepaside.drivers.robot_camera import (
-    OLDEST,
-    SILENCE,
+from stepaside.drivers.method_thread import SessionLost
+from stepaside.drivers.robot import (
     CameraImage,
     CameraMount,
     HeadLimits,
-    MountedCamera,
-    RobotCamera,
+    VelocityRobot,
 )
-from stepaside.drivers.robot_session import RobotSession, velocity_state
+from stepaside.drivers.robot_camera import (
+    OLDEST,
+    RobotCamera,
+    VideoCamera,
+    colour_image,
+    resize_model,
+)
+from stepaside.drivers.robot_session import RobotSession
 from stepaside.drivers.velocity_limits import VelocityLimits
 from stepaside.drivers.velocity_loop import PERIOD
-from stepaside.drivers.velocity_robot import (
-    VelocityRobot,
-    check_velocity_robot,
-)
 from stepaside.perception.camera_model import CameraModel
-from stepaside.perception.images import ColourImage, Percept
+from stepaside.perception.images import ColourImage
 from stepaside.perception.measurement import RobotState
+from velocity_fakes import SimulatedUnicycle, until
 
 MOUNT = CameraMount(0.1, 0.0, 1.2)
 PIXELS = np.zeros((120, 160, 3), np.uint8)
@@ -57,6 +59,9 @@ class Filming:
     def image(self) -> Any:
         """The next image; none at the end."""
         return next(self.images, None)
+
+    def close(self) -> None:
+        """Do nothing."""
 
 
 def taken(
@@ -158,44 +163,32 @@ def test_silence_hinders_the_robot() -> None:
     assert "image() returned no new image for" in camera.hindrance
 
 
-def test_a_joint_robot_has_its_images_as_percepts() -> None:
-    camera = RobotCamera(Filming(image(8.9, mount=None)), needs_mount=False)
-    deadline = monotonic() + SLACK
-    found: list[Percept] = []
-    while not found:
-        found = camera.percepts(9.0)
-        assert monotonic() < deadline
-    (seen,) = found
-    assert isinstance(seen, ColourImage)
-    assert seen.time == pytest.approx(8.9)
-    assert seen.camera == CameraModel(160, 120, 140.0, 140.0)
+class Video(Filming):
+    """Camera apart from a robot, which tells its own time."""
 
-
-class Film:
-    """Source of one image."""
-
-    def __init__(self) -> None:
-        self.left: list[Percept] = [
-            ColourImage(4.9, CameraModel(160, 120, 140.0, 141.0), PIXELS)
-        ]
-
-    def percepts(self, now: float) -> list[Percept]:
-        """The image, once."""
-        left, self.left = self.left, []
-        return left
+    closed = False
 
     def close(self) -> None:
-        """Nothing to release."""
+        """Note it."""
+        self.closed = True
 
 
 def test_a_camera_apart_from_the_robot_is_mounted_on_it() -> None:
-    clock = [7.0]
-    camera = MountedCamera(Film(), MOUNT, clock=lambda: clock[0])
-    got = camera.take(5.0)
-    assert got is not None and got.mount == MOUNT and got.focal_y == 141.0
-    assert camera.take(5.1) is None
-    clock[0] += SILENCE + 0.1
-    assert camera.hindrance == "no image for 0.6 s"
+    """Its times are those of this computer."""
+    taken_at = monotonic() - 0.2
+    video = Video(image(taken_at, mount=None, focal_y=141.0))
+    camera = RobotCamera(video, apart=True, mount=MOUNT)
+    (got,) = taken(camera, bool)
+    assert got.mount == MOUNT
+    assert got.time == pytest.approx(5.0 - 0.2, abs=0.1)
+    seen = colour_image(got)
+    assert seen.time == got.time
+    assert seen.camera == CameraModel(160, 120, 140.0, 141.0)
+    camera.close()
+    deadline = monotonic() + SLACK
+    while not video.closed:
+        assert monotonic() < deadline
+        sleep(0.002)
 
 
 class SeeingWalker(VelocityRobot):
@@ -248,19 +241,19 @@ class SeeingWalker(VelocityRobot):
 def test_the_head_follows_the_opponent_and_sightings_are_true() -> None:
     """Of a robot that turns away from a person."""
     pytest.importorskip("cv2")
-    from stepaside.drivers.camera_sight import PosedSight
-    from stepaside.drivers.scheme_factory import posed_perception_factory
+    from stepaside.drivers.robot_camera import PosedSight
+    from stepaside.drivers.scheme_factory import posed_perception
 
     robot = SeeingWalker()
-    perception = posed_perception_factory("evader")(robot.head, PERIOD)
-    session = RobotSession(robot, "stop")
+    perception = posed_perception("evader", robot.head, PERIOD)
+    session = RobotSession(robot)
     camera = RobotCamera(robot, needs_mount=True)
     sight = PosedSight(session, camera, perception, turns_head=True)
     end = monotonic() + 4.0
     report, hindered = None, set()
     while monotonic() < end:
         sleep(PERIOD)
-        new = session.listen(0.05, velocity_state)
+        new = session.listen(0.05)
         if new is not None:
             report = sight.see(new)
             hindered.add(report.hindrance.partition(" for ")[0])
@@ -275,25 +268,6 @@ def test_the_head_follows_the_opponent_and_sightings_are_true() -> None:
     assert report.sighting.bearing == pytest.approx(bearing, abs=0.1)
     assert report.sighting.distance == pytest.approx(hypot(dx, dy), abs=0.15)
     assert hindered <= {"", "image() returned no new image"}
-
-
-@pytest.mark.parametrize(
-    ("changes", "said"),
-    [
-        ({"head": HeadLimits(90.0, 0.3, 0.3)}, "head must be HeadLimits"),
-        ({"head": HeadLimits(1.0, nan, 0.3)}, "head must be HeadLimits"),
-        ({"head": 1.0}, "head must be HeadLimits"),
-        ({"look": VelocityRobot.look}, "head needs the method look()"),
-        ({"camera": (0.0, 0.0, 1.0)}, "camera must be CameraMount"),
-    ],
-)
-def test_an_invalid_class_is_refused(
-    changes: dict[str, Any], said: str
-) -> None:
-    kind = type("Changed", (SeeingWalker,), changes)
-    with pytest.raises(ConfigurationError) as caught:
-        check_velocity_robot(kind, "robot r.py:R")
-    assert said in str(caught.value)
 
 
 BLIND = """
@@ -340,3 +314,124 @@ def test_a_robot_without_camera_is_refused(
         main([*command, *words, "--wait", "0"])
     assert left.value.code == 2
     assert said in capsys.readouterr().err.strip().splitlines()[-1]
+
+
+MODEL = CameraModel(320, 240, 272.0, 272.0)
+TAG = f"stepaside-images-{os.getpid()}"
+HALVES = np.zeros((120, 160, 3), np.uint8)  # left red, right blue
+HALVES[:, :80, 0] = HALVES[:, 80:, 2] = 200
+
+
+def check(image: CameraImage, tolerance: float) -> None:
+    """It shows the two halves, through the optics at its own size."""
+    assert (image.focal_x, image.focal_y) == (136.0, 136.0)
+    off = np.abs(image.pixels.astype(float) - HALVES)
+    assert off[10:-10, 10:70].max() <= tolerance
+    assert off[10:-10, 90:150].max() <= tolerance
+
+
+def test_a_film_stands_for_a_camera(tmp_path: Path) -> None:
+    """Read as a device is, through the same library."""
+    cv2 = pytest.importorskip("cv2")
+    film = str(tmp_path / "film.avi")
+    writer = cv2.VideoWriter(
+        film, cv2.VideoWriter_fourcc(*"MJPG"), 15, (160, 120)
+    )
+    for _ in range(30):
+        writer.write(cv2.cvtColor(HALVES, cv2.COLOR_RGB2BGR))
+    writer.release()
+    camera = VideoCamera(film, MODEL, latency=0.03)
+    for _ in range(30):
+        image = camera.image()
+        assert image is not None
+        check(image, 25.0)
+        assert -1.0 < image.time - monotonic() <= -0.03
+    assert camera.image() is None
+    camera.close()
+
+
+def test_a_camera_that_is_not_there_is_said(tmp_path: Path) -> None:
+    pytest.importorskip("cv2")
+    with pytest.raises(SessionLost, match="no camera at"):
+        VideoCamera(str(tmp_path / "video7"), MODEL, latency=0.0)
+    (tmp_path / "text").write_text("no film")
+    with pytest.raises(SessionLost, match="cannot be opened"):
+        VideoCamera(str(tmp_path / "text"), MODEL, latency=0.0)
+
+
+def test_scaled_optics_see_as_far() -> None:
+    half = resize_model(MODEL, 160, 120)
+    np.testing.assert_allclose(half.ray(0.0, 0.0), MODEL.ray(0.0, 0.0))
+
+
+@pytest.mark.parametrize("squeezed", [False, True])
+def test_a_ros2_robot_publishes_its_camera_images(squeezed: bool) -> None:
+    pytest.importorskip("cv2")
+    pytest.importorskip("cyclonedds")
+    from stepaside.drivers.ros2_dds import DdsParticipant
+    from stepaside.drivers.ros2_images import TopicCamera
+    from stepaside.drivers.ros2_server import Ros2Server, WorldClock
+
+    dds, walker = DdsParticipant(0, tag=TAG), Seer()
+    clock = WorldClock(dds)
+    server = Ros2Server(dds, "/n", walker, ["a", "b"], clock, tick=0.012)
+    name = "camera/image_raw" + ("/compressed" if squeezed else "")
+    guess = CameraModel(320, 240, 99.0, 99.0)  # camera_info says better
+    camera = TopicCamera(
+        DdsParticipant(0, tag=TAG), f"/n/{name}", guess, latency=0.1
+    )
+
+    def look() -> Any:
+        walker.time += 0.012
+        walker.image = ColourImage(walker.time, MODEL, HALVES)
+        server.speak()
+        image = camera.image()
+        return image if image and image.focal_x == 136.0 else None
+
+    try:
+        image = until(look)
+        check(image, 25.0 if squeezed else 0.0)
+        assert image.time == pytest.approx(monotonic() - 0.1, abs=0.5)
+    finally:
+        camera.close()
+        server.close()
+        dds.close()
+
+
+def test_images_of_topics_are_checked() -> None:
+    pytest.importorskip("cyclonedds")
+    from stepaside.drivers.ros2_dds import header, make
+    from stepaside.drivers.ros2_images import pixels_of, unpacked
+
+    def image(*values: Any) -> Any:
+        return make("sensor_msgs/Image", header(0.0, ""), *values)
+
+    padded = image(1, 2, "bgr8", 0, 8, [1, 2, 3, 4, 5, 6, 0, 0])
+    np.testing.assert_array_equal(pixels_of(padded), [[[3, 2, 1], [6, 5, 4]]])
+    grey = image(1, 2, "mono8", 0, 2, [7, 9])
+    np.testing.assert_array_equal(pixels_of(grey), [[[7] * 3, [9] * 3]])
+    for message in (
+        image(1, 2, "bayer", 0, 2, [7, 9]),
+        image(1, 2, "rgb8", 0, 6, [7, 9]),
+        image(9999, 2, "mono8", 0, 2, [7, 9]),
+        image(1, 2, "rgb8", 0, 4, [7, 9, 1, 1]),
+    ):
+        assert pixels_of(message) is None
+    for data in ([1, 2, 3], []):
+        squeezed = make(
+            "sensor_msgs/CompressedImage", header(0.0, ""), "jpeg", data
+        )
+        assert unpacked(squeezed) is None
+
+
+class Seer(SimulatedUnicycle):
+    """A made-up walker with a camera."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        self.image: ColourImage | None = None
+        self.pose = Pose(0.0, 0.0, 0.0)
+
+    def state(self) -> Any:
+        """Own state and sighting."""
+        return super().state()._replace(image=self.image)

@@ -13,18 +13,12 @@ import pytest
 
 from stepaside.core.errors import ConfigurationError
 from stepaside.core.poses import Pose
-from stepaside.drivers.guardian_process import SessionLost
-from stepaside.drivers.method_thread import BLOCKED
-from stepaside.drivers.robot_session import (
-    UNHALTED,
-    RobotSession,
-    fork_guardian,
-    join_halter,
-    joint_state,
-    velocity_state,
-)
+from stepaside.drivers.guardian_process import Guardian, join_halter
+from stepaside.drivers.method_thread import BLOCKED, SessionLost
+from stepaside.drivers.robot import JointRobot, VelocityRobot
+from stepaside.drivers.robot_reports import plain_report
+from stepaside.drivers.robot_session import UNHALTED, RobotSession
 from stepaside.drivers.velocity_limits import VelocityLimits
-from stepaside.drivers.velocity_robot import VelocityRobot
 from stepaside.perception.measurement import RobotState, Sighting
 
 SLACK = 1.0  # of a busy machine, in [s]
@@ -93,7 +87,7 @@ def driven(
     """Run a control that wants to walk, and halts without a report."""
 
     def tick() -> Any:
-        if session.listen(0.05, velocity_state) is None:
+        if session.listen(0.05) is None:
             session.halt()
         else:
             session.command(partial(robot.command, *WALK))
@@ -104,8 +98,8 @@ def driven(
 
 def test_a_session_calls_each_method_in_turn() -> None:
     robot = ScriptedRobot()
-    session = RobotSession(robot, "stop")
-    assert session.listen(1.0, velocity_state) is not None
+    session = RobotSession(robot)
+    assert session.listen(1.0) is not None
     session.command(partial(robot.command, *WALK))
     until(lambda: WALK in robot.calls)
     session.halt()
@@ -115,8 +109,8 @@ def test_a_session_calls_each_method_in_turn() -> None:
 
 def test_a_dry_run_only_listens() -> None:
     robot = ScriptedRobot()
-    session = RobotSession(robot, "stop", dry_run=True)
-    assert session.listen(1.0, velocity_state) is not None
+    session = RobotSession(robot, dry_run=True)
+    assert session.listen(1.0) is not None
     session.command(partial(robot.command, *WALK))
     session.halt()
     session.close()
@@ -136,14 +130,30 @@ def test_what_is_no_report_ends_the_session_by_the_name_of_the_method(
 ) -> None:
     robot = ScriptedRobot()
     robot.hears = lambda: got
-    session = RobotSession(robot, "stop")
+    session = RobotSession(robot)
     with pytest.raises(
         SessionLost,
         match=r"listen\(\) of .* a RobotState\(time, pose",
     ):
-        session.listen(1.0, velocity_state)
+        session.listen(1.0)
     session.close()
     assert robot.calls[-2:] == ["stop", "close"]
+
+
+class TwoJoints(JointRobot):
+    """Robot that is asked for nothing."""
+
+    tick, joints = 0.02, ("hip", "knee")
+
+    def listen(self) -> RobotState | None:
+        """Return nothing."""
+        return None
+
+    def command(self, targets: Any) -> None:
+        """Do nothing."""
+
+    def release(self) -> None:
+        """Do nothing."""
 
 
 @pytest.mark.parametrize(
@@ -163,18 +173,19 @@ def test_a_report_of_joints_is_complete(changes: dict[str, Any]) -> None:
     force: Any = (0.0, 0.0, 9.8)
     valid = RobotState(1.0, angles, gyro, force)
     valid = valid._replace(joint_velocities=angles, tilt=(0.0, 0.1))
-    assert joint_state(valid, "listen()", 2).gyro.tolist() == [0.0, 0.0, 1.0]
+    plain = plain_report(valid, TwoJoints(), "listen()")
+    assert plain.gyro.tolist() == [0.0, 0.0, 1.0]
     with pytest.raises(SessionLost, match="arrays of 2 joints"):
-        joint_state(valid._replace(**changes), "listen()", 2)
+        plain_report(valid._replace(**changes), TwoJoints(), "listen()")
 
 
 def test_a_repeated_report_is_returned_after_the_wait_for_a_new_one() -> None:
     robot = ScriptedRobot()
     robot.hears = lambda: RobotState(7.0, pose=Pose(0.0, 0.0, 0.0))
-    session = RobotSession(robot, "stop")
-    session.listen(1.0, velocity_state)
+    session = RobotSession(robot)
+    session.listen(1.0)
     began = monotonic()
-    again = session.listen(0.3, velocity_state)
+    again = session.listen(0.3)
     assert again is not None and again.time == 7.0
     assert monotonic() - began > 0.2
     assert "returned no new report for 0.30 s" in session.silence(0.3)
@@ -192,7 +203,7 @@ def test_an_exception_ends_the_session_by_the_name_of_the_method(
 
     robot.hears = fail if method == "listen" else robot.state
     robot.obeys = fail
-    session = RobotSession(robot, "stop")
+    session = RobotSession(robot)
     with pytest.raises(
         SessionLost, match=rf"{method}\(\) of ScriptedRobot failed: KeyError"
     ):
@@ -207,7 +218,7 @@ def test_a_method_that_blocks_halts_the_robot_beside_it(
 ) -> None:
     """And the robot walks on when the method returns."""
     robot = ScriptedRobot()
-    session = RobotSession(robot, "stop")
+    session = RobotSession(robot)
     driven(session, robot, lambda: WALK in robot.calls)
     before = len(robot.calls)
     if method == "listen":
@@ -227,7 +238,7 @@ def test_a_method_that_blocks_halts_the_robot_beside_it(
 
 def test_a_robot_that_cannot_be_halted_ends_the_session(stuck: Event) -> None:
     robot = ScriptedRobot()
-    session = RobotSession(robot, "stop")
+    session = RobotSession(robot)
     robot.hears = robot.stops = lambda: stuck.wait(20.0)
     began = monotonic()
     with pytest.raises(SessionLost, match=r"listen\(\).*neither has stop"):
@@ -241,9 +252,9 @@ def test_the_guardian_halts_a_robot_that_control_cannot_halt(
     tmp_path: Path, caplog: pytest.LogCaptureFixture
 ) -> None:
     """Also one that was commanded zero; control goes on."""
-    guardian = fork_guardian(lambda: (tmp_path / "rest").touch, 0.5)
+    guardian = Guardian(lambda: (tmp_path / "rest").touch, 0.5)
     robot = ScriptedRobot()
-    session = RobotSession(robot, "stop", guardian=guardian)
+    session = RobotSession(robot, guardian=guardian)
     session.command(partial(robot.command, *WALK))
     session.halt()
     until(lambda: "stop" in robot.calls)
@@ -271,14 +282,14 @@ def test_a_robot_that_does_not_answer_is_tried_again() -> None:
             raise TypeError("no such argument")
 
     with pytest.raises(SessionLost, match=r"open\(\) of Absent failed"):
-        RobotSession(Absent(), "stop")
+        RobotSession(Absent())
     with pytest.raises(ConfigurationError, match=r"open\(\) of Wrong failed"):
-        RobotSession(Wrong(), "stop")
+        RobotSession(Wrong())
 
 
 def test_the_guardian_connects_in_advance_and_only_halts() -> None:
     robot = ScriptedRobot()
-    halt = join_halter(lambda: robot, "stop")
+    halt = join_halter(lambda: robot)
     assert robot.calls == ["open"]
     halt()
     assert robot.calls == ["open", "stop"]
@@ -300,7 +311,7 @@ class Released:
 
 def test_a_switch_belongs_to_the_session() -> None:
     switch = Released()
-    session = RobotSession(ScriptedRobot(), "stop", switch=switch)
+    session = RobotSession(ScriptedRobot(), switch=switch)
     assert session.released() == "hold it"
     session.close()
     assert switch.closed
@@ -310,7 +321,7 @@ def test_a_sighting_is_of_plain_numbers() -> None:
     robot = ScriptedRobot()
     seen = Sighting.of_position(3.0, 1.0, 1.0)
     robot.hears = lambda: robot.state()._replace(sighting=seen)
-    session = RobotSession(robot, "stop")
-    report = session.listen(1.0, velocity_state)
+    session = RobotSession(robot)
+    report = session.listen(1.0)
     session.close()
     assert report is not None and report.sighting == seen

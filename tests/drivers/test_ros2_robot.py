@@ -14,7 +14,7 @@ pytest.importorskip("cyclonedds")
 from stepaside.core.errors import ConfigurationError  # noqa: E402
 from stepaside.core.poses import Pose  # noqa: E402
 from stepaside.drivers import ros2, ros2_dds  # noqa: E402
-from stepaside.drivers.robot_address import RobotRequest  # noqa: E402
+from stepaside.drivers.robot_loader import RobotRequest  # noqa: E402
 from stepaside.drivers.ros2 import Ros2Robot, make_robot  # noqa: E402
 from stepaside.drivers.ros2_dds import (  # noqa: E402
     DdsParticipant,

@@ -4,14 +4,16 @@ from typing import Any
 
 import pytest
 
-from stepaside.core.errors import ConfigurationError
-from stepaside.drivers.safety_conditions import (
+from stepaside.drivers.safety import (
+    FALL,
+    LONGEST_REACH,
+    LONGEST_STOP,
+    WARM_UP,
+    Safety,
     SafetyInputs,
-    SafetySettings,
+    SafetyState,
 )
-from stepaside.drivers.safety_states import Safety, SafetyState
 
-SETTINGS = SafetySettings()
 MOVING = [s for s in SafetyState if s is not SafetyState.LIMP]
 
 
@@ -25,8 +27,8 @@ def press(machine: Safety, time: float = 0.0) -> SafetyState:
 
 
 def warm() -> Safety:
-    machine = Safety(SETTINGS)
-    for _ in range(SETTINGS.warm_up):
+    machine = Safety()
+    for _ in range(WARM_UP):
         machine.frame(seen())
     return machine
 
@@ -58,8 +60,8 @@ def test_every_state_can_be_reached(state: SafetyState) -> None:
 
 
 def test_the_first_frames_cause_no_motion() -> None:
-    machine = Safety(SETTINGS)
-    for _ in range(SETTINGS.warm_up - 1):
+    machine = Safety()
+    for _ in range(WARM_UP - 1):
         assert machine.frame(seen(reached=True)) is SafetyState.LIMP
     assert machine.frame(seen()) is SafetyState.REACHING
 
@@ -99,8 +101,8 @@ def test_the_button_starts_stops_and_wakes(
 @pytest.mark.parametrize("state", MOVING)
 def test_a_robot_that_falls_goes_limp(state: SafetyState) -> None:
     machine = at(state)
-    assert machine.frame(seen(tilt=0.99 * SETTINGS.fall)) is state
-    assert machine.frame(seen(tilt=1.01 * SETTINGS.fall)) is SafetyState.LIMP
+    assert machine.frame(seen(tilt=0.99 * FALL)) is state
+    assert machine.frame(seen(tilt=1.01 * FALL)) is SafetyState.LIMP
     assert "falls" in machine.reason
 
 
@@ -157,19 +159,15 @@ def test_a_posture_that_is_not_reached_in_time_is_given_up(
     state: SafetyState,
 ) -> None:
     machine = at(state)
-    assert machine.frame(seen(SETTINGS.longest_reach)) is state
-    assert (
-        machine.frame(seen(SETTINGS.longest_reach + 0.1)) is SafetyState.LIMP
-    )
+    assert machine.frame(seen(LONGEST_REACH)) is state
+    assert machine.frame(seen(LONGEST_REACH + 0.1)) is SafetyState.LIMP
     assert "took too long" in machine.reason
 
 
 def test_control_that_does_not_stop_is_stopped() -> None:
     machine = at(SafetyState.STOPPING)
-    assert machine.frame(seen(SETTINGS.longest_stop)) is SafetyState.STOPPING
-    assert (
-        machine.frame(seen(SETTINGS.longest_stop + 0.1)) is SafetyState.RESTING
-    )
+    assert machine.frame(seen(LONGEST_STOP)) is SafetyState.STOPPING
+    assert machine.frame(seen(LONGEST_STOP + 0.1)) is SafetyState.RESTING
 
 
 def test_halting_matters_only_to_a_robot_that_stops() -> None:
@@ -323,24 +321,3 @@ def test_the_worst_of_several_reasons_counts() -> None:
     everything: dict[str, Any] = {"load": 0.0, "charge": 0.01, "tilt": 1.0}
     assert lasting(machine, LASTING, **everything) is SafetyState.LIMP
     assert "falls" in machine.reason
-
-
-@pytest.mark.parametrize(
-    ("name", "value"),
-    [
-        ("lowest_charge", 1.0),
-        ("least_load", -0.1),
-        ("silence", 0.001),
-        ("warm_up", 0),
-        ("fall", 3.0),
-        ("look_ahead", -0.1),
-        ("hottest", float("nan")),
-        ("longest_reach", 0.0),
-        ("longest_stop", float("inf")),
-    ],
-)
-def test_limits_that_limit_nothing_are_refused(
-    name: str, value: float
-) -> None:
-    with pytest.raises(ConfigurationError, match=name):
-        SafetySettings(**{name: value})  # type: ignore[arg-type]

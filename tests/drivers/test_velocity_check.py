@@ -12,9 +12,9 @@ import pytest
 from stepaside.cli.main import main
 from stepaside.core.poses import Pose, wrap_angle
 from stepaside.drivers.method_check import AdapterFinding
+from stepaside.drivers.robot import VelocityRobot
 from stepaside.drivers.velocity_check import VelocityCheck
 from stepaside.drivers.velocity_limits import VelocityLimits
-from stepaside.drivers.velocity_robot import VelocityRobot
 from stepaside.perception.measurement import RobotState, Sighting
 
 Change = Callable[[RobotState], RobotState | None]

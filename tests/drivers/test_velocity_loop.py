@@ -9,24 +9,21 @@ import numpy as np
 import pytest
 
 from stepaside.core.poses import Pose
-from stepaside.drivers.guardian_process import SessionLost
-from stepaside.drivers.play_log import PlayLog
-from stepaside.drivers.row_file import read_rows
+from stepaside.drivers.method_thread import SessionLost
+from stepaside.drivers.play_log import PlayLog, PlayTick
 from stepaside.drivers.status_line import status_text
 from stepaside.drivers.velocity_limits import REST, VelocityLimits
 from stepaside.drivers.velocity_loop import (
     DrivingState,
     TemplateController,
     VelocityLoop,
-    VelocityTick,
 )
-from stepaside.drivers.watchdog import WatchSettings
 from stepaside.perception.measurement import RobotState, Sighting
 from stepaside.planning import GaitSettings
 from stepaside.strategies import Evasion, Pursuit, Strategy
 from stepaside.strategies.velocity_set import BodyVelocity
 
-from velocity_fakes import PERIOD, FakeWalker, report  # isort: skip
+from velocity_fakes import PERIOD, FakeWalker, read_log, report  # isort: skip
 
 GAIT = GaitSettings()
 REPORTS = [report(PERIOD * i) for i in range(40)]
@@ -39,14 +36,15 @@ def playing_of(
         robot,
         lambda: TemplateController(strategy or Pursuit(), GAIT),
         VelocityLimits(),
-        WatchSettings(paced=paced),
+        paced=paced,
         clock=robot.clock,
+        pause=robot.pause,
     )
 
 
 def played(
     robot: FakeWalker, ticks: int, *, paced: bool = True
-) -> list[VelocityTick]:
+) -> list[PlayTick]:
     playing = playing_of(robot, paced=paced)
     return [playing.tick() for _ in range(ticks)]
 
@@ -102,7 +100,7 @@ def test_the_robot_is_led_to_the_template_by_the_ramp() -> None:
     ticks = played(robot, 30)
     assert [t.state for t in ticks[:2]] == 2 * [DrivingState.WAITING]
     assert ticks[-1].state is DrivingState.WALKING
-    assert ticks[-1].velocity == pytest.approx((0.1, 0.0, 0.08))
+    assert robot.asked[-1] == pytest.approx((0.1, 0.0, 0.08))
     steps = np.abs(np.diff(np.array(robot.asked), axis=0))
     assert steps.max(axis=0) == pytest.approx((0.025, 0.0, 0.08), rel=0.3)
 
@@ -122,7 +120,7 @@ def test_the_robot_is_led_to_the_template_by_the_ramp() -> None:
 def test_whatever_is_amiss_asks_for_rest_at_once(sick: RobotState) -> None:
     robot = FakeWalker([*REPORTS[:20], sick])
     ticks = played(robot, 21)
-    assert ticks[-2].velocity.forward == pytest.approx(0.1)
+    assert robot.asked[-2].forward == pytest.approx(0.1)
     assert robot.asked[-1] == REST
     assert ticks[-1].state is DrivingState.WAITING and ticks[-1].reason
 
@@ -197,10 +195,10 @@ def test_the_log_is_on_disk_as_it_goes(tmp_path: Path) -> None:
     playing = playing_of(FakeWalker([*REPORTS[:20], *40 * [None]]))
     for _ in range(60):
         log.note(playing.tick())
-    early = read_rows(tmp_path / "log")
+    early = read_log(tmp_path / "log")
     assert len(early["times_s"]) == 60
     log.close()
-    rows = read_rows(tmp_path / "log")
+    rows = read_log(tmp_path / "log")
     assert rows["velocity"].shape == (60, 3)
     assert np.isnan(rows["sighting"]).sum() == 0
     assert rows["velocity"][19] == pytest.approx((0.1, 0.08, 0.0))

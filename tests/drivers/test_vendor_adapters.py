@@ -20,11 +20,10 @@ import numpy as np
 import pytest
 
 from stepaside.core.poses import Pose
-from stepaside.drivers.guardian_process import SessionLost
-from stepaside.drivers.joint_robot import JointRobot, JointTargets
+from stepaside.drivers.method_thread import SessionLost
+from stepaside.drivers.robot import JointRobot, JointTargets, VelocityRobot
 from stepaside.drivers.robot_loader import load_robot_class
-from stepaside.drivers.robot_session import RobotSession, velocity_state
-from stepaside.drivers.velocity_robot import VelocityRobot
+from stepaside.drivers.robot_session import RobotSession
 
 ADAPTERS = Path(__file__).parents[2] / "examples" / "adapters"
 WALK = (-0.2, 0.0, 0.4)
@@ -113,7 +112,7 @@ def booster(monkeypatch: pytest.MonkeyPatch) -> RobotSession:
     monkeypatch.setitem(sys.modules, sdk.__name__, sdk)
     kind = adapter("Booster")
     monkeypatch.setattr(sys.modules[kind.__module__], "STANDING_UP", 0.0)
-    session = RobotSession(kind(), "stop")
+    session = RobotSession(kind())
     session.run("prepare", 20.0)
     return session
 
@@ -121,10 +120,10 @@ def booster(monkeypatch: pytest.MonkeyPatch) -> RobotSession:
 def test_a_booster_walks_and_stands_by_its_client(
     booster: RobotSession,
 ) -> None:
-    assert booster.listen(0.05, velocity_state) is None
+    assert booster.listen(0.05) is None
     odometer = SimpleNamespace(x=1.0, y=2.0, theta=0.3)
     B1OdometerStateSubscriber.made[-1].handler(odometer)
-    report = booster.listen(1.0, velocity_state)
+    report = booster.listen(1.0)
     assert report is not None and report.pose == Pose(1.0, 2.0, 0.3)
     assert abs(report.time - monotonic()) < 5.0
     booster.command(partial(booster.robot.command, *WALK))
@@ -145,7 +144,7 @@ def test_a_booster_that_does_not_answer_is_tried_again(
 ) -> None:
     monkeypatch.setattr(B1LocoClient, "answers", False)
     with pytest.raises(SessionLost, match="no Booster answers"):
-        RobotSession(adapter("Booster")(), "stop")
+        RobotSession(adapter("Booster")())
 
 
 def test_boosters_package_has_what_the_adapter_uses() -> None:
@@ -238,7 +237,7 @@ def unitree(monkeypatch: pytest.MonkeyPatch) -> RobotSession:
         module = ModuleType(f"unitree_sdk2py{name}")
         vars(module).update(names)
         monkeypatch.setitem(sys.modules, module.__name__, module)
-    session = RobotSession(adapter("Unitree")(), "stop")
+    session = RobotSession(adapter("Unitree")())
     session.run("prepare", 20.0)
     return session
 
@@ -252,7 +251,7 @@ def test_a_unitree_walks_by_velocities_that_time_out(
         imu_state=SimpleNamespace(rpy=[0.0, 0.0, 0.3]),
     )
     ChannelSubscriber.made[-1].handler(state)
-    report = unitree.listen(1.0, velocity_state)
+    report = unitree.listen(1.0)
     assert report is not None and report.time == 7.5
     assert report.pose == Pose(1.0, 2.0, 0.3)
     unitree.command(partial(unitree.robot.command, *WALK))

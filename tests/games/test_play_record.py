@@ -9,9 +9,8 @@ import pytest
 
 from stepaside.core.errors import ConfigurationError
 from stepaside.core.poses import Array, Pose, wrap_angle
-from stepaside.drivers.joint_loop import JointTick
-from stepaside.drivers.play_log import PlayLog
-from stepaside.drivers.safety_states import SafetyState
+from stepaside.drivers.play_log import PlayLog, PlayTick, joint_row
+from stepaside.drivers.safety import SafetyState
 from stepaside.games.configuration_file import dump_configuration
 from stepaside.games.duel import Duel
 from stepaside.games.duel_settings import DuelSettings, StartSettings
@@ -52,19 +51,12 @@ def look_at(log: PlayLog, walker: SimulatedPlayer) -> None:
         scheme = walker.scheme
         # Open loop, sensors are read only when a decision is due.
         measurement = measured.pop() if measured else read()
+        row = joint_row(measurement, targets, scheme, 1, scheme.begun)
+        seen = measurement.sighting or scheme.sighting
         log.note(
-            JointTick(
+            PlayTick(
                 SafetyState.WALKING,
-                "chest button",
-                scheme.phase,
-                measurement,
-                targets,
-                measurement.sighting or scheme.sighting,
-                0,
-                1,
-                scheme.state,
-                scheme.begun,
-                scheme.pose,
+                *("chest button", measurement.time, seen, "", row),
             )
         )
 
@@ -167,14 +159,14 @@ def test_a_truncated_record_is_replayed_to_its_end(
 ) -> None:
     cut = tmp_path / "cut"
     cut.mkdir()
-    for name in ("columns.json", "play.json", "configuration.toml"):
+    for name in ("play.json", "configuration.toml"):
         (cut / name).write_bytes((walked.folder / name).read_bytes())
     rows = (walked.folder / "rows.f64").read_bytes()
     (cut / "rows.f64").write_bytes(rows[: len(rows) // 2 + 5])
     run = load_run(cut)
     assert run.outcome is Outcome.FAILED
     assert run.times[-1] == pytest.approx(2.0, abs=0.05)
-    (cut / "columns.json").write_text('{"times_s": 1}')
+    (cut / "play.json").write_text('{"columns": {"times_s": 1}}')
     with pytest.raises(ConfigurationError, match="must hold the columns"):
         load_run(cut)
 

@@ -9,14 +9,14 @@ import numpy as np
 import pytest
 
 from stepaside.core.errors import ConfigurationError
-from stepaside.drivers.guardian_process import SessionLost
-from stepaside.drivers.joint_body import JointBody
-from stepaside.drivers.joint_loop import JointLoop, JointTick
-from stepaside.drivers.joint_robot import motors_of
+from stepaside.drivers.joint_loop import JointLoop
 from stepaside.drivers.lola import LolaRobot
+from stepaside.drivers.method_thread import SessionLost
+from stepaside.drivers.motors import motors_of
+from stepaside.drivers.play_log import PlayTick
 from stepaside.drivers.robot_session import RobotSession
-from stepaside.drivers.safety_states import SafetyState
-from stepaside.drivers.scheme_factory import control_scheme_factory
+from stepaside.drivers.safety import SafetyState
+from stepaside.drivers.scheme_factory import scheme_factory
 from stepaside.games.duel import run_duel
 from stepaside.games.duel_settings import DuelSettings, StartSettings
 from stepaside.games.robot_endpoints import LolaEndpoint
@@ -38,39 +38,30 @@ FEEDBACK = ControlSettings(method="measured", feedback=True)
 def client(
     path: Path,
     strategy: Strategy,
-    ticks: list[JointTick],
+    ticks: list[PlayTick],
 ) -> None:
     """Play one player until its robot disconnects."""
-
-    def open_body(scheme: object) -> JointBody:
-        robot = LolaRobot(str(path))
-        targets = scheme.joint_targets  # type: ignore[attr-defined]
-        motors = motors_of(robot, load_robot("nao"))
-        return JointBody(RobotSession(robot, "release"), motors, targets)
-
-    make = control_scheme_factory(
-        load_robot("nao"),
-        GaitSettings(),
-        FEEDBACK,
-        tick=0.012,
-    )
+    robot, nao = LolaRobot(str(path)), load_robot("nao")
+    make = scheme_factory(nao, GaitSettings(), FEEDBACK, tick=0.012)
     while not path.exists():
         pass  # the world is being built
-    playing = JointLoop(open_body, strategy, make)
+    playing = JointLoop(
+        lambda: RobotSession(robot), motors_of(robot, nao), strategy, make
+    )
     try:
         while True:
             ticks.append(playing.tick())
     except SessionLost:
-        playing.body.close()
+        playing.close()
 
 
 @contextmanager
 def clients(
     folder: Path,
-) -> Iterator[tuple[dict[str, Path], list[JointTick]]]:
+) -> Iterator[tuple[dict[str, Path], list[PlayTick]]]:
     addresses = {name: folder / name for name in ("pursuer", "evader")}
     roles = {"pursuer": Pursuit(), "evader": Evasion()}
-    ticks: list[JointTick] = []
+    ticks: list[PlayTick] = []
     threads = [
         Thread(target=client, args=(addresses[n], roles[n], ticks))
         for n in addresses
@@ -113,7 +104,7 @@ def test_in_lock_step_the_duel_is_the_one_played_in_one_process(
     assert 0.0 <= late < 1.0
     assert served["late_ticks"] == 0
     walked = [t for t in ticks if t.state is SafetyState.WALKING]
-    assert max(t.measurement.time for t in walked) >= 249 * 0.012 - 1e-9
+    assert max(t.time for t in walked) >= 249 * 0.012 - 1e-9
     assert not any(a.exists() for a in addresses.values())
 
 

@@ -15,7 +15,6 @@ from stepaside.drivers.velocity_loop import (
     TemplateController,
     VelocityLoop,
 )
-from stepaside.drivers.watchdog import WatchSettings
 from stepaside.games.duel_settings import DuelSettings, StartSettings
 from stepaside.games.match import play
 from stepaside.games.pair_match import PairMatch
@@ -45,7 +44,7 @@ def playing_of(session: Any, strategy: Strategy) -> VelocityLoop:
         session,
         lambda: TemplateController(strategy, GaitSettings()),
         VelocityLimits(),
-        WatchSettings(paced=False, forsaken=60.0),
+        paced=False,
     )
 
 
@@ -59,7 +58,7 @@ class NoWire:
         for _ in range(3):  # what a gathering world tells again and again
             self._playing.tick()
 
-    def listen(self, patience: float, convert: Any) -> RobotState:
+    def listen(self, patience: float) -> RobotState:
         """State that the robot reports."""
         state = self._robot.state()
         return RobotState(state.time, sighting=state.sighting, pose=state.pose)
@@ -104,11 +103,11 @@ def client(
     over: Event,
 ) -> None:
     """Play one player until the duel is over."""
-    from stepaside.drivers.robot_address import RobotRequest
+    from stepaside.drivers.robot_loader import RobotRequest
     from stepaside.drivers.ros2 import make_robot
 
     robot = make_robot(RobotRequest(namespace, domain=DOMAIN))()
-    session = RobotSession(robot, "stop")
+    session = RobotSession(robot)
     session.run("prepare", 20.0)
     playing = playing_of(session, strategy)
     while not over.is_set():

@@ -15,6 +15,7 @@ chest button, when our client is ready. Prints what happened, as JSON;
 
 import argparse
 import json
+import math
 import os
 import runpy
 import subprocess
@@ -144,67 +145,81 @@ def be_the_robot(checkout: Path, listen: str) -> None:
     runpy.run_path(str(checkout / CONTROLLER), run_name="__main__")
 
 
+class HeadSwing:
+    """Control that swings the head, from a stance of straight joints."""
+
+    sighting = begun = state = None
+    pose = (0.0, 0.0, 0.0)
+
+    def __init__(self, motors: Any) -> None:
+        """Begin at rest."""
+        import numpy as np
+
+        from stepaside.locomotion.walk_snapshots import Phase
+
+        self.decisions = self.locomotion = self
+        self.joint_targets = np.clip(0.0, motors.low + 0.02, motors.high)
+        self.phase, self._head = Phase.STANDING, motors.names.index("HeadYaw")
+        self.walked = 0
+        self.errors: list[float] = []
+        self._asked = [0.0]
+
+    def adopt(self, strategy: Any) -> None:
+        """Stand already."""
+
+    def update(self, measured: Any) -> Any:
+        """Move the head; an answer acts on this report or on the next."""
+        angle = measured.joint_positions[self._head]
+        if self.walked > 2:
+            self.errors.append(min(abs(angle - each) for each in self._asked))
+        self.walked += 1
+        targets = self.joint_targets.copy()
+        targets[self._head] = SWING * math.sin(0.05 * self.walked)
+        self._asked = [*self._asked[-2:], float(targets[self._head])]
+        return targets
+
+
 def play_against(listen: str, chest: Path) -> dict[str, Any]:
     """Stand up, be pressed, move the head by control, rest."""
-    import numpy as np
-
-    from stepaside.drivers.joint_body import JointBody
-    from stepaside.drivers.joint_robot import motors_of
+    from stepaside.drivers.joint_loop import JointLoop
     from stepaside.drivers.lola import LolaRobot
+    from stepaside.drivers.motors import motors_of
     from stepaside.drivers.robot_session import RobotSession
-    from stepaside.drivers.safety_states import SafetyState
+    from stepaside.drivers.safety import SafetyState
     from stepaside.robots.description import load_robot
+    from stepaside.strategies import Pursuit
 
     robot = LolaRobot(listen)
     motors = motors_of(robot, load_robot("nao"))
-    head = motors.names.index("HeadYaw")
-    stance = np.clip(0.0, motors.low + 0.02, motors.high - 0.02)
-    body = JointBody(RobotSession(robot, "release"), motors, stance)
+    swing: Any = HeadSwing(motors)
+    loop = JointLoop(
+        lambda: RobotSession(robot), motors, Pursuit(), lambda _: swing
+    )
     states: list[str] = []
-    errors: list[float] = []
-    began, frames, stood, walked = time.monotonic(), 0, 0, 0
-    wanted, asked = stance.copy(), [0.0]
-    while True:
-        measured = body.read()
+    began, frames, stood = time.monotonic(), 0, 0
+    while not loop.ended:
+        tick = loop.tick()
         frames += 1
-        state = body.state
-        if not states or states[-1] != state.value:
-            states.append(state.value)
-        if state is SafetyState.READY:
+        if not states or states[-1] != tick.state.value:
+            states.append(tick.state.value)
+        if tick.state is SafetyState.READY:
             stood += 1  # press for ten ticks; the button acts when let go
             if stood == 10:
                 chest.touch()
             elif stood == 20:
                 chest.unlink()
-        elif state is SafetyState.WALKING:
-            if walked > 2:  # an answer acts on this frame or on the next
-                errors.append(
-                    min(
-                        abs(measured.joint_positions[head] - angle)
-                        for angle in asked
-                    )
-                )
-            walked += 1
-            wanted[head] = SWING * np.sin(0.05 * walked)
-            asked = [*asked[-2:], float(wanted[head])]
-            if walked == WALKED:
-                body.rest("the check is over")
-        elif state is SafetyState.STOPPING:
-            body.halted()
-        if state is SafetyState.LIMP and len(states) > 1:
-            break
-        body.write(wanted)
+        if swing.walked == WALKED:
+            loop.leave("the check is over")
     rate = frames / (time.monotonic() - began)
-    x, y, z = measured.accelerometer.tolist()
-    refused = body.refused
-    body.close()
+    force: Any = tick.row["accelerometer"]
+    loop.close()
     return {
         "states": states,
         "frames": frames,
-        "refused": refused,
+        "refused": loop.refused,
         "rate_hz": round(rate, 1),
-        "head_error_rad": max(errors),
-        "upright": z > 9.0,
+        "head_error_rad": max(swing.errors),
+        "upright": float(force[2]) > 9.0,
     }
 
 

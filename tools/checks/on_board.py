@@ -70,14 +70,14 @@ def play(file: Path) -> dict[str, Any]:
     """Run the controller on recorded measurements."""
     for name in ABSENT:
         sys.modules[name] = None  # type: ignore[assignment]
-    from stepaside.drivers.scheme_factory import control_scheme_factory
+    from stepaside.drivers.scheme_factory import scheme_factory
     from stepaside.locomotion.zmp.control_settings import STABILISED
     from stepaside.perception.measurement import RobotState, Sighting
     from stepaside.planning import GaitSettings
     from stepaside.robots.description import load_robot
     from stepaside.strategies import Evasion, Pursuit
 
-    make = control_scheme_factory(
+    make = scheme_factory(
         load_robot("nao"), GaitSettings(), STABILISED, tick=TICK
     )
     first = make(Pursuit())

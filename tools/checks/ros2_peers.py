@@ -39,7 +39,7 @@ import numpy as np
 import ros2_peer as peer
 
 from stepaside.core.poses import Pose
-from stepaside.drivers.robot_address import RobotRequest
+from stepaside.drivers.robot_loader import RobotRequest
 from stepaside.drivers.ros2 import make_robot
 from stepaside.drivers.ros2_dds import DdsParticipant, take_messages
 from stepaside.drivers.ros2_images import pixels_of

@@ -7,9 +7,8 @@ import click
 from .connection_settings import ROS2, ConnectionSettings
 
 if TYPE_CHECKING:
-    from ..drivers.camera_sight import PosedSight
-    from ..drivers.image_source import ImageSource
-    from ..drivers.robot_camera import PosedCamera
+    from ..drivers.robot import CameraMount
+    from ..drivers.robot_camera import PosedSight, RobotCamera
     from ..drivers.robot_session import RobotSession
     from ..games.duel_settings import DuelSettings
 
@@ -26,12 +25,10 @@ def check_camera(robot: Any, connection: ConnectionSettings) -> None:
     Raises:
         UsageError: If it has no camera, or does not say where it is.
     """
-    from ..drivers.joint_robot import JointRobot
-    from ..drivers.velocity_robot import VelocityRobot
+    from ..drivers.robot import JointRobot, Robot
 
     joints = isinstance(robot, JointRobot)
-    base = JointRobot if joints else VelocityRobot
-    kind, has_images = type(robot), type(robot).image is not base.image
+    kind, has_images = type(robot), type(robot).image is not Robot.image
     if connection.images is None and not has_images:
         if connection.in_python:
             raise click.UsageError(
@@ -51,24 +48,48 @@ def check_camera(robot: Any, connection: ConnectionSettings) -> None:
         )
 
 
-def open_eyes(
-    settings: "DuelSettings", robot: Any, connection: ConnectionSettings
-) -> "ImageSource":
-    """Open the camera in the head of a joint-driven robot.
+def open_camera(
+    settings: "DuelSettings",
+    robot: Any,
+    connection: ConnectionSettings,
+    *,
+    needs_mount: bool = False,
+) -> "RobotCamera":
+    """Open the camera of a robot, or that of ``--images``.
 
     Args:
         settings: Settings with optics and latency of the camera.
         robot: The robot, connected.
         connection: Connection to the robot.
+        needs_mount: Whether the images must bring the camera's pose.
 
     Raises:
         StepAsideError: If the camera does not exist.
     """
-    if connection.images is None:
-        from ..drivers.robot_camera import RobotCamera
+    from ..drivers.robot_camera import RobotCamera, VideoCamera
 
-        return RobotCamera(robot, needs_mount=False)
-    return _open_images(settings, connection)
+    name = connection.images
+    if name is None:
+        return RobotCamera(robot, needs_mount=needs_mount)
+    mount: CameraMount | None = robot.camera if needs_mount else None
+    colour = settings.cameras.colour
+    model = colour.model()
+    latency = colour.latency + settings.cameras.added_latency
+    if name.startswith(V4L2):
+        path = name.removeprefix(V4L2)
+        video = VideoCamera(path, model, latency=latency)
+        return RobotCamera(video, apart=True, mount=mount)
+    if name.startswith(ROS2):
+        from ..drivers.ros2_dds import parse_namespace
+        from ..drivers.ros2_images import TopicCamera
+
+        dds, topic = connection.join_domain(), parse_namespace(name)
+        camera = TopicCamera(dds, topic, model, latency=latency)
+        return RobotCamera(camera, apart=True, mount=mount)
+    raise click.BadParameter(
+        f"must begin with {V4L2} or {ROS2}, got {name!r}",
+        param_hint="--images",
+    )
 
 
 def open_camera_sight(
@@ -86,43 +107,12 @@ def open_camera_sight(
     Raises:
         StepAsideError: If the camera does not exist.
     """
-    from ..drivers.camera_sight import PosedSight
-    from ..drivers.robot_camera import MountedCamera, RobotCamera
-    from ..drivers.scheme_factory import posed_perception_factory
+    from ..drivers.robot_camera import PosedSight
+    from ..drivers.scheme_factory import posed_perception
     from ..drivers.velocity_loop import PERIOD
 
     robot = session.robot
-    perception = posed_perception_factory(connection.role)(robot.head, PERIOD)
-    camera: PosedCamera
-    if connection.images is None:
-        camera = RobotCamera(robot, needs_mount=True)
-    else:
-        source = _open_images(settings, connection)
-        camera = MountedCamera(source, robot.camera)
+    perception = posed_perception(connection.role, robot.head, PERIOD)
+    camera = open_camera(settings, robot, connection, needs_mount=True)
     turns = robot.head is not None and not connection.dry_run
     return PosedSight(session, camera, perception, turns_head=turns)
-
-
-def _open_images(
-    settings: "DuelSettings", connection: ConnectionSettings
-) -> "ImageSource":
-    """Open the camera that ``--images`` names."""
-    name = connection.images
-    assert name is not None
-    colour = settings.cameras.colour
-    model = colour.model()
-    latency = colour.latency + settings.cameras.added_latency
-    if name.startswith(V4L2):
-        from ..drivers.image_source import open_v4l2
-
-        return open_v4l2(name.removeprefix(V4L2), model, latency=latency)
-    if name.startswith(ROS2):
-        from ..drivers.ros2_dds import parse_namespace
-        from ..drivers.ros2_images import TopicCamera
-
-        dds, topic = connection.join_domain(), parse_namespace(name)
-        return TopicCamera(dds, topic, model, latency=latency)
-    raise click.BadParameter(
-        f"must begin with {V4L2} or {ROS2}, got {name!r}",
-        param_hint="--images",
-    )

@@ -189,7 +189,7 @@ class ConnectionSettings:
             from ..drivers.robot_loader import load_robot_class
 
             return load_robot_class(self.robot)
-        from ..drivers.robot_address import RobotRequest, find_robot
+        from ..drivers.robot_loader import RobotRequest, find_robot
 
         name, _, address = self.robot.partition(":")
         if self.robot.startswith(ROS2) and not self.network:

@@ -91,8 +91,8 @@ def play(
         return
     if as_json:
         raise click.UsageError("--json requires --check")
-    from ..drivers.guardian_process import SessionLost
-    from ..drivers.joint_robot import JointRobot
+    from ..drivers.method_thread import SessionLost
+    from ..drivers.robot import JointRobot
     from ..drivers.status_line import StatusLine
     from .robot_connections import open_loop
 
@@ -198,7 +198,7 @@ def _run_sessions(session: Callable[[], str], reconnect: float | None) -> str:
     """
     from time import monotonic, sleep
 
-    from ..drivers.guardian_process import SessionLost
+    from ..drivers.method_thread import SessionLost
 
     until: float | None = None
     while True:
@@ -233,7 +233,7 @@ def _run(
     """
     import gc
 
-    from ..drivers.guardian_process import SessionLost
+    from ..drivers.method_thread import SessionLost
 
     gc.collect()
     gc.freeze()  # exclude loaded modules, so that collections stay short

@@ -8,12 +8,7 @@ from .options.settings_options import refuse_options
 from .terminal import echo, print_json
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
-
-    from ..drivers.guardian_process import Guardian
-    from ..drivers.joint_robot import JointRobot
     from ..drivers.method_check import AdapterFinding, MethodCheck
-    from ..drivers.velocity_robot import VelocityRobot
     from .connection_settings import ConnectionSettings
 
 SILENCE = 3.0  # of the check before its guardian stops the robot, in [s]
@@ -42,102 +37,47 @@ def check_adapter(connection: "ConnectionSettings", *, as_json: bool) -> None:
         raise click.UsageError(
             f"--check requires --robot FILE.py:CLASS, got {connection.robot!r}"
         )
-    from ..drivers.joint_robot import JointRobot
+    from ..drivers.guardian_process import fork_guardian
+    from ..drivers.joint_check import JointCheck
+    from ..drivers.motors import motors_of
+    from ..drivers.robot import JointRobot
     from ..drivers.robot_loader import load_robot_class
-
-    make = load_robot_class(connection.robot)
+    from ..drivers.velocity_check import VelocityCheck
+    from ..robots.description import load_robot
 
     def note(finding: "AdapterFinding") -> None:
         if not as_json:
             text = finding.text
             echo(f"{finding.verdict:<8} {finding.name:<17} {text}")
 
-    if issubclass(make, JointRobot):
-        check = _joint_check(make, connection, note)
+    make = load_robot_class(connection.robot)
+    robot, dry_run, motors = make(), connection.dry_run, None
+    if isinstance(robot, JointRobot):
+        motors = motors_of(robot, load_robot(connection.description))
+        warning = MOVES.format(round(PER_JOINT * len(motors.names)))
     else:
         refuse_options({"description"}, "a robot that is driven by its joints")
-        check = _velocity_check(make, connection, note)
-    if as_json:
-        found = [each._asdict() for each in check.findings]
-        robot = {"robot": connection.robot, "passes": check.passes}
-        print_json(robot | {"findings": found})
-    if not check.passes:
-        raise SystemExit(1)
-
-
-def _velocity_check(
-    make: "type[VelocityRobot]",
-    connection: "ConnectionSettings",
-    note: "Callable[[AdapterFinding], None]",
-) -> "MethodCheck":
-    """Run the check of a robot that is driven by velocities."""
-    from ..drivers.robot_session import join_halter
-    from ..drivers.velocity_check import VelocityCheck
-
-    def join() -> "Callable[[], None]":
-        robot = make()
-        return join_halter(make, "stop") if robot.keeps_walking else _nothing
-
-    guardian = _guardian(connection, WALKS, join)
-    check = VelocityCheck(
-        make(), note, dry_run=connection.dry_run, guardian=guardian
-    )
-    return _checked(check, guardian)
-
-
-def _joint_check(
-    make: "type[JointRobot]",
-    connection: "ConnectionSettings",
-    note: "Callable[[AdapterFinding], None]",
-) -> "MethodCheck":
-    """Run the check of a robot that is driven by its joints."""
-    from ..drivers.joint_check import JointCheck
-    from ..drivers.joint_robot import motors_of
-    from ..drivers.robot_session import join_halter
-    from ..robots.description import load_robot
-
-    robot = make()
-    motors = motors_of(robot, load_robot(connection.description))
-    warning = MOVES.format(round(PER_JOINT * len(motors.names)))
-
-    def join() -> "Callable[[], None]":
-        holds = robot.keeps_targets and robot.paced
-        return join_halter(make, "release") if holds else _nothing
-
-    guardian = _guardian(connection, warning, join)
-    check = JointCheck(
-        *(robot, motors, note),
-        dry_run=connection.dry_run,
-        guardian=guardian,
-    )
-    return _checked(check, guardian)
-
-
-def _guardian(
-    connection: "ConnectionSettings",
-    warning: str,
-    join: "Callable[[], Callable[[], None]]",
-) -> "Guardian | None":
-    """Print a warning, and fork a guardian if the robot will move."""
-    if connection.dry_run:
-        return None
-    from ..drivers.robot_session import fork_guardian
-
-    echo(f"stepaside: {warning}", err=True)
-    return fork_guardian(join, SILENCE)
-
-
-def _nothing() -> None:
-    """Do nothing: the robot halts by itself."""
-
-
-def _checked(
-    check: "MethodCheck", guardian: "Guardian | None"
-) -> "MethodCheck":
-    """Run a check, and dismiss its guardian."""
+        warning = WALKS
+    guardian = None
+    if not dry_run:
+        echo(f"stepaside: {warning}", err=True)
+        if robot.paced:
+            guardian = fork_guardian(make, robot, SILENCE)
+    check: MethodCheck
+    if isinstance(robot, JointRobot) and motors is not None:
+        check = JointCheck(
+            robot, motors, note, dry_run=dry_run, guardian=guardian
+        )
+    else:
+        check = VelocityCheck(robot, note, dry_run=dry_run, guardian=guardian)
     try:
         check.run()
     finally:
         if guardian is not None:
             guardian.dismiss()
-    return check
+    if as_json:
+        found = [each._asdict() for each in check.findings]
+        summary = {"robot": connection.robot, "passes": check.passes}
+        print_json(summary | {"findings": found})
+    if not check.passes:
+        raise SystemExit(1)

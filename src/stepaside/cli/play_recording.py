@@ -9,8 +9,8 @@ from typing import TYPE_CHECKING
 
 from ..core.atomic_output import free_file, reason_of
 from ..core.errors import OutputError, StepAsideError
-from ..drivers.guardian_process import SessionLost
-from ..drivers.play_log import PlayLog
+from ..drivers.method_thread import SessionLost
+from ..drivers.play_log import PlayLog, PlayTick
 from ..games.configuration_file import dump_configuration, json_settings
 from ..games.duel_settings import EVADER
 from ..games.outcome import Outcome
@@ -19,8 +19,6 @@ from ..games.run_archive import CONFIGURATION, complete_play
 from ..strategies.registry import describe_strategy
 
 if TYPE_CHECKING:
-    from ..drivers.joint_loop import JointTick
-    from ..drivers.velocity_loop import VelocityTick
     from ..games.duel_settings import DuelSettings
     from .connection_settings import ConnectionSettings
 
@@ -61,7 +59,7 @@ class PlayRecord:
         self._ended = ""
         self._failed: OutputError | None = None
 
-    def note(self, tick: "JointTick | VelocityTick") -> None:
+    def note(self, tick: PlayTick) -> None:
         """Record a tick, unless writing has failed before."""
         if self._failed is None:
             try:

@@ -10,22 +10,12 @@ from .connection_settings import ConnectionSettings, with_feedback
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from ..control.scheme import ControlScheme
     from ..drivers.dead_man_switch import DeadManSwitch
-    from ..drivers.guardian_process import Guardian
-    from ..drivers.joint_body import JointBody
     from ..drivers.joint_loop import JointLoop
-    from ..drivers.joint_robot import JointRobot
+    from ..drivers.robot import JointRobot, VelocityRobot
     from ..drivers.robot_session import RobotSession
     from ..drivers.velocity_loop import VelocityLoop
-    from ..drivers.velocity_robot import VelocityRobot
     from ..games.duel_settings import DuelSettings
-    from ..robots.description import RobotDescription
-
-# Methods that halt a robot, and times without control before its guardian
-# acts, in [s].
-RELEASE, STOP = "release", "stop"
-JOINT_SILENCE, VELOCITY_SILENCE = 0.3, 0.5
 
 
 def open_loop(
@@ -40,32 +30,35 @@ def open_loop(
         connection: Connection to the robot.
         make: Function that makes the robot.
     """
-    from ..drivers.joint_robot import JointRobot
+    from ..drivers.robot import JointRobot
 
-    if isinstance(make(), JointRobot):
-        return _open_joints(settings, connection, make)
-    return _open_velocity(settings, connection, make)
+    robot = make()
+    if settings.sensing == "cameras":
+        from .camera_connections import check_camera
+
+        check_camera(robot, connection)
+    if isinstance(robot, JointRobot):
+        return _open_joints(settings, connection, make, robot)
+    return _open_velocity(settings, connection, make, robot)
 
 
 def _open_joints(
     settings: "DuelSettings",
     connection: ConnectionSettings,
     make: "Callable[[], JointRobot]",
+    robot: "JointRobot",
 ) -> "JointLoop":
     """Connect to a robot that is driven by its joints."""
-    from ..drivers.joint_body import JointBody
     from ..drivers.joint_loop import JointLoop
-    from ..drivers.joint_robot import motors_of
-    from ..drivers.scheme_factory import policy_gains
+    from ..drivers.motors import motors_of
+    from ..drivers.scheme_factory import policy_gains, scheme_factory
     from ..locomotion.policy.legs_loader import load_policy
     from ..robots.description import load_robot
-    from .camera_connections import check_camera, open_eyes
+    from .camera_connections import open_camera
 
-    description, robot = load_robot(connection.description), make()
+    description = load_robot(connection.description)
     legs, gains = settings.legs, None
     sees = settings.sensing == "cameras"
-    if sees:
-        check_camera(robot, connection)
     motors = motors_of(robot, description)
     if legs.walks:
         if not robot.takes_gains:
@@ -77,30 +70,24 @@ def _open_joints(
         gains = policy_gains(contract, motors)
     else:
         settings = with_feedback(settings)
-    make_scheme = _scheme_factory(settings, connection, description, robot)
-
-    def open_body(scheme: "ControlScheme") -> "JointBody":
-        session = open_session(connection, make, robot, RELEASE)
-        try:
-            eyes = None
-            if sees:
-                eyes = open_eyes(settings, session.robot, connection)
-            return JointBody(
-                session,
-                motors,
-                scheme.joint_targets,
-                gains=gains,
-                eyes=eyes,
-                needs_forces=not legs.walks,
-                dry_run=connection.dry_run,
-            )
-        except BaseException:
-            session.close(halts=False)
-            raise
-
-    strategy = connection.strategy(settings)
     return JointLoop(
-        open_body, strategy, make_scheme, dry_run=connection.dry_run
+        lambda: open_session(connection, make, robot),
+        motors,
+        connection.strategy(settings),
+        scheme_factory(
+            description,
+            settings.gait,
+            legs if legs.walks else settings.control,
+            tick=robot.tick,
+            delay_ticks=connection.delay_ticks,
+            sees_as=connection.role if sees else None,
+        ),
+        gains=gains,
+        open_eyes=(lambda opened: open_camera(settings, opened, connection))
+        if sees
+        else None,
+        needs_forces=not legs.walks,
+        dry_run=connection.dry_run,
     )
 
 
@@ -108,27 +95,24 @@ def _open_velocity(
     settings: "DuelSettings",
     connection: ConnectionSettings,
     make: "Callable[[], VelocityRobot]",
+    robot: "VelocityRobot",
 ) -> "VelocityLoop":
     """Connect to a robot with its own walking controller."""
     from ..drivers.robot_session import PREPARE_TIMEOUT
     from ..drivers.velocity_loop import TemplateController, VelocityLoop
-    from ..drivers.watchdog import WatchSettings
-    from .camera_connections import check_camera, open_camera_sight
+    from .camera_connections import open_camera_sight
 
-    robot, sees = make(), settings.sensing == "cameras"
-    if sees:
-        check_camera(robot, connection)
     strategy = connection.strategy(settings)
     limits = robot.limits.within(
         connection.max_speed or inf, connection.max_turn or inf
     )
     paced = robot.paced and not connection.sim_time
-    session = open_session(connection, make, robot, STOP, paced=paced)
+    session = open_session(connection, make, robot, paced=paced)
     try:
         if not connection.dry_run:
             session.run("prepare", PREPARE_TIMEOUT)
         eyes = None
-        if sees:
+        if settings.sensing == "cameras":
             eyes = open_camera_sight(settings, session, connection)
         in_python = connection.in_python
         return VelocityLoop(
@@ -137,10 +121,8 @@ def _open_velocity(
                 strategy, settings.gait, limits.velocities
             ),
             limits,
-            WatchSettings(
-                paced=paced,
-                source="reports of listen()" if in_python else "odometry",
-            ),
+            paced=paced,
+            source="reports of listen()" if in_python else "odometry",
             eyes=eyes,
         )
     except BaseException:
@@ -152,7 +134,6 @@ def open_session(
     connection: ConnectionSettings,
     make: "Callable[[], Any]",
     robot: Any,
-    halting: str,
     *,
     paced: bool = True,
 ) -> "RobotSession":
@@ -162,18 +143,18 @@ def open_session(
         connection: Connection to the robot.
         make: Function that makes the robot.
         robot: The robot, not connected; used if it has one client only.
-        halting: Its method that stops or releases it.
         paced: Whether its clock runs in real time.
     """
-    from ..drivers.guardian_process import open_with_retries
+    from ..drivers.guardian_process import fork_guardian
+    from ..drivers.method_thread import open_with_retries
     from ..drivers.robot_session import RobotSession, opened_here
 
-    shares = getattr(robot, "shares_connection", False)
+    shares = robot.shares_connection
     if shares:
         open_with_retries(lambda: opened_here(robot), connection.wait)
     guardian = None
     if not connection.dry_run and robot.paced and paced:
-        guardian = _guardian_of(make, robot, halting)
+        guardian = fork_guardian(make, robot)
     try:
         switch = None
         if connection.dead_man is not None:
@@ -181,7 +162,6 @@ def open_session(
         return open_with_retries(
             lambda: RobotSession(
                 robot if shares else make(),
-                halting,
                 opened=shares,
                 guardian=guardian,
                 switch=switch,
@@ -193,27 +173,6 @@ def open_session(
         if guardian is not None:
             guardian.dismiss()
         raise
-
-
-def _guardian_of(
-    make: "Callable[[], Any]", robot: Any, halting: str
-) -> "Guardian | None":
-    """Fork the guardian of a robot, before connecting starts threads."""
-    from ..drivers.guardian_process import Guardian
-    from ..drivers.robot_session import fork_guardian, join_halter
-
-    if halting == STOP:
-        if robot.keeps_walking:
-            return fork_guardian(
-                lambda: join_halter(make, halting), VELOCITY_SILENCE
-            )
-        # It stops by itself when the guardian has ended a frozen control.
-        return fork_guardian(lambda: lambda: None, VELOCITY_SILENCE)
-    if not robot.keeps_targets:
-        return None
-    if robot.shares_connection:
-        return Guardian(lambda _: robot.release(), JOINT_SILENCE)
-    return fork_guardian(lambda: join_halter(make, halting), JOINT_SILENCE)
 
 
 def open_switch(name: str, connection: ConnectionSettings) -> "DeadManSwitch":
@@ -231,31 +190,3 @@ def open_switch(name: str, connection: ConnectionSettings) -> "DeadManSwitch":
     from ..drivers.ros2_dds import parse_namespace
 
     return TopicSwitch(connection.join_domain(), parse_namespace(name))
-
-
-def _scheme_factory(
-    settings: "DuelSettings",
-    connection: ConnectionSettings,
-    description: "RobotDescription",
-    robot: "JointRobot",
-) -> "Callable[..., ControlScheme]":
-    """Return the factory of the controller, with or without learned legs."""
-    from ..drivers.scheme_factory import (
-        control_scheme_factory,
-        policy_scheme_factory,
-    )
-
-    gait = settings.gait
-    sees_as = connection.role if settings.sensing == "cameras" else None
-    if settings.legs.walks:
-        return policy_scheme_factory(
-            description, settings.legs, gait, tick=robot.tick, sees_as=sees_as
-        )
-    return control_scheme_factory(
-        description,
-        gait,
-        settings.control,
-        tick=robot.tick,
-        delay_ticks=connection.delay_ticks,
-        sees_as=sees_as,
-    )

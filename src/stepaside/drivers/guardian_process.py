@@ -7,61 +7,21 @@ guardian kills it, so that only one process commands the robot, and then
 releases the robot itself.
 """
 
-import logging
 import os
 import select
 import signal
 import socket
 from collections.abc import Callable
 from contextlib import suppress
-from time import monotonic, sleep
-from typing import TypeVar
+from typing import Any
 
 from ..core.errors import StepAsideError
+from .method_thread import CLOSE_TIMEOUT, MethodThread
+from .robot import JointRobot
 
-log = logging.getLogger(__name__)
-
-Opened = TypeVar("Opened")
-PAUSE = 0.1  # between two attempts to connect, in [s]
-
-
-class SessionLost(StepAsideError, ConnectionError):
-    """The connection to the robot failed or its data cannot be trusted."""
-
-
-def open_with_retries(
-    open_robot: Callable[[], Opened], patience: float
-) -> Opened:
-    """Connect to a robot, retrying until a timeout.
-
-    Args:
-        open_robot: Function that connects, or raises SessionLost.
-        patience: Timeout, in [s]; 0 tries once.
-
-    Returns:
-        Result of ``open_robot``.
-
-    Raises:
-        SessionLost: If the last attempt fails.
-    """
-    deadline = monotonic() + patience
-    is_logged = False
-    while True:
-        try:
-            return open_robot()
-        except SessionLost as error:
-            if monotonic() >= deadline:
-                raise
-            if not is_logged:
-                log.info("%s; retrying for up to %g s", error, patience)
-                is_logged = True
-            sleep(PAUSE)
-
-
-# First byte of a message.
 DISMISS, SAFE, UNSAFE, RELEASE = b"\x00", b"\x01", b"\x02", b"\x03"
-MAX_MESSAGE = 4096  # size of a message, in bytes
 TERMINATION_SIGNALS = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
+JOINT_SILENCE, VELOCITY_SILENCE = 0.3, 0.5  # without control, in [s]
 
 
 class Guardian:
@@ -72,21 +32,17 @@ class Guardian:
     """
 
     def __init__(
-        self,
-        let_go: Callable[[bytes], None],
-        silence: float,
-        *,
-        prepare: Callable[[], None] | None = None,
+        self, join: Callable[[], Callable[[], None]], silence: float
     ) -> None:
         """Fork the guardian, which watches until it is dismissed.
 
         Args:
-            let_go: Function that releases the robot, given the data of the
-                last call of :meth:`hold`. Called in the guardian process.
+            join: Function that connects to the robot and returns a function
+                that halts it. Called in the guardian process at once, as
+                connecting takes longer than halting the robot; called again,
+                if it failed at first, when the robot is to be halted.
             silence: Time without a message from control after which the
                 guardian acts, in [s].
-            prepare: Function called once when the guardian process starts,
-                so that ``let_go`` needs less time.
         """
         near, far = socket.socketpair(socket.AF_UNIX, socket.SOCK_SEQPACKET)
         parent = os.getpid()
@@ -98,11 +54,11 @@ class Guardian:
                 # Control handles these, and dismisses the guardian.
                 for number in TERMINATION_SIGNALS:
                     signal.signal(number, signal.SIG_IGN)
-                if prepare is not None:
-                    prepare()
-                data = _watch(far, parent, silence)
-                if data is not None:
-                    let_go(data)
+                halt = None
+                with suppress(StepAsideError):
+                    halt = join()
+                if _must_halt(far, parent, silence):
+                    (halt or join())()
                 code = 0
             finally:
                 os._exit(code)
@@ -110,25 +66,17 @@ class Guardian:
         near.setblocking(False)
         self._socket: socket.socket | None = near
 
-    def hold(self, data: bytes = b"") -> None:
-        """Report that the robot must be released if control ends now.
-
-        Args:
-            data: Argument of ``let_go`` in that case.
-        """
-        self._send(UNSAFE + data)
+    def hold(self) -> None:
+        """Report that the robot must be released if control ends now."""
+        self._send(UNSAFE)
 
     def leave(self) -> None:
         """Report that the robot is safe without control, until ``hold``."""
         self._send(SAFE)
 
-    def release(self, data: bytes = b"") -> None:
-        """Have the guardian release the robot now, and wait until it has.
-
-        Args:
-            data: Argument of ``let_go``.
-        """
-        self._end(RELEASE + data)
+    def release(self) -> None:
+        """Have the guardian release the robot now, and wait until it has."""
+        self._end(RELEASE)
 
     def dismiss(self) -> None:
         """End the guardian process; the robot is not released."""
@@ -150,9 +98,7 @@ class Guardian:
                 self._socket.send(message)
 
 
-def _watch(
-    messages: socket.socket, control: int, silence: float
-) -> bytes | None:
+def _must_halt(messages: socket.socket, control: int, silence: float) -> bool:
     """Wait for dismissal, or for silence while the robot is not safe.
 
     Args:
@@ -161,21 +107,62 @@ def _watch(
         silence: Time after which control counts as frozen, in [s].
 
     Returns:
-        Data of the last ``hold`` if the robot must be released, else None.
+        Whether the robot must be halted.
     """
-    held: bytes | None = None
+    held = False
     while True:
-        timeout = None if held is None else silence
+        timeout = silence if held else None
         ready, _, _ = select.select([messages], [], [], timeout)
-        message = messages.recv(MAX_MESSAGE) if ready else b""
-        kind = message[:1]
-        if kind == DISMISS or (ready and not message and held is None):
-            return None
-        if kind == RELEASE:
-            return message[1:]
+        message = messages.recv(1) if ready else b""
+        if message == DISMISS or (ready and not message and not held):
+            return False
+        if message == RELEASE:
+            return True
         if not message:
             break
-        held = message[1:] if kind == UNSAFE else None
+        held = message == UNSAFE
     if os.getppid() == control:
         os.kill(control, signal.SIGKILL)
-    return held
+    return True
+
+
+def fork_guardian(
+    make: Callable[[], Any], robot: Any, silence: float | None = None
+) -> Guardian | None:
+    """Fork the guardian of a robot, before connecting starts threads.
+
+    Args:
+        make: Function that makes the robot.
+        robot: The robot; connected if it has one client only.
+        silence: Time without control before the guardian acts, in [s].
+
+    Returns:
+        The guardian; None for a robot whose joints need none.
+    """
+    joints = isinstance(robot, JointRobot)
+    silence = silence or (JOINT_SILENCE if joints else VELOCITY_SILENCE)
+    if robot.shares_connection:
+        return Guardian(lambda: robot.release, silence)
+    if robot.keeps_targets if joints else robot.keeps_walking:
+        return Guardian(lambda: join_halter(make), silence)
+    if joints:
+        return None
+    # It stops by itself when the guardian has ended a frozen control.
+    return Guardian(lambda: lambda: None, silence)
+
+
+def join_halter(make: Callable[[], Any]) -> Callable[[], None]:
+    """Connect to a robot in advance, and return a function that halts it.
+
+    Raises:
+        SessionLost: If the robot does not answer.
+    """
+    methods = MethodThread(make())
+    methods.open()
+    halting = halting_method(methods.robot)
+    return lambda: methods.run(halting, CLOSE_TIMEOUT)
+
+
+def halting_method(robot: Any) -> str:
+    """Return the name of the method that stops or releases a robot."""
+    return "release" if isinstance(robot, JointRobot) else "stop"

@@ -3,53 +3,37 @@
 from collections.abc import Callable
 from functools import partial
 from math import atan2, hypot
-from time import monotonic, sleep
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 
 from ..core.poses import Array
 from ..perception.measurement import RobotState
-from .guardian_process import Guardian, SessionLost
-from .joint_body import OLDEST, in_order, joint_fault
-from .joint_robot import JointRobot, JointTargets, Motors
+from .joint_loop import SILENCE
 from .method_check import (
     FAILED,
-    PASSED,
+    RATIOS,
+    UNATTENDED,
     UNKNOWN,
     AdapterFinding,
     MethodCheck,
     TimedReport,
 )
-from .robot_session import POLL, joint_state
+from .method_thread import SessionLost
+from .motors import Motors
+from .robot import JointRobot, JointTargets
+from .robot_reports import in_order, joint_fault
 
 WATCHING = 2.0  # duration of the first part, without commands, in [s]
-SILENCE = 0.1  # without a report before play releases the robot, in [s]
 RATE = 0.8  # share of the robot's ticks that must bring a report
 HOLDING = 1.0  # of the posture, before joints move, in [s]
 AMPLITUDE = 0.1  # of the motion of a joint, in [rad]
 RISE, HOLD = 0.4, 0.4  # durations of that motion, in [s]
 END = 0.15  # of the hold, over which the angle is measured, in [s]
-UNATTENDED = 1.5  # without commands, to see what the robot does, in [s]
 STILL = 0.2  # share of the amplitude that counts as no motion
-RATIOS = (0.3, 2.0)  # measured over commanded motion that is plausible
 GRAVITY_RANGE = (8.0, 11.5)  # of the accelerometer at rest, in [m/s^2]
 TILT_ERROR = 0.2  # between tilt and accelerometer at rest, in [rad]
 SWING = 0.02  # rate of the tilt that shows the sign of a gyro, in [rad/s]
-
-
-class JointMotion(NamedTuple):
-    """Measured motion of one joint.
-
-    Attributes:
-        times: Times since its begin, in [s]. Shape (n,).
-        angles: Angles of all joints, in [rad]. Shape (n, joints).
-        velocities: Velocities of all joints, in [rad/s]. Shape (n, joints).
-    """
-
-    times: Array
-    angles: Array
-    velocities: Array
 
 
 class JointCheck(MethodCheck):
@@ -59,7 +43,6 @@ class JointCheck(MethodCheck):
     moves by 0.1 rad and back.
     """
 
-    halting = "release"
     halts_always = False
 
     def __init__(
@@ -67,11 +50,7 @@ class JointCheck(MethodCheck):
         robot: JointRobot,
         motors: Motors,
         note: Callable[[AdapterFinding], None],
-        *,
-        dry_run: bool = False,
-        guardian: Guardian | None = None,
-        clock: Callable[[], float] = monotonic,
-        pause: Callable[[float], None] = sleep,
+        **options: Any,
     ) -> None:
         """Begin without results; see :class:`MethodCheck`.
 
@@ -80,38 +59,24 @@ class JointCheck(MethodCheck):
             motors: Joints of its description, with gains that hold a
                 posture.
             note: Function called with each result.
-            dry_run: Whether nothing is commanded.
-            guardian: Guardian that releases the robot if the check dies.
-            clock: Time of this computer, in [s].
-            pause: Function that waits for a time, in [s].
+            options: As of :class:`MethodCheck`.
         """
-        super().__init__(
-            robot,
-            note,
-            dry_run=dry_run,
-            guardian=guardian,
-            clock=clock,
-            pause=pause,
-        )
+        super().__init__(robot, note, **options)
         self._motors = motors
         self._reports: list[RobotState] = []
         self._lags: list[float] = []
 
     def _check(self) -> None:
-        tick = self._methods.robot.tick
         still = self._watch(WATCHING)
-        arrivals = [each.arrived for each in still]
-        self._check_rate(arrivals, WATCHING, SILENCE)
-        if len(still) < 2:
+        if not self._check_reports(still, WATCHING, SILENCE):
             return
-        self._check_ticks(arrivals, tick)
+        self._check_ticks([each.arrived for each in still])
         reports = [each.report for each in still]
-        self._check_clock([report.time for report in reports], arrivals)
         if not self.passes or not self._check_values(reports):
             return  # nothing is commanded by such reports
         self._check_imu(reports)
         self._check_feet(reports[-1])
-        self._check_sighting(reports, OLDEST)
+        self._check_sighting(still)
         if not self._dry_run:
             self._move(reports[-1].joint_positions)
         self._check_durations(SILENCE)
@@ -137,15 +102,13 @@ class JointCheck(MethodCheck):
         end = self._clock() + HOLDING
         off = np.zeros(len(self._motors.names))
         while self._clock() < end and np.abs(off).max() < AMPLITUDE:
-            for report, _ in self._watch(
-                self._methods.robot.tick, lambda t: begin
-            ):
+            for report, _ in self._watch(self._robot.tick, lambda t: begin):
                 off = report.joint_positions - begin
         most = int(np.abs(off).argmax())
         away = float(off[most])
         if abs(away) < AMPLITUDE:
             text = f"stays within {abs(away):.3f} rad of its posture"
-            self._add("hold", PASSED, text, away, "rad")
+            self._add("hold", True, text, away, "rad")
             return True
         self._add(
             "hold",
@@ -163,7 +126,7 @@ class JointCheck(MethodCheck):
         duration: float,
         targets: Callable[[float], Array] | None = None,
     ) -> list[TimedReport]:
-        """Collect new reports, with a command after each.
+        """Collect new reports in the order of the motors.
 
         Args:
             duration: How long, in [s].
@@ -173,44 +136,40 @@ class JointCheck(MethodCheck):
         Raises:
             SessionLost: If a robot that was commanded falls silent.
         """
-        name = self._methods.name_of("listen")
-        robot = self._methods.robot
-        found: list[TimedReport] = []
-        began = self._clock()
-        while (passed := self._clock() - began) < duration:
-            if targets is not None:
-                command = self._command(targets(passed))
-                self._call("command", partial(robot.command, command))
-            got = self._call("listen")
-            if got is None:
-                self._pause(POLL)
-                continue
-            report = joint_state(got, name, len(robot.joints))
-            report = in_order(report, self._motors.order)
-            if found and report.time == found[-1].report.time:
-                self._pause(POLL)
-                continue
-            found.append(TimedReport(report, self._clock()))
-            if targets is not None:
-                self._reports.append(report)
-                self._pause(0.5 * robot.tick)
+        order, command = self._motors.order, None
+        if targets is not None:
+
+            def command(passed: float) -> Callable[[], None]:
+                return self._command(targets(passed))
+
+        found = [
+            TimedReport(in_order(report, order), arrived)
+            for report, arrived in self._collect(duration, command)
+        ]
+        if targets is not None:
+            self._reports += [report for report, _ in found]
         if not found and self._has_moved and duration > SILENCE:
+            name = self._methods.name_of("listen")
             raise SessionLost(f"{name} returned no new report")
         return found
 
-    def _command(self, angles: Array) -> JointTargets:
-        motors = self._motors
-        rows = np.zeros((3, len(self._methods.robot.joints)))
-        rows[:, motors.order] = angles, motors.stiffness, motors.damping
-        return JointTargets(*rows)
+    def _rest(self, arrived: float, *, commanded: bool) -> float:
+        return 0.5 * self._robot.tick if commanded else 0.0
 
-    def _check_ticks(self, arrivals: list[float], tick: float) -> None:
+    def _command(self, angles: Array) -> Callable[[], None]:
+        motors, robot = self._motors, self._robot
+        rows = np.zeros((3, len(robot.joints)))
+        rows[:, motors.order] = angles, motors.stiffness, motors.damping
+        return partial(robot.command, JointTargets(*rows))
+
+    def _check_ticks(self, arrivals: list[float]) -> None:
+        tick = self._robot.tick
         rate = (len(arrivals) - 1) / (arrivals[-1] - arrivals[0])
         text = f"{rate:.0f} reports per second for {1.0 / tick:.0f} ticks"
-        verdict = PASSED if rate * tick >= RATE else FAILED
-        if verdict == FAILED:
+        good = rate * tick >= RATE
+        if not good:
             text += ": one in each tick is needed"
-        self._add("tick", verdict, text, rate, "Hz")
+        self._add("tick", good, text, rate, "Hz")
 
     def _check_values(self, reports: list[RobotState]) -> bool:
         """Check all values of the robot at rest; return whether they fit."""
@@ -222,7 +181,7 @@ class JointCheck(MethodCheck):
         fastest, count = float(np.abs(rates).max()), len(self._motors.names)
         text = f"{count} joints in their ranges, the fastest "
         text += f"at {fastest:.2f} rad/s"
-        self._add("values", PASSED, text, fastest, "rad/s")
+        self._add("values", True, text, fastest, "rad/s")
         return True
 
     def _check_imu(self, reports: list[RobotState]) -> None:
@@ -233,22 +192,19 @@ class JointCheck(MethodCheck):
         size = hypot(x, y, z)
         low, high = GRAVITY_RANGE
         text = f"({x:.1f}, {y:.1f}, {z:.1f}) m/s^2 at rest"
-        verdict = PASSED
-        if not low <= size <= high:
-            verdict, text = FAILED, f"{text}: is it in [m/s^2]?"
+        if not (known := low <= size <= high):
+            text += ": is it in [m/s^2]?"
         elif z < 0.0:
-            verdict = FAILED
             text += ": an upright robot must read +9.8 along z"
-        self._add("accelerometer", verdict, text, size, "m/s^2")
+        self._add("accelerometer", known and z >= 0.0, text, size, "m/s^2")
         error = max(
             abs(atan2(y, z) - roll), abs(atan2(-x, hypot(y, z)) - pitch)
         )
         text = f"roll {roll:+.2f}, pitch {pitch:+.2f} rad, {error:.2f} rad "
         text += "from the accelerometer"
-        verdict = PASSED if error <= TILT_ERROR else FAILED
-        if verdict == FAILED:
+        if error > TILT_ERROR:
             text += ": a sign, order or unit is wrong"
-        self._add("tilt", verdict, text, error, "rad")
+        self._add("tilt", error <= TILT_ERROR, text, error, "rad")
 
     def _check_feet(self, report: RobotState) -> None:
         if np.isnan(report.foot_forces).all():
@@ -257,7 +213,7 @@ class JointCheck(MethodCheck):
             return
         load = float(np.sum(report.foot_forces))
         text = f"{load:.0f} N together"
-        self._add("foot forces", PASSED, text, load, "N")
+        self._add("foot forces", True, text, load, "N")
 
     def _check_joint(self, number: int, begin: Array) -> bool:
         """Move a joint and back; return whether it follows."""
@@ -272,31 +228,39 @@ class JointCheck(MethodCheck):
             return angles
 
         reports = self._watch(RISE + HOLD, targets)
-        motion = self._motion(reports)
         self._watch(RISE, lambda t: targets(RISE - t))
-        fault = self._fault_of(motion, number, begin, size)
+        times = np.array([r.report.time for r in reports])
+        times -= times[0]
+        angles = np.array([r.report.joint_positions for r in reports])
+        rates: Any = [r.report.joint_velocities for r in reports]
+        turned = float(np.array(rates)[1:, number] @ np.diff(times))
+        moved = angles - begin
+        fault = self._fault_of(times, moved, turned, number, size)
         if fault:
             self._add(name, FAILED, fault)
             return False
-        half = begin[number] + 0.5 * size
-        passed = (motion.angles[:, number] - half) * size >= 0.0
-        self._lags.append(float(motion.times[passed.argmax()]) - 0.5 * RISE)
+        passed = (moved[:, number] - 0.5 * size) * size >= 0.0
+        self._lags.append(float(times[passed.argmax()]) - 0.5 * RISE)
         return True
 
-    def _motion(self, reports: list[TimedReport]) -> JointMotion:
-        times = np.array([r.report.time for r in reports])
-        return JointMotion(
-            times - times[0],
-            np.array([r.report.joint_positions for r in reports]),
-            np.array([r.report.joint_velocities for r in reports]),
-        )
-
     def _fault_of(
-        self, motion: JointMotion, number: int, begin: Array, size: float
+        self,
+        times: Array,
+        motion: Array,
+        turned: float,
+        number: int,
+        size: float,
     ) -> str:
-        """Return why the motion of a joint is wrong; empty if it fits."""
-        late = motion.times >= motion.times[-1] - END
-        moved = motion.angles[late].mean(axis=0) - begin
+        """Return why the motion of a joint is wrong; empty if it fits.
+
+        Args:
+            times: Times since its begin, in [s]. Shape (n,).
+            motion: Motion of all joints, in [rad]. Shape (n, joints).
+            turned: Integral of the joint's velocity, in [rad].
+            number: Index of the joint.
+            size: Commanded motion, in [rad].
+        """
+        moved = motion[times >= times[-1] - END].mean(axis=0)
         own = float(moved[number] / size)
         text = f"commanded {size:+.2f} rad, moved by {moved[number]:+.2f} rad"
         most = int(np.abs(moved).argmax())
@@ -309,9 +273,7 @@ class JointCheck(MethodCheck):
         low, high = RATIOS
         if not low <= own <= high:
             return f"{text}: is a unit wrong, or a gain too low?"
-        steps = np.diff(motion.times)
-        turned = float(motion.velocities[1:, number] @ steps)
-        whole = float(motion.angles[-1, number] - motion.angles[0, number])
+        whole = float(motion[-1, number] - motion[0, number])
         if not low <= turned / whole <= high:
             return (
                 f"its velocities add up to {turned:+.2f} rad for a motion of "
@@ -321,17 +283,16 @@ class JointCheck(MethodCheck):
 
     def _conclude(self, moved: int) -> None:
         count = len(self._motors.names)
-        verdict = PASSED if moved == count else FAILED
         text = f"{moved} of {count} joints follow their targets"
         lag = None
         if self._lags:
             lag = float(np.median(self._lags))
             text += f", after {1e3 * lag:.0f} ms"
-        self._add("joints", verdict, text, lag, "s")
+        self._add("joints", moved == count, text, lag, "s")
 
     def _check_silence(self, begin: Array) -> None:
         """Check whether the robot holds its targets when commands cease."""
-        robot, name = self._methods.robot, "without commands"
+        robot, name = self._robot, "without commands"
         shifted = begin.copy()
         room = np.minimum(begin - self._motors.low, self._motors.high - begin)
         number = int(room.argmax())
@@ -355,7 +316,7 @@ class JointCheck(MethodCheck):
         if not holds and robot.keeps_targets:
             hint = "; keeps_targets may be False"
         self._add(
-            name, PASSED, f"{text} after {UNATTENDED:g} s{hint}", change, "rad"
+            name, True, f"{text} after {UNATTENDED:g} s{hint}", change, "rad"
         )
 
     def _check_gyro(self) -> None:
@@ -376,8 +337,8 @@ class JointCheck(MethodCheck):
             slope = float(gyros[:, axis] @ rates[:, axis])
             slope /= float(rates[:, axis] @ rates[:, axis])
             low, high = RATIOS
-            verdict = PASSED if low <= slope <= high else FAILED
+            good = low <= slope <= high
             text = f"{slope:.2f} times the rate of the tilt"
-            if verdict == FAILED:
+            if not good:
                 text += ": is a sign, an axis or a unit wrong?"
-            self._add(f"gyro {name}", verdict, text, slope, "1")
+            self._add(f"gyro {name}", good, text, slope, "1")

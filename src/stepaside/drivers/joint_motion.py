@@ -3,72 +3,18 @@
 from collections.abc import Mapping
 
 import numpy as np
-from numpy.typing import NDArray
 
 from ..core.poses import Array
 from ..perception.measurement import RobotState, RobotStatus
-from .joint_robot import Motors
-from .safety_states import SafetyState
+from .motors import Motors
+from .safety import SafetyState
 
 MARGIN = 0.01  # distance from the ends of each range, in [rad]
 WARM, HOT = 70.0, 85.0  # range of the reduction, in [degC]; an assumption
 MIN_STIFFNESS = 0.5  # fraction of the stiffness that a hot joint keeps
 POSTURE_SPEED = 0.5  # of each joint in motions to a posture, in [rad/s]
-
-
-class TargetLimiter:
-    """Limiter of joint targets to range and speed.
-
-    Attributes:
-        target: Newest targets, in [rad]. Shape (motors,).
-    """
-
-    def __init__(self, start: Array, motors: Motors, tick: float) -> None:
-        """Start at measured angles, so that no joint jumps.
-
-        Args:
-            start: Measured angles, in [rad]. Shape (motors,).
-            motors: Motors, with their ranges and speeds.
-            tick: Time from one target to the next, in [s].
-        """
-        self.target = np.array(start, dtype=np.float64)
-        self._motors, self._tick = motors, tick
-
-    def toward(self, wanted: Array, speed: float | None = None) -> Array:
-        """Move the targets toward wanted ones within the speed limits.
-
-        A joint that was measured outside its range returns into it.
-
-        Args:
-            wanted: Wanted targets, in [rad]; NaN and inf are ignored.
-            speed: Additional speed limit of all joints, in [rad/s]; only
-                that of each motor by default.
-
-        Returns:
-            New targets, in [rad]. Shape (motors,).
-        """
-        goal = np.where(np.isfinite(wanted), wanted, self.target)
-        motors = self._motors
-        goal = np.clip(goal, motors.low + MARGIN, motors.high - MARGIN)
-        limit = (
-            motors.speed if speed is None else np.minimum(motors.speed, speed)
-        )
-        reach = limit * self._tick
-        step = np.clip(goal - self.target, -reach, reach)
-        self.target = self.target + step
-        return self.target
-
-    def follow(self, wanted: Array) -> Array:
-        """Set the targets without limits, for soft joints.
-
-        Args:
-            wanted: Wanted targets, in [rad]; NaN and inf are ignored.
-
-        Returns:
-            New targets, in [rad]. Shape (motors,).
-        """
-        self.target = np.where(np.isfinite(wanted), wanted, self.target)
-        return self.target
+RISE, FADE = 1.0, 0.5  # of stiffness, from none to full and back, in [s]
+AWAY = 0.2  # of a leg's joint from a posture that is reached, in [rad]
 
 
 def derate_stiffness(stiffness: Array, status: RobotStatus) -> Array:
@@ -79,49 +25,12 @@ def derate_stiffness(stiffness: Array, status: RobotStatus) -> Array:
     return stiffness * factor
 
 
-class StiffnessRamp:
-    """Rate limiter of stiffness.
-
-    Attributes:
-        share: Stiffness now, from 0 to 1.
-    """
-
-    def __init__(self, tick: float, rise: float = 1.0, fall: float = 0.5):
-        """Start limp.
-
-        Args:
-            tick: Time from one value to the next, in [s].
-            rise: Time from limp to stiff, in [s].
-            fall: Time from stiff to limp, in [s].
-        """
-        self.share = 0.0
-        self._up, self._down = tick / rise, tick / fall
-
-    def toward(self, wanted: float) -> float:
-        """Move toward a stiffness, and return the present one."""
-        change = min(max(wanted - self.share, -self._down), self._up)
-        self.share = min(max(self.share + change, 0.0), 1.0)
-        return self.share
-
-    def limit(self, share: float) -> None:
-        """Limit the stiffness now, from 0 to 1; it may rise again."""
-        self.share = min(self.share, share)
-
-
-def posture_reached(
-    targets: Array, goal: Array, measured: Array, legs: NDArray[np.intp]
-) -> bool:
-    """Return whether targets and leg joints have reached a posture."""
-    arrived = bool(np.all(np.abs(targets - goal) < 2.0 * MARGIN))
-    off = np.abs(measured[legs] - goal[legs])
-    return arrived and bool(np.all(off < 0.2))
-
-
-class JointMotionState:
+class JointMotion:
     """Generator of joint targets and stiffness for the robot's state.
 
     Attributes:
         targets: Newest joint targets, in [rad]. Shape (motors,).
+        share: Stiffness now, from 0 to 1.
     """
 
     def __init__(
@@ -157,9 +66,11 @@ class JointMotionState:
             SafetyState.READY: stance,
             SafetyState.RESTING: np.array(rest),
         }
-        self._limiter: TargetLimiter | None = None
-        rise, fall = (tick, tick) if at_once else (1.0, 0.5)
-        self._ramp = StiffnessRamp(tick, rise, fall)
+        self._up, self._down = (
+            (1.0, 1.0) if at_once else (tick / RISE, tick / FADE)
+        )
+        self._is_measured = False  # whether targets began at the angles
+        self.share = 0.0
         self.targets: Array = np.zeros(len(motors.names))
 
     def reached(self, state: SafetyState, measured: Array) -> bool:
@@ -172,15 +83,16 @@ class JointMotionState:
         """
         if state not in (SafetyState.REACHING, SafetyState.RESTING):
             return False
-        if state is SafetyState.REACHING and self._ramp.share < 1.0:
+        if state is SafetyState.REACHING and self.share < 1.0:
             return False
-        return posture_reached(
-            self.targets, self._goals[state], measured, self._motors.legs
-        )
+        goal, legs = self._goals[state], self._motors.legs
+        arrived = np.abs(self.targets - goal).max() < 2.0 * MARGIN
+        off = np.abs(measured[legs] - goal[legs])
+        return bool(arrived and np.all(off < AWAY))
 
     def weaken(self, share: float) -> None:
-        """Limit the stiffness to a value that the robot reports."""
-        self._ramp.limit(share)
+        """Limit the stiffness now, from 0 to 1; it may rise again."""
+        self.share = min(self.share, share)
 
     def move(
         self, state: SafetyState, report: RobotState, wanted: Array
@@ -190,41 +102,44 @@ class JointMotionState:
         Args:
             state: State of the robot.
             report: Newest report.
-            wanted: Joint targets of control, in [rad]. Shape (motors,).
+            wanted: Joint targets of control, in [rad]; NaN and inf are
+                ignored. Shape (motors,).
 
         Returns:
             Targets, in [rad], and stiffness. Shapes (motors,).
         """
-        limiter = self._limiter
-        if limiter is None or (
-            state is SafetyState.LIMP and self._ramp.share == 0
-        ):
+        limp = state is SafetyState.LIMP
+        if not self._is_measured or (limp and self.share == 0.0):
             # Stiffness rises at the measured angles, so that nothing jumps.
-            limiter = self._limiter = TargetLimiter(
-                report.joint_positions, self._motors, self._tick
-            )
-            self.targets = limiter.target
+            self._is_measured = True
+            self.targets = report.joint_positions
         if state.moves_by_control:
-            self.targets = (
-                limiter.follow(wanted)
-                if self._soft
-                else limiter.toward(wanted)
-            )
-        elif state is not SafetyState.LIMP:
-            self.targets = limiter.toward(self._goals[state], POSTURE_SPEED)
-        share = self._ramp.toward(0.0 if state is SafetyState.LIMP else 1.0)
-        stiffness = np.full(len(self._motors.names), share)
+            wanted = np.where(np.isfinite(wanted), wanted, self.targets)
+            self.targets = wanted if self._soft else self._toward(wanted)
+        elif not limp:
+            self.targets = self._toward(self._goals[state], POSTURE_SPEED)
+        stiffness = np.full(len(self.targets), self._ramp(not limp))
         if report.status is not None:
             stiffness = derate_stiffness(stiffness, report.status)
         return self.targets, stiffness
 
     def fade(self) -> tuple[Array, Array]:
         """Return held targets, and stiffness lower by one tick."""
-        return self.targets, np.full(
-            len(self._motors.names), self._ramp.toward(0.0)
-        )
+        return self.targets, np.full(len(self.targets), self._ramp(False))
 
-    @property
-    def is_limp(self) -> bool:
-        """Whether the stiffness is zero."""
-        return self._ramp.share == 0.0
+    def _toward(self, goal: Array, most: float = np.inf) -> Array:
+        """Return targets nearer to a goal, in range and speed of the motors.
+
+        A joint that was measured outside its range returns into it.
+        """
+        motors = self._motors
+        goal = np.clip(goal, motors.low + MARGIN, motors.high - MARGIN)
+        reach = np.minimum(motors.speed, most) * self._tick
+        return self.targets + np.clip(goal - self.targets, -reach, reach)
+
+    def _ramp(self, stiff: bool) -> float:
+        """Move the stiffness by one tick, and return it."""
+        wanted = 1.0 if stiff else 0.0
+        change = min(max(wanted - self.share, -self._down), self._up)
+        self.share = min(max(self.share + change, 0.0), 1.0)
+        return self.share

@@ -22,9 +22,9 @@ from ..core.errors import ConfigurationError
 from ..core.poses import Array
 from ..perception.images import SonarEcho
 from ..perception.measurement import RobotState, RobotStatus, Sighting
-from .joint_robot import JointRobot, JointTargets
-from .robot_address import RobotRequest
-from .safety_states import SafetyState
+from .robot import JointRobot, JointTargets
+from .robot_loader import RobotRequest
+from .safety import SafetyState
 
 try:
     import msgpack

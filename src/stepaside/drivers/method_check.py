@@ -6,18 +6,22 @@ from time import monotonic, sleep
 from typing import Any, ClassVar, NamedTuple
 
 from ..perception.measurement import RobotState
-from .guardian_process import Guardian, SessionLost
+from .guardian_process import Guardian, halting_method
 from .method_thread import (
     BLOCKED,
     CLOSE_TIMEOUT,
     OPEN_TIMEOUT,
     MethodThread,
+    SessionLost,
 )
-from .sighting_checks import sighting_fault
+from .robot_reports import LEAD, plain_report, sighting_fault
+from .robot_session import POLL
+from .watchdog import OLDEST
 
 CLOCK_RATIOS = (0.9, 1.1)  # the robot's clock over this computer's
-LEAD = 0.1  # by which a sighting may be ahead of its report, in [s]
+RATIOS = (0.3, 2.0)  # measured over commanded motion that is plausible
 ANSWER = 2.0  # longest time that a method may take in the check, in [s]
+UNATTENDED = 1.5  # without commands, to see what the robot does, in [s]
 PASSED, FAILED, UNKNOWN = ("pass", "fail", "unknown")
 
 
@@ -40,12 +44,7 @@ class AdapterFinding(NamedTuple):
 
 
 class TimedReport(NamedTuple):
-    """Report of a robot with its time of arrival.
-
-    Attributes:
-        report: The report.
-        arrived: Time of arrival on this computer's clock, in [s].
-    """
+    """Report of a robot, and its time of arrival on our clock, in [s]."""
 
     report: RobotState
     arrived: float
@@ -56,12 +55,10 @@ class MethodCheck:
 
     Attributes:
         findings: Results so far.
-        halting: Method that stops or releases the robot.
-        halts_always: Whether it is called at the end if the robot was not
-            commanded.
+        halts_always: Whether the robot is halted at the end although it was
+            not commanded.
     """
 
-    halting: ClassVar[str]
     halts_always: ClassVar[bool] = True
 
     def __init__(
@@ -86,11 +83,12 @@ class MethodCheck:
         """
         self.findings: list[AdapterFinding] = []
         self._methods = MethodThread(robot, clock=clock)
-        self._note, self._dry_run = note, dry_run
+        self._robot, self._note, self._dry_run = robot, note, dry_run
+        self._halting = halting_method(robot)
         self._clock, self._pause = clock, pause
         self._guardian, self._moves = guardian, False
         self._has_moved = False
-        methods = ("listen", "command", self.halting)
+        methods = ("listen", "command", self._halting)
         self._longest = dict.fromkeys(methods, 0.0)
 
     @property
@@ -116,11 +114,13 @@ class MethodCheck:
     def _add(
         self,
         name: str,
-        verdict: str,
+        verdict: str | bool,
         text: str,
         value: float | None = None,
         unit: str = "",
     ) -> None:
+        if not isinstance(verdict, str):  # also a bool of NumPy
+            verdict = PASSED if verdict else FAILED
         finding = AdapterFinding(name, verdict, text, value, unit)
         self.findings.append(finding)
         self._note(finding)
@@ -147,66 +147,100 @@ class MethodCheck:
         self._longest[method] = max(self._longest[method], took)
         return result
 
+    def _collect(
+        self, duration: float, command: Callable[[float], Any] | None = None
+    ) -> list[TimedReport]:
+        """Collect new reports, with a command before each.
+
+        Args:
+            duration: How long, in [s].
+            command: Function that returns a call of command() by the time
+                since the begin, in [s]; None to command nothing.
+        """
+        found: list[TimedReport] = []
+        name, began = self._methods.name_of("listen"), self._clock()
+        while (passed := self._clock() - began) < duration:
+            if command is not None:
+                self._call("command", command(passed))
+            got = self._call("listen")
+            now = self._clock()
+            report = got and plain_report(got, self._robot, name)
+            if not report or found and report.time == found[-1].report.time:
+                self._pause(POLL)
+                continue
+            found.append(TimedReport(report, now))
+            self._pause(self._rest(now, commanded=command is not None))
+        return found
+
+    def _rest(self, arrived: float, *, commanded: bool) -> float:
+        """Return how long to wait after a report, in [s].
+
+        Args:
+            arrived: Time of its arrival, in [s].
+            commanded: Whether the robot is commanded.
+        """
+        raise NotImplementedError
+
     def _leave(self) -> None:
         """Stop the robot, beside a method that does not return; disconnect.
 
         Raises:
             SessionLost: If it could not be stopped.
         """
+        methods, halting = self._methods, self._halting
         if not self._dry_run and (self.halts_always or self._has_moved):
-            if self._methods.blocked is None:
-                self._methods.run(self.halting, CLOSE_TIMEOUT)
+            if methods.blocked is None:
+                methods.run(halting, CLOSE_TIMEOUT)
             else:
-                self._stop_beside()
-        if self._methods.blocked is None:
-            self._methods.run("close", CLOSE_TIMEOUT)
+                try:
+                    methods.call_apart(halting).result(CLOSE_TIMEOUT)
+                except TimeoutError as error:
+                    name = methods.name_of(halting)
+                    raise SessionLost(
+                        f"{name} did not return either"
+                    ) from error
+        if methods.blocked is None:
+            methods.run("close", CLOSE_TIMEOUT)
 
-    def _stop_beside(self) -> None:
-        try:
-            self._methods.call_apart(self.halting).result(CLOSE_TIMEOUT)
-        except TimeoutError as error:
-            raise SessionLost(
-                f"{self._methods.name_of(self.halting)} did not return either"
-            ) from error
-
-    def _check_rate(
-        self, arrivals: Sequence[float], over: float, longest: float
-    ) -> None:
-        """Check how often there is a new report.
+    def _check_reports(
+        self, reports: Sequence[TimedReport], over: float, longest: float
+    ) -> bool:
+        """Check how often there is a new report, and their times.
 
         Args:
-            arrivals: Times of arrival, in [s].
+            reports: Reports of a robot that was not commanded.
             over: Duration in which they came, in [s].
             longest: Longest gap between two, in [s].
+
+        Returns:
+            Whether there are enough.
         """
-        if len(arrivals) < 2:
+        count = len(reports)
+        if count < 2:
             self._add(
                 "rate",
                 FAILED,
-                f"{len(arrivals)} reports with a new time in {over:g} s; "
-                f"listen() must return one every {longest:g} s at least",
-                float(len(arrivals)) / over,
+                f"{count} reports with a new time in {over:g} s; listen() "
+                f"must return one every {longest:g} s at least",
+                count / over,
                 "Hz",
             )
-            return
+            return False
+        arrivals = [each.arrived for each in reports]
         pairs = zip(arrivals, arrivals[1:], strict=False)
         gap = max(b - a for a, b in pairs)
-        rate = (len(arrivals) - 1) / (arrivals[-1] - arrivals[0])
+        rate = (count - 1) / (arrivals[-1] - arrivals[0])
         text = f"{rate:.0f} reports per second, the longest gap {gap:.2f} s"
         if gap > longest:
             text += f"; the robot is stopped after {longest:g} s"
-        verdict = PASSED if gap <= longest else FAILED
-        self._add("rate", verdict, text, rate, "Hz")
+        self._add("rate", gap <= longest, text, rate, "Hz")
+        self._check_clock([r.time for r, _ in reports], arrivals)
+        return True
 
     def _check_clock(
         self, stamps: Sequence[float], arrivals: Sequence[float]
     ) -> None:
-        """Check that the times of the reports run as time does.
-
-        Args:
-            stamps: Times of the reports, in [s].
-            arrivals: Times of their arrivals, in [s].
-        """
+        """Check that the times of reports run as time does, all in [s]."""
         back = sum(b < a for a, b in zip(stamps, stamps[1:], strict=False))
         passed = arrivals[-1] - arrivals[0]
         if not all(isfinite(stamp) for stamp in stamps) or passed <= 0.0:
@@ -214,64 +248,48 @@ class MethodCheck:
             return
         ratio = (stamps[-1] - stamps[0]) / passed
         low, high = CLOCK_RATIOS
+        good = False
         if back:
-            verdict, text = FAILED, f"{back} times are before the last one"
+            text = f"{back} times are before the last one"
         elif low <= ratio <= high:
             pairs = zip(stamps, arrivals, strict=True)
             delays = [arrived - stamp for stamp, arrived in pairs]
             jitter = max(delays) - min(delays)
-            verdict = PASSED if jitter <= BLOCKED else FAILED
+            good = jitter <= BLOCKED
             text = f"run as time does; latency varies by {jitter:.3f} s"
         else:
-            verdict = FAILED
             text = f"run {ratio:.3g} times as fast as time: are they in [s]?"
-        self._add("times", verdict, text, ratio, "1")
+        self._add("times", good, text, ratio, "1")
 
-    def _check_sighting(
-        self, reports: Sequence[RobotState], oldest: float
-    ) -> None:
-        """Check bearing, distance and age of the sightings.
-
-        Args:
-            reports: Reports of the robot.
-            oldest: Age beyond which a sighting is not used, in [s].
-        """
+    def _check_sighting(self, reports: Sequence[TimedReport]) -> None:
+        """Check bearing, distance and age of the sightings."""
         age, count = 0.0, 0
-        for report in reports:
+        for report, _ in reports:
             if (sighting := report.sighting) is None:
                 continue
             count += 1
-            time, bearing, distance = sighting[:3]
-            if fault := sighting_fault(bearing, distance):
+            if fault := sighting_fault(sighting):
                 self._add("sighting", FAILED, fault)
                 return
-            age = max(age, report.time - time)
+            age = max(age, report.time - sighting.time)
         if not count:
             self._add("sighting", UNKNOWN, "no report has a sighting")
             return
         self._add(
             "sighting",
-            PASSED if -LEAD <= age <= oldest else FAILED,
+            -LEAD <= age <= OLDEST,
             f"in {count} of {len(reports)} reports, {age:.2f} s old at "
-            f"most; beyond {oldest:g} s it is not used",
+            f"most; beyond {OLDEST:g} s it is not used",
             age,
             "s",
         )
 
     def _check_durations(self, longest: float) -> None:
-        """Check how long each method took.
-
-        Args:
-            longest: Time that a method may take, in [s].
-        """
+        """Check how long each method took; at most a time, in [s]."""
         for method, took in self._longest.items():
             if took > 0.0:
-                slow = f"; at most {1e3 * longest:.0f} ms"
-                self._add(
-                    f"{method}() returns",
-                    PASSED if took <= longest else FAILED,
-                    f"after {1e3 * took:.0f} ms at most"
-                    + (slow if took > longest else ""),
-                    took,
-                    "s",
-                )
+                good = took <= longest
+                text = f"after {1e3 * took:.0f} ms at most"
+                if not good:
+                    text += f"; at most {1e3 * longest:.0f} ms"
+                self._add(f"{method}() returns", good, text, took, "s")

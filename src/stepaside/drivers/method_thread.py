@@ -1,20 +1,27 @@
-"""Thread that calls the methods of a robot that a user connects in Python."""
+"""Thread that calls the methods of a robot, which may fail or block."""
 
+import logging
 from collections.abc import Callable
 from concurrent.futures import Future
 from queue import SimpleQueue
 from threading import Thread
-from time import monotonic
-from typing import Any
+from time import monotonic, sleep
+from typing import Any, TypeVar
 
-from ..core.errors import ConfigurationError
+from ..core.errors import ConfigurationError, StepAsideError
 from ..core.user_file import FAILURES
-from .guardian_process import SessionLost
 
 OPEN_TIMEOUT = 15.0  # for open(), in [s]
 SIMULATOR_TIMEOUT = 60.0  # for open() of a simulator that may be busy, in [s]
 CLOSE_TIMEOUT = 2.0  # for the last methods of a session, in [s]
 BLOCKED = 0.25  # time after which a method counts as blocked, in [s]
+PAUSE = 0.1  # between two attempts to connect, in [s]
+log = logging.getLogger(__name__)
+Opened = TypeVar("Opened")
+
+
+class SessionLost(StepAsideError, ConnectionError):
+    """The connection to the robot failed or its data cannot be trusted."""
 
 
 class MethodThread:
@@ -39,8 +46,7 @@ class MethodThread:
             SimpleQueue()
         )
         self._running: tuple[str, float] | None = None
-        self._thread = Thread(target=self._work, daemon=True)
-        self._thread.start()
+        Thread(target=self._work, daemon=True).start()
 
     @property
     def blocked(self) -> tuple[str, float] | None:
@@ -83,13 +89,25 @@ class MethodThread:
                 f"{self.name_of(method)} did not return within {within:g} s"
             ) from error
 
+    def open(self, timeout: float = OPEN_TIMEOUT) -> None:
+        """Connect to the robot.
+
+        Raises:
+            SessionLost: If it raised an OSError or does not return in time.
+            ConfigurationError: If it fails otherwise, which is not retried.
+        """
+        try:
+            self.run("open", timeout)
+        except SessionLost as error:
+            if isinstance(error.__cause__, OSError):
+                raise
+            raise ConfigurationError(str(error)) from error
+
     def call_apart(self, method: str) -> "Future[Any]":
         """Call a method at once, in a thread of its own."""
         result: Future[Any] = Future()
-        call = getattr(self.robot, method)
-        Thread(
-            target=self._call, args=(method, call, result), daemon=True
-        ).start()
+        call = method, getattr(self.robot, method), result
+        Thread(target=self._call, args=call, daemon=True).start()
         return result
 
     def name_of(self, method: str) -> str:
@@ -102,39 +120,46 @@ class MethodThread:
 
     def _work(self) -> None:
         while (entry := self._queue.get()) is not None:
-            method, call, result = entry
-            self._running = method, self.clock()
-            self._call(method, call, result)
+            self._running = entry[0], self.clock()
+            self._call(*entry)
             self._running = None
 
     def _call(self, method: str, call: Any, result: "Future[Any]") -> None:
         try:
             result.set_result(call())
         except FAILURES as error:
-            text = f"{self.name_of(method)} failed: {_described(error)}"
-            lost = SessionLost(text)
+            why = f"{type(error).__name__}: {error}"
+            if not str(error):
+                why = repr(error)
+            lost = SessionLost(f"{self.name_of(method)} failed: {why}")
             lost.__cause__ = error
             result.set_exception(lost)
 
 
-def open_robot(methods: MethodThread, timeout: float = OPEN_TIMEOUT) -> None:
-    """Call open() of a robot.
+def open_with_retries(
+    open_robot: Callable[[], Opened], patience: float
+) -> Opened:
+    """Connect to a robot, retrying until a timeout.
 
     Args:
-        methods: Thread that calls its methods.
-        timeout: Longest time that it may take, in [s].
+        open_robot: Function that connects, or raises SessionLost.
+        patience: Timeout, in [s]; 0 tries once.
+
+    Returns:
+        Result of ``open_robot``.
 
     Raises:
-        SessionLost: If it raised an OSError or does not return.
-        ConfigurationError: If it fails otherwise, which is not retried.
+        SessionLost: If the last attempt fails.
     """
-    try:
-        methods.run("open", timeout)
-    except SessionLost as error:
-        if isinstance(error.__cause__, OSError):
-            raise
-        raise ConfigurationError(str(error)) from error
-
-
-def _described(error: BaseException) -> str:
-    return f"{type(error).__name__}: {error}" if str(error) else repr(error)
+    deadline = monotonic() + patience
+    is_logged = False
+    while True:
+        try:
+            return open_robot()
+        except SessionLost as error:
+            if monotonic() >= deadline:
+                raise
+            if not is_logged:
+                log.info("%s; retrying for up to %g s", error, patience)
+                is_logged = True
+            sleep(PAUSE)

@@ -20,11 +20,10 @@ from ..core.errors import ConfigurationError
 from ..core.poses import Pose
 from ..perception.camera_model import CameraModel
 from ..perception.measurement import RobotState, Sighting
-from .guardian_process import SessionLost
-from .robot_address import RobotRequest
-from .robot_camera import CameraImage, CameraMount, HeadLimits
+from .method_thread import SessionLost
+from .robot import CameraImage, CameraMount, HeadLimits, VelocityRobot
+from .robot_loader import RobotRequest
 from .velocity_limits import VelocityLimits
-from .velocity_robot import VelocityRobot
 
 try:
     import qi

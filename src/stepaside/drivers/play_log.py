@@ -1,51 +1,64 @@
-"""Log of a player of ``stepaside play``, written to disk during the run."""
+"""Ticks of a player of ``stepaside play``, and their log on disk."""
 
 import json
+import os
 from collections.abc import Mapping
+from contextlib import suppress
 from enum import Enum
 from pathlib import Path
+from shutil import copyfileobj
+from typing import TYPE_CHECKING, BinaryIO, NamedTuple
 
 import numpy as np
 
 from ..core.atomic_output import atomic_draft, check_folder
+from ..core.errors import ConfigurationError
 from ..core.poses import Array
-from ..locomotion.walk_snapshots import Phase, StepStarted, WalkState
-from ..strategies.velocity_set import BodyVelocity
-from .joint_loop import JointTick
-from .row_file import RowWriter
-from .safety_states import SafetyState
-from .velocity_loop import DrivingState, VelocityTick
+from ..locomotion.walk_snapshots import Phase, StepStarted
+from ..perception.measurement import RobotState, Sighting
 
-METADATA = "play.json"
-STATES: dict[type[Enum], list[Enum]] = {
-    kind: list(kind) for kind in (SafetyState, DrivingState)
-}
+if TYPE_CHECKING:
+    from ..control.scheme import ControlScheme
+
+METADATA, ROWS = "play.json", "rows.f64"
+FLUSH_INTERVAL = 10  # rows between two flushes to disk
 PHASES = list(Phase)
 UNSEEN = np.full(3, np.nan)
 NO_STEP = np.full(6, np.nan)
+Row = dict[str, Array | float]
+
+
+class PlayTick(NamedTuple):
+    """Result of one tick, for logs and the status line.
+
+    Attributes:
+        state: State of the robot.
+        reason: Reason for the state, as a message.
+        time: Time of the measurement, in [s].
+        sighting: Newest sighting of the opponent; None without one.
+        words: State, reason and command as a short text.
+        row: Further columns of the log.
+        walked: Time since the walk began, in [s]; None before.
+    """
+
+    state: Enum
+    reason: str
+    time: float
+    sighting: Sighting | None
+    words: str
+    row: Row
+    walked: float | None = None
 
 
 class PlayLog:
-    """Recorder of every tick as a row (:mod:`stepaside.drivers.row_file`).
+    """Recorder of every tick as a row; a crash loses at most the last ten.
 
-    Each row has the columns ``times_s``, ``sighting`` (time [s], bearing
-    [rad], distance [m]; NaN without a sighting) and ``state``.
-
-    A tick of :class:`JointTick` adds ``joint_positions``, ``targets``,
-    ``gyro``, ``accelerometer``, ``foot_forces`` and ``phase``, and in the
-    odometry frame of the controller numbered ``mind``: ``support`` (x, y,
-    heading of the stance foot, then 1 for left or -1 for right; of other
-    locomotion place of the CoM and heading of the torso, then NaN),
-    ``com_reference``, ``zmp_reference`` and ``begun``, the step that began
-    at this tick (landing time, 1 left or -1 right, x, y, heading, processor
-    time of planning; NaN if none began).
-
-    A tick of :class:`VelocityTick` adds ``pose`` (odometry), ``wanted``
-    (velocity of the template) and ``velocity`` (command), each forward
-    [m/s], turn [rad/s] and lateral [m/s].
-
-    ``state`` and ``phase`` are indices into the lists of ``play.json``,
-    which also lists each change of state with its time and reason.
+    ``rows.f64`` holds the rows as consecutive little-endian doubles. Each
+    has the columns ``times_s``, ``sighting`` (time [s], bearing [rad],
+    distance [m]; NaN without a sighting), ``state`` and those of its tick:
+    see :func:`joint_row`. ``play.json`` has the widths of the columns, the
+    states and phases that numbers stand for, and each change of state with
+    its time and reason.
 
     Attributes:
         folder: Folder of the log.
@@ -69,37 +82,44 @@ class PlayLog:
             ConfigurationError: If the folder cannot be written.
         """
         check_folder(folder, "record", new=True)
-        self._rows: RowWriter | None = None
         self.folder, self._about = folder, dict(about)
         self._beside = dict(beside or {})
         self._changes: list[dict[str, object]] = []
         self._state: Enum | None = None
+        self._columns: dict[str, int] = {}
+        self._file: BinaryIO | None = None
+        self.count = 0
 
-    @property
-    def count(self) -> int:
-        """Number of recorded ticks."""
-        return 0 if self._rows is None else self._rows.count
+    def note(self, tick: PlayTick) -> None:
+        """Record a tick.
 
-    def note(self, tick: JointTick | VelocityTick) -> None:
-        """Record a tick."""
+        Raises:
+            OSError: If the files cannot be written.
+        """
         sighting, state = tick.sighting, tick.state
-        row: dict[str, Array | float] = {
+        row: Row = {
             "times_s": tick.time,
             "sighting": UNSEEN if sighting is None else np.array(sighting[:3]),
-            "state": float(STATES[type(state)].index(state)),
+            "state": float(list(type(state)).index(state)),
         }
-        row |= (
-            _joint_columns(tick)
-            if isinstance(tick, JointTick)
-            else _velocity_columns(tick)
+        parts = {
+            name: np.atleast_1d(value)
+            for name, value in (row | tick.row).items()
+        }
+        if self._file is None:
+            self._columns = {name: part.size for name, part in parts.items()}
+            self._file = self._begin()
+        self._file.write(
+            np.concatenate(list(parts.values())).astype("<f8").tobytes()
         )
-        rows = self._rows = self._rows or self._begin()
-        rows.add(row)
+        self.count += 1
+        if self.count % FLUSH_INTERVAL == 0:
+            self._file.flush()
         if state is not self._state:
             self._state = state
             self._changes.append(
                 {
-                    "tick": rows.count - 1,
+                    "tick": self.count - 1,
                     "time_s": tick.time,
                     "state": state.value,
                     "reason": tick.reason,
@@ -107,10 +127,16 @@ class PlayLog:
             )
             self._write_metadata(self.folder)
 
-    def _begin(self) -> RowWriter:
-        rows = RowWriter(self.folder)
+    def _begin(self) -> BinaryIO:
+        try:
+            self.folder.mkdir(parents=True, exist_ok=True)
+            file = (self.folder / ROWS).open("w+b")
+        except OSError as error:
+            raise ConfigurationError(
+                f"cannot write {self.folder}: {error}"
+            ) from error
         self._write_beside(self.folder)
-        return rows
+        return file
 
     def _write_beside(self, folder: Path) -> None:
         for name, text in self._beside.items():
@@ -119,32 +145,47 @@ class PlayLog:
     def copy_to(self, folder: Path) -> None:
         """Copy the log to another folder when its own cannot be written.
 
+        Works even if the original folder was removed: the open file can
+        still be read.
+
         Args:
             folder: Folder that does not exist yet.
 
         Raises:
             OSError: If that folder cannot be written either.
         """
-        if self._rows is not None:
-            folder.mkdir(parents=True)
-            self._rows.copy_to(folder)
-            self._write_beside(folder)
-            self._write_metadata(folder)
+        if self._file is None:
+            return
+        folder.mkdir(parents=True)
+        with (
+            os.fdopen(os.dup(self._file.fileno()), "rb") as read,
+            (folder / ROWS).open("wb") as out,
+        ):
+            read.seek(0)
+            copyfileobj(read, out)
+        with suppress(OSError):  # the original's disk may be full
+            self._file.close()
+        self._write_beside(folder)
+        self._write_metadata(folder)
 
     def close(self) -> None:
         """Flush and close the files; write nothing if there was no tick.
 
         Raises:
-            OSError: If the files cannot be written.
+            OSError: If the rows cannot be written, or were removed;
+                :meth:`copy_to` still works then.
         """
-        if self._rows is not None:
-            self._rows.close()
+        if self._file is not None:
+            self._file.flush()
+            (self.folder / ROWS).stat()
+            self._file.close()
             self._write_metadata(self.folder)
 
     def _write_metadata(self, folder: Path) -> None:
-        kind = type(self._state) if self._state is not None else SafetyState
+        assert self._state is not None  # there was a tick
         metadata = self._about | {
-            "states": [state.value for state in STATES[kind]],
+            "columns": self._columns,
+            "states": [state.value for state in type(self._state)],
             "phases": [phase.value for phase in PHASES],
             "changes": self._changes,
         }
@@ -154,57 +195,76 @@ class PlayLog:
             draft.write_text(text + "\n", encoding="utf-8")
 
 
-def _joint_columns(tick: JointTick) -> dict[str, Array | float]:
-    """Return the columns of a robot driven by its joints."""
-    m = tick.measurement
+def joint_row(
+    measurement: RobotState,
+    targets: Array,
+    scheme: "ControlScheme",
+    number: int,
+    begun: StepStarted | None,
+) -> Row:
+    """Return the columns of a robot that is driven by its joints.
+
+    ``support``, ``com_reference``, ``zmp_reference`` and ``begun`` are in
+    the odometry of the scheme: pose of the stance foot, then 1 for left or
+    -1 for right (of other locomotion, pose of the template, then NaN); and
+    the step that began at this tick: landing time [s], side, pose, time of
+    planning [s].
+
+    Args:
+        measurement: Measurement of the tick.
+        targets: Joint targets of control, in [rad]. Shape (motors,).
+        scheme: Control scheme.
+        number: Its number, in the column ``mind``.
+        begun: Step that began at this tick; None if none did.
+    """
+    walk = scheme.locomotion.state
+    support = np.array([*scheme.pose, np.nan])
+    com = zmp = np.full(2, np.nan)
+    if walk is not None:
+        step = walk.step(measurement.time)
+        support = np.array([*step.support, -float(step.swing.value)])
+        com = np.array(walk.reference.com[:2])
+        zmp = np.array(walk.zmp_reference)
+    landing = NO_STEP
+    if begun is not None:
+        spent = begun.planning_time
+        landing = np.array(
+            [
+                *(begun.landing_time, float(begun.foot.value)),
+                *(*begun.landing, np.nan if spent is None else spent),
+            ]
+        )
     return {
-        "joint_positions": m.joint_positions,
-        "targets": tick.targets,
-        "gyro": m.gyro,
-        "accelerometer": m.accelerometer,
-        "foot_forces": m.foot_forces,
-        "phase": float(PHASES.index(tick.phase)),
-        "mind": float(tick.mind),
-        "support": _support(tick),
-        **_references(tick.walk),
-        "begun": NO_STEP if tick.begun is None else _begun(tick.begun),
+        "joint_positions": measurement.joint_positions,
+        "targets": targets,
+        "gyro": measurement.gyro,
+        "accelerometer": measurement.accelerometer,
+        "foot_forces": measurement.foot_forces,
+        "phase": float(PHASES.index(scheme.phase)),
+        "mind": float(number),
+        "support": support,
+        "com_reference": com,
+        "zmp_reference": zmp,
+        "begun": landing,
     }
 
 
-def _references(walk: WalkState | None) -> dict[str, Array | float]:
-    """Return the references of a walk by maneuvers; NaN of another."""
-    if walk is None:
-        unknown = np.full(2, np.nan)
-        return {"com_reference": unknown, "zmp_reference": unknown}
-    return {
-        "com_reference": np.array(walk.reference.com[:2]),
-        "zmp_reference": np.array(walk.zmp_reference),
-    }
+def columns_in(data: bytes, columns: Mapping[str, int]) -> dict[str, Array]:
+    """Split row data into columns; an incomplete last row is dropped.
 
+    Args:
+        data: Contents of ``rows.f64``.
+        columns: Width of each column, in order.
 
-def _support(tick: JointTick) -> Array:
-    """Return the pose of the stance foot in odometry, and its side."""
-    if tick.walk is None:
-        return np.array([*tick.pose, np.nan])
-    step = tick.walk.step(tick.time)
-    return np.array([*step.support, -float(step.swing.value)])
-
-
-def _begun(step: StepStarted) -> Array:
-    """Return the entries of the column ``begun``."""
-    spent = np.nan if step.planning_time is None else step.planning_time
-    side = float(step.foot.value)
-    return np.array([step.landing_time, side, *step.landing, spent])
-
-
-def _velocity_columns(tick: VelocityTick) -> dict[str, Array | float]:
-    """Return the columns of a robot driven by velocity commands."""
-    return {
-        "pose": np.array(tick.pose),
-        "wanted": _row(tick.wanted),
-        "velocity": _row(tick.velocity),
-    }
-
-
-def _row(velocity: BodyVelocity) -> Array:
-    return np.array([velocity.forward, velocity.turn, velocity.lateral])
+    Returns:
+        Arrays by column name. Shapes (rows,) or (rows, width).
+    """
+    width = sum(columns.values())
+    whole = len(data) // (8 * width) * 8 * width
+    rows = np.frombuffer(data[:whole], "<f8").reshape(-1, width)
+    found, at = {}, 0
+    for name, size in columns.items():
+        part: Array = rows[:, at : at + size]
+        found[name] = part[:, 0] if size == 1 else part
+        at += size
+    return found

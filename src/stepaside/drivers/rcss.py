@@ -19,8 +19,8 @@ import numpy as np
 from ..core.errors import ConfigurationError, ModelError
 from ..core.rotations import angles_of, rotation, rotation_of
 from ..perception.measurement import RobotState, Sighting
-from .joint_robot import JointRobot, JointTargets
-from .robot_address import RobotRequest
+from .robot import JointRobot, JointTargets
+from .robot_loader import RobotRequest
 
 _ADDRESS = re.compile(r"(?P<host>[^:/]*):(?P<port>\d{1,5})")
 _TOKEN = re.compile(rb"[()]|[^\s()]+")

@@ -1,107 +1,164 @@
-"""Camera of a robot that a user connects in Python."""
+"""Cameras of robots: their images, and sightings by those that say where."""
 
 import logging
-from collections.abc import Callable
 from concurrent.futures import Future
 from math import isfinite, pi
-from time import monotonic
-from typing import Any, NamedTuple, Protocol
+from pathlib import Path
+from time import monotonic, sleep
+from typing import TYPE_CHECKING, Any, Protocol
 
 import numpy as np
 
-from ..core.errors import ConfigurationError, shown
+from ..core.errors import shown
+from ..core.history import History
+from ..core.poses import Pose, wrap_angle
+from ..core.rotations import rotation
 from ..core.user_file import FAILURES
 from ..perception.camera_model import CameraModel
-from ..perception.images import ColourImage, Percept, Pixels
-from .guardian_process import SessionLost
-from .image_source import ImageSource
-from .method_thread import MethodThread
+from ..perception.images import ColourImage
+from ..perception.measurement import RobotState
+from ..robots.body_pose import BodyPose
+from .method_thread import MethodThread, SessionLost
+from .robot import CameraImage, CameraMount
+
+if TYPE_CHECKING:
+    from ..perception.pipeline import Perception
+    from .robot_session import RobotSession
 
 SIZES = 8, 4096  # of an image, in [px]
 OLDEST = 0.5  # age of an image that is not used, in [s]
 LEAD = 0.1  # by which its time may be ahead of the reports', in [s]
 SILENCE = 0.5  # without an image before the robot must stand, in [s]
 HIGHEST = 4.0  # plausible height of a camera, in [m]
+PATIENCE = 0.1  # of a camera without images, in [s]
+MEMORY = 1.0  # how long poses are stored, to place images in time, in [s]
+DEVICE = "/dev/video"
 log = logging.getLogger(__name__)
 
 
-class CameraMount(NamedTuple):
-    """Pose of a camera from the robot's reference point on the floor.
+class Camera(Protocol):
+    """Robot, or a camera apart from it."""
 
-    Attributes:
-        forward: Position ahead, in [m].
-        left: Position to the left, in [m].
-        up: Height above the floor, in [m].
-        yaw: Direction of view from the heading, in [rad], positive leftward.
-        pitch: Direction of view below the horizontal, in [rad].
-        roll: Turn about the direction of view, in [rad].
-    """
+    def image(self) -> CameraImage | None:
+        """Return the newest image, or None; wait for it for about 0.1 s."""
 
-    forward: float
-    left: float
-    up: float
-    yaw: float = 0.0
-    pitch: float = 0.0
-    roll: float = 0.0
+    def close(self) -> None:
+        """Release the camera."""
 
 
-class CameraImage(NamedTuple):
-    """Image of a robot's camera, without distortion.
+class RobotCamera:
+    """Images of a camera, which is read in a thread as it may wait."""
 
-    Attributes:
-        time: Middle of the exposure, by the clock of the reports, in [s].
-        pixels: Red, green and blue, 0 to 255. Shape (height, width, 3).
-        focal_x: Horizontal focal length at this size, in [px].
-        focal_y: Vertical focal length at this size, in [px].
-        mount: Pose of the camera at the exposure. A robot that is driven by
-            its joints needs none: its description says where the camera is.
-    """
+    def __init__(
+        self,
+        camera: Camera,
+        *,
+        needs_mount: bool = False,
+        apart: bool = False,
+        mount: CameraMount | None = None,
+    ) -> None:
+        """Begin without an image.
 
-    time: float
-    pixels: Pixels
-    focal_x: float
-    focal_y: float
-    mount: CameraMount | None = None
+        Args:
+            camera: The camera; a robot is connected already.
+            needs_mount: Whether the images must bring the camera's pose.
+            apart: Whether it is a camera apart from the robot, whose times
+                are those of this computer; closed with this object.
+            mount: Pose of such a camera on the robot.
+        """
+        self._camera, self._methods = camera, MethodThread(camera)
+        self._name = self._methods.name_of("image")
+        self._needs_mount, self._apart = needs_mount, apart
+        self._mount = mount
+        self._reading: Future[Any] | None = None
+        self._last = float("nan")
+        self._newest: float | None = None  # valid image, on our clock
+        self._began = self._methods.clock()
+        self._fault = ""
+
+    def take(self, now: float) -> CameraImage | None:
+        """Return an image that has arrived since the last call, or None.
+
+        Args:
+            now: Time of the newest report, in [s].
+
+        Raises:
+            SessionLost: If image() failed, or returned no image.
+        """
+        got = None
+        if self._reading is not None:
+            if not self._reading.done():
+                return None
+            got = self._reading.result()
+        self._reading = self._methods.begin("image")
+        if got is None:
+            return None
+        image = _plain_image(got, self._name)
+        if image.time == self._last:
+            return None
+        self._last = image.time
+        if self._apart:
+            age = self._methods.clock() - image.time
+            image = image._replace(time=now - age, mount=self._mount)
+        fault = image_fault(image, now)
+        if self._needs_mount and image.mount is None:
+            fault = fault or "mount is missing: where is the camera?"
+        if fault != self._fault and fault:
+            log.warning("%s: %s", self._name, fault)
+        self._fault = fault
+        if fault:
+            return None
+        self._newest = self._methods.clock()
+        return image
+
+    @property
+    def hindrance(self) -> str:
+        """Reason to stand: no valid image for a while; empty otherwise."""
+        since = self._began if self._newest is None else self._newest
+        silent = self._methods.clock() - since
+        if self._newest is not None and silent < SILENCE:
+            return ""
+        if self._fault:
+            return f"image(): {self._fault}"
+        if self._methods.blocked is not None:
+            return f"image() has not returned for {silent:.1f} s"
+        return f"image() returned no new image for {silent:.1f} s"
+
+    def close(self) -> None:
+        """Release a camera apart; a robot is closed by its driver."""
+        if self._apart:
+            self._methods.begin("close")
+        self._methods.end()
 
 
-class HeadLimits(NamedTuple):
-    """Range of a head that turns toward the opponent.
-
-    Attributes:
-        yaw: To each side, in [rad].
-        up: Upward, in [rad].
-        down: Downward, in [rad].
-    """
-
-    yaw: float
-    up: float
-    down: float
-
-
-def check_head_limits(limits: Any, where: str) -> None:
-    """Check the range of a head.
-
-    Args:
-        limits: What a class has as its ``head``.
-        where: Name of the class, for messages.
+def _plain_image(got: Any, name: str) -> CameraImage:
+    """Return the result of image() as plain numbers.
 
     Raises:
-        ConfigurationError: If it is invalid.
+        SessionLost: If it is no image.
     """
     try:
-        values = [float(value) for value in HeadLimits(*limits)]
-        good = all(isfinite(v) and v > 0.0 for v in values)
-    except FAILURES:
-        good = False
-    if not good or max(values) > pi:
-        raise ConfigurationError(
-            f"{where}: head must be HeadLimits(yaw, up, down), > 0, in [rad], "
-            f"got {shown(limits)}"
+        time, pixels, focal_x, focal_y, mount = got
+        if mount is not None:
+            mount = CameraMount(*(float(value) for value in mount))
+        pixels = np.ascontiguousarray(pixels)
+        return CameraImage(
+            float(time), pixels, float(focal_x), float(focal_y), mount
         )
+    except FAILURES as error:
+        raise SessionLost(
+            f"{name} must return a CameraImage(time, pixels, focal_x, "
+            f"focal_y, mount) or None, got {shown(got)}"
+        ) from error
 
 
-def image_fault(image: CameraImage) -> str:
-    """Return why an image is invalid; empty if it is valid."""
+def image_fault(image: CameraImage, now: float) -> str:
+    """Return why an image is invalid; empty if it is valid.
+
+    Args:
+        image: The image.
+        now: Time of the newest report, in [s].
+    """
     pixels, (low, high) = image.pixels, SIZES
     shape, kind = pixels.shape, pixels.dtype
     if len(shape) != 3 or shape[2] != 3 or kind != np.uint8:
@@ -120,10 +177,14 @@ def image_fault(image: CameraImage) -> str:
             )
     if not isfinite(image.time):
         return f"time must be finite, got {image.time}"
-    return "" if image.mount is None else _mount_fault(image.mount)
-
-
-def _mount_fault(mount: CameraMount) -> str:
+    if not -LEAD <= now - image.time <= OLDEST:
+        return (
+            f"an image is {now - image.time:.2f} s old by the clock of "
+            f"listen(); it must be {OLDEST:g} s at most"
+        )
+    mount = image.mount
+    if mount is None:
+        return ""
     if not all(isfinite(value) for value in mount):
         return f"mount must be finite, got {tuple(mount)}"
     if not 0.0 < mount.up < HIGHEST or max(map(abs, mount[:2])) > HIGHEST:
@@ -136,187 +197,184 @@ def _mount_fault(mount: CameraMount) -> str:
     return ""
 
 
-def converted_image(got: Any, name: str) -> CameraImage:
-    """Return an image of plain numbers.
+def colour_image(image: CameraImage) -> ColourImage:
+    """Return an image for perception."""
+    height, width = image.pixels.shape[:2]
+    model = CameraModel(width, height, image.focal_x, image.focal_y)
+    return ColourImage(image.time, model, image.pixels)
+
+
+def resize_model(model: CameraModel, width: int, height: int) -> CameraModel:
+    """Return the same optics for another image size.
 
     Args:
-        got: Result of image().
-        name: Name of the method, for messages.
-
-    Raises:
-        SessionLost: If it is no image.
+        model: Optics.
+        width: Columns, in [px].
+        height: Rows, in [px].
     """
-    try:
-        time, pixels, focal_x, focal_y, mount = got
-        if mount is not None:
-            mount = CameraMount(*(float(value) for value in mount))
-        return CameraImage(
-            float(time),
-            np.ascontiguousarray(pixels),
-            float(focal_x),
-            float(focal_y),
-            mount,
-        )
-    except FAILURES as error:
-        raise SessionLost(
-            f"{name} must return a CameraImage(time, pixels, focal_x, "
-            f"focal_y, mount) or None, got {shown(got)}"
-        ) from error
+    across, down = width / model.width, height / model.height
+    return CameraModel(
+        width, height, model.focal_x * across, model.focal_y * down
+    )
 
 
-class PosedCamera(Protocol):
-    """Camera whose images bring its pose on the robot."""
+class VideoCamera:
+    """Camera of this computer by Video4Linux, through OpenCV.
 
-    @property
-    def hindrance(self) -> str:
-        """Reason to stand: no valid image for a while; empty otherwise."""
+    The device's buffer is set to one image, so that images are current. The
+    exposure is assumed a constant latency before the arrival.
+    """
 
-    def take(self, now: float) -> CameraImage | None:
-        """Return an image that has arrived since the last call, or None.
+    def __init__(
+        self, path: str, model: CameraModel, *, latency: float
+    ) -> None:
+        """Open the camera.
 
         Args:
-            now: Time of the newest report, in [s].
+            path: Device like ``/dev/video0``, or a video file.
+            model: Optics and requested size; scaled to another size.
+            latency: Time from exposure to arrival, in [s].
+
+        Raises:
+            SessionLost: If there is no camera.
         """
+        import cv2
+
+        is_device = path.startswith(DEVICE)
+        if not Path(path).exists():
+            raise SessionLost(f"no camera at {path}")
+        backend = cv2.CAP_V4L2 if is_device else cv2.CAP_ANY
+        self._device = cv2.VideoCapture(path, backend)
+        if not self._device.isOpened():
+            self._device.release()
+            raise SessionLost(f"{path} cannot be opened as a camera")
+        if is_device:
+            self._device.set(cv2.CAP_PROP_FRAME_WIDTH, model.width)
+            self._device.set(cv2.CAP_PROP_FRAME_HEIGHT, model.height)
+            self._device.set(cv2.CAP_PROP_BUFFERSIZE, 1)
+        self._model, self._latency = model, latency
+
+    def image(self) -> CameraImage | None:
+        """Wait for the next image; None at the end of a file."""
+        import cv2
+
+        is_read, image = self._device.read()
+        if not is_read:
+            sleep(PATIENCE)
+            return None
+        pixels = np.asarray(cv2.cvtColor(image, cv2.COLOR_BGR2RGB), np.uint8)
+        height, width = pixels.shape[:2]
+        model = resize_model(self._model, width, height)
+        now = monotonic() - self._latency
+        return CameraImage(now, pixels, model.focal_x, model.focal_y)
 
     def close(self) -> None:
-        """Release the camera."""
+        """Release the device."""
+        self._device.release()
 
 
-class MountedCamera:
-    """Camera that is read apart from its robot, fixed on it."""
+class PosedSight:
+    """Sightings of the opponent by a camera, which the head may turn."""
 
     def __init__(
         self,
-        source: ImageSource,
-        mount: CameraMount,
+        session: "RobotSession",
+        camera: RobotCamera,
+        perception: "Perception",
         *,
-        clock: Callable[[], float] = monotonic,
+        turns_head: bool,
     ) -> None:
         """Begin without an image.
 
         Args:
-            source: Source of the images; closed with this object.
-            mount: Pose of the camera on the robot.
-            clock: Time of this computer, in [s].
+            session: Session with the robot.
+            camera: Its camera; closed with this object.
+            perception: Perception that detects the opponent.
+            turns_head: Whether the head follows the opponent.
         """
-        self._source, self._mount, self._clock = source, mount, clock
-        self._newest = clock()
+        self._session, self._camera = session, camera
+        self._perception, self._turns_head = perception, turns_head
+        self._mount: CameraMount | None = None  # at the newest image
+        self._looking: Future[Any] | None = None
+        self._last: RobotState | None = None
+        self._poses: History[Pose] = History(MEMORY)
 
-    @property
-    def hindrance(self) -> str:
-        """Reason to stand: no image for a while; empty otherwise."""
-        silent = self._clock() - self._newest
-        return f"no image for {silent:.1f} s" if silent > SILENCE else ""
-
-    def take(self, now: float) -> CameraImage | None:
-        """Return the newest image, if there is a new one."""
-        image = None
-        for found in self._source.percepts(now):
-            if isinstance(found, ColourImage):
-                image = found
-        if image is None:
-            return None
-        self._newest = self._clock()
-        model = image.camera
-        return CameraImage(
-            *(image.time, image.pixels, model.focal_x, model.focal_y),
-            self._mount,
-        )
-
-    def close(self) -> None:
-        """Release the camera."""
-        self._source.close()
-
-
-class RobotCamera:
-    """Images by the method image() of a user's robot.
-
-    It is called in a thread of its own, as it may wait for an image.
-    """
-
-    def __init__(self, robot: Any, *, needs_mount: bool) -> None:
-        """Begin without an image; the robot is connected.
-
-        Args:
-            robot: The robot.
-            needs_mount: Whether the images must bring the camera's pose.
-        """
-        self._methods = MethodThread(robot)
-        self._name = self._methods.name_of("image")
-        self._needs_mount = needs_mount
-        self._reading: Future[Any] | None = None
-        self._last = float("nan")
-        self._newest: float | None = None  # valid image, on our clock
-        self._began = self._methods.clock()
-        self._logged = ""
-
-    def percepts(self, now: float) -> list[Percept]:
-        """Return the newest image, if there is a new one; see :meth:`take`."""
-        image = self.take(now)
-        return [] if image is None else [colour_image(image, image.time)]
-
-    def take(self, now: float) -> CameraImage | None:
-        """Return an image that has arrived since the last call, or None.
-
-        Args:
-            now: Time of the newest report, in [s].
+    def see(self, report: RobotState) -> RobotState:
+        """Return a report with the newest sighting.
 
         Raises:
-            SessionLost: If image() failed, or returned no image.
+            SessionLost: If image() or look() failed.
         """
-        if self._reading is None:
-            self._reading = self._methods.begin("image")
-            return None
-        if not self._reading.done():
-            return None
-        got = self._reading.result()
-        self._reading = self._methods.begin("image")
-        if got is None:
-            return None
-        image = converted_image(got, self._name)
-        if image.time == self._last:
-            return None
-        self._last = image.time
-        fault = image_fault(image) or self._fault_of_time(image, now)
-        if self._needs_mount and image.mount is None:
-            fault = fault or "mount is missing: where is the camera?"
-        if fault != self._logged and fault:
-            log.warning("%s: %s", self._name, fault)
-        self._logged = fault
-        if fault:
-            return None
-        self._newest = self._methods.clock()
-        return image
-
-    @property
-    def hindrance(self) -> str:
-        """Reason to stand: no valid image for a while; empty otherwise."""
-        since = self._began if self._newest is None else self._newest
-        silent = self._methods.clock() - since
-        if self._newest is not None and silent < SILENCE:
-            return ""
-        if self._logged:
-            return f"image(): {self._logged}"
-        if self._methods.blocked is not None:
-            return f"image() has not returned for {silent:.1f} s"
-        return f"image() returned no new image for {silent:.1f} s"
+        if report.hindrance:
+            return report
+        if self._last is not None and report.time == self._last.time:
+            return report._replace(sighting=self._last.sighting)
+        self._poses.note(report.time, report.pose)
+        percepts = []
+        image = self._camera.take(report.time)
+        if image is not None:
+            assert image.mount is not None  # as the camera has checked
+            self._mount = image.mount
+            pose = self._poses.at(image.time, _between)
+            self._perception.note_pose(
+                pose_of_camera(image.time, pose, image.mount)
+            )
+            percepts.append(colour_image(image))
+        sighting = None
+        if self._mount is not None:
+            now = pose_of_camera(report.time, report.pose, self._mount)
+            sighting = self._perception.see_from(now, percepts)
+            if self._turns_head:
+                self._look()
+        self._last = report._replace(
+            sighting=sighting, hindrance=self._camera.hindrance
+        )
+        return self._last
 
     def close(self) -> None:
-        """Do nothing: the robot is closed by its driver."""
+        """Close the camera."""
+        self._camera.close()
 
-    @staticmethod
-    def _fault_of_time(image: CameraImage, now: float) -> str:
-        age = now - image.time
-        if -LEAD <= age <= OLDEST:
-            return ""
-        return (
-            f"an image is {age:.2f} s old by the clock of listen(); it must "
-            f"be {OLDEST:g} s at most"
+    def _look(self) -> None:
+        """Turn the head, unless the last call has not returned."""
+        if self._looking is not None:
+            if not self._looking.done():
+                return
+            self._looking.result()
+        head, robot = self._perception.head, self._session.robot
+        yaw, pitch = head.yaw, head.pitch
+        self._looking = self._session.tell(
+            "look", lambda: robot.look(yaw, pitch)
         )
 
 
-def colour_image(image: CameraImage, time: float) -> ColourImage:
-    """Return an image for perception, at a time in [s]."""
-    height, width = image.pixels.shape[:2]
-    model = CameraModel(width, height, image.focal_x, image.focal_y)
-    return ColourImage(time, model, image.pixels)
+def _between(one: Pose, other: Pose, share: float) -> Pose:
+    """Return the pose at a share of the way from one pose to another."""
+    turn = wrap_angle(other.theta - one.theta)
+    return Pose(
+        one.x + share * (other.x - one.x),
+        one.y + share * (other.y - one.y),
+        one.theta + share * turn,
+    )
+
+
+def pose_of_camera(time: float, robot: Pose, mount: CameraMount) -> BodyPose:
+    """Return the body of a robot of which only the camera matters.
+
+    Args:
+        time: Time, in [s].
+        robot: Pose of the robot in odometry.
+        mount: Pose of its camera.
+    """
+    turn = rotation(0.0, 0.0, robot.theta)
+    floor = np.array([robot.x, robot.y, 0.0])
+    return BodyPose(
+        time,
+        robot,
+        floor,
+        turn,
+        floor + turn @ mount[:3],
+        turn @ rotation(mount.roll, mount.pitch, mount.yaw),
+        mount.yaw,
+        mount.pitch,
+    )

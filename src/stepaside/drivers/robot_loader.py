@@ -1,40 +1,84 @@
-"""Loader of robots that users connect in Python, as FILE.py:CLASS."""
+"""Robots by address: NAME:ADDRESS of a protocol, or a user's FILE.py:CLASS."""
 
 from collections.abc import Callable, Sequence
+from importlib import import_module
+from importlib.metadata import entry_points
+from math import isfinite, pi
 from typing import Any, NamedTuple
 
-from ..core.errors import ConfigurationError
+from ..core.errors import ConfigurationError, shown
 from ..core.user_file import FAILURES, FILE_AND_NAME, load_user_file
-from . import joint_robot, velocity_robot
-from .joint_robot import JointRobot, check_joint_robot
-from .velocity_robot import VelocityRobot, check_velocity_robot
+from ..perception.camera_model import CameraModel
+from ..robots.description import RobotDescription, load_robot
+from .robot import CameraMount, HeadLimits, JointRobot, Robot, VelocityRobot
+from .velocity_limits import VelocityLimits
 
 RobotClass = type[VelocityRobot] | type[JointRobot]
+# Modules of this package; each has make_robot(request).
+VENDORS = ("lola", "naoqi", "rcss", "ros2")
+GROUP = "stepaside.robots"  # entry points of other packages, likewise
 
 
-class _Base(NamedTuple):
-    """Base class with its methods and its check."""
+class RobotRequest(NamedTuple):
+    """Request for a robot.
 
-    kind: Any
-    methods: Sequence[str]
-    required: Sequence[str]
-    check: Callable[[Any, str], None]
+    Attributes:
+        address: What follows the name of the protocol.
+        role: Role of the player.
+        robot: Name of its description, or folder.
+        dry_run: Whether nothing will be commanded.
+        camera: Optics of its camera, where it does not tell them.
+        latency: Time from exposure to arrival of its images, in [s].
+        lateral: Maximum lateral speed, in [m/s]; 0 without one.
+        domain: ROS 2 domain; None for that of the environment.
+        network: Whether ROS 2 topics are visible to other machines.
+        remap: Other names of topics, as NAME:=/TOPIC.
+        opponent: Class of the detections that are the opponent; empty for
+            any.
+        people: Files of further topics with people.
+    """
+
+    address: str
+    role: str = "evader"
+    robot: str = "nao"
+    dry_run: bool = False
+    camera: CameraModel | None = None
+    latency: float = 0.0
+    lateral: float = 0.0
+    domain: int | None = None
+    network: bool = False
+    remap: tuple[str, ...] = ()
+    opponent: str = ""
+    people: tuple[str, ...] = ()
+
+    @property
+    def description(self) -> RobotDescription:
+        """Description of the robot."""
+        return load_robot(self.robot)
 
 
-BASES = (
-    _Base(
-        VelocityRobot,
-        velocity_robot.METHODS,
-        velocity_robot.REQUIRED,
-        check_velocity_robot,
-    ),
-    _Base(
-        JointRobot,
-        joint_robot.METHODS,
-        joint_robot.REQUIRED,
-        check_joint_robot,
-    ),
-)
+def find_robot(name: str, request: RobotRequest) -> Callable[[], Any] | None:
+    """Return a function that makes the robot of a protocol.
+
+    Args:
+        name: Name of the protocol, such as lola.
+        request: The robot.
+
+    Returns:
+        Function that makes a JointRobot or a VelocityRobot without
+        connecting to it; None if there is no such protocol.
+
+    Raises:
+        ConfigurationError: If the address is invalid, or a library lacks.
+    """
+    make: Any = None
+    if name in VENDORS:
+        make = import_module(f".{name}", __package__).make_robot
+    else:
+        for entry in entry_points(group=GROUP, name=name):
+            make = entry.load()
+    found: Callable[[], Any] | None = make and make(request)
+    return found
 
 
 def load_robot_class(name: str) -> RobotClass:
@@ -55,15 +99,15 @@ def load_robot_class(name: str) -> RobotClass:
     where = f"robot {name}"
     loaded = load_user_file(found["file"], where)
     kind: Any = getattr(loaded, found["name"], None)
-    base = _base_of(kind)
-    if base is None:
-        offered = ", ".join(_robots_in(loaded)) or "no robot"
+    if not _is_robot(kind):
+        own = [each for each, thing in vars(loaded).items()
+               if _is_robot(thing)]  # fmt: skip
         raise ConfigurationError(
             f"{where}: must be a subclass of stepaside.VelocityRobot or "
-            f"stepaside.JointRobot; the file has {offered}"
+            "stepaside.JointRobot; the file has "
+            f"{', '.join(sorted(own)) or 'no robot'}"
         )
-    _check_methods(kind, base, where)
-    base.check(kind, where)
+    check_robot_class(kind, where)
     try:
         kind()
     except FAILURES as error:
@@ -75,27 +119,101 @@ def load_robot_class(name: str) -> RobotClass:
     return made
 
 
-def _base_of(kind: Any) -> _Base | None:
-    """Return the base of a class; None if it is no robot."""
-    if not isinstance(kind, type):
-        return None
-    return next((base for base in BASES if issubclass(kind, base.kind)), None)
-
-
-def _check_methods(kind: Any, base: _Base, where: str) -> None:
-    """Check that all methods are methods, and the required ones written."""
-    for name in base.methods:
-        if not callable(getattr(kind, name)):
-            raise ConfigurationError(f"{where}: {name} must be a method")
-    for name in base.required:
-        if getattr(kind, name) is getattr(base.kind, name):
-            raise ConfigurationError(f"{where}: lacks the method {name}()")
-
-
-def _robots_in(loaded: Any) -> list[str]:
-    kinds = [base.kind for base in BASES]
-    return sorted(
-        name
-        for name, thing in vars(loaded).items()
-        if _base_of(thing) is not None and thing not in kinds
+def _is_robot(kind: Any) -> bool:
+    bases = JointRobot, VelocityRobot
+    return (
+        isinstance(kind, type)
+        and issubclass(kind, bases)
+        and kind not in bases
     )
+
+
+def check_robot_class(kind: Any, where: str) -> None:
+    """Check methods, flags and values of a robot's class.
+
+    Args:
+        kind: The class.
+        where: Its name, for messages.
+
+    Raises:
+        ConfigurationError: If one is invalid.
+    """
+
+    def refuse(text: str) -> None:
+        raise ConfigurationError(f"{where}: {text}")
+
+    joints = issubclass(kind, JointRobot)
+    base = JointRobot if joints else VelocityRobot
+    for name, own in (vars(Robot) | vars(base)).items():
+        value = getattr(kind, name)
+        if name.startswith("_"):
+            continue
+        if callable(own) and not callable(value):
+            refuse(f"{name} must be a method")
+        if isinstance(own, bool) and not isinstance(value, bool):
+            refuse(f"{name} must be True or False, got {shown(value)}")
+    for name in sorted(kind.__abstractmethods__):
+        refuse(f"lacks the method {name}()")
+    fault = _joint_class_fault(kind) if joints else _velocity_class_fault(kind)
+    if fault:
+        refuse(fault)
+
+
+def _joint_class_fault(kind: type[JointRobot]) -> str:
+    """Return what is wrong with tick, joints or gains; empty if nothing."""
+    tick = getattr(kind, "tick", None)
+    if not (isinstance(tick, int | float) and 0.001 <= tick <= 0.1):
+        return f"tick must be in [0.001, 0.1] s, got {shown(tick)}"
+    joints = getattr(kind, "joints", None)
+    named = isinstance(joints, Sequence) and not isinstance(joints, str)
+    if not named or not all(isinstance(name, str) for name in joints or ()):
+        return (
+            "joints must be the names of the joints, in the order of all "
+            f"arrays, got {shown(joints)}"
+        )
+    for joint, pair in (kind.gains or {}).items():
+        if not _are_numbers(pair, 2):
+            return (
+                f"gains of {joint} must be a stiffness [N m/rad] and a "
+                f"damping [N m s/rad], got {shown(pair)}"
+            )
+    return ""
+
+
+def _velocity_class_fault(kind: type[VelocityRobot]) -> str:
+    """Return what is wrong with limits, head or camera; empty if nothing."""
+    limits = getattr(kind, "limits", None)
+    if not isinstance(limits, VelocityLimits):
+        return (
+            "limits must be VelocityLimits(forward=..., backward=..., "
+            f"turn=...), got {shown(limits)}"
+        )
+    for name, unit in (("forward", "m/s"), ("backward", "m/s"),
+                       ("turn", "rad/s")):  # fmt: skip
+        if not isfinite(getattr(limits, name)):
+            return (
+                f"limits must give a finite {name} [{unit}], got "
+                f"{getattr(limits, name)}"
+            )
+    if (head := kind.head) is not None:
+        if not _are_numbers(head, len(HeadLimits._fields), pi):
+            return (
+                "head must be HeadLimits(yaw, up, down), >= 0, in [rad], got "
+                f"{shown(head)}"
+            )
+        if kind.look is VelocityRobot.look:
+            return "head needs the method look()"
+    if kind.camera is not None and not isinstance(kind.camera, CameraMount):
+        return (
+            "camera must be CameraMount(forward, left, up, ...), got "
+            f"{shown(kind.camera)}"
+        )
+    return ""
+
+
+def _are_numbers(values: Any, count: int, most: float = 1e12) -> bool:
+    """Return whether there are so many numbers from 0 to the greatest."""
+    try:
+        return len(values) == count and all(0.0 <= v <= most for v in values)
+    except TypeError:
+        return False

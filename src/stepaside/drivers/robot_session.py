@@ -4,36 +4,30 @@ import logging
 import sys
 from collections.abc import Callable
 from concurrent.futures import Future
-from contextlib import suppress
 from time import monotonic, sleep
 from typing import Any
 
-import numpy as np
-
-from ..core.errors import StepAsideError, shown
-from ..core.poses import Array, Pose
-from ..core.user_file import FAILURES
-from ..perception.measurement import RobotState, RobotStatus, Sighting
+from ..perception.measurement import RobotState
 from .dead_man_switch import DeadManSwitch
-from .guardian_process import Guardian, SessionLost
+from .guardian_process import Guardian, halting_method
 from .method_thread import (
     CLOSE_TIMEOUT,
     OPEN_TIMEOUT,
     SIMULATOR_TIMEOUT,
     MethodThread,
-    open_robot,
+    SessionLost,
 )
+from .robot_reports import plain_report
 
 POLL = 0.001  # between two calls of listen() without a new report, in [s]
 UNHALTED = 0.5  # for stop() or release() beside a blocked method, in [s]
 FORSAKEN = 5.0  # time of a blocked method that ends the session, in [s]
 PREPARE_TIMEOUT = 30.0  # for prepare(), in [s]: to stand up
-FOOT_SENSORS = 8
 log = logging.getLogger(__name__)
 
 
 class RobotSession:
-    """Connection to a robot that a class in Python drives.
+    """Connection to a robot.
 
     Its methods are called in a thread, so that one that does not return does
     not block control. While one of them does not return, the method that
@@ -48,7 +42,6 @@ class RobotSession:
     def __init__(
         self,
         robot: Any,
-        halting: str,
         *,
         opened: bool = False,
         guardian: Guardian | None = None,
@@ -60,7 +53,6 @@ class RobotSession:
 
         Args:
             robot: The robot, a JointRobot or a VelocityRobot.
-            halting: Its method that stops or releases it.
             opened: Whether it is connected already.
             guardian: Guardian that halts the robot if this process fails;
                 dismissed with the session.
@@ -72,12 +64,13 @@ class RobotSession:
             SessionLost: If the robot does not answer.
             ConfigurationError: If open() fails for another reason.
         """
-        self.robot, self._halting, self._dry_run = robot, halting, dry_run
+        self.robot, self._dry_run = robot, dry_run
+        self._halting = halting_method(robot)
         self._methods = MethodThread(robot, clock=clock)
         if not opened:
-            paced = getattr(robot, "paced", True)
-            timeout = OPEN_TIMEOUT if paced else SIMULATOR_TIMEOUT
-            open_robot(self._methods, timeout)
+            self._methods.open(
+                OPEN_TIMEOUT if robot.paced else SIMULATOR_TIMEOUT
+            )
         self._guardian, self._switch, self._clock = guardian, switch, clock
         self.halted = True
         self._reading: Future[Any] | None = None
@@ -92,17 +85,6 @@ class RobotSession:
         """Return the name of a method for messages."""
         return self._methods.name_of(method)
 
-    @property
-    def guarded(self) -> bool:
-        """Whether a guardian watches this process."""
-        return self._guardian is not None
-
-    def unguard(self) -> None:
-        """Dismiss the guardian: simulated time may stand still."""
-        if self._guardian is not None:
-            self._guardian.dismiss()
-            self._guardian = None
-
     def run(self, method: str, within: float) -> None:
         """Call a method, and wait for its return up to a time in [s].
 
@@ -111,15 +93,11 @@ class RobotSession:
         """
         self._methods.run(method, within)
 
-    def listen(
-        self, patience: float, convert: Callable[[Any, str], RobotState]
-    ) -> RobotState | None:
+    def listen(self, patience: float) -> RobotState | None:
         """Return the newest report, or None; the last one if it is repeated.
 
         Args:
             patience: Longest time to wait for a new report, in [s].
-            convert: Function that checks the result of listen(), whose name
-                is its second argument.
 
         Raises:
             SessionLost: If a method failed, or returned no report.
@@ -137,7 +115,7 @@ class RobotSession:
             self._reading = None
             self._answers += 1
             if got is not None:
-                report = convert(got, self.name_of("listen"))
+                report = plain_report(got, self.robot, self.name_of("listen"))
                 if report.time != self._time:
                     self._time, self._answers = report.time, 0
                     return report
@@ -168,10 +146,10 @@ class RobotSession:
         if self._dry_run:
             return
         self._raise_failure()
-        self._wanted, self.halted = call, False
+        self.halted = False
         if self._guardian is not None:
             self._guardian.hold()
-        self._begin("command", lambda: self._wanted())
+        self._begin("command", call)
         if self._methods.blocked is None:
             self._beside = None
 
@@ -187,9 +165,8 @@ class RobotSession:
         self._raise_failure()
         if self._guardian is not None:
             self._guardian.leave()
-        self._wanted = getattr(self.robot, self._halting)
         self.halted = True
-        self._begin(self._halting, lambda: self._wanted())
+        self._begin(self._halting, getattr(self.robot, self._halting))
         blocked = self._methods.blocked
         if blocked is None:
             self._beside = None
@@ -230,8 +207,7 @@ class RobotSession:
             failure = self._last_halt()
         if self._methods.blocked is None:
             try:
-                closing = getattr(self.robot, "closing", CLOSE_TIMEOUT)
-                self._methods.run("close", closing)
+                self._methods.run("close", self.robot.closing)
             except SessionLost as error:
                 log.warning("%s", error)
         self._methods.end()
@@ -264,24 +240,26 @@ class RobotSession:
         return None
 
     def _begin(self, method: str, call: Callable[[], None]) -> None:
+        """Begin a command, or let it replace the one that waits."""
+        self._wanted = call
         if self._commanding is None or self._commanding.done():
-            self._commanding = self._methods.begin(method, call)
+            self._commanding = self._methods.begin(
+                method, lambda: self._wanted()
+            )
 
     def _halt_beside(self, method: str, waited: float) -> None:
         """Halt the robot while a method does not return."""
+        text = self._blocked_text(method, waited)
         if self._beside is None:
-            log.warning("%s", self._blocked_text(method, waited))
+            log.warning("%s", text)
             self._beside = self._methods.call_apart(self._halting)
             self._beside_began = self._clock()
         if self._beside.done():
             self._beside.result()
             if waited > FORSAKEN:
-                raise SessionLost(self._blocked_text(method, waited))
+                raise SessionLost(text)
         elif self._clock() - self._beside_began > UNHALTED:
-            raise SessionLost(
-                f"{self._blocked_text(method, waited)}, and neither has "
-                f"{self._halting}()"
-            )
+            raise SessionLost(f"{text}, and neither has {self._halting}()")
 
     def _blocked_text(self, method: str, waited: float) -> str:
         name = self.name_of(method)
@@ -303,122 +281,3 @@ def opened_here(robot: Any) -> None:
         robot.open()
     except OSError as error:
         raise SessionLost(str(error)) from error
-
-
-def fork_guardian(
-    join: Callable[[], Callable[[], None]], silence: float
-) -> Guardian:
-    """Fork a guardian, which connects to the robot at once.
-
-    Connecting in advance, as it takes longer than halting the robot.
-
-    Args:
-        join: Function that connects to the robot and returns a function
-            that halts it. Called in the guardian process; called again, if
-            it failed at first, when the robot is to be halted.
-        silence: Time without control before the guardian acts, in [s].
-    """
-    halts: list[Callable[[], None]] = []
-
-    def prepare() -> None:
-        with suppress(StepAsideError):
-            halts.append(join())
-
-    def let_go(data: bytes) -> None:
-        halt = halts[0] if halts else join()
-        halt()
-
-    return Guardian(let_go, silence, prepare=prepare)
-
-
-def join_halter(make: Callable[[], Any], halting: str) -> Callable[[], None]:
-    """Connect to a robot in advance, and return a function that halts it.
-
-    Args:
-        make: Function that makes the robot.
-        halting: Its method that stops or releases it.
-
-    Raises:
-        SessionLost: If the robot does not answer.
-    """
-    methods = MethodThread(make())
-    open_robot(methods)
-    return lambda: methods.run(halting, CLOSE_TIMEOUT)
-
-
-def joint_state(got: Any, name: str, joints: int) -> RobotState:
-    """Return the report of a joint-driven robot, as plain numbers.
-
-    Args:
-        got: Result of listen().
-        name: Name of the method, for messages.
-        joints: Number of joints of the robot.
-
-    Raises:
-        SessionLost: If it is no such report.
-    """
-    try:
-        return _of_plain_numbers(got)._replace(
-            joint_positions=_floats(got.joint_positions, joints),
-            joint_velocities=_floats(got.joint_velocities, joints),
-            gyro=_floats(got.gyro, 3),
-            accelerometer=_floats(got.accelerometer, 3),
-            tilt=(float(got.tilt[0]), float(got.tilt[1])),
-            foot_forces=_floats(got.foot_forces, FOOT_SENSORS),
-            status=None
-            if got.status is None
-            else _status_of(got.status, joints),
-        )
-    except FAILURES as error:
-        raise SessionLost(
-            f"{name} must return a RobotState(time, joint_positions, gyro, "
-            "accelerometer, joint_velocities=..., tilt=...) with arrays of "
-            f"{joints} joints, or None, got {shown(got)}"
-        ) from error
-
-
-def velocity_state(got: Any, name: str) -> RobotState:
-    """Return the report of a robot with velocity commands, likewise.
-
-    Raises:
-        SessionLost: If it is no such report.
-    """
-    try:
-        x, y, theta = (float(value) for value in got.pose)
-        return _of_plain_numbers(got)._replace(pose=Pose(x, y, theta))
-    except FAILURES as error:
-        raise SessionLost(
-            f"{name} must return a RobotState(time, pose=Pose(x, y, theta)) "
-            f"or None, got {shown(got)}"
-        ) from error
-
-
-def _of_plain_numbers(got: Any) -> RobotState:
-    if not isinstance(got, RobotState):
-        raise TypeError("not a RobotState")
-    sighting = got.sighting
-    if sighting is not None:
-        time, bearing, distance = (float(value) for value in sighting[:3])
-        sighting = Sighting(time, bearing, distance, *sighting[3:])
-    return got._replace(
-        time=float(got.time), sighting=sighting, hindrance=str(got.hindrance)
-    )
-
-
-def _status_of(got: RobotStatus, joints: int) -> RobotStatus:
-    return RobotStatus(
-        _floats(got.stiffness, joints),
-        _floats(got.temperature, joints),
-        _floats(got.heat, joints),
-        _floats(got.current, joints),
-        float(got.charge),
-        bool(got.pressed),
-        bool(got.bumped),
-    )
-
-
-def _floats(values: Any, count: int) -> Array:
-    found = np.array(values, dtype=np.float64)
-    if found.shape != (count,):
-        raise ValueError(f"{count} values, got shape {found.shape}")
-    return found

@@ -24,7 +24,8 @@ from ..core.history import History
 from ..core.poses import Array, Pose
 from ..core.rotations import rotation_of
 from ..perception.measurement import RobotState, Sighting
-from .robot_address import RobotRequest
+from .robot import VelocityRobot
+from .robot_loader import RobotRequest
 from .ros2_dds import (
     DdsParticipant,
     Endpoints,
@@ -38,7 +39,6 @@ from .ros2_dds import (
     vector,
 )
 from .velocity_limits import REST, VelocityLimits
-from .velocity_robot import VelocityRobot
 
 ODOMETRY, COMMAND, IDEAL = "odom", "cmd_vel", "ideal_sight"
 KINDS = ("geometry_msgs/Twist", "geometry_msgs/TwistStamped")

@@ -1,18 +1,21 @@
 """Conversion of raw and compressed ROS 2 images, and a camera by topic."""
 
 import logging
+from time import monotonic, sleep
 from typing import Any
 
 import numpy as np
 
 from ..perception.camera_model import CameraModel
-from ..perception.images import ColourImage, Percept, Pixels
-from .image_source import resize_model
+from ..perception.images import Pixels
+from .robot import CameraImage
+from .robot_camera import PATIENCE, resize_model
 from .ros2_dds import DdsParticipant, make, take_messages
 
 log = logging.getLogger(__name__)
 RGB, BGR, MONO = "rgb8", "bgr8", "mono8"
 MAX_SIZE = 4096  # columns or rows, in [px]
+POLL = 0.002  # between two looks for one, in [s]
 DEPTH = 2  # images queued until they are taken
 CHANNELS = {RGB: 3, BGR: 3, MONO: 1}
 
@@ -104,12 +107,6 @@ def unpacked(message: Any) -> Pixels | None:
     return np.asarray(cv2.cvtColor(image, cv2.COLOR_BGR2RGB), dtype=np.uint8)
 
 
-def calibration_topic(topic: str) -> str:
-    """Return the topic of the calibration of an image topic, as ROS has it."""
-    name = topic.removesuffix("/compressed")
-    return f"{name.rpartition('/')[0]}/camera_info"
-
-
 class TopicCamera:
     """Camera whose images come by topic; only the newest one is used.
 
@@ -138,27 +135,32 @@ class TopicCamera:
         """
         self._dds, self._model, self._latency = dds, model, latency
         self._topic = topic
+        # As ROS has it, beside the images.
+        beside = topic.removesuffix("/compressed").rpartition("/")[0]
         self._calibrations = dds.reader(
-            calibration_topic(topic), "sensor_msgs/msg/CameraInfo"
+            f"{beside}/camera_info", "sensor_msgs/msg/CameraInfo"
         )
         self._is_compressed = topic.endswith("/compressed")
         kind = "CompressedImage" if self._is_compressed else "Image"
         self._reader = dds.reader(topic, f"sensor_msgs/msg/{kind}", DEPTH)
 
-    def percepts(self, now: float) -> list[Percept]:
+    def image(self) -> CameraImage | None:
         """Return the newest image, if there is a new one."""
+        end = monotonic() + PATIENCE
+        while not (arrived := take_messages(self._reader)):
+            if monotonic() > end:
+                return None
+            sleep(POLL)
+        now = monotonic() - self._latency
         for info in take_messages(self._calibrations)[-1:]:
             self._calibrate(info)
-        arrived = take_messages(self._reader)
-        if not arrived:
-            return []
         newest = arrived[-1]
         pixels = unpacked(newest) if self._is_compressed else pixels_of(newest)
         if pixels is None:
-            return []
+            return None
         height, width = pixels.shape[:2]
         model = resize_model(self._model, width, height)
-        return [ColourImage(now - self._latency, model, pixels)]
+        return CameraImage(now, pixels, model.focal_x, model.focal_y)
 
     def _calibrate(self, info: Any) -> None:
         """Take the focal lengths of a calibration, if it has any."""

@@ -6,39 +6,15 @@ from contextlib import suppress
 from enum import Enum
 from math import degrees
 from time import monotonic
-from typing import Protocol, TextIO
+from typing import TextIO
 
-from ..perception.measurement import Sighting
+from .play_log import PlayTick
 
 PERIOD = 0.2  # between two updates of the line, in [s]
 _NUMBER = re.compile(r"[-+]?\d+(\.\d+)?")
 
 
-class TickStatus(Protocol):
-    """Attributes of a tick that the status line shows."""
-
-    @property
-    def state(self) -> Enum:
-        """State of the robot."""
-
-    @property
-    def reason(self) -> str:
-        """Reason for the state, as a message."""
-
-    @property
-    def time(self) -> float:
-        """Time of the tick, in [s]."""
-
-    @property
-    def words(self) -> str:
-        """State, reason and command as a short text."""
-
-    @property
-    def sighting(self) -> Sighting | None:
-        """Newest sighting of the opponent; None without one."""
-
-
-def status_text(tick: TickStatus) -> str:
+def status_text(tick: PlayTick) -> str:
     """Return one line about a tick."""
     sighting = tick.sighting
     opponent = "opponent not detected"
@@ -66,7 +42,7 @@ class StatusLine:
         self._written = -PERIOD
         self._last: tuple[Enum, str] | None = None
 
-    def note(self, tick: TickStatus) -> None:
+    def note(self, tick: PlayTick) -> None:
         """Show a tick, if the status changed or an update is due."""
         now = self._clock()
         kind = tick.state, _NUMBER.sub("", tick.reason)

@@ -3,35 +3,37 @@
 The robot is to hang in the air, or to have room for a few steps.
 """
 
-from dataclasses import dataclass
+from functools import partial
 from math import cos, hypot, sin
+from typing import NamedTuple
 
 from ..core.poses import wrap_angle
 from ..strategies.velocity_set import BodyVelocity
 from .method_check import (
     FAILED,
     PASSED,
+    RATIOS,
+    UNATTENDED,
     UNKNOWN,
     MethodCheck,
     TimedReport,
 )
-from .robot_session import POLL, PREPARE_TIMEOUT, velocity_state
+from .robot_reports import pose_fault
+from .robot_session import PREPARE_TIMEOUT
 from .velocity_loop import PERIOD
-from .watchdog import WatchSettings, report_fault
+from .watchdog import SILENCE
 
 STANDING, MOVING = 2.0, 2.5  # durations of the parts, in [s]
 SETTLED = 1.0  # last part of a motion, over which it is measured, in [s]
 SHARE = 0.5  # of the limits that is commanded
 FASTEST = BodyVelocity(0.2, 0.2, 0.5)  # that is commanded, in [m/s], [rad/s]
 STILL = 0.05  # motion that counts as none, in [m/s] or [rad/s]
-RATIOS = (0.3, 2.0)  # measured over commanded velocity that is plausible
 SLOW = 0.1  # duration of a method that is too long, in [s]
 STOP_TIMEOUT = 2.0  # in which a robot must stand, in [s]
-UNATTENDED = 1.5  # without commands, to see whether the robot stops, in [s]
+WINDOW = 0.2  # over which a rate is measured, in [s]
 
 
-@dataclass(frozen=True, slots=True)
-class Axis:
+class Axis(NamedTuple):
     """Direction of motion that is checked.
 
     Attributes:
@@ -50,18 +52,12 @@ class Axis:
 class VelocityCheck(MethodCheck):
     """Check of a robot that is driven by velocities."""
 
-    halting = "stop"
-
     def _check(self) -> None:
-        standing = self._listen(STANDING)
-        watch = WatchSettings()
-        arrivals = [each.arrived for each in standing]
-        self._check_rate(arrivals, STANDING, watch.silence)
-        if not standing:
+        standing = self._collect(STANDING)
+        if not self._check_reports(standing, STANDING, SILENCE):
             return
-        self._check_clock([each.report.time for each in standing], arrivals)
         self._check_pose(standing)
-        self._check_sighting([report for report, _ in standing], watch.oldest)
+        self._check_sighting(standing)
         if not self._dry_run:
             self._timed("prepare", PREPARE_TIMEOUT)
             for axis in self._axes():
@@ -70,35 +66,21 @@ class VelocityCheck(MethodCheck):
             self._check_silence()
         self._check_durations(SLOW)
 
-    def _listen(
-        self, duration: float, command: BodyVelocity | None = None
+    def _rest(self, arrived: float, *, commanded: bool) -> float:
+        return max(PERIOD - (self._clock() - arrived), 0.0)
+
+    def _moved(
+        self, duration: float, velocity: BodyVelocity
     ) -> list[TimedReport]:
-        """Collect new reports, with a command after each, as ``play`` does."""
-        reports: list[TimedReport] = []
-        end = self._clock() + duration
-        name = self._methods.name_of("listen")
-        robot = self._methods.robot
-        while self._clock() < end:
-            if command is not None:
-                self._call("command", lambda: robot.command(*command))
-            got = self._call("listen")
-            now = self._clock()
-            if got is None:
-                self._pause(POLL)
-                continue
-            report = velocity_state(got, name)
-            if reports and report.time == reports[-1].report.time:
-                self._pause(POLL)
-                continue
-            reports.append(TimedReport(report, now))
-            self._pause(max(PERIOD - (self._clock() - now), 0.0))
-        return reports
+        """Walk at a velocity for a time, in [s]."""
+        command = partial(self._robot.command, *velocity)
+        return self._collect(duration, lambda _: command)
 
     def _check_pose(self, reports: list[TimedReport]) -> None:
         """Check the poses of the standing robot."""
         last = None
         for report, _ in reports:
-            if fault := report_fault(report, last):
+            if fault := pose_fault(report, last):
                 self._add("pose", FAILED, fault)
                 return
             last = report
@@ -107,7 +89,7 @@ class VelocityCheck(MethodCheck):
         still = drift < STILL and abs(moved.turn) < STILL
         self._add(
             "pose",
-            PASSED if still else FAILED,
+            still,
             f"standing, it drifts by {drift:.3f} m/s and "
             f"{moved.turn:+.3f} rad/s",
             drift,
@@ -116,7 +98,7 @@ class VelocityCheck(MethodCheck):
 
     def _axes(self) -> list[Axis]:
         """Return the directions of motion that the robot has."""
-        limits = self._methods.robot.limits
+        limits = self._robot.limits
         turn = min(SHARE * limits.turn, FASTEST.turn)
         ahead = min(SHARE * limits.forward, FASTEST.forward)
         back = min(SHARE * limits.backward, FASTEST.forward)
@@ -135,7 +117,7 @@ class VelocityCheck(MethodCheck):
 
     def _check_axis(self, axis: Axis) -> None:
         """Check sign and size of the motion in one direction."""
-        reports = self._listen(MOVING, axis.command)
+        reports = self._moved(MOVING, axis.command)
         self._call("stop")
         wanted = next(value for value in axis.command if value)
         at = axis.command.index(wanted)
@@ -161,20 +143,19 @@ class VelocityCheck(MethodCheck):
         else:
             verdict = PASSED
         self._add(axis.name, verdict, text, got, axis.unit)
-        self._listen(SETTLED)
+        self._collect(SETTLED)
 
     def _check_stop(self) -> None:
         """Check how long the robot turns on after stop()."""
         turn = self._axes()[0].command
-        before = _velocity(self._listen(MOVING, turn)[-10:]).turn
+        before = _velocity(self._moved(MOVING, turn)[-10:]).turn
         self._call("stop")
         began = self._clock()
         if abs(before) < STILL:
             self._add("stop", UNKNOWN, "no motion was measured before stop()")
             return
-        window = 0.2  # over which a rate is measured, in [s]
         while self._clock() - began < STOP_TIMEOUT:
-            rate = _velocity(self._listen(window)).turn
+            rate = _velocity(self._collect(WINDOW)).turn
             if abs(rate) < 0.2 * abs(before):
                 took = self._clock() - began
                 text = f"stands {took:.1f} s after stop()"
@@ -192,11 +173,11 @@ class VelocityCheck(MethodCheck):
     def _check_silence(self) -> None:
         """Check whether the robot stops when commands cease."""
         turn = self._axes()[0].command
-        before = _velocity(self._listen(SETTLED, turn)[-10:]).turn
-        self._listen(UNATTENDED)
-        after = _velocity(self._listen(0.3)).turn
+        before = _velocity(self._moved(SETTLED, turn)[-10:]).turn
+        self._collect(UNATTENDED)
+        after = _velocity(self._collect(0.3)).turn
         self._call("stop")
-        keeps = self._methods.robot.keeps_walking
+        keeps = self._robot.keeps_walking
         name = "without commands"
         if abs(before) < STILL:
             self._add(name, UNKNOWN, "no motion was measured before")

@@ -1,27 +1,30 @@
 """Control loop of a player whose robot follows velocity commands."""
 
 from collections.abc import Callable
-from dataclasses import dataclass
 from enum import Enum
 from functools import partial
+from time import monotonic, sleep
+
+import numpy as np
 
 from ..control.strategy_runner import StrategyRunner
 from ..core.errors import StrategyError
-from ..core.poses import Pose
+from ..core.poses import Array, Pose
 from ..locomotion.locomotion import MotionRequest, template_velocity
-from ..perception.measurement import RobotState, Sighting
+from ..perception.measurement import RobotState
 from ..planning import GaitSettings
 from ..strategies import Strategy
 from ..strategies.velocity_set import BodyVelocity, VelocitySet
-from .camera_sight import PosedSight
-from .guardian_process import SessionLost
-from .joint_body import SYSTEM_CLOCK, SystemClock
-from .robot_session import RobotSession, velocity_state
+from .method_thread import SessionLost
+from .play_log import PlayTick
+from .robot_camera import PosedSight
+from .robot_session import RobotSession
 from .velocity_limits import REST, Ramp, VelocityLimits
-from .watchdog import Watchdog, WatchSettings
+from .watchdog import Watchdog
 
 PATIENCE = 0.05  # for a report before the last command is repeated, in [s]
 PERIOD = 0.02  # between two reports at least, in [s]
+FORSAKEN = 10.0  # without a report before the session ends, in [s]
 STILL = 1e-6  # velocity below which a robot stands, in [m/s] or [rad/s]
 
 
@@ -33,41 +36,6 @@ class DrivingState(Enum):
     WALKING = "walking"  # follows the template
     STOPPING = "stopping"  # slows down to end the session
     RESTING = "resting"  # stands at the end of the session
-
-
-@dataclass(frozen=True, slots=True)
-class VelocityTick:
-    """Result of one tick, for logs and the status line.
-
-    Attributes:
-        state: State of the robot.
-        reason: Reason for the state, as a message.
-        time: Time of the newest report on the robot's clock, in [s].
-        pose: Pose of the robot in odometry at that time.
-        sighting: Newest sighting of the opponent; None without one.
-        wanted: Velocity of the template.
-        velocity: Command that was sent.
-        walked: Time since the robot first walked, in [s]; None before.
-    """
-
-    state: DrivingState
-    reason: str
-    time: float
-    pose: Pose
-    sighting: Sighting | None
-    wanted: BodyVelocity
-    velocity: BodyVelocity
-    walked: float | None = None
-
-    @property
-    def words(self) -> str:
-        """State, reason and command as a short text."""
-        forward, lateral, turn = self.velocity
-        aside = f"{lateral:+.3f} m/s aside, " if lateral else ""
-        return (
-            f"{self.state.value} ({self.reason}), "
-            f"{forward:+.3f} m/s, {aside}{turn:+.3f} rad/s"
-        )
 
 
 class TemplateController:
@@ -134,10 +102,12 @@ class VelocityLoop:
         session: RobotSession,
         make_controller: Callable[[], TemplateController],
         limits: VelocityLimits,
-        watch: WatchSettings,
         *,
+        paced: bool = True,
+        source: str = "odometry",
         eyes: PosedSight | None = None,
-        clock: SystemClock = SYSTEM_CLOCK,
+        clock: Callable[[], float] = monotonic,
+        pause: Callable[[float], None] = sleep,
     ) -> None:
         """Start the loop; the robot stands.
 
@@ -145,19 +115,20 @@ class VelocityLoop:
             session: Session with the robot; closed with the loop.
             make_controller: Factory of controllers.
             limits: Limits of the commands.
-            watch: Settings of the watchdog.
+            paced: Whether the robot's clock runs in real time.
+            source: What its reports are, for messages.
             eyes: Camera that replaces the sightings of reports, if used;
                 closed with the loop.
-            clock: Clock of this computer.
+            clock: Time of this computer, in [s].
+            pause: Function that sleeps for a time, in [s].
         """
         self._session, self._eyes = session, eyes
         self._make_controller = make_controller
         self._controller = make_controller()
         self._ramp = Ramp(limits)
-        self._watchdog = Watchdog(watch)
-        self._paced, self._forsaken = watch.paced, watch.forsaken
-        self._clock, self._pause = clock
-        self._due = self._clock()  # of the next report
+        self._watchdog = Watchdog(paced=paced, source=source)
+        self._paced, self._clock, self._pause = paced, clock, pause
+        self._due = clock()  # of the next report
         self._report: RobotState | None = None
         self._wanted = REST
         self._leave_reason = self._failure = ""
@@ -193,7 +164,7 @@ class VelocityLoop:
             self._eyes.close()
         self._session.close()
 
-    def tick(self) -> VelocityTick:
+    def tick(self) -> PlayTick:
         """Read a report, decide, and send a command.
 
         Raises:
@@ -207,10 +178,9 @@ class VelocityLoop:
         hindrance = self._watchdog.check(report, self._clock())
         # The clock of a simulator may pause for any time.
         waits = self._paced or self._report is None
-        if waits and self._watchdog.silent > self._forsaken:
+        if waits and self._watchdog.silent > FORSAKEN:
             raise SessionLost(
-                f"no new report from the robot for {self._forsaken:g} s: "
-                f"{hindrance}"
+                f"no new report from the robot for {FORSAKEN:g} s: {hindrance}"
             )
         hindrance = hindrance or released or self._failure
         velocity = self._decide(report, hindrance)
@@ -223,7 +193,7 @@ class VelocityLoop:
         early = self._due - self._clock()
         if early > 0.0:
             self._pause(min(early, PATIENCE))
-        report = self._session.listen(PATIENCE, velocity_state)
+        report = self._session.listen(PATIENCE)
         last = self._report
         if report is not None and (last is None or report.time != last.time):
             self._due = self._clock() + PERIOD
@@ -267,7 +237,7 @@ class VelocityLoop:
             self.leave(self._failure)
             return REST
 
-    def _result(self, hindrance: str, velocity: BodyVelocity) -> VelocityTick:
+    def _result(self, hindrance: str, velocity: BodyVelocity) -> PlayTick:
         moves = max(abs(value) for value in velocity) > STILL
         if self._leave_reason:
             state = DrivingState.STOPPING if moves else DrivingState.RESTING
@@ -278,18 +248,27 @@ class VelocityLoop:
             state, reason = DrivingState.WALKING, "opponent detected"
         else:
             state, reason = DrivingState.STANDING, "strategy wants to stand"
-        report, now = self._report, 0.0
-        if report is not None:
-            now = report.time
-            if self._began is None and state is DrivingState.WALKING:
-                self._began = now
-        return VelocityTick(
+        report = self._report or RobotState(0.0, pose=Pose(0.0, 0.0, 0.0))
+        if self._began is None and state is DrivingState.WALKING:
+            self._began = report.time
+        forward, lateral, turn = velocity
+        aside = f"{lateral:+.3f} m/s aside, " if lateral else ""
+        return PlayTick(
             state,
             reason,
-            now,
-            Pose(0.0, 0.0, 0.0) if report is None else report.pose,
-            None if report is None else report.sighting,
-            self._wanted,
-            velocity,
-            None if self._began is None else now - self._began,
+            report.time,
+            report.sighting,
+            f"{state.value} ({reason}), {forward:+.3f} m/s, "
+            f"{aside}{turn:+.3f} rad/s",
+            {
+                "pose": np.array(report.pose),
+                "wanted": _columns(self._wanted),
+                "velocity": _columns(velocity),
+            },
+            None if self._began is None else report.time - self._began,
         )
+
+
+def _columns(velocity: BodyVelocity) -> Array:
+    """Return forward [m/s], turn [rad/s] and lateral [m/s]."""
+    return np.array([velocity.forward, velocity.turn, velocity.lateral])

@@ -5,8 +5,8 @@ from pathlib import Path
 import numpy as np
 
 from ..core.poses import Array
-from ..drivers.row_file import HEADER, ROWS
-from ..drivers.safety_states import SafetyState
+from ..drivers.play_log import METADATA, ROWS
+from ..drivers.safety import SafetyState
 from ..drivers.velocity_loop import DrivingState
 from ..robots.description import load_robot
 from ..theory.unicycle.circle_fit import fit_circle
@@ -15,7 +15,7 @@ from .duel_circle import cycle_mean, distance_between
 from .duel_settings import PLAYERS
 from .outcome import Outcome
 from .play_joint_path import OdometryPath, estimate_tilts
-from .play_rows import NOTES, PlayedRows, read_played
+from .play_rows import PlayedRows, read_played
 from .play_settings import PlaySettings
 from .play_summary import PlayStateChange, PlaySummary
 from .run import PlayRun
@@ -29,7 +29,7 @@ CUT_OFF = "the record was cut off"
 
 def has_play_rows(folder: Path) -> bool:
     """Return whether a folder holds rows of a player, finished or not."""
-    return all((folder / name).is_file() for name in (HEADER, ROWS, NOTES))
+    return all((folder / name).is_file() for name in (ROWS, METADATA))
 
 
 def run_of_play(

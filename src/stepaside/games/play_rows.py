@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from ..core.errors import ConfigurationError
 from ..core.poses import Array
-from ..drivers.row_file import HEADER, ROWS, columns_in
+from ..drivers.play_log import METADATA, ROWS, columns_in
 from .archive_reader import (
     MAX_ARRAY_BYTES,
     check_object,
@@ -19,7 +19,6 @@ from .archive_reader import (
     read_json,
 )
 
-NOTES = "play.json"
 PERIOD = 0.02  # approximate smallest period of the samples of a run, in [s]
 MAX_GAP = 10.0  # between ticks of one clock, in [s]
 DEFAULT_TICK = 0.012  # of rows whose times do not advance, in [s]
@@ -114,15 +113,17 @@ def read_played(folder: Path) -> PlayedRows:
         OSError: If a file cannot be read.
     """
     name = folder.resolve().name
-    columns = check_object(read_json(folder / HEADER), f"{HEADER} of {name}")
+    notes = read_json(folder / METADATA)
+    about = check_object(notes, f"{METADATA} of {name}").get("columns")
+    columns = check_object(about, f"columns in {METADATA} of {name}")
     _check_columns(columns, name)
     found = columns_in(read_bytes(folder / ROWS, MAX_ARRAY_BYTES), columns)
     if not len(found["times_s"]):
         raise ConfigurationError(f"{ROWS} of {name} has no rows")
-    notes = parse_object(
-        PlayStateLog, read_json(folder / NOTES), f"{NOTES} of {name}"
-    )
-    return PlayedRows(found, monotonic_times(found["times_s"]), notes.changes)
+    changes = parse_object(
+        PlayStateLog, notes, f"{METADATA} of {name}"
+    ).changes
+    return PlayedRows(found, monotonic_times(found["times_s"]), changes)
 
 
 def monotonic_times(times: Array) -> Array:
@@ -159,6 +160,6 @@ def _check_columns(columns: dict[str, Any], name: str) -> None:
         valid = valid and all(type(n) is int and 0 < n < 256 for n in sizes)
     if not valid:
         raise ConfigurationError(
-            f"{HEADER} of {name} must hold the columns of a player: "
+            f"{METADATA} of {name} must hold the columns of a player: "
             f"{', '.join([*expected, *joints])}"
         )

@@ -1,13 +1,16 @@
 """Test that a user's robot is loaded, and an invalid one refused."""
 
+from math import nan
 from pathlib import Path
+from typing import Any
 
 import pytest
 
+from joint_fakes import FakeRobot
 from stepaside.core.errors import ConfigurationError
-from stepaside.drivers.robot_loader import load_robot_class
+from stepaside.drivers.robot import HeadLimits, VelocityRobot
+from stepaside.drivers.robot_loader import check_robot_class, load_robot_class
 from stepaside.drivers.velocity_limits import VelocityLimits
-from stepaside.drivers.velocity_robot import VelocityRobot
 
 VALID = """
 import stepaside as sa
@@ -79,3 +82,40 @@ def test_an_invalid_class_is_refused_by_the_name_of_what_is_wrong(
 def test_a_robot_needs_file_and_class(name: str) -> None:
     with pytest.raises(ConfigurationError, match=r"FILE\.py:CLASS"):
         load_robot_class(name)
+
+
+@pytest.mark.parametrize(
+    ("changes", "said"),
+    [
+        ({"tick": 5.0}, r"tick must be in \[0.001, 0.1\] s, got 5.0"),
+        ({"joints": "hip"}, "joints must be the names of the joints"),
+        ({"paced": 1}, "paced must be True or False"),
+        ({"gains": {"hip": (1.0,)}}, "gains of hip must be a stiffness"),
+        ({"gains": {"hip": (nan, 1.0)}}, "gains of hip"),
+    ],
+)
+def test_an_invalid_class_of_joints_is_refused(
+    changes: dict[str, Any], said: str
+) -> None:
+    kind = type("Changed", (FakeRobot,), changes)
+    with pytest.raises(ConfigurationError, match=f"robot r.py:R: {said}"):
+        check_robot_class(kind, "robot r.py:R")
+
+
+@pytest.mark.parametrize(
+    ("changes", "said"),
+    [
+        ({"head": HeadLimits(90.0, 0.3, 0.3)}, "head must be HeadLimits"),
+        ({"head": HeadLimits(1.0, nan, 0.3)}, "head must be HeadLimits"),
+        ({"head": 1.0}, "head must be HeadLimits"),
+        ({"head": HeadLimits(1.0, 0.3, 0.3)}, r"head needs the method look"),
+        ({"camera": (0.0, 0.0, 1.0)}, "camera must be CameraMount"),
+    ],
+)
+def test_an_invalid_camera_is_refused(
+    changes: dict[str, Any], said: str, tmp_path: Path
+) -> None:
+    kind = load_robot_class(robot_file(tmp_path, VALID))
+    changed = type("Changed", (kind,), changes)
+    with pytest.raises(ConfigurationError, match=said):
+        check_robot_class(changed, "robot r.py:R")
