@@ -11,7 +11,7 @@ from pathlib import Path
 
 import numpy as np
 
-from stepaside import DuelSettings, StartSettings, draw_duel, run_duel
+from stepaside import DuelSettings, StartSettings, draw_run, run_duel
 
 seconds = float(sys.argv[1]) if len(sys.argv) > 1 else 40.0
 settings = DuelSettings(
@@ -35,5 +35,5 @@ print(f"the evader's CoM moved {np.hypot(*steps.T).sum():.2f} m")
 assert run.evader.landings is not None
 print(f"in {len(run.evader.landings)} footsteps")
 
-draw_duel(run, Path("duel.png"))
+draw_run(run, Path("duel.png"))
 print("figure: duel.png")

@@ -150,10 +150,10 @@ WRITERS: dict[str, tuple[str, Callable[[Any], Any]]] = {
     "run_study": ("study.sqlite", lambda p: run_study(a_study(), p)),
     "merge_results": ("study.sqlite", merge_one),
     "write_page": ("page.html", lambda p: stepaside.write_page(a_run(), p)),
-    "draw_duel": ("duel.svg", lambda p: stepaside.draw_duel(a_run(), p)),
-    "draw_comparison": (
+    "draw_run": ("duel.svg", lambda p: stepaside.draw_run(a_run(), p)),
+    "draw_runs": (
         "both.svg",
-        lambda p: stepaside.draw_comparison([a_run()], p),
+        lambda p: stepaside.draw_runs([a_run()], p),
     ),
     "draw_plan": (
         "plan.svg",

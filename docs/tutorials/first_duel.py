@@ -39,9 +39,9 @@ print(f"evader's torso   {run.evader.torso.shape}: x, y, heading")
 # %%
 from IPython.display import Image
 
-from stepaside import draw_duel
+from stepaside import draw_run
 
-draw_duel(run, "duel.png")
+draw_run(run, "duel.png")
 Image("duel.png", width=720)
 
 # %% [markdown]

@@ -14,7 +14,7 @@ from stepaside.cli.circle_tables import print_circles
 from stepaside.cli.main import main
 from stepaside.cli.map import map as map_command
 from stepaside.cli.unicycles import unicycles
-from stepaside.report import unicycle_ratios, unicycle_sweep
+from stepaside.report import unicycle_figures
 from stepaside.theory.unicycle.unicycle_game import Game, Unicycle
 
 COMPARED = (
@@ -98,8 +98,8 @@ def test_sampled_simulation_reaches_the_closed_form() -> None:
 def test_figures_are_written(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    few = partial(unicycle_sweep.draw_sweep, marks=1)
-    monkeypatch.setattr(unicycle_sweep, "draw_sweep", few)
+    few = partial(unicycle_figures.draw_sweep, marks=1)
+    monkeypatch.setattr(unicycle_figures, "draw_sweep", few)
     for command, words, name in [
         (unicycles, "--figure", "game.png"),
         (circle, "--starts 0 --sweep", "sweep.svg"),
@@ -115,8 +115,8 @@ def test_circle_names_each_figure_after_its_option(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     for module, name in (
-        (unicycle_ratios, "draw_ratios"),
-        (unicycle_sweep, "draw_sweep"),
+        (unicycle_figures, "draw_ratios"),
+        (unicycle_figures, "draw_sweep"),
     ):
         monkeypatch.setattr(module, name, lambda game, file: None)
     figure, sweep = str(tmp_path / "f.png"), str(tmp_path / "s.png")
@@ -281,6 +281,6 @@ def test_unknown_strategy_is_refused() -> None:
 def test_circle_within_capture_distance_has_no_marks() -> None:
     """Such a game ends before anything can be measured."""
     game = Game(Unicycle(0.1, 1e9), Unicycle(0.1, 1e9))
-    assert unicycle_sweep.simulate_circle(game) is None
+    assert unicycle_figures.simulate_circle(game) is None
     large = Game(Unicycle(0.1, 0.2), Unicycle(0.1, 0.2))
-    assert unicycle_sweep.simulate_circle(large) is not None
+    assert unicycle_figures.simulate_circle(large) is not None

@@ -27,7 +27,7 @@ from stepaside.core.errors import ConfigurationError, OutputError
 from stepaside.games.duel import run_duel
 from stepaside.games.duel_settings import DuelSettings
 from stepaside.games.run import DuelRun
-from stepaside.report import duel_figure, unicycle_sweep
+from stepaside.report import run_figure, unicycle_figures
 from stepaside.report.run_folder import save_run, write_run
 from stepaside.studies import Study, run_study
 from vendor_humanoid import mjcf
@@ -188,7 +188,7 @@ def test_a_run_that_cannot_be_written_is_saved_in_the_temporary_folder(
         if there in path.parents:
             raise FULL
 
-    monkeypatch.setattr(duel_figure, "draw_duel", full)
+    monkeypatch.setattr(run_figure, "draw_run", full)
     saved, error = save_run(there / "run", short)
     assert saved == spare / "stepaside-run"
     assert error is not None and "no space left" in str(error)
@@ -317,8 +317,8 @@ def test_every_output_option_is_checked() -> None:
 def test_a_figure_without_a_suffix_is_reported_with_one(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    few = partial(unicycle_sweep.draw_sweep, marks=0)
-    monkeypatch.setattr(unicycle_sweep, "draw_sweep", few)
+    few = partial(unicycle_figures.draw_sweep, marks=0)
+    monkeypatch.setattr(unicycle_figures, "draw_sweep", few)
     words = ["circle", "--starts", "0", "--json"]
     figure = ["--sweep", str(tmp_path / "a")]
     result = CliRunner().invoke(main, [*words, *figure])
@@ -362,7 +362,7 @@ def test_a_duel_is_reported_although_it_cannot_be_written(
     def full(*arguments: Any) -> None:
         raise FULL
 
-    monkeypatch.setattr(duel_figure, "draw_duel", full)
+    monkeypatch.setattr(run_figure, "draw_run", full)
     monkeypatch.setattr("tempfile.tempdir", str(tmp_path))
     words = ["duel", "--duration", "0.1", "--output", str(tmp_path / "run")]
     result = CliRunner().invoke(main, words)

@@ -18,9 +18,9 @@ from stepaside.games.run import WalkRun
 from stepaside.games.run_archive import load_run, write_run_files
 from stepaside.games.walk_game import run_walk
 from stepaside.games.walk_settings import WalkSettings
+from stepaside.report.compare_figure import mean_speed
 from stepaside.report.run_folder import write_run
 from stepaside.report.scene import RunScene
-from stepaside.report.walks_figure import mean_speed
 from stepaside.sim.push import Push
 from synthetic_run import check_same
 

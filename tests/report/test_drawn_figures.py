@@ -5,6 +5,7 @@ from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
+import matplotlib
 import numpy as np
 import pytest
 from click.testing import CliRunner
@@ -132,3 +133,7 @@ def test_runs_are_compared_in_one_figure(
     done = CliRunner().invoke(main, [*words, str(tmp_path / "a.png")])
     assert done.exit_code == 0, done.output
     assert all(name in named(drawn[-1]) for name in ("one", "two"))
+
+
+def test_figures_are_drawn_without_a_screen() -> None:
+    assert matplotlib.get_backend().lower() == "agg"

@@ -18,7 +18,7 @@ from stepaside.games.duel_settings import DuelSettings, StartSettings
 from stepaside.games.run import DuelRun, Run
 from stepaside.games.run_archive import FORMAT, load_run, results_of
 from stepaside.games.trajectory import Trajectory
-from stepaside.report import duel_figure, sight_figure
+from stepaside.report import run_figure, sight_figure
 from stepaside.report.run_folder import check_output, free_folder, write_run
 from stepaside.report.scene import RunScene
 from stepaside.sim.body_settings import BODIES
@@ -41,7 +41,7 @@ def draw_nothing(*arguments: Any) -> None:
 
 @pytest.fixture(autouse=True)
 def quick(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(duel_figure, "draw_duel", draw_nothing)
+    monkeypatch.setattr(run_figure, "draw_run", draw_nothing)
 
 
 def test_a_run_comes_back_as_it_was(tmp_path: Path, result: DuelRun) -> None:
@@ -92,7 +92,7 @@ def test_an_error_leaves_nothing_behind(
         assert len(list(tmp_path.iterdir())) == 1  # the draft
         raise error
 
-    monkeypatch.setattr(duel_figure, "draw_duel", fail)
+    monkeypatch.setattr(run_figure, "draw_run", fail)
     with pytest.raises(type(error)):
         write_run(tmp_path / "run", result)
     assert list(tmp_path.iterdir()) == []
@@ -104,7 +104,7 @@ def test_a_full_disk_is_told_in_one_line(
     def full(*_: Any) -> None:
         raise OSError(28, "No space left on device")
 
-    monkeypatch.setattr(duel_figure, "draw_duel", full)
+    monkeypatch.setattr(run_figure, "draw_run", full)
     said = "run could not be written: no space left"
     with pytest.raises(OutputError, match=said):
         write_run(tmp_path / "run", result)

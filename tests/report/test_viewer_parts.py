@@ -1,7 +1,7 @@
 """Parts of the page: bodies, lines, words, pictures, without a browser."""
 
 from contextlib import nullcontext
-from math import inf, pi, sqrt
+from math import inf, sqrt
 from types import SimpleNamespace
 from typing import Any
 
@@ -9,22 +9,16 @@ import mujoco
 import numpy as np
 import pytest
 
-from fake_page import Gui, Scene
+from fake_page import Scene
 from stepaside.core.poses import Array, Pose
 from stepaside.games.duel import Duel
 from stepaside.games.duel_settings import DuelSettings, StartSettings
 from stepaside.locomotion.walk_snapshots import Phase, WalkState
-from stepaside.perception.images import ColourImage
 from stepaside.planning import Foot, SoleRectangle
 from stepaside.planning.support_polygon import sole_corners
 from stepaside.report.figure_style import COLOURS, EVADER, THEORY
 from stepaside.report.palette import ON_BOTH_FLOORS
 from stepaside.report.viewer import live_drawing as drawing
-from stepaside.report.viewer.camera_panel import (
-    DETECTION_COLOUR,
-    CameraPanel,
-    picture,
-)
 from stepaside.report.viewer.live_drawing import ZMP_COLOURS, draw_session
 from stepaside.report.viewer.plot_history import PlotHistory
 from stepaside.report.viewer.scene_bodies import (
@@ -450,77 +444,3 @@ STAND, WALK, HALT, FELL = (
     Phase.HALTING,
     Phase.FALLEN,
 )
-
-
-def image(azimuths: tuple[float, ...], *, depth: bool = False) -> Any:
-    camera = SimpleNamespace(width=80, height=60, focal_x=60.0)
-    if depth:
-        depths = np.zeros((60, 80))
-        depths[:, 20:40], depths[:, 40:60], depths[:, 60:] = 1.0, 2.0, 9.0
-        shown: Any = SimpleNamespace(camera=camera, depths=depths, far=4.0)
-    else:
-        pixels = np.full((60, 80, 3), 7, dtype=np.uint8)
-        shown = ColourImage(0.0, camera, pixels)  # type: ignore[arg-type]
-    return SimpleNamespace(image=shown, azimuths=azimuths)
-
-
-@pytest.mark.parametrize(
-    ("azimuth", "column"),
-    [(0.0, 40.0), (0.3, 40.0 - 60.0 * np.tan(0.3)), (-0.3, 58.56)],
-)
-def test_a_line_stands_where_something_was_found(
-    azimuth: float, column: float
-) -> None:
-    """Three times as large; what is to the left is left in the picture."""
-    large = picture(image((azimuth,)))
-    assert large.shape == (180, 240, 3)
-    marked = np.flatnonzero((large[0] == DETECTION_COLOUR).all(axis=1))
-    at = int(3 * column)
-    np.testing.assert_array_equal(marked, [at - 1, at, at + 1])
-    assert (large[:, marked] == DETECTION_COLOUR).all()
-    assert (np.delete(large, marked, axis=1) == 7).all()
-
-
-def test_what_is_out_of_the_picture_gets_no_line() -> None:
-    for azimuth in (0.6, -0.6, 1.5, pi / 2):
-        assert (picture(image((azimuth,))) == 7).all()
-
-
-def test_depth_is_darker_the_farther_and_black_where_nothing_is() -> None:
-    shades = picture(image((), depth=True))[0, ::60]
-    np.testing.assert_array_equal(shades[:, 0], shades[:, 2])
-    nothing, near, far, beyond = shades[:, 0].tolist()
-    assert nothing == 0
-    assert near == int(255.0 * (1.0 - 0.85 * 0.25))
-    assert far == int(255.0 * (1.0 - 0.85 * 0.5))
-    assert beyond == int(255.0 * 0.15)
-
-
-def test_the_panel_shows_the_newest_image_of_each_camera() -> None:
-    gui: Any = Gui()
-    panel = CameraPanel(gui)
-    folder = gui.folders["Cameras"]
-    assert folder.visible is False
-    panel.reset(visible=True)
-    assert folder.visible is True
-    first, second = image(()), image((0.0,))
-    panel.show({"pursuer, colour": first})
-    handle = gui["pursuer, colour"]
-    np.testing.assert_array_equal(handle.image, picture(first))
-    deep = image((), depth=True)
-    panel.show({"pursuer, colour": second, "evader, depth": deep})
-    assert gui["pursuer, colour"] is handle
-    np.testing.assert_array_equal(handle.image, picture(second))
-    assert (handle.image != 7).any()
-    assert gui["evader, depth"].image.shape == (180, 240, 3)
-    before = handle.image
-    panel.show({})
-    assert handle.image is before
-    panel.reset(visible=False)
-    assert handle.removed and gui["evader, depth"].removed
-    assert folder.visible is False
-    # Another duel: its pictures are put up anew.
-    del gui.items["pursuer, colour"]
-    panel.reset(visible=True)
-    panel.show({"pursuer, colour": first})
-    assert gui["pursuer, colour"] is not handle

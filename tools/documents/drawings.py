@@ -12,26 +12,26 @@ def duel(store: Store, file: Path) -> None:
     """Draw the duel of the README from its stored trajectories."""
     from stepaside.games.duel_settings import DuelSettings
     from stepaside.games.run_archive import read_record
-    from stepaside.report.duel_figure import draw_duel
+    from stepaside.report.run_figure import draw_run
 
     result = store.result("duel-seed7")
     with np.load(store.folder / result["trajectories"]["file"]) as arrays:
         tracks = {name: arrays[name] for name in arrays.files}
     settings = DuelSettings(seed=result["settings"]["seed"])
     run = read_record("duel-seed7", settings, result["summary"], tracks)
-    draw_duel(run, file)
+    draw_run(run, file)
 
 
 def push_limits(store: Store, file: Path) -> None:
     """Draw push limits over the phase, with the pendulum's bound."""
-    from stepaside.report.robustness_figure import draw_limits
+    from stepaside.report.study_figures import draw_limits
 
     draw_limits(store.result("pushes")["rows"], file)
 
 
 def people(store: Store, file: Path) -> None:
     """Draw the closest approach of people by the direction they come from."""
-    from stepaside.report.people_figure import draw_people
+    from stepaside.report.study_figures import draw_people
 
     result = store.result("people-ideal")
     draw_people(result["origins"], result["clearance_m"], file)
@@ -50,7 +50,7 @@ UNITS = {
 
 def survival_on_hardware(store: Store, file: Path) -> None:
     """Draw survival over the strength of each disturbance."""
-    from stepaside.report.robustness_figure import draw_survival
+    from stepaside.report.study_figures import draw_survival
 
     rows = [
         # This result has a former name of backlash.
@@ -62,7 +62,7 @@ def survival_on_hardware(store: Store, file: Path) -> None:
 
 def many_duels(store: Store, file: Path) -> None:
     """Draw the distributions of the values of many duels, by kind."""
-    from stepaside.report.duels_figure import draw_duels
+    from stepaside.report.study_figures import draw_duels
 
     groups = {}
     for kind in ("ideal", "hardware", "cameras"):

@@ -61,7 +61,7 @@ def bound(
     if output is not None and attempt(lambda: table.save(output)):
         result["output"] = output
     if figure is not None:
-        from ..report.value_function_figure import draw_bound
+        from ..report.value_figures import draw_bound
 
         if attempt(lambda: draw_bound(game, table, capture, figure)):
             result["figure"] = figure

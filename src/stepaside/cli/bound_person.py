@@ -52,7 +52,7 @@ def person_report(
         "start_ahead_m": _reach(standing, capture),
     }
     if figure is not None:
-        from ..report.chauffeur_figure import draw_chauffeur
+        from ..report.value_figures import draw_chauffeur
 
         drawn = game, table, standing, capture, figure
         if attempt(lambda: draw_chauffeur(*drawn)):

@@ -68,12 +68,12 @@ def circle(
     with show_progress("circle", starts, "games", quiet=as_json) as bar:
         result |= describe_circles(game, *drawn, bar.update)
     if figure is not None:
-        from ..report.unicycle_ratios import draw_ratios
+        from ..report.unicycle_figures import draw_ratios
 
         if attempt(lambda: draw_ratios(game, figure)):
             result["figure"] = figure
     if sweep is not None:
-        from ..report.unicycle_sweep import draw_sweep
+        from ..report.unicycle_figures import draw_sweep
 
         if attempt(lambda: draw_sweep(game, sweep)):
             result["sweep"] = sweep

@@ -62,9 +62,9 @@ def duel(
     run = _play(settings)
     saved = save_run(output, run)
     if figure is not None and run.outcome is not Outcome.INTERRUPTED:
-        from ..report.duel_figure import draw_duel
+        from ..report.run_figure import draw_run
 
-        attempt(lambda: draw_duel(run, Path(figure)))
+        attempt(lambda: draw_run(run, Path(figure)))
     if as_json:
         print_json(results_of(run) | saved.entries)
     else:

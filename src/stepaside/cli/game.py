@@ -88,7 +88,7 @@ def game(
     run = _play(settings)
     saved = save_run(output, run)
     if figure is not None and run.outcome is not Outcome.INTERRUPTED:
-        from ..report.run_folder import draw_run
+        from ..report.run_figure import draw_run
 
         attempt(lambda: draw_run(run, Path(figure)))
     if as_json:

@@ -109,7 +109,7 @@ def measure(
         entries = response_entries(result.response, Path(network))
         draft.write_text(tomli_w.dumps(entries), encoding="utf-8")
     if figure is not None:
-        from ..report.legs_figure import draw_response
+        from ..report.study_figures import draw_response
 
         attempt(lambda: draw_response(result.response, Path(figure)))
     if as_json:

@@ -123,7 +123,7 @@ def map(  # noqa: A001 (the command's name)
     )
     result = _result(game, box, rules, found, worst)
     if figure is not None:
-        from ..report.unicycle_map import draw_map
+        from ..report.unicycle_figures import draw_map
         from ..theory.unicycle.circles import circles_of
 
         circles = circles_of(game)

@@ -65,7 +65,7 @@ def _draw_game(file: Path) -> None:
 
 
 def _draw_sweep(file: Path) -> None:
-    from ..report.unicycle_sweep import draw_sweep
+    from ..report.unicycle_figures import draw_sweep
     from ..studies.unicycle_claims import FIG_2
 
     draw_sweep(FIG_2, str(file), marks=7)
@@ -75,9 +75,9 @@ def _draw_duel(file: Path, seed: int) -> None:
     from ..games.duel import run_duel
     from ..games.duel_settings import DuelSettings
     from ..games.outcome import Outcome
-    from ..report.duel_figure import draw_duel
+    from ..report.run_figure import draw_run
 
     result = run_duel(DuelSettings(seed=seed, duration=120.0))
     if result.outcome is Outcome.INTERRUPTED:
         raise KeyboardInterrupt  # do not draw a partial duel
-    draw_duel(result, file)
+    draw_run(result, file)

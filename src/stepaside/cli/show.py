@@ -260,20 +260,14 @@ def _write(
 
 def _draw(runs: "list[Run]", file: Path) -> None:
     """Draw the figure of one run, or several runs in one figure."""
-    from ..games.run import is_play
-
     if len(runs) == 1:
-        from ..report.run_folder import draw_run
+        from ..report.run_figure import draw_run
 
         draw_run(runs[0], file)
-    elif runs[0].pair is None and not is_play(runs[0]):
-        from ..report.walks_figure import draw_walks
-
-        draw_walks(runs, file)
     else:
-        from ..report.compare_figure import draw_comparison
+        from ..report.compare_figure import draw_runs
 
-        draw_comparison(runs, file)
+        draw_runs(runs, file)
 
 
 def _even(film: FilmSettings) -> FilmSettings:

@@ -101,7 +101,7 @@ def study(
     run = run_campaign(made, output, campaign, "games")
     rows = run.table(by, values) if run.finished else []
     if figure is not None and run.completed:
-        from ..report.study_figure import draw_study
+        from ..report.study_figures import draw_study
 
         names = by or made.by
         attempt(lambda: draw_study(rows, names, figure))

@@ -45,9 +45,9 @@ def walk(
     run = _walk(settings)
     saved = save_run(output, run)
     if figure is not None and run.outcome is not Outcome.INTERRUPTED:
-        from ..report.walk_figure import draw_walk
+        from ..report.run_figure import draw_run
 
-        attempt(lambda: draw_walk(run, Path(figure)))
+        attempt(lambda: draw_run(run, Path(figure)))
     summary = results_of(run) | saved.entries
     if as_json:
         print_json(summary)

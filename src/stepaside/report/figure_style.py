@@ -1,8 +1,8 @@
-"""Common style of all figures: colours, fonts, saving."""
+"""Common style of all figures: colours, fonts, fixed margins, saving."""
 
 import os
 import sys
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from functools import partial
 from io import BytesIO
 from typing import Any
@@ -26,7 +26,11 @@ PURSUER, EVADER, THEORY = LIGHT.pursuer, LIGHT.evader, LIGHT.theory
 LEFT, RIGHT = LIGHT.others[:2]
 MEAN, SWAY, PUSHED = LIGHT.mean, LIGHT.sway, LIGHT.pushed
 COLOURS = {"pursuer": PURSUER, "evader": EVADER}
+LINES = ("-", "--", ":", "-.")
 colours_of = partial(colours_in, "light")
+MARGIN = 0.75  # left of the panels, for ticks and label, in [inch]
+AXIS = 0.42  # below a row of panels, for ticks and label, in [inch]
+LEGEND_LINE = 0.19  # height of a line of a legend, in [inch]
 # Without dates, the same run gives the same file.
 UNDATED: dict[str, dict[str, Any]] = {
     "pdf": {"CreationDate": None},
@@ -40,11 +44,12 @@ plt.rcParams.update(
         "axes.prop_cycle": cycler(color=[EVADER, PURSUER, LEFT, RIGHT]),
         "axes.grid": True,
         "axes.axisbelow": True,
+        # Given, so that Matplotlib does not measure all labels for it.
+        "axes.titley": 1.0,
         "grid.alpha": 0.25,
         "axes.spines.top": False,
         "axes.spines.right": False,
         "legend.frameon": False,
-        "figure.constrained_layout.use": True,
         "mathtext.fontset": "stix",
         # Text stays editable in PDF and SVG.
         "pdf.fonttype": 42,
@@ -54,49 +59,108 @@ plt.rcParams.update(
 )
 
 
-def new_figure(width: float, height: float) -> Any:
-    """Create a figure on the current sheet.
+def panels(
+    rows: Sequence[str],
+    width: float,
+    heights: Sequence[float],
+    *,
+    title: str = "",
+    legend: int = 0,
+    right: float = 0.2,
+    gaps: tuple[float, float] = (0.75, 0.88),
+    **more: Any,
+) -> tuple[Any, dict[str, Any]]:
+    """Open a figure with panels between fixed margins.
+
+    Fixed margins spare the layout that Matplotlib would compute, which takes
+    longer than drawing.
 
     Args:
-        width: Width on the sheet "screen", in [inch].
-        height: Height on the sheet "screen", in [inch]; on a narrower sheet
-            it shrinks less than the width, since fonts do not shrink.
+        rows: Panels of each row, a letter each; a panel covers all places of
+            its letter, and "." is an empty place. On a narrow sheet panels
+            are stacked.
+        width: Of the figure on the sheet "screen", in [inch].
+        heights: Of each row, in [inch]; on a narrower sheet they shrink less
+            than the width, since fonts do not shrink.
+        title: Title of the figure.
+        legend: Lines that :func:`legend_below` has.
+        right: Margin to the right, in [inch].
+        gaps: Between columns and between rows, in [inch].
+        more: Further arguments of Matplotlib's ``subplot_mosaic``.
 
     Returns:
-        Figure of Matplotlib.
+        Figure and axes of Matplotlib by their letter.
     """
     _set_fonts()
     sheet_width = sheet().width
-    if sheet_width is None:
-        return plt.figure(figsize=(width, height))
-    scale = sheet_width / width
-    return plt.figure(figsize=(sheet_width, max(scale, scale**0.75) * height))
-
-
-def panel_grid(
-    count: int, width: float, height: float, *, columns: int = 4
-) -> tuple[Any, Any]:
-    """Open a figure with a grid of panels that share their vertical axis.
-
-    Args:
-        count: Number of panels; further places of the grid stay empty.
-        width: Width of one panel, in [inch].
-        height: Height of one panel, in [inch].
-        columns: Greatest number of columns; two on a narrow sheet.
-
-    Returns:
-        Figure and axes of Matplotlib. Shape of the axes (lines, columns).
-    """
-    columns = min(2 if sheet().narrow else columns, count)
-    lines = -(-count // columns)
-    figure = new_figure(width * columns, height * lines)
-    axes = figure.subplots(lines, columns, squeeze=False, sharey=True)
-    for axis in axes.flat[count:]:
-        axis.set_visible(False)
+    if sheet_width is not None:
+        scale, width = sheet_width / width, sheet_width
+        heights = [max(scale, scale**0.75) * each for each in heights]
+    if sheet().narrow:
+        rows, heights = _stacked(rows, heights, gaps[1])
+    top = 0.75 if title else 0.45
+    bottom = AXIS + 0.06 + LEGEND_LINE * legend
+    height = top + sum(heights) + gaps[1] * (len(rows) - 1) + bottom
+    inside = width - MARGIN - right
+    columns = len(rows[0])
+    figure = plt.figure(figsize=(width, height))
+    axes = figure.subplot_mosaic(
+        [list(row) for row in rows],
+        height_ratios=heights,
+        gridspec_kw={
+            "left": MARGIN / width,
+            "right": 1.0 - right / width,
+            "bottom": bottom / height,
+            "top": 1.0 - top / height,
+            "wspace": gaps[0] * columns / (inside - gaps[0] * (columns - 1)),
+            "hspace": gaps[1] * len(rows) / sum(heights),
+        },
+        **more,
+    )
+    if title:
+        figure.suptitle(title, y=1.0 - 0.08 / height, va="top")
     return figure, axes
 
 
-def add_common_legend(
+def _stacked(
+    rows: Sequence[str], heights: Sequence[float], gap: float
+) -> tuple[list[str], list[float]]:
+    """Return the panels of a narrow sheet: one in a row, small ones two."""
+    found: dict[str, float] = {}
+    for row in rows:
+        new = [n for n in dict.fromkeys(row) if n not in "".join(found) + "."]
+        step = 2 if len(new) > 2 else 1
+        for i in range(0, len(new), step):
+            names = "".join(new[i : i + step])
+            covered = [
+                h for r, h in zip(rows, heights, strict=True) if new[i] in r
+            ]
+            gaps = gap * (len(covered) - 1)
+            pair = names * 2 if step == 1 else names.ljust(2, ".")
+            found[pair] = sum(covered) + gaps
+    return list(found), list(found.values())
+
+
+def _set_fonts() -> None:
+    """Set fonts and line widths of the sheet; read when figures are drawn."""
+    sheet_width, font, family, _ = sheet()
+    line = 0.8 if sheet_width is None else 0.5
+    sizes = {
+        "font.": 0.0,
+        "axes.title": 0.5,
+        "axes.label": 0.0,
+        "xtick.label": -1.0,
+        "ytick.label": -1.0,
+        "legend.font": -1.0,
+        "figure.title": 2.0,
+    }
+    widths = ("axes.line", "grid.line", "xtick.major.", "ytick.major.")
+    look: dict[Any, Any] = {"font.family": list(family)}
+    look |= {f"{name}size": font + more for name, more in sizes.items()}
+    plt.rcParams.update(look | {f"{name}width": line for name in widths})
+
+
+def legend_below(
     figure: Any,
     axes: Iterable[Any],
     further: Mapping[str, Any] | None = None,
@@ -105,7 +169,7 @@ def add_common_legend(
     """Add one legend below a figure, with every label of its axes once.
 
     Args:
-        figure: Figure of Matplotlib.
+        figure: Figure of Matplotlib, with space for the legend.
         axes: Axes with labels.
         further: Handles of Matplotlib that are in no axes, by label.
         style: Further arguments of the legend.
@@ -116,29 +180,20 @@ def add_common_legend(
         handles |= dict(zip(labels, found, strict=True))
     handles |= further or {}
     if handles:
-        place = "outside lower center"
-        figure.legend(handles.values(), handles.keys(), loc=place, **style)
+        place = {"loc": "lower center", "borderaxespad": 0.2}
+        figure.legend(handles.values(), handles.keys(), **place | style)
 
 
-def _set_fonts() -> None:
-    """Set fonts and line widths of the sheet; read when figures are drawn."""
-    sheet_width, font, family, _ = sheet()
-    line = 0.8 if sheet_width is None else 0.5
-    plt.rcParams.update(
-        {
-            "font.family": list(family),
-            "font.size": font,
-            "axes.titlesize": font + 0.5,
-            "axes.labelsize": font,
-            "xtick.labelsize": font - 1.0,
-            "ytick.labelsize": font - 1.0,
-            "legend.fontsize": font - 1.0,
-            "figure.titlesize": font + 2.0,
-            "axes.linewidth": line,
-            "grid.linewidth": line,
-            "xtick.major.width": line,
-            "ytick.major.width": line,
-        }
+def legend_above(axes: Any, title: str, columns: int) -> None:
+    """Add a legend between a panel and its title, where it covers no data."""
+    axes.set_title(title, pad=18)
+    axes.legend(
+        loc="lower center",
+        bbox_to_anchor=(0.5, 1.0),
+        borderaxespad=0.1,
+        ncols=columns,
+        columnspacing=1.2,
+        handlelength=1.6,
     )
 
 
@@ -201,17 +256,19 @@ __all__ = [
     "COLOURS",
     "EVADER",
     "LEFT",
+    "LIGHT",
+    "LINES",
     "MEAN",
-    "PUSHED",
     "PURSUER",
+    "PUSHED",
     "RIGHT",
     "SWAY",
     "THEORY",
-    "add_common_legend",
     "colours_of",
+    "legend_above",
+    "legend_below",
     "mark_level",
-    "new_figure",
-    "panel_grid",
+    "panels",
     "plt",
     "save",
 ]

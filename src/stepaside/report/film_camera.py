@@ -13,7 +13,7 @@ import numpy as np
 from ..core.poses import Array
 from ..games.run import Run
 from ..sim.obstacle_geoms import HEIGHT as WALL_HEIGHT
-from .room_extent import wall_corners
+from .scene import wall_corners
 
 AZIMUTH, ELEVATION = 60.0, -32.0  # of the fixed and following view, in [deg]
 MARGIN = 0.86  # fraction of the image's half sides that points may take

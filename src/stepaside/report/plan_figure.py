@@ -4,9 +4,9 @@ import numpy as np
 
 from ..core.errors import AnyPath
 from ..planning import ManeuverPlan
-from .figure_sizes import sheet
-from .figure_style import COLOURS, MEAN, THEORY, new_figure, save
-from .sole_outlines import draw_soles
+from .figure_style import COLOURS, MEAN, THEORY, legend_above, panels, save
+from .overlays import soles
+from .top_view import draw_lines
 
 
 def draw_plan(plan: ManeuverPlan, role: str, path: AnyPath) -> None:
@@ -18,46 +18,30 @@ def draw_plan(plan: ManeuverPlan, role: str, path: AnyPath) -> None:
         path: File to write; its suffix gives the format.
     """
     colour = COLOURS[role]
-    gait = plan.schedule.settings
+    sole = plan.schedule.settings.sole
     samples = plan.sample(np.arange(0.0, plan.schedule.duration, 0.01))
-    if sheet().narrow:
-        figure = new_figure(4.2, 6.6)
-        above, *over_time = figure.subplots(3, 1, height_ratios=[2, 1, 1])
-    else:
-        figure = new_figure(9.5, 4.8)
-        grid = figure.add_gridspec(2, 2, width_ratios=[1.25, 1.0])
-        above = figure.add_subplot(grid[:, 0])
-        over_time = [figure.add_subplot(grid[i, 1]) for i in range(2)]
-    side = plan.first_foot.value
-    rows = [
-        (0.0, side if i % 2 == 0 else -side, *pose)
-        for i, pose in enumerate(plan.placements.tolist())
-    ]
-    draw_soles(above, np.array(rows[:2]), gait.sole, THEORY, ls=":")
-    draw_soles(above, np.array(rows[2:]), gait.sole, colour, alpha=0.7)
+    _, axes = panels(["px", "py"], 9.5, [1.6, 1.6])
+    above = axes["p"]
+    sides = plan.first_foot.value * (-1.0) ** np.arange(len(plan.placements))
+    outlines = soles(np.column_stack([sides, plan.placements]), sole)
+    draw_lines(above, outlines[:8], THEORY, ls=":")  # of both feet at first
+    draw_lines(above, outlines[8:], colour, alpha=0.7)
     above.plot(*samples.zmp.T, color=THEORY, lw=0.8, label="ZMP")
     above.plot(*samples.com.T, color=colour, lw=2.0, label="CoM")
-    above.set(
-        xlabel="x in the plan frame [m]",
-        ylabel="y [m]",
-    )
+    above.set(xlabel="x in the plan frame [m]", ylabel="y [m]")
     above.set_aspect("equal", adjustable="datalim")
-    # Legends above the axes cover no data.
-    above.set_title(
-        f"{role}: desired heading {np.degrees(plan.bearing):.1f}°", pad=18
-    )
-    above.legend(loc="lower center", bbox_to_anchor=(0.5, 0.985), ncols=2)
+    title = f"{role}: desired heading {np.degrees(plan.bearing):.1f}°"
+    legend_above(above, title, 2)
     lines = (
         ("ZMP", samples.zmp, {"color": THEORY, "lw": 0.9}),
         ("DCM", samples.dcm, {"color": MEAN, "lw": 0.9, "ls": "--"}),
         ("CoM", samples.com, {"color": colour, "lw": 1.8}),
     )
-    for index, axes in enumerate(over_time):
+    for index, name in enumerate("xy"):
         for label, points, look in lines:
-            axes.plot(samples.times, points[:, index], label=label, **look)
-        axes.set_ylabel(f"{'xy'[index]} [m]")
-    over_time[0].legend(
-        ncols=3, loc="lower center", bbox_to_anchor=(0.5, 0.985)
-    )
-    over_time[-1].set_xlabel("time [s]")
-    save(figure, path)
+            axes[name].plot(
+                samples.times, points[:, index], label=label, **look
+            )
+        axes[name].set(xlabel="time [s]", ylabel=f"{name} [m]")
+    legend_above(axes["x"], "", 3)
+    save(above.figure, path)

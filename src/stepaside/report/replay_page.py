@@ -18,8 +18,7 @@ from ..robots.description import load_robot
 from .cycle_means import whole_cycles
 from .landed_footsteps import footsteps_in
 from .palette import PALETTES, colours_in
-from .room_extent import wall_corners
-from .scene import RunScene
+from .scene import RunScene, wall_corners
 from .text_escaping import fill_page, visible
 from .visual_geoms import BodyHeights, visual_geoms_of
 

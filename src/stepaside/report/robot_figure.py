@@ -14,11 +14,11 @@ from ..locomotion.zmp.reference_table import standing_reference
 from ..robots.description import RobotDescription
 from ..robots.geom_points import geom_points_in_world
 from ..robots.leg_kinematics import LegKinematics
-from .figure_style import plt, save
+from .figure_style import LIGHT, legend_above, panels, save
 
 VIEWS = (("from the front", 1, "y [m]"), ("from the left", 0, "x [m]"))
-LINK, SOLE, COM = "#9aa4b2", "#d9862b", "#b02a2a"
-AXES = ("#b02a2a", "#2a8a3a", "#2a50b0")  # of x, y and z
+LINK, SOLE, COM = "#9aa4b2", "#d9862b", LIGHT.pushed
+AXES = (LIGHT.pursuer, LIGHT.support, LIGHT.evader)  # of x, y and z
 TICK = 0.004  # of the leg kinematics, in [s]
 
 
@@ -47,8 +47,17 @@ def draw_robot(description: RobotDescription, file: Path) -> None:
     mujoco.mj_kinematics(model, data)
     mujoco.mj_comPos(model, data)
     size = 0.15 * gait.com_height
-    figure, panels = plt.subplots(1, 2, sharey=True, figsize=(9.0, 6.0))
-    for axes, (title, across, label) in zip(panels, VIEWS, strict=True):
+    figure, shown = panels(
+        ["ab"],
+        9.0,
+        [4.8],
+        title=f"{description.name}: CoM at {gait.com_height:.3f} m, soles "
+        "bold, frames of torso and feet (x red, y green, z blue)",
+        sharey=True,
+    )
+    for axes, (title, across, label) in zip(
+        shown.values(), VIEWS, strict=True
+    ):
         _draw_links(axes, model, data, across)
         for side, name in enumerate(
             (description.left_foot, description.right_foot)
@@ -65,12 +74,8 @@ def draw_robot(description: RobotDescription, file: Path) -> None:
         axes.plot(com[across], com[2], "o", color=COM, ms=7, label="CoM")
         axes.axhline(0.0, color="#606060", lw=0.8)
         axes.set(title=title, xlabel=label, aspect="equal")
-    panels[0].legend(loc="upper right", fontsize=8)
-    figure.suptitle(
-        f"{description.name}: CoM at {gait.com_height:.3f} m, soles bold, "
-        "frames of torso and feet (x red, y green, z blue)",
-        fontsize=10,
-    )
+    shown["a"].set_ylabel("z [m]")
+    legend_above(shown["a"], VIEWS[0][0], 1)
     save(figure, file)
 
 

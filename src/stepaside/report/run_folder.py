@@ -8,7 +8,7 @@ from pathlib import Path
 from ..core.atomic_output import check_folder, folder_draft
 from ..core.errors import AnyPath, OutputError, as_path
 from ..games.outcome import Outcome
-from ..games.run import Run, is_match, is_play
+from ..games.run import Run
 from ..games.run_archive import write_checksums, write_run_files
 
 SIGHT = "sight.png"
@@ -38,32 +38,6 @@ def figure_name(run: Run) -> str:
     return f"{run.game}.png"
 
 
-def draw_run(run: Run, file: Path) -> None:
-    """Write the figure of a game of any kind.
-
-    Args:
-        run: The game.
-        file: Figure to write; its suffix gives the format.
-    """
-    # Imported here: checking a folder must not wait for Matplotlib.
-    if is_play(run):
-        from .play_figure import draw_play
-
-        draw_play(run, file)
-    elif is_match(run):
-        from .game_figure import draw_game
-
-        draw_game(run, file)
-    elif run.pair is None:
-        from .walk_figure import draw_walk
-
-        draw_walk(run, file)
-    else:
-        from .duel_figure import draw_duel
-
-        draw_duel(run, file)
-
-
 def write_run(folder: AnyPath, run: Run, *, drawn: bool = True) -> Path:
     """Write a game: configuration, summary, trajectories and figures.
 
@@ -88,6 +62,9 @@ def write_run(folder: AnyPath, run: Run, *, drawn: bool = True) -> Path:
         write_run_files(draft, run)
         figure = figure_name(run)
         if drawn:
+            # Imported here: checking a folder must not wait for Matplotlib.
+            from .run_figure import draw_run
+
             draw_run(run, draft / figure)
         if drawn and run.stills:
             from .sight_figure import draw_sight

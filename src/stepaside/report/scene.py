@@ -5,6 +5,7 @@ from functools import partial
 import mujoco
 import numpy as np
 
+from ..arena import Room
 from ..core.errors import ConfigurationError
 from ..core.poses import Array, Pose
 from ..games.duel_furnishing import scenery_of_duel
@@ -116,6 +117,16 @@ class RunScene:
             pose_template(self.model, self.data, name, pose)
         mujoco.mj_kinematics(self.model, self.data)
         mujoco.mj_camlight(self.model, self.data)
+
+
+def wall_corners(room: Room | None) -> Array:
+    """Return the corners of all walls of a room, in [m]. Shape (n, 2).
+
+    Args:
+        room: The room; None for an open floor, which has no walls.
+    """
+    walls = () if room is None else room.walls
+    return np.concatenate([np.zeros((0, 2)), *(w.points for w in walls)])
 
 
 def _distance_walked(positions: Array) -> Array:

@@ -1,16 +1,44 @@
-"""Figure of a game of unicycles in the manner of the paper's Fig. 2."""
+"""Figures of games of unicycles: a game, sweeps and maps of its circles."""
 
-from typing import Any
+from collections.abc import Callable
+from dataclasses import replace
+from typing import Any, NamedTuple
 
 import numpy as np
+from matplotlib.colors import ListedColormap
 
+from ..core.errors import AnyPath
 from ..core.poses import Array
-from ..theory.unicycle.adaptive_simulation import PlayedGame
-from ..theory.unicycle.circles import circle_of
-from .figure_style import EVADER, PURSUER, new_figure, save
+from ..theory.unicycle.adaptive_simulation import PlayedGame, simulate
+from ..theory.unicycle.circle_fit import FittedCircle, measure, settling_time
+from ..theory.unicycle.circles import Circle, circle_of
+from ..theory.unicycle.ratio_map import RatioMap, map_ratios
+from ..theory.unicycle.relative_coordinates import RelativeStart
+from ..theory.unicycle.start_maps import StartMap
+from ..theory.unicycle.unicycle_game import Game, SideRule, TurningLaw
+from .figure_style import (
+    COLOURS,
+    EVADER,
+    LEFT,
+    RIGHT,
+    THEORY,
+    legend_below,
+    panels,
+    save,
+)
+from .top_view import draw_heading
 
 TICK = 0.5  # [m], as in Fig. 2
 _FRACTIONS = (0.0, 0.12, 0.4, 1.0)  # of the time shown
+_COUNT = 121  # along each ratio
+_SPEEDS = (0.8, 4.0)  # pursuer's over evader's
+_GAINS = (0.25, 16.0)  # evader's over pursuer's
+# Colours of Okabe and Ito, distinct with colour blindness, too.
+_COLOURS = ("#f0e442", "#0072b2", "#cc79a7", "#d55e00", "#009e73", "#56b4e9")
+_STYLES = {
+    TurningLaw.PROPORTIONAL: ("-", "o", LEFT),
+    TurningLaw.SATURATED: ("--", "s", RIGHT),
+}
 
 
 def time_shown(run: PlayedGame) -> float:
@@ -26,38 +54,43 @@ def time_shown(run: PlayedGame) -> float:
     return min(run.end_time, 5.0 * circle.time_constant_s + turn)
 
 
-def draw_game(run: PlayedGame, path: str) -> None:
-    """Write four snapshots of a game, ticks 0.5 m apart.
+def draw_game(run: PlayedGame, path: AnyPath) -> None:
+    """Write four snapshots of a game in the manner of the paper's Fig. 2.
 
     Args:
         run: The game.
         path: File to write; its suffix gives the format.
     """
     times = np.linspace(0.0, time_shown(run), 1200)
-    pursuer, evader = run.poses(times)
-    both = np.vstack([pursuer[:, :2], evader[:, :2]])
+    poses = run.poses(times)
+    both = np.vstack([own[:, :2] for own in poses])
     middle = 0.5 * (both.min(axis=0) + both.max(axis=0))
     half = 0.55 * float(np.ptp(both, axis=0).max()) + TICK
-    figure = new_figure(7.4, 7.6)
-    axes = figure.subplots(2, 2, sharex=True)
-    for ax, fraction in zip(axes.flat, _FRACTIONS, strict=True):
+    figure, axes = panels(
+        ["ab", "cd"],
+        7.4,
+        [3.0, 3.0],
+        title="Pursuer and evader; fine lines are 0.5 m apart",
+        legend=1,
+    )
+    for ax, fraction in zip(axes.values(), _FRACTIONS, strict=True):
         end = max(1, round(fraction * len(times)))
-        _draw_paths(ax, pursuer[:end], evader[:end], 0.06 * half)
-        ax.set_title(f"t = {times[end - 1]:.1f} s")
-        ax.set_aspect("equal")
+        for (name, colour), own, line in zip(
+            COLOURS.items(), poses, ("-", "--"), strict=True
+        ):
+            ax.plot(*own[:end, :2].T, line, color=colour, lw=1.2, label=name)
+            draw_heading(ax, own[end - 1], colour, 0.16 * half)
+        sight = np.vstack([own[end - 1, :2] for own in poses])
+        ax.plot(*sight.T, ":", color="0.5", lw=0.8)
+        ax.set(title=f"t = {times[end - 1]:.1f} s", aspect="equal")
+        ax.set(xlabel="x [m]", ylabel="y [m]")
         ax.set_xlim(middle[0] - half, middle[0] + half)
         ax.set_ylim(middle[1] - half, middle[1] + half)
         if half < 40.0 * TICK:  # more ticks would merge
             ax.set_xticks(_ticks(middle[0], half), minor=True)
             ax.set_yticks(_ticks(middle[1], half), minor=True)
             ax.grid(which="minor", alpha=0.15)
-    for ax in axes[-1]:
-        ax.set_xlabel("x [m]")
-    for ax in axes[:, 0]:
-        ax.set_ylabel("y [m]")
-    handles, labels = axes[0, 0].get_legend_handles_labels()
-    figure.legend(handles, labels, loc="outside lower center", ncols=2)
-    figure.suptitle("Pursuer and evader; ticks are 0.5 m apart")
+    legend_below(figure, [axes["a"]], ncols=2)
     save(figure, path)
 
 
@@ -67,18 +100,278 @@ def _ticks(middle: float, half: float) -> Array:
     return ticks
 
 
-def _draw_paths(ax: Any, pursuer: Array, evader: Array, size: float) -> None:
-    """Draw both paths with the players at their ends."""
-    players = (
-        ("pursuer", pursuer, PURSUER, "-"),
-        ("evader", evader, EVADER, "--"),
+class ParameterSweep(NamedTuple):
+    """Range of one parameter.
+
+    Attributes:
+        label: Name of the parameter, with its unit.
+        low: Smallest value.
+        high: Largest value.
+        vary: Function that returns the game with a value.
+    """
+
+    label: str
+    low: float
+    high: float
+    vary: Callable[[Game, float], Game]
+
+
+def _with_gain(game: Game, ratio: float) -> Game:
+    """Return the game with a ratio of the evader's to the pursuer's gain."""
+    evader = replace(game.evader, gain=ratio * game.pursuer.gain)
+    return replace(game, evader=evader)
+
+
+def _with_speed(game: Game, ratio: float) -> Game:
+    """Return the game with a ratio of the pursuer's to the evader's speed."""
+    pursuer = replace(game.pursuer, speed=ratio * game.evader.speed)
+    return replace(game, pursuer=pursuer)
+
+
+_SWEEPS = (
+    ParameterSweep(
+        "evasion angle [rad]", 0.15, 3.0, lambda g, x: replace(g, angle=x)
+    ),
+    ParameterSweep("evader's gain / pursuer's gain [1]", 0.4, 2.5, _with_gain),
+    ParameterSweep(
+        "pursuer's speed / evader's speed [1]", 0.4, 1.6, _with_speed
+    ),
+)
+
+
+def draw_sweep(game: Game, path: AnyPath, *, marks: int = 7) -> None:
+    """Write radius and distance over angle, gain ratio and speed ratio.
+
+    Args:
+        game: Game whose parameters are varied one at a time.
+        path: File to write; its suffix gives the format.
+        marks: Number of simulated games along each line.
+    """
+    figure, axes = panels(
+        ["abc", "def"],
+        10.0,
+        [2.0, 2.0],
+        title="Circle at the end of a game: equations (lines), simulation "
+        "(marks)",
+        legend=1,
+        gaps=(0.3, 0.2),
     )
-    for name, poses, colour, line in players:
-        ax.plot(poses[:, 0], poses[:, 1], line, color=colour, lw=1.2)
-        x, y, theta = poses[-1]
-        body = np.array([[1.4, 0], [-0.8, 0.8], [-0.8, -0.8]]) * size
-        c, s = np.cos(theta), np.sin(theta)
-        corners = body @ np.array([[c, s], [-s, c]]) + (x, y)
-        ax.fill(corners[:, 0], corners[:, 1], color=colour, label=name)
-    sight = np.vstack([pursuer[-1, :2], evader[-1, :2]])
-    ax.plot(sight[:, 0], sight[:, 1], ":", color="0.5", lw=0.8)
+    high = 6.0 * game.evader.speed / game.evader.gain
+    for over, under, sweep in zip("abc", "def", _SWEEPS, strict=True):
+        for law in TurningLaw:
+            line, mark, colour = _STYLES[law]
+            xs = np.linspace(sweep.low, sweep.high, 200).tolist()
+            circles = [
+                circle_of(replace(sweep.vary(game, x), law=law)) for x in xs
+            ]
+            ends = [
+                (x, simulate_circle(replace(sweep.vary(game, x), law=law)))
+                for x in np.linspace(sweep.low, sweep.high, marks).tolist()
+            ]
+            found = [(x, end) for x, end in ends if end is not None]
+            for letter, name in (
+                (over, "radius_pursuer_m"),
+                (under, "distance_m"),
+            ):
+                lines = [getattr(circle, name) for circle in circles]
+                name_of = f"{law}, equations"
+                axes[letter].plot(xs, lines, line, color=colour, label=name_of)
+                points = [(x, getattr(end, name)) for x, end in found]
+                look: dict[str, Any] = {"ms": 4, "mec": THEORY, "mfc": colour}
+                look["label"] = f"{law}, simulated"
+                if points:
+                    axes[letter].plot(*zip(*points, strict=True), mark, **look)
+        axes[under].set(xlabel=sweep.label, ylim=(0.0, high))
+        axes[over].set(ylim=(0.0, high))
+        axes[over].tick_params(labelbottom=False)
+    axes["a"].set_ylabel("radius of the\npursuer's circle [m]")
+    axes["d"].set_ylabel("distance between\nthe players [m]")
+    legend_below(figure, [axes["c"]], ncols=4)
+    save(figure, path)
+
+
+def simulate_circle(game: Game) -> FittedCircle | None:
+    """Return the circle at the end of a game that starts near it.
+
+    None if it is not stable or the evader is captured.
+    """
+    circle = circle_of(game)
+    if not (circle.exists and circle.stable):
+        return None
+    start = RelativeStart(
+        1.2 * circle.distance_m,
+        circle.pursuer_error_rad,
+        circle.evader_error_rad - game.angle,
+    )
+    # With a latched side: near the circle the side rule has no effect.
+    kept = replace(game, side_rule=SideRule.LATCHED, hysteresis=0.0)
+    played = simulate(kept, start, settling_time(game), side=1)
+    return None if played.captured else measure(played)
+
+
+def draw_ratios(game: Game, path: AnyPath) -> RatioMap:
+    """Draw the ratios at which a stable reversed circle exists.
+
+    Args:
+        game: Game with the evasion angle; its ratios are marked.
+        path: File to write; its suffix gives the format.
+
+    Returns:
+        The map under the game's own law.
+    """
+    speeds = np.geomspace(*_SPEEDS, _COUNT)
+    gains = np.geomspace(*_GAINS, _COUNT)
+    maps = {
+        law: map_ratios(game.angle, law, speeds, gains) for law in TurningLaw
+    }
+    stacked = [m.reversed_stable for m in maps.values()]
+    finite = np.isfinite(stacked)
+    high = float(np.max(stacked, where=finite, initial=1e-9))
+    degrees = np.rad2deg(game.angle)
+    figure, axes = panels(
+        ["ab"],
+        9.6,
+        [3.6],
+        title="Coloured: a second stable circle, in the opposite direction; "
+        f"evasion angle {degrees:.0f}°",
+        legend=1,
+    )
+    for ax, (law, found) in zip(axes.values(), maps.items(), strict=True):
+        image = _draw_law(ax, found, high)
+        place = (
+            game.pursuer.speed / game.evader.speed,
+            game.evader.gain / game.pursuer.gain,
+        )
+        look = {"mfc": "w", "mec": EVADER, "mew": 2.0, "ms": 8, "zorder": 5}
+        ax.plot(*place, "o", clip_on=False, label="this game", **look)
+        ax.set(
+            title=f"{law} law", xlabel="pursuer's speed / evader's speed [1]"
+        )
+    axes["a"].set_ylabel("evader's gain / pursuer's gain [1]")
+    label = (
+        "distance between the players on that circle\n"
+        "[evader's speed / pursuer's gain]"
+    )
+    figure.colorbar(image, ax=list(axes.values()), label=label)
+    legend_below(figure, axes.values(), ncols=4)
+    save(figure, path)
+    return maps[game.law]
+
+
+def _draw_law(ax: Any, found: RatioMap, high: float) -> Any:
+    """Draw one law; both axes are logarithmic."""
+    speeds, gains = found.speed_ratios, found.gain_ratios
+    ax.set_xscale("log", base=2)
+    ax.set_yscale("log", base=2)
+    ax.grid(visible=False)
+    look = {"cmap": "viridis", "shading": "nearest", "rasterized": True}
+    values = found.reversed_stable.T
+    image = ax.pcolormesh(speeds, gains, values, vmin=0.0, vmax=high, **look)
+    only_unstable = np.isfinite(found.reversed_unstable)
+    only_unstable &= ~np.isfinite(found.reversed_stable)
+    masks = (
+        (only_unstable, "..", "second circle, unstable"),
+        (~np.isfinite(found.main), "////", "no main circle"),
+    )
+    for mask, hatch, name in masks:
+        if mask.any():
+            area = mask.T.astype(float)
+            look = {"colors": "none", "hatches": [hatch]}
+            ax.contourf(speeds, gains, area, [0.5, 1.5], **look)
+            ax.fill([], [], fill=False, hatch=hatch, label=name)
+    share = found.reversed_stable / found.main
+    if np.nanmin(share, initial=1.0) < 0.5:
+        levels = [0.25, 0.5]
+        lines = ax.contour(
+            speeds, gains, share.T, levels, colors="w", linewidths=1.3
+        )
+        ax.clabel(lines, fmt=lambda v: f"{v:g} of the main circle", fontsize=8)
+    ticks = {"x": (1, 1.5, 2, 3, 4), "y": (0.25, 0.5, 1, 2, 4, 8, 16)}
+    ax.set_xticks(ticks["x"], [f"{t:g}" for t in ticks["x"]])
+    ax.set_yticks(ticks["y"], [f"{t:g}" for t in ticks["y"]])
+    return image
+
+
+def draw_map(
+    found: StartMap, path: AnyPath, *, circles: tuple[Circle, ...], body: float
+) -> None:
+    """Draw closest approach, settling time and circle over the bearings.
+
+    Grey is where the evader is captured or the game does not settle.
+
+    Args:
+        found: The map; at most four of its distances are drawn.
+        path: File to write; its suffix gives the format.
+        circles: Circles of the game. If there are several, the one that each
+            game ends on is drawn.
+        body: Capture distance, in [m], drawn as a line.
+    """
+    count = len(found.distances)
+    picks = np.unique(np.linspace(0, count - 1, min(4, count)).astype(int))
+    closest, settled = (
+        found.grid("closest_distance"),
+        found.grid("settled_time"),
+    )
+    drawn = [
+        (closest, "closest approach [m]", {"cmap": "viridis", "vmin": 0.0}),
+        (
+            settled,
+            "time to reach the circle [s]",
+            {"cmap": "cividis", "vmin": 0.0},
+        ),
+    ]
+    if len(circles) > 1:
+        numbers = found.grid("circle").astype(float)
+        numbers[numbers < 0.0] = np.nan
+        look = {"cmap": ListedColormap(_COLOURS[: len(circles)]), "vmin": -0.5}
+        look["vmax"] = len(circles) - 0.5
+        drawn.append((numbers, "circle, distance [m]", look))
+    letters = "abcdefghijkl"
+    wide = len(picks)
+    rows = [letters[wide * i : wide * (i + 1)] for i in range(len(drawn))]
+    figure, axes = panels(
+        rows,
+        2.7 * wide + 1.4,
+        [1.9] * len(rows),
+        legend=1,
+        gaps=(0.45, 0.4),
+        sharex=True,
+        sharey=True,
+    )
+    bearings, aims = (
+        np.rad2deg(found.bearings),
+        np.rad2deg(found.pursuer_errors),
+    )
+    for row, (values, label, look) in zip(rows, drawn, strict=True):
+        shown = np.where(np.isfinite(values), values, np.nan)
+        if "vmax" not in look:
+            known = shown[np.isfinite(shown)]
+            look["vmax"] = float(known.max(initial=1e-9))
+        for letter, i in zip(row, picks, strict=True):
+            ax = axes[letter]
+            image = ax.pcolormesh(bearings, aims, shown[i], **look)
+            ax.set_facecolor("0.8")
+            ax.grid(visible=False)
+            if label[:7] != "circle," and (
+                closest[i].min() <= body < closest[i].max()
+            ):
+                level = [1.001 * body]
+                ax.contour(bearings, aims, closest[i], level, colors="w")
+        bar = figure.colorbar(
+            image, ax=[axes[letter] for letter in row], label=label
+        )
+        axes[row[0]].set_ylabel(
+            "bearing of the evader\nfrom the pursuer [deg]"
+        )
+    if len(circles) > 1:
+        names = {1: "main", -1: "reversed"}
+        texts = [f"{names[c.direction]}\n{c.distance_m:.3g}" for c in circles]
+        bar.ax.set_yticks(range(len(circles)), texts)
+    for letter, i in zip(rows[0], picks, strict=True):
+        title = f"initial distance {found.distances[i]:.2f} m"
+        axes[letter].set_title(title)
+    for letter in rows[-1]:
+        axes[letter].set_xlabel(
+            "bearing of the pursuer\nfrom the evader [deg]"
+        )
+    save(figure, path)

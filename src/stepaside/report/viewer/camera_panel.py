@@ -1,47 +1,9 @@
 """Images of the robots' cameras with the detected bearings."""
 
-from math import degrees, tan
-from typing import TYPE_CHECKING
-
-import numpy as np
 import viser
 
-from ...perception.images import ColourImage, Pixels
-
-if TYPE_CHECKING:
-    from ...perception.pipeline import FrameReport
-
-WIDTH = 240  # of an image on the page, in [pixels]
-DETECTION_COLOUR = (40, 200, 90)
-
-
-def picture(report: "FrameReport") -> Pixels:
-    """Return an enlarged image with a line at every detected bearing.
-
-    Args:
-        report: Image with its detections.
-
-    Returns:
-        Image; depth is shown as brightness. Shape (height, width, 3).
-    """
-    image = report.image
-    if isinstance(image, ColourImage):
-        pixels = image.pixels
-    else:
-        depth = np.clip(image.depths / image.far, 0.0, 1.0)
-        grey = np.where(image.depths > 0.0, 255.0 * (1.0 - 0.85 * depth), 0.0)
-        pixels = np.repeat(grey.astype(np.uint8)[:, :, None], 3, axis=2)
-    scale = max(1, WIDTH // pixels.shape[1])
-    large = np.kron(pixels, np.ones((scale, scale, 1), dtype=np.uint8))
-    camera = image.camera
-    for azimuth in report.azimuths:
-        if abs(degrees(azimuth)) > 80.0:
-            continue
-        column = 0.5 * camera.width - camera.focal_x * tan(azimuth)
-        at = int(scale * column)
-        if 0 <= at < large.shape[1]:
-            large[:, max(0, at - 1) : at + 2] = DETECTION_COLOUR
-    return large
+from ...perception.pipeline import FrameReport
+from ..camera_pictures import camera_picture
 
 
 class CameraPanel:
@@ -64,14 +26,14 @@ class CameraPanel:
         self._images.clear()
         self._folder.visible = visible
 
-    def show(self, frames: dict[str, "FrameReport"]) -> None:
+    def show(self, frames: dict[str, FrameReport]) -> None:
         """Show new images.
 
         Args:
             frames: Newest image of each camera, by its label.
         """
         for label, report in frames.items():
-            image = picture(report)
+            image = camera_picture(report)
             if label in self._images:
                 self._images[label].image = image
                 continue

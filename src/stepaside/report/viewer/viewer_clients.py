@@ -10,7 +10,7 @@ import viser
 from ...arena import Room
 from ...core.poses import Array
 from ..palette import FLOORS
-from ..room_extent import wall_corners
+from ..scene import wall_corners
 from .page_layout import set_theme
 from .scene_layers import rgb
 

@@ -1,0 +1,230 @@
+"""What lies over a scene: paths, footsteps, circle, rings, sight, pushes.
+
+Films, pages, bags and top views draw the same lines, each in its own way.
+"""
+
+from collections.abc import Mapping
+from math import inf
+from typing import NamedTuple
+
+import numpy as np
+
+from ..core.poses import Array
+from ..games.run import Run
+from ..planning import Foot, SoleRectangle
+from ..planning.support_polygon import sole_corners
+from .landed_footsteps import footsteps_in
+from .palette import PALETTES
+
+
+class Layer(NamedTuple):
+    """Kind of overlays that is switched on and off as one.
+
+    Attributes:
+        meaning: Its meaning, for a legend.
+        height: Height over the floor at which it is drawn, in [m].
+        colour: Name of a colour of a
+            :class:`~stepaside.report.palette.Palette`; empty for that of the
+            player.
+    """
+
+    meaning: str
+    height: float
+    colour: str = ""
+
+
+LAYERS = {
+    "planned path": Layer("path of the current plan of each robot", 0.002),
+    "footsteps": Layer("outlines of the soles, past and planned", 0.003),
+    "CoM trace": Layer("path of the center of mass, on the floor", 0.004),
+    "ZMP trace": Layer("path of the zero-moment point, violet", 0.005, "mean"),
+    "line of sight": Layer("grey line between the players", 0.25, "theory"),
+    "safety radius": Layer("ring; inside it, its player evades", 0.007),
+    "theoretical circle": Layer(
+        "grey ring, on which the paper's game ends", 0.008, "theory"
+    ),
+    "support polygon": Layer(
+        "green outline of the feet in contact", 0.009, "support"
+    ),
+    "pushes": Layer("magenta arrow, for 1 s after each push", 0.3, "pushed"),
+}
+EARLY = 0.5  # time before its landing at which a footstep appears, in [s]
+PUSH_LENGTH = 0.25  # of an arrow, in [m] per [N s]
+PUSH_SHOWN = 1.0  # time for which an arrow is shown, in [s]
+NO_SEGMENTS = np.zeros((0, 2, 2))
+
+
+class Overlay(NamedTuple):
+    """Lines of one layer and one owner.
+
+    Attributes:
+        layer: One of ``LAYERS``.
+        owner: Name of its player; empty without one.
+        segments: Start and end (x, y) of each segment, in the world, in [m];
+            relative to the player that it follows. Shape (n, 2, 2).
+        times: Time at which each segment appears, ascending, in [s]; None if
+            all are always there. Shape (n,).
+        lasting: Time for which a segment remains, in [s].
+        follows: A player that it moves with, or two that it connects.
+        label: Name with its radius; empty without one.
+    """
+
+    layer: str
+    owner: str
+    segments: Array
+    times: Array | None = None
+    lasting: float = inf
+    follows: tuple[str, ...] = ()
+    label: str = ""
+
+    def colour(self, theme: str, colours: Mapping[str, str]) -> str:
+        """Return its colour in a theme, given those of the players."""
+        name = LAYERS[self.layer].colour
+        if not name:
+            return colours[self.owner]
+        found: str = getattr(PALETTES[theme], name)
+        return found
+
+    def shown(
+        self, now: float, places: Mapping[str, Array], trail: float = inf
+    ) -> Array:
+        """Return the segments of a time, in the world, in [m].
+
+        Args:
+            now: The time, in [s].
+            places: Positions (x, y) of the players then, in [m], by name.
+            trail: Longest time for which segments remain, in [s].
+
+        Returns:
+            Start and end of each segment. Shape (n, 2, 3).
+        """
+        flat = self.segments
+        if self.times is not None:
+            since = now - min(self.lasting, trail)
+            first, end = np.searchsorted(self.times, [since, now], "right")
+            flat = flat[first:end]
+        if len(self.follows) == 2:
+            flat = np.array([[places[name][:2] for name in self.follows]])
+        elif self.follows:
+            flat = flat + places[self.follows[0]][:2]
+        height = np.full((len(flat), 2, 1), LAYERS[self.layer].height)
+        return np.concatenate([flat, height], axis=2)
+
+
+def polyline(points: Array, *, closed: bool = False) -> Array:
+    """Return the segments of a polyline. Shape (n, 2, 2).
+
+    Args:
+        points: Its points, in [m]. Shape (m, 2).
+        closed: Whether the last point is connected to the first.
+    """
+    if closed:
+        points = np.concatenate([points, points[:1]])
+    return np.stack([points[:-1], points[1:]], axis=1)
+
+
+def ring(x: float, y: float, radius: float) -> Array:
+    """Return the segments of a circle, all in [m]. Shape (72, 2, 2)."""
+    angle = np.linspace(0.0, 2.0 * np.pi, 73)
+    return polyline(
+        np.column_stack(
+            [x + radius * np.cos(angle), y + radius * np.sin(angle)]
+        )
+    )
+
+
+def safety_ring(player: str, radius: float) -> Overlay:
+    """Return the ring of a safety radius, in [m], around a player."""
+    return Overlay(
+        "safety radius",
+        player,
+        ring(0.0, 0.0, radius),
+        follows=(player,),
+        label=f"safety radius {radius:.2f} m",
+    )
+
+
+def theory_ring(x: float, y: float, radius: float) -> Overlay:
+    """Return the circle of theory, all in [m]."""
+    label = f"theoretical circle {radius:.2f} m"
+    segments = ring(x, y, radius)
+    return Overlay("theoretical circle", "", segments, label=label)
+
+
+def line_of_sight(one: str, other: str) -> Overlay:
+    """Return the line between two players."""
+    name, both = f"{one}-{other}", (one, other)
+    return Overlay("line of sight", name, NO_SEGMENTS, follows=both)
+
+
+def soles(rows: Array, sole: SoleRectangle) -> Array:
+    """Return the outlines of soles, four segments each. Shape (4 m, 2, 2).
+
+    Args:
+        rows: Side (1 left, -1 right), x [m], y [m], heading [rad]. Shape (m,
+            4).
+        sole: Shape of a left sole.
+    """
+    outlines = [
+        polyline(sole_corners(row[1:], Foot(int(row[0])), sole), closed=True)
+        for row in rows
+    ]
+    return np.concatenate([NO_SEGMENTS, *outlines])
+
+
+def push_arrows(player: str, pushes: Array) -> Overlay:
+    """Return arrows that end where pushes act.
+
+    Args:
+        player: Name of the player.
+        pushes: Rows (time [s], duration [s], x [m], y [m], impulse x and y
+            [N s]). Shape (j, 6).
+    """
+    arrows = [NO_SEGMENTS]
+    for x, y, *impulse in pushes[:, 2:].tolist():
+        tip, shaft = np.array([x, y]), PUSH_LENGTH * np.array(impulse)
+        aside = 0.25 * np.array([-shaft[1], shaft[0]])
+        barbs = tip - 0.3 * shaft + aside, tip - 0.3 * shaft - aside
+        arrows.append(
+            np.array([[tip - shaft, tip], [barbs[0], tip], [tip, barbs[1]]])
+        )
+    times = np.repeat(pushes[:, 0], 3)
+    segments = np.concatenate(arrows)
+    return Overlay("pushes", player, segments, times, PUSH_SHOWN)
+
+
+def overlays_of(run: Run, every: int = 1) -> list[Overlay]:
+    """Return all that lies over the scene of a run.
+
+    Args:
+        run: The run.
+        every: Number of samples from one point of a path to the next.
+    """
+    found = []
+    landed = footsteps_in(run)
+    for name, track in run.tracks.items():
+        times = run.times[::every]
+        for layer, points in {
+            "CoM trace": track.com,
+            "ZMP trace": track.zmp,
+        }.items():
+            if points is None:
+                continue
+            segments = polyline(points[::every, :2])
+            known = np.isfinite(segments).all(axis=(1, 2))
+            found.append(
+                Overlay(layer, name, segments[known], times[1:][known])
+            )
+        steps = landed[name]
+        if len(steps):
+            sole = run.settings.robot_of(name).gait.sole
+            outlines = soles(steps[:, 1:], sole)
+            since = np.repeat(steps[:, 0] - EARLY, 4)
+            found.append(Overlay("footsteps", name, outlines, since))
+        if track.pushes is not None:
+            found.append(push_arrows(name, track.pushes))
+    found += [safety_ring(*area) for area in run.safety_areas]
+    found += [line_of_sight(*pair) for pair in run.lines_of_sight]
+    if run.circle is not None:
+        found.append(theory_ring(*run.circle))
+    return found
