@@ -61,14 +61,14 @@ def _draw_game(file: Path) -> None:
     from ..report.unicycle_figures import draw_game
     from ..studies.unicycle_claims import FIG_2, play
 
-    draw_game(play(FIG_2), str(file))
+    draw_game(play(FIG_2), file)
 
 
 def _draw_sweep(file: Path) -> None:
     from ..report.unicycle_figures import draw_sweep
     from ..studies.unicycle_claims import FIG_2
 
-    draw_sweep(FIG_2, str(file), marks=7)
+    draw_sweep(FIG_2, file)
 
 
 def _draw_duel(file: Path, seed: int) -> None:
