@@ -54,7 +54,7 @@ PUSH_SHOWN = 1.0  # time for which an arrow is shown, in [s]
 NO_SEGMENTS = np.zeros((0, 2, 2))
 
 
-class Overlay(NamedTuple):
+class LineOverlay(NamedTuple):
     """Lines of one layer and one owner.
 
     Attributes:
@@ -133,9 +133,9 @@ def ring(x: float, y: float, radius: float) -> Array:
     )
 
 
-def safety_ring(player: str, radius: float) -> Overlay:
+def safety_ring(player: str, radius: float) -> LineOverlay:
     """Return the ring of a safety radius, in [m], around a player."""
-    return Overlay(
+    return LineOverlay(
         "safety radius",
         player,
         ring(0.0, 0.0, radius),
@@ -144,17 +144,17 @@ def safety_ring(player: str, radius: float) -> Overlay:
     )
 
 
-def theory_ring(x: float, y: float, radius: float) -> Overlay:
+def theory_ring(x: float, y: float, radius: float) -> LineOverlay:
     """Return the circle of theory, all in [m]."""
     label = f"theoretical circle {radius:.2f} m"
     segments = ring(x, y, radius)
-    return Overlay("theoretical circle", "", segments, label=label)
+    return LineOverlay("theoretical circle", "", segments, label=label)
 
 
-def line_of_sight(one: str, other: str) -> Overlay:
+def line_of_sight(one: str, other: str) -> LineOverlay:
     """Return the line between two players."""
     name, both = f"{one}-{other}", (one, other)
-    return Overlay("line of sight", name, NO_SEGMENTS, follows=both)
+    return LineOverlay("line of sight", name, NO_SEGMENTS, follows=both)
 
 
 def soles(rows: Array, sole: SoleRectangle) -> Array:
@@ -172,7 +172,7 @@ def soles(rows: Array, sole: SoleRectangle) -> Array:
     return np.concatenate([NO_SEGMENTS, *outlines])
 
 
-def push_arrows(player: str, pushes: Array) -> Overlay:
+def push_arrows(player: str, pushes: Array) -> LineOverlay:
     """Return arrows that end where pushes act.
 
     Args:
@@ -190,10 +190,10 @@ def push_arrows(player: str, pushes: Array) -> Overlay:
         )
     times = np.repeat(pushes[:, 0], 3)
     segments = np.concatenate(arrows)
-    return Overlay("pushes", player, segments, times, PUSH_SHOWN)
+    return LineOverlay("pushes", player, segments, times, PUSH_SHOWN)
 
 
-def overlays_of(run: Run, every: int = 1) -> list[Overlay]:
+def overlays_of(run: Run, every: int = 1) -> list[LineOverlay]:
     """Return all that lies over the scene of a run.
 
     Args:
@@ -213,14 +213,14 @@ def overlays_of(run: Run, every: int = 1) -> list[Overlay]:
             segments = polyline(points[::every, :2])
             known = np.isfinite(segments).all(axis=(1, 2))
             found.append(
-                Overlay(layer, name, segments[known], times[1:][known])
+                LineOverlay(layer, name, segments[known], times[1:][known])
             )
         steps = landed[name]
         if len(steps):
             sole = run.settings.robot_of(name).gait.sole
             outlines = soles(steps[:, 1:], sole)
             since = np.repeat(steps[:, 0] - EARLY, 4)
-            found.append(Overlay("footsteps", name, outlines, since))
+            found.append(LineOverlay("footsteps", name, outlines, since))
         if track.pushes is not None:
             found.append(push_arrows(name, track.pushes))
     found += [safety_ring(*area) for area in run.safety_areas]
