@@ -79,7 +79,7 @@ def room(
     if output is not None and attempt(lambda: _write(made, Path(output))):
         result["output"] = output
     if figure is not None:
-        from ..report.top_view import draw_room
+        from ..report.plan_view import draw_room
 
         if attempt(lambda: draw_room(made, figure)):
             result["figure"] = figure

@@ -21,8 +21,8 @@ from .figure_style import (
     panels,
     save,
 )
+from .plan_view import draw_pushes
 from .text_escaping import for_figure
-from .top_view import draw_pushes
 
 RUNS = ("#222222", *LIGHT.others)
 

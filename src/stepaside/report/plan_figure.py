@@ -6,7 +6,7 @@ from ..core.errors import AnyPath
 from ..planning import ManeuverPlan
 from .figure_style import COLOURS, MEAN, THEORY, legend_above, panels, save
 from .overlays import soles
-from .top_view import draw_lines
+from .plan_view import draw_lines
 
 
 def draw_plan(plan: ManeuverPlan, role: str, path: AnyPath) -> None:

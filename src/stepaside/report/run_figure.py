@@ -29,8 +29,8 @@ from .figure_style import (
     panels,
     save,
 )
+from .plan_view import MARKED, draw_paths, draw_snapshots
 from .text_escaping import for_figure
-from .top_view import MARKED, draw_paths, draw_snapshots
 
 STEPS = 6.0  # last steps whose balance is shown
 BEFORE, AFTER = 1.0, 4.0  # time shown before and after a push, in [s]

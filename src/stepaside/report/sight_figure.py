@@ -9,7 +9,7 @@ from ..core.poses import wrap_angles
 from ..games.run import Run
 from .camera_pictures import camera_picture
 from .figure_style import THEORY, colours_of, legend_above, panels, save
-from .top_view import draw_snapshots
+from .plan_view import draw_snapshots
 
 LETTERS = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ"
 IMAGES = 6  # in a row

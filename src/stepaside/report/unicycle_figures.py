@@ -26,7 +26,7 @@ from .figure_style import (
     panels,
     save,
 )
-from .top_view import draw_heading
+from .plan_view import draw_heading
 
 TICK = 0.5  # [m], as in Fig. 2
 _FRACTIONS = (0.0, 0.12, 0.4, 1.0)  # of the time shown
