@@ -49,7 +49,6 @@ NOT_MEASURED = {
     ("docs/run-folder.md", "file"),
     ("docs/sensing.md", "parameter"),
     ("docs/settings.md", "file or folder"),
-    ("docs/statements.md", "statement"),
     ("docs/strategies.md", "`Intent`"),
     ("docs/strategies.md", "`Knowledge`"),
     ("docs/strategies.md", "metadata"),

@@ -39,22 +39,6 @@ def _survived(row: Mapping[str, Any]) -> str:
     return f"{100 * row['survived']:.0f} % ({interval(*ends, 0)})"
 
 
-def sizes(result: Result) -> str:
-    """List survival in square rooms without obstacles, by size."""
-    names = [
-        f"{row['evader']} against {row['pursuer']} (n = {row['games']})"
-        for row in result["sizes"][0]["rows"]
-    ]
-    rows = [
-        (
-            f"{entry['size_m']:g} x {entry['size_m']:g} m",
-            *(_survived(row) for row in entry["rows"]),
-        )
-        for entry in result["sizes"]
-    ]
-    return table(("room", *names), rows)
-
-
 def ladder(result: Result) -> str:
     """List survival of both evaders, beside an offline search."""
     head = (
