@@ -12,6 +12,7 @@ from stepaside.core.errors import ConfigurationError
 from stepaside.envs.arena_pool import ArenaPool
 from stepaside.envs.batched_duel import BatchedDuel, law_of
 from stepaside.envs.environment_settings import EnvironmentSettings
+from stepaside.envs.step_batch import CAPTURED, RUNNING, TOUCHED
 from stepaside.games import play_strategies
 from stepaside.planning import Direction
 from stepaside.strategies import (
@@ -24,7 +25,6 @@ from stepaside.strategies import (
 )
 from stepaside.strategies.learned import StrategyContract, dense_network
 from stepaside.strategies.learned.strategy_contract import discrete_headings
-from stepaside.strategies.step_batch import CAPTURED, RUNNING, TOUCHED
 
 ROOM = RoomRecipe(3.0, 3.0, discs=2, boxes=1)
 OUTCOMES = {"completed": RUNNING, "captured": CAPTURED, "touched": TOUCHED}

@@ -16,7 +16,7 @@ from ..arena import (
 from ..arena.obstacles import ObstacleSet
 from ..core.errors import ConfigurationError, check_within
 from ..core.poses import Array, Pose
-from ..strategies.step_batch import RoomBatch
+from .step_batch import RoomBatch
 
 # Arenas between one episode and the next of the same seed: a prime that
 # divides no usual number of arenas, so that all of them come.

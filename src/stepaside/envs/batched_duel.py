@@ -14,7 +14,10 @@ from ..strategies.constant_walk import StandStill
 from ..strategies.evasion import Evasion
 from ..strategies.learned import LearnedStrategy
 from ..strategies.pursuit import Pursuit
-from ..strategies.step_batch import (
+from ..strategies.strategy import Strategy
+from ..strategies.strategy_game import StepGame
+from .environment_settings import ALL_TERMS, EnvironmentSettings
+from .step_batch import (
     EVADES,
     PURSUES,
     RUNNING,
@@ -28,9 +31,6 @@ from ..strategies.step_batch import (
     observe_games,
     start_games,
 )
-from ..strategies.strategy import Strategy
-from ..strategies.strategy_game import StepGame
-from .environment_settings import ALL_TERMS, EnvironmentSettings
 
 MOST_GAMES = 1_000_000
 LARGEST_TURN = 0.8  # between two decisions, of the series of the kernel

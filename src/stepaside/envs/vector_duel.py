@@ -10,7 +10,6 @@ from numpy.typing import NDArray
 
 from ..core.errors import ConfigurationError, PlanError
 from ..games.duel_settings import PLAYERS
-from ..strategies.step_batch import RUNNING
 from ..strategies.strategy import Strategy
 from .batched_duel import BatchedDuel
 from .distance_reward import evader_reward
@@ -21,6 +20,7 @@ from .environment_settings import (
 )
 from .intent_actions import IntentActions, observation_space
 from .parallel_games import SEEDS
+from .step_batch import RUNNING
 
 Batch = NDArray[np.float32]
 

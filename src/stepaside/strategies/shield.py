@@ -7,7 +7,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from ..core.errors import StrategyError
-from ..core.poses import Array, Pose, wrap_angle
+from ..core.poses import Array, Pose, rotate, wrap_angle
 from ..planning import Direction
 from .knowledge import STAND, Intent, Knowledge
 from .shield_course import Course, Trace, observed_course
@@ -105,18 +105,30 @@ class ShieldedStrategy:
         intent, inner = decided
         intent = replace(intent, pace=1.0)  # walkers change theirs slowly
         model = self.model_for(knowledge)
-        # No decision is taken while the robot halts.
-        kept = TRACE * model.window + model.halting
-        trace = _with_sighting(memory.trace, knowledge, kept)
-        begins = knowledge.step_start_in_map or knowledge.pose_in_map
-        template = _template(model, memory, knowledge)
-        own = begins
+        own = knowledge.step_start_in_map or knowledge.pose_in_map
+        theta, body = own.theta, knowledge.pose_in_map[:2]
+        template = memory.template
+        if template is None:
+            template = TemplatePoint(body)
+        else:
+            passed = max(0.0, knowledge.time - memory.time)
+            template = template.advance(
+                memory.command, body, model.lag, passed
+            )
         if model.velocities is not None:
-            own = Pose(*template.position, begins.theta)
+            own = Pose(*template.position, theta)
+        trace = _with_sighting(memory.trace, knowledge, model)
+        person = self.shield
         memory = memory._replace(
             inner=inner,
             trace=trace,
-            course=_course(model, memory.course, trace),
+            course=observed_course(
+                memory.course,
+                trace,
+                model.window,
+                (person.speed / person.turning_radius, person.sighting_error),
+                model.heading_error,
+            ),
             template=template,
             time=knowledge.time,
         )
@@ -127,7 +139,8 @@ class ShieldedStrategy:
         command = (0.0, 0.0)
         if intent.walks:
             twist, _ = model.twist(intent)
-            command = _turned(twist.forward, twist.lateral, begins.theta)
+            u, v = rotate(twist.forward, twist.lateral, theta).tolist()
+            command = u, v
         return intent, memory._replace(command=command)
 
     def model_for(self, knowledge: Knowledge) -> ShieldModel:
@@ -146,28 +159,38 @@ class ShieldedStrategy:
     ) -> tuple[Intent, ShieldMemory]:
         """Return the intent, or that of a motion in its place."""
         table, required = model.table(), model.required
-        if memory.course is None or not model.certifies(table):
+        course = memory.course
+        if course is None or not model.certifies(table):
             # Unknown as yet; or contact can be forced from everywhere.
             return intent, memory._replace(held=None, guarded=False)
-        poses = relative_poses(own, memory.trace[-1], memory.course, model)
+        poses = relative_poses(own, memory.trace[-1], course, model)
         moving = knowledge.moving
         if intent.walks:
             follow = table.outcomes if moving else table.start_outcomes
             motion, duration = model.motion_of(intent)
             value = float(follow(poses, motion[None], duration)[0])
         elif moving:
-            value = self._halting_value(own, model, memory)
+            # While it halts it takes no decision, and the opponent may turn.
+            turn = self.shield.speed / self.shield.turning_radius
+            unseen = course._replace(
+                error=min(pi, course.error + turn * model.halting)
+            )
+            value = table.halting_value(
+                relative_poses(own, memory.trace[-1], unseen, model),
+                model.halting,
+                model.limits.stride,
+            )
         else:
             value = float(table.standing_value(poses).min())
         if value >= required:
             return intent, memory._replace(held=None, guarded=True)
         held, now = memory.held, knowledge.time
         guarded = memory.guarded
-        if held is not None and held.until == inf and moving:
-            # The first step has begun when it was decided, or later.
-            held = held._replace(until=now + model.period - model.first)
         if held is not None and held.until == inf:
-            held = None  # it has not started
+            # The first step has begun when it was decided, or later; or the
+            # robot has not started.
+            until = now + model.period - model.window
+            held = held._replace(until=until) if moving else None
         if held is None or now > held.until - 1e-6:
             found = table.best_starts(poses)
             if moving:
@@ -186,25 +209,6 @@ class ShieldedStrategy:
             held = HeldMotion(best, own.theta, until)
         return _intent_of(held, model, own), memory._replace(
             held=held, replaced=memory.replaced + 1, guarded=guarded
-        )
-
-    def _halting_value(
-        self, own: Pose, model: ShieldModel, memory: ShieldMemory
-    ) -> float:
-        """Return the guaranteed distance of a robot that halts, in [m].
-
-        Meanwhile no decision is taken, and the opponent may turn unseen.
-        """
-        course = memory.course
-        assert course is not None
-        turn = self.shield.speed / self.shield.turning_radius
-        error = min(pi, course.error + turn * model.halting)
-        return model.table().halting_value(
-            relative_poses(
-                own, memory.trace[-1], course._replace(error=error), model
-            ),
-            model.halting,
-            model.limits.stride,
         )
 
 
@@ -242,34 +246,15 @@ def relative_poses(
     return np.array(rows)
 
 
-def _with_sighting(trace: Trace, knowledge: Knowledge, kept: float) -> Trace:
+def _with_sighting(
+    trace: Trace, knowledge: Knowledge, model: ShieldModel
+) -> Trace:
     """Add the position of the opponent to a trace, and forget old ones."""
     time = knowledge.time - knowledge.age
-    seen = (time, *knowledge.position_in_map)
-    return (*(row for row in trace if time - kept <= row[0] < time), seen)
-
-
-def _course(
-    model: ShieldModel, before: Course | None, trace: Trace
-) -> Course | None:
-    """Return the heading of the opponent that a trace shows."""
-    person = model.settings
-    turn = person.speed / person.turning_radius
-    bounds = turn, person.sighting_error
-    return observed_course(
-        before, trace, model.window, bounds, model.heading_error
-    )
-
-
-def _template(
-    model: ShieldModel, memory: ShieldMemory, knowledge: Knowledge
-) -> TemplatePoint:
-    """Return the template point of the own body."""
-    body = knowledge.pose_in_map[:2]
-    if memory.template is None:
-        return TemplatePoint(body)
-    passed = max(0.0, knowledge.time - memory.time)
-    return memory.template.advance(memory.command, body, model.lag, passed)
+    # No decision is taken while the robot halts.
+    oldest = time - TRACE * model.window - model.halting
+    kept = (row for row in trace if oldest <= row[0] < time)
+    return (*kept, (time, *knowledge.position_in_map))
 
 
 def _intent_of(held: HeldMotion, model: ShieldModel, own: Pose) -> Intent:
@@ -278,16 +263,10 @@ def _intent_of(held: HeldMotion, model: ShieldModel, own: Pose) -> Intent:
     if model.velocities is not None:
         if (ahead, left, rate) == (0.0, 0.0, 0.0):
             return STAND
-        u, v = _turned(ahead, left, held.heading - own.theta)
+        u, v = rotate(ahead, left, held.heading - own.theta).tolist()
         return Intent(velocity=BodyVelocity(u, v, rate))
     limits = model.limits
     turn = rate * limits.step_duration
     heading = turn if model.saturated else turn / limits.share
     speed = abs(ahead) * limits.step_duration / limits.stride
     return Intent(min(max(heading, -pi), pi), min(speed, 1.0))
-
-
-def _turned(x: float, y: float, angle: float) -> tuple[float, float]:
-    """Return a vector turned to the left by an angle."""
-    c, s = cos(angle), sin(angle)
-    return c * x - s * y, s * x + c * y

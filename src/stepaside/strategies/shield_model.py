@@ -36,13 +36,7 @@ TURNS = (-1.0, -0.5, 0.0, 0.5, 1.0)  # of a unicycle's step, of the largest
 
 
 class Motion(NamedTuple):
-    """Motion to which a robot commits.
-
-    Attributes:
-        poses: Poses in the initial frame; see :func:`.sub_poses`. Shape
-            (parts, 3).
-        duration: Duration, in [s].
-    """
+    """Motion to which a robot commits: poses (parts, 3), and duration [s]."""
 
     poses: Array
     duration: float
@@ -77,7 +71,7 @@ class ShieldModel:
 
     @property
     def window(self) -> float:
-        """Time over which the opponent's heading is measured, in [s]."""
+        """Time between decisions, over which headings are measured [s]."""
         legs = self.velocities is not None
         return LEGS_INTERVAL if legs else self.limits.step_duration
 
@@ -132,12 +126,6 @@ class ShieldModel:
         """Time in which a robot that halts takes no decision, in [s]."""
         legs = self.velocities is not None
         return 0.0 if legs else self.limits.step_duration + SETTLING
-
-    @property
-    def first(self) -> float:
-        """Time from the begin of a start to the next decision, in [s]."""
-        legs = self.velocities is not None
-        return LEGS_INTERVAL if legs else self.limits.step_duration
 
     @property
     def required(self) -> float:
@@ -268,24 +256,10 @@ class ShieldModel:
 
 @lru_cache(maxsize=8)
 def _table(model: ShieldModel) -> "ShieldTable":
-    """Return the table of a model; warn if it certifies nothing."""
-    table = _load_table(model)
-    if not model.certifies(table):
-        person = model.settings
-        LOG.warning(
-            "shield: no state is certified against a person at %g m/s with a "
-            "turning radius of %g m, contact at %g m; the shield changes "
-            "nothing",
-            person.speed, person.turning_radius, person.contact,
-        )  # fmt: skip
-    return table
-
-
-def _load_table(model: ShieldModel) -> "ShieldTable":
-    """Load a table from the cache, or solve the game."""
+    """Load or solve the table of a model; warn if it certifies nothing."""
     from ..theory.value import ShieldTable, solve_shield
 
-    game = model.game()
+    game, person = model.game(), model.settings
     key = (
         CELLS, game.person, game.period, game.loss, game.jump,
         model.required, model.response, game.motions.tobytes(),
@@ -301,4 +275,12 @@ def _load_table(model: ShieldModel) -> "ShieldTable":
             cells=CELLS,
         ).arrays(),
     )
-    return ShieldTable.from_arrays(game, arrays)
+    table = ShieldTable.from_arrays(game, arrays)
+    if not model.certifies(table):
+        LOG.warning(
+            "shield: no state is certified against a person at %g m/s with a "
+            "turning radius of %g m, contact at %g m; the shield changes "
+            "nothing",
+            person.speed, person.turning_radius, person.contact,
+        )  # fmt: skip
+    return table

@@ -32,13 +32,9 @@ class TemplatePoint(NamedTuple):
     def advance(
         self, command: Vector, body: Vector, lag: float, duration: float
     ) -> "TemplatePoint":
-        """Return the point some time later.
+        """Return the point a duration [s] later, at a position of the body.
 
-        Args:
-            command: Commanded velocity over the floor, in [m/s].
-            body: Position of the body then, in [m].
-            lag: Lag of the legs, in [s].
-            duration: The time, in [s].
+        The velocity over the floor is commanded, and legs lag by ``lag``.
         """
         rest = exp(-duration / lag) if lag > 0.0 else 0.0
         drift = (

@@ -1,8 +1,7 @@
-"""Many games by footsteps side by side, in compiled loops.
+"""Many games of :class:`~stepaside.strategies.StepGame` in compiled loops.
 
-The rules are those of :class:`~.strategy_game.StepGame`; a player follows the
-paper's law, stands, or is given its intents from outside, as in learning. A
-test plays the same games one by one.
+A player follows the paper's law, stands, or is given its intents from
+outside, as in learning.
 """
 
 from math import atan2, inf, pi
@@ -14,15 +13,17 @@ from numpy.typing import NDArray
 from ..arena.obstacles import PackedObstacles
 from ..core.compilation import compiled, copy_values, inlined
 from ..core.poses import Array
-from ..theory import laws
-from .learned.observation_terms import (
+from ..strategies.learned.observation_terms import (
     CLEAREST,
     FARTHEST,
     FASTEST,
+    FULL_STATE_TERMS,
+    SENSED_TERMS,
     ring_points,
 )
-from .search.distance_field import hull_clearance
-from .search.step_motion import half_turn
+from ..strategies.search.distance_field import hull_clearance
+from ..strategies.search.step_motion import walk_arc
+from ..theory import laws
 
 inlined(laws.wrap_once)  # called by evasion_heading
 inlined(laws.side_behind)  # called by update_side
@@ -35,15 +36,7 @@ RUNNING, CAPTURED, TOUCHED = 0, 1, 2
 STANDS, PURSUES, EVADES = 0, 1, 2
 """Codes of the laws that a player may follow."""
 TERM_CODES = {
-    "distance": 0,
-    "bearing": 1,
-    "bearing_rate": 2,
-    "closing_speed": 3,
-    "moving": 4,
-    "clearances": 5,
-    "opponent_bearing": 6,
-    "closest": 7,
-    "remaining": 8,
+    name: code for code, name in enumerate((*SENSED_TERMS, *FULL_STATE_TERMS))
 }
 """Terms that :func:`observe_games` computes."""
 RING = ring_points()
@@ -237,14 +230,10 @@ def walk(
     else:
         turn, most = r.share * heading, r.turn
     turn = min(max(turn, -most), most) / r.parts
-    c, s, ratio = half_turn(0.5 * turn)
-    mc = pose[2] * c - pose[3] * s
-    ms = pose[3] * c + pose[2] * s
-    way = r.stride * speed * ratio
-    pose[0] += way * mc
-    pose[1] += way * ms
-    pose[2] = mc * c - ms * s
-    pose[3] = ms * c + mc * s
+    way = r.stride * speed
+    pose[0], pose[1], pose[2], pose[3] = walk_arc(
+        pose[0], pose[1], pose[2], pose[3], way, turn
+    )
 
 
 @compiled
