@@ -147,6 +147,10 @@ WRITERS: dict[str, tuple[str, Callable[[Any], Any]]] = {
         lambda p: stepaside.write_run(p, a_run(), drawn=False),
     ),
     "StudyRun": ("study.sqlite", lambda p: StudyRun(a_study(), p)),
+    "StudyRun.draw": (
+        "study.svg",
+        lambda p: run_study(a_study()).draw(p, "case"),
+    ),
     "run_study": ("study.sqlite", lambda p: run_study(a_study(), p)),
     "merge_results": ("study.sqlite", merge_one),
     "write_page": ("page.html", lambda p: stepaside.write_page(a_run(), p)),

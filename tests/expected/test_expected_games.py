@@ -243,9 +243,6 @@ def test_a_study_in_this_process_takes_a_strategy_object() -> None:
     assert [record["outcome"] for record in run.records()] == ["completed"]
 
 
-@pytest.mark.xfail(
-    strict=True, reason="a parameter of one's own strategy cannot be an axis"
-)
 def test_a_parameter_of_an_own_strategy_is_an_axis(tmp_path: Path) -> None:
     own = own_evader(tmp_path / "own.py")
     study = tmp_path / "study.toml"

@@ -12,7 +12,11 @@ import pytest
 
 from flows.calls import EXAMPLES
 
-VALUES = ("own_strategy", "unicycle_games")  # with tests of their own
+VALUES = (
+    "own_strategy",
+    "study_own_strategy",
+    "unicycle_games",
+)  # with tests of their own
 SHORT = {  # seconds of simulation, where an example takes them
     "change_gait": "2",
     "keep_runs": "2",
@@ -37,7 +41,8 @@ class Runner:
     def __call__(self, name: str, *arguments: str) -> str:
         """Return the output of an example."""
         file = str(EXAMPLES / name)
-        if name == "control_alone.py":  # it hides MuJoCo from itself
+        # One hides MuJoCo from itself, one plays in processes.
+        if name in ("control_alone.py", "study_own_strategy.py"):
             return check_output([sys.executable, file], text=True)
         self.monkeypatch.setattr(sys, "argv", [file, *arguments])
         self.monkeypatch.setattr(
@@ -95,6 +100,18 @@ def test_an_own_strategy_plays_as_unicycle_and_as_humanoid(
         aside, own = found["aside", bodies], found["own", bodies]
         assert 0.4 < aside[0] < own[0] < 0.9
         assert 0.2 < own[1] < 1.0
+
+
+def test_a_study_of_an_own_strategy_draws_its_parameter(
+    run: Runner, tmp_path: Path
+) -> None:
+    """The farther off it backs, the farther the pursuer stays."""
+    text = run("study_own_strategy.py")
+    closest = [float(x) for x in re.findall(r"approach (.*) m", text)]
+    assert len(closest) == 4
+    assert closest == sorted(closest)
+    assert 0.4 < closest[0] < closest[-1] - 0.005
+    assert (tmp_path / "back_off.png").exists()
 
 
 def test_an_example_of_unicycles_finds_the_circle(run: Runner) -> None:

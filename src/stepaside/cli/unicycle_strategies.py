@@ -14,7 +14,6 @@ if TYPE_CHECKING:
 
 # Parameters of options that only the paper's evader uses.
 OF_EVADER = ("angle", "strategy", "law", "side_rule", "hysteresis")
-UNBOUNDED = 1e9  # safety radius of a game without safety area, in [m]
 
 
 def check_used(names: tuple[str, str]) -> None:
@@ -61,20 +60,9 @@ def play_named_game(
     """
     import numpy as np
 
-    from ..games import play_strategies
-    from ..strategies import Evasion, StepGame, load_strategy
+    from ..games.floor_games import play_unicycles
 
-    evasion = Evasion(
-        game.angle,
-        game.saturated,
-        safety_radius=UNBOUNDED,
-        side_hysteresis=game.hysteresis,
-    )
-    pursuer, evader = (load_strategy(name, evasion) for name in names)
-    rules = StepGame.of_unicycles(
-        game.pursuer, game.evader, times[1], times[0], capture
-    )
-    run = play_strategies(pursuer, evader, start.poses(), game=rules)
+    run = play_unicycles(game, start, names, times, capture)
     floor = [
         float(np.hypot(*(path - path[0])[:, :2].T).max())
         for path in (run.pursuer, run.evader)

@@ -14,9 +14,13 @@ from ..core.player_identity import PlayerIdentity, Role
 from ..core.poses import Array, Pose, wrap_angles
 from ..sim.crowd_motion import CrowdMotion
 from ..sim.person_motion import PersonMotion
+from ..strategies.evasion import Evasion
 from ..strategies.knowledge import Limits
+from ..strategies.registry import load_strategy
 from ..strategies.strategy import Strategy
 from ..strategies.strategy_game import StepGame
+from ..theory.unicycle.relative_coordinates import RelativeStart
+from ..theory.unicycle.unicycle_game import Game
 from .floor_world import (
     PARTS,
     PERIOD,
@@ -35,6 +39,7 @@ from .game_strategies import MARGIN, strategy_of
 from .outcome import Outcome
 from .recorded_motion import RecordedMotion
 
+UNBOUNDED = 1e9  # safety radius of a game without safety area, in [m]
 PAIR = {
     name: PlayerIdentity(name, Role(name), name)
     for name in ("pursuer", "evader")
@@ -121,6 +126,39 @@ def play_strategies(
     played = GameInPlay(world, rules_of_two(game), (recorder,))
     play(played)
     return track_of(played, recorder, room)
+
+
+def play_unicycles(
+    game: Game,
+    start: RelativeStart,
+    names: tuple[str, str],
+    times: tuple[float, float],
+    capture: float,
+) -> StrategyTrack:
+    """Play a game of unicycles with named strategies.
+
+    Args:
+        game: Speeds, gains, and parameters of the paper's evader, which
+            evades from the begin.
+        start: Initial relative pose.
+        names: Strategies of pursuer and evader.
+        times: Duration and decision period, in [s].
+        capture: Capture distance, in [m]; ends the game.
+
+    Raises:
+        ConfigurationError: If a strategy is invalid.
+    """
+    evasion = Evasion(
+        game.angle,
+        game.saturated,
+        safety_radius=UNBOUNDED,
+        side_hysteresis=game.hysteresis,
+    )
+    pursuer, evader = (load_strategy(name, evasion) for name in names)
+    rules = StepGame.of_unicycles(
+        game.pursuer, game.evader, times[1], times[0], capture
+    )
+    return play_strategies(pursuer, evader, start.poses(), game=rules)
 
 
 def track_of(

@@ -221,6 +221,18 @@ class StudyRun(Generic[C]):
         """
         return to_frame(self.records(), library)
 
+    def draw(self, file: AnyPath, value: str) -> None:
+        """Draw a value over what varies, with its 95 % intervals.
+
+        Args:
+            file: File of the figure; its suffix gives the format.
+            value: Name of the value.
+        """
+        from ..report.study_figures import draw_study
+
+        path = as_path(file, "file")
+        draw_study(self.table(values=[value]), self.study.by, path)
+
     def take(self, most: int) -> list[int]:
         """Return the numbers of the next cases without a record."""
         numbers = self._missing[self._next : self._next + most].tolist()

@@ -63,7 +63,7 @@ class _Design(NamedTuple):
 
     game: str
     settings: Mapping[str, Any]
-    variants: Mapping[str, Mapping[str, Mapping[str, Any]]]
+    variants: Mapping[str, Mapping[Any, Mapping[str, Any]]]
 
     def settings_of(self, case: Case) -> Any:
         """Return the settings of a case."""
@@ -108,7 +108,7 @@ def make_study(
     settings: Mapping[str, Any] | None = None,
     grid: Mapping[str, Sequence[Any]] | None = None,
     *,
-    variants: Mapping[str, Mapping[str, Mapping[str, Any]]] | None = None,
+    variants: Mapping[str, Mapping[Any, Mapping[str, Any]]] | None = None,
     cases: Sequence[Case] = ({},),
     by: Sequence[str] = (),
     values: Sequence[str] = (),
@@ -124,7 +124,7 @@ def make_study(
             like ``strategy.safety_radius``.
         grid: Values of each setting that varies, by name with dots.
         variants: Axes whose values change several settings: for each axis
-            the settings by the name of the variant.
+            the settings by the name, or the number, of the variant.
         cases: List of settings, each combined with all others.
         by: Values that tell the rows of the table apart; by default all
             that vary but the seed.

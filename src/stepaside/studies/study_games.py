@@ -10,6 +10,7 @@ from ..core.errors import ConfigurationError
 from ..core.player_identity import Role
 from ..games.configuration_file import parse_settings
 from ..games.duel_settings import DuelSettings
+from ..games.floor_games import play_unicycles
 from ..games.game_file import parse_game
 from ..games.game_match import run_game
 from ..games.game_settings import GameSettings
@@ -40,6 +41,8 @@ from .tournament_settings import TournamentSettings
 from .tournament_strategies import gain_of
 
 EARLIEST_CAPTURE = 0.02  # with any heading capture ends no game, in [m]
+CONTACT = 1e-6  # distance of unicycles at which their game ends, in [m]
+DECISION_TIME = 0.01  # of unicycles with named strategies, in [s]
 FLOORS = ("room", "open", "any heading")
 
 
@@ -114,6 +117,9 @@ class UnicycleSettings:
         bearing: Initial bearing of the pursuer in the evader's frame, in
             [rad].
         duration: Duration of the game, in [s].
+        pursuer_strategy: Strategy of the pursuer, which decides every
+            ``DECISION_TIME``; empty for the paper's.
+        evader_strategy: Strategy of the evader, likewise.
     """
 
     pursuer_speed: float = 0.1
@@ -127,6 +133,8 @@ class UnicycleSettings:
     aim: float = 0.0
     bearing: float = 0.0
     duration: float = 60.0
+    pursuer_strategy: str = ""
+    evader_strategy: str = ""
 
 
 @dataclass(frozen=True)
@@ -346,7 +354,25 @@ def _play_unicycles(settings: UnicycleSettings) -> Record:
     except ValueError as error:
         raise ConfigurationError(f"a game of unicycles: {error}") from error
     start = RelativeStart(settings.distance, settings.aim, settings.bearing)
-    played = simulate(game, start, settings.duration)
+    names = settings.pursuer_strategy, settings.evader_strategy
+    if any(names):
+        track = play_unicycles(
+            game,
+            start,
+            (names[0] or "pursuit", names[1] or "evasion"),
+            (settings.duration, DECISION_TIME),
+            CONTACT,
+        )
+        nearest = int(track.distances.argmin())
+        ended, distance = track.times, float(track.distances[-1])
+        return {
+            "outcome": track.outcome.value,
+            "duration_s": float(ended[-1]),
+            "closest_m": track.closest_distance,
+            "closest_at_s": float(ended[nearest]),
+            "distance_m": distance,
+        }
+    played = simulate(game, start, settings.duration, capture_distance=CONTACT)
     (end,) = played.states([played.end_time])
     return {
         "outcome": "captured" if played.captured else "completed",
