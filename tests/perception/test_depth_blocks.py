@@ -39,10 +39,6 @@ def draw(
     return detect_obstacles(image, CameraPose(eye, axes, (-1.0, -1.0)))
 
 
-def count(*blocks: Block, height: float = 0.5, scale: int = 1) -> int:
-    return len(draw(*blocks, height=height, scale=scale).obstacles)
-
-
 @pytest.mark.parametrize("yaw", [0.0, 1.0, 3.0, -3.1])
 @pytest.mark.parametrize("shift", [-12, 0, 12])
 def test_a_block_is_measured_at_its_size_and_position(
@@ -83,35 +79,6 @@ def test_the_axis_lies_half_a_depth_behind_the_front(
     assert np.hypot(x, y) - thing.nearest == pytest.approx(expected)
 
 
-def test_points_up_to_7_cm_belong_to_the_floor() -> None:
-    """Fourteen pixels make a thing: two columns of seven rows.
-
-    At 1.5 m with its slack the floor ends at 0.085 m; rows 49 and 50 are
-    0.096 m and 0.076 m high.
-    """
-    assert count((43, 50, 30, 32, 1.5)) == 1
-    assert count((44, 51, 30, 32, 1.5)) == 0
-
-
-@pytest.mark.parametrize("scale", [1, 2])
-def test_small_components_are_noise_at_any_resolution(scale: int) -> None:
-    rows = 7 * scale
-    assert count((10, 10 + rows, 30, 30 + 2 * scale, 1.5), scale=scale) == 1
-    assert count((10, 9 + rows, 30, 30 + 2 * scale, 1.5), scale=scale) == 0
-
-
-@pytest.mark.parametrize(("gap", "things"), [(0.22, 1), (0.28, 2)])
-@pytest.mark.parametrize("sign", [-1.0, 1.0])
-def test_a_step_of_depth_separates_components(
-    gap: float, things: int, sign: float
-) -> None:
-    there = 1.5 + sign * gap
-    beside = (10, 40, 30, 40, 1.5), (10, 40, 40, 50, there)
-    above = (10, 25, 30, 40, 1.5), (25, 40, 30, 40, there)
-    assert count(*beside) == things
-    assert count(*above) == things
-
-
 @pytest.mark.parametrize("dark", [1, 2])
 def test_missing_depth_does_not_join_an_object_to_the_wall(dark: int) -> None:
     """The camera's own shadow beside a near edge answers nothing."""
@@ -121,29 +88,6 @@ def test_missing_depth_does_not_join_an_object_to_the_wall(dark: int) -> None:
     (thing,) = draw(wall, (10, 40, 34, 46, 1.5), shadow).obstacles
     assert thing.azimuth == pytest.approx(0.0, abs=3e-3)
     assert thing.nearest == pytest.approx(1.5, abs=0.03)
-    assert thing.whole
-
-
-def test_a_component_wider_than_1_1_m_is_a_wall() -> None:
-    """1.03 m and 1.17 m."""
-    assert count((10, 40, 15, 65, 1.6)) == 1
-    assert count((10, 40, 11, 69, 1.6)) == 0
-
-
-def test_objects_at_the_far_limit_are_ignored() -> None:
-    assert count((10, 36, 30, 40, 3.27)) == 1
-    assert count((10, 36, 30, 40, 3.40)) == 0
-
-
-@pytest.mark.parametrize(("left", "right"), [(0, 12), (68, 80)])
-def test_a_cut_component_counts_only_nearby(left: int, right: int) -> None:
-    """Farther away it may be part of a wall."""
-    (thing,) = draw((10, 36, left, right, 1.6)).obstacles
-    assert not thing.whole
-    assert count((10, 36, left, right, 1.75)) == 1  # 1.94 m away
-    assert count((10, 36, left, right, 1.87)) == 0  # 2.07 m away
-    left, right = max(left, 1), min(right, 79)
-    (thing,) = draw((10, 36, left, right, 1.87)).obstacles
     assert thing.whole
 
 
@@ -170,13 +114,6 @@ def test_a_shadow_is_as_wide_as_the_hidden_floor(yaw: float) -> None:
         assert shadow.width == pytest.approx(angle(left) - angle(right))
         middle = 0.5 * (angle(left) + angle(right))
         assert shadow.azimuth == pytest.approx(middle)
-        assert shadow.bearing == pytest.approx(yaw + middle)
-
-
-def test_a_shadow_is_whole_unless_it_is_at_an_edge() -> None:
-    for left, right in ((0, 10), (1, 10), (30, 40), (70, 79), (70, 80)):
-        (shadow,) = draw((43, 60, left, right, 0.0)).shadows
-        assert shadow.whole is (left > 0 and right < 80)
 
 
 def test_only_floor_within_the_range_can_be_hidden() -> None:
@@ -187,43 +124,6 @@ def test_only_floor_within_the_range_can_be_hidden() -> None:
     far = [(50, 54, 30, 40, 0.0), (54, 58, 30, 40, 0.0)]
     seen = [draw(block, height=1.0).shadows for block in far]
     assert [len(shadows) for shadows in seen] == [0, 1]
-
-
-def test_floor_at_grazing_incidence_hides_nothing() -> None:
-    """From 0.3 m, floor beyond 2 m, within the range, returns nothing."""
-    grazing, steep = (37, 41, 10, 70, 0.0), (41, 45, 10, 70, 0.0)
-    seen = [draw(block, height=0.3).shadows for block in (grazing, steep)]
-    assert [len(shadows) for shadows in seen] == [0, 1]
-
-
-def test_few_pixels_without_return_are_no_shadow() -> None:
-    for scale in (1, 2):
-        for columns, shadows in ((8, 1), (7, 0)):
-            dark = 50 * scale, 53 * scale, 30 * scale, (30 + columns) * scale
-            scene = draw((*dark, 0.0), scale=scale)
-            assert len(scene.shadows) == shadows
-    specks = (45, 48, 10, 13, 0.0), (50, 56, 30, 40, 0.0)
-    assert len(draw(*specks).shadows) == 1
-    # Lines are no shadows, however long.
-    assert draw((50, 52, 10, 70, 0.0)).shadows == ()
-
-
-@pytest.mark.parametrize(
-    ("depth", "left", "cut"),
-    [(0.90, 36, True), (0.94, 36, False), (0.90, 60, False)],
-)
-def test_a_near_obstacle_beside_a_shadow_becomes_a_shadow(
-    depth: float, left: int, cut: bool
-) -> None:
-    """Part of it may lie within the near limit."""
-    scene = draw((10, 35, 30, 42, depth), (43, 60, left, left + 8, 0.0))
-    assert len(scene.obstacles) == (0 if cut else 1)
-    (shadow,) = scene.shadows
-    if cut:
-        assert shadow.azimuth > angle(left + 4)
-        assert shadow.width > angle(31) - angle(left + 7)
-    else:
-        assert shadow.width == pytest.approx(angle(left) - angle(left + 7))
 
 
 def test_a_measured_leg_gives_the_distance_of_both() -> None:

@@ -73,7 +73,7 @@ def test_an_object_too_near_gives_a_shadow_at_its_bearing() -> None:
     scene = find([(x, y, 0.1, 0.5)])
     assert scene.obstacles == ()
     (shadow,) = scene.shadows
-    assert degrees(shadow.bearing) == pytest.approx(7.0, abs=1.5)
+    assert degrees(shadow.azimuth) == pytest.approx(7.0, abs=1.5)
 
 
 def test_a_partly_measured_object_is_one_shadow() -> None:

@@ -11,7 +11,6 @@ from stepaside.perception.camera_model import CameraModel
 from stepaside.perception.camera_pose import CameraPose
 from stepaside.perception.floor_map import (
     CELL,
-    FREE_AT_START,
     FloorMap,
     wide_areas,
 )
@@ -131,18 +130,6 @@ def test_a_second_view_leaves_only_the_obstacle() -> None:
         assert near.clearance(polygon.points).max() < 0.16
 
 
-def test_the_floor_around_the_start_is_free() -> None:
-    seen = FloorMap()
-    seen.take(*view_at((), 0.0), None)
-    behind = np.array(
-        [[-FREE_AT_START + 1.5 * CELL, 0.0], [-FREE_AT_START - CELL, 0.02]]
-    )
-    clearance = np.min(
-        [p.clearance(behind) for p in seen.unknown((0.0, 0.0))], axis=0
-    )
-    assert clearance[0] > 0.0 > clearance[1]
-
-
 def test_hits_on_the_opponent_are_erased_when_it_is_recognised() -> None:
     """It was mapped as an obstacle before."""
     seen, body = FloorMap(), (Disc(1.2, 0.0, 0.12),)
@@ -211,18 +198,6 @@ def test_columns_beside_a_blocked_one_start_at_the_near_limit() -> None:
     for places, hidden in ((inside, True), (beyond, False)):
         parts = [p.clearance(places) for p in seen.unknown((0.0, 0.0))]
         assert ((np.min(parts, axis=0) <= 0.0) == hidden).all()
-
-
-@pytest.mark.parametrize("width", [8, 21])
-def test_few_columns_are_read_too(width: int) -> None:
-    camera = CameraModel.of_field_of_view(width, 8, 1.01, 0.785)
-    depths = np.full((8, width), 2.0, np.float32)
-    depths[:, width // 2] = 0.0
-    seen = FloorMap()
-    image = DepthImage(0.0, camera, depths, 0.8, FAR)
-    eye = CameraPose(np.array([0.0, 0.0, EYE]), np.eye(3), (0.0, 0.0))
-    seen.take(image, eye, None)
-    assert seen.version == 1
 
 
 def test_the_rim_of_what_is_unseen_is_unseen() -> None:

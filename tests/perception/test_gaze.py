@@ -7,15 +7,12 @@ import pytest
 
 from stepaside.perception.gaze import (
     FOLLOW_SPEED,
-    GLANCE_DURATION,
     MAX_TURN,
     MAX_UPWARD,
     MAX_YAW,
     MIN_DISTANCE,
     PERSON_TOP,
     ROBOT_MIDDLE,
-    SCAN_PITCH,
-    SCAN_SPEED,
     Gaze,
     GazeTarget,
     Glances,
@@ -86,25 +83,6 @@ def test_a_search_begins_where_the_other_left() -> None:
         assert side * (gaze.yaw - before) > 0.0
 
 
-def test_it_turns_at_the_speed_of_a_following_head() -> None:
-    gaze = Gaze(COUPLING, TICK, ROBOT)
-    before = gaze.yaw, gaze.pitch
-    gaze.follow(at(1.0, 1.0))
-    assert hypot(
-        gaze.yaw - before[0], gaze.pitch - before[1]
-    ) == pytest.approx(3.0 * TICK)
-    gaze = Gaze(COUPLING, TICK, ROBOT)
-    gaze.search()
-    moved = hypot(gaze.yaw - before[0], gaze.pitch - before[1])
-    assert moved == pytest.approx(3.0 * TICK)
-
-
-def test_it_begins_ahead_a_little_down_and_searching() -> None:
-    gaze = Gaze(COUPLING, TICK, ROBOT)
-    assert (gaze.yaw, gaze.pitch) == (0.0, radians(8.0))
-    assert gaze.searching
-
-
 def settled(bearing: float, distance: float) -> Gaze:
     gaze = Gaze(COUPLING, TICK, ROBOT)
     for _ in range(500):
@@ -127,33 +105,12 @@ def test_it_looks_at_the_middle_of_a_body_and_keeps_the_crown_in_view() -> (
         assert near.pitch == pytest.approx(radians(20.0) - crown)
 
 
-def test_what_it_reaches_it_keeps_without_overshoot() -> None:
-    gaze = settled(0.5, 1.0)
-    assert gaze.yaw == 0.5
-    gaze.follow(at(0.5 + 0.5 * FOLLOW_SPEED * TICK, 1.0))
-    assert gaze.yaw == 0.5 + 0.5 * FOLLOW_SPEED * TICK
-
-
 def test_bearings_are_taken_the_short_way() -> None:
     wrapped, plain = Gaze(COUPLING, TICK, ROBOT), Gaze(COUPLING, TICK, ROBOT)
     for _ in range(100):
         wrapped.follow(at(-0.6 + 2.0 * pi, 1.0))
         plain.follow(at(-0.6, 1.0))
     assert wrapped.yaw == pytest.approx(plain.yaw)
-
-
-def test_a_search_after_another_goes_on_to_the_same_side() -> None:
-    for side in (-1.0, 1.0):
-        gaze = settled(side * 0.3, 1.0)
-        assert not gaze.searching
-        gaze.search()
-        assert gaze.searching
-        while side * gaze.yaw < MAX_YAW - 1e-3:
-            gaze.search()
-        assert gaze.pitch == pytest.approx(SCAN_PITCH)
-        for _ in range(20):
-            gaze.search()
-        assert side * gaze.yaw < MAX_YAW - 10 * SCAN_SPEED * TICK
 
 
 def test_a_neck_that_turns_less_searches_as_far_as_it_can() -> None:
@@ -166,17 +123,6 @@ def test_a_neck_that_turns_less_searches_as_far_as_it_can() -> None:
     assert max(yaws) == pytest.approx(1.0)
     assert min(yaws) == pytest.approx(-1.0)
     assert settled(0.0, 1.0).pitch < 0.5
-
-
-@pytest.mark.parametrize("shift", [-0.6, 0.6])
-def test_pitch_keeps_to_either_limit_at_its_yaw(shift: float) -> None:
-    yaws = np.array([-1.0, 0.0, 1.0])
-    low, high = np.array([-0.1, 0.0, -0.1]), np.array([0.1, 0.2, 0.1])
-    gaze = Gaze(np.stack([yaws, low + shift, high + shift]), TICK, ROBOT)
-    for _ in range(2000):
-        gaze.follow(at(0.5, 1.0))
-    limit = 0.15 + shift if shift < 0.0 else -0.05 + shift
-    assert gaze.pitch == pytest.approx(limit, abs=1e-4)
 
 
 def pitch_at(distance: float, height: float) -> float:
@@ -227,15 +173,3 @@ def test_the_gaze_stays_on_a_near_opponent() -> None:
     glances = Glances(TICK, 2.0)
     near = MIN_DISTANCE - 0.01
     assert {glances.direction(1.2, near) for _ in range(2000)} == {1.2}
-
-
-def test_a_glance_takes_its_time_and_comes_back_as_often() -> None:
-    glances = Glances(TICK, 2.0)
-    looks = np.array(
-        [glances.direction(1.2, 1.0) for _ in range(round(29.0 / TICK))]
-    )
-    away = looks != 1.2
-    assert np.diff(away.astype(int)).tolist().count(1) == 10
-    assert away.mean() == pytest.approx(
-        GLANCE_DURATION / (2.0 + GLANCE_DURATION), abs=0.01
-    )

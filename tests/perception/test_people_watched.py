@@ -16,7 +16,6 @@ from stepaside.perception.measurement import RobotState, Sighting
 from stepaside.perception.pipeline import build_perception
 from stepaside.perception.target_selection import (
     PeopleSelection,
-    closest_approach,
 )
 from stepaside.perception.track import Observation, TargetTrack
 from stepaside.perception.tracker import Tracker
@@ -176,48 +175,6 @@ def looks(begin: float, speed: float, seconds: float, spread: float) -> float:
     return at / (count - 1)
 
 
-def test_the_head_only_glances_at_objects_at_rest() -> None:
-    """A first look is long enough to detect that nothing moves."""
-    assert looks(1.0, 0.0, 0.4, 0.03) == 1.0
-    assert 0.05 < looks(1.0, 0.0, 30.0, 0.03) < 0.35
-    assert 0.05 < looks(3.0, 0.0, 30.0, 0.03) < 0.35
-
-
-@pytest.mark.parametrize("walks", [False, True])
-def test_glances_are_more_frequent_at_walking_people(
-    walks: bool,
-) -> None:
-    """0.6 s long, 3 s apart at what rests, 1 s at a walker who leaves."""
-    track = followed((3.0, 0.0), velocity=(0.3 if walks else 0.0, 0.0))
-    tracker, looked = Tracker(), []
-    tracker.tracks = [track]
-    people = PeopleSelection(tracker)
-    track.has_walked = walks
-    for i in range(2000):
-        now = 0.01 * i
-        track.observed_at = now
-        looked.append(people.look(None, now, 0.0, 0.0) is track)
-    edges = np.flatnonzero(np.diff(np.array(looked, int)))
-    begins, ends = edges[1::2], edges[2::2]
-    count = min(len(begins), len(ends))
-    assert count >= 4
-    lasts = 0.01 * (ends[:count] - begins[:count])
-    pauses = 0.01 * (begins[1:count] - ends[: count - 1])
-    np.testing.assert_allclose(lasts, 0.6, atol=0.03)
-    np.testing.assert_allclose(pauses, 1.0 if walks else 3.0, atol=0.03)
-
-
-def test_the_head_follows_people_who_approach_not_those_who_leave() -> None:
-    assert looks(3.0, -0.5, 5.0, 0.03) > 0.9
-    assert looks(1.5, 0.5, 8.0, 0.03) < 0.45
-
-
-def test_the_head_follows_a_near_track_without_velocity() -> None:
-    """It may walk; an echo alone does not hold the gaze."""
-    assert looks(0.7, 0.0, 5.0, 0.1) == 1.0
-    assert looks(0.7, 0.0, 30.0, 0.3) < 0.3
-
-
 def test_a_walking_person_comes_before_a_nearer_object_at_rest() -> None:
     wall = followed(*[(0.6, 0.0)] * 10)
     walker = followed(*[(0.0, 3.0 - 0.05 * i) for i in range(10)])
@@ -234,65 +191,6 @@ def test_a_walking_person_comes_before_a_nearer_object_at_rest() -> None:
     assert people.main(0.95, 0.0, 0.0) is again
     tracker.tracks = [again, walker]
     assert people.main(0.95, 0.0, 0.0) is again
-
-
-def test_sway_is_not_walking() -> None:
-    """Positions of people and walls sway by some centimetres."""
-    swaying = followed(*[(1.0 + 0.05 * (-1) ** i, 0.0) for i in range(20)])
-    assert not swaying.has_walked
-    assert closest_approach(swaying, 2.0, 0.0, 0.0) > 0.6
-
-
-@pytest.mark.parametrize(
-    ("begin", "speed", "wait"), [(3.0, -0.6, 0.6), (1.4, -0.8, 0.3)]
-)
-def test_a_track_settles_after_the_settling_time(
-    begin: float, speed: float, wait: float
-) -> None:
-    """A new track nearby settles almost at once."""
-    track = followed((begin, 0.0))
-    people, settled = PeopleSelection(Tracker()), []
-    for i in range(1, 20):
-        now, x = 0.05 * i, begin + 0.05 * i * speed
-        place = Observation(now, x, 0.0, 0.0, 0.03, 0.03, False, True)
-        track.update(place)
-        settled.append(people.settled(track, now, 0.0, 0.0))
-    assert settled[-1] and not settled[0]
-    assert 0.05 * (1 + settled.index(True)) == pytest.approx(wait, abs=0.26)
-    # After a gap the observation starts again; a known person needs none.
-    track.update(Observation(2.0, x, 0.0, 0.0, 0.03, 0.03, False, True))
-    assert not people.settled(track, 2.1, 0.0, 0.0)
-    for i in range(24):
-        now = 2.05 + 0.05 * i
-        track.update(Observation(now, x, 0.0, 0.0, 0.03, 0.03, False, True))
-    assert people.settled(track, now, 0.0, 0.0)
-    assert not people.settled(track, now + 0.35, 0.0, 0.0)
-
-
-@pytest.mark.parametrize(
-    ("begin", "beside", "least"),
-    [
-        (3.2, 0.0, 0.6),
-        (3.2, 0.3, 0.6),
-        (3.2, 0.6, 1.1),
-        (3.2, 1.2, 1.1),
-        (1.6, 0.0, 0.3),
-        (1.6, 1.2, 1.1),
-    ],
-)
-def test_a_person_who_may_pass_settles_later(
-    begin: float, beside: float, least: float
-) -> None:
-    """At any distance; an approaching person settles earlier."""
-    track = followed((begin, beside))
-    people, settled = PeopleSelection(Tracker()), []
-    for i in range(1, 40):
-        now, x = 0.05 * i, begin - 0.05 * i * 0.8
-        track.update(Observation(now, x, beside, 0.0, 0.03, 0.03, False, True))
-        settled.append(people.settled(track, now, 0.0, 0.0))
-    told = 0.05 * (1 + settled.index(True))
-    assert told == pytest.approx(least, abs=0.26)
-    assert told >= least - 0.06
 
 
 class WatchBehind(Watch):

@@ -7,9 +7,8 @@ import pytest
 
 from stepaside.core.poses import Pose
 from stepaside.perception.gaze import MAX_YAW, SCAN_SPEED, RoomScan
-from stepaside.perception.measurement import Sighting
 from stepaside.perception.pipeline import FloorMapping
-from stepaside.perception.target_selection import GAZE_RADIUS, MAX_GAZE_AGE
+from stepaside.perception.target_selection import GAZE_RADIUS
 from synthetic_cameras import TICK, Eyes
 
 
@@ -51,57 +50,6 @@ def test_the_head_follows_the_main_track(
     else:
         assert eyes.target is None
     assert GAZE_RADIUS == 1.2
-
-
-def test_the_head_follows_unconfirmed_tracks_only_nearby(eyes: Eyes) -> None:
-    track = eyes.know(*eyes.beside(3.0, 0.5), (0.0, 0.5), identified=False)
-    track.confirmed = False
-    eyes.see(0.0)
-    assert eyes.perception.searching
-    eyes.tracks.clear()
-    near = eyes.know(*eyes.beside(1.0, 0.5), identified=False)
-    near.confirmed = False
-    eyes.see(0.0)
-    assert eyes.target is not None
-    assert eyes.target[:2] == pytest.approx((0.5, 1.0))
-    assert eyes.perception.sighting is None
-
-
-def test_the_gaze_gets_the_height_of_the_track(eyes: Eyes) -> None:
-    track = eyes.know(*eyes.beside(1.0, 0.5))
-    track.height = 1.4
-    eyes.see(0.0)
-    assert eyes.target is not None and eyes.target.height == 1.4
-
-
-def test_recognition_expires(eyes: Eyes) -> None:
-    for age, looks in (
-        (MAX_GAZE_AGE - 0.1, True),
-        (MAX_GAZE_AGE + 0.1, False),
-    ):
-        eyes.tracks.clear()
-        track = eyes.know(*eyes.beside(2.0, 0.5), time=2.0)
-        track.identified_at = 2.0 - age
-        eyes.see(2.0)
-        assert eyes.perception.searching is not looks
-    assert MAX_GAZE_AGE == 1.0
-
-
-def test_the_head_scans_after_a_second_without_observation() -> None:
-    """The track, and with it the sighting, lasts longer."""
-    for age, looks in (
-        (MAX_GAZE_AGE - 0.1, True),
-        (MAX_GAZE_AGE + 0.1, False),
-    ):
-        eyes = Eyes()
-        eyes.see(0.0)
-        track = eyes.know(*eyes.beside(1.0, 0.5), time=0.0)
-        track.merge(track)
-        seen = eyes.see(age)
-        assert isinstance(seen, Sighting)
-        assert seen.bearing == pytest.approx(0.5)
-        assert eyes.perception.searching is not looks
-        assert (eyes.target is not None) is looks
 
 
 def test_the_head_prefers_the_main_track(eyes: Eyes) -> None:

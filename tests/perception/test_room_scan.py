@@ -103,7 +103,7 @@ def test_a_robot_that_is_ready_scans_on_until_the_start(
     awaits_start: bool,
 ) -> None:
     head = HeadControl(
-        Gaze(HEAD.coupling, TICK, 0.5725),
+        *(HEAD.coupling, TICK, 0.5725),
         scan=RoomScan(behind=False),
         awaits_start=awaits_start,
     )

@@ -1,22 +1,15 @@
 """Test tracks: gates, prediction, latency."""
 
-from math import hypot, inf
-from typing import Any
+from math import hypot
 
 import numpy as np
 import pytest
 
 from stepaside.perception.track import (
-    MAX_DEVIATION,
-    MIN_SPAN,
-    PERSON_MOTION,
-    ROBOT_MOTION,
-    SONAR_DEVIATION,
-    TRAIL,
     Observation,
     TargetTrack,
 )
-from stepaside.perception.tracker import MAX_AGE, Tracker
+from stepaside.perception.tracker import Tracker
 
 FRAME = 1.0 / 15.0
 
@@ -60,14 +53,6 @@ def test_one_wrong_frame_does_not_move_a_track() -> None:
     )
 
 
-def test_three_frames_confirm_a_track() -> None:
-    tracker = Tracker()
-    now = watch(tracker, 2, 1.0, 0.0)
-    assert tracker.main(now, 0.0, 0.0) is None
-    now = watch(tracker := Tracker(), 3, 1.0, 0.0)
-    assert tracker.main(now, 0.0, 0.0) is not None
-
-
 def test_steady_motion_is_predicted() -> None:
     tracker = Tracker()
     now = watch(tracker, 60, 2.0, -0.1)
@@ -78,16 +63,6 @@ def test_steady_motion_is_predicted() -> None:
     x, y = track.position_at(now + ahead)
     true = 2.0 - 0.1 * (now + ahead)
     assert hypot(x - true, y) < 0.01
-
-
-def test_the_deviation_grows_until_the_track_is_dropped() -> None:
-    tracker = Tracker()
-    now = watch(tracker, 20, 1.0, 0.0)
-    track = tracker.main(now, 0.0, 0.0)
-    assert track is not None
-    doubts = [track.deviation_at(now + t) for t in np.linspace(0, 2, 9)]
-    assert all(a < b for a, b in zip(doubts, doubts[1:], strict=False))
-    assert tracker.main(now + MAX_AGE + 0.1, 0.0, 0.0) is None
 
 
 def test_delayed_frames_count_at_their_exposure() -> None:
@@ -144,22 +119,6 @@ def test_deviations_are_along_and_across_the_bearing() -> None:
     aside = np.array([-np.sin(0.7), np.cos(0.7)])
     np.testing.assert_allclose(seen.covariance @ sight, 0.2**2 * sight)
     np.testing.assert_allclose(seen.covariance @ aside, 0.05**2 * aside)
-
-
-def test_a_track_starts_at_rest_at_its_first_observation() -> None:
-    track = TargetTrack(
-        Observation(2.0, 1.0, -0.5, 0.7, 0.2, 0.05, False, False)
-    )
-    assert track.position_at(2.0) == (1.0, -0.5)
-    assert track.velocity == (0.0, 0.0)
-    assert track.deviation_at(2.0) == pytest.approx(0.2)
-    assert (track.time, track.started_at, track.observed_at) == (2.0, 2.0, 2.0)
-    assert (track.identified_at, track.ranged_at) == (-inf, -inf)
-    assert not track.confirmed
-    known = TargetTrack(
-        Observation(2.0, 1.0, -0.5, 0.7, 0.2, 0.05, True, True)
-    )
-    assert (known.identified_at, known.ranged_at) == (2.0, 2.0)
 
 
 def unseen_for(step: float) -> tuple[float, float, float]:
@@ -289,87 +248,6 @@ def test_three_of_five_frames_confirm_or_reject(
     assert track.is_rejected is hopeless
 
 
-def test_bearing_and_distance_are_from_the_given_position() -> None:
-    track = TargetTrack(look(0.0, 2.0, 1.0))
-    assert track.bearing_from(1.0, 3.0, 0.0) == pytest.approx(
-        np.arctan2(-2, 1)
-    )
-    assert track.distance_from(1.0, 3.0, 0.0) == pytest.approx(hypot(1.0, 2.0))
-
-
-def test_a_merged_track_has_the_history_of_both() -> None:
-    def pair() -> tuple[TargetTrack, TargetTrack]:
-        old = TargetTrack(look(0.0, 2.0))
-        new = TargetTrack(look(1.0, 2.0))
-        new.confirmed = True
-        return old, new
-
-    old, new = pair()
-    old.merge(new)
-    assert (old.identified_at, old.observed_at, old.ranged_at) == (
-        1.0,
-        1.0,
-        1.0,
-    )
-    assert old.confirmed and old.started_at == 0.0
-    old, new = pair()
-    new.merge(old)
-    assert (new.identified_at, new.observed_at, new.ranged_at) == (
-        1.0,
-        1.0,
-        1.0,
-    )
-    assert new.confirmed
-    unsure = TargetTrack(look(0.0, 2.0))
-    unsure.merge(TargetTrack(look(0.1, 2.0)))
-    assert not unsure.confirmed
-
-
-def trailed(
-    times: list[float], speed: float = 0.4, **changes: Any
-) -> TargetTrack:
-    """Track of what is seen along x, at no place near nought."""
-    first, *rest = (
-        look(time, 3.0 + speed * time, -2.0)._replace(**changes)
-        for time in times
-    )
-    track = TargetTrack(first)
-    for seen in rest:
-        track.update(seen)
-    return track
-
-
-@pytest.mark.parametrize("speed", [0.0, 0.4, -0.9])
-def test_a_velocity_needs_a_span_of_recent_positions(
-    speed: float,
-) -> None:
-    """Until the positions expire."""
-    early = trailed([0.0, 0.1, 0.2, 0.3], speed)
-    assert not early.has_velocity(0.3) and early.drift == (0.0, 0.0)
-    told = trailed([0.0, 0.1, 0.2, 0.3, MIN_SPAN], speed)
-    assert told.has_velocity(MIN_SPAN) and told.has_velocity(
-        MIN_SPAN + TRAIL - 1e-9
-    )
-    assert not told.has_velocity(MIN_SPAN + TRAIL + 1e-6)
-    late = trailed([0.0, 0.15, 0.3, 0.45, 0.6], speed)
-    assert late.drift == pytest.approx((speed, 0.0), abs=1e-9)
-
-
-@pytest.mark.parametrize(
-    "blurred",
-    [{"along": MAX_DEVIATION + 0.01}, {"across": MAX_DEVIATION + 0.01}],
-)
-def test_only_precise_positions_give_a_velocity(
-    blurred: dict[str, float],
-) -> None:
-    times = [0.0, 0.15, 0.3, 0.45, 0.6]
-    assert not trailed(times, **blurred).has_velocity(0.6)
-    assert not trailed(times, ranged=False).has_velocity(0.6)
-    assert trailed(
-        times, along=MAX_DEVIATION, across=MAX_DEVIATION
-    ).has_velocity(0.6)
-
-
 def test_drift_forgets_an_earlier_speed() -> None:
     track = TargetTrack(look(0.0, 1.0, 0.0))
     for i in range(1, 200):
@@ -377,24 +255,3 @@ def test_drift_forgets_an_earlier_speed() -> None:
         x = 1.0 + 0.5 * time if time < 2.0 else 2.0 - 0.3 * (time - 2.0)
         track.update(look(time, x, 0.0))
     assert track.drift[0] == pytest.approx(-0.3, abs=1e-9)
-
-
-def test_sonar_does_not_count_as_an_image() -> None:
-    heard = look(1.0, 1.0)._replace(across=SONAR_DEVIATION)
-    assert TargetTrack(heard).imaged_at == -inf
-    track = TargetTrack(look(1.0, 1.0))
-    assert track.imaged_at == 1.0
-    track.update(heard._replace(time=1.2))
-    assert track.imaged_at == 1.0 and track.observed_at == 1.2
-
-
-def test_the_motion_model_of_robots_limits_the_speed() -> None:
-    """Errors of a near position do not change the velocity much."""
-    away = []
-    for motion in (PERSON_MOTION, ROBOT_MOTION):
-        made = TargetTrack(look(0.0, 0.5), 1, motion)
-        for time, x in ((0.15, 0.62), (0.3, 0.75)):
-            made.update(look(time, x, along=0.15))
-        away.append(made.position_at(1.3)[0] - made.position_at(0.3)[0])
-        assert made.position_at(0.3)[0] > 0.5
-    assert away[0] > 0.15 and 0.0 < away[1] < 0.25 * away[0]

@@ -78,13 +78,6 @@ def test_an_unassociated_observation_may_start_a_track() -> None:
     assert begun == tracker.tracks and len(begun) == 2
 
 
-def test_an_observation_counts_for_confirmation() -> None:
-    tracker = Tracker()
-    for i in range(3):
-        tracker.observe([look(0.1 * i, 1.0)])
-    assert [track.confirmed for track in tracker.tracks] == [True]
-
-
 @pytest.mark.parametrize(("gap", "one"), [(0.13, True), (0.17, False)])
 def test_two_tracks_at_one_position_merge_into_the_older(
     gap: float, one: bool
@@ -97,49 +90,6 @@ def test_two_tracks_at_one_position_merge_into_the_older(
         assert main is (older if one else younger)
         assert len(tracker.tracks) == (1 if one else 2)
         assert older.identified_at == (0.1 if one else float("-inf"))
-
-
-@pytest.mark.parametrize(
-    ("heights", "gap", "number"),
-    [
-        ((1.5, 0.9), 0.3, 1),
-        ((1.5, 0.9), 0.4, 2),
-        ((1.5, 0.6), 0.3, 2),
-        ((0.6, 0.9), 0.3, 2),
-    ],
-)
-def test_two_tall_tracks_close_together_are_one_person(
-    heights: tuple[float, float], gap: float, number: int
-) -> None:
-    """Two legs of a person; a robot beside a person stays separate."""
-    tracks = [known(0.0, 1.0), known(0.0, 1.0 + gap)]
-    for track, height in zip(tracks, heights, strict=True):
-        track.height = height
-    tracker = tracker_of(*tracks)
-    tracker.main(0.0, 0.0, 0.0)
-    assert len(tracker.tracks) == number
-    assert tracker.tracks[0].height == heights[0]
-
-
-@pytest.mark.parametrize(("late", "one"), [(0.45, True), (0.55, False)])
-def test_a_new_track_does_not_merge_with_an_outdated_one(
-    late: float, one: bool
-) -> None:
-    tracker = tracker_of(known(0.0, 1.0), known(late, 1.0, 0.05))
-    tracker.main(late + 0.01, 0.0, 0.0)
-    assert len(tracker.tracks) == (1 if one else 2)
-
-
-def test_three_tracks_at_one_position_merge() -> None:
-    tracker = tracker_of(
-        known(0.2, 1.0, 0.05), known(0.0, 1.0), known(0.1, 1.0, -0.05)
-    )
-    tracker.tracks.append(known(0.0, 3.0))
-    main = tracker.main(0.2, 0.0, 0.0)
-    assert (
-        main is not None and main.started_at == 0.0 and main.observed_at == 0.2
-    )
-    assert len(tracker.tracks) == 2
 
 
 def test_merging_uses_predicted_positions() -> None:
@@ -162,15 +112,6 @@ def test_the_nearest_is_measured_from_the_own_position() -> None:
     assert tracker_of().main(0.1, 0.0, 0.0) is None
 
 
-@pytest.mark.parametrize(("age", "counts"), [(4.8, True), (5.2, False)])
-def test_recognition_lasts_five_seconds(age: float, counts: bool) -> None:
-    other, near = known(0.0, 2.0, identified=True), known(0.0, 1.0)
-    for track, x in ((other, 2.0), (near, 1.0)):
-        track.update(look(age, x))
-    main = tracker_of(near, other).main(age, 0.0, 0.0)
-    assert main is (other if counts else near)
-
-
 @pytest.mark.parametrize(("lapse", "older"), [(0.45, True), (0.55, False)])
 def test_of_two_recognised_tracks_the_older_is_main(
     lapse: float, older: bool
@@ -188,42 +129,3 @@ def test_unconfirmed_tracks_are_not_main() -> None:
     unsure = TargetTrack(look(0.0, 1.0, identified=True))
     sure = known(0.0, 2.0)
     assert tracker_of(unsure, sure).main(0.1, 0.0, 0.0) is sure
-
-
-@pytest.mark.parametrize(("age", "kept"), [(0.9, True), (1.1, False)])
-def test_unconfirmed_tracks_are_dropped_after_a_second(
-    age: float, kept: bool
-) -> None:
-    tracker = tracker_of(TargetTrack(look(9.0, 1.0)))
-    tracker.main(9.0 + age, 0.0, 0.0)
-    assert (len(tracker.tracks) == 1) is kept
-    tracker = tracker_of(known(9.0, 1.0))
-    assert tracker.main(9.0 + age, 0.0, 0.0) is not None
-
-
-@pytest.mark.parametrize(("age", "kept"), [(0.28, True), (0.32, False)])
-def test_an_imprecise_track_is_retained_while_fresh(
-    age: float, kept: bool
-) -> None:
-    vague = TargetTrack(look(9.0, 1.0, along=0.7))
-    vague.confirmed = True
-    main = tracker_of(vague).main(9.0 + age, 0.0, 0.0)
-    assert (main is vague) is kept
-
-
-@pytest.mark.parametrize(("along", "kept"), [(0.54, True), (0.66, False)])
-def test_a_track_is_dropped_at_the_largest_deviation(
-    along: float, kept: bool
-) -> None:
-    vague = TargetTrack(look(0.0, 1.0, along=along))
-    vague.confirmed = True
-    assert (tracker_of(vague).main(0.31, 0.0, 0.0) is vague) is kept
-
-
-def test_rejected_tracks_are_dropped() -> None:
-    track = TargetTrack(look(0.0, 1.0))
-    for _ in range(3):
-        track.record_frame(False)
-    tracker = tracker_of(track)
-    tracker.main(0.0, 0.0, 0.0)
-    assert tracker.tracks == []

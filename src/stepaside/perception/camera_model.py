@@ -117,16 +117,10 @@ class CameraModel:
 
 @lru_cache(maxsize=16)
 def _rays(model: CameraModel) -> Array:
-    u, v = np.meshgrid(
-        np.arange(model.width) + 0.5, np.arange(model.height) + 0.5
-    )
-    rays = np.stack(
-        [
-            np.ones_like(u),
-            (0.5 * model.width - u) / model.focal_x,
-            (0.5 * model.height - v) / model.focal_y,
-        ],
-        axis=-1,
-    )
+    u = np.arange(model.width) + 0.5
+    v = np.arange(model.height)[:, None] + 0.5
+    rays = np.ones((model.height, model.width, 3))
+    rays[..., 1] = (0.5 * model.width - u) / model.focal_x
+    rays[..., 2] = (0.5 * model.height - v) / model.focal_y
     rays.flags.writeable = False
     return rays

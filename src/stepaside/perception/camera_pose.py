@@ -31,24 +31,14 @@ class CameraPose(NamedTuple):
         return atan2(self.axes_in_odometry[1, 0], self.axes_in_odometry[0, 0])
 
     def ray(self, camera: CameraModel, u: float, v: float) -> Array:
-        """Return the ray of a pixel in odometry. Shape (3,).
-
-        Args:
-            camera: Camera model.
-            u: Column from the left edge, in [pixels].
-            v: Row from the upper edge, in [pixels].
-        """
+        """Return the ray of a pixel in odometry. Shape (3,)."""
         found: Array = self.axes_in_odometry @ camera.ray(u, v)
         return found
 
     def rays(self, camera: CameraModel) -> Array:
-        """Return the rays of all pixels in odometry.
+        """Return rays of unit depth of all pixels in odometry.
 
-        Args:
-            camera: Camera model.
-
-        Returns:
-            Rays of unit depth. Shape (height, width, 3).
+        Shape (height, width, 3).
         """
         found: Array = camera.rays() @ self.axes_in_odometry.T
         return found
@@ -56,8 +46,7 @@ class CameraPose(NamedTuple):
     def distances(self, points_in_odometry: Array) -> Array:
         """Return the horizontal distances of points from the torso, in [m].
 
-        Args:
-            points_in_odometry: Points, in [m]. Shape (..., 2 or 3).
+        Shape (..., 2 or 3) to (...).
         """
         x, y = self.position_torso_in_odometry
         found: Array = np.hypot(
@@ -67,12 +56,7 @@ class CameraPose(NamedTuple):
 
 
 def camera_pose(body: BodyPose, mount: Mount) -> CameraPose:
-    """Return the pose of a camera in odometry.
-
-    Args:
-        body: Pose of the body.
-        mount: Mount of the camera.
-    """
+    """Return the pose of a camera in odometry."""
     position, axes = body.position_head_in_odometry, body.axes_head_in_odometry
     if mount.on_torso:
         position = body.position_torso_in_odometry

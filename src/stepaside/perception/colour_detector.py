@@ -99,28 +99,12 @@ class ColourDetector:
     def detect_all(
         self, image: ColourImage, *, most: int
     ) -> list[ColourDetection]:
-        """Detect robots; groups of patches that fit one.
-
-        Args:
-            image: The image.
-            most: Greatest number of robots.
-
-        Returns:
-            The tallest groups, the tallest first.
-        """
+        """Detect at most a number of robots, the tallest first."""
         hsv = smoothed_hsv(image.pixels)
         stats = _patches(self.mask(hsv))
         least = max(3.0, MIN_AREA * (image.camera.width / 160.0) ** 2)
-        boxes = np.column_stack(
-            [
-                stats[:, 0],
-                stats[:, 1],
-                stats[:, 0] + stats[:, 2],
-                stats[:, 1] + stats[:, 3],
-                stats[:, 4],
-            ]
-        )
-        boxes = boxes[boxes[:, 4] >= least]
+        stats[:, 2:4] += stats[:, :2]  # right and lower ends
+        boxes = stats[stats[:, 4] >= least]
         fitting = [
             found
             for group in _groups(boxes)
@@ -132,26 +116,17 @@ class ColourDetector:
     def mask(self, hsv: Pixels, saturation_factor: float = 1.0) -> Mask:
         """Return a mask of the pixels with the trim's colour: 255, else 0.
 
-        Args:
-            hsv: Smoothed hue, saturation and value. Shape
-                (height, width, 3).
-            saturation_factor: Factor on the minimum saturation.
+        The image is of :func:`smoothed_hsv`.
         """
         appearance = self.appearance
-        low, high = (
-            appearance.hue - appearance.width,
-            appearance.hue + appearance.width,
-        )
-        least = (
-            round(saturation_factor * appearance.saturation),
-            appearance.value,
-        )
+        low = appearance.hue - appearance.width
+        high = appearance.hue + appearance.width
+        faintest = round(saturation_factor * appearance.saturation)
+        least = faintest, appearance.value
+        mask = cv2.inRange(hsv, (max(low, 0), *least), (high, 255, 255))
         if low < 0:
-            mask = cv2.inRange(hsv, (0, *least), (high, 255, 255))
             rest = cv2.inRange(hsv, (low + HUES, *least), (HUES, 255, 255))
             mask = cv2.bitwise_or(mask, rest)
-        else:
-            mask = cv2.inRange(hsv, (low, *least), (high, 255, 255))
         return np.asarray(mask, dtype=np.uint8)
 
     def _with_ears(
@@ -159,10 +134,7 @@ class ColourDetector:
     ) -> ColourDetection:
         """Extend a detection to ears, whose narrow patches are less saturated.
 
-        Args:
-            found: Detected robot.
-            hsv: Smoothed image. Shape (height, width, 3).
-            least: Minimum area of a patch, in [pixels].
+        ``least`` is the minimum area of a patch, in [pixels].
         """
         if found.cut_above:
             return found
@@ -201,11 +173,7 @@ def smoothed_hsv(pixels: Pixels) -> Pixels:
 
 
 def _patches(mask: Mask) -> NDArray[np.int32]:
-    """Return left, top, width, height and area of patches. Shape (n, 5).
-
-    Args:
-        mask: Pixels of the patches, not zero. Shape (height, width).
-    """
+    """Return left, top, width, height and area of patches. Shape (n, 5)."""
     x, y, width, height = cv2.boundingRect(mask)
     if width == 0:
         return np.zeros((0, 5), np.int32)
@@ -230,18 +198,11 @@ def _groups(boxes: NDArray[np.int32]) -> list[NDArray[np.int32]]:
     near = (across <= MAX_GAP_ACROSS * smaller) & (
         down <= MAX_GAP_DOWN * smaller
     )
-    groups, ungrouped = [], set(range(len(boxes)))
-    while ungrouped:
-        connected = {ungrouped.pop()}
-        frontier = set(connected)
-        while frontier:
-            index = frontier.pop()
-            new = {j for j in ungrouped if near[index, j]}
-            ungrouped -= new
-            connected |= new
-            frontier |= new
-        groups.append(boxes[sorted(connected)])
-    return groups
+    group = np.arange(len(boxes))  # of each patch: its first member
+    before = group - 1
+    while not np.array_equal(group, before):
+        before, group = group, np.where(near, group, len(boxes)).min(axis=1)
+    return [boxes[group == first] for first in np.unique(group)]
 
 
 def check_group(

@@ -1,6 +1,7 @@
 """Detection of obstacles in a depth image."""
 
 from dataclasses import dataclass
+from math import dist
 from typing import NamedTuple
 
 import cv2
@@ -23,18 +24,11 @@ NEW = 2
 def segment_depth(
     solid: NDArray[np.bool_], depths: Array
 ) -> list[NDArray[np.bool_]]:
-    """Segment a depth image at steps of the depth.
+    """Segment pixels at steps of the depth; return masks of components.
 
     A hole of up to two pixels without return does not split a component: it
     is filled with the nearest depth beside it, so that it joins no component
     to one behind.
-
-    Args:
-        solid: Pixels to segment. Shape (height, width).
-        depths: Depth along the camera axis, in [m]. Same shape.
-
-    Returns:
-        Mask of each component. Shapes (height, width).
     """
     block = np.ones((3, 3), np.uint8)
     closed = cv2.morphologyEx(solid.astype(np.uint8), cv2.MORPH_CLOSE, block)
@@ -80,22 +74,6 @@ MIN_SHADOW_AREA = 24  # pixels without return, at 80 columns
 MIN_SLOPE = 0.15
 
 
-class DepthComponent(NamedTuple):
-    """Component of an object nearby.
-
-    Attributes:
-        low: Azimuth of its right end from the camera axis, in [rad].
-        high: Azimuth of its left end, in [rad].
-        nearest: Smallest measured distance, in [m]; None if unmeasured.
-        whole: Whether the image edges cut neither side.
-    """
-
-    low: float
-    high: float
-    nearest: float | None
-    whole: bool
-
-
 @dataclass(frozen=True, slots=True)
 class DetectedObstacle:
     """Obstacle in a depth image, neither floor nor the robot itself.
@@ -123,26 +101,37 @@ class DetectedObstacle:
     whole: bool
     rises: bool = False
 
+    @property
+    def position(self) -> tuple[float, float]:
+        """Position of its axis in odometry, in [m]."""
+        return self.x_in_odometry, self.y_in_odometry
 
-@dataclass(frozen=True, slots=True)
-class Shadow:
+
+class Shadow(NamedTuple):
     """Object too near to be measured, which hides the floor.
 
     Attributes:
-        bearing: Direction of its middle from the camera, in odometry, in
-            [rad].
-        azimuth: The same from the camera's axis, positive leftward.
-        width: How broad it looks, in [rad].
-        nearest: Distance of the nearest part that was measured all the
-            same, in [m]; None if there is none.
-        whole: Whether neither side is cut by the edge of the image.
+        low: Azimuth of its right end from the camera axis, in [rad].
+        high: Azimuth of its left end, in [rad].
+        nearest: Distance of the nearest part that was measured all the same,
+            in [m]; None if there is none.
+        whole: Whether the image edges cut neither side.
     """
 
-    bearing: float
-    azimuth: float
-    width: float
+    low: float
+    high: float
     nearest: float | None = None
     whole: bool = True
+
+    @property
+    def azimuth(self) -> float:
+        """Direction of its middle from the camera axis, in [rad]."""
+        return 0.5 * (self.low + self.high)
+
+    @property
+    def width(self) -> float:
+        """Angle that it spans, in [rad]."""
+        return self.high - self.low
 
 
 @dataclass(frozen=True, slots=True)
@@ -181,13 +170,10 @@ def detect_obstacles(
             for p in no_return
         )
         if obstacle.nearest < image.near + TRUNCATED and hidden:
-            near.append(
-                DepthComponent(low, high, obstacle.nearest, obstacle.whole)
-            )
+            near.append(Shadow(low, high, obstacle.nearest, obstacle.whole))
         else:
             whole.append(obstacle)
-    shadows = _join_components(near, camera.heading_in_odometry)
-    return DepthScene(tuple(whole), shadows)
+    return DepthScene(tuple(whole), _join_shadows(near))
 
 
 def _obstacles(
@@ -218,57 +204,31 @@ def _obstacles(
     return join_legs(sorted(obstacles, key=lambda obstacle: obstacle.nearest))
 
 
-def _join_components(
-    parts: list[DepthComponent], heading_camera: float
-) -> tuple[Shadow, ...]:
-    """Join components at small gaps into shadows."""
-    joined: list[DepthComponent] = []
+def _join_shadows(parts: list[Shadow]) -> tuple[Shadow, ...]:
+    """Join shadows at small gaps."""
+    joined: list[Shadow] = []
     for part in sorted(parts, key=lambda part: part[:2]):
         if not joined or part.low >= joined[-1].high + MAX_SHADOW_GAP:
             joined.append(part)
             continue
         low, high, known, whole = joined[-1]
         ranges = [n for n in (known, part.nearest) if n is not None]
-        joined[-1] = DepthComponent(
-            low,
-            max(part.high, high),
-            min(ranges, default=None),
-            whole and part.whole,
-        )
-    shadows = [
-        Shadow(
-            heading_camera + 0.5 * (low + high),
-            0.5 * (low + high),
-            high - low,
-            nearest,
-            whole,
-        )
-        for low, high, nearest, whole in joined
-    ]
-    return tuple(sorted(shadows, key=lambda shadow: -shadow.width))
+        nearest, whole = min(ranges, default=None), whole and part.whole
+        joined[-1] = Shadow(low, max(part.high, high), nearest, whole)
+    return tuple(sorted(joined, key=lambda shadow: -shadow.width))
 
 
 def join_legs(obstacles: list[DetectedObstacle]) -> list[DetectedObstacle]:
     """Join two legs of a person whose hips are above the image.
 
-    Args:
-        obstacles: Detected obstacles, nearest first.
-
-    Returns:
-        Obstacles, in which two narrow ones close to each other that the
-        upper image edge cuts are joined.
+    They are narrow, close to each other, and cut by the upper image edge.
     """
     remaining, joined = list(obstacles), []
     while remaining:
         leg = remaining.pop(0)
         for other in remaining:
-            apart = float(
-                np.hypot(
-                    leg.x_in_odometry - other.x_in_odometry,
-                    leg.y_in_odometry - other.y_in_odometry,
-                )
-            )
-            if _is_leg(leg) and _is_leg(other) and apart < MAX_LEG_GAP:
+            near = dist(leg.position, other.position) < MAX_LEG_GAP
+            if near and _is_leg(leg) and _is_leg(other):
                 remaining.remove(other)
                 leg = _person_between(leg, other)
                 break
@@ -306,12 +266,9 @@ def _person_between(
 def _measure(
     points: Array, part: NDArray[np.bool_], camera: CameraPose
 ) -> DetectedObstacle:
-    """Return the obstacle of a component.
+    """Return the obstacle of a component, by its points and its pixels.
 
-    Args:
-        points: Its points in odometry, in [m]. Shape (n, 3).
-        part: Its pixels. Shape (height, width).
-        camera: Pose of the camera.
+    Shapes (n, 3) and (height, width).
     """
     eye, heading = camera.position_in_odometry, camera.heading_in_odometry
     dx, dy = points[:, 0] - eye[0], points[:, 1] - eye[1]
@@ -343,22 +300,16 @@ def _measure(
 
 def _shadows(
     image: DepthImage, camera: CameraPose, rays: Array
-) -> list[DepthComponent]:
+) -> list[Shadow]:
     """Find floor that should return depth and does not."""
     depths, down = image.depths, -rays[..., 2]
-    with np.errstate(divide="ignore"):
-        floor = np.where(
-            down > 1e-6, camera.position_in_odometry[2] / down, np.inf
-        )
+    floor = camera.position_in_odometry[2] / np.maximum(down, 1e-9)
     expected = (floor > 1.1 * image.near) & (floor < 0.85 * image.far)
     expected &= down > MIN_SLOPE * np.linalg.norm(rays, axis=-1)
     no_return = (expected & (depths == 0.0)).astype(np.uint8)
-    no_return = np.asarray(
-        cv2.morphologyEx(no_return, cv2.MORPH_OPEN, np.ones((3, 3), np.uint8)),
-        dtype=np.uint8,
-    )
+    block = np.ones((3, 3), np.uint8)
     count, labels, stats, _ = cv2.connectedComponentsWithStats(
-        no_return, connectivity=8
+        cv2.morphologyEx(no_return, cv2.MORPH_OPEN, block), connectivity=8
     )
     least = MIN_SHADOW_AREA * (depths.shape[1] / 80.0) ** 2
     shadows = []
@@ -373,5 +324,5 @@ def _shadows(
         low, high = float(azimuths.min()), float(azimuths.max())
         left, wide = stats[label, [cv2.CC_STAT_LEFT, cv2.CC_STAT_WIDTH]]
         whole = bool(left > 0 and left + wide < depths.shape[1])
-        shadows.append(DepthComponent(low, high, None, whole))
+        shadows.append(Shadow(low, high, None, whole))
     return shadows

@@ -105,7 +105,8 @@ class FloorMap:
             opponents = np.hypot(apart[..., 0], apart[..., 1]) < OPPONENT
         low_enough = valid & (heights < MAX_RAY_HEIGHT)
         beside = round(BEARING_ERROR * image.camera.focal_x)
-        blocked = _dilate(np.asarray(~low_enough.any(axis=0)), beside)
+        near = np.ones(2 * beside + 1)
+        blocked = np.convolve(~low_enough.any(axis=0), near, "same") > 0.5
         begin = np.where(blocked, image.near, RAY_START)
         self._add_free_rays(flat, distances, low_enough, hits, own, begin)
         # One pixel alone may be noise.
@@ -206,7 +207,7 @@ class FloorMap:
 
     def is_occupied(self, x: float, y: float) -> bool:
         """Return whether a point in odometry, in [m], is occupied."""
-        distances = self._vectors_to_occupied(x, y)
+        distances = self.occupied_cells() - (x, y)
         return bool(
             np.hypot(distances[:, 0], distances[:, 1]).min(initial=inf)
             < TOLERANCE
@@ -217,24 +218,13 @@ class FloorMap:
     ) -> float:
         """Return the distance to the nearest occupied cell in a cone.
 
-        Args:
-            x: Apex of the cone, x in odometry, in [m].
-            y: Apex of the cone, y in odometry, in [m].
-            facing: Direction of its axis in odometry, in [rad].
-            half: Half of its opening angle, in [rad].
-
-        Returns:
-            Distance, in [m]; infinite if there is none.
+        The cone has an apex in odometry, a direction and half an opening
+        angle. The distance is infinite if there is none.
         """
-        distances = self._vectors_to_occupied(x, y)
+        distances = self.occupied_cells() - (x, y)
         aside = np.arctan2(distances[:, 1], distances[:, 0]) - facing
         inside = np.abs(wrap_angles(aside)) < half
         return float(np.hypot(*distances[inside].T).min(initial=inf))
-
-    def _vectors_to_occupied(self, x: float, y: float) -> Array:
-        """Return vectors to all occupied cells, in [m]. Shape (n, 2)."""
-        distances: Array = self.occupied_cells() - (x, y)
-        return distances
 
     def unknown(self, position: tuple[float, float]) -> tuple[Polygon, ...]:
         """Return the unknown floor near a position as polygons in odometry.
@@ -277,13 +267,6 @@ def wide_areas(chosen: NDArray[np.bool_]) -> NDArray[np.bool_]:
     square = sliding_window_view(np.pad(whole, 2), (3, 3)).any(axis=(2, 3))
     wide = sliding_window_view(np.pad(square, 1), (3, 3))
     found: NDArray[np.bool_] = np.any(wide, axis=(2, 3)) & chosen
-    return found
-
-
-def _dilate(chosen: NDArray[np.bool_], steps: int) -> NDArray[np.bool_]:
-    """Dilate a mask of columns by a number of steps."""
-    wide = sliding_window_view(np.pad(chosen, steps), 2 * steps + 1)
-    found: NDArray[np.bool_] = np.any(wide, axis=1)
     return found
 
 

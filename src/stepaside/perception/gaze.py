@@ -96,11 +96,7 @@ class Gaze:
         self._turn(bearing, pitch, FOLLOW_SPEED)
 
     def search(self, *, stay: bool = False) -> None:
-        """Scan from side to side.
-
-        Args:
-            stay: Whether to stop at the next end of the scan.
-        """
+        """Scan from side to side, or to the next end and stay there."""
         self.searching = True
         edge = min(MAX_YAW, self.reach)
         if self._side * self.yaw >= edge - 1e-6 and not stay:
@@ -134,29 +130,15 @@ class Glances:
     """Periodic glances over alternate shoulders while following a target."""
 
     def __init__(self, tick: float, every: float = OFTEN) -> None:
-        """Start with a full interval before the first glance.
-
-        Args:
-            tick: Control period, in [s].
-            every: Time between two glances, in [s].
-        """
-        self._interval, self._glance_ticks = (
-            round(every / tick),
-            round(GLANCE_DURATION / tick),
-        )
-        self._ticks = 0
-        self._side = 1.0
+        """Start with a full interval, in [s], before the first glance."""
+        self._interval = round(every / tick)
+        self._glance_ticks = round(GLANCE_DURATION / tick)
+        self._ticks, self._side = 0, 1.0
 
     def direction(self, bearing: float, distance: float) -> float:
-        """Return the direction to look in at this tick; call every tick.
+        """Return the bearing of the target or of a glance; call every tick.
 
-        Args:
-            bearing: Bearing of the target from the torso, in [rad].
-            distance: Distance of the target, in [m]; the head does not look
-                away from a very near one.
-
-        Returns:
-            Bearing of the target or of a glance, in [rad].
+        The head does not look away from a very near target.
         """
         self._ticks += 1
         if self._ticks < self._interval or distance < MIN_DISTANCE:
@@ -186,11 +168,7 @@ class RoomScan:
     """
 
     def __init__(self, *, behind: bool) -> None:
-        """Start a scan that has not begun.
-
-        Args:
-            behind: Whether to turn the body and scan behind.
-        """
+        """Prepare a scan, also behind the body if asked."""
         self._behind = behind
         self.turning = 0.0
         self._start: tuple[float, float] | None = None
@@ -200,13 +178,7 @@ class RoomScan:
         return gaze.scan_ends < SCAN_ENDS or self.turning != 0.0
 
     def look(self, gaze: Gaze, now: float, heading: float) -> None:
-        """Advance the scan by one tick.
-
-        Args:
-            gaze: Gaze of the head, which is moved.
-            now: Time, in [s].
-            heading: Heading of the torso in odometry, in [rad].
-        """
+        """Advance the scan by one tick; see :meth:`HeadControl.move`."""
         if self._start is None:
             self._start = now, heading
         time, before = self._start
@@ -224,43 +196,33 @@ class RoomScan:
             self.turning = -copysign(1.0, turned) if back else 0.0
 
 
-class HeadControl:
+class HeadControl(Gaze):
     """Head motion of a robot before and during a game."""
 
     def __init__(
         self,
-        gaze: Gaze,
+        coupling: Array,
+        tick: float,
+        robot_height: float,
         *,
         glances: Glances | None = None,
         scan: RoomScan | None = None,
         awaits_start: bool = False,
     ) -> None:
-        """Combine the parts.
+        """Start as a :class:`Gaze`.
 
         Args:
-            gaze: Motion of the head at a limited speed.
+            coupling: As of :class:`Gaze`.
+            tick: Likewise.
+            robot_height: Likewise.
             glances: Glances aside of a target, if any.
             scan: Scan of the room before the game, if any.
             awaits_start: Whether a signal starts the game; otherwise it
                 begins with the end of the scan.
         """
-        self._gaze, self._glances, self._scan = gaze, glances, scan
+        super().__init__(coupling, tick, robot_height)
+        self._glances, self._scan = glances, scan
         self._started = not awaits_start
-
-    @property
-    def yaw(self) -> float:
-        """Target of the head yaw, in [rad]."""
-        return self._gaze.yaw
-
-    @property
-    def pitch(self) -> float:
-        """Target of the head pitch, in [rad]."""
-        return self._gaze.pitch
-
-    @property
-    def reach(self) -> float:
-        """Greatest yaw to either side, in [rad]."""
-        return self._gaze.reach
 
     @property
     def turning(self) -> float:
@@ -270,7 +232,7 @@ class HeadControl:
     @property
     def is_ready(self) -> bool:
         """Whether the scan of the room, if any, is complete."""
-        return self._scan is None or not self._scan.lasts(self._gaze)
+        return self._scan is None or not self._scan.lasts(self)
 
     @property
     def scans(self) -> bool:
@@ -282,24 +244,18 @@ class HeadControl:
         self._started = True
 
     def move(
-        self,
-        now: float,
-        heading_in_odometry: float,
-        target: GazeTarget | None,
+        self, now: float, heading: float, target: GazeTarget | None
     ) -> None:
-        """Move the head by one tick.
+        """Move the head by one tick; without a target it searches.
 
-        Args:
-            now: Time, in [s].
-            heading_in_odometry: Heading of the torso, in [rad].
-            target: Target to follow; None to search.
+        ``heading`` is that of the torso in odometry, in [rad].
         """
         if self.scans and self._scan is not None:
-            self._scan.look(self._gaze, now, heading_in_odometry)
+            self._scan.look(self, now, heading)
         elif self.scans or target is None:
-            self._gaze.search()
+            self.search()
         else:
             if self._glances is not None:
                 bearing = self._glances.direction(*target[:2])
                 target = target._replace(bearing=bearing)
-            self._gaze.follow(target)
+            self.follow(target)

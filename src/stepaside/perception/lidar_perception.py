@@ -57,16 +57,9 @@ class LidarPerception:
         left_supports: bool,
         tilt: tuple[float, float],
     ) -> Sighting | None:
-        """Process the measurement of one tick.
+        """Return the sighting of the person who will be nearest, if any.
 
-        Args:
-            measurement: Values of the sensors.
-            pose_support_in_odometry: Pose of the support foot.
-            left_supports: Whether that is the left foot.
-            tilt: Roll and pitch of the torso, in [rad].
-
-        Returns:
-            Sighting of the person who will be nearest; None without one.
+        Arguments are those of :meth:`.Perception.see`.
         """
         now = measurement.time
         posture = self._kinematics.posture(measurement.joint_positions)
@@ -134,12 +127,8 @@ class LidarPerception:
 def standing_returns(points: Array) -> Array:
     """Return the points that are neither of the floor nor of the ceiling.
 
-    Args:
-        points: Returns with respect to the lidar in the plane, and their
-            heights, in [m]. Shape (n, 3).
-
-    Returns:
-        Points in the plane, in [m]. Shape (m, 2).
+    Points are with respect to the lidar in the plane, with their heights, in
+    [m]. Shapes (n, 3) and (m, 2).
     """
     offsets, heights = points[:, :2], points[:, 2]
     floor = FLOOR + TILT * np.hypot(offsets[:, 0], offsets[:, 1])
@@ -150,12 +139,7 @@ def standing_returns(points: Array) -> Array:
 def nearest_ranges(offsets: Array) -> Array:
     """Return the range of the nearest return in each bin of bearings, in [m].
 
-    Args:
-        offsets: Returns relative to the lidar in the plane, in [m]. Shape
-            (n, 2).
-
-    Returns:
-        Ranges; infinite without a return. Shape (BINS,).
+    It is infinite without a return. Shapes (n, 2) and (BINS,).
     """
     ranges: Array = np.full(BINS, np.inf)
     bearings = np.arctan2(offsets[:, 1], offsets[:, 0])
@@ -165,11 +149,7 @@ def nearest_ranges(offsets: Array) -> Array:
 
 
 def find_people(ranges: Array) -> list[tuple[float, float]]:
-    """Return bearing [rad] and distance [m] of objects as narrow as people.
-
-    Args:
-        ranges: Nearest range in each bin. Shape (BINS,).
-    """
+    """Return bearing [rad] and distance [m] of objects as narrow as people."""
     width = 2.0 * pi / BINS
     narrow: list[tuple[float, float]] = []  # places (x, y)
     for group in _groups(ranges):

@@ -81,16 +81,14 @@ def observe_trim(
             along = 0.1
     aside = 0.005 if not found.cut_aside else 0.06
     across = 0.003 + max(aside, 0.5 * abs(hidden)) * distance
-    eye = camera.position_in_odometry
     return Observation(
         image.time,
-        float(eye[0] + distance * cos(bearing)),
-        float(eye[1] + distance * sin(bearing)),
+        *_place(camera, bearing, distance),
         bearing,
         along,
         max(across, DEVIATION_AXIS) if near else across,
-        True,
-        ranged,
+        identified=True,
+        ranged=ranged,
     )
 
 
@@ -115,13 +113,7 @@ def _distance_by_height(
 def _hidden_angle(
     image: ColourImage, found: ColourDetection, distance: float
 ) -> float:
-    """Return the angle of trim beyond an edge, positive rightward.
-
-    Args:
-        image: The image.
-        found: Detection of the trim.
-        distance: Distance of the robot, in [m].
-    """
+    """Return the angle of trim beyond an edge, positive rightward."""
     left, right = angle_of(image, found.left), angle_of(image, found.right)
     missing = max(0.0, TRIM_WIDTH / distance - (right - left))
     edge = -angle_of(image, 0.0)
@@ -133,17 +125,13 @@ def observe_obstacle(
     image: DepthImage, obstacle: DetectedObstacle
 ) -> Observation:
     """Return the observation of an obstacle."""
-    aside = 0.03 if obstacle.whole else 0.12
     return Observation(
         image.time,
-        obstacle.x_in_odometry,
-        obstacle.y_in_odometry,
-        obstacle.bearing,
-        0.03,
-        aside,
-        False,
-        True,
-        obstacle.height,
+        *obstacle.position,
+        *(obstacle.bearing, 0.03, 0.03 if obstacle.whole else 0.12),
+        identified=False,
+        ranged=True,
+        height=obstacle.height,
     )
 
 
@@ -154,20 +142,12 @@ def is_opponent(
 ) -> bool:
     """Return whether an obstacle may be the opponent, and is not on the map.
 
-    Args:
-        obstacle: Obstacle in an image.
-        floor: Map of the floor.
-        position_opponent_in_odometry: Predicted position of the opponent,
-            in [m]; None if it is not tracked.
+    The position of the opponent is predicted; None if it is not tracked.
     """
     if position_opponent_in_odometry is None:
         return False
-    x, y = position_opponent_in_odometry
-    return hypot(
-        obstacle.x_in_odometry - x, obstacle.y_in_odometry - y
-    ) < BODY_RADIUS and not floor.is_occupied(
-        obstacle.x_in_odometry, obstacle.y_in_odometry
-    )
+    (x, y), (u, v) = position_opponent_in_odometry, obstacle.position
+    return hypot(u - x, v - y) < BODY_RADIUS and not floor.is_occupied(u, v)
 
 
 def observe_shadow(
@@ -189,24 +169,29 @@ def observe_shadow(
         tracks: All tracks.
     """
     far = image.near + SHADOW_MARGIN
-    memory = _distance_of_track(tracks, image.time, shadow.bearing, camera)
+    bearing = camera.heading_in_odometry + shadow.azimuth
+    memory = _distance_of_track(tracks, image.time, bearing, camera)
     ranged = shadow.nearest is not None
     if shadow.nearest is not None:
         distance, along = shadow.nearest, DEVIATION_PART
     else:
         distance = min(max(memory, MIN_SHADOW_DISTANCE), far)
         along = DEVIATION_UNKNOWN if distance == memory else DEVIATION_BOUND
-    eye = camera.position_in_odometry
     return Observation(
         image.time,
-        float(eye[0] + distance * cos(shadow.bearing)),
-        float(eye[1] + distance * sin(shadow.bearing)),
-        shadow.bearing,
-        along,
-        0.08 * distance,
-        False,
-        ranged,
+        *_place(camera, bearing, distance),
+        *(bearing, along, 0.08 * distance),
+        identified=False,
+        ranged=ranged,
     )
+
+
+def _place(
+    camera: CameraPose, bearing: float, distance: float
+) -> tuple[float, float]:
+    """Return the position at a distance from a camera, in [m]."""
+    x, y, _ = camera.position_in_odometry.tolist()
+    return x + distance * cos(bearing), y + distance * sin(bearing)
 
 
 def angle_of(image: ColourImage | DepthImage, column: float) -> float:
@@ -270,8 +255,5 @@ def range_of_width(angle: float) -> float:
 
     Trim is as wide as the shoulders from the front and half as wide from the
     side, so the error is up to a third.
-
-    Args:
-        angle: Angle from the left to the right end of the trim, in [rad].
     """
     return min(max(TRIM_WIDTH / max(angle, 1e-3), TRIM_NEAREST), TRIM_FARTHEST)

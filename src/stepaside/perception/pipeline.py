@@ -22,7 +22,7 @@ from .camera_pose import CameraPose, camera_pose
 from .colour_detector import ColourDetection, ColourDetector
 from .depth_detector import DepthScene, detect_obstacles
 from .floor_map import FloorMap
-from .gaze import Gaze, GazeTarget, Glances, HeadControl, RoomScan
+from .gaze import GazeTarget, Glances, HeadControl, RoomScan
 from .images import (
     AnyPercept,
     ColourImage,
@@ -204,16 +204,7 @@ class Perception:
     def see_from(
         self, body: BodyPose, percepts: Sequence[AnyPercept]
     ) -> Sighting | None:
-        """Process the images of a robot whose pose is known.
-
-        Args:
-            body: Pose of the body now; those of the exposures have been
-                noted.
-            percepts: Images and echoes that have arrived.
-
-        Returns:
-            Latest sighting of the opponent; None if it is lost.
-        """
+        """Process the images of a robot whose poses are noted; see `see`."""
         self.note_pose(body)
         return self._process(body.time, percepts)
 
@@ -291,16 +282,7 @@ class Perception:
 def take(
     percept: Percept, body: BodyPose, state: Perception
 ) -> FrameReport | None:
-    """Update tracks and map with an image or echo.
-
-    Args:
-        percept: The image or echo.
-        body: Pose of the body at its time.
-        state: Perception, which is updated.
-
-    Returns:
-        Detections in an image; None for an echo.
-    """
+    """Update tracks and map; return what was detected in an image."""
     if isinstance(percept, ColourImage):
         return _take_colour(percept, body, state)
     if isinstance(percept, DepthImage):
@@ -443,10 +425,8 @@ def record_misses(
         updated: Tracks that the frame has updated.
         image: The image.
         camera: Pose of the camera at its exposure.
-        max_identity_age: Time since a track last had the opponent's
-            appearance up to which the frame should show it, in [s].
-        blind_distance: Distance from the camera up to which the frame shows
-            nothing, in [m].
+        max_identity_age: Greatest age of the last recognition, in [s].
+        blind_distance: Up to which the frame shows nothing, in [m].
     """
     half = USABLE_VIEW * abs(angle_of(image, 0.0))
     x, y = camera.position_in_odometry[:2].tolist()
@@ -509,7 +489,7 @@ def build_perception(
         detector,
         selection,
         HeadControl(
-            Gaze(head.coupling, tick, size.height),
+            *(head.coupling, tick, size.height),
             glances=used.glances,
             scan=used.scan,
             awaits_start=used.awaits_start,
@@ -538,8 +518,6 @@ def build_posed_perception(
         tick: Period of the updates, in [s].
     """
     at_head = Mount(np.zeros(3), np.eye(3))
-    gaze = Gaze(coupling, tick, NAO_SIZE.height)
+    gaze = HeadControl(coupling, tick, NAO_SIZE.height)
     selection = TargetSelection(Tracker(PERSON_MOTION))
-    return Perception(
-        detector, selection, HeadControl(gaze), at_head, [at_head]
-    )
+    return Perception(detector, selection, gaze, at_head, [at_head])

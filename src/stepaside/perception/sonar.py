@@ -28,16 +28,13 @@ def observe_echo(
     body: BodyPose,
     track: TargetTrack | None,
 ) -> Observation | None:
-    """Return the observation of an opponent from an echo.
+    """Return the observation of an opponent from a valid echo, if it is one.
 
     Args:
-        echo: Echo that :func:`is_valid_echo` accepts.
+        echo: The echo.
         mount: Mount of the sonar on the torso.
         body: Pose of the body at that time.
         track: Main track, if any.
-
-    Returns:
-        The observation; None if the echo is not used.
     """
     assert echo.distance is not None
     x, y, heading = body.pose_torso_in_odometry
@@ -51,33 +48,17 @@ def observe_echo(
         bearing, across = track.bearing_from(x, y, echo.time), 0.4
         if echo.time - track.ranged_at < MIN_AGE:
             return None
-        if abs(wrap_angle(bearing - facing)) > HALF_CONE - abs(
-            wrap_angle(facing - heading)
-        ):
+        aside = abs(wrap_angle(facing - heading))
+        if abs(wrap_angle(bearing - facing)) > HALF_CONE - aside:
             return None
-    return Observation(
-        echo.time,
-        x + distance * cos(bearing),
-        y + distance * sin(bearing),
-        bearing,
-        0.06,
-        across,
-        False,
-        True,
-    )
+    place = x + distance * cos(bearing), y + distance * sin(bearing)
+    return Observation(echo.time, *place, bearing, 0.06, across, False, True)
 
 
 def may_be_mapped(
     echo: SonarEcho, mount: Mount, body: BodyPose, floor: FloorMap
 ) -> bool:
-    """Return whether an echo may be that of an obstacle on the map.
-
-    Args:
-        echo: Echo that :func:`is_valid_echo` accepts.
-        mount: Mount of the sonar on the torso.
-        body: Pose of the body at that time.
-        floor: Map of the floor.
-    """
+    """Return whether a valid echo may be of an obstacle on the map."""
     assert echo.distance is not None
     x, y, _ = body.pose_torso_in_odometry
     facing = _facing(mount, body)

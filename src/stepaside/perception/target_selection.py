@@ -58,41 +58,26 @@ class TargetSelection:
         for track in recent_tracks(self.tracker.tracks, main, now):
             recognised = now - track.identified_at < MAX_GAZE_AGE
             moves = hypot(*track.velocity) > MOVING and track.confirmed
-            if (
-                recognised
-                or track.distance_from(x, y, now) < GAZE_RADIUS
-                or moves
-            ):
+            near = track.distance_from(x, y, now) < GAZE_RADIUS
+            if recognised or near or moves:
                 return track
         return None
 
     def settled(
         self, track: TargetTrack, now: float, x: float, y: float
     ) -> bool:
-        """Return whether a track is reliable enough to start moving.
-
-        The position of a robot in odometry is.
-        """
+        """Return whether a track is reliable enough to start moving."""
         return True
 
     def target_id(self, track: TargetTrack) -> int:
-        """Return the number by which sightings tell opponents apart.
-
-        It is 0 where there is one opponent.
-        """
+        """Return the number of an opponent among several, else 0."""
         return 0
 
 
 def recent_tracks(
     tracks: Sequence[TargetTrack], main: TargetTrack | None, now: float
 ) -> list[TargetTrack]:
-    """Return tracks observed recently, the main one first.
-
-    Args:
-        tracks: All tracks.
-        main: Main track.
-        now: Time, in [s].
-    """
+    """Return tracks observed recently, the main one first."""
     ordered = [] if main is None else [main]
     ordered += [track for track in tracks if track is not main]
     return [
@@ -111,12 +96,7 @@ class UnnamedSelection(TargetSelection):
     """
 
     def __init__(self, tracker: Tracker, most: int) -> None:
-        """Select among the tracks of a tracker.
-
-        Args:
-            tracker: The tracker.
-            most: Number of opponents.
-        """
+        """Select at most a number of opponents."""
         super().__init__(tracker)
         self._most = most
         self._present = 0  # number of the main track
@@ -210,26 +190,20 @@ class PeopleSelection(TargetSelection):
             if not track.is_watched(now)
         ]
         for track in candidates:
-            if (
-                track.has_walked
-                and closest_approach(track, now, x, y) < APPROACHING
-            ):
+            ahead = closest_approach(track, now, x, y)
+            if track.has_walked and ahead < APPROACHING:
                 return track
-        for track in candidates:
-            near = track.distance_from(x, y, now) < GAZE_RADIUS
-            seen = now - track.imaged_at <= MAX_GAZE_AGE
-            if (
-                near
-                and seen
-                and not (track.has_walked or track.has_velocity(now))
-            ):
+        near = [
+            t for t in candidates if t.distance_from(x, y, now) < GAZE_RADIUS
+        ]
+        for track in near:
+            known = track.has_walked or track.has_velocity(now)
+            if now - track.imaged_at <= MAX_GAZE_AGE and not known:
                 return track
         begun = self._glanced
         self._glanced = {t: begun[t] for t in tracks if t in begun}
         for track in candidates:
-            if not (
-                track.confirmed or track.distance_from(x, y, now) < GAZE_RADIUS
-            ):
+            if not (track.confirmed or track in near):
                 continue
             since = now - self._glanced.setdefault(track, now)
             pause = PAUSE_WALKING if track.has_walked else PAUSE_RESTING
@@ -270,16 +244,9 @@ class PeopleSelection(TargetSelection):
 def closest_approach(
     track: TargetTrack, now: float, x: float, y: float
 ) -> float:
-    """Return the predicted closest approach of a track to a position.
+    """Return how near a track will come to a position, in [m].
 
-    Args:
-        track: Track, at constant velocity over the horizon.
-        now: Time, in [s].
-        x: Position, x in odometry, in [m].
-        y: Position, y in odometry, in [m].
-
-    Returns:
-        Distance, in [m].
+    It keeps its velocity over the horizon.
     """
     u, v = track.position_at(now)
     dx, dy = u - x, v - y

@@ -144,22 +144,14 @@ class TargetTrack:
         return float(delay @ x / square), float(delay @ y / square)
 
     def has_velocity(self, now: float) -> bool:
-        """Return whether recent precise positions give a velocity.
-
-        Args:
-            now: Time, in [s].
-        """
+        """Return whether recent precise positions give a velocity."""
         trail = self._trail
         if not trail or now - trail[-1][0] > TRAIL:
             return False
         return trail[-1][0] - trail[0][0] >= MIN_SPAN
 
     def is_watched(self, now: float) -> bool:
-        """Return whether a camera on the torso has just shown it.
-
-        Args:
-            now: Time, in [s].
-        """
+        """Return whether a camera on the torso has just shown it."""
         return now - self.watched_at <= MAX_GAP
 
     def _store_position(self, observation: Observation) -> None:
@@ -171,20 +163,15 @@ class TargetTrack:
             or max(observation.along, observation.across) > MAX_DEVIATION
         ):
             return
-        trail, position = (
-            self._trail,
-            (observation.x_in_odometry, observation.y_in_odometry),
-        )
+        trail = self._trail
+        position = observation.x_in_odometry, observation.y_in_odometry
         while trail and observation.time - trail[0][0] > TRAIL:
             trail.popleft()
         if not trail or observation.time - trail[-1][0] >= MIN_INTERVAL:
             trail.append((observation.time, *position))
-        self._first_position = self._first_position or position
-        distance = hypot(
-            position[0] - self._first_position[0],
-            position[1] - self._first_position[1],
-        )
-        self.has_walked |= distance > MIN_WALK
+        x, y = self._first_position = self._first_position or position
+        walked = hypot(position[0] - x, position[1] - y)
+        self.has_walked |= walked > MIN_WALK
 
     @property
     def velocity(self) -> tuple[float, float]:
@@ -244,14 +231,11 @@ class TargetTrack:
 
     def merge(self, other: "TargetTrack") -> None:
         """Merge the history of another track of the same object."""
-        self.identified_at = max(self.identified_at, other.identified_at)
-        self.observed_at = max(self.observed_at, other.observed_at)
-        self.ranged_at = max(self.ranged_at, other.ranged_at)
-        self.confirmed = self.confirmed or other.confirmed
-        self.height = max(self.height, other.height)
-        self.has_walked |= other.has_walked
-        self.imaged_at = max(self.imaged_at, other.imaged_at)
-        self.watched_at = max(self.watched_at, other.watched_at)
+        for name in (
+            *("identified_at", "observed_at", "ranged_at", "imaged_at"),
+            *("watched_at", "height", "confirmed", "has_walked"),
+        ):
+            setattr(self, name, max(getattr(self, name), getattr(other, name)))
 
     @property
     def is_rejected(self) -> bool:

@@ -32,11 +32,9 @@ class Tracker:
     ) -> None:
         """Start without tracks.
 
-        Args:
-            motion: Process noise of the tracks.
-            several: Whether several objects of one kind may be near each
-                other: then the nearest pairs of track and observation are
-                associated first, else the tracks that were observed last.
+        Where several objects of one kind may be near each other, the nearest
+        pairs of track and observation are associated first, else the tracks
+        that were observed last.
         """
         self._motion, self._several = motion, several
         self.tracks: list[TargetTrack] = []
@@ -99,32 +97,24 @@ class Tracker:
         recognised = [t for t in confirmed if now - t.identified_at < IDENTITY]
         if recognised:
             # A new one may be a false detection: the oldest wins.
-            newest = max(t.identified_at for t in recognised)
-            return min(
-                (
-                    t
-                    for t in recognised
-                    if newest - t.identified_at < MAX_LAPSE
-                ),
-                key=lambda t: t.started_at,
-            )
+            since = max(t.identified_at for t in recognised) - MAX_LAPSE
+            newest = [t for t in recognised if t.identified_at > since]
+            return min(newest, key=lambda t: t.started_at)
         return min(
             confirmed, key=lambda t: t.distance_from(x, y, now), default=None
         )
 
     def prune(self, now: float) -> None:
         """Drop outdated tracks, and merge tracks of the same object."""
-        self.tracks = [
-            track
-            for track in self.tracks
-            if not track.is_rejected
-            and now - track.observed_at
-            < (MAX_AGE if track.confirmed else MAX_AGE_UNCONFIRMED)
-            and (
-                now - track.observed_at < FRESH
-                or track.deviation_at(now) < MAX_DEVIATION
-            )
-        ]
+
+        def keeps(track: TargetTrack) -> bool:
+            age = now - track.observed_at
+            most = MAX_AGE if track.confirmed else MAX_AGE_UNCONFIRMED
+            if track.is_rejected or age >= most:
+                return False
+            return age < FRESH or track.deviation_at(now) < MAX_DEVIATION
+
+        self.tracks = [track for track in self.tracks if keeps(track)]
         self._merge(now)
 
     def _merge(self, now: float) -> None:

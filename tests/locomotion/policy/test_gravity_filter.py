@@ -44,38 +44,6 @@ def test_a_robot_that_sways_before_it_is_ready_knows_its_tilt() -> None:
         assert found.tilt[1] == pytest.approx(angle, abs=2e-3)
 
 
-@pytest.mark.parametrize("axis", [0, 1])
-def test_the_tilt_follows_the_gyro(axis: int) -> None:
-    """Over half a second of 1 rad/s about one axis of the torso."""
-    found = standing(up_at(0.0, 0.0))
-    rate = np.eye(3)[axis]
-    for i in range(1, 126):
-        angle = i * TICK
-        up = up_at(angle, 0.0) if axis == 0 else up_at(0.0, angle)
-        found.take(rate, GRAVITY * up)
-    assert found.tilt[axis] == pytest.approx(0.5, abs=2e-3)
-
-
-def test_a_turn_about_the_vertical_leaves_the_tilt() -> None:
-    up = up_at(0.2, 0.1)
-    found = standing(up)
-    for i in range(1, 500):
-        c, s = np.cos(-i * TICK), np.sin(-i * TICK)
-        turned = np.array(
-            [c * up[0] - s * up[1], s * up[0] + c * up[1], up[2]]
-        )
-        found.take(np.array([0.0, 0.0, 1.0]), GRAVITY * turned)
-    np.testing.assert_allclose(found.up, turned, atol=0.01)
-
-
-def test_a_constant_gyro_bias_is_learned() -> None:
-    up = up_at(0.0, 0.0)
-    found, bias = standing(up), np.array([0.01, -0.02, 0.0])
-    for _ in range(round(120.0 / TICK)):
-        found.take(bias, GRAVITY * up)
-    assert found.tilt == pytest.approx((0.0, 0.0), abs=1e-4)
-
-
 @pytest.mark.parametrize("lean", [-0.1, 0.0, 0.1])
 def test_the_heading_of_a_torso_that_rolls_and_pitches_stays(
     lean: float,
