@@ -22,10 +22,10 @@ EXTERNAL = b"location"  # key of weights in a file beside the network
 
 
 class OpenNetwork(NamedTuple):
-    """Network that is ready to run.
+    """Session of ONNX Runtime, with name and type of its input.
 
     Attributes:
-        session: Session of ONNX Runtime.
+        session: The session.
         name: Name of its input.
         kind: Type of the numbers of its input.
         rows: Number of observations that it takes at once; None for any.
@@ -44,21 +44,14 @@ class OpenNetwork(NamedTuple):
         return dict(self.session.get_modelmeta().custom_metadata_map)
 
     def evaluate(self, observations: Tensor) -> Tensor:
-        """Return the outputs for a batch of observations.
-
-        Args:
-            observations: Shape (n, width).
-
-        Returns:
-            Shape (n, width of the output).
+        """Return the outputs for observations, (n, width): one row for each.
 
         Raises:
             PolicyError: If it cannot run.
         """
         given = np.asarray(observations, dtype=self.kind)
         if self.rows == 1 and len(given) != 1:
-            rows = [self.evaluate(row[None]) for row in given]
-            return np.concatenate(rows)
+            return np.concatenate([self.evaluate(row[None]) for row in given])
         try:
             found: Tensor = self.session.run(None, {self.name: given})[0]
         except Exception as error:  # no common base in ONNX Runtime
@@ -69,10 +62,7 @@ class OpenNetwork(NamedTuple):
 
 @lru_cache(maxsize=32)
 def open_network(content: bytes) -> OpenNetwork:
-    """Return a network that is ready to run.
-
-    Args:
-        content: Content of an ONNX file.
+    """Return a network, from the content of an ONNX file, ready to run.
 
     Raises:
         PolicyError: If it is not a network from observations to actions.
@@ -101,31 +91,19 @@ def read_network(path: Path) -> bytes:
         PolicyError: If it is not a network, with the runtime's reason.
     """
     check_readable(path)
+    content = path.read_bytes()
     try:
-        content = path.read_bytes()
         if EXTERNAL in content:
-            content = _whole(path)
+            import onnx
+
+            try:
+                content = onnx.load(path).SerializeToString()
+            except Exception as error:  # of several libraries
+                raise PolicyError(" ".join(str(error).split())) from error
         open_network(content)
-    except OSError as error:
-        raise PolicyError(f"cannot read {path}: {error.strerror}") from error
     except PolicyError as error:
         raise PolicyError(f"{path} is not an ONNX network: {error}") from error
     return content
-
-
-def _whole(path: Path) -> bytes:
-    """Return an ONNX file that holds its weights itself.
-
-    Raises:
-        PolicyError: If it cannot be read, with the reason.
-    """
-    import onnx
-
-    try:
-        model: bytes = onnx.load(path).SerializeToString()
-    except Exception as error:  # of several libraries
-        raise PolicyError(" ".join(str(error).split())) from error
-    return model
 
 
 def dense_network(
@@ -134,8 +112,7 @@ def dense_network(
     """Return the content of an ONNX file of a dense network.
 
     Args:
-        layers: Weights, shape (inputs, outputs), and biases, shape
-            (outputs,), of each layer.
+        layers: Weights (inputs, outputs) and biases (outputs,) of each.
         activation: Operator between two layers, of those of ONNX.
     """
     from onnx import TensorProto, helper, numpy_helper

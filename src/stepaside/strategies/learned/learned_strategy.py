@@ -37,13 +37,13 @@ class LearnedStrategy:
     contract: StrategyContract
     name: str = "network"
 
-    def __post_init__(self) -> None:
-        """Check that network and contract fit.
+    @property
+    def _opened(self) -> OpenNetwork:
+        return open_network(self.network)
 
-        Raises:
-            PolicyError: If the sizes differ.
-        """
-        width, network = self.contract.observation_width, self._open
+    def __post_init__(self) -> None:
+        """Check that the sizes of network and contract are equal."""
+        width, network = self.contract.observation_width, self._opened
         if network.width not in (None, width):
             raise PolicyError(
                 f"the observation must have {width} values for the terms "
@@ -58,10 +58,6 @@ class LearnedStrategy:
             )
 
     @property
-    def _open(self) -> OpenNetwork:
-        return open_network(self.network)
-
-    @property
     def direction(self) -> Direction:
         """Direction of driving, from the contract."""
         return self.contract.direction
@@ -72,13 +68,9 @@ class LearnedStrategy:
     def decide(
         self, knowledge: Knowledge, memory: None
     ) -> tuple[Intent, None]:
-        """Evaluate the network.
-
-        Raises:
-            PolicyError: If an output is NaN or infinite.
-        """
+        """Evaluate the network."""
         seen = observe(knowledge, self.contract.terms)[None]
-        outputs = self._open.evaluate(seen)[0].tolist()
+        outputs = self._opened.evaluate(seen)[0].tolist()
         if not all(map(isfinite, outputs)):
             self.intents(seen)  # names the output
         headings = self.contract.headings
@@ -90,18 +82,14 @@ class LearnedStrategy:
         return Intent(heading, speed) if speed > 0.0 else STAND, memory
 
     def intents(self, observations: Tensor) -> Array:
-        """Return headings [rad] and speed factors for many observations.
+        """Return heading [rad] and speed factor for each observation.
 
-        Args:
-            observations: Shape (n, width of the observation).
-
-        Returns:
-            Shape (n, 2).
+        Observations have shape (n, width), the result has (n, 2).
 
         Raises:
             PolicyError: If an output is NaN or infinite.
         """
-        outputs = self._open.evaluate(observations).astype(np.float64)
+        outputs = self._opened.evaluate(observations).astype(np.float64)
         if not np.isfinite(outputs).all():
             column = int(np.argwhere(~np.isfinite(outputs))[0][1])
             raise PolicyError(f"output {column} of {self.name} must be finite")

@@ -24,14 +24,7 @@ DIRECTIONS = 8  # on each ring
 
 
 class ObservedTerm(NamedTuple):
-    """One quantity of an observation.
-
-    Attributes:
-        width: Number of its values.
-        low: Least value.
-        high: Greatest value.
-        meaning: What it is.
-    """
+    """One quantity of an observation: number and range of its values."""
 
     width: int
     low: float
@@ -77,10 +70,7 @@ FULL_STATE_TERMS = {
 
 
 def ring_points() -> Array:
-    """Return the points of the term "clearances" in the own frame, in [v/k].
-
-    Shape (17, 2).
-    """
+    """Return the points of "clearances" in the own frame [v/k]. (17, 2)."""
     angles = np.arange(DIRECTIONS) * (2.0 * np.pi / DIRECTIONS)
     ring = np.stack([np.cos(angles), np.sin(angles)], axis=-1)
     return np.concatenate([np.zeros((1, 2)), *(r * ring for r in RINGS)])
@@ -105,15 +95,7 @@ def width_of(terms: Sequence[str]) -> int:
 
 
 def observe(knowledge: Knowledge, terms: Sequence[str]) -> NDArray[np.float32]:
-    """Return an observation.
-
-    Args:
-        knowledge: Knowledge of the player.
-        terms: Names of terms, in order.
-
-    Returns:
-        Shape (width_of(terms),).
-    """
+    """Return the values of terms, in order. Shape (width_of(terms),)."""
     values: list[float] = []
     for name in terms:
         values.extend(_values(knowledge, name))
@@ -134,15 +116,14 @@ def _values(known: Knowledge, name: str) -> Sequence[float]:
         return (min(known.distance / length_unit(limits), FARTHEST),)
     if name == "bearing":
         return cos(known.bearing), sin(known.bearing)
-    if name == "bearing_rate":
-        rate = (known.bearing_rate or 0.0) * pace / limits.gain
-        return (min(max(rate, -FASTEST), FASTEST),)
-    if name == "closing_speed":
-        rate = (known.closing_speed or 0.0) * pace / limits.speed
-        return (min(max(rate, -FASTEST), FASTEST),)
     if name == "moving":
         return (float(known.moving),)
-    return _clearances(known)
+    if name == "clearances":
+        return _clearances(known)
+    rate = (known.closing_speed or 0.0) * pace / limits.speed
+    if name == "bearing_rate":
+        rate = (known.bearing_rate or 0.0) * pace / limits.gain
+    return (min(max(rate, -FASTEST), FASTEST),)
 
 
 def _clearances(known: Knowledge) -> list[float]:

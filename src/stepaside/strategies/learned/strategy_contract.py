@@ -34,11 +34,7 @@ class StrategyContract:
     headings: tuple[float | None, ...] = ()
 
     def __post_init__(self) -> None:
-        """Check terms and headings.
-
-        Raises:
-            PolicyError: If a term is unknown, or a heading beyond a turn.
-        """
+        """Check terms and headings."""
         width_of(self.terms)
         for heading in self.headings:
             if heading is not None:
