@@ -6,11 +6,10 @@ import numpy as np
 import pytest
 
 from stepaside.core.poses import wrap_angle
-from stepaside.strategies.shield_course import (
-    Course,
-    Trace,
-    observed_course,
-)
+from stepaside.strategies.opponent_track import SeenOpponent
+from stepaside.strategies.shield_course import Course, observed_course
+
+Trace = tuple[tuple[float, float, float], ...]
 
 WINDOW, TURN, SPEED = 0.5, 0.2, 1.0  # [s], [rad/s] and [m/s]
 KNOWN = TURN * WINDOW
@@ -18,7 +17,8 @@ KNOWN = TURN * WINDOW
 
 def observe(before: Course | None, trace: Trace) -> Course | None:
     """Return the heading after the last of exact sightings."""
-    return observed_course(before, trace, WINDOW, (TURN, 0.0), KNOWN)
+    seen = [SeenOpponent(*row) for row in trace]
+    return observed_course(before, seen, WINDOW, (TURN, 0.0), KNOWN)
 
 
 def test_heading_is_unknown_until_a_window_has_passed() -> None:
@@ -60,8 +60,12 @@ def test_observed_heading_turns_as_a_person_and_stays_near_it(
 def test_heading_is_known_after_a_time_without_sightings() -> None:
     """A robot that halts sees nothing: the person may have turned."""
     before = Course(1.0, 0.4, 0.1)
-    course = observed_course(before, ((3.0, 0.0, 0.0),), 0.3, (0.2, 0.0), 0.05)
+    course = observed_course(
+        before, [SeenOpponent(3.0, 0.0, 0.0)], 0.3, (0.2, 0.0), 0.05
+    )
     assert course is not None and course.heading == 0.4
     assert course.error == pytest.approx(0.1 + 0.2 * 2.0)
-    long = observed_course(before, ((99.0, 0.0, 0.0),), 0.3, (0.2, 0.0), 0.05)
+    long = observed_course(
+        before, [SeenOpponent(99.0, 0.0, 0.0)], 0.3, (0.2, 0.0), 0.05
+    )
     assert long is not None and long.error == pi

@@ -19,6 +19,7 @@ from stepaside.core.poses import Pose
 from stepaside.planning import Direction
 from stepaside.planning.path import UnicycleTrajectory
 from stepaside.strategies.search.distance_field import (
+    CELL,
     DistanceField,
     distance_field,
     field_clearance,
@@ -120,11 +121,11 @@ def test_the_distance_field_is_a_safe_and_tight_bound(seed: int) -> None:
     exact = np.minimum(solids.clearance(points), enough)
     found = [field_clearance(field, x, y) for x, y in points.tolist()]
     np.testing.assert_allclose(found, exact, atol=1e-12)
-    cells = np.floor((points - (field.x, field.y)) / field.cell).astype(int)
+    cells = np.floor((points - (field.x, field.y)) / CELL).astype(int)
     inside = np.all((cells >= 0) & (cells < len(field.bounds)), axis=1)
     assert 200 < inside.sum() < 1400
     bounds = field.bounds[tuple(cells[inside].T)]
-    diagonal = field.cell * 2.0**0.5
+    diagonal = CELL * 2.0**0.5
     assert np.all(bounds <= exact[inside] + 1e-12)
     assert np.all(bounds >= exact[inside] - diagonal - 1e-12)
 

@@ -69,15 +69,10 @@ class Approach(NamedTuple):
         return abs(self.x * self.v - self.y * self.u) / self.speed
 
     def contact_time(self, clearance: float) -> float:
-        """Return the time until the opponent is within a clearance, in [s].
+        """Return the time [s] until the opponent is within a clearance [m].
 
-        Args:
-            clearance: Distance that counts as contact, in [m].
-
-        Returns:
-            The time if the own robot stands; 0 for an opponent within the
-            clearance that still approaches, infinite for one that passes
-            outside of it or recedes.
+        The own robot stands. It is 0 for an opponent within the clearance
+        that still approaches, infinite for one that passes or recedes.
         """
         nearing = -(self.x * self.u + self.y * self.v)
         if nearing <= 0.0 or self.speed < STILL:
@@ -97,10 +92,6 @@ def correcting_heading(error: float, limits: Limits) -> float:
 
     A step turns by a fraction of its desired heading. A larger desired
     heading turns by the whole error in one step, up to the sharpest turn.
-
-    Args:
-        error: Heading error, in [rad].
-        limits: Limits of the own gait.
     """
     heading = wrap_angle(error) / limits.share
     return min(max(heading, -MAX_HEADING), MAX_HEADING)

@@ -27,20 +27,10 @@ class DecisionMaker:
 
     identity: PlayerIdentity | None = None
 
-    def __init__(
-        self,
-        strategy: Strategy,
-        limits: Limits,
-    ) -> None:
-        """Begin without a sighting.
-
-        Args:
-            strategy: Strategy of the player.
-            limits: Limits of its gait.
-        """
-        self.strategy = strategy
+    def __init__(self, strategy: Strategy, limits: Limits) -> None:
+        """Begin without a sighting."""
+        self.strategy, self.limits = strategy, limits
         self.memory: Any = strategy.begin()
-        self.limits = limits
         self.reset_rates()
 
     def reset_rates(self) -> None:
@@ -50,9 +40,7 @@ class DecisionMaker:
     def adopt(self, strategy: Strategy) -> None:
         """Replace the strategy from the next decision on.
 
-        Args:
-            strategy: New strategy. One of the same class continues with the
-                present memory; another class begins anew.
+        One of the same class continues with the present memory.
         """
         if type(strategy) is not type(self.strategy):
             self.memory = strategy.begin()
@@ -96,7 +84,7 @@ class DecisionMaker:
         bearing_rate, closing_speed = track.sight_rates
         if velocity is None:
             velocity = turned(track.velocity, -pose.theta)
-        others = self._others(now, pose_template_in_odometry)
+        others = self._others(now, pose)
         if not others and sighting.identity is not None:
             others = (
                 OtherPlayer(
@@ -105,19 +93,17 @@ class DecisionMaker:
                 ),
             )
         return Knowledge(
-            time=now,
-            bearing=bearing,
-            distance=distance,
-            limits=self.limits,
-            bearing_rate=bearing_rate,
-            closing_speed=closing_speed,
-            age=age,
-            pose_in_map=pose_odometry_in_map.compose(
-                pose_template_in_odometry
-            ),
-            moving=moving,
-            obstacles_in_map=obstacles,
-            velocity=velocity,
+            now,
+            bearing,
+            distance,
+            self.limits,
+            bearing_rate,
+            closing_speed,
+            age,
+            pose_odometry_in_map.compose(pose),
+            moving,
+            obstacles,
+            velocity,
             spread=sighting.spread,
             map_error=map_error,
             identity=self.identity,

@@ -13,14 +13,7 @@ ORIGIN = Pose(0.0, 0.0, 0.0)
 
 
 class SeenOpponent(NamedTuple):
-    """Position of the opponent at one time, and the own pose then.
-
-    Attributes:
-        time: Time, in [s].
-        x: Position, in [m].
-        y: Likewise.
-        own: Own pose.
-    """
+    """Position [m] of the opponent at a time [s], and the own pose then."""
 
     time: float
     x: float
@@ -46,12 +39,9 @@ class OpponentTrack(NamedTuple):
     def note(
         self, time: float, position: tuple[float, float], own: Pose = ORIGIN
     ) -> "OpponentTrack":
-        """Return the track with a newer position, in [m].
+        """Return the track with a newer position [m] at a time [s].
 
-        Args:
-            time: Time of the sighting, in [s].
-            position: Position of the opponent (x, y).
-            own: Own pose then, for the rates of the line of sight.
+        The own pose is needed for the rates of the line of sight.
         """
         rows, oldest = self.rows, time - self.span * self.step
         first, last = 0, len(rows)
@@ -136,10 +126,6 @@ def track_of_steps(
     """Return the track of the opponent at each step, with this sighting.
 
     A sighting with a known variance is fused with the predicted position.
-
-    Args:
-        track: Track up to now; None for none.
-        knowledge: Knowledge with the sighting.
     """
     limits, time = knowledge.limits, knowledge.time - knowledge.age
     if track is None:

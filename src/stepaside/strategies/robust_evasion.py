@@ -162,7 +162,7 @@ class PlannedGame(NamedTuple):
         kept: Steps by which a new plan must survive longer than the rest of
             the last one.
         packed: Obstacles.
-        rules: Rules of the steps, and size of the search.
+        rules: Rules of the games, and size of the search.
     """
 
     models: tuple[PursuerModel, ...]
@@ -176,18 +176,15 @@ class PlannedGame(NamedTuple):
     def outcome(self, moves: Array) -> tuple[float, float]:
         """Return the steps that moves survive, and their least distance.
 
-        Returns:
-            Mean number of steps, by the weights of the models; and least
-            distance against any of them, in [m].
+        The number of steps is the mean by the weights of the models; the
+        distance is that against any of them, in [m].
         """
-        steps, least = zip(
-            *(
-                play_moves(start, moves, model, self.packed, self.rules)
-                for start, model in zip(self.starts, self.models, strict=True)
-            ),
-            strict=True,
-        )
-        return float(self.weights @ steps), min(least)
+        played = [
+            play_moves(start, moves, model, self.packed, self.rules)
+            for start, model in zip(self.starts, self.models, strict=True)
+        ]
+        steps, least = np.array(played).T
+        return float(self.weights @ steps), float(least.min())
 
     def plan(self, rest: Array) -> tuple[Array, float]:
         """Search the moves that survive longest against most models.
@@ -226,12 +223,7 @@ def planned_game(
 ) -> PlannedGame:
     """Return the game against the models that are plausible.
 
-    Args:
-        knowledge: Knowledge of the evader.
-        position: Position of the pursuer that was seen, in [m].
-        fit: Fit of the models.
-        assumed: Numbers of the models that are searched.
-        rules: Rules of the games.
+    The pursuer was seen at a position [m]; some models are searched.
     """
     weights = fit.weights()
     others = [n for n in range(len(MODELS)) if weights[n] and n not in assumed]
@@ -262,13 +254,7 @@ def planned_game(
 
 
 def approached(own: Pose, pursuer: Pose, turn: float) -> Pose:
-    """Return a pose of a pursuer that is nearer and turned.
-
-    Args:
-        own: Pose of the evader.
-        pursuer: Pose of the pursuer in the same frame.
-        turn: Change of its heading, in [rad].
-    """
+    """Return a pose of a pursuer that is nearer to a pose and turned."""
     sight = atan2(own.y - pursuer.y, own.x - pursuer.x)
     return Pose(
         pursuer.x + NEARER * cos(sight),
@@ -279,14 +265,7 @@ def approached(own: Pose, pursuer: Pose, turn: float) -> Pose:
 
 @lru_cache(maxsize=8)
 def actions_of(largest: float) -> Array:
-    """Return the actions of a step: turns while walking, or on the spot.
-
-    Args:
-        largest: Largest turn of a step, in [rad].
-
-    Returns:
-        Turn [rad] and speed factor of each. Shape (n, 2).
-    """
+    """Return turn [rad] and speed factor of each action. Shape (n, 2)."""
     walks = [(u, 1.0) for u in np.linspace(-largest, largest, TURNS)]
     spots = [(-largest, ON_THE_SPOT), (largest, ON_THE_SPOT)]
     return np.array(walks + spots)

@@ -10,7 +10,8 @@ from ..core.errors import StrategyError
 from ..core.poses import Array, Pose, rotate, wrap_angle
 from ..planning import Direction
 from .knowledge import STAND, Intent, Knowledge
-from .shield_course import Course, Trace, observed_course
+from .opponent_track import OpponentTrack, SeenOpponent
+from .shield_course import Course, observed_course
 from .shield_model import ShieldModel
 from .shield_settings import ShieldSettings
 from .shield_template import TemplatePoint
@@ -41,7 +42,7 @@ class ShieldMemory(NamedTuple):
 
     Attributes:
         inner: Memory of the strategy.
-        trace: Time [s] and position [m] of the opponent, the oldest first.
+        track: Positions of the opponent.
         course: Heading of the opponent; None until a window has passed.
         held: Motion that replaces decisions; None for none.
         time: Time of the last decision, in [s].
@@ -52,7 +53,7 @@ class ShieldMemory(NamedTuple):
     """
 
     inner: Any
-    trace: Trace = ()
+    track: OpponentTrack | None = None
     course: Course | None = None
     held: HeldMotion | None = None
     time: float = 0.0
@@ -117,14 +118,19 @@ class ShieldedStrategy:
             )
         if model.velocities is not None:
             own = Pose(*template.position, theta)
-        trace = _with_sighting(memory.trace, knowledge, model)
+        # No decision is taken while the robot halts.
+        span = TRACE + model.halting / model.window
+        track = memory.track or OpponentTrack(model.window, span, 0.0)
+        track = track.note(
+            knowledge.time - knowledge.age, knowledge.position_in_map
+        )
         person = self.shield
         memory = memory._replace(
             inner=inner,
-            trace=trace,
+            track=track,
             course=observed_course(
                 memory.course,
-                trace,
+                track.rows,
                 model.window,
                 (person.speed / person.turning_radius, person.sighting_error),
                 model.heading_error,
@@ -159,11 +165,11 @@ class ShieldedStrategy:
     ) -> tuple[Intent, ShieldMemory]:
         """Return the intent, or that of a motion in its place."""
         table, required = model.table(), model.required
-        course = memory.course
-        if course is None or not model.certifies(table):
+        course, track = memory.course, memory.track
+        if course is None or track is None or not model.certifies(table):
             # Unknown as yet; or contact can be forced from everywhere.
             return intent, memory._replace(held=None, guarded=False)
-        poses = relative_poses(own, memory.trace[-1], course, model)
+        poses = relative_poses(own, track.rows[-1], course, model)
         moving = knowledge.moving
         if intent.walks:
             follow = table.outcomes if moving else table.start_outcomes
@@ -176,7 +182,7 @@ class ShieldedStrategy:
                 error=min(pi, course.error + turn * model.halting)
             )
             value = table.halting_value(
-                relative_poses(own, memory.trace[-1], unseen, model),
+                relative_poses(own, track.rows[-1], unseen, model),
                 model.halting,
                 model.limits.stride,
             )
@@ -221,7 +227,7 @@ def shielded(strategy: Strategy, settings: ShieldSettings) -> Strategy:
 
 def relative_poses(
     own: Pose,
-    seen: tuple[float, float, float],
+    seen: SeenOpponent,
     course: Course,
     model: ShieldModel,
 ) -> Array:
@@ -229,7 +235,7 @@ def relative_poses(
 
     Args:
         own: Pose of the robot in the map.
-        seen: Time [s] and position [m] of the opponent when last seen.
+        seen: Last position of the opponent.
         course: Its heading.
         model: Model of the robot.
 
@@ -240,21 +246,10 @@ def relative_poses(
     rows = []
     for heading in course.headings(model.heading_error):
         c, s = cos(heading), sin(heading)
-        u, v = own.x - seen[1], own.y - seen[2]
+        u, v = own.x - seen.x, own.y - seen.y
         turned = wrap_angle(own.theta - heading)
         rows.append((c * u + s * v, c * v - s * u, turned))
     return np.array(rows)
-
-
-def _with_sighting(
-    trace: Trace, knowledge: Knowledge, model: ShieldModel
-) -> Trace:
-    """Add the position of the opponent to a trace, and forget old ones."""
-    time = knowledge.time - knowledge.age
-    # No decision is taken while the robot halts.
-    oldest = time - TRACE * model.window - model.halting
-    kept = (row for row in trace if oldest <= row[0] < time)
-    return (*kept, (time, *knowledge.position_in_map))
 
 
 def _intent_of(held: HeldMotion, model: ShieldModel, own: Pose) -> Intent:

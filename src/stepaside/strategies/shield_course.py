@@ -1,15 +1,14 @@
 """Heading of the opponent of a shield, from where it was seen."""
 
+from collections.abc import Sequence
 from math import asin, atan2, ceil, hypot, pi
 from typing import NamedTuple
 
 from ..core.poses import wrap_angle
+from .opponent_track import SeenOpponent
 
 LEAST_MOTION = 0.002  # between two sightings that show a heading, in [m]
 SPACING = 0.25  # of the headings of an opponent who stands, in [rad]
-
-Trace = tuple[tuple[float, float, float], ...]
-"""Time [s] and position [m] of an opponent, the oldest first."""
 
 
 class Course(NamedTuple):
@@ -38,7 +37,7 @@ class Course(NamedTuple):
 
 def observed_course(
     before: Course | None,
-    trace: Trace,
+    seen: Sequence[SeenOpponent],
     window: float,
     person: tuple[float, float],
     known: float,
@@ -52,7 +51,7 @@ def observed_course(
 
     Args:
         before: Heading at an earlier sighting; None for none.
-        trace: Positions, the last one at the present sighting.
+        seen: Positions, the last one at the present sighting.
         window: Least time between the ends of a chord, in [s].
         person: Greatest turning rate of the opponent, in [rad/s], and error
             of a position, in [m].
@@ -62,26 +61,31 @@ def observed_course(
         The heading; None before a window has passed for the first time.
     """
     turn, sighting_error = person
-    last = trace[-1]
-    turned = 0.0 if before is None else turn * max(0.0, last[0] - before.time)
-    earlier = [row for row in trace if row[0] <= last[0] - window + 1e-6]
+    last = seen[-1]
+    turned = (
+        0.0 if before is None else turn * max(0.0, last.time - before.time)
+    )
+    before_it = last.time - window + 1e-6
+    earlier = [row for row in seen if row.time <= before_it]
     if not earlier:
         if before is None:
             return None
-        return Course(last[0], before.heading, min(pi, before.error + turned))
-    time, x, y = earlier[-1]
-    chord = hypot(last[1] - x, last[2] - y)
+        return Course(
+            last.time, before.heading, min(pi, before.error + turned)
+        )
+    time, x, y, _ = earlier[-1]
+    chord = hypot(last.x - x, last.y - y)
     error, hidden = pi, 2.0 * sighting_error
     if chord > max(LEAST_MOTION, hidden):
-        error = min(pi, turn * (last[0] - time) + asin(hidden / chord))
+        error = min(pi, turn * (last.time - time) + asin(hidden / chord))
     error = max(error, known)
-    direction = atan2(last[2] - y, last[1] - x)
+    direction = atan2(last.y - y, last.x - x)
     if before is None:
-        return Course(last[0], direction, error)
+        return Course(last.time, direction, error)
     if error > before.error + turned:  # the chord shows less than is known
-        return Course(last[0], before.heading, before.error + turned)
+        return Course(last.time, before.heading, before.error + turned)
     off = wrap_angle(direction - before.heading)
     if error < before.error:
-        return Course(last[0], direction, error)
+        return Course(last.time, direction, error)
     heading = before.heading + min(max(off, -turned), turned)
-    return Course(last[0], heading, error)
+    return Course(last.time, heading, error)

@@ -54,8 +54,7 @@ def cached(
 def pursuit_bound(cells: int) -> "ValueTable":
     """Load or solve the bound against eqs. (1)-(2), with unit speed and gain.
 
-    Args:
-        cells: Number of cells of the table.
+    The table has a number of cells along each axis.
     """
     from ..theory.value import fixed_pursuit_game
 
@@ -80,9 +79,7 @@ def unit_cars() -> "CarGame":
 def pursuit_table(cells: int, unit: float) -> PursuitValues:
     """Return the table of :func:`pursuit_bound` for compiled loops.
 
-    Args:
-        cells: Number of cells of the table.
-        unit: Length unit, speed over gain, in [m].
+    The unit of length is speed over gain, in [m].
     """
     bound = pursuit_bound(cells)
     values = bound.values.astype(np.float32)

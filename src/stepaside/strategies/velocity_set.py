@@ -25,13 +25,7 @@ STILL = BodyVelocity()
 
 
 class AxisValues(NamedTuple):
-    """One value for each axis of a body velocity.
-
-    Attributes:
-        forward: Of the motion ahead.
-        lateral: Of the motion to the left.
-        turn: Of the turning.
-    """
+    """One value for each axis of a body velocity."""
 
     forward: float = 0.0
     lateral: float = 0.0
@@ -76,9 +70,6 @@ class VelocitySet(NamedTuple):
         A component that the legs do not deliver at all is left out. The
         others are scaled alike, so that direction and curvature of the path
         stay the same and it takes longer.
-
-        Args:
-            velocity: Any velocity.
         """
         share, relative, kept = 1.0, [], []
         for value, (low, high) in zip(velocity, self[:3], strict=True):
@@ -94,12 +85,7 @@ class VelocitySet(NamedTuple):
 
 
 def response_share(duration: float, lag: float) -> float:
-    """Return the share of a change of velocity that a duration brings.
-
-    Args:
-        duration: Duration, in [s].
-        lag: Time constant, in [s].
-    """
+    """Return the share of a change that a duration brings with a lag [s]."""
     return -expm1(-duration / lag) if lag > 0.0 else 1.0
 
 
@@ -109,18 +95,11 @@ def respond(
     lags: AxisValues,
     duration: float,
 ) -> BodyVelocity:
-    """Return the velocity of legs some time after a command.
+    """Return the velocity of legs a duration [s] after a command.
 
-    Args:
-        velocity: Velocity at the command.
-        command: The command.
-        lags: Time constant of each axis, in [s].
-        duration: Time since then, in [s].
+    Each axis approaches its command with its own time constant, in [s].
     """
-    shares = [response_share(duration, lag) for lag in lags]
+    axes = zip(velocity, command, lags, strict=True)
     return BodyVelocity(
-        *(
-            v + share * (c - v)
-            for v, c, share in zip(velocity, command, shares, strict=True)
-        )
+        *(v + response_share(duration, lag) * (c - v) for v, c, lag in axes)
     )

@@ -225,14 +225,7 @@ def expand_beam(
 
 @inlined
 def sort_ranks(ranks: Any, made: int, order: Any, firsts: Any) -> None:
-    """Write the order of falling ranks; equal ranks keep theirs.
-
-    Args:
-        ranks: Ranks of the states, in [m]. Shape (n,).
-        made: Number of states.
-        order: Output: numbers of the states. Shape (n,).
-        firsts: Working memory. Shape (GRAINS + 1,).
-    """
+    """Write the order of falling ranks; equal ranks keep theirs."""
     for g in range(len(firsts)):
         firsts[g] = 0
     for m in range(made):
@@ -270,7 +263,7 @@ def select_best(
         new: Successors.
         made: Number of successors.
         old: States that they come from. Shape (width, 9).
-        beam: Output: the states that go on. Shape (width, 9).
+        beam: Output: the states that go on, likewise.
         table: Working memory, a power of two long.
         chosen: Output: parent and action of each. Shape (width, 2).
     """

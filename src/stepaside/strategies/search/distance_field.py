@@ -1,11 +1,8 @@
 """Distance from obstacles in compiled loops, from a field of lower bounds.
 
-A search asks for the clearance at thousands of points, most of them far from
-all obstacles or in the same few places. So the plane is divided into cells.
-When a cell is first asked for, its clearance is bounded from below, and the
-obstacles that matter within it are listed: clearance changes by no more than
-the distance between two points, so the bound is the clearance at the centre
-minus half the diagonal of a cell. Where the bound does not suffice, the
+When a cell of the plane is first asked for, the obstacles that matter within
+it are listed, and its clearance is bounded from below: it is that at the
+centre less at most half the diagonal. Where the bound does not suffice, the
 listed obstacles give the exact distance.
 """
 
@@ -28,8 +25,7 @@ class DistanceField(NamedTuple):
         packed: All obstacles.
         enough: Largest distance of interest, in [m].
         x: Least x of the cells in the frame of the obstacles, in [m].
-        y: Least y of the cells in the same frame, in [m].
-        cell: Side of a cell, in [m].
+        y: Least y, likewise.
         bounds: Lower bound of the clearance in each cell, in [m]; NaN until
             it is asked for. Shape (columns, rows).
         nearby: Number of obstacles near each cell, -1 for more than 12, and
@@ -40,7 +36,6 @@ class DistanceField(NamedTuple):
     enough: float
     x: float
     y: float
-    cell: float
     bounds: Any
     nearby: Any
 
@@ -49,15 +44,9 @@ class DistanceField(NamedTuple):
 def distance_field(
     packed: PackedObstacles, enough: float, x: float, y: float, reach: float
 ) -> DistanceField:
-    """Return a field that is filled when it is used.
+    """Return a field around a point (x, y) that is filled when it is used.
 
-    Args:
-        packed: Obstacles.
-        enough: Largest distance of interest, in [m].
-        x: Centre of the cells in the frame of the obstacles, in [m].
-        y: Its other coordinate there, in [m].
-        reach: Half the side of the square of cells, in [m]; beyond it all
-            obstacles are measured.
+    Farther away than the reach all obstacles are measured. All in [m].
     """
     side = 2 * int(reach / CELL + 1.0)
     return DistanceField(
@@ -65,7 +54,6 @@ def distance_field(
         enough,
         x - 0.5 * side * CELL,
         y - 0.5 * side * CELL,
-        CELL,
         np.full((side, side), np.nan),
         np.empty((side, side, LISTED + 1), dtype=np.int64),
     )
@@ -113,16 +101,9 @@ def hull_clearance(
 def clearance_at(
     packed: PackedObstacles, x: float, y: float, enough: float
 ) -> float:
-    """Return the clearance of a point, measured to every obstacle.
+    """Return the signed distance of a point from the nearest obstacle.
 
-    Args:
-        packed: Obstacles.
-        x: Coordinate of the point in the frame of the obstacles, in [m].
-        y: Its other coordinate there, in [m].
-        enough: Largest distance of interest, in [m].
-
-    Returns:
-        Signed distance, negative inside, at most ``enough``, in [m].
+    It is negative inside, and at most ``enough``, in [m].
     """
     nearest = enough
     for k in range(packed.circles.shape[0]):
@@ -133,9 +114,8 @@ def clearance_at(
 @inlined
 def bound_cell(field: DistanceField, i: int, j: int) -> None:
     """Bound the clearance in a cell, and list the obstacles near it."""
-    x = field.x + (i + 0.5) * field.cell
-    y = field.y + (j + 0.5) * field.cell
-    half = field.cell * sqrt(0.5)
+    x, y = field.x + (i + 0.5) * CELL, field.y + (j + 0.5) * CELL
+    half = CELL * sqrt(0.5)
     limit = field.enough + half
     least, count = limit, 0
     for k in range(field.packed.circles.shape[0]):
@@ -143,19 +123,16 @@ def bound_cell(field: DistanceField, i: int, j: int) -> None:
         if clear < limit:
             least = min(least, clear)
             count += 1
-            if count < field.nearby.shape[2]:
+            if count <= LISTED:
                 field.nearby[i, j, count] = k
     field.bounds[i, j] = least - half
-    field.nearby[i, j, 0] = -1 if count >= field.nearby.shape[2] else count
+    field.nearby[i, j, 0] = -1 if count > LISTED else count
 
 
 @inlined
 def field_clearance(field: DistanceField, x: float, y: float) -> float:
-    """Return the clearance of a point in the frame of the obstacles.
-
-    See :func:`clearance_at`.
-    """
-    u, v = (x - field.x) / field.cell, (y - field.y) / field.cell
+    """Return the clearance of a point, as :func:`clearance_at`."""
+    u, v = (x - field.x) / CELL, (y - field.y) / CELL
     columns, rows = field.bounds.shape
     if not (0.0 <= u < columns and 0.0 <= v < rows):
         return clearance_at(field.packed, x, y, field.enough)
