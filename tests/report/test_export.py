@@ -212,7 +212,7 @@ def test_points_footsteps_and_strategy_are_those_of_the_run(
     landed = bag.topics["/evader/footsteps/landed"]
     assert 2 < len(landed) <= len(landings)
     planned = bag.topics["/evader/footsteps/planned"]
-    sole = 45  # points
+    sole = 48  # points
     assert all(m.width == 5 * sole for _, m in planned)
     assert [m.width for _, m in landed] == [
         sole * (n + 1) for n in range(len(landed))

@@ -11,7 +11,6 @@ from stepaside.cli.main import main
 from stepaside.core.errors import ConfigurationError
 from stepaside.games.run_archive import load_run
 from stepaside.games.run_captions import describe_state
-from stepaside.report.film import FilmSettings
 from stepaside.report.replay_page import (
     template,
     three_js,
@@ -95,25 +94,6 @@ def test_a_gif_moves(run: Path, tmp_path: Path) -> None:
     )
     assert code == 0
     assert image.open(file).n_frames == 6
-
-
-def test_frame_times_follow_from_rate_speed_and_duration() -> None:
-    settings = FilmSettings(rate=10.0, speed=2.0, begin=1.0, duration=4.0)
-    times = settings.frame_times(100.0)
-    assert times[0] == 1.0 and times[-1] == pytest.approx(5.0)
-    assert len(times) == 21
-    assert settings.frame_times(0.5) == []
-
-
-def test_a_comparison_is_drawn_and_its_file_reported(
-    run: Path, tmp_path: Path
-) -> None:
-    file = tmp_path / "both.png"
-    code, out, _ = invoke(
-        "show", str(run), str(run), "-o", str(file), "--json"
-    )
-    assert code == 0 and file.is_file()
-    assert str(file) in json.loads(out)["files"]
 
 
 def test_a_folder_without_a_run_is_refused(tmp_path: Path) -> None:

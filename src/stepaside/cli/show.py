@@ -293,11 +293,10 @@ def _announce(film: FilmSettings, run: "Run") -> None:
 
 def _render(run: Path, file: Path, film: FilmSettings) -> int:
     """Render a film with a progress bar; return the number of images."""
-    from ..report.film import write_gif, write_video
+    from ..report.film import write_film
 
-    write = write_video if file.suffix == ".mp4" else write_gif
     with show_progress("film", unit="frames") as bar:
-        return write(run, file, film, _counter(bar))
+        return write_film(run, file, film, _counter(bar))
 
 
 def _counter(bar: Any) -> Callable[[int, int], None]:

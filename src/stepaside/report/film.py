@@ -24,15 +24,16 @@ from ..sim.offscreen_rendering import (
     RenderQuality,
     choose_renderer,
 )
-from .film_camera import FilmCamera
+from .film_camera import HEIGHT, FilmCamera
 from .film_captions import caption
 from .film_layers import add_layers, aim_light
 from .film_settings import FilmSettings
-from .landed_footsteps import footsteps_in
+from .overlays import overlays_of
+from .palette import colours_in
 from .scene import RunScene
 
 CHUNK = 15  # images that one worker renders at a time
-TRAIL = 20.0  # duration of traces, in [s]
+PERIOD = 0.1  # between the points of a path, in [s]
 QUALITY = RenderQuality(samples=4, shadow=2048, slices=18, stacks=10)
 SHADOW_REACH = 4.0  # distance from the target at which they end, in [m]
 
@@ -45,7 +46,13 @@ class FilmRenderer:
         self._run = run
         self._settings = settings
         self._scene = RunScene(run)
-        self._footsteps = footsteps_in(run)
+        gap = float(run.times[1] - run.times[0]) if len(run.times) > 1 else 1.0
+        self._overlays = [
+            each
+            for each in overlays_of(run, max(1, round(PERIOD / gap)))
+            if each.layer != "ZMP trace"
+        ]
+        self._colours = colours_in("light", run.players, run.identities)
         model = self._scene.model
         _dim_lights(model)
         self._fovy = float(model.vis.global_.fovy)
@@ -65,30 +72,36 @@ class FilmRenderer:
         index = run.index_at(time)
         self._scene.put(index)
         view = self._camera.view(index)
+        now = float(run.times[index])
+        places = {n: track.torso[index] for n, track in run.tracks.items()}
+        overlays = self._overlays if settings.layers else []
 
         def add(scene: mujoco.MjvScene) -> None:
             aim_light(scene, view.target)
-            if settings.layers:
-                add_layers(
-                    scene,
-                    run=run,
-                    footsteps=self._footsteps,
-                    index=index,
-                    trail=TRAIL,
-                )
+            add_layers(scene, overlays, now, places, self._colours)
 
         with hidden_walls(self._scene.model, view.eye):
             image = self._renderer.draw(self._scene.data, view.camera(), add)
-        if settings.captions:
-            image = caption(
-                image,
-                run,
-                index,
-                view=view,
-                fovy=self._fovy,
-                speed=settings.speed,
-            )
-        return image
+        if not settings.captions:
+            return image
+        labels = []
+        for name, colour in self._colours.items():
+            track = run.tracks[name]
+            top = max(HEIGHT, 1.9 * float(track.com[index, 2]))
+            labels.append((name, np.array([*places[name][:2], top]), colour))
+        for own in overlays:
+            if own.label:
+                at = own.label_place(own.shown(now, places))
+                colour = own.colour("light", self._colours)
+                labels.append((own.label, at, colour))
+        return caption(
+            image,
+            run,
+            index,
+            labels,
+            partial(view.project, fovy=self._fovy),
+            settings.speed,
+        )
 
     def close(self) -> None:
         """Release the graphics."""
@@ -203,13 +216,13 @@ def render_images(
             yield from images
 
 
-def write_video(
+def write_film(
     folder: Path,
     file: Path,
     settings: FilmSettings,
     report: Callable[[int, int], None] | None = None,
 ) -> int:
-    """Write a film as H.264, which browsers can play.
+    """Write a film: H.264, which browsers can play, or a GIF by its suffix.
 
     Args:
         folder: Run folder.
@@ -224,77 +237,68 @@ def write_video(
         ConfigurationError: As in :func:`render_images`.
         OutputError: If the file cannot be written.
     """
+    number = len(settings.frame_times(float(load_run(folder).times[-1])))
+    done = 0
+
+    def images() -> Iterator[Pixels]:
+        nonlocal done
+        for picture in render_images(folder, settings):
+            yield picture
+            done += 1
+            if report is not None:
+                report(done, number)
+
+    write = _write_gif if file.suffix == ".gif" else _write_video
+    write(file, settings, images())
+    return done
+
+
+def _write_video(
+    file: Path, settings: FilmSettings, images: Iterator[Pixels]
+) -> None:
+    """Write a film as H.264.
+
+    Raises:
+        OutputError: If the file cannot be written.
+    """
     import av
 
-    last = float(load_run(folder).times[-1])
-    number = len(settings.frame_times(last))
-    done = 0
+    options = {"movflags": "faststart"}
+    rate = Fraction(settings.rate).limit_denominator(1000)
     with atomic_draft(file) as draft:
         try:
-            with av.open(
-                str(draft), "w", options={"movflags": "faststart"}
-            ) as out:
-                rate = Fraction(settings.rate).limit_denominator(1000)
+            with av.open(str(draft), "w", options=options) as out:
                 stream = out.add_stream("libx264", rate=rate)
                 stream.width, stream.height = settings.width, settings.height
                 stream.pix_fmt = "yuv420p"
                 stream.options = {"crf": "23", "preset": "veryfast"}
-                for picture in render_images(folder, settings):
+                for picture in images:
                     frame = av.VideoFrame.from_ndarray(picture, format="rgb24")
                     out.mux(stream.encode(frame))
-                    done += 1
-                    if report is not None:
-                        report(done, number)
                 out.mux(stream.encode(None))
         except av.FFmpegError as error:
             raise OutputError(
                 f"{file} could not be written: {reason_of(error)}"
             ) from error
-    return done
 
 
-def write_gif(
-    folder: Path,
-    file: Path,
-    settings: FilmSettings,
-    report: Callable[[int, int], None] | None = None,
-) -> int:
-    """Write a short film as GIF.
-
-    Args:
-        folder: Run folder.
-        file: Film to write; it appears when it is complete.
-        settings: Settings of the film.
-        report: Called with the numbers of finished and of all images.
-
-    Returns:
-        Number of images.
-
-    Raises:
-        ConfigurationError: As in :func:`render_images`.
-        OutputError: If the file cannot be written.
-    """
+def _write_gif(
+    file: Path, settings: FilmSettings, images: Iterator[Pixels]
+) -> None:
+    """Write a short film as GIF."""
     from PIL import Image
 
-    last = float(load_run(folder).times[-1])
-    number = len(settings.frame_times(last))
-    frames = []
-    for picture in render_images(folder, settings):
-        image = Image.fromarray(picture)
-        frames.append(image.quantize(64, dither=Image.Dither.NONE))
-        if report is not None:
-            report(len(frames), number)
+    first, *others = (
+        Image.fromarray(each).quantize(64, dither=Image.Dither.NONE)
+        for each in images
+    )
     with atomic_draft(file) as draft:
-        frames[0].save(
+        first.save(
             draft,
             format="GIF",
             save_all=True,
-            append_images=frames[1:],
+            append_images=others,
             duration=round(1000.0 / settings.rate),
             loop=0,
             optimize=True,
         )
-    return len(frames)
-
-
-__all__ = ["FilmSettings", "render_images", "write_gif", "write_video"]

@@ -1,5 +1,6 @@
-"""Text in films: names of players and rings, time, distance and state."""
+"""Text in films: labels, time, distance and state."""
 
+from collections.abc import Callable, Iterable
 from functools import cache
 from pathlib import Path
 from typing import Any
@@ -10,15 +11,12 @@ from ..core.poses import Array
 from ..games.run import Run
 from ..games.run_captions import describe_state
 from ..perception.images import Pixels
-from .film_camera import HEIGHT, CameraView
-from .palette import PALETTES, colours_in
+from .palette import PALETTES
 from .text_escaping import visible
 
 MIN_HEIGHT = 240  # of an image with legible text, in [pixels]
 FONT_SIZE = 1.0 / 30.0  # fraction of the height of an image
 LIGHT = PALETTES["light"]
-# Direction of a ring's label from its center: to the right of the image.
-LABEL_DIRECTION = 0.87, -0.5
 
 
 @cache
@@ -34,19 +32,19 @@ def caption(
     picture: Pixels,
     run: Run,
     index: int,
-    *,
-    view: CameraView,
-    fovy: float,
+    labels: Iterable[tuple[str, Array, str]],
+    project: Callable[[Array], tuple[float, float] | None],
     speed: float,
 ) -> Pixels:
-    """Write names above players and rings; time, distance and state below.
+    """Write labels at their places; time, distance and state below.
 
     Args:
         picture: Image of a sample. Shape (height, width, 3).
         run: The run.
         index: Sample that is shown.
-        view: Camera.
-        fovy: Vertical field of view, in [deg].
+        labels: Text, position in the world [m] and colour of each label.
+        project: Function that returns the image of a point, in half heights
+            from the center.
         speed: Time of the run per time of the film.
 
     Returns:
@@ -60,22 +58,12 @@ def caption(
     size = round(FONT_SIZE * height)
     image = Image.fromarray(picture)
     pen = ImageDraw.Draw(image, "RGBA")
-    for name, colour in colours_in(
-        "light", run.players, run.identities
-    ).items():
-        position = run.tracks[name].torso[index, :2]
-        top = max(HEIGHT, 1.9 * float(run.tracks[name].com[index, 2]))
-        projected = view.project(np.array([*position, top]), fovy)
+    for text, point, colour in labels:
+        projected = project(point)
         if projected is not None:
             x = 0.5 * width + 0.5 * height * projected[0]
             y = 0.5 * height * (1.0 - projected[1])
-            draw_label(pen, name, (x, y), colour, size)
-    for text, point, colour in ring_labels(run, index):
-        projected = view.project(point, fovy)
-        if projected is not None:
-            x = 0.5 * width + 0.5 * height * projected[0]
-            y = 0.5 * height * (1.0 - projected[1]) + 0.6 * size
-            draw_label(pen, text, (x, y), colour, round(0.9 * size))
+            draw_label(pen, text, (x, y), colour, size)
     values = f"{run.times[index]:.1f} s"
     if run.pair is not None:
         least = "least distance" if len(run.opponents) > 1 else "distance"
@@ -93,29 +81,6 @@ def caption(
         state = state[:-2].rstrip(" .") + "\u2026" if len(state) > 3 else ""
     pen.text((width - size, baseline), state, LIGHT.ink, _font(size), "rm")
     return np.asarray(image)
-
-
-def ring_labels(run: Run, index: int) -> list[tuple[str, Array, str]]:
-    """Return text, position in the world and colour of each ring's label.
-
-    Args:
-        run: The run.
-        index: Sample that is shown.
-    """
-    labels = []
-    dx, dy = LABEL_DIRECTION
-    for player, radius in run.safety_areas:
-        x, y = run.tracks[player].torso[index, :2].tolist()
-        colour = colours_in("light", run.players, run.identities)[player]
-        position = np.array([x + radius * dx, y + radius * dy, 0.0])
-        labels.append((f"safety radius {radius:.2g} m", position, colour))
-    circle = run.circle
-    if circle is not None:
-        x, y, radius = circle
-        position = np.array([x - radius * dx, y - radius * dy, 0.0])
-        text = f"theoretical circle, radius {radius:.2g} m"
-        labels.append((text, position, LIGHT.theory))
-    return labels
 
 
 def draw_label(

@@ -48,13 +48,12 @@ LAYERS = {
     ),
     "pushes": Layer("magenta arrow, for 1 s after each push", 0.3, "pushed"),
 }
-EARLY = 0.5  # time before its landing at which a footstep appears, in [s]
 PUSH_LENGTH = 0.25  # of an arrow, in [m] per [N s]
 PUSH_SHOWN = 1.0  # time for which an arrow is shown, in [s]
 NO_SEGMENTS = np.zeros((0, 2, 2))
 
 
-class LineOverlay(NamedTuple):
+class SceneLines(NamedTuple):
     """Lines of one layer and one owner.
 
     Attributes:
@@ -110,6 +109,12 @@ class LineOverlay(NamedTuple):
         height = np.full((len(flat), 2, 1), LAYERS[self.layer].height)
         return np.concatenate([flat, height], axis=2)
 
+    def label_place(self, segments: Array) -> Array:
+        """Return where its label stands beside its ring. Shape (3,)."""
+        eighths = 7 if self.follows else 3
+        place: Array = segments[eighths * len(segments) // 8, 0]
+        return place
+
 
 def polyline(points: Array, *, closed: bool = False) -> Array:
     """Return the segments of a polyline. Shape (n, 2, 2).
@@ -133,9 +138,9 @@ def ring(x: float, y: float, radius: float) -> Array:
     )
 
 
-def safety_ring(player: str, radius: float) -> LineOverlay:
+def safety_ring(player: str, radius: float) -> SceneLines:
     """Return the ring of a safety radius, in [m], around a player."""
-    return LineOverlay(
+    return SceneLines(
         "safety radius",
         player,
         ring(0.0, 0.0, radius),
@@ -144,17 +149,17 @@ def safety_ring(player: str, radius: float) -> LineOverlay:
     )
 
 
-def theory_ring(x: float, y: float, radius: float) -> LineOverlay:
+def theory_ring(x: float, y: float, radius: float) -> SceneLines:
     """Return the circle of theory, all in [m]."""
     label = f"theoretical circle {radius:.2f} m"
     segments = ring(x, y, radius)
-    return LineOverlay("theoretical circle", "", segments, label=label)
+    return SceneLines("theoretical circle", "", segments, label=label)
 
 
-def line_of_sight(one: str, other: str) -> LineOverlay:
+def line_of_sight(one: str, other: str) -> SceneLines:
     """Return the line between two players."""
     name, both = f"{one}-{other}", (one, other)
-    return LineOverlay("line of sight", name, NO_SEGMENTS, follows=both)
+    return SceneLines("line of sight", name, NO_SEGMENTS, follows=both)
 
 
 def soles(rows: Array, sole: SoleRectangle) -> Array:
@@ -172,7 +177,7 @@ def soles(rows: Array, sole: SoleRectangle) -> Array:
     return np.concatenate([NO_SEGMENTS, *outlines])
 
 
-def push_arrows(player: str, pushes: Array) -> LineOverlay:
+def push_arrows(player: str, pushes: Array) -> SceneLines:
     """Return arrows that end where pushes act.
 
     Args:
@@ -190,10 +195,10 @@ def push_arrows(player: str, pushes: Array) -> LineOverlay:
         )
     times = np.repeat(pushes[:, 0], 3)
     segments = np.concatenate(arrows)
-    return LineOverlay("pushes", player, segments, times, PUSH_SHOWN)
+    return SceneLines("pushes", player, segments, times, PUSH_SHOWN)
 
 
-def overlays_of(run: Run, every: int = 1) -> list[LineOverlay]:
+def overlays_of(run: Run, every: int = 1) -> list[SceneLines]:
     """Return all that lies over the scene of a run.
 
     Args:
@@ -213,14 +218,14 @@ def overlays_of(run: Run, every: int = 1) -> list[LineOverlay]:
             segments = polyline(points[::every, :2])
             known = np.isfinite(segments).all(axis=(1, 2))
             found.append(
-                LineOverlay(layer, name, segments[known], times[1:][known])
+                SceneLines(layer, name, segments[known], times[1:][known])
             )
         steps = landed[name]
         if len(steps):
             sole = run.settings.robot_of(name).gait.sole
             outlines = soles(steps[:, 1:], sole)
-            since = np.repeat(steps[:, 0] - EARLY, 4)
-            found.append(LineOverlay("footsteps", name, outlines, since))
+            landed_at = np.repeat(steps[:, 0], 4)
+            found.append(SceneLines("footsteps", name, outlines, landed_at))
         if track.pushes is not None:
             found.append(push_arrows(name, track.pushes))
     found += [safety_ring(*area) for area in run.safety_areas]

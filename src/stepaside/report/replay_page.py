@@ -5,9 +5,11 @@ import zipfile
 from base64 import b64encode
 from functools import cache
 from importlib.resources import files
+from math import isfinite
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from ..core.atomic_output import atomic_draft
 from ..core.errors import AnyPath, ConfigurationError, as_path
@@ -16,7 +18,7 @@ from ..games.run import Run
 from ..games.run_captions import describe_state
 from ..robots.description import load_robot
 from .cycle_means import whole_cycles
-from .landed_footsteps import footsteps_in
+from .overlays import LAYERS, overlays_of
 from .palette import PALETTES, colours_in
 from .scene import RunScene, wall_corners
 from .text_escaping import fill_page, visible
@@ -104,44 +106,63 @@ def page_data(run: Run) -> dict[str, Any]:
     distinct = list(dict.fromkeys(messages))
     low, high = _extent(run)
     heights = BodyHeights(geoms)
-    sole = run.settings.gait.sole
-    theory, circle = run.theory, run.circle
-    footsteps = footsteps_in(run)
-    distance = run.distance if run.pair is not None else None
-    angle = run.orientation if run.has_orientation else None
+    colours = {
+        theme: colours_in(theme, run.players, run.identities)
+        for theme in PALETTES
+    }
+    every = int(samples[1] - samples[0]) if len(samples) > 1 else 1
+    measured = {
+        "distance": run.distance if run.pair is not None else None,
+        "angle": run.orientation if run.has_orientation else None,
+    }
+    cycle = run.settings.cycle
     return {
         "times": np.round(run.times[samples], 3).tolist(),
-        "positions": b64encode(positions.tobytes()).decode("ascii"),
-        "quaternions": b64encode(quaternions.tobytes()).decode("ascii"),
+        "positions": _packed(positions),
+        "quaternions": _packed(quaternions),
         "bodies": bodies,
         "parts": [geom.to_json() for geom in geoms],
         "palettes": {n: p._asdict() for n, p in PALETTES.items()},
-        "sole": [sole.back, sole.front, -sole.inner, sole.outer],
         "players": [
-            _player_data(run, scene, name, samples, heights)
-            | {"landings": _rows(footsteps[name])}
+            {
+                "name": name,
+                "torso": _torso_of(run, scene, name),
+                "label_height": _height_over_torso(run, scene, name, heights),
+                "colours": {theme: colours[theme][name] for theme in colours},
+            }
             for name in run.players
         ],
         "pair": [run.players.index(name) for name in run.opponents[0]]
         if run.opponents
         else None,
-        "sights": [
-            [run.players.index(name) for name in pair]
-            for pair in run.lines_of_sight
+        "overlays": [
+            {
+                "layer": own.layer,
+                "meaning": LAYERS[own.layer].meaning,
+                "height": LAYERS[own.layer].height,
+                "label": own.label,
+                "colours": {
+                    theme: own.colour(theme, colours[theme])
+                    for theme in colours
+                },
+                "segments": _packed(own.segments.astype("<f4")),
+                "times": own.times is not None
+                and _packed(own.times.astype("<f4")),
+                "lasting": own.lasting if isfinite(own.lasting) else None,
+                "follows": [run.players.index(name) for name in own.follows],
+            }
+            for own in overlays_of(run, every)
         ],
-        "distance": _series(distance, samples, 3),
-        "angle": _series(angle, samples, 1),
-        "means": {
-            "distance": _means(run, distance, samples, 3),
-            "angle": _means(run, angle, samples, 1),
+        **{
+            name: _series(values, samples) for name, values in measured.items()
         },
-        "theory": theory and list(theory),
-        "circle": circle and [round(v, 3) for v in circle],
+        "means": {
+            name: values is not None
+            and _series(whole_cycles(values, run.times, cycle), samples)
+            for name, values in measured.items()
+        },
+        "theory": run.theory and list(run.theory),
         "safety": run.safety and run.safety.radius,
-        "safeties": [
-            [run.players.index(own.player), own.radius]
-            for own in run.safety_areas
-        ],
         "messages": distinct,
         "message_index": [distinct.index(text) for text in messages],
         "center": np.round(0.5 * (low + high), 3).tolist(),
@@ -150,44 +171,25 @@ def page_data(run: Run) -> dict[str, Any]:
     }
 
 
-def _means(
-    run: Run, values: Array | None, samples: np.ndarray, digits: int
-) -> list[float | None] | None:
-    """Return means over whole gait cycles; None where there is none."""
-    if values is None:
-        return None
-    period = run.settings.cycle
-    return _series(whole_cycles(values, run.times, period), samples, digits)
+def _packed(values: NDArray[Any]) -> str:
+    """Return numbers of a page's own types as text."""
+    return b64encode(values.tobytes()).decode("ascii")
 
 
-def _player_data(
-    run: Run,
-    scene: RunScene,
-    name: str,
-    samples: np.ndarray,
-    heights: BodyHeights,
-) -> dict[str, Any]:
-    """Return what the page shows of one player."""
-    track, body = run.tracks[name], _torso_of(run, scene, name)
+def _height_over_torso(
+    run: Run, scene: RunScene, name: str, heights: BodyHeights
+) -> float:
+    """Return the height of a player's label over its torso, in [m]."""
     scene.put(0)
+    data = scene.data
     own = [
         i
         for i in range(scene.model.nbody)
         if scene.model.body(i).name.startswith(f"{name}/")
     ]
-    top = heights.highest(own, scene.data.xpos, scene.data.xquat)
-    above_torso = float(top - scene.data.xpos[body, 2])
-    return {
-        "name": name,
-        "torso": body,
-        "label_height": round(above_torso + LABEL_GAP, 3),
-        "trace": np.round(track.com[samples, :2], 3).tolist(),
-        "pushes": _rows(track.pushes),
-        "colours": {
-            theme: colours_in(theme, run.players, run.identities)[name]
-            for theme in PALETTES
-        },
-    }
+    top = heights.highest(own, data.xpos, data.xquat)
+    torso = float(data.xpos[_torso_of(run, scene, name), 2])
+    return round(top - torso + LABEL_GAP, 3)
 
 
 def _torso_of(run: Run, scene: RunScene, name: str) -> int:
@@ -208,25 +210,17 @@ def _extent(run: Run) -> tuple[Array, Array]:
     return points.min(axis=0), points.max(axis=0)
 
 
-def _rows(table: Array | None) -> list[list[float]]:
-    """Return rows of footsteps or pushes, rounded; empty for None."""
-    if table is None:
-        return []
-    rows: list[list[float]] = np.round(table, 3).tolist()
-    return rows
-
-
 def _series(
-    values: Array | None, samples: np.ndarray, digits: int
+    values: Array | None, samples: NDArray[np.int64]
 ) -> list[float | None] | None:
     """Return the values at the samples shown; None where not finite."""
     if values is None:
         return None
-    shown = values[samples].tolist()
-    return [round(v, digits) if np.isfinite(v) else None for v in shown]
+    shown = np.round(values[samples], 3).tolist()
+    return [value if isfinite(value) else None for value in shown]
 
 
-def _samples_shown(times: Array) -> np.ndarray:
+def _samples_shown(times: Array) -> NDArray[np.int64]:
     """Return the samples that are shown: evenly spaced, and the last one."""
     if len(times) < 2:
         return np.arange(len(times))

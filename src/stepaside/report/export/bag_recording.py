@@ -15,10 +15,11 @@ import numpy as np
 
 from ...core.poses import Array, Pose
 from ...games.replayed_signals import RobotSignals
+from ...games.run import Run
 from ...perception.images import ColourImage
 from ...robots.head import depth_camera_name
 from ...robots.urdf_elements import IMU, OPTICAL
-from ..landed_footsteps import landed_footsteps
+from ..overlays import overlays_of, soles
 from .bag_messages import MessageFactory, nanoseconds
 from .recorded_transforms import (
     base_poses,
@@ -29,8 +30,15 @@ from .recording import Recording, RobotModel, foot_wrenches
 from .room_model import RoomModel
 
 MAP = "map"
-GRID = 9, 5  # points of a sole, along and across
+DOTS = 12  # points of a segment
 LANDED = 40  # soles that are shown at once
+# Layers that are clouds of points, with their topics.
+TOPICS = {
+    "footsteps": "footsteps/landed",
+    "pushes": "pushes",
+    "safety radius": "safety_radius",
+    "theoretical circle": "theoretical_circle",
+}
 POINTS = ("com", "com_reference", "zmp", "zmp_reference")
 
 
@@ -142,6 +150,7 @@ def messages_of(
     )
     events = [m for player in players for m in player.events()]
     events += room.description(first)
+    events += overlay_messages(run, factory)
     events.sort(key=lambda event: event.time)
     pending = iter(events)
     event = next(pending, None)
@@ -163,6 +172,46 @@ TF = "tf2_msgs/msg/TFMessage"
 POSE = "geometry_msgs/msg/PoseStamped"
 CLOUD = "sensor_msgs/msg/PointCloud2"
 NUMBER = "std_msgs/msg/Float64"
+
+
+def overlay_messages(
+    run: Run, factory: MessageFactory
+) -> Iterator[TopicMessage]:
+    """Yield what lies over the scene as clouds of points.
+
+    Paths and lines of sight are left out, which programs draw from frames.
+    """
+    first = float(run.times[0])
+    for overlay in overlays_of(run):
+        name = TOPICS.get(overlay.layer)
+        if name is None:
+            continue
+        topic = "/".join(["", overlay.owner, name]).replace("//", "/")
+        frame = "".join(f"{own}/base_footprint" for own in overlay.follows)
+        times = [first]
+        if overlay.times is not None:
+            times = sorted({*overlay.times.tolist()})
+        for number, time in enumerate(times, 1):
+            shown = overlay.segments
+            if overlay.times is not None:
+                oldest = times[max(0, number - LANDED)]
+                at = overlay.times
+                shown = shown[(at >= oldest) & (at <= time)]
+            header = factory.header(time, frame or MAP)
+            cloud = factory.points(header, dotted(shown))
+            yield TopicMessage(time, topic, CLOUD, cloud, stays=True)
+
+
+def dotted(segments: Array) -> Array:
+    """Return points along segments on the floor. Shape (m, 3).
+
+    Args:
+        segments: Start and end (x, y), in [m]. Shape (n, 2, 2).
+    """
+    share = np.linspace(0.0, 1.0, DOTS, endpoint=False)[:, None]
+    along = segments[:, None, 0] * (1.0 - share) + segments[:, None, 1] * share
+    flat = along.reshape(-1, 2)
+    return np.column_stack([flat, np.zeros(len(flat))])
 
 
 class RoomTopics:
@@ -373,43 +422,19 @@ class PlayerTopics:
             topic, kind = self._topic("robot_description"), TEXT
             message = make.text(_with_prefix(self._model.urdf, self._name))
             found.append(TopicMessage(first, topic, kind, message, stays=True))
-            found += self._footsteps(self._model)
+            found += self._plans()
         for time, phase in self._signals.phases:
             topic, message = self._topic("phase"), make.text(phase)
             found.append(TopicMessage(time, topic, TEXT, message, stays=True))
         return found + list(self._images())
 
-    def _footsteps(self, model: RobotModel) -> Iterator[TopicMessage]:
-        """Yield the soles of each plan, and those that have landed."""
-        make, track = self._factory, self._track
-        assert track.qpos is not None
-        topic = self._topic("footsteps/planned")
+    def _plans(self) -> Iterator[TopicMessage]:
+        """Yield the soles of each plan."""
+        make, topic = self._factory, self._topic("footsteps/planned")
         for plan in self._signals.plans:
-            header = make.header(plan.time, MAP)
-            cloud = make.points(header, self._soles(plan.footsteps))
+            outlines = soles(plan.footsteps, self._sole)
+            cloud = make.points(make.header(plan.time, MAP), dotted(outlines))
             yield TopicMessage(plan.time, topic, CLOUD, cloud)
-        if track.landings is None:
-            return
-        topic = self._topic("footsteps/landed")
-        rows = landed_footsteps(model.description, self._times, track)
-        for number, time in enumerate(rows[:, 0].tolist(), 1):
-            last = rows[max(0, number - LANDED) : number, 1:]
-            cloud = make.points(make.header(time, MAP), self._soles(last))
-            yield TopicMessage(time, topic, CLOUD, cloud)
-
-    def _soles(self, rows: Array) -> Array:
-        """Return points of soles: rows (side, x, y, heading).
-
-        Shape (n, 3), in ``map``.
-        """
-        sole = self._sole
-        ahead = np.linspace(sole.back, sole.front, GRID[0])
-        outward = np.linspace(-sole.inner, sole.outer, GRID[1])
-        u, v = (part.ravel() for part in np.meshgrid(ahead, outward))
-        side, x, y, heading = (part[:, None] for part in rows.T)
-        c, s = np.cos(heading), np.sin(heading)
-        found = [x + c * u - s * side * v, y + s * u + c * side * v]
-        return np.stack([*found, np.zeros_like(found[0])], -1).reshape(-1, 3)
 
     def _images(self) -> Iterator[TopicMessage]:
         """Yield images with their calibration."""

@@ -1,9 +1,11 @@
-/* Index of the last sample at or before a time, in [s]. */
-function sampleAt(times, time) {
-  let a = 0, b = times.length - 1;
-  while (a < b) { const m = (a + b + 1) >> 1; if (times[m] <= time) a = m; else b = m - 1; }
+/* Number of ascending times up to a time, in [s]. */
+function countUntil(times, time) {
+  let a = 0, b = times.length;
+  while (a < b) { const m = (a + b) >> 1; if (times[m] <= time) a = m + 1; else b = m; }
   return a;
 }
+/* Index of the last sample at or before a time, in [s]. */
+const sampleAt = (times, time) => Math.max(0, countUntil(times, time) - 1);
 
 /* Plot over time with ticks at round numbers; a click seeks to that time. */
 function makePlot(canvas, run, values, means, options, seek) {

@@ -72,110 +72,28 @@ function makeScene(run, canvas, context) {
     (body < 0 ? world : bodies[body]).add(mesh);
   }
 
-  /* Corners of the two triangles of a straight part of a ribbon. */
-  function stripe([ax, ay], [bx, by], width, height) {
-    const length = Math.hypot(bx - ax, by - ay) || 1;
-    const nx = -0.5 * width * (by - ay) / length, ny = 0.5 * width * (bx - ax) / length;
-    return [ax + nx, ay + ny, height, ax - nx, ay - ny, height,
-      bx + nx, by + ny, height, bx + nx, by + ny, height,
-      ax - nx, ay - ny, height, bx - nx, by - ny, height];
-  }
-
-  /* Flat ribbon through points (x, y); a prefix of its triangles draws a prefix of the path. */
-  function ribbon(points, width, height, closed) {
-    const all = closed ? [...points, points[0]] : points;
-    const corners = [];
-    for (let i = 0; i + 1 < all.length; i++) corners.push(...stripe(all[i], all[i + 1], width, height));
-    const strip = new THREE.BufferGeometry();
-    strip.setAttribute("position", new THREE.Float32BufferAttribute(corners, 3));
-    strip.computeBoundingSphere();
-    return strip;
-  }
-
-  /* Materials whose colour depends on the theme: [material, player or palette name]. */
-  const themed = [];
-  function line(geometry, name, opacity) {
-    const material = new THREE.MeshBasicMaterial({ side: THREE.DoubleSide,
-      transparent: opacity < 1, opacity, depthWrite: opacity === 1 });
-    themed.push([material, name]);
-    const mesh = new THREE.Mesh(geometry, material);
-    world.add(mesh);
-    return mesh;
-  }
-
-  const circle = (x, y, r, n) => Array.from({ length: n }, (_, i) => [
-    x + r * Math.cos(2 * Math.PI * i / n), y + r * Math.sin(2 * Math.PI * i / n)]);
-
-  /* Arrow of a push: its tip is where the push acts; 0.25 m of length per [N s]. */
-  function pushArrow([time, , x, y, ix, iy]) {
-    const length = Math.max(0.12, 0.25 * Math.hypot(ix, iy));
-    const shaft = line(new THREE.CylinderGeometry(0.012, 0.012, length - 0.08, 12)
-      .translate(0, -0.5 * length - 0.04, 0), "pushed", 1);
-    const head = line(new THREE.ConeGeometry(0.035, 0.08, 16).translate(0, -0.04, 0), "pushed", 1);
-    const arrow = new THREE.Group();
-    arrow.add(shaft, head);
-    arrow.position.set(x, y, 0.3);
-    arrow.rotation.z = Math.atan2(iy, ix) - Math.PI / 2;
-    /* The group is switched with its layer, the arrow with time. */
-    const group = new THREE.Group();
-    group.add(arrow);
-    world.add(layer("pushes", group));
-    return { time, arrow };
-  }
-
-  function printPose([, side, x, y, heading]) {
-    const c = Math.cos(heading), s = Math.sin(heading);
-    return new THREE.Matrix4().set(c, -s * side, 0, x, s, c * side, 0, y, 0, 0, 1, 0.003, 0, 0, 0, 1);
-  }
-
-  const layers = {};
-  const layer = (name, mesh) => { (layers[name] = layers[name] || []).push(mesh); return mesh; };
-  const players = run.players.map((player, number) => {
-    const drawn = { body: run.bodies.indexOf(player.torso), landings: player.landings };
-    drawn.trace = layer("traces", line(
-      ribbon(player.trace, 0.014, 0.006, false), number, 1));
-    drawn.trace.frustumCulled = false;
-    const [back, front, right, left] = run.sole;
-    const prints = new THREE.InstancedMesh(
-      new THREE.PlaneGeometry(front - back, left - right)
-        .translate(0.5 * (front + back), 0.5 * (left + right), 0),
-      new THREE.MeshBasicMaterial({ transparent: true, opacity: 0.3,
-        side: THREE.DoubleSide, depthWrite: false }), Math.max(1, player.landings.length, run.footprints || 0));
-    themed.push([prints.material, number]);
-    player.landings.forEach((landing, i) => prints.setMatrixAt(i, printPose(landing)));
-    prints.count = 0;
-    prints.frustumCulled = false;
-    world.add(prints);
-    drawn.prints = run.footprints || player.landings.length ? layer("footsteps", prints) : prints;
-    drawn.pushes = player.pushes.map(pushArrow);
-    return drawn;
-  });
-  const guarded = run.safeties.map(([number, radius]) => {
-    const dashes = new THREE.Group();
-    const points = circle(0, 0, radius, 96);
-    for (let i = 0; i < 96; i += 3) {
-      const dash = [points[i], points[i + 1], points[(i + 2) % 96]];
-      dashes.add(line(ribbon(dash, 0.012, 0.008, false), number, 1));
+  /* Lines over the scene: a flat bar for each segment, in the order of their times. */
+  const BAR = 0.008, layers = {};
+  const overlays = run.overlays.map((own) => {
+    const ends = new Float32Array(decode(own.segments)), corners = [];
+    for (let i = 0; i < ends.length; i += 4) {
+      const [ax, ay, bx, by] = ends.subarray(i, i + 4), length = Math.hypot(bx - ax, by - ay) || 1;
+      const nx = -0.5 * BAR * (by - ay) / length, ny = 0.5 * BAR * (bx - ax) / length;
+      const a = [ax + nx, ay + ny, 0], b = [ax - nx, ay - ny, 0];
+      const c = [bx + nx, by + ny, 0], d = [bx - nx, by - ny, 0];
+      corners.push(...a, ...b, ...c, ...c, ...b, ...d);
     }
-    world.add(dashes);
-    return [players[number], layer("safety radius", dashes)];
+    const bars = new THREE.BufferGeometry();
+    bars.setAttribute("position", new THREE.Float32BufferAttribute(corners, 3));
+    const rod = new THREE.CylinderGeometry(0.004, 0.004, 1, 8).rotateX(Math.PI / 2);
+    const mesh = new THREE.Mesh(own.follows.length === 2 ? rod : bars,
+      new THREE.MeshBasicMaterial({ side: THREE.DoubleSide }));
+    mesh.position.z = own.height;
+    mesh.frustumCulled = false;
+    world.add(mesh);
+    (layers[own.layer] = layers[own.layer] || []).push(mesh);
+    return { ...own, mesh, times: own.times && new Float32Array(decode(own.times)) };
   });
-  const theory = new THREE.Group();
-  if (run.circle) {
-    const [x, y, radius] = run.circle;
-    theory.add(layer("theoretical circle", line(
-      ribbon(circle(0, 0, radius, 128), 0.012, 0.010, true), "theory", 1)));
-    theory.position.set(x, y, 0);
-    world.add(theory);
-  }
-  const rods = run.sights.map(() => line(
-    new THREE.CylinderGeometry(0.004, 0.004, 1, 8).rotateX(Math.PI / 2), "theory", 0.8));
-  if (rods.length) {
-    const sights = new THREE.Group();
-    sights.add(...rods);
-    world.add(sights);
-    layer("line of sight", sights);
-  }
 
   function applyTheme(theme) {
     const palette = run.palettes[theme];
@@ -186,11 +104,10 @@ function makeScene(run, canvas, context) {
     tiles.needsUpdate = true;
     world.background = linear(palette.sky);
     world.fog = new THREE.Fog(linear(palette.sky), 12 + run.camera_distance, 40 + 2 * run.camera_distance);
-    for (const [material, name] of themed)
-      material.color = linear(typeof name === "number" ? run.players[name].colours[theme] : palette[name]);
+    for (const { mesh, colours } of overlays) mesh.material.color = linear(colours[theme]);
   }
 
-  const positions = new Float32Array(run.positions), quaternions = new Int16Array(run.quaternions);
+  const positions = new Float32Array(decode(run.positions)), quaternions = new Int16Array(decode(run.quaternions));
   const count = run.bodies.length;
   const from = new THREE.Quaternion(), to = new THREE.Quaternion();
   /* Show a time between two samples (fraction 0 to 1); return the torsos' positions, in [m]. */
@@ -206,73 +123,20 @@ function makeScene(run, canvas, context) {
       body.quaternion.copy(from).slerp(to, fraction);
     });
     const now = run.times[index] + fraction * (run.times[next] - run.times[index]);
-    for (const player of players) {
-      player.trace.geometry.setDrawRange(0, 6 * index);
-      /* A footstep appears 0.5 s before it lands. */
-      let count = 0;
-      while (count < player.landings.length && player.landings[count][0] <= now + 0.5) count++;
-      player.prints.count = count;
-      for (const push of player.pushes) push.arrow.visible = now >= push.time && now < push.time + 1;
+    const torsos = run.players.map((player) => bodies[run.bodies.indexOf(player.torso)].position);
+    for (const { mesh, times, lasting, follows, height } of overlays) {
+      if (times) {
+        const start = lasting === null ? 0 : countUntil(times, now - lasting);
+        mesh.geometry.setDrawRange(6 * start, 6 * (countUntil(times, now) - start));
+      }
+      const [first, second] = follows.map((i) => torsos[i]);
+      if (second) {
+        mesh.position.addVectors(first, second).multiplyScalar(0.5);
+        mesh.scale.z = first.distanceTo(second);
+        mesh.lookAt(second);
+      } else if (first) mesh.position.copy(first).setZ(height);
     }
-    return attach();
-  }
-  /* Show bodies where a game has them: arrays by the number of the body. Return as show does. */
-  function place(xpos, xquat) {
-    run.bodies.forEach((number, i) => {
-      bodies[i].position.fromArray(xpos, 3 * number);
-      const [w, x, y, z] = xquat.subarray(4 * number, 4 * number + 4);
-      bodies[i].quaternion.set(x, y, z, w);
-    });
-    return attach();
-  }
-  /* Lines that move with the players; return the torsos' positions. */
-  function attach() {
-    const torsos = players.map((player) => bodies[player.body].position);
-    for (const [player, area] of guarded) area.position.copy(bodies[player.body].position).setZ(0);
-    rods.forEach((rod, number) => {
-      const [first, second] = run.sights[number].map((i) => torsos[i]);
-      rod.position.addVectors(first, second).multiplyScalar(0.5);
-      rod.scale.z = first.distanceTo(second);
-      rod.lookAt(second);
-    });
     return torsos;
-  }
-  /* Path and footprints of a player that grow while a game is played; both forget their oldest part. */
-  function growing(number) {
-    const { trace, prints } = players[number], most = 6000, width = 0.014;
-    const strip = new THREE.BufferGeometry();
-    const corners = new THREE.BufferAttribute(new Float32Array(18 * most), 3);
-    strip.setAttribute("position", corners);
-    trace.geometry = strip;
-    let last = null, parts = 0, steps = 0;
-    const clear = () => { last = null; parts = steps = prints.count = 0; strip.setDrawRange(0, 0); };
-    clear();
-    return { clear,
-      move(point) {
-        if (last && Math.hypot(point[0] - last[0], point[1] - last[1]) < 0.004) return;
-        if (last) {
-          corners.array.set(stripe(last, point, width, 0.006), 18 * (parts++ % most));
-          corners.needsUpdate = true;
-          strip.setDrawRange(0, 6 * Math.min(parts, most));
-        }
-        last = point;
-      },
-      land(landing) {
-        prints.setMatrixAt(steps++ % run.footprints, printPose(landing));
-        prints.instanceMatrix.needsUpdate = true;
-        prints.count = Math.min(steps, run.footprints);
-      } };
-  }
-
-  /* Draw without shadows and highlights, with at most this number of points per pixel and axis. */
-  function simplify(points) {
-    renderer.shadowMap.enabled = sun.castShadow = false;
-    renderer.pixels = points;
-    world.traverse((mesh) => {
-      if (!mesh.material || !mesh.material.isMeshStandardMaterial) return;
-      const { color, map, transparent, opacity, depthWrite } = mesh.material;
-      mesh.material = new THREE.MeshLambertMaterial({ color, map, transparent, opacity, depthWrite });
-    });
   }
 
   function draw(target) {
@@ -284,5 +148,5 @@ function makeScene(run, canvas, context) {
     renderer.render(world, camera);
   }
 
-  return { renderer, camera, world, layers, applyTheme, show, place, growing, simplify, draw, bodies, theory };
+  return { renderer, camera, layers, applyTheme, show, draw, bodies };
 }

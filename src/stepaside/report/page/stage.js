@@ -4,8 +4,6 @@
 const byId = (id) => document.getElementById(id);
 const run = JSON.parse(byId("run").textContent);
 const decode = (text) => Uint8Array.from(atob(text), (c) => c.charCodeAt(0)).buffer;
-run.positions = decode(run.positions);
-run.quaternions = decode(run.quaternions);
 
 const canvas = byId("world");
 /* The drawing buffer is preserved so that screenshots taken between two frames are not blank. */
@@ -41,17 +39,8 @@ function applyTheme() {
   run.players.forEach((player, i) => {
     for (const span of [names[i], labels[i]]) span.style.color = player.colours[theme];
   });
-  colourLegend();
+  for (const [mark, own] of marks) mark.style.borderColor = own.colours[theme];
   stale = true;
-}
-/* Colour the marks of the legend; a mark that stands for both players has both colours. */
-function colourLegend() {
-  const colours = run.players.map((player) => player.colours[theme]);
-  for (const [mark, name] of marks) {
-    const colour = name === "players" ? colours[0] : typeof name === "number" ? colours[name] : run.palettes[theme][name];
-    mark.style.borderTopColor = colour;
-    mark.style.borderBottomColor = name === "players" ? colours[colours.length - 1] : colour;
-  }
 }
 systemDark.onchange = () => { theme = systemDark.matches ? "dark" : "light"; applyTheme(); };
 byId("light").onclick = () => { theme = theme === "dark" ? "light" : "dark"; applyTheme(); };
@@ -150,26 +139,23 @@ function move(dx, dy) {
 function zoomBy(factor) { view.zoom = Math.min(6, Math.max(0.08, view.zoom * factor)); stale = true; }
 canvas.onwheel = (event) => { event.preventDefault(); zoomBy(Math.exp(event.deltaY / 800)); };
 
-/* Legend of each layer: text, style of its line, colour. */
-const metres = (value) => value === null || value === undefined ? "" : `, ${value.toFixed(2)} m`;
-const guarded = (run.safety === null ? "" : "the ") + run.safeties.map(([i]) => run.players[i].name).join(", ");
-const LINES = {
-  traces: ["path of the center of mass", "solid", "players"],
-  footsteps: ["footsteps", "broad", "players"],
-  pushes: ["pushes", "solid", "pushed"],
-  "safety radius": [`safety radius of ${guarded}${metres(run.safety)}`, "dashed", (run.safeties[0] || [0])[0]],
-  "theoretical circle": [`theoretical circle, radius${metres(run.circle && run.circle[2]).slice(1)}`, "solid", "theory"],
-  "line of sight": ["line of sight", "solid", "theory"],
-};
+/* Legend of the layers, whose colour is that of their first lines. */
 const marks = [];
 for (const name of Object.keys(scene ? scene.layers : {})) {
   const label = document.createElement("label"), box = document.createElement("input");
-  box.type = "checkbox"; box.checked = true;
+  box.type = "checkbox";
   box.onchange = () => { for (const mesh of scene.layers[name]) mesh.visible = box.checked; stale = true; };
-  const mark = document.createElement("i");
-  mark.className = LINES[name][1];
-  marks.push([mark, LINES[name][2]]);
-  label.append(box, mark, " " + LINES[name][0]);
+  box.checked = name !== "ZMP trace"; /* it covers the other paths */
+  box.onchange();
+  const own = run.overlays.filter((each) => each.layer === name);
+  label.title = own[0].meaning;
+  for (const each of own.slice(0, 2)) {
+    const mark = document.createElement("i");
+    marks.push([mark, each]);
+    label.append(mark);
+  }
+  label.prepend(box);
+  label.append(" " + (own.length === 1 && own[0].label || name));
   byId("layers").append(label);
 }
 /* Draw the players, with their torsos at these positions, and their names. */
@@ -189,7 +175,7 @@ function drawScene(torsos) {
 /* Fit the picture to the size of its element. */
 function fitScene() {
   const w = canvas.clientWidth, h = canvas.clientHeight;
-  scene.renderer.setPixelRatio(Math.min(scene.renderer.pixels || 2, window.devicePixelRatio || 1));
+  scene.renderer.setPixelRatio(Math.min(2, window.devicePixelRatio || 1));
   const size = scene.renderer.getSize(new THREE.Vector2());
   if (size.x !== w || size.y !== h) scene.renderer.setSize(w, h, false);
   scene.camera.aspect = w / h;

@@ -1,0 +1,309 @@
+"""Films: cameras, captions, lines, walls, and the files."""
+
+from collections.abc import Iterator
+from dataclasses import replace
+from functools import cache, partial
+from math import cos, sin
+from pathlib import Path
+from typing import Any
+
+import mujoco
+import numpy as np
+import pytest
+
+from stepaside.arena import Door, Room
+from stepaside.core.player_colours import from_hex
+from stepaside.core.poses import Array
+from stepaside.games.duel_settings import PLAYERS, DuelSettings
+from stepaside.games.run import DuelRun, Run
+from stepaside.games.trajectory import Trajectory
+from stepaside.report import film, film_layers
+from stepaside.report.film import hidden_walls, walls_before
+from stepaside.report.film_camera import MARGIN, FilmCamera, framing
+from stepaside.report.film_captions import caption
+from stepaside.report.film_settings import VIEWS, FilmSettings
+from stepaside.report.overlays import theory_ring
+from stepaside.report.palette import PALETTES
+from stepaside.sim.camera_settings import SceneSettings
+from stepaside.sim.obstacle_geoms import add_solids
+from synthetic_run import run_of
+
+FOVY, ASPECT = 45.0, 16.0 / 9.0
+TIMES = np.linspace(0.0, 30.0, 301)
+
+
+@cache
+def run() -> Run:
+    """Return a run: one player on a wide circle, one on a straight line."""
+    angle = 0.1 * TIMES
+    ways = {
+        "pursuer": (3.0 * np.cos(angle), 3.0 * np.sin(angle)),
+        "evader": (4.0 + 0.2 * TIMES, 0.3 * TIMES),
+    }
+    tracks = {
+        name: Trajectory(
+            com=np.column_stack([*way, 0.27 + 0.0 * TIMES]),
+            torso=np.column_stack([*way, angle]),
+        )
+        for name, way in ways.items()
+    }
+    return run_of(TIMES, tracks, settings=DuelSettings(seed=7))
+
+
+def projected(camera: FilmCamera, index: int, height: float) -> Array:
+    """Return both players' positions in the image. Shape (2, 2)."""
+    view = camera.view(index)
+    found = []
+    for name in PLAYERS:
+        place = [*run().tracks[name].torso[index, :2], height]
+        at = view.project(np.array(place), FOVY)
+        assert at is not None
+        found.append(at)
+    return np.array(found)
+
+
+@pytest.mark.parametrize("name", ["fixed", "follow", "top"])
+@pytest.mark.parametrize("index", [0, 77, 150, 300])
+def test_both_players_are_in_the_image_from_foot_to_head(
+    name: str, index: int
+) -> None:
+    camera = FilmCamera(run(), name, FOVY, ASPECT)
+    for height in (0.0, 0.6):
+        positions = np.abs(projected(camera, index, height))
+        assert (positions <= [0.97 * ASPECT, 0.97]).all()
+
+
+def test_the_following_camera_is_nearer_and_moves_smoothly() -> None:
+    fixed, follow = (
+        FilmCamera(run(), name, FOVY, ASPECT) for name in ("fixed", "follow")
+    )
+    views = [follow.view(i) for i in range(len(TIMES))]
+    assert views[0].distance < 0.6 * fixed.view(0).distance
+    rows = np.array([[*view.target, view.distance] for view in views])
+    accelerations = np.diff(rows, 2, axis=0) / 0.1**2
+    assert np.abs(accelerations).max() < 0.5  # [m/s2]
+    assert follow.reach > views[0].distance
+
+
+@pytest.mark.parametrize(
+    "direction", [(0.0, -20.0), (60.0, -32.0), (90.0, -89.9)]
+)
+def test_a_view_frames_its_points_tightly(
+    direction: tuple[float, float],
+) -> None:
+    points = np.random.default_rng(3).uniform(-2.0, 3.0, (50, 3))
+    view = framing(points, *direction, FOVY, ASPECT)
+    image = np.array([view.project(p, FOVY) for p in points])
+    fractions = np.abs(image) / [ASPECT, 1.0]
+    assert fractions.max() == pytest.approx(MARGIN)
+
+
+@pytest.mark.parametrize("name", VIEWS)
+def test_a_view_has_the_axes_of_mujoco_s_camera(name: str) -> None:
+    view = FilmCamera(run(), name, FOVY, ASPECT).view(50)
+    model = mujoco.MjModel.from_xml_string("<mujoco><worldbody/></mujoco>")
+    data = mujoco.MjData(model)
+    scene = mujoco.MjvScene(model, 10)
+    every = mujoco.mjtCatBit.mjCAT_ALL
+    option = mujoco.MjvOption()
+    mujoco.mjv_updateScene(
+        model, data, option, None, view.camera(), every, scene
+    )
+    eye = scene.camera[0]
+    np.testing.assert_allclose(eye.forward, view.axes[2], atol=1e-6)
+    np.testing.assert_allclose(eye.up, view.axes[1], atol=1e-6)
+
+
+def test_the_light_shines_on_the_target() -> None:
+    model = mujoco.MjModel.from_xml_string(
+        "<mujoco><worldbody><light dir='0.3 0 -1' castshadow='true'/>"
+        "</worldbody></mujoco>"
+    )
+    data = mujoco.MjData(model)
+    mujoco.mj_forward(model, data)
+    scene = mujoco.MjvScene(model, 10)
+    every, camera = mujoco.mjtCatBit.mjCAT_ALL, mujoco.MjvCamera()
+    mujoco.mjv_updateScene(
+        model, data, mujoco.MjvOption(), None, camera, every, scene
+    )
+    target = np.array([5.0, -2.0, 0.3])
+    film_layers.aim_light(scene, target)
+    (light,) = [x for x in scene.lights[: scene.nlight] if x.castshadow]
+    away = target - light.pos
+    np.testing.assert_allclose(np.cross(away, light.dir), 0.0, atol=1e-5)
+    assert away @ light.dir > 1.0
+
+
+def test_labels_stand_at_their_places_and_values_below() -> None:
+    grey = np.full((360, 640, 3), 128, dtype=np.uint8)
+    view = FilmCamera(run(), "fixed", FOVY, ASPECT).view(0)
+    project = partial(view.project, fovy=FOVY)
+    place = np.array([*run().tracks["evader"].torso[0, :2], 0.62])
+    colour = PALETTES["light"].evader
+    told = caption(grey, run(), 0, [("evader", place, colour)], project, 1.0)
+    assert told.shape == grey.shape and (grey == 128).all()
+    assert told[-5, 300].min() > 180  # the band
+    at = project(place)
+    assert at is not None
+    x, y = 320 + 180 * at[0], 180 * (1.0 - at[1])
+    chip = told[int(y) - 12 : int(y), int(x) - 12 : int(x) + 12]
+    ink = 255.0 * np.array(from_hex(colour))
+    assert np.abs(chip - ink).sum(axis=2).min() < 60
+    assert (caption(grey, run(), 0, [], project, 2.0) != told).any()
+    small = np.full((90, 160, 3), 128, dtype=np.uint8)
+    assert caption(small, run(), 0, [], project, 1.0) is small
+    long = replace(run(), message="x" * 500 + "\x1b\n")
+    caption(grey, long, len(TIMES) - 1, [], project, 1.0)
+
+
+def test_lines_of_a_film_are_bars_along_their_segments() -> None:
+    model = mujoco.MjModel.from_xml_string("<mujoco><worldbody/></mujoco>")
+    circle = theory_ring(1.0, 2.0, 0.5)
+    scene = mujoco.MjvScene(model, 100)
+    film_layers.add_layers(scene, [circle], 0.0, {}, {})
+    segments = circle.shown(0.0, {})
+    assert scene.ngeom == len(segments) == 72
+    for geom, (start, end) in zip(scene.geoms, segments, strict=False):
+        axis = geom.size[2] * np.asarray(geom.mat).reshape(3, 3)[:, 2]
+        np.testing.assert_allclose(geom.pos - axis, start, atol=1e-6)
+        np.testing.assert_allclose(geom.pos + axis, end, atol=1e-6)
+        ink = from_hex(PALETTES["light"].theory)
+        np.testing.assert_allclose(geom.rgba[:3], ink, atol=1e-6)
+    full = mujoco.MjvScene(model, 10)
+    film_layers.add_layers(full, [circle], 0.0, {}, {})
+    assert full.ngeom == 10
+
+
+@pytest.mark.parametrize(
+    ("shot", "last", "expected"),
+    [
+        (FilmSettings(rate=10.0, duration=0.3), 9.0, [0.0, 0.1, 0.2, 0.3]),
+        (FilmSettings(rate=10.0, begin=0.8), 1.0, [0.8, 0.9, 1.0]),
+        (
+            FilmSettings(rate=10.0, speed=4.0, duration=1.0),
+            9.0,
+            [0.0, 0.4, 0.8],
+        ),
+        (FilmSettings(rate=10.0, begin=2.0), 2.0, [2.0]),
+        (FilmSettings(rate=10.0, begin=2.1), 2.0, []),
+        (FilmSettings(rate=10.0, begin=5.0), 2.0, []),
+    ],
+)
+def test_pictures_of_a_film_are_evenly_spaced(
+    shot: FilmSettings, last: float, expected: list[float]
+) -> None:
+    np.testing.assert_allclose(shot.frame_times(last), expected, atol=1e-12)
+
+
+SHAPES = [(3.0, 3.0), (2.0, 8.0), (9.0, 1.6)]
+
+
+def model_of(room: Room) -> mujoco.MjModel:
+    """Return a model of only a room."""
+    spec = mujoco.MjSpec()
+    add_solids(spec, room)
+    return spec.compile()
+
+
+@pytest.mark.parametrize("shape", SHAPES)
+def test_walls_between_the_camera_and_the_room_are_hidden_for_one_image(
+    shape: tuple[float, float],
+) -> None:
+    width, depth = shape
+    room = Room(width=width, depth=depth, doors=(Door("east", 0.0, 0.5),))
+    model = model_of(room)
+    places = model.body_pos[model.geom_bodyid]
+    sides = ((0, 1), (0, -1), (1, 1), (1, -1))  # axis and sign
+    half = 0.5 * np.array(shape)
+    for angle in np.linspace(0.0, 6.0, 13):
+        eye = np.array([9.0 * cos(angle), 9.0 * sin(angle), 3.0])
+        wanted = {
+            geom
+            for geom in range(model.ngeom)
+            for axis, sign in sides
+            if sign * places[geom][axis] > half[axis]
+            and sign * eye[axis] > half[axis] + 0.05
+        }
+        assert set(walls_before(model, eye)) == wanted
+        before = model.geom_rgba.copy()
+        with hidden_walls(model, eye):
+            hidden = np.flatnonzero(model.geom_rgba[:, 3] == 0.0)
+            assert set(hidden.tolist()) == wanted
+        np.testing.assert_array_equal(model.geom_rgba, before)
+    assert walls_before(model, np.array([0.1, 0.2, 0.5])) == []
+    assert model.ngeom == 5  # two of them beside the door
+
+
+def still(plan: Room | None) -> DuelRun:
+    """Return a run of two standing players near the center."""
+    times = np.linspace(0.0, 2.0, 21)
+    tracks = {}
+    for name, x in (("pursuer", -0.3), ("evader", 0.4)):
+        torso = np.tile([x, 0.1, 0.0], (21, 1))
+        tracks[name] = Trajectory(com=torso.copy(), torso=torso)
+    settings = DuelSettings(room=SceneSettings(plan=plan))
+    return run_of(times, tracks, settings=settings)
+
+
+@pytest.mark.parametrize("shape", SHAPES)
+@pytest.mark.parametrize("aspect", [0.6, 1.8])
+def test_the_top_view_of_a_film_shows_the_whole_room(
+    shape: tuple[float, float], aspect: float
+) -> None:
+    room = Room(width=shape[0], depth=shape[1])
+    view = FilmCamera(still(room), "top", 45.0, aspect).view(0)
+    for wall in room.walls:
+        for x, y in wall.points.tolist():
+            seen = view.project(np.array([x, y, 0.6]), 45.0)
+            assert seen is not None
+            assert abs(seen[0]) < aspect and abs(seen[1]) < 1.0
+
+
+def shades(count: int) -> Iterator[Any]:
+    for number in range(count):
+        yield np.full((48, 64, 3), 40 * number, dtype=np.uint8)
+
+
+@pytest.mark.parametrize("kind", ["gif", "mp4"])
+def test_films_have_their_pictures_and_their_rate(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, kind: str
+) -> None:
+    monkeypatch.setattr(film, "load_run", lambda folder: run())
+    monkeypatch.setattr(film, "render_images", lambda folder, shot: shades(6))
+    told: list[tuple[int, int]] = []
+    file = tmp_path / f"run.{kind}"
+    shot = FilmSettings(64, 48, rate=5.0, duration=1.0)
+
+    def report(done: int, all_of_them: int) -> None:
+        told.append((done, all_of_them))
+
+    assert film.write_film(tmp_path, file, shot, report) == 6
+    assert told == [(done, 6) for done in range(1, 7)]
+    assert list(tmp_path.iterdir()) == [file]
+    if kind == "gif":
+        image = pytest.importorskip("PIL.Image").open(file)
+        assert image.n_frames == 6 and image.info["duration"] == 200
+        assert image.info["loop"] == 0 and image.size == (64, 48)
+        return
+    av = pytest.importorskip("av")
+    with av.open(str(file)) as out:
+        assert out.streams.video[0].average_rate == 5
+        frames = [f.to_ndarray(format="rgb24") for f in out.decode(video=0)]
+    levels = [frame.mean() for frame in frames]
+    np.testing.assert_allclose(levels, 40.0 * np.arange(6), atol=6.0)
+
+
+def test_a_film_that_fails_leaves_nothing_behind(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    pytest.importorskip("av")
+
+    def failing(folder: Path, shot: FilmSettings) -> Iterator[Any]:
+        yield from shades(2)
+        raise RuntimeError("the light went out")
+
+    monkeypatch.setattr(film, "load_run", lambda folder: run())
+    monkeypatch.setattr(film, "render_images", failing)
+    with pytest.raises(RuntimeError, match="light"):
+        film.write_film(tmp_path, tmp_path / "run.mp4", FilmSettings(64, 48))
+    assert list(tmp_path.iterdir()) == []
