@@ -6,14 +6,10 @@ from math import cos, pi, sin
 import numpy as np
 import pytest
 
-from stepaside.arena import Box, Disc, Obstacle, ObstacleSet, Room
+from stepaside.arena import Box, Disc, Obstacle, ObstacleSet
 from stepaside.control.clearance.footstep_adjustment import FootstepAdjustment
-from stepaside.control.clearance.surroundings import HERE, KnownRoom
-from stepaside.control.scheme_builder import ClearanceSetup, build_guard
 from stepaside.core.poses import Array, Pose
 from stepaside.locomotion.zmp.control_settings import (
-    ControlSettings,
-    Method,
     StabiliserSettings,
 )
 from stepaside.planning import (
@@ -24,8 +20,6 @@ from stepaside.planning import (
     ManeuverPlan,
     ManeuverPlanner,
 )
-from stepaside.robots.description import load_robot
-from stepaside.sim.outline_measurement import measure_outline
 
 GAIT = GaitSettings()
 PLANNER = ManeuverPlanner(GAIT)
@@ -135,22 +129,6 @@ def test_feet_land_where_legs_reach_and_soles_do_not_touch(
             assert max(aside) == pytest.approx(far, abs=1e-6)
 
 
-def test_the_walk_goes_on_from_the_same_state() -> None:
-    wanted = plan(0.3)
-    kept = HOLDS.adjust(
-        wanted, FRAME, ObstacleSet(beside(wanted, NEEDS - 0.03, pi))
-    )
-    for p in (wanted, kept):
-        samples = p.sample([0.0])
-        np.testing.assert_allclose(samples.com[0], (0.01, 0.025), atol=1e-12)
-        np.testing.assert_allclose(
-            samples.com_velocity[0], (0.0, -0.04), atol=1e-9
-        )
-    assert kept.sample([2.0]).com[0] != pytest.approx(
-        wanted.sample([2.0]).com[0], abs=1e-3
-    )
-
-
 @pytest.mark.parametrize("seed", range(5))
 def test_no_other_footsteps_change_the_plan_less(seed: int) -> None:
     """Around a disc; those that are drawn keep the same half planes."""
@@ -182,48 +160,3 @@ def test_no_other_footsteps_change_the_plan_less(seed: int) -> None:
             tried += 1
             assert cost(steps) >= cost(best) - 1e-9
     assert cost(best) > 1e-5
-
-
-def test_inside_the_clearance_footsteps_come_no_nearer() -> None:
-    wanted = plan(0.0)
-    start = FRAME.compose(Pose(0.0, 0.5 * GAIT.foot_spacing, 0.0))
-    out = FRAME.theta + pi
-    reach = 0.15 + 0.5
-    wall = (
-        Box(start.x + reach * cos(out), start.y + reach * sin(out), 1, 3, out),
-    )
-    now = float(wall[0].clearance([start[:2]])[0])
-    assert now == pytest.approx(0.15)
-    assert clear(wanted, wall).min() < 0.0
-    assert (
-        clear(HOLDS.adjust(wanted, FRAME, ObstacleSet(wall)), wall).min()
-        >= now - 1e-6
-    )
-
-
-def test_where_no_footsteps_keep_clear_the_plan_is_left_to_the_guard(
-    monkeypatch: pytest.MonkeyPatch,
-) -> None:
-    """Contradictory half planes have no solution."""
-    wanted = plan(0.0)
-    wall = beside(wanted, NEEDS - 0.03, pi)
-    rows, least = HOLDS._half_planes(wanted, FRAME, ObstacleSet(wall))
-    both = np.concatenate([rows, -rows]), np.concatenate([least, 0.1 - least])
-    monkeypatch.setattr(FootstepAdjustment, "_half_planes", lambda *_: both)
-    assert HOLDS.adjust(wanted, FRAME, ObstacleSet(wall)) is wanted
-
-
-@pytest.mark.parametrize("method", ["measured", "mpc"])
-def test_only_with_the_mpc_footsteps_are_moved(method: Method) -> None:
-    """Of a robot that backs straight into a wall, with its guard."""
-    room = Room(3.0, 3.0)
-    frame = Pose(-1.5 + NEEDS + 0.06, 0.0, 0.5)
-    outline = measure_outline(load_robot("nao"), GAIT)
-    guard = build_guard(
-        ClearanceSetup(KnownRoom(room, frame), outline, 0.0),
-        GAIT,
-        ControlSettings(method, True),
-    )
-    wanted = plan(0.0)
-    fitted = guard.adjust_footsteps(wanted, HERE)
-    assert (fitted is wanted) is (method == "measured")

@@ -6,16 +6,16 @@ import numpy as np
 import pytest
 
 from fake_robot import GAIT
-from stepaside.arena import Box, ObstacleSet, Room
+from stepaside.arena import Box, ObstacleSet
 from stepaside.control.clearance.guard import (
     GAINED,
     Guard,
     ManeuverClearance,
 )
-from stepaside.control.clearance.surroundings import KnownRoom, MappedRoom
+from stepaside.control.clearance.surroundings import MappedRoom
 from stepaside.core.poses import Pose
 from stepaside.locomotion.maneuver_selection import GuardDecision
-from stepaside.perception.floor_map import CELL, FloorMap
+from stepaside.perception.floor_map import FloorMap
 from stepaside.planning import (
     Direction,
     Foot,
@@ -55,27 +55,8 @@ def beside(gap: float, around: Any, *, out: bool) -> GuardDecision | None:
     return guard.choose(Intent(0.6), plan_for, SUPPORT, standing=True)
 
 
-def given() -> KnownRoom:
-    return KnownRoom(Room(obstacles=()), Pose(0.0, 0.0, 0.0))
-
-
 def seen() -> MappedRoom:
     return MappedRoom(FloorMap(), unknown_is_free=False)
-
-
-def test_a_step_sways_to_where_a_map_sees_a_wall() -> None:
-    """A given map allows no escape towards a wall."""
-    assert beside(0.3, given(), out=False) == GuardDecision(Intent(0.6))
-    for around in (given(), seen()):
-        assert beside(0.009, around, out=False) is None
-    assert beside(0.009, given(), out=True) is None
-    around = seen()
-    chosen = beside(0.009, around, out=True)
-    assert chosen is not None
-    guard = Guard(around, NAO, PLANNER, margin=MARGIN)
-    clearance = guard.evaluate(plan_for(chosen), SUPPORT)
-    assert clearance.last > clearance.now + GAINED
-    assert clearance.now > clearance.least > clearance.now - CELL
 
 
 @pytest.mark.parametrize(

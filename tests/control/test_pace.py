@@ -9,7 +9,6 @@ import pytest
 
 from fake_robot import FIRST, GAIT, STEP, FakeStrategy, Run
 from stepaside.control.strategy_runner import MAX_PACE_CHANGE, next_pace
-from stepaside.core.errors import PlanError
 from stepaside.core.poses import Pose
 from stepaside.games.outcome import Outcome
 from stepaside.games.walk_game import WalkGame
@@ -62,29 +61,6 @@ def walk_at(paces: list[float], bearing: float = 0.6) -> list[ManeuverPlan]:
     return plans
 
 
-def test_a_calm_step_is_the_same_step_in_more_time() -> None:
-    quick, calm = (walk_at([p])[0] for p in (1.0, 0.5))
-    np.testing.assert_array_equal(quick.placements, calm.placements)
-    assert calm.gait.step_duration == pytest.approx(2.0 * FAST.step_duration)
-    assert calm.gait.step_height == pytest.approx(0.75 * FAST.step_height)
-    assert calm.gait.eta == FAST.eta and quick.gait is FAST
-    assert calm.gait.stride == FAST.stride
-
-
-def test_paces_are_rounded_and_at_least_half() -> None:
-    planner = ManeuverPlanner(FAST)
-    schedules = {
-        planner.schedule(5, standing=False, pace=pace)
-        for pace in np.linspace(0.01, 1.0, 200)
-    }
-    assert len(schedules) == 5
-    slow = planner.schedule(5, standing=False, pace=0.01)
-    assert slow.settings.step_duration == pytest.approx(0.64)
-    for pace in (0.0, -0.1, 1.1, float("nan")):
-        with pytest.raises(PlanError, match="pace"):
-            planner.schedule(5, standing=False, pace=pace)
-
-
 @pytest.mark.parametrize(
     "paces", [[1.0, 1.0, 0.75, 0.5, 0.75, 1.0], [0.5, 0.75, 1.0, 0.75, 0.5]]
 )
@@ -100,12 +76,6 @@ def test_the_com_is_continuous_and_the_zmp_in_the_sole_as_paces_change(
             begun.com_velocity[0], state.velocity, atol=1e-12
         )
         assert after.margin(after.schedule.first_step_duration) > 0.015
-
-
-def test_a_change_at_one_stroke_would_take_more_of_the_sole() -> None:
-    gentle = walk_at([0.5, 0.75])[1].correction
-    sudden = walk_at([0.5, 1.0])[1].correction
-    assert np.hypot(*sudden) > 1.5 * np.hypot(*gentle)
 
 
 def test_pace_changes_gradually_in_a_walk() -> None:

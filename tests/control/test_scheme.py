@@ -1,6 +1,5 @@
 """Test the control scheme of one robot with a fake body."""
 
-from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -16,12 +15,11 @@ from fake_robot import (
     measure,
     walk_of,
 )
-from stepaside.control.sight_sources import MeasuredSight
 from stepaside.core.poses import Pose
 from stepaside.locomotion.maneuver_walk import RETRY_PERIOD, SETTLING
 from stepaside.locomotion.walk_snapshots import Phase
 from stepaside.perception.measurement import Sighting
-from stepaside.planning import Direction, Foot
+from stepaside.planning import Foot
 
 
 def test_it_stands_midway_until_the_other_is_a_reason() -> None:
@@ -42,13 +40,6 @@ def test_it_stands_midway_until_the_other_is_a_reason() -> None:
     assert scheme.state.zmp_reference == pytest.approx(com[:2], abs=1e-15)
     run.until(2.0 + TICK, distance=1.9)
     assert run.phase() is Phase.WALKING and run.replans == 1
-
-
-def test_the_initial_sighting_is_used() -> None:
-    run = Run(senses=MeasuredSight(Sighting(0.0, 0.3, 1.0)))
-    run.until(TICK, distance=None)
-    assert run.phase() is Phase.WALKING
-    assert run.asked == pytest.approx([0.3])
 
 
 @pytest.mark.parametrize("foot", Foot)
@@ -76,27 +67,6 @@ def test_gait_time_is_exact_though_steps_end_between_ticks() -> None:
     np.testing.assert_allclose([s.started for s in run.steps], begins)
 
 
-def test_a_plan_follows_at_the_tick_at_which_a_step_ends() -> None:
-    run = Run()
-    last = round(np.ceil(FIRST / TICK - 1e-6))
-    run.until(last * TICK)
-    assert run.replans == 1
-    run.until((last + 1) * TICK)
-    assert run.replans == 2
-
-
-def test_steps_of_whole_ticks_end_on_their_ticks() -> None:
-    """However the times of many steps are rounded."""
-    gait = replace(GAIT, single_support=0.4, double_support=0.12)
-    run = Run(gait=gait)
-    for steps in range(1, 25):
-        last = round((gait.start_support + 0.52 * steps) / TICK)
-        run.until(last * TICK)
-        assert run.replans == steps
-        run.until((last + 1) * TICK)
-        assert run.replans == steps + 1
-
-
 def test_a_maneuver_turns_the_robot_as_the_template() -> None:
     """Each plan is made in the frame of its support foot."""
     run = Run(FakeStrategy(heading=0.5))
@@ -107,16 +77,6 @@ def test_a_maneuver_turns_the_robot_as_the_template() -> None:
     plan = scheme.state.plan
     assert plan is not None and plan.bearing == 0.5
     assert scheme.state.plan_frame.theta == pytest.approx(headings[3])
-
-
-def test_strategies_choose_direction_and_template() -> None:
-    back = Run(FakeStrategy(direction=Direction.BACKWARD))
-    back.until(FIRST + STEP)
-    assert back.landings[1][2].x == pytest.approx(-2.0 * GAIT.stride)
-    sharp = Run(FakeStrategy(heading=0.5, saturated=True))
-    sharp.until(0.1)
-    turn = GAIT.gain * GAIT.path_interval
-    assert sharp.landings[0][2].theta == pytest.approx(turn)
 
 
 def test_the_reference_is_continuous_through_all_plans() -> None:
@@ -149,17 +109,6 @@ def test_the_bearing_counts_from_the_path_where_the_body_is() -> None:
     assert 0.6 < known.pose_in_map.x / GAIT.stride < 0.7
 
 
-def test_a_delayed_body_is_at_its_delayed_reference() -> None:
-    """With a delay of a fifth of a step it has walked that much less."""
-    walked = []
-    for delay in (0.0, 0.2 * STEP):
-        run = Run(FakeStrategy(heading=0.5), delay=delay)
-        run.until(FIRST + 0.1)
-        walked.append(-run.asked[1] / run.landings[0][2].theta)
-    # Near the end of double support the body is at its fastest.
-    assert 0.2 < walked[0] - walked[1] < 0.3
-
-
 def test_a_late_sighting_refers_to_its_own_time() -> None:
     run = Run()
     for i in range(100):
@@ -168,13 +117,6 @@ def test_a_late_sighting_refers_to_its_own_time() -> None:
     seen = Sighting(40 * TICK, 0.1, 1.0)
     run.scheme.update(measure(100 * TICK)._replace(sighting=seen))
     assert run.asked == pytest.approx([0.1 + 0.40])
-
-
-def test_a_bearing_behind_wraps() -> None:
-    run = Run()
-    run.legs.torso_heading = 3.0
-    run.until(TICK, bearing=1.0)
-    assert run.asked == pytest.approx([4.0 - 2.0 * np.pi])
 
 
 def test_without_a_reason_it_brings_its_feet_abreast_and_rests() -> None:
@@ -200,49 +142,6 @@ def test_without_a_reason_it_brings_its_feet_abreast_and_rests() -> None:
     assert scheme.state.zmp_reference == scheme.state.reference.com[:2]
     assert not scheme.locomotion.step(ends).walking
     assert SETTLING == 1.0
-
-
-def test_it_walks_again_after_a_halt() -> None:
-    run = Run(FakeStrategy(heading=0.5))
-    run.until(FIRST - 0.1)
-    run.strategy.going = False
-    run.until(FIRST + STEP + SETTLING + 0.1)
-    run.strategy.going = True
-    run.until(FIRST + STEP + SETTLING + 0.5)
-    assert run.phase() is Phase.WALKING
-    feet = [foot for _, foot, _ in run.landings]
-    assert feet == [Foot.LEFT, Foot.RIGHT, Foot.RIGHT]
-    assert max(step.velocity_jump for step in run.steps) < 1e-12
-
-
-def test_a_sighting_is_used_until_the_next() -> None:
-    run = Run()
-    run.until(TICK)
-    run.until(FIRST + 0.1, distance=None)
-    assert run.phase() is Phase.WALKING and run.replans == 2
-
-
-def test_the_state_matches_the_scheme() -> None:
-    """A value: what comes after does not change it."""
-    run = Run(FakeStrategy(heading=0.5))
-    scheme = run.until(FIRST + 0.1)
-    state = scheme.state
-    for name in (
-        *("phase", "plan", "plan_frame", "plan_started", "left_foot"),
-        *("right_foot", "reference"),
-    ):
-        assert getattr(state, name) == getattr(walk_of(scheme), name), name
-    assert state.gait is GAIT and state.first_foot is Foot.RIGHT
-    assert state.torso_heading == run.legs.torso_heading
-    assert (state.estimate, state.solved, state.adapted) == (None, None, 0)
-    now = FIRST + 0.1
-    assert state.step(now) == scheme.locomotion.step(now)
-    before = state.step(now)
-    run.until(FIRST + STEP + 0.1)
-    assert state.step(now) == before != scheme.locomotion.step(now)
-    rest = Run(first_foot=Foot.RIGHT).scheme
-    assert rest.state.step(3.0) == rest.locomotion.step(3.0)
-    assert rest.state.step(3.0).support == rest.state.left_foot
 
 
 @pytest.mark.parametrize("foot", Foot)

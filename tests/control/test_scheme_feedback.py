@@ -15,7 +15,6 @@ from fake_robot import (
     FakeStrategy,
     Run,
     feeding,
-    measure,
 )
 from stepaside.control.sight_sources import CameraSight
 from stepaside.locomotion.walk_snapshots import Phase
@@ -33,23 +32,6 @@ def test_it_waits_until_feedback_is_ready() -> None:
     assert run.phase() is Phase.WALKING
 
 
-def test_feedback_modifies_the_leg_reference() -> None:
-    run, feedback = feeding()
-    feedback.lift = 0.01
-    scheme = run.until(0.1)
-    assert scheme.state.reference.com[2] == pytest.approx(
-        GAIT.com_height + 0.01
-    )
-    assert run.legs.tracked[-1] == scheme.state.reference
-    assert feedback.steps[-1].passed == pytest.approx(0.1 - TICK)
-    measurement = measure(0.1)._replace(joint_positions=np.full(3, 7.0))
-    targets = scheme.update(measurement)
-    np.testing.assert_allclose(
-        targets, np.add(scheme.state.reference.com, 7.0)
-    )
-    assert scheme.joint_targets is targets
-
-
 def test_feedback_says_where_a_foot_landed() -> None:
     run, feedback = feeding()
     feedback.shift = 0.01
@@ -60,33 +42,6 @@ def test_feedback_says_where_a_foot_landed() -> None:
     expected = (GAIT.stride + 0.01, 0.05, 0.0)
     assert scheme.state.plan_frame == pytest.approx(expected)
     assert scheme.state.left_foot == scheme.state.plan_frame
-
-
-def test_feedback_fits_all_plans_but_the_first() -> None:
-    run, feedback = feeding()
-    run.until(0.1)
-    assert feedback.fits == 0
-    run.until(FIRST + STEP + 0.1)
-    assert feedback.fits == 2
-
-
-@pytest.mark.parametrize(
-    "jump", [(0.1, -0.3), (-0.3, 0.1), (-0.1, 0.3), (0.3, -0.1)]
-)
-def test_a_velocity_that_jumps_is_noted(jump: tuple[float, float]) -> None:
-    run, feedback = feeding()
-    feedback.jump = jump
-    run.until(FIRST + 0.1)
-    jumps = [step.velocity_jump for step in run.steps]
-    assert jumps == pytest.approx([0.0, 0.3], abs=1e-9)
-
-
-def test_feedback_knows_the_heading() -> None:
-    run, feedback = feeding()
-    run.legs.torso_heading = 9.0
-    feedback.estimator.torso_heading = 0.2
-    run.until(TICK, bearing=0.1)
-    assert run.asked == pytest.approx([0.3])
 
 
 def test_a_fallen_robot_stops_moving() -> None:
@@ -153,22 +108,3 @@ def test_eyes_that_look_around_turn_the_body(
     eyes.seen = None
     run.until(FIRST + 4.5 * STEP, distance=None)
     assert run.phase() is Phase.HALTING
-
-
-def test_the_camera_uses_the_tilt_estimated_by_feedback() -> None:
-    eyes: Any = FakePerception()
-    run, feedback = feeding()
-    run.scheme.senses = CameraSight(eyes, tick=TICK)
-    feedback.estimator.tilt = (0.03, -0.02)
-    run.until(2 * TICK)
-    assert eyes.tilts == [(0.03, -0.02)] * 2
-
-
-def test_the_state_contains_estimate_and_mpc_result() -> None:
-    run, feedback = feeding()
-    feedback.state = SimpleNamespace(has_fallen=False)
-    feedback.zmp_feedback.solved = answer = object()
-    feedback.adapted = 3
-    state = run.until(0.1).state
-    assert state.estimate is feedback.state
-    assert state.solved is answer and state.adapted == 3

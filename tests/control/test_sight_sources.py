@@ -10,7 +10,6 @@ from fake_robot import FakePerception, measure
 from stepaside.control.sight_sources import (
     CORRECTION,
     CameraSight,
-    MeasuredSight,
 )
 from stepaside.core.constants import GRAVITY
 from stepaside.core.poses import Array, Pose
@@ -36,33 +35,6 @@ def leaning(time: float, roll: float, pitch: float) -> Any:
 def seeing() -> tuple[CameraSight, FakePerception]:
     eyes: Any = FakePerception()
     return CameraSight(eyes, tick=TICK), eyes
-
-
-def test_a_measured_sighting_is_used_until_the_next() -> None:
-    sight = MeasuredSight()
-    found = [
-        sight.see(measure(time, distance), resting, None)
-        for time, distance in ((0.0, None), (0.1, 1.0), (0.2, None))
-    ]
-    one = Sighting(0.1, 0.0, 1.0)
-    assert found == [None, one, one]
-    later = sight.see(measure(0.3, 2.0, 0.5), resting, (0.1, 0.1))
-    assert later == Sighting(0.3, 0.5, 2.0)
-
-
-def test_the_initial_sighting_is_used_until_the_first_measured_one() -> None:
-    known = Sighting(0.0, 0.3, 1.0)
-    sight = MeasuredSight(known)
-    assert sight.see(measure(0.5, None), resting, None) is known
-    seen = sight.see(measure(0.6, 2.0), resting, None)
-    assert seen == Sighting(0.6, 0.0, 2.0)
-    assert sight.see(measure(0.7, None), resting, None) == seen
-
-
-def test_given_sightings_leave_the_head_where_it_is() -> None:
-    targets = np.arange(5.0)
-    MeasuredSight().aim(targets)
-    np.testing.assert_array_equal(targets, np.arange(5.0))
 
 
 def test_camera_sight_aims_the_head_and_returns_sightings() -> None:
@@ -91,14 +63,6 @@ def test_cameras_see_over_the_foot_that_stands_at_that_time(
     sight.see(measure(1.5), step_at, (0.0, 0.0))
     assert eyes.stood == [(FRAME, swing is Foot.RIGHT)]
     assert asked == [1.5]
-
-
-def test_the_tilt_that_balance_knows_serves_the_eyes() -> None:
-    """Whatever the accelerometer says."""
-    sight, eyes = seeing()
-    for tilt in ((0.1, -0.2), (0.0, 0.0)):
-        sight.see(leaning(0.0, 0.5, 0.5), resting, tilt)
-        assert eyes.tilts[-1] == tilt
 
 
 def test_without_an_estimate_the_attitude_filter_follows_gravity() -> None:

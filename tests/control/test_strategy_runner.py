@@ -1,16 +1,15 @@
 """Test the execution of a strategy by a walking robot."""
 
 from collections.abc import Callable
-from math import atan2, hypot, nan, sin
+from math import atan2, hypot, nan
 from typing import Any
 
 import pytest
 
-from fake_robot import FIRST, GAIT, STEP, TICK, FakeStrategy, Run
+from fake_robot import GAIT, STEP, FakeStrategy
 from stepaside.control.strategy_runner import StrategyRunner
 from stepaside.core.errors import StrategyError
 from stepaside.core.poses import Pose
-from stepaside.locomotion.walk_snapshots import Phase
 from stepaside.perception.measurement import Sighting
 from stepaside.planning import Foot
 from stepaside.strategies import (
@@ -87,39 +86,6 @@ def test_line_of_sight_and_heading_are_of_one_instant() -> None:
             known = made.memory[-1]
             assert known.bearing == pytest.approx(torso + 0.4 - template)
             assert known.pose_in_map.theta == template
-
-
-@pytest.mark.parametrize("factor", [1.0, 0.5, 0.2])
-def test_stride_scales_with_the_speed_factor(
-    factor: float,
-) -> None:
-    run = Run(FakeStrategy(heading=0.5, speed_factor=factor))
-    full = Run(FakeStrategy(heading=0.5))
-    full.until(FIRST + 2.5 * STEP)
-    run.until(FIRST + 2.5 * STEP)
-    for (at, foot, pose), (then, same, whole) in zip(
-        run.landings, full.landings, strict=True
-    ):
-        assert (at, foot) == (then, same)
-        assert pose.theta == pytest.approx(whole.theta, abs=1e-15)
-    ways = [
-        pose.x + 0.5 * GAIT.foot_spacing * sin(pose.theta)
-        for pose in (run.landings[0][2], full.landings[0][2])
-    ]
-    assert ways[0] == pytest.approx(factor * ways[1])
-
-
-def test_zero_speed_factor_halts() -> None:
-    run = Run(FakeStrategy())
-    run.until(FIRST - 0.1)
-    run.strategy.speed_factor = 0.0
-    run.until(FIRST + 0.1)
-    assert run.phase() is Phase.HALTING
-    run.until(FIRST + 4.0)
-    assert run.phase() is Phase.STANDING
-    run.strategy.speed_factor = 0.5
-    run.until(FIRST + 4.0 + 2 * TICK)
-    assert run.phase() is Phase.WALKING
 
 
 @pytest.mark.parametrize(

@@ -9,8 +9,6 @@ from fake_robot import TICK as FAKE_TICK
 from fake_robot import FakeStrategy, Run, measure
 from stepaside.control.turn_calibration import (
     BIAS_TIME,
-    MAX_RATIO,
-    MIN_RATIO,
     TurnCalibration,
 )
 from stepaside.perception.measurement import RobotState
@@ -59,12 +57,6 @@ def test_the_estimated_ratio_matches_the_actual_turn(
     assert shares[0] == 1.0
 
 
-def test_old_turns_are_forgotten() -> None:
-    turns = stood()
-    walked(turns, 0.9)
-    assert walked(turns, 1.05)[-1] == pytest.approx(1.05, abs=0.01)
-
-
 def test_compensated_headings_yield_the_desired_turn() -> None:
     turns = stood()
     assert turns.compensate(1.2) == 1.2
@@ -77,13 +69,6 @@ def test_compensated_headings_yield_the_desired_turn() -> None:
     assert (
         turns.compensate(4.0) == 4.0
     )  # as by (8), where a turn is not wrapped
-
-
-def test_the_ratio_needs_a_bias_and_a_turn_and_is_bounded() -> None:
-    assert set(walked(TurnCalibration(TICK), 0.9)) == {1.0}
-    assert set(walked(stood(), 0.9, rate=0.01)) == {1.0}
-    assert walked(stood(), 0.2)[-1] == MIN_RATIO
-    assert walked(stood(), 3.0)[-1] == MAX_RATIO
 
 
 def turn_of_a_step(made: float, *, learns: bool) -> float:

@@ -58,33 +58,6 @@ def test_a_foot_tilts_as_far_as_it_bears_weight(
         assert tilt == pytest.approx(expected, abs=1e-12)
 
 
-def test_tilts_follow_with_their_bandwidth() -> None:
-    ankles = Ankles(GAINS, TICK)
-    whole = settled(state())[0]
-    for ticks in (1, 2, 3):
-        left, right = ankles.tilts(state())
-        part = 1.0 - (1.0 - 50.0 * TICK) ** ticks
-        assert left == pytest.approx((part * whole[0], part * whole[1]))
-        assert right == pytest.approx(left)
-
-
-def test_tilts_fade_with_the_weight() -> None:
-    """Both axes of both feet, each from where it is."""
-    for share, foot in ((1.0, 0), (0.0, 1)):
-        ankles = Ankles(GAINS, TICK)
-        for _ in range(200):
-            before = ankles.tilts(state(left_share=share))[foot]
-        after = ankles.tilts(state(left_share=1.0 - share))[foot]
-        keep = 1.0 - 50.0 * TICK
-        assert after == pytest.approx((keep * before[0], keep * before[1]))
-
-
-def test_a_filter_faster_than_the_tick_follows_at_once() -> None:
-    gains = StabiliserSettings(ankle=0.5, ankle_rate=0.04, ankle_bandwidth=1e4)
-    left, right = Ankles(gains, TICK).tilts(state())
-    assert left == right == pytest.approx(tuple(settled(state())[0]))
-
-
 def test_an_upright_torso_asks_for_level_feet() -> None:
     upright = state(tilt=ZERO, rate=(0.0, 0.0, 3.0))
     assert settled(upright) == [ZERO, ZERO]

@@ -1,7 +1,7 @@
 """Test the step in progress, and the ZMP shifts and landings it allows."""
 
 from dataclasses import replace
-from math import exp, hypot, pi
+from math import exp
 from typing import Any
 
 import numpy as np
@@ -15,10 +15,7 @@ from stepaside.locomotion.zmp.current_step import (
     Box,
     CurrentStep,
     adapted_landing,
-    beyond,
-    clip_to,
     first_step_of,
-    resting_step,
     shifted_swing,
     zmp_box,
 )
@@ -55,26 +52,12 @@ def step(
     return CurrentStep(SUPPORT, swing, landing, walking=True, **values)
 
 
-def test_a_quarter_turn_turns_vectors_by_hand() -> None:
-    turned = step()._replace(support=Pose(5.0, 6.0, 0.5 * pi))
-    assert turned.to_support(1.0, 2.0) == pytest.approx((2.0, -1.0))
-    assert turned.from_support(1.0, 2.0) == pytest.approx((-2.0, 1.0))
-
-
 @given(VECTORS)
 def test_rotation_to_support_and_back_is_the_identity(
     vector: tuple[float, float],
 ) -> None:
     there = step().to_support(*vector)
     assert step().from_support(*there) == pytest.approx(vector, abs=1e-12)
-
-
-def test_a_resting_step_stands_on_its_foot() -> None:
-    rest = resting_step(SUPPORT, Foot.RIGHT)
-    assert rest.support == rest.landing == SUPPORT
-    assert rest.swing is Foot.RIGHT
-    assert not rest.walking and rest.plan is None
-    assert (rest.remaining, rest.progress, rest.passed) == (0.0, 1.0, 0.0)
 
 
 @pytest.mark.parametrize("standing", [False, True])
@@ -116,56 +99,12 @@ def test_zmp_box_is_the_sole_about_the_anchor() -> None:
     assert on_right[1] == pytest.approx((0.06, 0.03))
 
 
-@given(VECTORS)
-def test_clipping_finds_the_nearest_point(
-    value: tuple[float, float],
-) -> None:
-    nearest = clip_to(value, BOX)
-    for axis in range(2):
-        low, high = BOX[0][axis], BOX[1][axis]
-        assert low <= nearest[axis] <= high
-        if low <= value[axis] <= high:
-            assert nearest[axis] == value[axis]
-        else:
-            assert nearest[axis] in (low, high)
-            assert (value[axis] > high) == (nearest[axis] == high)
-
-
-@given(VECTORS, st.floats(0.0, 0.1))
-def test_beyond_removes_the_dead_zone(
-    vector: tuple[float, float], radius: float
-) -> None:
-    x, y = beyond(*vector, radius)
-    length = hypot(*vector)
-    assert hypot(x, y) == pytest.approx(max(0.0, length - radius), abs=1e-12)
-    assert x * vector[1] == pytest.approx(y * vector[0], abs=1e-12)
-    assert x * vector[0] >= 0.0 and y * vector[1] >= 0.0
-
-
-def test_a_zero_radius_leaves_the_vector_unchanged() -> None:
-    assert beyond(0.3, -0.4, 0.0) == (0.3, -0.4)
-    assert beyond(0.0, 0.0, 0.0) == (0.0, 0.0)
-
-
 def shift(
     error: tuple[float, float], made: CurrentStep
 ) -> tuple[float, float]:
     """Shift of the landing in the support foot's axes."""
     moved = adapted_landing(error, made, BOX, GAIT, LIMITS)
     return made.to_support(*moved)
-
-
-@pytest.mark.parametrize("sign", [1.0, -1.0])
-def test_an_error_within_the_sole_moves_no_foot(sign: float) -> None:
-    """An error up to (1 - exp(-eta T)) of the box."""
-    hold = 1.0 - exp(-GAIT.eta * 0.2)
-    held = 0.99 * hold
-    for edge in (BOX[0], BOX[1]):
-        error = held * edge[0], held * edge[1]
-        assert shift(error, step()) == pytest.approx((0.0, 0.0), abs=1e-9)
-    # And a hair beyond it, some foot moves.
-    x, _ = shift((1.01 * hold * BOX[0][0], 0.0), step())
-    assert x < 0.0
 
 
 @pytest.mark.parametrize("time", [0.05, 0.2])
@@ -215,21 +154,6 @@ def test_a_landing_shifts_by_the_remaining_error(swing: Foot) -> None:
         assert y == pytest.approx(sign * 0.003 * grow, rel=1e-6)
 
 
-def test_a_plan_beyond_the_reach_is_left_alone_without_need() -> None:
-    """Limits apply to the shift, not to the plan."""
-    far = step(ahead=0.5, aside=0.3)
-    assert shift((1e-4, 1e-4), far) == pytest.approx((0.0, 0.0), abs=1e-9)
-
-
-def test_an_error_at_touch_down_is_stepped_out_as_it_is() -> None:
-    for remaining in (0.0, -0.1):
-        made = step(ahead=0.0, remaining=remaining)
-        x, _ = shift((0.03, 0.0), made)
-        grow = exp(GAIT.eta * 1e-3)
-        expected = grow * (0.03 - (1.0 - 1.0 / grow) * BOX[1][0])
-        assert x == pytest.approx(expected, abs=1e-9)
-
-
 @pytest.mark.parametrize("swing", Foot)
 def test_the_swing_foot_takes_up_the_shift_as_it_goes(swing: Foot) -> None:
     made = step(swing, progress=0.25)
@@ -241,11 +165,3 @@ def test_the_swing_foot_takes_up_the_shift_as_it_goes(swing: Foot) -> None:
     difference = np.subtract(moved, was)
     np.testing.assert_allclose(difference, [0.01, -0.02, 0.0, 0.0])
     assert stood == stands and body.com == BODY.com
-
-
-def test_a_standing_robot_has_no_swing_shift() -> None:
-    rest = resting_step(SUPPORT, Foot.LEFT)
-    assert shifted_swing(BODY, rest, (0.1, 0.1)) is BODY
-    assert shifted_swing(BODY, step(), (0.0, 0.0)) is BODY
-    assert shifted_swing(BODY, step(), (0.0, 0.1)) != BODY
-    assert shifted_swing(BODY, step(), (0.1, 0.0)) != BODY

@@ -7,10 +7,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from fake_robot import measure, walk_of
-from stepaside.control.scheme_builder import build_scheme
-from stepaside.control.sight_sources import CameraSight, MeasuredSight
-from stepaside.control.turn_calibration import TurnCalibration
+from fake_robot import measure
 from stepaside.core.poses import Pose
 from stepaside.locomotion.zmp.control_settings import OPEN_LOOP, STABILISED
 from stepaside.locomotion.zmp.feedback_loop import (
@@ -23,12 +20,9 @@ from stepaside.locomotion.zmp.reference_table import (
     resting_sample,
     standing_reference,
 )
-from stepaside.perception.measurement import Sighting
 from stepaside.planning import GaitSettings
 from stepaside.robots.description import load_robot
-from stepaside.robots.forward_kinematics import ForwardKinematics
 from stepaside.robots.leg_kinematics import LegKinematics
-from stepaside.strategies import Pursuit
 
 NAO = load_robot("nao")
 GAIT = GaitSettings()
@@ -126,43 +120,3 @@ def test_settings_open_or_close_the_loop() -> None:
     leaning = replace(NAO, lean=0.1)
     bent = build_balance(leaning, GAIT, STABILISED, **options)
     assert isinstance(bent, ClosedLoop) and bent.stabiliser.lean == 0.1
-
-
-@pytest.mark.parametrize("seen", [None, Sighting(0.0, 0.1, 2.0)])
-def test_a_scheme_is_built_without_a_simulation(seen: Sighting | None) -> None:
-    wish = Pursuit()
-    mind = build_scheme(
-        wish, NAO, GAIT, OPEN_LOOP, tick=0.004, senses=MeasuredSight(seen)
-    )
-    assert mind.decisions.strategy is wish and mind.gait is GAIT
-    assert isinstance(walk_of(mind).balance, OpenLoop)
-    assert isinstance(mind.senses, MeasuredSight)
-    assert mind.joint_targets.shape == (len(mind.kinematics.joint_names),)
-    targets = mind.update(measure(0.0, distance=None))
-    assert mind.sighting == seen and (mind.state.plan is None) is (
-        seen is None
-    )
-    assert targets is mind.joint_targets
-
-
-def test_a_scheme_calibrates_turns_if_enabled() -> None:
-    for control in (OPEN_LOOP, replace(OPEN_LOOP, learn_turns=True)):
-        mind = build_scheme(Pursuit(), NAO, GAIT, control, tick=0.004)
-        learns = isinstance(mind.decisions.turns, TurnCalibration)
-        assert learns is control.learn_turns
-
-
-def test_a_scheme_uses_its_perception() -> None:
-    kinematics = SimpleNamespace(forward=ForwardKinematics(NAO))
-    eyes: Any = SimpleNamespace(kinematics=kinematics)
-    mind = build_scheme(
-        *(Pursuit(), NAO, GAIT, STABILISED),
-        tick=0.004,
-        senses=CameraSight(eyes, tick=0.004),
-    )
-    assert isinstance(mind.senses, CameraSight)
-    assert mind.senses.perception is eyes
-    balance = walk_of(mind).balance
-    assert isinstance(balance, ClosedLoop)
-    # The measured body is worked out once, for eyes and balance.
-    assert balance.stabiliser.estimator.kinematics is kinematics.forward

@@ -10,15 +10,8 @@ from hypothesis import strategies as st
 from scipy.optimize import linprog
 
 from reference_plans import KINDS, plan_of, reference_corners
-from stepaside.core.errors import ConfigurationError
 from stepaside.core.poses import Array
-from stepaside.games.match import play
-from stepaside.games.outcome import Outcome
-from stepaside.games.walk_game import WalkGame, run_walk
-from stepaside.games.walk_settings import WalkSettings
 from stepaside.locomotion.zmp.control_settings import (
-    STABILISED,
-    ControlSettings,
     MpcSettings,
 )
 from stepaside.locomotion.zmp.mpc import IntrinsicallyStableMpc, MpcResult
@@ -30,7 +23,6 @@ from stepaside.planning import (
     ManeuverPlan,
     ManeuverPlanner,
 )
-from stepaside.sim.push import Push
 
 GAIT = GaitSettings()
 EDGE = 0.002
@@ -210,17 +202,6 @@ def test_mirrored_games_have_mirrored_answers(
         assert two.velocity[1] == pytest.approx(-one.velocity[1], abs=1e-6)
 
 
-def test_results_do_not_depend_on_previous_calls() -> None:
-    used, p = solver(), plan(0.4)
-    generator = np.random.default_rng(3)
-    for dcm in generator.normal(0.0, 0.02, (60, 2)):
-        used.solve(plan(-0.2, Foot.RIGHT), 0.3, 2.0 * dcm, ZERO)
-        one = used.solve(p, 0.15, dcm, ZERO)
-        fresh = solver().solve(p, 0.15, dcm, ZERO)
-        assert one.feasible == fresh.feasible
-        assert one.velocity == fresh.velocity
-
-
 @pytest.mark.parametrize("tail", ["anticipative", "periodic", "truncated"])
 def test_the_closed_loop_stays_bounded(tail: str) -> None:
     """The pendulum under the MPC's ZMP comes back to its plan."""
@@ -237,41 +218,6 @@ def test_the_closed_loop_stays_bounded(tail: str) -> None:
     assert largest < 0.03  # open loop: 0.02 exp(eta T) = 0.55 m
     if tail == "anticipative":
         assert np.abs(dcm).max() < 0.25 * 0.02
-
-
-def test_a_pushed_walk_reports_the_solver_results() -> None:
-    """The solver runs at every tick with a shift."""
-    control = replace(STABILISED, method="mpc")
-    walking = WalkGame(
-        WalkSettings(
-            duration=6.0, control=control, pushes=(Push(1.0, 3.0, 1.57),)
-        )
-    )
-    run = walking.run(*play(walking, 6.0))
-    assert run.outcome is Outcome.COMPLETED
-    qp, answers = run.summary.qp, walking.tally.solved
-    assert qp is not None and qp.solves == len(answers) > 100
-    assert qp.infeasible == sum(not a.feasible for a in answers)
-    for answer in answers:
-        assert answer.feasible == (answer.excess == (0.0, 0.0))
-        assert answer.time > 0.0 and answer.iterations >= 1
-    first = answers[0]  # an error beyond the dead zone, and no more
-    assert first.feasible and np.hypot(*first.velocity) > 1e-6
-
-
-def test_an_undisturbed_walk_never_asks_the_solver() -> None:
-    control = replace(STABILISED, method="mpc")
-    result = run_walk(WalkSettings(duration=3.0, control=control))
-    assert result.summary.qp is None
-
-
-def test_nonsense_is_refused() -> None:
-    with pytest.raises(ConfigurationError, match="mpc.tail"):
-        MpcSettings(tail="none")  # type: ignore[arg-type]
-    with pytest.raises(ConfigurationError, match="mpc.steps"):
-        MpcSettings(steps=0)
-    with pytest.raises(ConfigurationError, match="needs feedback"):
-        ControlSettings("mpc", False)
 
 
 def test_tails_match_their_definitions() -> None:

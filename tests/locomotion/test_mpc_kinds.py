@@ -54,17 +54,6 @@ def test_a_shift_is_back_within_a_second(
 
 
 @pytest.mark.parametrize("kind", KINDS)
-def test_on_every_plan_mpc_and_closed_form_are_one(kind: str) -> None:
-    """The plan's own ZMP breaks no constraint, so nothing is added."""
-    mpc = IntrinsicallyStableMpc(GAIT, MpcSettings(), edge=EDGE)
-    plan = plan_of(kind)
-    for time in np.linspace(0.0, plan.schedule.duration + 0.5, 40):
-        answer = mpc.solve(plan, float(time), np.zeros(2), np.zeros(2))
-        assert answer.feasible
-        np.testing.assert_allclose(answer.velocity, 0.0, atol=1e-9)
-
-
-@pytest.mark.parametrize("kind", KINDS)
 def test_the_zmp_never_leaves_the_feet_however_hard_it_is_used(
     kind: str,
 ) -> None:

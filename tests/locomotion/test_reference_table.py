@@ -75,39 +75,6 @@ def test_rows_are_the_plan_at_the_ticks(started: float, foot: Foot) -> None:
             check(table.at(tick * TICK), made, tick * TICK - started)
 
 
-@pytest.mark.parametrize("started", [0.0, 0.0013, 0.002])
-@pytest.mark.parametrize("duration", [0.02, 0.0213])
-def test_a_table_ends_before_its_duration(
-    started: float, duration: float
-) -> None:
-    """Its last row is that of the last tick before the next plan begins."""
-    made = plan()
-    table = ReferenceTable(TICK)
-    table.load(made, FRAME, started, duration)
-    last = int(np.ceil((started + duration) / TICK - 1e-6)) - 1
-    check(table.at(last * TICK), made, last * TICK - started)
-    assert table.at((last + 1) * TICK) == table.at(last * TICK)
-    assert table.at(last * TICK + 10.0) == table.at(last * TICK)
-    assert table.at((last - 1) * TICK) != table.at(last * TICK)
-
-
-@pytest.mark.parametrize("started", [0.0, 0.0013, 7.3001])
-def test_a_table_has_a_row_for_each_tick_and_no_more(started: float) -> None:
-    """However durations of whole ticks are rounded, and however late."""
-    table = ReferenceTable(TICK)
-    until_tick = np.ceil(started / TICK - 1e-6) * TICK - started
-    for ticks in range(1, 60):
-        table.load(plan(), FRAME, started, until_tick + ticks * TICK)
-        assert len(table.references) == ticks
-
-
-def test_a_part_shorter_than_a_tick_has_one_row() -> None:
-    made = plan()
-    table = ReferenceTable(TICK)
-    table.load(made, FRAME, 0.0, 1e-9)
-    check(table.at(0.0), made, 0.0)
-
-
 def test_times_that_are_rounded_find_their_tick() -> None:
     made = plan()
     table = ReferenceTable(TICK)
@@ -116,15 +83,6 @@ def test_times_that_are_rounded_find_their_tick() -> None:
     check(row, made, 0.0)
     assert table.at(5.0 * TICK + 1e-9) == row
     assert table.at(6.0 * TICK - 1e-9) == table.at(6.0 * TICK)
-
-
-def test_the_next_plan_replaces_the_last() -> None:
-    table = ReferenceTable(TICK)
-    for started, bearing in ((0.0, 0.5), (0.3, -0.5), (0.7013, 0.2)):
-        made = plan(bearing=bearing)
-        table.load(made, FRAME, started, 0.2)
-        tick = int(np.ceil(started / TICK)) + 3
-        check(table.at(tick * TICK), made, tick * TICK - started)
 
 
 @pytest.mark.parametrize("foot", Foot)

@@ -98,15 +98,6 @@ def test_a_foot_that_stands_elsewhere_takes_the_com_along() -> None:
         np.testing.assert_allclose(state.com, expected, atol=1e-12)
 
 
-def test_feet_that_disagree_are_weighed() -> None:
-    feet = FEET._replace(right_foot=(1.0, 1.94, 0.0, 0.0))
-    for left, share in ((1.5, 0.75), (0.5, 0.25)):
-        state = see(estimator(), measured(left, 2.0 - left), feet)
-        assert state.left_share == pytest.approx(share)
-        shift = 0.04 * (1.0 - share)
-        np.testing.assert_allclose(state.com, [1.03, 2.02 + shift])
-
-
 @pytest.mark.parametrize(
     ("left", "share"),
     [
@@ -122,15 +113,6 @@ def test_a_hardly_loaded_foot_is_ignored(left: float, share: float) -> None:
     state = see(estimator(), measured(10.0 * left, 10.0 * (1.0 - left)))
     assert state.left_share == pytest.approx(share)
     assert state.weight == pytest.approx(40.0)
-
-
-def test_in_flight_the_last_load_fraction_is_used() -> None:
-    estimate = estimator()
-    assert see(estimate, measured(0.1, 0.1)).left_share == 0.5
-    see(estimate, measured(7.5, 2.5))
-    state = see(estimate, measured(0.05, 0.15))
-    assert state.left_share == pytest.approx(0.75)
-    assert see(estimate, measured(0.1, 0.3)).left_share == pytest.approx(0.25)
 
 
 def test_heading_of_the_torso_is_that_over_the_foot_that_stands() -> None:
@@ -157,14 +139,6 @@ def test_a_tilt_of_the_torso_leans_the_com(tilt: tuple[float, float]) -> None:
     np.testing.assert_allclose(state.com, [1.03, 2.02], atol=1e-6)
 
 
-def test_it_is_ready_after_standing() -> None:
-    estimate = estimator()
-    see(estimate, measured(), ticks=200)
-    assert not estimate.ready
-    see(estimate, measured(), ticks=60)
-    assert estimate.ready
-
-
 def test_zmp_is_the_center_of_the_forces() -> None:
     """A foot pressed at one corner, in its own axes, at its place."""
     for corner in range(4):
@@ -175,13 +149,6 @@ def test_zmp_is_the_center_of_the_forces() -> None:
         state = see(estimator(), measured(left=0.0, right=press))
         expected = SENSORS[4 + corner] + [1.0, 1.9]
         np.testing.assert_allclose(state.zmp, expected)
-
-
-def test_the_zmp_is_weighted_by_foot_load() -> None:
-    state = see(estimator(), measured(left=[30, 0, 0, 0], right=[0, 10, 0, 0]))
-    left = rotation(0.0, 0.0, 0.5)[:2, :2] @ SENSORS[0] + [1.0, 2.0]
-    right = SENSORS[5] + [1.0, 1.9]
-    np.testing.assert_allclose(state.zmp, 0.75 * left + 0.25 * right)
 
 
 def test_dcm_is_ahead_of_the_com_by_its_velocity() -> None:
@@ -210,15 +177,6 @@ def test_a_falling_pendulum_is_followed_without_lag() -> None:
     speed = start * ETA * np.sinh(ETA * 149 * TICK)
     np.testing.assert_allclose(state.com - pivot, off, rtol=1e-3)
     np.testing.assert_allclose(state.velocity, speed, rtol=5e-3)
-
-
-def test_without_trust_in_joints_the_pendulum_is_integrated() -> None:
-    """One tick from rest: x = a t^2 / 2, v = a t, a = eta^2 (x - p)."""
-    state = see(estimator(bandwidth=0.0), measured(left=10.0, right=0.0))
-    start = np.array([1.03, 2.02])
-    pull = ETA**2 * (start - state.zmp)
-    np.testing.assert_allclose(state.com - start, 0.5 * TICK**2 * pull)
-    np.testing.assert_allclose(state.velocity, TICK * pull)
 
 
 def test_without_contact_the_pendulum_has_no_force() -> None:

@@ -80,48 +80,6 @@ def test_the_mpc_is_solved_in_the_plan_frame() -> None:
     assert rule.solved is fake.answer
 
 
-def test_the_mpc_is_skipped_without_a_shift() -> None:
-    fake: Any = FakeMpc()
-    rule = MpcFeedback(fake, RULE, TICK)
-    assert rule.shift(walking(), (0.0, 0.0), (0.0, 0.0)) == (0.0, 0.0)
-    assert not fake.asked and rule.solved is None
-    rule.shift(walking(), (0.0, 0.0), (0.01, 0.0))
-    one = rule.solved
-    rule.shift(walking(), (0.01, 0.0), (0.0, 0.0))
-    assert len(fake.asked) == 2
-    assert one is not rule.solved is fake.answer
-    rule.shift(walking(), (0.0, 0.0), (0.0, 0.0))
-    assert rule.solved is None  # an answer is of its tick
-
-
-def test_a_standing_robot_uses_the_proportional_rule() -> None:
-    fake: Any = FakeMpc()
-    rule = MpcFeedback(fake, RULE, TICK)
-    rest = resting_step(SUPPORT, Foot.LEFT)
-    p = rule.shift(rest, (0.003, 0.001), (0.2, 0.2))
-    assert p == pytest.approx((0.012, 0.004))
-    assert not fake.asked and rule.solved is None
-    rule.shift(walking(), (0.01, 0.0), (0.0, 0.0))
-    assert rule.solved is fake.answer
-    rule.shift(rest, (0.003, 0.001), (0.2, 0.2))
-    assert rule.solved is None and RULE.solved is None
-
-
-def test_methods_ask_for_their_rule() -> None:
-    gains = StabiliserSettings(feedback=3.0, edge=0.005)
-    for method in ("closed-form", "measured"):
-        settings = ControlSettings(method, True, gains)
-        rule = zmp_feedback(settings, GAIT, TICK)
-        assert isinstance(rule, ProportionalFeedback)
-        p = rule.shift(walking(), (0.001, 0.0), (0.0, 0.0))
-        assert p == pytest.approx((0.003, 0.0))
-        made = walking()
-        far = made.from_support(1.0, 1.0)
-        corner = zmp_box(made.swing, GAIT, 0.005)[1]
-        p = rule.shift(made, far, (0.0, 0.0))
-        assert made.to_support(*p) == pytest.approx(corner)
-
-
 def test_the_mpc_method_asks_a_solver_while_walking() -> None:
     pytest.importorskip("daqp")
     gains = StabiliserSettings(feedback=3.0, edge=0.005)

@@ -61,10 +61,3 @@ def test_an_uneven_floor_has_the_set_grain_and_height() -> None:
     near = np.corrcoef(grid[:-1].ravel(), grid[1:].ravel())[0, 1]
     far = np.corrcoef(grid[:-4].ravel(), grid[4:].ravel())[0, 1]
     assert near > 0.5 and abs(far) < 0.05
-
-
-def test_heights_depend_on_the_seed_only() -> None:
-    one, same = floor(2, unevenness=0.01), floor(2, unevenness=0.02)
-    other = floor(3, unevenness=0.01)
-    np.testing.assert_array_equal(heights(one), heights(same))
-    assert np.abs(heights(one) - heights(other)).max() > 0.5

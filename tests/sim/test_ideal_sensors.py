@@ -62,13 +62,6 @@ def test_a_delay_postpones_sightings() -> None:
     assert read(sight, 0.056).time == pytest.approx(0.036)
 
 
-def test_the_latest_of_several_sightings_is_returned() -> None:
-    sight = look(delay=0.01)
-    for now in (0.0, 0.004, 0.008):
-        sight.read(now)
-    assert read(sight, 0.1).time == 0.008
-
-
 def test_noise_has_the_set_deviation_and_no_bias() -> None:
     sight = look(bearing_noise=0.05, distance_noise=0.1)
     seen = np.array([read(sight, i * TICK)[:3] for i in range(4000)])
@@ -80,22 +73,6 @@ def test_noise_has_the_set_deviation_and_no_bias() -> None:
         assert values.mean() == pytest.approx(mean, abs=deviation / 12.0)
         assert values.std() == pytest.approx(deviation, rel=0.05)
     assert abs(np.corrcoef(seen[:, 1], seen[:, 2])[0, 1]) < 0.06
-
-
-def test_bearing_and_distance_noise_are_independent() -> None:
-    sight = look(bearing_noise=0.05)
-    assert read(sight, 0.0).distance == hypot(-1.5, 1.6 - 2.0)
-    sight = look(distance_noise=0.1)
-    bearings = {read(sight, i * TICK).bearing for i in range(5)}
-    assert len(bearings) == 1
-
-
-def test_noisy_bearings_wrap_and_distances_stay_positive() -> None:
-    sight = look(bearing_noise=3.0, distance_noise=5.0)
-    seen = np.array([read(sight, i * TICK) for i in range(500)])
-    assert np.abs(seen[:, 1]).max() <= pi
-    assert seen[:, 2].min() == 0.0
-    assert seen[:, 2].max() > 5.0
 
 
 def body(x: float, y: float, *, reach: float = 0.4, com: float = 0.27) -> Any:
@@ -139,14 +116,3 @@ def test_a_hidden_player_is_seen_where_it_was() -> None:
     assert read(sight, TICK) == Sighting(0.0, 0.0, 2.0)
     between.position_reference_in_world = (1.0, 1.0)
     assert read(sight, 2 * TICK) == Sighting(2 * TICK, 0.0, 3.0)
-
-
-def test_a_player_that_was_never_visible_is_unknown() -> None:
-    sight = IdealLineOfSight(
-        body(0.0, 0.0),
-        body(2.0, 0.0),
-        SightSettings(),
-        np.random.default_rng(1),
-        between=(body(1.0, 0.0),),
-    )
-    assert sight.read(0.0) is None

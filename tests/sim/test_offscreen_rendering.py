@@ -12,7 +12,6 @@ from stepaside.sim import offscreen_rendering as graphics
 from stepaside.sim.offscreen_rendering import (
     BACKENDS,
     OffscreenRenderer,
-    RenderQuality,
     choose_renderer,
 )
 
@@ -138,32 +137,3 @@ def test_a_rendered_image_is_upright(
     assert model.geom("floor").size[2] == 10.0
     assert model.vis.global_.offwidth == 64
     assert model.vis.global_.offheight == 48
-
-
-CHECKER = """<mujoco><visual><headlight ambient="1 1 1" diffuse="0 0 0"
-specular="0 0 0"/></visual><asset>
-<texture name="tiles" type="2d" builtin="checker" width="64" height="64"
-rgb1="1 1 1" rgb2="0 0 0"/>
-<material name="tiles" texture="tiles" texrepeat="3 3" specular="0"/></asset>
-<worldbody><geom type="plane" size="1 1 1" material="tiles"/>
-<camera name="above" pos="0.1 0.05 1.5" euler="0 0 10" fovy="50"/>
-</worldbody></mujoco>"""
-
-
-@pytest.mark.parametrize("interpolate", [False, True])
-def test_pixels_are_whole_tiles_unless_interpolated(
-    interpolate: bool,
-) -> None:
-    renderer = choose_renderer("auto")
-    if renderer not in BACKENDS:
-        pytest.skip("no off-screen graphics (EGL, OSMesa) on this machine")
-    model = mujoco.MjModel.from_xml_string(CHECKER)
-    data = mujoco.MjData(model)
-    mujoco.mj_forward(model, data)
-    quality = RenderQuality(interpolate=interpolate)
-    screen = OffscreenRenderer(model, 64, 48, renderer, quality)
-    shades = screen.draw(data, model.camera("above").id)
-    screen.close()
-    screen.close()  # by each robot that shares it
-    between = (shades > 60) & (shades < 200)
-    assert between.any() == interpolate

@@ -36,17 +36,6 @@ def test_a_straight_walk_aims_to_the_left_of_the_evader(
     assert aside == pytest.approx(atan2(miss, hypot(dx, dy)))
 
 
-def test_a_straight_walk_ignores_the_motion_of_the_evader() -> None:
-    person = PersonSettings("straight", 0.5)
-    motion = PersonMotion(person, Pose(0.0, 0.0, 0.0), EVADER)
-    heading = motion.pose.theta
-    for i in range(10):
-        motion.advance(0.1 * (i + 1), 0.1, (5.0 * i, 7.0))
-    x, y, theta = motion.pose
-    assert theta == heading
-    assert (x, y) == pytest.approx((0.5 * cos(theta), 0.5 * sin(theta)))
-
-
 @pytest.mark.parametrize("bearing", [-3.0, -0.5, 0.5, 3.0])
 @pytest.mark.parametrize("heading", [0.0, 3.0])
 def test_steering_turns_the_short_way_and_walks_on(
@@ -129,19 +118,6 @@ def test_a_recorded_walk_is_where_and_heads_as_recorded(
         assert motion.pose == pytest.approx(pose)
 
 
-def test_a_recorded_person_at_rest_heads_along_x(tmp_path: Path) -> None:
-    file = recorded(tmp_path, "0,1,2\n3,1,2\n")
-    motion = PersonMotion(
-        PersonSettings(str(file)), Pose(0.0, 0.0, 1.0), EVADER
-    )
-    assert motion.pose == (1.0, 2.0, 0.0)
-
-
-def test_paths_are_read_as_rows(tmp_path: Path) -> None:
-    table = read_path(recorded(tmp_path, "0,1,2\n0.5,3,4\n"))
-    np.testing.assert_array_equal(table, [[0, 1, 2], [0.5, 3, 4]])
-
-
 @pytest.mark.parametrize(
     ("lines", "message"),
     [
@@ -160,15 +136,6 @@ def test_invalid_rows_are_refused(
 ) -> None:
     with pytest.raises(ConfigurationError, match=message):
         read_path(recorded(tmp_path, lines))
-
-
-def test_a_missing_file_is_refused(tmp_path: Path) -> None:
-    with pytest.raises(ConfigurationError, match="got '.*none.csv'"):
-        read_path(tmp_path / "none.csv")
-    empty = tmp_path / "empty.csv"
-    empty.write_text("")
-    with pytest.raises(ConfigurationError, match="first line"):
-        read_path(empty)
 
 
 SPEED, GAIN, RADIUS = 0.1, 0.25, 0.8
@@ -241,58 +208,6 @@ def test_the_template_moves_by_the_law_of_the_paper(
     there = evader.compose(Pose(1.2 * cos(bearing), 1.2 * sin(bearing), 0.0))
     least = approach(there, evader, angle)
     assert least == pytest.approx(computed(there, evader, angle), abs=3e-3)
-
-
-def test_mirrored_walks_have_the_same_closest_approach() -> None:
-    """The evader steps aside to the side where the person is not."""
-    evader = Pose(0.0, 0.0, 0.0)
-    left, right = Pose(1.1, 0.5, 0.0), Pose(1.1, -0.5, 0.0)
-    aside = pi / 2
-    assert approach(left, evader, aside) == pytest.approx(
-        approach(right, evader, aside)
-    )
-    # Aside to the other side, it would walk into the person's way.
-    assert approach(left, evader, aside) > approach(left, evader, -aside)
-
-
-@pytest.mark.parametrize("sign", [-1.0, 1.0])
-def test_the_evasion_side_is_held(sign: float) -> None:
-    """A person who walks past the heading does not turn the evader."""
-    evader = Pose(0.0, 0.0, 0.0)
-    walk = PersonSettings("straight", 0.15, miss=0.1 * sign)
-    start = Pose(1.2, sign * 0.2, 0.0)
-    least = approach(start, evader, 0.1, walk)
-    expected = computed(start, evader, 0.1, 0.1 * sign)
-    assert least == pytest.approx(expected, abs=3e-3)
-
-
-def test_outside_the_safety_radius_the_template_stands() -> None:
-    evader = Pose(0.0, 0.0, 0.0)
-    walk = PersonSettings("straight", 0.5, miss=-1.0)
-    least = approach(Pose(3.0, 0.0, 0.0), evader, 0.0, walk)
-    assert least == pytest.approx(3.0 / hypot(3.0, 1.0), abs=1e-3)
-    far = approach(Pose(9.0, 0.0, 0.0), evader, 0.0, duration=1.0)
-    assert far == pytest.approx(9.0 - 0.15, abs=1e-9)
-    there = Pose(2.0, 5.0, 0.0)
-    soon = approach(Pose(9.0, 4.0, 0.0), there, 0.0, duration=0.0)
-    assert soon == pytest.approx(hypot(7.0, 1.0))
-
-
-def test_a_recorded_walk_has_its_closest_approach(tmp_path: Path) -> None:
-    file = recorded(tmp_path, "0,0,0\n10,10,0\n")
-    walk = PersonSettings(str(file))
-    start, evader = Pose(0.0, 0.0, 0.0), Pose(5.0, 2.0, 0.0)
-    least = approach(start, evader, 0.0, walk, duration=2.0)
-    assert least == pytest.approx(hypot(3.0, 2.0))
-    assert approach(start, evader, 0.0, walk) == pytest.approx(2.0)
-
-
-def test_a_straight_retreat_is_the_difference_of_the_speeds() -> None:
-    evader = Pose(0.0, 0.0, 0.0)
-    least = approach(Pose(1.0, 0.0, 0.0), evader, 0.0, duration=8.0)
-    begun = 0.2 / 0.15
-    gap = RADIUS - (8.0 - begun) * (0.15 - SPEED)
-    assert least == pytest.approx(gap, abs=2e-3)
 
 
 @pytest.mark.parametrize("path", ["straight", "steer"])

@@ -77,20 +77,6 @@ def test_a_push_starts_and_ends_on_time() -> None:
     np.testing.assert_array_equal(pushed[30:], 0.0)
 
 
-def test_rounding_of_time_does_not_delay_a_push() -> None:
-    bench = Bench(turned(0.0), Push(1.0, 0.3, 0.0, 0.1))
-    before = bench.pusher.before_step
-    force = bench.data.xfrc_applied[2]
-    for time, pushed in (
-        (0.299, False),
-        (0.3 - 1e-12, True),
-        (0.399, True),
-        (0.4 - 1e-11, False),
-    ):
-        before(time)
-        assert bool(force[0] > 0.0) is pushed
-
-
 def test_the_impulse_changes_the_momentum() -> None:
     bench = Bench(turned(0.5), Push(0.8, 0.01, 1.0))
     bench.forces(100)
@@ -108,14 +94,6 @@ def test_simultaneous_pushes_add_up_in_any_order() -> None:
     np.testing.assert_allclose(found[65], [20.0, 0.0, 0.0], atol=1e-9)
     np.testing.assert_array_equal(found[75], 0.0)
     np.testing.assert_allclose(bench.pusher.impulse, [2.0, 1.0])
-
-
-def test_a_push_holds_its_initial_direction() -> None:
-    bench = Bench(turned(0.0), Push(1.0, 0.0, 0.0))
-    bench.forces(5)
-    bench.data.qpos[10:14] = turned(pi / 2)
-    mujoco.mj_kinematics(bench.model, bench.data)
-    np.testing.assert_allclose(bench.forces(1)[0], [10.0, 0.0, 0.0])
 
 
 @pytest.mark.parametrize(
@@ -147,17 +125,3 @@ def test_pushes_are_grouped_by_robot() -> None:
     check_pushes([one, other], players)
     with pytest.raises(ConfigurationError, match="one of evader.*'pursuer'"):
         check_pushes([one, other], ("evader",))
-
-
-def test_started_pushes_are_recorded_in_the_world() -> None:
-    bench = Bench(turned(0.7), Push(1.5, 0.01, pi / 2), Push(1.0, 0.03, 0.0))
-    assert list(bench.pusher.given) == []
-    bench.forces(5)
-    assert list(bench.pusher.given) == []  # it begins at the sixth step
-    bench.forces(20)
-    first, second = bench.pusher.given
-    assert (first.time, first.duration) == (0.01, 0.1)
-    assert (first.x, first.y) == pytest.approx((5.0, 0.0), abs=1e-6)
-    given = 1.5 * np.array([-sin(0.7), cos(0.7)])
-    np.testing.assert_allclose(first[4:], given, atol=1e-9)
-    assert second.time == 0.03 and second.x < 5.0 < 5.0 + second.y

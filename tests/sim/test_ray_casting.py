@@ -13,7 +13,7 @@ from stepaside.perception.camera_model import CameraModel
 from stepaside.robots.head import Mount
 from stepaside.sim.camera_settings import DepthSettings, SonarSettings
 from stepaside.sim.ray_casting import RayCaster, geoms_in_cone
-from stepaside.sim.sensor_suite import cast_depths, cast_echo, cone, edges
+from stepaside.sim.sensor_suite import cast_depths, cast_echo, cone
 
 CAMERA = CameraModel.of_field_of_view(40, 30, radians(58.0), radians(45.0))
 AHEAD = Mount(np.array([0.1, 0.0, 0.0]), np.eye(3))
@@ -128,37 +128,6 @@ def test_depth_noise_and_quanta_grow_with_the_square() -> None:
         )
 
 
-def test_a_share_of_the_pixels_is_missing() -> None:
-    image = depths(wall(1.6), replace(CLEAN, missing=0.2))[:12]
-    assert (image == 0.0).mean() == pytest.approx(0.2, abs=0.04)
-
-
-@pytest.mark.parametrize(("slant", "seen"), [(0.13, True), (0.11, False)])
-def test_surfaces_seen_at_a_grazing_angle_send_nothing_back(
-    slant: float, seen: bool
-) -> None:
-    """The face of a leaf, 2 m ahead, that is turned nearly edge on."""
-    angle = 90.0 - np.degrees(np.arcsin(slant))
-    leaf = (
-        '<geom type="box" pos="2.1 0 0.5" size="0.001 0.5 0.5" '
-        f'euler="0 0 {angle}"/>'
-    )
-    _, caster = cast(leaf, np.array([[1.0, 0.0, 0.0]]))
-    single = CameraModel(1, 1, 10.0, 10.0)
-    image = cast_depths(caster, single, CLEAN, generator())
-    assert (image[0, 0] > 0.0) is np.bool_(seen)
-    assert caster.slants[0] == pytest.approx(slant, rel=1e-3)
-
-
-def test_what_is_left_of_a_near_edge_lies_in_its_shadow() -> None:
-    row = np.array([[2.0, 2.0, 1.6, 1.6, 2.0, 2.0, 0.0, 2.0]])
-    assert edges(row).tolist() == [
-        [False, True, False, False, False, False, False, False]
-    ]
-    assert not edges(np.array([[2.0, 1.71]])).any()
-    assert edges(np.array([[2.0, 1.69]])).any()
-
-
 def test_the_shadow_of_an_edge_is_dark_in_the_image() -> None:
     post = '<geom type="box" pos="1.1 0 0.5" size="0.05 0.1 0.5"/>'
     image = depths(wall(2.1) + post, CLEAN)[10]
@@ -190,53 +159,6 @@ def test_floor_and_ceiling_give_no_echo(sign: float) -> None:
     at = f'pos="0 0 0.5" quat="{up[0]} 0 {up[1]} 0"'
     assert hear(lid.format(0), at=at) is None
     assert (hear(lid.format(35), at=at) is not None) is (sign > 0.0)
-
-
-@pytest.mark.parametrize(
-    ("face", "echo"), [(0.2, 0.2), (0.25, 0.2), (0.6, 0.5), (0.95, None)]
-)
-def test_echoes_are_clipped_to_the_range(
-    face: float, echo: float | None
-) -> None:
-    """The rays next to the axis are a little longer than it."""
-    heard = hear(wall(face))
-    if echo is None:
-        assert heard is None
-    else:
-        assert heard is not None
-        assert echo <= heard <= 1.03 * echo + 0.005
-        assert round(heard / 0.01) == pytest.approx(heard / 0.01)
-
-
-def test_a_sonar_has_its_far_limit() -> None:
-    far = replace(QUIET, far=1.5)
-    assert hear(wall(1.35), far) is not None
-    assert hear(wall(1.65), far) is None
-    coarse = replace(QUIET, far=1.5, step=0.3)
-    assert hear(wall(1.0), coarse) == pytest.approx(0.9)
-
-
-def test_sonar_noise_has_the_set_deviation() -> None:
-    settings = replace(QUIET, noise=0.02, step=1e-4)
-    _, caster = cast(wall(0.6), cone(settings.cone))
-    draw = generator()
-    heard = np.array(
-        [cast_echo(caster, settings, draw) for _ in range(500)], dtype=float
-    )
-    assert heard.std() == pytest.approx(0.02, rel=0.1)
-    quiet = cast_echo(caster, replace(settings, noise=0.0), draw)
-    assert heard.mean() == pytest.approx(quiet, abs=0.003)
-
-
-@pytest.mark.parametrize(("angle", "heard"), [(57.0, True), (63.0, False)])
-def test_oblique_surfaces_give_no_echo(angle: float, heard: bool) -> None:
-    """A plate turned about the vertical, in a narrow cone."""
-    leaf = (
-        '<geom type="box" pos="0.6 0 0.5" size="0.001 0.3 0.5" '
-        f'euler="0 0 {angle}"/>'
-    )
-    narrow = replace(QUIET, cone=0.06)
-    assert (hear(leaf, narrow) is not None) is heard
 
 
 EYE = np.array([0.1, -0.2, 0.5])

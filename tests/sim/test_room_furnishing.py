@@ -6,7 +6,7 @@ import pytest
 
 from stepaside.robots.description import load_robot
 from stepaside.robots.head import load_head
-from stepaside.sim.camera_settings import RoomObject, SceneSettings
+from stepaside.sim.camera_settings import SceneSettings
 from stepaside.sim.room_furnishing import furnisher
 
 HEAD = load_head(load_robot("nao"))
@@ -52,17 +52,6 @@ def test_walls_enclose_the_room_at_their_distance() -> None:
     role = mujoco.mjtTextureRole.mjTEXROLE_RGB
     assert model.tex(material.texid[role]).name == "wall"
     assert model.tex("wall").width[0] == 128 == model.tex("wall").height[0]
-
-
-def test_objects_are_at_their_positions() -> None:
-    things = [
-        RoomObject("red box", 1.0, 0.0),
-        RoomObject("white figure", -1.0, 0.5),
-    ]
-    model, _ = furnished(SceneSettings(0.0, things))
-    for index, thing in enumerate(things):
-        place = model.body(f"thing {index}").pos
-        np.testing.assert_allclose(place, (thing.x, thing.y, 0.0))
 
 
 def test_the_housing_is_massless_and_behind_the_lens() -> None:

@@ -61,12 +61,6 @@ def watch(
     return taken, ages
 
 
-def test_a_sensor_takes_percepts_at_its_rate() -> None:
-    taken, ages = watch(stream(), 101)
-    np.testing.assert_allclose(taken, [0.0, 0.1, 0.2, 0.3, 0.4])
-    assert ages == [0.0] * 5
-
-
 def test_latency_delays_what_arrives_but_not_when_it_is_taken() -> None:
     taken, ages = watch(stream(latency=0.052), 101)
     np.testing.assert_allclose(taken, [0.0, 0.1, 0.2, 0.3])
@@ -74,15 +68,6 @@ def test_latency_delays_what_arrives_but_not_when_it_is_taken() -> None:
     taken, ages = watch(stream(latency=0.25), 101)
     np.testing.assert_allclose(taken, [0.0, 0.1])
     np.testing.assert_allclose(ages, 0.252)
-
-
-def test_dropped_percepts_do_not_shift_the_others() -> None:
-    taken, ages = watch(stream(0.02, 0.1, drop=0.3), 4000)
-    assert len(taken) == pytest.approx(0.7 * 800, rel=0.06)
-    multiples = np.array(taken) / 0.02
-    np.testing.assert_allclose(multiples, np.round(multiples), atol=1e-9)
-    np.testing.assert_allclose(ages, 0.1)
-    assert watch(stream(drop=1.0), 100) == ([], [])
 
 
 def eyes_of(
@@ -157,10 +142,6 @@ def test_each_sensor_has_its_own_rate() -> None:
         assert (late < latency + TICK).all()
 
 
-def test_only_a_robot_with_a_depth_camera_has_sonars() -> None:
-    assert list(arrivals(eyes_of(depth=False), 30)) == ["ColourImage"]
-
-
 def test_images_are_taken_from_the_sensor_mounts() -> None:
     eyes = eyes_of()
     arrivals(eyes, 1)
@@ -188,17 +169,6 @@ def depth_images(eyes: SensorSuite, ticks: int = 60) -> list[DepthImage]:
     return [p for p in arrived if isinstance(p, DepthImage)]
 
 
-def test_a_rear_camera_changes_no_bit_of_the_other_sensors() -> None:
-    alone, both = eyes_of(), eyes_of(replace(PLAIN, rear_camera=True))
-    expected, images = depth_images(alone), depth_images(both)
-    ahead = [p for p in images if p.number == 0]
-    assert len(expected) == len(ahead) > 2
-    for one, other in zip(expected, ahead, strict=True):
-        assert one.time == other.time
-        np.testing.assert_array_equal(one.depths, other.depths)
-    assert len(images) == 2 * len(ahead)
-
-
 def test_the_rear_camera_looks_backward_from_the_torso() -> None:
     """The face of the box behind is 2 m behind the torso."""
     eyes = eyes_of(replace(PLAIN, rear_camera=True))
@@ -211,32 +181,6 @@ def test_the_rear_camera_looks_backward_from_the_torso() -> None:
     assert first.depths[30, 53] == pytest.approx(2.0 - 0.075, abs=0.05)
     # Above the box there is nothing; the other box lies ahead.
     assert first.depths[0].max() == 0.0
-
-
-def test_random_draws_depend_on_the_seed_only() -> None:
-    noisy = replace(
-        PLAIN, colour=replace(PLAIN.colour, noise=4.0), drop_frames=0.5
-    )
-
-    def colours(seed: int) -> list[np.ndarray]:
-        eyes, seen = eyes_of(noisy, depth=False, seed=seed), []
-        for tick in range(120):
-            for percept in eyes.read(tick * TICK):
-                assert isinstance(percept, ColourImage)
-                seen.append(percept.pixels)
-        return seen
-
-    one, same, other = colours(3), colours(3), colours(4)
-    assert 1 < len(one) < 7
-    for a, b in zip(one, same, strict=True):
-        np.testing.assert_array_equal(a, b)
-    assert not np.array_equal(one[0], other[0])
-
-
-def test_sensors_drop_percepts_independently() -> None:
-    found = arrivals(eyes_of(replace(PLAIN, drop_frames=0.5)), 500)
-    left, right = ({t for t, _ in found[ear]} for ear in ("left", "right"))
-    assert left != right
 
 
 def test_pixel_noise_has_the_set_deviation() -> None:
@@ -254,21 +198,6 @@ def test_pixel_noise_has_the_set_deviation() -> None:
     assert grain.add_to(white).min() > 200
     still = ImageNoise(camera, 0.0, np.random.default_rng(2))
     np.testing.assert_array_equal(still.add_to(grey), grey)
-
-
-def test_ray_casting_reduces_the_image_to_160_columns() -> None:
-    settings = CameraSettings()
-    camera = settings.colour.model()
-    assert eyes_of(settings, renderer=SimpleNamespace()).camera == camera
-    small = eyes_of(settings).camera
-    assert (small.width, small.height) == (160, 120)
-    assert isinstance(small.height, int)
-    for large, less in (
-        (camera.width / camera.focal_x, small.width / small.focal_x),
-        (camera.height / camera.focal_y, small.height / small.focal_y),
-    ):
-        assert degrees(less) == pytest.approx(degrees(large))
-    assert eyes_of(PLAIN).camera == PLAIN.colour.model()
 
 
 def test_rendering_uses_the_field_of_view_of_the_camera() -> None:

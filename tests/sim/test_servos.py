@@ -69,14 +69,6 @@ def torques(model: mujoco.MjModel, data: mujoco.MjData) -> Array:
     return found
 
 
-def test_a_reset_sets_targets_without_motion() -> None:
-    servos, _, data = ideal()
-    servos.reset(np.array([0.3, -0.4]))
-    np.testing.assert_array_equal(data.ctrl, [0.123, 0.3, -0.4])
-    servos.write(np.array([0.3, -0.4]))
-    np.testing.assert_array_equal(data.ctrl, [0.123, 0.3, -0.4])
-
-
 @pytest.mark.parametrize("side", [1.0, -1.0])
 def test_a_target_moves_no_faster_than_the_joint_can(side: float) -> None:
     """Step after step by speed times cycle, then it stays."""
@@ -92,14 +84,6 @@ def test_a_target_moves_no_faster_than_the_joint_can(side: float) -> None:
         before = target
     servos.write(wanted)
     np.testing.assert_allclose(data.ctrl[1:], wanted, atol=1e-12)
-
-
-def test_a_small_change_is_not_limited() -> None:
-    servos, _, data = ideal()
-    servos.reset(np.zeros(2))
-    target = np.array([0.002, -0.001])
-    servos.write(target)
-    np.testing.assert_allclose(data.ctrl[1:], target + LEAD * target)
 
 
 def test_a_joint_at_its_target_speed_needs_no_torque() -> None:
@@ -141,29 +125,6 @@ def test_targets_take_effect_in_order_after_the_delay(delay: int) -> None:
             servos.before_step(0.0)
         expected = target + LEAD * (target - before)
         np.testing.assert_allclose(data.ctrl[1:], expected, atol=1e-12)
-
-
-def test_a_reset_clears_pending_targets() -> None:
-    servos, _, data = realistic(delay_cycles=2)
-    for _ in range(3):
-        servos.write(np.array([0.01, 0.01]))
-    servos.reset(np.array([0.2, 0.1]))
-    for _ in range(4):
-        servos.write(np.array([0.2, 0.1]))
-        servos.before_step(0.0)
-        np.testing.assert_allclose(data.ctrl[1:], [0.2, 0.1])
-
-
-@pytest.mark.parametrize("side", [1.0, -1.0])
-def test_realistic_servos_respect_the_speed_limits(side: float) -> None:
-    servos, _, data = realistic(efficiency=0.9)
-    wanted, change = side * np.ones(2), side * SPEEDS * CYCLE
-    for count in range(1, 4):
-        servos.write(wanted)
-        for _ in range(6):
-            servos.before_step(0.0)
-        expected = count * change + LEAD * change
-        np.testing.assert_allclose(data.ctrl[1:], expected)
 
 
 @pytest.mark.parametrize("side", [1.0, -1.0])
@@ -232,14 +193,6 @@ def test_stall_torque_scales_with_efficiency_and_stiffness() -> None:
     low, high = limits_at(-0.5, efficiency=0.6, torque_speed=True)
     np.testing.assert_allclose(low, -0.3)
     np.testing.assert_allclose(high, 0.6)
-
-
-def test_physics_applies_the_torque_limits() -> None:
-    servos, model, data = realistic(torque_speed=True)
-    servos.reset(np.array([1.0, 1.0]))
-    data.qvel[DOFS] = 0.5 * SPEEDS
-    servos.before_step(0.0)
-    np.testing.assert_allclose(torques(model, data), 0.5 * STALL)
 
 
 @pytest.mark.parametrize("kind", ["ideal", "torque-speed", "flat"])

@@ -1,7 +1,6 @@
 """Test a world of robots: contacts, time and placement."""
 
 from math import cos, pi, sin
-from pathlib import Path
 from typing import Any
 
 import mujoco
@@ -10,7 +9,6 @@ import pytest
 
 from stepaside.core.poses import Pose
 from stepaside.robots.description import load_robot
-from stepaside.sim.body_settings import BodySettings
 from stepaside.sim.physics_settings import PhysicsSettings
 from stepaside.sim.world import (
     World,
@@ -84,67 +82,6 @@ def test_the_last_of_ten_robots_touches_the_one_before() -> None:
         mujoco.mj_forward(world.model, world.data)
         assert (world.data.ncon > 0) is touch
         assert world.robots_touch() is touch
-
-
-def test_feet_have_the_friction_of_the_floor() -> None:
-    model = build_model(TWO, PhysicsSettings(friction=0.31))
-    solid = (model.geom_contype > 0) | (model.geom_conaffinity > 0)
-    np.testing.assert_allclose(model.geom_friction[solid, 0], 0.31)
-    assert solid.sum() > 10 and not solid.all()
-
-
-@pytest.mark.filterwarnings("error")
-def test_the_physics_has_its_settings(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    """The options of the world replace those of the robot model."""
-    monkeypatch.chdir(tmp_path)
-    option = build_model(TWO, PhysicsSettings(time_step=0.001)).opt
-    assert option.timestep == 0.001
-    assert option.integrator == mujoco.mjtIntegrator.mjINT_IMPLICITFAST
-    discrete = build_model(TWO, PhysicsSettings(integrator="discrete")).opt
-    assert discrete.integrator == mujoco.mjtIntegrator.mjINT_DISCRETE
-    assert option.solver == mujoco.mjtSolver.mjSOL_NEWTON
-    assert option.cone == mujoco.mjtCone.mjCONE_PYRAMIDAL
-
-
-@pytest.mark.parametrize("effect", ["mass_error", "com_error"])
-def test_each_robot_has_independent_mass_errors(effect: str) -> None:
-    body = BodySettings(**{effect: 0.05})  # type: ignore[arg-type]
-    right = build_model(TWO, PhysicsSettings(), BodySettings(), 4)
-    wrong = build_model(TWO, PhysicsSettings(), body, 4)
-    name = "body_mass" if effect == "mass_error" else "body_ipos"
-    off = getattr(wrong, name) - getattr(right, name)
-    torsos = [right.body(f"{robot}/{NAO.torso}").id for robot in TWO]
-    assert np.abs(off[torsos[0]]).max() > 0.0
-    assert np.abs(off[torsos[0]] - off[torsos[1]]).max() > 1e-6
-    other = build_model(TWO, PhysicsSettings(), body, 5)
-    change = getattr(other, name) - getattr(wrong, name)
-    assert np.abs(change[torsos[0]]).max() > 1e-6
-
-
-def test_time_counts_ticks_of_all_robots() -> None:
-    world = World(TWO, PhysicsSettings(time_step=0.002, tick=0.006))
-    for tick in range(3):
-        world.advance()
-        assert world.ticks == tick
-        world.advance()
-        assert world.ticks == tick + 1
-        assert world.time == pytest.approx(0.006 * (tick + 1))
-        assert world.data.time == pytest.approx(world.time)
-
-
-def test_before_step_is_called_with_the_time() -> None:
-    world = World({"evader": NAO}, PhysicsSettings(tick=0.006))
-    told: list[float] = []
-    also: list[float] = []
-    world.before_step += [told.append, also.append]
-    for _ in range(2):
-        world.advance()
-    expected = 0.002 * np.arange(6)
-    np.testing.assert_allclose(told, expected, atol=1e-12)
-    assert told == also
-    assert world.data.time == pytest.approx(0.012)
 
 
 def test_steps_are_the_same_one_by_one_and_together() -> None:

@@ -38,18 +38,6 @@ def test_a_response_is_read_as_written(tmp_path: Path) -> None:
     assert load_response(tmp_path, stored(tmp_path)) == RESPONSE
 
 
-def test_a_file_without_a_ratio_leaves_the_odometry_as_it_is(
-    tmp_path: Path,
-) -> None:
-    network = stored(tmp_path)
-    file = response_path(tmp_path, network)
-    entries = tomllib.loads(file.read_text())
-    del entries["odometry_ratio"]
-    file.write_text(tomli_w.dumps(entries))
-    plain = replace(RESPONSE, odometry_ratio=(1.0, 1.0))
-    assert load_response(tmp_path, network) == plain
-
-
 @pytest.mark.parametrize("bad", [nan, inf, -inf, -1e3])
 @pytest.mark.parametrize(
     "place",
@@ -77,27 +65,6 @@ def test_a_number_that_cannot_be_is_refused_by_file_name_and_value(
         load_response(tmp_path, network)
     text = str(refused.value)
     assert str(file) in text and name in text and f"got {bad:g}" in text
-
-
-def test_a_ratio_for_one_axis_is_refused(tmp_path: Path) -> None:
-    network = stored(tmp_path)
-    file = response_path(tmp_path, network)
-    entries = tomllib.loads(file.read_text())
-    file.write_text(tomli_w.dumps(entries | {"odometry_ratio": [1.0]}))
-    with pytest.raises(PolicyError, match="not a response"):
-        load_response(tmp_path, network)
-
-
-def test_an_axis_without_a_row_for_each_command_is_refused(
-    tmp_path: Path,
-) -> None:
-    network = stored(tmp_path)
-    file = response_path(tmp_path, network)
-    entries = tomllib.loads(file.read_text())
-    entries["turn"]["delivered"].pop()
-    file.write_text(tomli_w.dumps(entries))
-    with pytest.raises(PolicyError, match=r"turn.delivered must have a row"):
-        load_response(tmp_path, network)
 
 
 def test_another_network_of_the_name_has_no_response(tmp_path: Path) -> None:

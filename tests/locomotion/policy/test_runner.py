@@ -157,19 +157,6 @@ def test_a_clock_holds_while_standing_and_starts_anew(tmp_path: Path) -> None:
     np.testing.assert_allclose(seen, expected, atol=1e-6)
 
 
-def test_a_clock_may_run_while_standing(tmp_path: Path) -> None:
-    clock = PhaseClock(period=0.16)
-    seen = phases(tmp_path, clock, [STILL] * 4)
-    expected = [[cos(k * pi / 4), -cos(k * pi / 4)] for k in range(1, 5)]
-    np.testing.assert_allclose(seen, expected, atol=1e-6)
-
-
-def test_a_silent_clock_is_zero_while_standing(tmp_path: Path) -> None:
-    clock = PhaseClock(period=0.08, standing="silent")
-    seen = phases(tmp_path, clock, [STILL, AHEAD])
-    np.testing.assert_allclose(seen, [[0, 0], [1, -1]], atol=1e-6)
-
-
 def test_a_clock_still_runs_until_the_robot_has_settled(
     tmp_path: Path,
 ) -> None:
@@ -244,20 +231,6 @@ def test_an_output_that_is_not_finite_is_named(
     runner = Walker(CONTRACT, PolicyNetwork(file))
     with pytest.raises(PolicyError, match="output 1 .* must be finite"):
         runner.update(body(), STILL)
-
-
-def test_equal_runs_give_equal_bits(tmp_path: Path) -> None:
-    rng = np.random.default_rng(0)
-    contract = replace(CONTRACT, terms=(Term("joint_pos"), Term("actions")))
-    file = write_policy(
-        tmp_path / "a.onnx", rng.normal(size=(3, 6)), rng.normal(size=3)
-    )
-
-    def play() -> list[list[float]]:
-        runner = Walker(contract, PolicyNetwork(file))
-        return [runner.update(body(), AHEAD).tolist() for _ in range(20)]
-
-    assert play() == play()
 
 
 def test_a_file_that_is_no_network_is_refused(tmp_path: Path) -> None:
