@@ -8,6 +8,7 @@ import pytest
 
 from stepaside.core.poses import Array, Pose
 from stepaside.locomotion.zmp.control_settings import (
+    STABILISED,
     ControlSettings,
     StabiliserSettings,
 )
@@ -17,17 +18,13 @@ from stepaside.locomotion.zmp.current_step import (
     zmp_box,
 )
 from stepaside.locomotion.zmp.mpc import IntrinsicallyStableMpc
-from stepaside.locomotion.zmp.zmp_feedback import (
-    MpcFeedback,
-    ProportionalFeedback,
-    zmp_feedback,
-)
+from stepaside.locomotion.zmp.zmp_feedback import ZmpFeedback
 from stepaside.planning import Direction, Foot, GaitSettings, ManeuverPlanner
 
 GAIT = GaitSettings()
 EDGE, TICK = 0.002, 0.004
 SUPPORT = Pose(1.0, -2.0, 0.7)
-RULE = ProportionalFeedback(GAIT, gain=4.0, edge=EDGE)
+RULE = ZmpFeedback(STABILISED, GAIT, TICK)
 
 
 def walking(swing: Foot = Foot.LEFT) -> CurrentStep:
@@ -68,7 +65,8 @@ def test_the_sole_that_stands_limits_it(swing: Foot) -> None:
 
 def test_the_mpc_is_solved_in_the_plan_frame() -> None:
     fake: Any = FakeMpc()
-    rule = MpcFeedback(fake, RULE, TICK)
+    rule = ZmpFeedback(STABILISED, GAIT, TICK)
+    rule.mpc = fake
     made = walking()
     dcm, zmp = made.from_support(0.01, 0.02), made.from_support(0.03, 0.04)
     p = rule.shift(made, dcm, zmp)
@@ -83,8 +81,7 @@ def test_the_mpc_is_solved_in_the_plan_frame() -> None:
 def test_the_mpc_method_asks_a_solver_while_walking() -> None:
     pytest.importorskip("daqp")
     gains = StabiliserSettings(feedback=3.0, edge=0.005)
-    rule = zmp_feedback(ControlSettings("mpc", True, gains), GAIT, TICK)
-    assert isinstance(rule, MpcFeedback)
+    rule = ZmpFeedback(ControlSettings("mpc", True, gains), GAIT, TICK)
     assert isinstance(rule.mpc, IntrinsicallyStableMpc)
     made = walking()
     rest = resting_step(SUPPORT, Foot.LEFT)

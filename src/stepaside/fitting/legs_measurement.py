@@ -385,8 +385,9 @@ def measure_legs(
     ]
     singles = results[: -len(COMBINED)]
     axes = [_axis(i, singles) for i in range(3)]
+    ratio = _odometry_ratio(results)
     response = VelocityResponse(
-        (axes[0], axes[1], axes[2]), odometry_ratio=_odometry_ratio(results)
+        axes[0], axes[1], axes[2], odometry_ratio=ratio
     )
     tracking = [
         LegsTrial(description, legs, body, STILL, seed + i, response)

@@ -38,7 +38,8 @@ PlanFor = Callable[[GuardDecision], ManeuverPlan]
 class ManeuverGuard(Protocol):
     """Filter of intents that keeps a robot clear of known obstacles.
 
-    Plans are in the frame of the support foot.
+    Plans are in the frame of the support foot, whose pose in odometry is
+    given; a function plans a decision. See :class:`.Guard`.
     """
 
     @property
@@ -46,12 +47,7 @@ class ManeuverGuard(Protocol):
         """Largest position error of the obstacles, in [m]."""
 
     def note(self, measurement: RobotState, pose: Pose) -> None:
-        """Update the obstacles.
-
-        Args:
-            measurement: RobotState of the tick.
-            pose: Place of the CoM and heading in odometry at the tick.
-        """
+        """Update the obstacles; the pose of the CoM is in odometry."""
 
     def choose(
         self,
@@ -61,26 +57,12 @@ class ManeuverGuard(Protocol):
         *,
         standing: bool,
     ) -> GuardDecision | None:
-        """Return the accepted decision that is closest to an intent.
-
-        Args:
-            intent: Requested intent.
-            plan_for: Function that plans a decision.
-            pose_plan_in_odometry: Pose of the support foot.
-            standing: Whether the robot stands; it may then also leave a
-                position within the margin.
-
-        Returns:
-            The decision; None if the robot has to stand.
-        """
+        """Return the accepted decision closest to an intent; None to stand."""
 
     def choose_escape(
         self, intent: Intent, plan_for: PlanFor, pose_plan_in_odometry: Pose
     ) -> GuardDecision | None:
-        """Return the decision that leads a standing robot out of the margin.
-
-        Arguments are those of :meth:`choose`.
-        """
+        """Return the decision that leads out of the margin from standing."""
 
     def adjust_footsteps(
         self, plan: ManeuverPlan, pose_plan_in_odometry: Pose
@@ -102,13 +84,7 @@ class ManeuverSelection:
         balance: Balance,
         guard: ManeuverGuard | None,
     ) -> None:
-        """Prepare a planner.
-
-        Args:
-            settings: Gait.
-            balance: Balance control, which fits plans to the state.
-            guard: Guard against obstacles, if any.
-        """
+        """Prepare a planner; balance control fits plans to the state."""
         self.planner = ManeuverPlanner(settings)
         self.guard, self._balance = guard, balance
         self._relaxed = False
@@ -146,8 +122,7 @@ class ManeuverSelection:
             standing: Whether the robot stands.
 
         Returns:
-            The plan and the state that it begins with; None if the robot has
-            to stand.
+            The plan and the state that it begins with; None to stand.
         """
         support = feet[0]
         swing_start = support.inverse().compose(feet[1])

@@ -13,7 +13,7 @@ from stepaside.strategies.velocity_set import BodyVelocity
 
 V = BodyVelocity
 MEASURED = VelocityResponse(
-    (
+    *(
         AxisResponse(
             (-1.0, -0.5, 0.0, 0.5, 1.0),
             (
@@ -72,4 +72,4 @@ def test_ideal_legs_deliver_commands() -> None:
 def test_an_axis_that_does_not_follow_is_refused() -> None:
     flat = AxisResponse((-1.0, 0.0, 1.0), (V(), V(), V(0.5, 0.0, 0.0)))
     with pytest.raises(PolicyError, match="forward.delivered must ascend"):
-        VelocityResponse((flat, *MEASURED.axes[1:]))
+        VelocityResponse(flat, MEASURED.lateral, MEASURED.turn)

@@ -170,12 +170,7 @@ class LegOdometry:
     ) -> None:
         """Take a reading, before :attr:`loops` run.
 
-        Args:
-            measurement: RobotState with joint angles and foot forces.
-            tilt: Roll and pitch of the torso, in [rad].
-            turn: Rotation about the vertical since the last reading, in
-                [rad].
-            duration: Time since the last reading, in [s].
+        ``turn`` is about the vertical since the last reading, in [rad].
         """
         self._forward.angles[:] = measurement.joint_positions
         self._tilt, given = tilt, self._given

@@ -31,15 +31,9 @@ class VelocityFilter(Protocol):
 
 
 def decision_interval(intent: Intent, gait: GaitSettings) -> float:
-    """Return the time until the next decision of a walking robot, in [s].
-
-    Args:
-        intent: Present intent.
-        gait: Template, which walks by a heading for one step.
-    """
-    if intent.velocity is None:
-        return gait.step_duration
-    return VELOCITY_INTERVAL
+    """Return the time until the next decision of a walking robot, in [s]."""
+    walks_by_heading = intent.velocity is None
+    return gait.step_duration if walks_by_heading else VELOCITY_INTERVAL
 
 
 class PolicyWalk:
@@ -56,7 +50,6 @@ class PolicyWalk:
         state: Likewise.
         heading_delay: 0: the heading is measured.
         pose_delay: 0: the pose is measured.
-        feels: True.
     """
 
     begun: StepStarted | None = None
@@ -70,14 +63,7 @@ class PolicyWalk:
         gait: GaitSettings,
         guard: VelocityFilter | None = None,
     ) -> None:
-        """Begin standing.
-
-        Args:
-            legs: Learned legs of the robot.
-            gait: Speed and steering gain of the template; the duration of its
-                step is the interval between decisions.
-            guard: Guard against obstacles; none by default.
-        """
+        """Begin standing, with a guard against obstacles, if any."""
         self.legs, self.gait, self._guard = legs, gait, guard
         self.phase = Phase.STANDING
         self._velocity = STILL

@@ -1,13 +1,12 @@
 """Measured response of legs, in a file beside the robot description."""
 
 import hashlib
-from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from ...core.entries import load_entries, read_entries
+from ...core.entries import load_entries, read_entries, to_entries
 from ...core.errors import PolicyError
-from .velocity_response import AXES, AxisResponse, VelocityResponse
+from .velocity_response import AXES, VelocityResponse
 
 
 def response_path(folder: Path, network: Path) -> Path:
@@ -31,33 +30,10 @@ def response_entries(
     response: VelocityResponse, network: Path
 ) -> dict[str, Any]:
     """Return a response as entries of its file."""
-    axes = zip(AXES, response.axes, strict=True)
-    return {
-        "network": digest_of(network),
-        "tube": response.tube,
-        "odometry_ratio": list(response.odometry_ratio),
-        **{
-            name: {
-                "commands": list(axis.commands),
-                "delivered": [list(row) for row in axis.delivered],
-                "lag": axis.lag,
-                "halting": axis.halting,
-            }
-            for name, axis in axes
-        },
-    }
-
-
-@dataclass(frozen=True)
-class ResponseEntries:
-    """Entries of the file of a response."""
-
-    network: str
-    forward: AxisResponse
-    lateral: AxisResponse
-    turn: AxisResponse
-    tube: float = 0.0
-    odometry_ratio: tuple[float, float] = (1.0, 1.0)
+    entries: dict[str, Any] = to_entries(response)
+    for name, axis in zip(AXES, response.axes, strict=True):
+        entries[name]["delivered"] = [list(row) for row in axis.delivered]
+    return entries | {"network": digest_of(network)}
 
 
 def load_response(folder: Path, network: Path) -> VelocityResponse | None:
@@ -74,15 +50,11 @@ def load_response(folder: Path, network: Path) -> VelocityResponse | None:
     if not path.is_file():
         return None
     try:
-        own = read_entries(
-            ResponseEntries, load_entries(path, PolicyError), error=PolicyError
-        )
-        if own.network != digest_of(network):
-            return None
-        axes = own.forward, own.lateral, own.turn
-        return VelocityResponse(axes, own.tube, own.odometry_ratio)
+        entries = load_entries(path, PolicyError)
+        own = read_entries(VelocityResponse, entries, error=PolicyError)
     except PolicyError as error:
         raise PolicyError(
             f"{path} is not a response of legs: {error}; `stepaside legs "
             "measure` writes it anew"
         ) from error
+    return own if own.network == digest_of(network) else None

@@ -275,12 +275,7 @@ class ObservationLayout(NamedTuple):
 
 
 def _places(joints: int, phases: int) -> tuple[int, dict[str, slice]]:
-    """Return the number of all quantities, and the place of each by name.
-
-    Args:
-        joints: Number of joints.
-        phases: Number of phases of the clock.
-    """
+    """Return the number of all quantities, and the place of each by name."""
     widths = {
         **dict.fromkeys(("base_lin_vel", "base_ang_vel"), 3),
         **dict.fromkeys(("projected_gravity", "command"), 3),
@@ -304,14 +299,7 @@ def _history_order(
 ) -> NDArray[np.int_]:
     """Return the order of past observations in the input of a network.
 
-    Args:
-        widths: Widths of the terms of an observation.
-        count: Number of observations.
-        by_term: Whether the past of one term precedes that of the next.
-
-    Returns:
-        Indices into the observations, one after the other. Shape
-        (observation width,).
+    By term, the past of one term precedes that of the next.
     """
     indices = np.arange(count * sum(widths)).reshape(count, -1)
     if not by_term:

@@ -5,14 +5,15 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from itertools import chain
-from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ...core.compilation import bound, compiled
-from ...core.errors import PolicyError, check_positive, check_within
+from ...core.errors import PolicyError, check_within
 from ...core.poses import Array
+from ...core.ranges import Range
+from ...core.setting import REQUIRED, check_settings, setting
 from ...strategies.velocity_set import (
     STILL,
     AxisValues,
@@ -24,6 +25,7 @@ from .contract import CommandRanges
 AXES = ("forward", "lateral", "turn")
 TOLERANCE = 1e-9  # of the share of an interval
 LARGEST = 100.0  # of each number, in its unit
+NONE = "no legs are so fast"
 SWEEPS = 12  # over the axes of the inverse; it converges before
 
 
@@ -67,75 +69,91 @@ def invert(
             return
 
 
-class AxisResponse(NamedTuple):
-    """Delivered velocities for commands along one axis.
+@dataclass(frozen=True)
+class AxisResponse:
+    """Delivered velocities for commands along one axis."""
 
-    Attributes:
-        commands: Commands, ascending, zero included. Shape (n,).
-        delivered: Mean velocity for each of them.
-        lag: Time by which the motion after a command at rest is behind that
-            of its final velocity, in [s].
-        halting: Motion along the axis from the command to stand until the
-            body stands, at the greatest command, in [m] or [rad].
-    """
+    commands: tuple[float, ...] = setting(
+        REQUIRED,
+        "Commands, ascending, zero included",
+        Range(-LARGEST, LARGEST, "m/s or rad/s", NONE),
+    )
+    delivered: tuple[BodyVelocity, ...] = setting(
+        REQUIRED, "Mean velocity for each of them"
+    )
+    lag: float = setting(
+        0.0,
+        "Time by which the motion after a command at rest is behind that of "
+        "its final velocity",
+        Range(0.0, LARGEST, "s", NONE),
+    )
+    halting: float = setting(
+        0.0,
+        "Motion along the axis from the command to stand until the body "
+        "stands, at the greatest command",
+        Range(0.0, LARGEST, "m or rad", NONE),
+    )
 
-    commands: tuple[float, ...]
-    delivered: tuple[BodyVelocity, ...]
-    lag: float = 0.0
-    halting: float = 0.0
+    def __post_init__(self) -> None:
+        """Check the numbers, and that there is a row for each command."""
+        check_settings(self, PolicyError)
+        for value in chain(*self.delivered):
+            check_within(
+                *(value, -LARGEST, LARGEST),
+                *("delivered", "m/s or rad/s", PolicyError),
+            )
+        if len(self.commands) < 2 or 0.0 not in self.commands:
+            raise PolicyError(
+                "commands must contain a command of 0 and others"
+            )
+        if len(self.delivered) != len(self.commands):
+            raise PolicyError(
+                f"delivered must have a row for each of the "
+                f"{len(self.commands)} commands, got {len(self.delivered)}"
+            )
 
 
 @dataclass(frozen=True)
 class VelocityResponse:
-    """Delivered velocities, as the sum of the responses of three axes.
+    """Delivered velocities, as the sum of the responses of three axes."""
 
-    Attributes:
-        axes: Response to commands ahead, to the left and of turning.
-        tube: Greatest distance of the body from its template point, in [m]; 0
-            if it was not measured.
-        odometry_ratio: True motion by that of the leg odometry, ahead and to
-            the side; 1 if it was not measured.
-    """
-
-    axes: tuple[AxisResponse, AxisResponse, AxisResponse]
-    tube: float = 0.0
-    odometry_ratio: tuple[float, float] = (1.0, 1.0)
+    forward: AxisResponse = setting(REQUIRED, "Response to commands ahead")
+    lateral: AxisResponse = setting(REQUIRED, "Response to commands aside")
+    turn: AxisResponse = setting(REQUIRED, "Response to turning commands")
+    tube: float = setting(
+        0.0,
+        "Greatest distance of the body from its template point {unit}; 0 if "
+        "it was not measured",
+        Range(0.0, LARGEST, "m", NONE),
+    )
+    odometry_ratio: tuple[float, float] = setting(
+        (1.0, 1.0),
+        "True motion by that of the leg odometry, ahead and to the side",
+        Range(0.0, LARGEST, "1", NONE, above=True),
+    )
+    network: str = setting("", "Digest of the network, in its file")
 
     def __post_init__(self) -> None:
-        """Check the tables.
+        """Check the numbers, and that velocities ascend with the command.
 
         Raises:
             PolicyError: If a number is not finite or out of its range, or a
                 table is not ascending.
         """
-        _check(self.tube, 0.0, "tube", "m")
-        for ratio in self.odometry_ratio:
-            check_positive(ratio, "odometry_ratio", "1", PolicyError)
+        check_settings(self, PolicyError)
         for i, (name, axis) in enumerate(zip(AXES, self.axes, strict=True)):
-            unit = "rad" if name == "turn" else "m"
-            _check(axis.lag, 0.0, f"{name}.lag", "s")
-            _check(axis.halting, 0.0, f"{name}.halting", unit)
-            for value in axis.commands:
-                _check(value, -LARGEST, f"{name}.commands", "1")
-            for value in chain(*axis.delivered):
-                _check(value, -LARGEST, f"{name}.delivered", "m/s or rad/s")
-            if len(axis.commands) < 2 or 0.0 not in axis.commands:
-                raise PolicyError(
-                    f"{name}.commands must contain a command of 0 and others"
-                )
             own = [row[i] for row in axis.delivered]
-            if len(own) != len(axis.commands):
-                raise PolicyError(
-                    f"{name}.delivered must have a row for each of the "
-                    f"{len(axis.commands)} commands, got {len(own)}"
-                )
-            for field, values in (("commands", axis.commands),
-                                  ("delivered", own)):  # fmt: skip
+            for key, values in ("commands", axis.commands), ("delivered", own):
                 if not (np.diff(values) > 0.0).all():
                     raise PolicyError(
-                        f"{name}.{field} must ascend with the command, got "
+                        f"{name}.{key} must ascend with the command, got "
                         f"{', '.join(f'{x:.3g}' for x in values)}"
                     )
+
+    @property
+    def axes(self) -> tuple[AxisResponse, AxisResponse, AxisResponse]:
+        """Responses ahead, to the left and of turning."""
+        return self.forward, self.lateral, self.turn
 
     @classmethod
     def ideal(cls, ranges: CommandRanges) -> "VelocityResponse":
@@ -145,7 +163,7 @@ class VelocityResponse:
             commands = tuple(sorted({*limits, 0.0}))
             rows = (STILL._replace(**{name: value}) for value in commands)
             axes.append(AxisResponse(commands, tuple(rows)))
-        return cls((axes[0], axes[1], axes[2]))
+        return cls(axes[0], axes[1], axes[2])
 
     @cached_property
     def _effects(self) -> tuple[tuple[BodyVelocity, ...], ...]:
@@ -220,17 +238,8 @@ class VelocityResponse:
         )
 
 
-def _check(value: float, least: float, name: str, unit: str) -> None:
-    check_within(value, least, LARGEST, name, unit, PolicyError)
-
-
 def _locate(values: Sequence[float], value: float) -> tuple[int, float]:
-    """Return the interval of a value, and the share of it below the value.
-
-    Args:
-        values: Ascending values.
-        value: A value; one outside counts as the nearest end.
-    """
+    """Return the interval of a value, and the share of it below the value."""
     i = min(max(bisect_right(values, value) - 1, 0), len(values) - 2)
     share = (value - values[i]) / (values[i + 1] - values[i])
     return i, min(1.0, max(0.0, share))

@@ -47,10 +47,7 @@ class CurrentStep(NamedTuple):
 
 
 def resting_step(support: Pose, foot: Foot) -> CurrentStep:
-    """Return the step of a standing robot on a support, in odometry.
-
-    ``foot`` is the other foot.
-    """
+    """Return the step of a robot that stands on a support, not on a foot."""
     return CurrentStep(support, foot, support, 0.0, 1.0, False)
 
 
@@ -60,13 +57,9 @@ def first_step_of(
     passed: float,
     landing: Pose | None = None,
 ) -> CurrentStep:
-    """Return the first step of a plan.
+    """Return the first step of a plan with a frame in odometry.
 
-    Args:
-        plan: Plan being walked.
-        frame: Pose of its frame in odometry.
-        passed: Time since it began, in [s].
-        landing: Planned landing pose in odometry, if it is known.
+    The planned landing is given if it is known.
     """
     gait = plan.schedule.settings
     walked = passed
@@ -87,13 +80,7 @@ def first_step_of(
 def zmp_box(swing: Foot, gait: GaitSettings, edge: float) -> Box:
     """Return the range of ZMP shifts from the anchor under a foot.
 
-    Args:
-        swing: Foot that does not support.
-        gait: Gait, for the sole and the anchor.
-        edge: Distance from the edge of the sole, in [m].
-
-    Returns:
-        Lowest and highest (x, y) shift in the support foot's axes, in [m].
+    It is in the support foot's axes, and leaves the edge of the sole, in [m].
     """
     sole, ahead = gait.sole, gait.zmp_forward
     outer, inner = sole.outer - edge, sole.inner - edge
@@ -136,15 +123,7 @@ def adapted_landing(
     :math:`e^{\eta T} (e - (1 - e^{-\eta T})\, p)`; the landing shifts by that
     much, within reach and without crossing the other foot.
 
-    Args:
-        error: DCM less the plan's, in the support foot's axes, in [m].
-        step: Step in progress.
-        box: Possible ZMP shifts.
-        gait: Gait.
-        settings: Limits of the reach.
-
-    Returns:
-        Shift of the landing in odometry, in [m].
+    The error is in the support foot's axes, the shift in odometry, in [m].
     """
     grow = exp(gait.eta * max(step.remaining, 1e-3))
     hold = 1.0 - 1.0 / grow
@@ -166,13 +145,7 @@ def adapted_landing(
 def shifted_swing(
     body: BodyReference, step: CurrentStep, shift: tuple[float, float]
 ) -> BodyReference:
-    """Return a reference whose swing foot heads for a shifted landing.
-
-    Args:
-        body: Body reference of the plan.
-        step: Step in progress.
-        shift: Shift of the landing in odometry, in [m].
-    """
+    """Return a reference whose swing foot heads for a shifted landing."""
     if not step.walking or shift == (0.0, 0.0):
         return body
     u, v = step.progress * shift[0], step.progress * shift[1]
@@ -182,20 +155,10 @@ def shifted_swing(
 def moved_swing(
     body: BodyReference, swing: Foot, x: float, y: float, turn: float
 ) -> BodyReference:
-    """Return a reference whose swing foot is moved.
-
-    Args:
-        body: Body reference.
-        swing: Foot that swings.
-        x: Translation in odometry, in [m].
-        y: Likewise.
-        turn: Rotation, in [rad].
-    """
-    com, left, right, left_tilt, right_tilt = body
-    if swing is Foot.LEFT:
-        u, v, z, yaw = left
-        left = u + x, v + y, z, yaw + turn
-    else:
-        u, v, z, yaw = right
-        right = u + x, v + y, z, yaw + turn
-    return BodyReference(com, left, right, left_tilt, right_tilt)
+    """Return a reference whose swing foot is moved in odometry."""
+    left = swing is Foot.LEFT
+    u, v, z, yaw = body.left_foot if left else body.right_foot
+    moved = u + x, v + y, z, yaw + turn
+    if left:
+        return body._replace(left_foot=moved)
+    return body._replace(right_foot=moved)

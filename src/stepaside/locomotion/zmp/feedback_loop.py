@@ -70,17 +70,9 @@ class OpenLoop:
         index: int,
         step: StepAt,
     ) -> Array:
-        """Return the joint targets of one tick.
+        """Return the joint targets of a tick of the table, in [rad].
 
-        Args:
-            measurement: RobotState of the tick.
-            table: References of the plan.
-            index: Index of the tick in the table.
-            step: Function from a time, in [s], to the step in progress.
-
-        Returns:
-            Joint targets, in [rad], shape (joints,); with feedback None after
-            a fall.
+        Shape (joints,); with feedback None after a fall.
 
         Raises:
             ReachError: If the legs cannot follow the reference.
@@ -88,10 +80,7 @@ class OpenLoop:
         return self.planned_targets(table, index)
 
     def planned_targets(self, table: ReferenceTable, index: int) -> Array:
-        """Return the joint targets of a tick if they need no measurement.
-
-        Those of :meth:`targets` then; None with feedback.
-        """
+        """Return the same if it needs no measurement; None with feedback."""
         used = self._used
         if (
             used == len(self._targets)
@@ -140,11 +129,7 @@ class OpenLoop:
         velocity: Vector,
         step: CurrentStep,
     ) -> tuple[Pose, Vector, Vector]:
-        """Return the estimated landing, CoM and velocity after a step.
-
-        The landing is in odometry, CoM and velocity in the landed foot. The
-        plan's are returned unchanged.
-        """
+        """Return the landed foot, and CoM and velocity in it, as planned."""
         return landed, position, velocity
 
     def fit(
@@ -214,10 +199,7 @@ class ClosedLoop:
         index: int,
         step: StepAt,
     ) -> Array | None:
-        """Return the targets of the stabilised reference.
-
-        See :class:`Stabiliser`.
-        """
+        """Return the targets of the stabilised reference."""
         stabiliser, sample = self.stabiliser, table.sample(index)
         body = stabiliser.update(measurement, sample, step(measurement.time))
         self.commanded = body

@@ -63,12 +63,7 @@ class LoadFeedforward:
     def added(
         self, reference: BodyReference, zmp: tuple[float, float]
     ) -> Array:
-        """Return the offsets of one tick, in [rad]. Shape (joints,).
-
-        Args:
-            reference: Body reference of the present posture.
-            zmp: ZMP of the plan in odometry, in [m].
-        """
+        """Return the offsets of one tick, in [rad]. Shape (joints,)."""
         torques = self.loads.torques(reference, zmp)
         offsets: Array = self._filtered(torques[None])[0]
         return offsets

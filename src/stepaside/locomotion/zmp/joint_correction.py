@@ -41,15 +41,7 @@ class Ankles:
     def tilts(
         self, state: BodyState, reference_roll: float = 0.0
     ) -> tuple[Tilt, Tilt]:
-        """Return the foot tilts of one tick.
-
-        Args:
-            state: Estimated state of the body.
-            reference_roll: Reference roll of the torso, in [rad].
-
-        Returns:
-            Roll and pitch of the left foot and of the right one, in [rad].
-        """
+        """Return roll and pitch of the left and the right foot, in [rad]."""
         gains, blend = self._gains, self._blend
         tilt = state.tilt[0] - reference_roll
         rate = (
@@ -105,12 +97,7 @@ class JointCorrection:
         self._bind(1)  # compiles
 
     def update(self, measured: Array, targets: Array) -> Array:
-        """Return the corrected targets of one tick.
-
-        Args:
-            measured: Measured joint positions, in [rad]. Shape (joints,).
-            targets: Joint targets, in [rad]. Shape (joints,).
-        """
+        """Return the corrected targets of one tick, in [rad]."""
         if self._correction is None:
             self._correction = self._bind(len(targets))
         if len(self._targets) == self._targets.maxlen:

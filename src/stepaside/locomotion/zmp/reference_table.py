@@ -101,13 +101,9 @@ class ReferenceTable:
         started: float,
         duration: float,
     ) -> None:
-        """Sample a plan at the ticks of its first part.
+        """Sample a plan at the ticks of its first part, of a duration in [s].
 
-        Args:
-            plan: Plan to walk.
-            plan_frame: Pose of its frame in odometry.
-            started: Start time of the plan, in [s].
-            duration: Duration of the part, in [s].
+        Its frame is in odometry.
         """
         tick = self._tick
         self._first = ceil((started - 1e-9) / tick)

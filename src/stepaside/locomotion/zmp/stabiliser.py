@@ -36,7 +36,7 @@ from .joint_correction import Ankles, JointCorrection
 from .reference_table import ReferenceSample
 from .state_estimator import BodyState, StateEstimator
 from .stride_learning import StrideLearning
-from .zmp_feedback import zmp_feedback
+from .zmp_feedback import ZmpFeedback
 
 Vector = tuple[float, float]
 ZERO = (0.0, 0.0)
@@ -91,13 +91,7 @@ class Stabiliser:
     ) -> None:
         """Prepare the stabiliser.
 
-        Args:
-            settings: Method and gains.
-            estimator: State from sensors.
-            gait: Gait.
-            tick: Control period, in [s].
-            delay: Time from a command to the motion, in [s].
-            lean: See :meth:`BodyReference.roll`, in [rad].
+        ``delay`` is the time from a command to the motion, in [s].
         """
         self.settings, self.estimator = settings, estimator
         self.state: BodyState | None = None
@@ -116,7 +110,7 @@ class Stabiliser:
             tick=tick,
             delay=delay,
         )
-        self.zmp_feedback = zmp_feedback(settings, gait, tick)
+        self.zmp_feedback = ZmpFeedback(settings, gait, tick)
         self.stride = StrideLearning(
             gait, gains.stride_gain, gains.stride_bound
         )
@@ -141,13 +135,7 @@ class Stabiliser:
     def update(
         self, measurement: RobotState, row: ReferenceSample, step: CurrentStep
     ) -> BodyReference:
-        """Run one control tick.
-
-        Args:
-            measurement: RobotState of the tick.
-            row: References of the plan.
-            step: Step in progress.
-        """
+        """Run one control tick; return the commanded body."""
         self._observe(measurement, row, step)
         if not self.ready:
             return row.body
@@ -246,16 +234,10 @@ class Stabiliser:
         velocity: Vector,
         step: CurrentStep,
     ) -> tuple[Pose, Vector, Vector]:
-        """Add the shifts to the state with which the next plan begins.
+        """Add the shifts to the planned state when a step ends.
 
-        Args:
-            landed: Planned pose of the landed foot in odometry.
-            position: Planned CoM in its frame, in [m].
-            velocity: Planned CoM velocity, in [m/s].
-            step: Step that ends.
-
-        Returns:
-            Estimates of the same three quantities.
+        It is the landed foot in odometry, and CoM and its velocity in the
+        frame of that foot, in [m] and [m/s].
         """
         eta = self._gait.eta
         u, v = self.step_shift
@@ -286,12 +268,8 @@ class Stabiliser:
     ) -> tuple[ManeuverPlan, CenterState]:
         """Plan with the correction inside the sole.
 
-        The remaining DCM error becomes a shift.
-
-        Args:
-            plan_from: Function that plans from a CoM state.
-            state: Initial state in the frame of the support foot.
-            support: Pose of that frame in odometry.
+        The remaining DCM error becomes a shift. ``support`` is the support
+        foot in odometry, in whose frame the state is.
         """
         plan = plan_from(state)
         box = self._boxes[plan.first_foot]

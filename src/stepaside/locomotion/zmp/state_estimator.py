@@ -40,20 +40,9 @@ def estimate(
 ) -> None:
     """Update the state by the values of one tick.
 
-    Args:
-        values: See :data:`VALUES`.
-        com: CoM in the torso frame, in [m]. Shape (3,).
-        feet: Positions of left and right foot there, in [m]. Shape (..., 3).
-        axes: Axes of the feet there, as columns. Shape (..., 3, 3).
-        sensors: Positions of the force sensors in the foot frames, in [m].
-            Shape (8, 2).
-        state: See :data:`STATE`; changed in place.
-        tick: Control period, in [s].
-        eta: Rate of the pendulum, in [1/s].
-        position_gain: Gain of the observer.
-        velocity_gain: Gain of the observer, in [1/s].
-        touches: Weight above which the load fraction is known, in [N].
-        stands: Weight above which the floor supports the robot, in [N].
+    CoM, feet and their axes are in the torso frame, the sensors in the foot
+    frames. The load fraction is known above the weight ``touches``; above
+    ``stands``, in [N], the floor supports the robot.
     """
     left = values[0] + values[1] + values[2] + values[3]
     right = values[4] + values[5] + values[6] + values[7]

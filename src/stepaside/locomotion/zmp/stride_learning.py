@@ -17,12 +17,7 @@ MAX_TURN = 0.08  # of the learned correction, in [rad]
 def measured_step(posture: MeasuredPosture, swing: Foot) -> Array:
     """Return the pose of the swing foot in the frame of the other foot.
 
-    Args:
-        posture: Measured posture.
-        swing: Foot that swung.
-
-    Returns:
-        Row (x [m], y [m], theta [rad]). Shape (3,).
+    A row (x [m], y [m], theta [rad]). Shape (3,).
     """
     own, other = (0, 1) if swing is Foot.LEFT else (1, 0)
     frame = posture.axes_feet_in_torso[other].T
@@ -48,24 +43,13 @@ class StrideLearning:
     """
 
     def __init__(self, gait: GaitSettings, gain: float, bound: float) -> None:
-        """Begin without a correction.
-
-        Args:
-            gait: Gait.
-            gain: Learning gain per step.
-            bound: Largest correction of the position, in [m].
-        """
+        """Begin without a correction; the bound is of the position."""
         self._gait, self._gain = gait, gain
         self._bounds = np.array([bound, bound, MAX_TURN])
         self.aim = {Foot.LEFT: np.zeros(3), Foot.RIGHT: np.zeros(3)}
 
     def learn(self, posture: MeasuredPosture, step: CurrentStep) -> None:
-        """Update from a step at its end.
-
-        Args:
-            posture: Measured posture.
-            step: Step that ends.
-        """
+        """Update from the posture at the end of a step."""
         planned = np.array(step.support.inverse().compose(step.landing))
         short = planned - measured_step(posture, step.swing)
         short[2] = wrap_angle(float(short[2]))
