@@ -104,16 +104,10 @@ def predict_clearance(
     *,
     stands: bool,
 ) -> float:
-    """Predict the least distance to an opponent while the robot steps aside.
+    """Predict the least distance to an opponent from now on, in [m].
 
-    Args:
-        approach: Motion of the opponent, which keeps its velocity.
-        limits: Limits of the own gait, which walks backward.
-        heading: Target heading in the own frame, in [rad].
-        stands: Whether the robot stands and has to start first.
-
-    Returns:
-        Least distance from now on, in [m].
+    The opponent keeps its velocity; the robot turns to a heading in its frame
+    [rad] and walks backward, after a step if it stands.
     """
     share = limits.share
     step = limits.step_duration

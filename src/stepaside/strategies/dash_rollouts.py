@@ -56,14 +56,8 @@ def make_dashes(
 ) -> Dashes:
     """Return standing, dashes that begin now, and those that begin later.
 
-    The body turns the nearer end of its faster axis along the dash.
-
-    Args:
-        count: Number of directions.
-        theta: Heading of the body in the map, in [rad].
-        velocities: Velocities that the legs deliver.
-        later: Time after which the second set begins, in [s].
-        both_ends: Whether to add dashes with the other end ahead.
+    The body, at a heading in the map, turns the nearer end of its faster axis
+    along the dash; both ends are tried if asked.
     """
     angles = theta + 2.0 * pi / count * np.arange(count)
     ahead, aside = (max(high, -low) for low, high in velocities[:2])
@@ -83,17 +77,10 @@ def make_dashes(
 
 @inlined
 def greatest_velocity(angle: float, bounds: Any) -> tuple[float, float]:
-    """Return the fastest horizontal velocity in a direction of the body.
+    """Return the fastest velocity in a direction of the body, in [m/s].
 
-    A unicycle walks at its component of the velocity.
-
-    Args:
-        angle: Direction in the frame of the body, in [rad].
-        bounds: Velocities that the legs deliver, or their bounds ahead and
-            to the left, in [m/s].
-
-    Returns:
-        Components ahead and to the left, in [m/s].
+    Components ahead and to the left, within a velocity set or its first two
+    bounds; a unicycle walks at its component of the velocity.
     """
     c, s = cos(angle), sin(angle)
     ahead = bounds[0][1] if c > 0.0 else -bounds[0][0]
@@ -145,16 +132,11 @@ def roll_out(
 def fill_paths(
     pose: Any, start: Any, dashes: Dashes, bounds: Any, paths: Any, out: Any
 ) -> None:
-    """Write the paths and headings of :func:`roll_out`.
+    """Write positions and headings of :func:`roll_out`.
 
-    Args:
-        pose: Pose of the body in the map. Shape (3,).
-        start: Velocity ahead and to the left, in [m/s], and share of a
-            command that each reaches in a step. Shape (4,).
-        dashes: Dashes.
-        bounds: Bounds ahead, to the left, and of turning. Shape (3, 2).
-        paths: Output: positions.
-        out: Output: headings.
+    Start: velocity ahead and to the left, in [m/s], and share of a command
+    that each reaches in a step. Bounds: ahead, to the left, and of turning,
+    (3, 2).
     """
     for j in range(len(dashes.angles)):
         x, y, u, v = pose[0], pose[1], start[0], start[1]
@@ -187,16 +169,8 @@ def unseen_shares(
 ) -> Array:
     """Return the share of time for which an opponent is out of view.
 
-    The opponent keeps its course.
-
-    Args:
-        paths: Positions of the robot, in [m]. Shape (m, n, 2).
-        headings: Its headings, in [rad]. Shape (m, n).
-        opponent: Opponent at first.
-        views: Bearings at which it is seen.
-
-    Returns:
-        Shape (n,).
+    The opponent keeps its course. Positions of the robot (m, n, 2), in [m],
+    headings (m, n); the result has shape (n,).
     """
     way = STEP * opponent.speed * np.arange(len(paths))[:, None]
     x = opponent.x + way * cos(opponent.course) - paths[..., 0]
@@ -210,21 +184,12 @@ def unseen_shares(
 def closest_approaches(
     paths: Any, opponent: Opponent, turning_radius: float, feints: Any
 ) -> Any:
-    """Return the worst closest approach of some paths.
+    """Return the worst closest approach of some paths, in [m]. Shape (n,).
 
-    The opponent steers at the robot, limited by its turning radius, after
-    turning fully to one side for a while.
-
-    Args:
-        paths: Positions of the robot, in [m]. Shape (steps + 1, n, 2).
-        opponent: Opponent at first.
-        turning_radius: Its smallest turning radius, in [m]; infinite for one
-            who walks straight.
-        feints: Sides to which it turns first: 1 left, -1 right, 0 none.
-            Shape (m,).
-
-    Returns:
-        Smallest distance over time and feints, in [m]. Shape (n,).
+    The opponent steers at the robot, limited by its turning radius (infinite
+    for one who walks straight), after turning fully to a side for a while: 1
+    left, -1 right, 0 none; the worst of these feints counts. Paths have shape
+    (steps + 1, n, 2).
     """
     most = opponent.speed / turning_radius  # turning rate, [rad/s]
     way, sharp = STEP * opponent.speed, STEP * most

@@ -141,15 +141,10 @@ def nearest_passages(
 ) -> tuple[Array, Array]:
     """Predict the closest approach of each other player, at constant velocity.
 
-    Args:
-        knowledge: Knowledge of the player.
-        own: Own velocities in the frame, in [m/s]. Shape (2, n).
-        earliest: Time from now before which approaches do not count, as no
-            choice changes them, in [s].
-
-    Returns:
-        Closest approaches until the horizon, in [m], and the times until
-        then, in [s]. Shapes (others, n).
+    Own velocities (2, n) in the frame, in [m/s]. Approaches before the
+    earliest time [s] do not count, as no choice changes them. Returns
+    distances [m] and times from now [s] up to the horizon, of shape (others,
+    n).
     """
     rows = [
         (*other.position, *(other.velocity or (0.0, 0.0)), other.age)

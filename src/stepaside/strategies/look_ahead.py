@@ -234,11 +234,6 @@ def predict_poses(
 
     A body passes the landed foot half a step after its landing; the pursuer
     walks straight on until then.
-
-    Args:
-        both: Poses at the sighting.
-        knowledge: Knowledge, for the own limits and the sighting's age.
-        begins: Pose at which the step begins, in the own odometry.
     """
     limits = knowledge.limits
     way = limits.stride * (0.5 + knowledge.age / limits.step_duration)

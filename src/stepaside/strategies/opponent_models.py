@@ -98,15 +98,9 @@ class ModelFit(NamedTuple):
     ) -> "ModelFit":
         """Fit every model to the path with one more observation.
 
-        Args:
-            time: Time of the observation, in [s].
-            own: Own pose, with the centre of the room as origin.
-            position: Position of the pursuer, likewise, in [m].
-            rules: StepRules of the steps.
-            period: Duration of a step, in [s].
-            sways: Whether the observations alternate from step to step with
-                the sway of walking bodies; then the path is that of the mean
-                of two, half a step earlier.
+        Poses are relative to the centre of the room; a step takes a period
+        [s]. Positions of walking bodies alternate with their sway from step to
+        step: then the path is that of the mean of two, half a step earlier.
         """
         passed = time - self.time
         if self.time >= 0.0 and passed < 0.75 * period:
@@ -149,13 +143,7 @@ class ModelFit(NamedTuple):
         )
 
     def pose(self, number: int, rules: StepRules, ahead: float) -> Pose:
-        """Return the pose of the pursuer by a model.
-
-        Args:
-            number: Number of the model.
-            rules: StepRules of the steps.
-            ahead: Time since the end of the path, in steps.
-        """
+        """Return the pose of the pursuer by a model, steps after the path."""
         pose = Pose(*self.poses[number])
         if not len(self.path):
             return pose

@@ -231,17 +231,9 @@ def relative_poses(
     course: Course,
     model: ShieldModel,
 ) -> Array:
-    """Return the poses of the robot in the frame of the opponent.
+    """Return the poses of the robot in the frame of the opponent. (n, 3).
 
-    Args:
-        own: Pose of the robot in the map.
-        seen: Last position of the opponent.
-        course: Its heading.
-        model: Model of the robot.
-
-    Returns:
-        Poses, in [m] and [rad]. Shape (n, 3); one for each heading of an
-        opponent whose heading is not known.
+    One for each heading of an opponent whose heading is not known.
     """
     rows = []
     for heading in course.headings(model.heading_error):

@@ -44,21 +44,14 @@ def observed_course(
 ) -> Course | None:
     """Return the heading of an opponent after its last sighting.
 
-    The direction of the chord between two positions is off by at most the
-    turn between them, and by the errors of both. The heading follows it no
-    faster than the opponent turns: then it turns as the opponent may, and
-    stays within the error of the chord.
+    The direction of the chord between two positions, at least a window [s]
+    apart, is off by at most the turn between them, and by the errors of both.
+    The heading follows it no faster than the opponent turns: then it turns as
+    the opponent may, and stays within the error of the chord.
 
-    Args:
-        before: Heading at an earlier sighting; None for none.
-        seen: Positions, the last one at the present sighting.
-        window: Least time between the ends of a chord, in [s].
-        person: Greatest turning rate of the opponent, in [rad/s], and error
-            of a position, in [m].
-        known: Error of a heading that counts as known, in [rad].
-
-    Returns:
-        The heading; None before a window has passed for the first time.
+    The person is given by its greatest turning rate [rad/s] and the error of a
+    position [m]; errors of a heading up to a bound [rad] count as known. None
+    before a window has passed for the first time.
     """
     turn, sighting_error = person
     last = seen[-1]

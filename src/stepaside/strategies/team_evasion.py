@@ -111,20 +111,11 @@ def candidate_turns(largest: float) -> Array:
 def roll_out_all(
     pursuers: Any, turns: Any, rules: StepRules, least: Any, last: Any
 ) -> None:
-    """Predict the least distance to any pursuer under turning sequences.
+    """Write the least distance to any pursuer, in all and at the end, in [m].
 
-    The evader walks backward from the origin of the frame, the pursuers head
-    for it by (1)-(2); all have one stride and gain.
-
-    Args:
-        pursuers: Poses (x [m], y [m], theta [rad]) in the frame. Shape
-            (n, 3).
-        turns: Turns of the evader, in [rad] per step. Shape (candidates,
-            steps).
-        rules: Rules of a step.
-        least: Output: least distance, in [m]; inf before. Shape
-            (candidates,).
-        last: Output: least distance at the end, likewise.
+    The evader walks backward from the origin of the frame by turns
+    (candidates, steps); pursuers at poses (n, 3) head for it by (1)-(2), with
+    its stride and gain.
     """
     for j in range(len(turns)):
         for i in range(len(pursuers)):

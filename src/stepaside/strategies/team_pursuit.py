@@ -118,11 +118,8 @@ class Pincer(PursuitVariant):
 def assign(costs: Array) -> tuple[int, ...]:
     """Return the column of each row of the assignment of least total cost.
 
-    With more rows than columns every column is used, and none more than
-    once more often than another.
-
-    Args:
-        costs: Cost of each pair. Shape (rows, columns).
+    With more rows than columns every column is used, and none more than once
+    more often than another.
     """
     from scipy.optimize import linear_sum_assignment
 

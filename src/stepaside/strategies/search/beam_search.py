@@ -68,17 +68,12 @@ class BeamRules(NamedTuple):
 
 
 class Successors(NamedTuple):
-    """Successors of the states of a beam.
+    """Successors of the states of a beam: n rows.
 
-    Attributes:
-        poses: Positions [m] and heading vectors of the evader, and least
-            distance so far [m]. Shape (n, 5).
-        ranks: Ranks, in [m]. Shape (n,).
-        keys: Keys, which nearly equal states have in common. Shape (n,).
-        origins: Number of the state and of the action that they come from.
-            Shape (n, 2).
-        order: Working memory: their order. Shape (n,).
-        firsts: Working memory of the sorting. Shape (GRAINS + 1,).
+    Positions [m] and heading vectors of the evader, with the least distance so
+    far (n, 5); ranks, in [m]; keys, which nearly equal states have in common;
+    number of the state and of the action that they come from (n, 2); and
+    working memory of the sorting.
     """
 
     poses: Any
@@ -145,20 +140,12 @@ def expand(
     new: Successors,
     made: int,
 ) -> int:
-    """Add the successors of a state; return the number of all.
+    """Add the successors of a state to those made; return the number of all.
 
-    The rank of a state is its worth: far away, beside the pursuer, clear;
-    with caution, never near.
-
-    Args:
-        state: Both players (:class:`.PlayerPair`), and least distance so
-            far, in [m]; the pursuer is advanced by one step. Shape (9,).
-        arcs: Arcs of the actions (:func:`action_arcs`). Shape (k, 4).
-        model: Model of the pursuer.
-        field: Distance from obstacles.
-        rules: Rules of the steps.
-        new: Output.
-        made: Number of successors in it before.
+    The state holds both players (:class:`.PlayerPair`) and the least distance
+    so far, in [m]; its pursuer is advanced by one step. The rank of a
+    successor is its worth: far away, beside the pursuer, clear; with caution,
+    never near.
     """
     both = pair_in(state)
     ex, ey, forward, leftward = both.ex, both.ey, both.ec, both.es
@@ -257,15 +244,9 @@ def select_best(
 ) -> int:
     """Write the best successors, unlike ones first; return their number.
 
-    In a corner few states are unlike, and small differences decide.
-
-    Args:
-        new: Successors.
-        made: Number of successors.
-        old: States that they come from. Shape (width, 9).
-        beam: Output: the states that go on, likewise.
-        table: Working memory, a power of two long.
-        chosen: Output: parent and action of each. Shape (width, 2).
+    They come from the old states and go on in the beam, (width, 9); parent and
+    action of each are written to ``chosen``, (width, 2). In a corner few
+    states are unlike, and small differences decide.
     """
     sort_ranks(new.ranks, made, new.order, new.firsts)
     for place in range(len(table)):
@@ -367,17 +348,10 @@ def play_moves(
     packed: PackedObstacles,
     rules: BeamRules,
 ) -> tuple[int, float]:
-    """Return the steps that moves survive, and their least distance.
+    """Return the steps that moves survive, and their least distance [m].
 
-    Args:
-        start: As in :func:`beam_search`.
-        moves: Turn [rad] and speed factor of each step. Shape (n, 2).
-        model: Model of the pursuer.
-        packed: Obstacles.
-        rules: Rules of the games.
-
-    Returns:
-        Number of steps, and least distance in them, in [m], at most 0.8.
+    Moves are turn [rad] and speed factor of each step, (n, 2); the distance is
+    at most 0.8 m. The start is that of :func:`beam_search`.
     """
     field = distance_field(packed, rules.clearance + CLEAR, 0.0, 0.0, 0.0)
     arcs = action_arcs(moves, rules.step.stride)

@@ -160,12 +160,7 @@ def step_both(
 ) -> PlayerPair:
     """Advance both players by one step.
 
-    Args:
-        both: Poses of both players.
-        turn: Turn of the evader, in [rad].
-        pace: Fraction of the stride that the evader makes.
-        model: Model of the pursuer.
-        rules: Rules of the step.
+    The evader turns by a turn [rad] and makes a fraction of its stride.
     """
     way = -pace * rules.stride  # backward
     x, y, c, s = walk_arc(both.ex, both.ey, both.ec, both.es, way, turn)
@@ -179,13 +174,8 @@ def follow_model(
 ) -> tuple[float, float, float]:
     """Walk along a path as a model turns; return the pose at its end.
 
-    Args:
-        path: As in :func:`fit_heading`.
-        heading: Heading at the beginning, in [rad].
-        model: Model of the pursuer.
-        rules: Rules of the steps.
-        off: Output: positions on the path less those of the model, and less
-            their mean, in [m]. Shape (n, 2).
+    The positions on the path less those of the model, and less their mean, are
+    written to ``off``, in [m]. Shape (n, 2).
     """
     x = y = mean_x = mean_y = 0.0
     for k in range(len(path)):

@@ -185,15 +185,8 @@ def roll_out(
 ) -> tuple[PlayerPair, float, int]:
     """Roll out given turns, then the law; return state, score and steps.
 
-    Args:
-        both: Initial state of both players.
-        score: Score so far.
-        turns: Turn of each step; those of the law are filled in. Shape
-            (steps,).
-        given: Number of given turns.
-        spot: Number of initial steps on the spot.
-        worst: Score at or below which the rollout is aborted.
-        problem: Search, models and obstacles.
+    The turns of the law are filled in. The first steps may turn on the spot;
+    at a score that is no better than the worst the rollout ends.
     """
     search, rules = problem.search, problem.rules
     field, model = problem.field, problem.model
@@ -250,16 +243,9 @@ def descend(
 ) -> tuple[float, int]:
     """Descend the tree of pieces; return best score and steps rolled out.
 
-    Args:
-        both: State of both players at the root.
-        start: Score at the root.
-        first: Number of steps before the root; their turns are in ``work``.
-        made: Number of steps rolled out before.
-        best: Best score so far.
-        problem: Search, models and obstacles.
-        chosen: Output: turns of the best maneuver, if better. Shape
-            (horizon + spots,).
-        work: Scratch array of the same shape.
+    The root has a state, a score, and a number of steps before it, whose turns
+    are in the scratch array; turns that are better than the best are written
+    to ``chosen``. Both have shape (horizon + spots,).
     """
     search = problem.search
     pieces, turns = search.pieces, search.turns
@@ -320,8 +306,7 @@ def search_on_spot(
 ) -> tuple[float, int, int]:
     """Try sequences behind turns on the spot, by the sharpest turn.
 
-    The arguments are those of :func:`descend`, and the number of initial
-    steps on the spot of the best maneuver, which is returned as well.
+    Returns best score, steps rolled out, and steps on the spot of the best.
     """
     search = problem.search
     most = 0.0
