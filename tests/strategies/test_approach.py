@@ -68,13 +68,6 @@ def test_still_or_receding_opponents_never_make_contact() -> None:
     assert abs(Approach(0.0, 1.0, 1.0, 0.0).origin) == pytest.approx(pi)
 
 
-def test_old_sightings_are_extrapolated() -> None:
-    known = Knowledge(1.0, 0.0, 3.0, LIMITS, age=0.5, velocity=(-1.0, 0.2))
-    assert Approach.of(known)[:2] == pytest.approx((2.5, 0.1))
-    still = Approach.of(Knowledge(1.0, pi / 2, 2.0, LIMITS, age=0.5))
-    assert still == pytest.approx((0.0, 2.0, 0.0, 0.0), abs=1e-12)
-
-
 @given(st.floats(-pi, pi))
 def test_a_swift_heading_corrects_the_largest_possible_error(
     error: float,
@@ -163,11 +156,6 @@ def test_the_side_stays_until_standing_is_safe() -> None:
     assert not intent.walks and twice == EvasionMemory()
     # Who comes again in between is not safe yet.
     assert TIMED.decide(coming(2.0), once)[1].safe == 0
-
-
-def test_without_a_velocity_the_time_trigger_is_inactive() -> None:
-    known = Knowledge(1.0, 0.0, 0.5, LIMITS)
-    assert not TIMED.decide(known, TIMED.begin())[0].walks
 
 
 @pytest.mark.parametrize("angle", [0.0, radians(45.0), pi / 2])

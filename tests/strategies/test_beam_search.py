@@ -1,6 +1,6 @@
 """Test the beam search and its model of the pursuer."""
 
-from math import acos, cos, inf, pi, sin
+from math import inf, pi
 
 import numpy as np
 import pytest
@@ -12,10 +12,8 @@ from stepaside.strategies import Pursuit, StepGame, Strategy
 from stepaside.strategies.robust_evasion import actions_of
 from stepaside.strategies.search.beam_search import (
     BeamRules,
-    arc_cosine,
     beam_search,
     play_moves,
-    sector_of,
 )
 from stepaside.strategies.search.step_motion import (
     PursuerModel,
@@ -92,25 +90,6 @@ def test_evader_that_is_too_near_to_a_wall_may_only_leave_it() -> None:
     assert played == [0, 1, 1]
 
 
-def test_wider_beams_survive_longer_in_a_small_room() -> None:
-    packed = Room(1.8, 1.8).solid_set.packed
-    start = np.array([0.3, 0.2, 0.3, -0.3, -0.1, 0.9])
-    actions = actions_of(STEP.largest)
-    found = [
-        len(
-            beam_search(
-                start,
-                actions,
-                SHARP,
-                packed,
-                RULES._replace(width=width, horizon=450),
-            )
-        )
-        for width in (1, 2000)
-    ]
-    assert 3 < found[0] < found[1] < 450
-
-
 def test_captured_and_touching_moves_do_not_survive() -> None:
     near = np.array([0.3, 0.0, 0.0, -0.06, 0.0, 0.0])
     walk_into = np.array([[0.0, 0.0]])
@@ -121,19 +100,6 @@ def test_captured_and_touching_moves_do_not_survive() -> None:
     back = np.array([[0.0, 1.0]])
     assert play_moves(beside, back, SHARP, wall, RULES)[0] == 0
     assert play_moves(beside, back, SHARP, none, RULES)[0] == 1
-
-
-def test_arc_cosine_is_that_of_its_reference() -> None:
-    for value in np.linspace(-1.0, 1.0, 401).tolist():
-        assert arc_cosine(value) == pytest.approx(acos(value), abs=7e-5)
-
-
-def test_sectors_are_equal() -> None:
-    angles = np.linspace(0.0, 2.0 * pi, 160, endpoint=False) + 0.01
-    found = [sector_of(cos(a), sin(a)) for a in angles.tolist()]
-    assert sorted(set(found)) == list(range(16))
-    for first in range(0, 160, 10):
-        assert len(set(found[first : first + 10])) == 1
 
 
 def test_alike_states_fill_the_places_that_are_left() -> None:

@@ -13,7 +13,6 @@ from stepaside.planning import GaitSettings
 from stepaside.sim.person_motion import PersonMotion, Place
 from stepaside.sim.person_settings import PersonSettings
 from stepaside.strategies import (
-    STAND,
     DashEvasion,
     Knowledge,
     Limits,
@@ -137,15 +136,6 @@ def test_a_chaser_keeps_near_the_distance_of_the_homicidal_chauffeur() -> None:
     assert 0.85 * bound < game.closest_distance < 1.15 * bound
 
 
-def test_the_matador_assumes_a_chaser() -> None:
-    matador, aside = load_strategy("matador"), load_strategy("step-aside")
-    assert isinstance(matador, DashEvasion)
-    assert matador.turning_radius == 2.5
-    assert matador.enough == inf
-    assert matador.effort == 0.0
-    assert aside == STEP_ASIDE
-
-
 AHEAD, BEHIND = Sector(0.0, pi / 2), Sector(pi, pi / 2)
 
 
@@ -166,27 +156,3 @@ def test_a_dash_keeps_the_person_in_view(
         intent, memory = STEP_ASIDE.decide(known, memory)
     assert intent.velocity is not None
     assert side * intent.velocity.turn > 0.0
-
-
-@pytest.mark.parametrize("legs", [None, LEGS])
-def test_without_a_threat_it_stands(legs: VelocitySet | None) -> None:
-    limits = Limits(0.1, 0.2, 0.04, 0.4, legs)
-    far = Knowledge(0.0, 0.3, 9.0, limits)
-    intent, memory = STEP_ASIDE.decide(far, STEP_ASIDE.begin())
-    assert intent == STAND
-    assert memory.angle is None
-
-
-def test_a_unicycle_dashes_along_its_own_axis() -> None:
-    """A person from the left makes the paper's walk go straight."""
-    limits = Limits(0.1, 0.2, 0.04, 0.4)
-    memory = STEP_ASIDE.begin()
-    for i in range(12):
-        time = 0.05 * i
-        known = Knowledge(time, pi / 2, 2.5 - 1.0 * time, limits)
-        intent, memory = STEP_ASIDE.decide(known, memory)
-    assert intent.velocity is not None
-    assert abs(intent.velocity.forward) > 0.05
-    assert intent.velocity.lateral == 0.0
-    course = atan2(intent.velocity.lateral, intent.velocity.forward)
-    assert abs(sin(course)) < 0.2

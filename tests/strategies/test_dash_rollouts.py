@@ -30,17 +30,6 @@ HERE = Pose(1.0, -2.0, 0.4)
 NO_FEINT = np.zeros(1)
 
 
-def test_the_body_turns_the_nearer_end_of_its_faster_axis() -> None:
-    dashes = make_dashes(8, HERE.theta, AT_ONCE, 0.6)
-    turns = dashes.headings[1:9] - HERE.theta
-    np.testing.assert_allclose(
-        np.rad2deg(turns), [0, 45, 90, -45, 0, 45, -90, -45], atol=1e-9
-    )
-    crab = VelocitySet((-SLOW, SLOW), (-FAST, FAST), (-1.0, 1.0))
-    sideways = make_dashes(8, HERE.theta, crab, 0.6).headings[3] - HERE.theta
-    assert sideways == pytest.approx(0.0)  # to the left, by its faster axis
-
-
 def test_someone_who_passes_is_unseen_while_behind() -> None:
     """Passes a standing robot at 1 m: in view for half of the way."""
     standing = make_dashes(4, HERE.theta, AT_ONCE, inf)
@@ -53,19 +42,6 @@ def test_someone_who_passes_is_unseen_while_behind() -> None:
         shares = unseen_shares(paths, headings, passer, views)
         np.testing.assert_allclose(shares, 20 / 41, atol=0.03)
     assert not unseen_shares(paths, headings, passer, ALL_AROUND).any()
-
-
-def test_dashes_end_where_velocities_lead() -> None:
-    dashes = make_dashes(4, HERE.theta, AT_ONCE, 0.6)
-    paths, _ = roll_out(HERE, STILL, dashes, AT_ONCE, 3.0)
-    moved = np.hypot(*(paths[-1] - paths[0]).T)
-    assert moved[0] == 0.0
-    assert moved[1] == pytest.approx(FAST * 3.0)
-    assert moved[5] == pytest.approx(FAST * 2.4)
-    # To the left, turning by a right angle at 1 rad/s: slow at first.
-    assert SLOW * 3.0 < moved[2] < FAST * 3.0
-    ahead = paths[-1, 1] - paths[0, 1]
-    assert atan2(ahead[1], ahead[0]) == pytest.approx(HERE.theta)
 
 
 def test_a_lag_delays_motion_by_its_own_length() -> None:

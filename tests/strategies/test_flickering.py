@@ -4,7 +4,6 @@ from dataclasses import replace
 from typing import Any
 
 import numpy as np
-import pytest
 
 from fake_robot import GAIT
 from stepaside.arena import (
@@ -23,12 +22,9 @@ from stepaside.games import play_strategies
 from stepaside.perception.floor_map import CELL, FloorMap
 from stepaside.perception.measurement import Sighting
 from stepaside.planning import Direction
-from stepaside.strategies import Intent, Knowledge, Limits, Pursuit
-from stepaside.strategies.look_ahead import PENALTY, LookAhead
-from stepaside.strategies.search import turn_search
+from stepaside.strategies import Intent, Knowledge, Pursuit
+from stepaside.strategies.look_ahead import LookAhead
 from stepaside.strategies.strategy_game import StepGame
-
-LIMITS = Limits(GAIT.speed, GAIT.gain, GAIT.stride, GAIT.step_duration)
 
 
 class Flickering:
@@ -82,38 +78,6 @@ def turned(map_error: float) -> int:
 
 def test_plans_change_less_with_a_map_error() -> None:
     assert turned(CELL) < 0.5 * turned(0.0)
-
-
-@pytest.mark.parametrize(
-    ("map_error", "penalty", "gain"),
-    [(0.0, PENALTY, 1e-6), (0.005, PENALTY, 0.005), (CELL, 10.0, CELL)],
-)
-def test_a_map_that_is_exact_is_taken_at_its_word(
-    monkeypatch: pytest.MonkeyPatch,
-    map_error: float,
-    penalty: float,
-    gain: float,
-) -> None:
-    told: list[Any] = []
-    looked = turn_search.look_ahead
-
-    def look(*given: Any, **named: Any) -> Any:
-        told.append(given[3])
-        return looked(*given, **named)
-
-    monkeypatch.setattr("stepaside.strategies.look_ahead.look_ahead", look)
-    strategy = LookAhead()
-    known = Knowledge(
-        0.0,
-        0.1,
-        0.6,
-        LIMITS,
-        obstacles_in_map=ObstacleSet((Disc(2.0, 2.0, 0.1),)),
-        map_error=map_error,
-    )
-    strategy.decide(known, strategy.begin())
-    assert told[0].penalty == pytest.approx(penalty)
-    assert told[0].gain == pytest.approx(gain)
 
 
 class Noting:

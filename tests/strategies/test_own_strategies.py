@@ -9,19 +9,11 @@ from math import pi
 from pathlib import Path
 from typing import Any
 
-import numpy as np
 import pytest
 
 from stepaside.core.errors import ConfigurationError
-from stepaside.games import DuelSettings, run_duel
-from stepaside.games.configuration_file import (
-    dump_configuration,
-    load_configuration,
-)
+from stepaside.games import DuelSettings
 from stepaside.games.duel import Duel
-from stepaside.games.duel_circle import circle_of_theory
-from stepaside.games.duel_settings import StartSettings
-from stepaside.games.outcome import Outcome
 from stepaside.planning import Direction
 from stepaside.strategies import (
     Evasion,
@@ -255,46 +247,6 @@ def test_settings_can_be_read_where_the_file_is_not() -> None:
     settings = DuelSettings(evader_strategy="gone.py:Timid")
     with pytest.raises(ConfigurationError, match=r"no file gone\.py"):
         Duel(settings)
-
-
-def test_a_configuration_reproduces_the_strategies(tmp_path: Path) -> None:
-    settings = DuelSettings(evader_strategy="a.py:B", pursuer_strategy="stand")
-    path = tmp_path / "duel.toml"
-    path.write_text(dump_configuration(settings), encoding="utf-8")
-    assert load_configuration(path) == settings.resolved()
-    path.write_text("duration = 3.0", encoding="utf-8")
-    usual = load_configuration(path)
-    assert usual.resolved().evader_strategy == "evasion"
-    assert usual.pursuer_strategy == "pursuit"
-
-
-def test_the_theory_is_that_of_the_strategies_of_the_paper() -> None:
-    assert circle_of_theory(DuelSettings()).exists
-    assert not circle_of_theory(DuelSettings(evader_strategy="walk")).exists
-    assert not circle_of_theory(DuelSettings(pursuer_strategy="stand")).exists
-
-
-def test_own_strategies_play_in_physics(file: Path) -> None:
-    """The evader backs off at once, half as fast as one of the paper."""
-    start = StartSettings(1.0, 0.0, 0.0)
-    ways = []
-    for name in ("Timid", "quick"):
-        settings = DuelSettings(
-            duration=6.0,
-            start=start,
-            evader_strategy=f"{file}:{name}",
-            pursuer_strategy="stand",
-        )
-        result = run_duel(settings)
-        assert result.outcome is Outcome.COMPLETED
-        track = result.evader.torso
-        ways.append(float(np.hypot(*(track[-1] - track[0])[:2])))
-        pursued = result.pursuer.torso
-        assert np.hypot(*(pursued[-1] - pursued[0])[:2]) < 0.01
-    assert result.summary.theory.exists is False
-    assert result.summary.converged_at_s is None
-    assert ways[1] > 0.25
-    assert ways[0] == pytest.approx(0.5 * ways[1], abs=0.03)
 
 
 def test_a_file_is_read_as_it_is_now(

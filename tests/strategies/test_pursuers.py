@@ -16,7 +16,6 @@ from stepaside.strategies import (
     OptimalPursuit,
     Pursuit,
     StepGame,
-    Walk,
 )
 
 NAO = Limits(0.1, 0.2, 0.04, 0.4)
@@ -76,18 +75,6 @@ def test_noise_depends_on_seed_and_step_alone() -> None:
     ]
     assert errors[0] == errors[1] != errors[2]
     assert np.std(errors[0]) == pytest.approx(0.5, rel=0.2)
-
-
-def test_lead_pursuit_intercepts_where_pure_pursuit_trails() -> None:
-    """Ahead of one that walks straight on, it turns in earlier."""
-    walker, way = Walk(0.0), 0.8
-    starts = (Pose(0.0, 0.0, way), Pose(0.7, -0.7, way))
-    game = StepGame(duration=40.0)
-    pure, led = (
-        play_strategies(pursuer, walker, starts, game=game).distances[-1]
-        for pursuer in (Pursuit(), Pursuit(lead=0.5))
-    )
-    assert led < pure - 0.1
 
 
 def test_the_optimal_pursuer_captures_an_evader_moving_aside(
@@ -157,22 +144,4 @@ def test_herding_bisects_the_bearings_of_evader_and_center(
     there = Pose(0.0, 0.0, theta)
     assert heading(strategy, known(0.4, pose_in_map=there)) == pytest.approx(
         0.4
-    )
-
-
-def test_herding_turns_with_the_room() -> None:
-    """Rooms that are turned about their centre make the same game, turned."""
-    angle, game = 0.9, StepGame(duration=20.0)
-    c, s = cos(angle), sin(angle)
-    turned = tuple(
-        Pose(c * x - s * y, s * x + c * y, theta + angle)
-        for x, y, theta in START
-    )
-    one, other = (
-        play_strategies(Pursuit(pull=1.0), ASIDE, (a, b), game=game).pursuer
-        for a, b in (START, turned)
-    )
-    x, y = one[:, :2].T
-    np.testing.assert_allclose(
-        other[:, :2], np.stack([c * x - s * y, s * x + c * y], -1), atol=1e-9
     )

@@ -20,19 +20,15 @@ from stepaside.strategies import (
 )
 from stepaside.strategies.opponent_models import (
     MODELS,
-    SWAYING_SIGHT,
     ModelFit,
 )
 from stepaside.strategies.robust_evasion import (
-    PlannedGame,
     RobustMemory,
     actions_of,
-    planned_game,
 )
 from stepaside.strategies.search.beam_search import (
     BeamRules,
     beam_search,
-    play_moves,
 )
 from stepaside.strategies.search.step_motion import (
     PursuerModel,
@@ -134,64 +130,6 @@ def test_plans_keep_a_margin_to_walls(walks: bool, least: float) -> None:
     assert least - 0.004 < min(found) < least + 0.002
 
 
-def test_walkers_plan_against_pursuers_that_are_nearer_and_turned() -> None:
-    """By 1.5 cm and 0.2 rad to either side; each counts as much."""
-    own, fit = Pose(0.3, -0.2, 1.0), ModelFit()
-    position = (-0.5, 0.4)
-    fit = fit.observe(0.0, own, position, STEPS, 0.4, sways=True)
-    known = Knowledge(
-        0.0, 0.0, 1.0, LIMITS, pose_in_map=own, step_start_in_map=own
-    )
-    fit = fit._replace(speed=1.2)
-    game = planned_game(known, position, fit, (0,), RULES)
-    assert {model.speed for model in game.models} == {1.2}
-    count = len(MODELS)
-    starts = np.array(game.starts).reshape(3, count, 6)
-    away = np.hypot(*(starts[:, :, :2] - starts[:, :, 3:5]).T).T
-    np.testing.assert_allclose(away[0] - away[1:], 0.015)
-    turns = starts[1:, :, 5] - starts[0, :, 5]
-    np.testing.assert_allclose(turns, [[-0.2] * count, [0.2] * count])
-    np.testing.assert_allclose(game.weights.reshape(3, -1).sum(axis=1), 1 / 3)
-
-
-def test_weight_of_a_model_falls_with_its_error() -> None:
-    squares = np.array([1.0, 1.1, 1.3, 1.45, 4.0, 1.0, 9.0, 1.2])
-    fit = ModelFit(errors=tuple(1e-6 * squares), fitting=SWAYING_SIGHT)
-    weights = fit.weights()
-    assert weights.max() == weights[0] == weights[5] == 1.0
-    assert (np.diff(weights[:3]) < 0.0).all()
-    assert (weights[[3, 4, 6]] == 0.0).all()
-    assert fit.plausible() == [0, 5]
-    assert (ModelFit().weights() == 1.0).all()
-
-
-def test_where_no_plan_survives_all_it_survives_the_most_likely() -> None:
-    """Beside a corner, where each model is survived by another plan."""
-    own = np.array([-0.89, -0.96, 0.7])
-    starts = [np.array([*own, -0.35, -0.51, -2.3])] * 2
-    packed = ROOMS.arena(1002)[0].solid_set.packed
-    rules = RULES._replace(width=200, horizon=75, capture=0.385)
-    models = MODELS[0], MODELS[6]
-    survived = []
-    for weights in ([0.9, 0.1], [0.1, 0.9]):
-        game = PlannedGame(
-            models, starts, np.array(weights), 2, 0, packed, rules
-        )
-        moves, promised = game.plan(np.empty((0, 2)))
-        steps = [
-            play_moves(start, moves, model, packed, rules)[0]
-            for start, model in zip(starts, models, strict=True)
-        ]
-        assert promised == pytest.approx(float(np.dot(weights, steps)))
-        # A walker keeps the rest of a plan unless another is 3 steps better.
-        for kept, length in ((0, 75), (3, 73)):
-            found, _ = game._replace(kept=kept).plan(moves[:73])
-            assert len(found) == length
-        survived.append(steps)
-    assert survived[0][0] == survived[1][1] == 75
-    assert survived[0][1] < 75 > survived[1][0]
-
-
 def test_faster_pursuer_is_seen_to_be_faster() -> None:
     model = PursuerModel(2.0, speed=1.3)
     pursuer, own, fit = (-0.6, 0.1, 1.2), (1.4, -0.2, 2.0), ModelFit()
@@ -223,11 +161,6 @@ def sights_of_walkers(
         own = Pose(*own).along_arc(-0.04, 0.2 if n % 16 < 8 else -0.2)
 
 
-def test_a_pursuer_that_sways_is_not_seen_to_be_faster() -> None:
-    fits = [fit for fit, _ in sights_of_walkers(MODELS[0], 0.02, 0.0)]
-    assert max(fit.speed for fit in fits) < 1.05
-
-
 @pytest.mark.parametrize(
     ("number", "wrong"), [(0, {5, 6}), (3, {5, 6}), (5, {0, 6}), (6, {0, 5})]
 )
@@ -246,42 +179,6 @@ def test_model_of_a_swaying_pursuer_stays_and_others_are_ruled_out(
         for fit in fits[15:]:
             assert number in fit.plausible()
             assert not wrong & set(fit.plausible())
-
-
-@pytest.mark.parametrize("number", range(6))
-def test_pose_of_a_swaying_pursuer_is_known_within_2_mm(number: int) -> None:
-    """Half a step after the mean of two positions the body is at the last."""
-    walks = list(sights_of_walkers(MODELS[number], 0.0125, 0.0))
-    for fit, (x, y, theta) in walks[8:]:
-        pose = fit.pose(number, STEPS, 0.5)
-        assert hypot(pose.x - x, pose.y - y) < 0.002
-        assert abs(wrap_angle(pose.theta - theta)) < 0.01
-
-
-def test_lag_of_the_own_torso_is_removed_from_sightings() -> None:
-    """A torso that lags by 0.05 of the last turn sees the pursuer aside."""
-    evader, memory, before = RobustEvasion(10, 5), RobustMemory(), 0.0
-    for n, theta in enumerate((0.0, 0.2, 0.1)):
-        bearing = wrap_angle(1.0 - theta + 0.05 * (theta - before))
-        own, before = Pose(0.0, 0.0, theta), theta
-        known = Knowledge(
-            0.4 * n,
-            bearing,
-            1.2,
-            LIMITS,
-            pose_in_map=own,
-            step_start_in_map=own,
-        )
-        _, memory = evader.decide(known, memory)
-        seen = memory.fit.seen[3:5]
-        assert seen == pytest.approx((1.2 * cos(1.0), 1.2 * sin(1.0)))
-
-
-def test_unseen_steps_begin_the_path_anew() -> None:
-    *_, (fit, _) = sights_of_walkers(MODELS[0], 0.0125, 0.0)
-    later = fit.observe(30.0, Pose(0.5, 0.5, 0.0), (1.0, 0.5), STEPS, 0.4)
-    assert later.pose(0, STEPS, 0.0) == pytest.approx((1.0, 0.5, pi))
-    assert later.errors == fit.errors
 
 
 def test_it_looks_further_ahead_the_fewer_opponents_are_plausible() -> None:
@@ -310,19 +207,6 @@ def decisions(
         pursuer = Pose(*pursuer).along_arc(model.speed * 0.04, turn)
         turn = STEPS.share * intent.heading
         own = Pose(*own).along_arc(-0.04 * intent.speed_factor, turn)
-
-
-def test_plan_that_keeps_its_promise_is_kept() -> None:
-    """Against a known pursuer the rest survives as long as promised."""
-    evader, kept = RobustEvasion(20, 20), 0
-    (_, before), *later = decisions(evader, MODELS[3], 40)
-    for _, memory in later:
-        if len(memory.moves) < memory.planned:
-            kept += 1
-            np.testing.assert_array_equal(memory.moves, before.moves[1:])
-            assert memory.promised == before.promised - 1
-        before = memory
-    assert kept > 20
 
 
 def test_plan_is_searched_again_when_the_pursuer_departs_from_it() -> None:
@@ -384,37 +268,6 @@ def test_same_knowledge_gives_the_same_game() -> None:
     ]
     np.testing.assert_array_equal(tracks[0].pursuer, tracks[1].pursuer)
     np.testing.assert_array_equal(tracks[0].evader, tracks[1].evader)
-
-
-def test_waiting_pursuer_stands_and_goes_on() -> None:
-    track = play_strategies(
-        Pursuit(walking=3.9, waiting=2.05),
-        RobustEvasion(width=10, horizon=10),
-        ROOMS.arena(1004)[1],
-        game=StepGame(duration=12.0),
-    )
-    moved = np.hypot(*np.diff(track.pursuer[:, :2], axis=0).T)
-    assert (moved[10:15] == 0.0).all() and (moved[:10] > 0.03).all()
-    assert (moved[15:25] > 0.03).all()
-
-
-def test_pursuer_walks_at_its_speed() -> None:
-    game = StepGame(pursuer_speed_ratio=1.3, duration=4.0)
-    starts = Pose(0.0, 0.0, 0.0), Pose(2.0, 0.0, pi)
-    track = play_strategies(
-        Pursuit(), RobustEvasion(10, 10), starts, game=game
-    )
-    moved = np.hypot(*np.diff(track.pursuer[:, :2], axis=0).T)
-    assert moved == pytest.approx(1.3 * 0.04, rel=0.02)
-
-
-def test_evader_that_no_step_saves_searches_again() -> None:
-    """A pursuer that would have captured it walks past."""
-    evader = RobustEvasion(20, 20)
-    near = Knowledge(0.0, 0.0, 0.351, LIMITS, pose_in_map=Pose(0.0, 0.0, pi))
-    _, lost = evader.decide(near, evader.begin())
-    _, saved = evader.decide(replace(near, time=0.4, distance=1.5), lost)
-    assert len(lost.moves) < 5 < len(saved.moves)
 
 
 def test_walker_that_is_nearer_than_the_capture_distance_still_flees() -> None:

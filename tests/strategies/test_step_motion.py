@@ -28,7 +28,6 @@ from stepaside.strategies.search.step_motion import (
     PlayerPair,
     PursuerModel,
     StepRules,
-    half_turn,
     pair_of,
 )
 from stepaside.strategies.search.step_motion import step_both as step
@@ -71,13 +70,6 @@ def found_by(
 def field_of(packed: Any, aims: TurnSearch, both: PlayerPair) -> DistanceField:
     """Return the field that a search from a state uses."""
     return distance_field(packed, aims.clearance, both.ex, both.ey, 1.0)
-
-
-@pytest.mark.parametrize("turn", [0.0, 1e-9, 0.251, -0.251, 0.8])
-def test_half_a_turn_is_that_of_sine_and_cosine(turn: float) -> None:
-    half = 0.5 * turn
-    expected = cos(half), sin(half), float(np.sinc(half / pi))
-    assert half_turn(half) == pytest.approx(expected, abs=1e-7)
 
 
 @pytest.mark.parametrize(("bearing", "aim"), [(0.4, 0.7), (-2.0, -3.0)])
@@ -224,20 +216,6 @@ def test_the_search_matches_brute_force(
     if valued:
         score = min(score, value_at(table, here))
     assert score == pytest.approx(expected, abs=1e-7)
-
-
-def test_a_branch_is_left_at_the_first_step_that_is_no_better() -> None:
-    """Both walk away from each other: the first step is the nearest."""
-    both = place(Pose(0.8, 0.0, pi), Pose(0.0, 0.0, pi))
-    turns = np.array([0.0, -0.1, 0.1, -0.2, 0.2])
-    every = TurnSearch(
-        np.array([2, 3]), turns, 12, spots=4, enough=2.0, gain=0.01, tight=inf
-    )
-    law = every._replace(pieces=np.array([], int), spots=0)
-    alone, found = (found_by(both, tried) for tried in (law, every))
-    assert found.score == alone.score and found.spot == 0
-    # One step of each turn, and one on the spot to either side.
-    assert (alone.steps, found.steps) == (12, 12 + len(turns) + 2)
 
 
 def test_missing_clearance_and_lost_sight_are_penalised() -> None:

@@ -10,7 +10,6 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from stepaside.core.errors import ConfigurationError, PlanError
-from stepaside.planning import Direction
 from stepaside.strategies import (
     Evasion,
     EvasionMemory,
@@ -43,23 +42,6 @@ def known(bearing: float = 0.0, distance: float = 0.5) -> Knowledge:
 def heading(strategy: Strategy, bearing: float) -> float:
     """Return the heading of a player at its first sighting nearby."""
     return strategy.decide(known(bearing), strategy.begin())[0].heading
-
-
-def test_players_of_the_paper_drive_as_it_says() -> None:
-    """(1) forward, (3) backward; (6) is for the figure that compares."""
-    assert Pursuit().direction is Direction.FORWARD
-    assert Evasion().direction is Direction.BACKWARD
-    assert Walk().direction is Direction.FORWARD
-    assert not any(s.saturated for s in (Pursuit(), Evasion(), Walk()))
-    assert Pursuit(saturated=True).saturated and Evasion(saturated=True)
-
-
-def test_the_pursuer_heads_for_the_evader_at_any_bearing() -> None:
-    assert heading(Pursuit(), 0.4) == 0.4
-    assert heading(Pursuit(), -0.4) == -0.4
-    for distance in (0.01, 100.0):
-        intent, _ = Pursuit().decide(known(0.0, distance), Pursuit().begin())
-        assert intent == Intent(0.0, 1.0, True)
 
 
 def test_a_constant_walk_ignores_the_opponent() -> None:

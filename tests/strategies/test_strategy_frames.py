@@ -1,6 +1,6 @@
 """Test strategies by laws: invariance to frames, and times of sightings."""
 
-from math import atan2, cos, hypot, inf, pi, sin
+from math import atan2, cos, hypot, pi, sin
 from typing import Any
 
 import numpy as np
@@ -22,10 +22,6 @@ from stepaside.strategies import (
     OptimalPursuit,
     Pursuit,
 )
-from stepaside.strategies.approach import Approach
-from stepaside.strategies.look_ahead import predict_poses
-from stepaside.strategies.opponent_track import OpponentTrack
-from stepaside.strategies.search.step_motion import PlayerPair
 from stepaside.strategies.strategy_game import StepGame
 
 LIMITS = Limits(0.1, 0.2, 0.04, 0.7)
@@ -146,91 +142,6 @@ def test_a_game_in_steps_has_no_preferred_direction(name: str) -> None:
     np.testing.assert_allclose(
         np.cos(one.bearings), np.cos(two.bearings), atol=1e-6
     )
-
-
-@given(MOVED, ANGLE, st.floats(0.5, 2.0), st.floats(0.0, 1.5))
-def test_lead_pursuit_points_ahead_of_a_straight_walk(
-    own: Pose, way: float, distance: float, lead: float
-) -> None:
-    """At a point of its way, as far ahead as a share of the distance."""
-    strategy = Pursuit(lead=lead)
-    memory = strategy.begin()
-    away = Pose(own.x, own.y, own.theta + 0.7)
-    last = away.compose(Pose(distance, 0.0, 0.0))
-    for i in (2, 1, 0):
-        back = 0.04 * i
-        there = Pose(last.x - back * cos(way), last.y - back * sin(way), way)
-        knows = known(own, there, STEP * (2 - i))
-        intent, memory = strategy.decide(knows, memory)
-    reach = lead * distance
-    aim = Pose(last.x + reach * cos(way), last.y + reach * sin(way), 0.0)
-    x, y, _ = own.inverse().compose(aim)
-    if hypot(x, y) > 0.05:
-        off = wrap_angle(intent.heading - atan2(y, x))
-        assert off == pytest.approx(0.0, abs=1e-6)
-
-
-@given(MOVED, st.floats(-0.8, 0.8), st.floats(0.02, 0.2))
-def test_the_heading_of_a_turning_opponent_is_the_tangent(
-    start: Pose, turn: float, step: float
-) -> None:
-    """On a circle it is half a turn ahead of the chord to there."""
-    track = OpponentTrack(STEP)
-    pose, half = start, 0.5 * turn
-    chord = Pose(step * cos(half), step * sin(half), turn)
-    for i in range(3):
-        track = track.note(STEP * i, pose[:2])
-        last, pose = pose, pose.compose(chord)
-    assert track.course is not None
-    off = wrap_angle(track.course - last.theta)
-    assert off == pytest.approx(0.0, abs=1e-6)
-
-
-@given(MOVED, MOVED, ANGLE, st.floats(0.0, 3.0))
-def test_the_pursuer_is_predicted_to_the_start_of_the_step(
-    begins: Pose, other: Pose, heading: float, age: float
-) -> None:
-    """Half a step, until the body passes its foot, and the age."""
-    both = PlayerPair(
-        *(9.0, 9.0, 1.0, 0.0, other.x, other.y, cos(heading), sin(heading))
-    )
-    knows = known(Pose(9.0, 9.0, 0.0), other, 5.0, age)
-    found = predict_poses(both, knows, begins)
-    way = LIMITS.stride * (0.5 + age / STEP)
-    ahead = Pose(other.x, other.y, heading).compose(Pose(way, 0.0, 0.0))
-    assert (found.px, found.py) == pytest.approx(ahead[:2])
-    assert (found.pc, found.ps) == pytest.approx((cos(heading), sin(heading)))
-    assert found[:4] == pytest.approx(
-        (begins.x, begins.y, cos(begins.theta), sin(begins.theta))
-    )
-
-
-@given(METRES, METRES, METRES, METRES, st.floats(0.0, 2.0))
-def test_an_old_approach_is_extrapolated(
-    x: float, y: float, u: float, v: float, age: float
-) -> None:
-    """It equals a new sighting at the extrapolated position."""
-    own = Pose(0.0, 0.0, 0.0)
-    velocity = (u, v)
-    old = known(own, Pose(x, y, 0.0), 4.0, age, velocity=velocity)
-    there = Pose(x + age * u, y + age * v, 0.0)
-    new = known(own, there, 4.0, velocity=velocity)
-    one, two = Approach.of(old), Approach.of(new)
-    assert one == pytest.approx(two, abs=1e-9)
-    assert one.miss <= one.distance + 1e-9
-    soon = one.contact_time(0.5)
-    if 0.0 < soon < inf:
-        after = hypot(one.x + soon * u, one.y + soon * v)
-        assert after == pytest.approx(0.5, abs=1e-6)
-
-
-def test_the_miss_distance_is_independent_of_the_speed() -> None:
-    """Also where the square of the speed is no number but 0."""
-    for speed in (1e-203, 1e-160, 1e-3, 1.0):
-        assert Approach(0.6, 0.8, -speed, 0.0).miss == pytest.approx(0.8)
-    for speed in (0.0, 1e-203, 1e-160):
-        approach = Approach(0.6, 0.8, -speed, 0.0)
-        assert approach.contact_time(0.5) == inf
 
 
 class Noting:

@@ -8,15 +8,11 @@ import pytest
 
 from stepaside.core.poses import wrap_angle
 from stepaside.games import StrategyTrack, play_strategies
-from stepaside.planning import Direction
 from stepaside.strategies import (
     Evasion,
-    Intent,
-    Knowledge,
     Pursuit,
     StandStill,
     StepGame,
-    Walk,
 )
 from stepaside.theory.unicycle import (
     RelativeStart,
@@ -97,18 +93,6 @@ def test_one_that_stands_is_captured_and_the_game_ends() -> None:
     assert play(capture=2.6).times.tolist() == [0.0]
 
 
-@pytest.mark.parametrize("factor", [1.0, 0.5])
-def test_distance_scales_with_the_speed_factor(factor: float) -> None:
-    walk = Walk(0.0, Direction.BACKWARD, speed_factor=factor)
-    run = play(evader=walk, duration=2.0)
-    way = run.evader[-1] - run.evader[0]
-    assert np.hypot(*way[:2]) == pytest.approx(2.0 * factor)
-    back = way[0] * np.cos(run.evader[0, 2]) + way[1] * np.sin(
-        run.evader[0, 2]
-    )
-    assert back == pytest.approx(-2.0 * factor)
-
-
 def test_a_mirrored_game_is_the_mirror_image() -> None:
     games = [
         play_strategies(
@@ -125,26 +109,3 @@ def test_a_mirrored_game_is_the_mirror_image() -> None:
         turned = left * mirror - right
         turned[:, 2] = np.remainder(turned[:, 2] + pi, 2.0 * pi) - pi
         np.testing.assert_allclose(turned, 0.0, atol=1e-9)
-
-
-def test_players_know_how_fast_the_line_of_sight_moves() -> None:
-    class Noting(StandStill):
-        """Remembers what it knew."""
-
-        def begin(self):  # type: ignore[no-untyped-def]
-            return ()
-
-        def decide(self, knowledge, memory):  # type: ignore[no-untyped-def]
-            seen.append(knowledge)
-            return Intent(moving=False), memory
-
-    seen: list[Knowledge] = []
-    play(Walk(), Noting(), start=RelativeStart(9.0), duration=4.0)
-    assert seen[0].closing_speed is None and seen[0].bearing_rate is None
-    assert seen[-1].closing_speed is not None
-    assert seen[-1].closing_speed > 0.5
-    limits = seen[-1].limits
-    assert (limits.speed, limits.gain) == (1.0, 0.5)
-    assert limits.stride == pytest.approx(0.2) and limits.step_duration == 0.2
-    assert [k.time for k in seen] == pytest.approx(np.arange(20) * 0.2)
-    assert not any(k.moving for k in seen)

@@ -87,17 +87,6 @@ def test_the_reason_of_the_runtime_is_told(tmp_path: Path) -> None:
     assert "\n" not in str(told.value)
 
 
-def test_two_inputs_are_refused(tmp_path: Path) -> None:
-    file = saved(tmp_path / "a.onnx")
-    model = onnx.load(file)
-    model.graph.input.append(
-        onnx.helper.make_tensor_value_info("h", onnx.TensorProto.FLOAT, [1, 2])
-    )
-    onnx.save(model, file)
-    with pytest.raises(ConfigurationError, match="one input and one output"):
-        load_strategy(str(file))
-
-
 @pytest.mark.parametrize("share", [0.0, 0.2, 0.6])
 def test_a_file_that_ends_early_is_refused(
     share: float, tmp_path: Path

@@ -8,8 +8,7 @@ import numpy as np
 import pytest
 
 from stepaside.core.errors import ConfigurationError, PolicyError
-from stepaside.games import DuelSettings, play_strategies, run_duel
-from stepaside.games.outcome import Outcome
+from stepaside.games import play_strategies
 from stepaside.planning import Direction
 from stepaside.strategies import (
     STAND,
@@ -113,14 +112,6 @@ def test_a_file_plays_steps_and_unicycles(file: Path) -> None:
         )
 
 
-def test_a_file_plays_in_physics(file: Path) -> None:
-    run = run_duel(DuelSettings(evader_strategy=str(file), duration=3.0))
-    assert run.outcome is Outcome.COMPLETED
-    assert run.settings.evader_strategy == str(file)
-    moved = run.evader.unicycle[-1, :2] - run.evader.unicycle[0, :2]
-    assert np.hypot(*moved) > 0.08
-
-
 def test_metadata_hold_the_contract() -> None:
     contract = StrategyContract(EVADES, ("bearing",), (0.5, None))
     assert contract_of(contract.metadata()) == contract
@@ -146,15 +137,6 @@ def test_metadata_that_do_not_fit_are_refused(
     given = {k: v for k, v in entries.items() if v is not None}
     with pytest.raises(PolicyError, match=message):
         contract_of(given)
-
-
-def test_sizes_that_do_not_fit_are_refused() -> None:
-    with pytest.raises(PolicyError, match="must have 2 outputs"):
-        linear([[0.0], [0.0]], [0.0])
-    contract = StrategyContract(EVADES, ("distance",))
-    layer = np.zeros((2, 2)), np.zeros(2)
-    with pytest.raises(PolicyError, match="must have 1 values .* got 2"):
-        LearnedStrategy(dense_network([layer]), contract)
 
 
 @pytest.mark.parametrize("content", [None, b"no network"])
