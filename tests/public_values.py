@@ -5,7 +5,7 @@ from typing import Any
 
 import stepaside
 from stepaside import Direction, DuelRun, DuelSettings, Foot, GaitSettings
-from stepaside.theory.value import fixed_pursuit_game, solve_cars
+from stepaside.theory.value import CarGame, solve_cars
 
 
 @cache
@@ -15,7 +15,7 @@ def a_run() -> DuelRun:
 
 @cache
 def a_bound() -> Any:
-    game = fixed_pursuit_game(1.0, 1.0, 1.0)
+    game = CarGame(1.0, 1.0, pursuer_gain=1.0)
     return solve_cars(game, 4.0, 8, horizon=0.1)
 
 

@@ -203,9 +203,6 @@ def test_what_is_no_path_is_refused_by_name(name: str, bad: Any) -> None:
 # A bearing or direction at a door, by function and argument.
 ANGLES: dict[str, Callable[[Any], Any]] = {
     "ManeuverPlanner.plan bearing": plan,
-    "UnicycleTrajectory bearing": lambda a: (
-        stepaside.planning.UnicycleTrajectory(a, 0.1, 0.2, Direction.FORWARD)
-    ),
     "Intent heading": stepaside.Intent,
     "Walk bearing": stepaside.strategies.Walk,
     "Knowledge bearing": lambda a: stepaside.Knowledge(
@@ -278,7 +275,7 @@ def test_every_angle_at_a_door_is_tried() -> None:
     """Values of results and reports of robots are not checked."""
     left_out = (  # results, readings, and arrays of the compiled search
         *("Circle", "Outcomes", "Run", "Track", "ManeuverPlan "),
-        *("Sighting", "RobotState", "Configuration", "BodySettings"),
+        *("Sighting", "RobotState", "BodySettings"),
         *("Maneuvers ", "JointTargets ", "ShieldGame "),
     )
     found = set()

@@ -37,7 +37,6 @@ from .report.replay_page import write_page as write_page
 from .report.run_figure import draw_run as draw_run
 from .report.run_folder import write_run as write_run
 from .robots.description import load_robot as load_robot
-from .robots.joint_configuration import Configuration as Configuration
 from .robots.tree_cache import load_tree as load_tree
 from .sim.body_settings import BODIES as BODIES
 from .sim.body_settings import BodySettings as BodySettings
@@ -68,7 +67,6 @@ __all__ = [
     "BodySettings",
     "CameraImage",
     "CameraMount",
-    "Configuration",
     "ControlScheme",
     "ControlSettings",
     "Direction",

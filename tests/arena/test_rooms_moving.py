@@ -1,7 +1,6 @@
 """Test moving boxes: motion, files, simulation, map and replay."""
 
 from math import hypot
-from pathlib import Path
 from typing import Any
 
 import mujoco
@@ -12,9 +11,6 @@ from stepaside.arena import (
     MovingBox,
     Room,
     check_initial_poses,
-    load_room,
-    room_from_entries,
-    room_to_entries,
 )
 from stepaside.control.clearance.surroundings import AHEAD, KnownRoom
 from stepaside.core.errors import ConfigurationError
@@ -71,21 +67,6 @@ def test_box_stays_between_the_walls_and_off_the_initial_poses() -> None:
     on_it = Pose(0.2, -0.7, 0.0), ROOM.starts[1]
     with pytest.raises(ConfigurationError, match="pursuer must start"):
         check_initial_poses(ROOM, on_it)
-
-
-def test_moving_box_survives_a_round_trip_through_a_file(
-    tmp_path: Path,
-) -> None:
-    assert room_from_entries(room_to_entries(ROOM)) == ROOM
-    file = tmp_path / "room.toml"
-    file.write_text(
-        "moving = [{x = 0, y = 0, width = 1, depth = 1, to = [1, 'a']}]\n",
-        encoding="utf-8",
-    )
-    with pytest.raises(
-        ConfigurationError, match=r"moving 1.to 2 must lie .* \[m\]"
-    ):
-        load_room(file)
 
 
 def test_simulated_box_follows_the_room() -> None:

@@ -123,63 +123,6 @@ def test_pursuer_goes_around_a_pillar(side: int) -> None:
     assert Pursuit().decide(free, Pursuit().begin())[0].heading == 0.4
 
 
-def test_pursuer_turns_at_its_full_rate_around_a_pillar() -> None:
-    """By (2) it would walk into the pillar."""
-    pillar = Disc(0.6, 0.02, 0.15)
-    here = Pose(0.0, 0.0, 0.0)
-    known = Knowledge(
-        0.0,
-        0.0,
-        1.5,
-        LIMITS,
-        pose_in_map=here,
-        obstacles_in_map=ObstacleSet((pillar,)),
-    )
-    intent, _ = Pursuit().decide(known, Pursuit().begin())
-    corner = first_waypoint(
-        ObstacleSet((pillar,)), (0.0, 0.0), (1.5, 0.0), RADIUS
-    )
-    turn = LIMITS.gain * LIMITS.stride / LIMITS.speed * intent.heading
-    assert atan2(corner[1], corner[0]) < -0.3
-    assert turn == pytest.approx(-0.08 * pi / 2)
-
-
-def test_pursuer_with_a_free_line_of_sight_avoids_a_pillar_ahead() -> None:
-    """The line of sight is free, the path straight ahead is not."""
-    pillar = Disc(0.45, 0.0, 0.15)
-    here = Pose(0.0, 0.0, 0.0)
-    other = atan2(-1.0, 0.1)
-    shut = Knowledge(
-        0.0,
-        other,
-        1.0,
-        LIMITS,
-        pose_in_map=here,
-        obstacles_in_map=ObstacleSet((pillar,)),
-    )
-    intent, _ = Pursuit().decide(shut, Pursuit().begin())
-    assert intent.heading == pytest.approx(-pi / 2)
-    away = Disc(0.55, 0.0, 0.15)
-    free = Knowledge(
-        0.0,
-        other,
-        1.0,
-        LIMITS,
-        pose_in_map=here,
-        obstacles_in_map=ObstacleSet((away,)),
-    )
-    assert Pursuit().decide(free, Pursuit().begin())[0].heading == other
-
-
-def test_solids_of_a_room_have_the_clearance_of_each() -> None:
-    room = generate_room(RoomRecipe(discs=2, boxes=1, polygons=2, doors=1), 3)
-    points = np.random.default_rng(4).uniform(-1.6, 1.6, (300, 2))
-    expected = np.stack([s.clearance(points) for s in room.solids], axis=1)
-    found = ObstacleSet(room.solids).clearances(points)
-    np.testing.assert_allclose(found, expected, atol=1e-12)
-    assert NO_OBSTACLES.clearances(points).shape == (300, 0)
-
-
 @pytest.mark.parametrize("side", [-1, 0, 1])
 @pytest.mark.parametrize("seed", range(8))
 def test_path_is_equivariant_under_transformations_and_mirroring(

@@ -11,12 +11,10 @@ from functools import partial
 from pathlib import Path
 from typing import Any
 
-import click
 import pytest
 from click.testing import CliRunner
 
-from stepaside.cli.main import COMMANDS, main
-from stepaside.cli.output_files import OutputFile
+from stepaside.cli.main import main
 from stepaside.core.atomic_output import (
     atomic_draft,
     check_file,
@@ -29,8 +27,6 @@ from stepaside.games.duel_settings import DuelSettings
 from stepaside.games.run import DuelRun
 from stepaside.report import run_figure, unicycle_figures
 from stepaside.report.run_folder import save_run, write_run
-from stepaside.studies import Study, run_study
-from vendor_humanoid import mjcf
 
 pytestmark = pytest.mark.usefixtures("blank_figures")
 
@@ -143,14 +139,6 @@ def test_a_failed_write_leaves_the_old_file(tmp_path: Path) -> None:
     assert file.read_text() == "old"
 
 
-def test_an_output_file_has_default_permissions(tmp_path: Path) -> None:
-    (tmp_path / "usual").write_text("")
-    with atomic_draft(tmp_path / "ours") as draft:
-        draft.write_text("")
-    modes = {file.stat().st_mode for file in tmp_path.iterdir()}
-    assert len(modes) == 1
-
-
 @pytest.fixture(scope="module")
 def short() -> DuelRun:
     return run_duel(DuelSettings(duration=0.1))
@@ -198,51 +186,9 @@ def test_a_run_that_cannot_be_written_is_saved_in_the_temporary_folder(
     assert list(there.iterdir()) == []
 
 
-def options() -> list[tuple[str, click.Parameter]]:
-    """Return every option that names an output file, with its command."""
-    group: Any = main
-    context = click.Context(group)
-    commands = {name: group.get_command(context, name) for name in COMMANDS}
-    for name, command in list(commands.items()):
-        for part, inner in getattr(command, "commands", {}).items():
-            if part != "convert":
-                commands[f"{name} {part}"] = inner
-    return [
-        (name, param)
-        for name, command in commands.items()
-        for param in command.params
-        if isinstance(param.type, OutputFile)
-    ]
-
-
 EXAMPLES = Path(__file__).parents[2] / "examples"
-STUDY = """
-game = "tournament"
-settings.game.duration = 3.0
-[grid]
-evader = ["evasion", "look-ahead"]
-seed = "0:5"
-"""
 
 
-def study(folder: Path) -> Path:
-    file = folder / "study.toml"
-    file.write_text(STUDY)
-    return file
-
-
-def records(folder: Path) -> Path:
-    file = folder / "part.sqlite"
-    run_study(Study("one", [1], lambda case: {"case": case}, str), file)
-    return file
-
-
-READ: dict[str, Callable[[Path], Path]] = {
-    "merge": records,
-    "study": study,
-    "robot check": lambda _: Path("nao"),
-    "robot init": mjcf,
-}
 NEEDED = {
     "plan": ["--role", "evader", "--bearing", "40deg"],
     "unicycles": [],
@@ -261,57 +207,6 @@ NEEDED = {
     "room": [],
     "walk": [],
 }
-
-
-@pytest.fixture(scope="module")
-def folder(tmp_path_factory: pytest.TempPathFactory, short: DuelRun) -> Path:
-    path = tmp_path_factory.mktemp("runs") / "run"
-    write_run(path, short)
-    return path
-
-
-def cases() -> list[Any]:
-    return [
-        pytest.param(name, param, kind, id=f"{name}{param.opts[0]}-{kind}")
-        for name, param in options()
-        for kind in (*BAD, "taken")
-        if kind != "device" or not getattr(param.type, "suffixes", ())
-    ]
-
-
-@pytest.mark.parametrize(("name", "param", "kind"), cases())
-def test_every_command_refuses_a_bad_path_in_one_line(
-    tmp_path: Path, folder: Path, name: str, param: Any, kind: str
-) -> None:
-    suffix = (*param.type.suffixes, "")[0]
-    path = BAD[kind](tmp_path) if kind in BAD else tmp_path / "taken"
-    if kind in ("looping", "dangling", "pipe", "taken"):
-        if kind == "taken":
-            path.write_text("kept")
-        path = path.rename(path.with_name(path.name + suffix))
-    read = READ[name](folder.parent) if name in READ else folder
-    words = [*name.split(), *NEEDED.get(name, [str(read)])]
-    before = sorted(tmp_path.rglob("*"))
-    result = CliRunner().invoke(main, [*words, param.opts[0], f"{path}"])
-    assert result.exit_code == 2, result.output
-    assert result.output.count("\n") == 1 and "must" in result.output
-    assert len(result.output) < 500
-    assert sorted(tmp_path.rglob("*")) == before
-    if kind == "taken":
-        assert path.read_text() == "kept"
-
-
-def test_every_output_option_is_checked() -> None:
-    group: Any = main
-    context = click.Context(group)
-    for name in COMMANDS:
-        for param in group.get_command(context, name).params:
-            kind = param.type
-            assert not isinstance(kind, click.File), (name, param.name)
-            if name == "show":  # it checks what it writes itself
-                continue
-            if isinstance(kind, click.Path) and not kind.exists:
-                assert not kind.file_okay, (name, param.name)
 
 
 def test_a_figure_without_a_suffix_is_reported_with_one(

@@ -23,7 +23,6 @@ from stepaside.theory.unicycle.unicycle_game import Unicycle, make_game
 
 TICK = 0.02
 GAIT = GaitSettings()
-CYCLE = 2.0 * GAIT.step_duration
 NOTHING = np.zeros(3)
 
 

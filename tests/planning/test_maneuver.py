@@ -136,14 +136,6 @@ def test_correction_of_a_reversal_is_small() -> None:
     assert 1e-5 < np.abs(reversed_plan.correction).max() < 2e-3
 
 
-@given(st.floats(-1e-6, 1e-6))
-def test_small_bearing_is_smooth(bearing: float) -> None:
-    times = np.arange(0.0, 11.0, 0.1)
-    straight = start(0.0).sample(times)
-    bent = start(bearing).sample(times)
-    np.testing.assert_allclose(bent.com, straight.com, atol=2e-6)
-
-
 def test_swing_foot_lifts_off_and_touches_down_at_rest() -> None:
     plan = start(0.9, count=4)
     gait = PLANNER.settings
@@ -296,18 +288,3 @@ def test_a_speed_factor_shortens_strides_and_keeps_turns(
     whole, full = path(1.0)
     np.testing.assert_allclose(way, factor * whole, atol=1e-12)
     np.testing.assert_allclose(turn, full, atol=1e-12)
-
-
-def test_speed_factor_one_is_the_default_plan() -> None:
-    plain = PLANNER.plan(
-        0.7, Direction.BACKWARD, first_foot=Foot.LEFT, standing=True
-    )
-    whole = PLANNER.plan(
-        0.7,
-        Direction.BACKWARD,
-        first_foot=Foot.LEFT,
-        standing=True,
-        drive=TemplateDrive(speed_factor=1.0),
-    )
-    assert plain.placements.tobytes() == whole.placements.tobytes()
-    assert plain.inputs.tobytes() == whole.inputs.tobytes()

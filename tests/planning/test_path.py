@@ -5,7 +5,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from stepaside.planning import Direction, UnicycleTrajectory
+from stepaside.planning.path import Direction, UnicycleTrajectory
 
 SPEED, GAIN = 0.1, 0.2  # [m/s], [1/s]
 ANGLES = st.floats(-3.1, 3.1)

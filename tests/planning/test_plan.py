@@ -86,16 +86,6 @@ def test_zmp_stands_in_the_anchor_of_each_support_foot() -> None:
     np.testing.assert_allclose(zmp[:, 1], y + ahead * np.sin(theta))
 
 
-def test_footsteps_alternate_from_the_first_foot() -> None:
-    for foot in Foot:
-        steps = walking(foot).footsteps
-        assert [s.foot for s in steps] == [foot, foot.other] * 2 + [foot]
-        np.testing.assert_allclose(
-            [(s.x, s.y, s.theta) for s in steps],
-            walking(foot).placements[2:],
-        )
-
-
 def test_feet_stand_by_their_side() -> None:
     for foot in Foot:
         plan = walking(foot)
@@ -123,14 +113,6 @@ def test_the_correction_absorbs_a_velocity_error() -> None:
     off = (np.array(STATE.velocity) - wanted) / GAIT.eta
     np.testing.assert_allclose(plan.correction * row[-2], off, atol=1e-12)
     assert np.abs(plan.correction).max() > 1e-4
-
-
-def test_zmp_coefficients_are_those_of_the_samples() -> None:
-    plan = walking()
-    times = plan.schedule.starts[:-1]
-    np.testing.assert_allclose(
-        plan.zmp_coefficients[0], plan.sample(times).zmp, atol=1e-12
-    )
 
 
 def test_a_halt_plans_a_single_step() -> None:
@@ -202,14 +184,3 @@ def test_margin_in_single_support_is_that_of_the_sole_that_stands(
     expected = np.min(edges)
     assert plan.margin(until) == pytest.approx(expected, abs=1e-4)
     assert 0.01 < np.abs(plan.correction[1]) < 0.04
-
-
-def test_margin_of_all_is_the_least_of_its_parts() -> None:
-    plan = PLANNER.plan(
-        0.9, Direction.BACKWARD, first_foot=Foot.LEFT, standing=True
-    )
-    parts = [plan.margin(d) for d in plan.schedule.starts[1:].tolist()]
-    assert all(a >= b for a, b in zip(parts[:-1], parts[1:], strict=True))
-    assert parts[-1] == pytest.approx(plan.margin())
-    assert parts[0] > plan.margin()  # two feet hold more than one
-    assert parts[0] < GAIT.foot_spacing

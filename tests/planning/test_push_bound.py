@@ -1,7 +1,7 @@
 """Test the push bound of the pendulum, against linear programs too."""
 
 from dataclasses import replace
-from math import cos, exp, expm1, inf, nan, pi, sin
+from math import cos, exp, expm1, pi, sin
 from typing import Literal
 
 import numpy as np
@@ -11,7 +11,6 @@ from scipy.spatial import ConvexHull
 from push_linear_program import brute_force, corners_of, landing
 from reference_plans import plan_of
 from stepaside.core.convex import half_planes
-from stepaside.core.errors import PlanError
 from stepaside.core.poses import Array
 from stepaside.planning import (
     CenterState,
@@ -73,46 +72,6 @@ def test_inward_bound_is_the_farthest_foot_and_the_inner_edge_until_then() -> (
     assert bound == pytest.approx(expected, rel=1e-9)
 
 
-def test_bound_in_a_starting_double_support_waits_for_the_lift() -> None:
-    """Forward: both feet until they part, one until the landing, then both."""
-    plan, time = plan_of("start", 0.0), 0.3
-    sole, eta = GAIT.sole, GAIT.eta
-    fade = exp(-eta * (GAIT.start_support + GAIT.single_support - time))
-    held = fade * (REACH.forward + sole.front) + (1.0 - fade) * sole.front
-    dcm = plan.sample([time]).dcm[0]
-    expected = MASS * eta * (held - dcm[0])
-    bound = push_bound(plan, time, 0.0, MASS, REACH)
-    assert bound == pytest.approx(expected, rel=1e-9)
-    # To the other side of the foot that will stand, both feet hold more.
-    side = push_bound(plan, time, pi / 2.0, MASS, REACH)
-    alone = MASS * eta * (sole.inner - dcm[1])
-    assert side > 2.0 * alone
-
-
-def test_the_gap_between_the_soles_limits_the_bound() -> None:
-    """Ahead and outward a foot would land across, if the gap let it."""
-    plan, direction = walking(), -pi / 4.0
-    bounds = [
-        push_bound(plan, 0.4, direction, MASS, FootReach(gap=gap))
-        for gap in (0.0, 0.012, 0.05)
-    ]
-    assert bounds[0] > bounds[1] + 0.02 and bounds[1] > bounds[2] + 0.02
-
-
-@pytest.mark.parametrize("time", [0.0, 0.2, 0.42, 0.45, 0.54])
-@pytest.mark.parametrize("direction", np.linspace(-3.0, 3.0, 5).tolist())
-def test_bound_grows_with_the_sole_and_the_reach(
-    time: float, direction: float
-) -> None:
-    plan = walking(bearing=0.5)
-    sole = replace(GAIT.sole, back=-0.06, front=0.105, outer=0.052)
-    larger = walking(bearing=0.5, gait=replace(GAIT, sole=sole))
-    bound = push_bound(plan, time, direction, MASS, REACH)
-    assert push_bound(larger, time, direction, MASS, REACH) > bound
-    wide = FootReach(0.2, 0.2, 0.2, 0.0)
-    assert push_bound(plan, time, direction, MASS, wide) >= bound
-
-
 @pytest.mark.parametrize("time", [0.0, 0.3, 0.5])
 @pytest.mark.parametrize("direction", [0.0, 1.0, 2.5, -2.0])
 def test_bound_is_the_same_in_the_mirror(
@@ -156,38 +115,6 @@ def test_a_halt_is_held_by_its_two_feet_and_no_third_step() -> None:
     room = offsets - corners_of(plan, 1, 2) @ normals.T
     assert room.min() > -1e-12
     assert len(held_regions(plan, 0.1, REACH)) == 2
-
-
-def test_a_push_later_in_the_step_may_be_harder_forward() -> None:
-    plan = walking()
-    bounds = [push_bound(plan, t, 0.0, MASS, REACH) for t in (0.0, 0.2, 0.4)]
-    assert bounds == sorted(bounds)
-
-
-@pytest.mark.parametrize(
-    ("change", "match"),
-    [
-        ({"time": -0.1}, "time"),
-        ({"time": nan}, "time"),
-        ({"direction": nan}, "direction"),
-        ({"mass": 0.0}, "mass"),
-        ({"lasts": -0.1}, "lasts"),
-        ({"lasts": inf}, "lasts"),
-        ({"reach": FootReach(gap=-0.01)}, "reach.gap"),
-    ],
-)
-def test_an_invalid_push_is_refused(
-    change: dict[str, object], match: str
-) -> None:
-    asked: dict[str, object] = {
-        "plan": walking(),
-        "time": 0.0,
-        "direction": 0.0,
-        "mass": MASS,
-        "reach": REACH,
-    }
-    with pytest.raises(PlanError, match=match):
-        push_bound(**(asked | change))  # type: ignore[arg-type]
 
 
 @pytest.mark.parametrize("profile", ["linear", "cubic"])

@@ -84,25 +84,6 @@ def test_the_zmp_is_ahead_of_the_pivot_by_the_feet_s_acceleration(
     assert np.abs(shift).max() > 9.0  # [m/s^2]: there is something to see
 
 
-def test_in_double_support_pivot_and_zmp_are_one() -> None:
-    plan = some_plan(FAST, standing=True)
-    starts = plan.schedule.starts
-    both = plan.sample((starts[:-1:2] + starts[1::2]) / 2.0)
-    np.testing.assert_allclose(both.pivot, both.zmp, atol=1e-12)
-
-
-def test_a_massless_leg_has_no_effect() -> None:
-    light = replace(FAST, swing_reaction=0.0)
-    plan = some_plan(light, standing=False)
-    found = plan.sample([0.1, 0.2])
-    assert found.pivot is found.zmp
-    least = some_plan(replace(FAST, swing_reaction=1e-12), standing=False)
-    for name, value in found._asdict().items():
-        np.testing.assert_allclose(
-            getattr(least.sample([0.1, 0.2]), name), value, atol=1e-8
-        )
-
-
 def test_the_zmp_stays_in_the_feet_with_a_swing_reaction() -> None:
     """Only the CoM gives way: the ZMP is planned as ever."""
     heavy, light = (
@@ -192,9 +173,3 @@ def test_a_turn_keeps_its_rate_when_its_stride_is_shortened() -> None:
         short.placements[:, 2], long.placements[:, 2], atol=1e-12
     )
     assert FAST.stride_share(0.3) < 1.0 == free.stride_share(0.3)
-
-
-def test_path_and_gait_of_the_fast_one_have_one_clock() -> None:
-    assert FAST.path_interval == pytest.approx(FAST.step_duration)
-    paper = PRESETS["nao"]
-    assert FAST.speed / FAST.gain == pytest.approx(paper.speed / paper.gain)

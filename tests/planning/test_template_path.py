@@ -61,26 +61,12 @@ def test_position_and_heading_follow_the_com(turn: float, way: float) -> None:
             np.testing.assert_allclose(found, place, atol=1e-4)
 
 
-def test_sway_is_not_progress() -> None:
-    path = circle(3, 1e-9, 0.04)
-    for side in (-0.03, 0.0, 0.03):
-        (found,) = poses_on_path(path, np.array([[0.05, side]]), UNTIMED, LED)
-        np.testing.assert_allclose(found[:2], [0.03, 0.0], atol=1e-8)
-
-
 def test_before_the_first_and_after_the_last_sample_the_body_waits() -> None:
     path = circle(3, 0.06, 0.04)
     ends = poses_on_path(
         path, np.array([[-0.5, 0.0], [0.6, 0.02]]), UNTIMED, LED
     )
     np.testing.assert_allclose(ends, path[[0, 2]], atol=1e-12)
-
-
-def test_feet_abreast_are_one_sample() -> None:
-    """A body that starts or halts has its heading, and no way to make."""
-    path = np.array([[0, 0, 0.0], [0, 0, 0.03], [0.04, 0, 0.07]])
-    (found,) = poses_on_path(path, np.array([[0.03, 0.0]]), UNTIMED, LED)
-    np.testing.assert_allclose(found, [0.01, 0.0, 0.04], atol=3e-5)
 
 
 @pytest.mark.parametrize("direction", Direction)

@@ -16,26 +16,12 @@ def test_powers_of_local_time_are_summed() -> None:
     np.testing.assert_allclose(evaluate(COEFFICIENTS, s), expected)
 
 
-def test_scalars_and_matrices_are_evaluated_alike() -> None:
-    s = np.array([0.1, 0.2, 0.3])
-    whole = evaluate(COEFFICIENTS, s)
-    np.testing.assert_allclose(evaluate(COEFFICIENTS[..., 0], s), whole[:, 0])
-    deep = evaluate(COEFFICIENTS[..., None], s)
-    np.testing.assert_allclose(deep[..., 0], whole)
-
-
 def test_each_time_finds_its_piece() -> None:
     index, local = CURVE.locate([0.0, 0.49, 0.5, 0.6, 0.7, 0.99])
     np.testing.assert_array_equal(index, [0, 0, 1, 1, 2, 2])
     np.testing.assert_allclose(
         local, [0.0, 0.49, 0.0, 0.1, 0.0, 0.29], atol=1e-15
     )
-
-
-def test_outside_the_nearest_piece_counts() -> None:
-    index, local = CURVE.locate([-0.1, 1.5])
-    np.testing.assert_array_equal(index, [0, 2])
-    np.testing.assert_allclose(local, [-0.1, 0.8])
 
 
 def test_it_ends_where_its_last_piece_does() -> None:

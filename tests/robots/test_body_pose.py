@@ -1,6 +1,5 @@
 """Test the kinematics of the measured body against MuJoCo's own."""
 
-from dataclasses import replace
 from functools import cache
 
 import mujoco
@@ -14,8 +13,6 @@ from stepaside.robots.description import load_robot
 from stepaside.robots.description_types import FOOT_FORCES
 from stepaside.robots.forward_kinematics import ForwardKinematics
 from stepaside.robots.head import load_head
-from stepaside.robots.robot_tree import LinkFrame
-from stepaside.robots.tree_cache import load_tree
 
 NAO = load_robot("nao")
 TILT, HEADING = (0.06, -0.11), 2.7  # roll and pitch; yaw, in [rad]
@@ -138,45 +135,3 @@ def test_force_sensors_sit_at_the_corners_of_the_soles() -> None:
     mirrored = corners[[5, 4, 7, 6]] * (1.0, -1.0)
     np.testing.assert_allclose(corners[:4], mirrored, atol=1e-12)
     assert corners[0] == pytest.approx((0.07025, 0.0299))
-
-
-def test_force_sensors_are_placed_from_the_frame_of_the_foot(
-    monkeypatch: pytest.MonkeyPatch,
-) -> None:
-    """A sole whose frame is elsewhere has its corners elsewhere."""
-    tree = load_tree(NAO)
-    foot = tree.sites[NAO.left_foot]
-
-    def with_sole(frame: LinkFrame) -> ForwardKinematics:
-        sites = tree.sites | {NAO.left_foot: frame}
-        changed = replace(tree, sites=sites)
-        monkeypatch.setattr(
-            "stepaside.robots.forward_kinematics.load_tree",
-            lambda robot: changed,
-        )
-        return ForwardKinematics(NAO)
-
-    x, y, z = foot.place
-    moved = with_sole(foot._replace(place=(x + 0.01, y + 0.02, z + 0.03)))
-    shift = moved.force_sensors() - forward().force_sensors()
-    np.testing.assert_allclose(shift[:4], 4 * [(-0.01, -0.02)], atol=1e-12)
-    np.testing.assert_allclose(shift[4:], 0.0, atol=1e-12)
-    aside = ((0.0, -1.0, 0.0), (1.0, 0.0, 0.0), (0.0, 0.0, 1.0))
-    turned = with_sole(foot._replace(axes=aside))
-    x, y = forward().force_sensors()[0]
-    assert turned.force_sensors()[0] == pytest.approx((y, -x))
-
-
-def test_a_posture_follows_arrays_that_change_in_place() -> None:
-    """Also where a driver writes all of its readings into one array."""
-    _, _, angles = bent()
-    first = forward().posture(angles)
-    assert forward().posture(angles.copy()) is first
-    angles *= 0.5
-    assert (
-        np.abs(
-            forward().posture(angles).position_com_in_torso
-            - first.position_com_in_torso
-        ).max()
-        > 1e-3
-    )

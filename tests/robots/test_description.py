@@ -67,20 +67,6 @@ def test_wrong_description_is_refused_by_name(
         load_robot(folder).compile()
 
 
-def test_joints_are_coupled_by_the_equalities_of_joints_alone(
-    tmp_path: Path,
-) -> None:
-    folder = copy_of_nao(tmp_path)
-    weld = '<equality>\n    <weld body1="torso" body2="head"/>'
-    text = NAO.mjcf().replace("<equality>", weld)
-    assert text != NAO.mjcf()
-    (folder / "model.xml").write_text(text)
-    robot = load_robot(folder)
-    expected = {"RHipYawPitch": "LHipYawPitch"}
-    assert robot.coupled_joints(robot.compile()) == expected
-    assert NAO.coupled_joints(NAO.compile()) == expected
-
-
 def test_joints_that_share_a_motor_must_move_alike(tmp_path: Path) -> None:
     folder = copy_of_nao(tmp_path)
     text = NAO.mjcf().replace('polycoef="0 1 0 0 0"', 'polycoef="0 -1 0 0 0"')
@@ -89,13 +75,3 @@ def test_joints_that_share_a_motor_must_move_alike(tmp_path: Path) -> None:
     robot = load_robot(folder)
     with pytest.raises(ModelError, match=r"RHipYawPitch and LHip.*0\.0, -1\."):
         robot.coupled_joints(robot.compile())
-
-
-def test_working_limits_are_optional(tmp_path: Path) -> None:
-    folder = copy_of_nao(tmp_path)
-    text = (folder / "robot.toml").read_text()
-    start, end = text.index("[working_limits]"), text.index("# No-load")
-    (folder / "robot.toml").write_text(text[:start] + text[end:])
-    robot = load_robot(folder)
-    assert robot.working_limits == {}
-    assert robot.compile().nu == 23

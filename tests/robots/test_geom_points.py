@@ -63,13 +63,3 @@ def test_points_of_a_mesh_are_its_corners() -> None:
     wanted = PLACE + wanted @ axes.reshape(3, 3).T
     order, other = np.lexsort(found.T.round(6)), np.lexsort(wanted.T.round(6))
     np.testing.assert_allclose(found[order], wanted[other], atol=1e-6)
-
-
-def test_a_plane_has_no_points() -> None:
-    model = mujoco.MjModel.from_xml_string(
-        '<mujoco><worldbody><geom type="plane" size="1 1 1"/></worldbody>'
-        "</mujoco>"
-    )
-    data = mujoco.MjData(model)
-    mujoco.mj_forward(model, data)
-    assert geom_points_in_world(model, data, 0).shape == (0, 3)

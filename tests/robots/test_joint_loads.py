@@ -1,13 +1,10 @@
 """Test what leg joints bear, against MuJoCo and by laws."""
 
 from math import cos, sin
-from typing import Any
 
 import mujoco
 import numpy as np
-import pytest
 
-from stepaside.core.constants import GRAVITY
 from stepaside.core.poses import Array
 from stepaside.locomotion.zmp.feedforward import LoadFeedforward
 from stepaside.planning import GaitSettings
@@ -15,7 +12,6 @@ from stepaside.robots.description import load_robot
 from stepaside.robots.joint_loads import LegLoads
 from stepaside.robots.leg_kinematics import BodyReference, LegKinematics
 from stepaside.robots.tree_cache import load_tree
-from stepaside.robots.tree_compiler import compile_tree
 
 NAO = load_robot("nao")
 GAIT = GaitSettings()
@@ -142,85 +138,6 @@ def test_in_motion_the_torques_are_those_of_mujoco() -> None:
     assert np.abs(at_rest - wanted).max() > 10.0 * gap
 
 
-def test_the_stance_hip_carries_the_body() -> None:
-    """On the left foot the body hangs to its right, as heavy as it is."""
-    reference = standing(0.05, 0.02)
-    kinematics, loads = loads_of(reference)
-    found = dict(
-        zip(
-            kinematics.joint_names,
-            loads.torques(reference, (0.02, 0.05)).tolist(),
-            strict=True,
-        )
-    )
-    weight = GRAVITY * kinematics.legs.tree.mass
-    assert abs(found["LHipRoll"]) > 0.6 * weight * 0.05
-    assert abs(found["RHipRoll"]) < 0.2 * weight * 0.05
-
-
-class Moved:
-    """Joint motion whose posture is moved as a whole."""
-
-    def __init__(self, kinematics: LegKinematics) -> None:
-        self._kinematics, self.legs = kinematics, kinematics.legs
-        self.by = np.zeros(3)
-
-    @property
-    def state(self) -> Array:
-        """The posture, somewhere else."""
-        state = np.array(self._kinematics.state)
-        at = len(self.legs.free)
-        state[at : at + 3] += self.by
-        return state
-
-
-@pytest.mark.parametrize("rise", [0.0, 2.0, -3.0])
-def test_upward_acceleration_increases_the_torques(rise: float) -> None:
-    reference = standing(0.01)
-    kinematics, still = loads_of(reference)
-    zmp = (AHEAD, 0.01)
-    moved: Any = Moved(kinematics)
-    loads = LegLoads(moved, zmp_forward=AHEAD, tick=TICK)
-    found = []
-    for tick in range(4):
-        # The floor comes along, so that levers stay.
-        moved.by[2] = 0.5 * rise * (tick * TICK) ** 2
-        found.append(loads.torques(_lifted(reference, moved.by[2]), zmp))
-    wanted = still.torques(reference, zmp)
-    np.testing.assert_allclose(found[0], wanted, atol=1e-9)
-    for lifted in found[2:]:
-        np.testing.assert_allclose(
-            lifted, wanted * (1.0 + rise / GRAVITY), atol=1e-6
-        )
-
-
-def _lifted(reference: BodyReference, by: float) -> BodyReference:
-    (x, y, z), left, right, *_ = reference
-    # Feet that count as standing, whatever they stand on.
-    return reference._replace(com=(x, y, z + by), left_foot=left)
-
-
-def test_mirrored_stances_have_mirrored_torques() -> None:
-    left, right = (0.0, 0.05, 0.0, 0.1), (-0.03, -0.05, 0.0, 0.04)
-    found = []
-    for side in (1.0, -1.0):
-        one, other = left, right
-        if side < 0.0:
-            one, other = ((x, -y, z, -yaw) for x, y, z, yaw in (right, left))
-        reference = BodyReference((0.02, 0.01 * side, 0.268), one, other)
-        kinematics, loads = loads_of(reference)
-        torques = loads.torques(reference, (0.02, 0.01 * side))
-        found.append(
-            dict(zip(kinematics.joint_names, torques.tolist(), strict=True))
-        )
-    first, second = found
-    for name, torque in first.items():
-        if name in NAO.legs and "YawPitch" not in name:
-            twin = {"L": "R", "R": "L"}[name[0]] + name[1:]
-            sign = -1.0 if "Roll" in name else 1.0
-            assert second[twin] == pytest.approx(sign * torque, abs=1e-3)
-
-
 def test_servos_with_load_feedforward_reach_their_targets() -> None:
     """The law of a servo: k (sent - q) - d q' with sent led by d / k."""
     reference = standing()
@@ -244,24 +161,3 @@ def test_servos_with_load_feedforward_reach_their_targets() -> None:
         last = feedforward.added(reference, zmp)
     np.testing.assert_allclose(stiffness * last, torques, atol=1e-6)
     assert not last[~legs].any()
-
-
-def test_an_actuator_without_position_gain_has_no_stiffness() -> None:
-    tree = compile_tree(NAO)
-    assert len(tree.servos) == len(tree.motors)
-    model = NAO.compile()
-    model.actuator_gainprm[0, 0] = 3.0
-
-    class Described:
-        """NAO, one motor of which takes torques."""
-
-        def __getattr__(self, name: str) -> Any:
-            return getattr(NAO, name)
-
-        def compile(self) -> Any:
-            """Changed model."""
-            return model
-
-    described: Any = Described()
-    first, *rest = compile_tree(described).servos
-    assert first == (0.0, 0.0) and tuple(rest) == tree.servos[1:]

@@ -6,7 +6,6 @@ import mujoco
 import numpy as np
 import pytest
 
-from stepaside.core.errors import ReachError
 from stepaside.core.poses import Array
 from stepaside.core.rotations import rotation
 from stepaside.robots.description import load_robot
@@ -201,18 +200,6 @@ def test_a_torso_waits_for_joints_that_are_too_slow() -> None:
     assert before < 1e-5
 
 
-@pytest.mark.parametrize(("sign", "end"), [(-1.0, 0), (1.0, 1)])
-def test_a_joint_stays_at_either_end_of_its_range(
-    sign: float, end: int
-) -> None:
-    kinematics = stood()
-    kinematics.stand(STANCE)
-    for i in range(160):
-        roll = sign * 0.7 * min(1.0, i / 150)
-        kinematics.track(STANCE._replace(left_tilt=(roll, 0.0)))
-    assert limited(kinematics, "LAnkleRoll")[end] == pytest.approx(0.0)
-
-
 def test_the_torso_heading_is_the_mean_of_the_feet() -> None:
     kinematics = stood()
     for turn in (-2.0, 0.0, 1.0, 0.5 * np.pi, -0.5 * np.pi):
@@ -226,20 +213,6 @@ def test_the_torso_heading_is_the_mean_of_the_feet() -> None:
         )
         # The heading is that of the pose before the last of the steps.
         assert kinematics.torso_heading == pytest.approx(turn, abs=1e-3)
-
-
-def test_the_greatest_height_is_the_last_that_is_reached() -> None:
-    kinematics = stood()
-    x, y, _ = STANCE.com
-    _, greatest = kinematics.com_heights(STANCE._replace(com=(x, y, 0.3)))
-    assert 0.26 < greatest < 0.28
-    kinematics.stand(STANCE._replace(com=(x, y, greatest)))
-    above = STANCE._replace(com=(x, y, greatest + 3e-4))
-    with pytest.raises(ReachError, match=f"at most {greatest:.3f} m"):
-        kinematics.stand(above)
-    assert kinematics.com_heights(above)[1] == pytest.approx(
-        greatest, abs=4e-4
-    )
 
 
 @pytest.mark.parametrize("yaw", [0.0, 0.7, -2.0])

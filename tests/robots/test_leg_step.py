@@ -81,35 +81,6 @@ def test_the_rows_are_the_derivative_of_their_errors(
 
 
 @pytest.mark.parametrize("name", ROBOTS)
-def test_rotations_are_the_derivative_of_their_errors(name: str) -> None:
-    """Where these are 0: on level soles with the yaw that is asked for."""
-    legs = LegKinematics(robot(name), tick=TICK)
-    stance = STANCE
-    if name == "nao":
-        stance = BodyReference(
-            *((0.01, 0.01, 0.26), (0.01, 0.05, 0.0, 0.1)),
-            (-0.01, -0.05, 0.0, -0.05),
-        )
-    legs.stand(stance)
-    for _ in range(3):
-        legs.track(stance)
-    assert np.abs(legs.error).max() < 1e-7
-    rows, state = legs.error.size, legs.state
-    reference = np.array(stance.row())
-    jacobian, unused = np.empty((2, rows, state.size - 2))
-    found = np.empty((3, rows))
-    links = legs.legs.links
-    linearise(links, reference, state, 0.0, found[0], jacobian)
-    for unknown in range(state.size - 2):
-        for i, h in ((1, 1e-6), (2, -1e-6)):
-            moved = state.copy()
-            moved[unknown] += h
-            linearise(links, reference, moved, 0.0, found[i], unused)
-        slope = (found[2] - found[1]) / 2e-6
-        np.testing.assert_allclose(slope, jacobian[:, unknown], atol=1e-7)
-
-
-@pytest.mark.parametrize("name", ROBOTS)
 def test_steps_converge_to_feet_and_com_in_mujoco_s_eyes(name: str) -> None:
     """Six joints a leg, seven, or two of eleven that share a motor."""
     description = robot(name)
@@ -235,9 +206,6 @@ def test_nan_and_inf_in_a_reference_are_refused() -> None:
         legs.track(stance._replace(com=(float("nan"), 0.0, 0.26)))
 
 
-LIMITS = np.array([0.1, 0.1])
-
-
 def bounded(error: tuple[float, ...]) -> Array:
     """Two joints that lift the torso together, and a row for each unknown.
 
@@ -253,11 +221,6 @@ def bounded(error: tuple[float, ...]) -> Array:
         *(np.empty((6, 6)), step),
     )
     return step
-
-
-def test_within_its_limits_a_move_is_the_solution() -> None:
-    move = bounded((0, 0, 0.2, 0, 0.05, 0.02))
-    assert move == pytest.approx([0.05, 0.02, 0, 0, 0.13, 0])
 
 
 def test_other_joints_are_optimal_with_one_at_its_limit() -> None:

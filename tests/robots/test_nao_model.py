@@ -100,27 +100,6 @@ def test_shared_hip_joint_turns_both_toes_outwards() -> None:
     np.testing.assert_allclose(right, [0.878, -0.339, 0.339], atol=1e-3)
 
 
-def test_leg_lengths() -> None:
-    """Thigh 0.100 m, shank 0.1029 m, ankle 0.04519 m over the sole."""
-    data = zero_posture()
-    heights = [
-        data.body(name).xpos[2] for name in ("l_pelvis", "l_tibia", "l_ankle")
-    ]
-    sole = data.site("l_sole_center").xpos[2]
-    lengths = -np.diff([*heights, sole])
-    np.testing.assert_allclose(lengths, [0.1, 0.1029, 0.04519], atol=1e-9)
-
-
-def test_left_and_right_are_mirror_images() -> None:
-    data = zero_posture()
-    for row in LINKS:
-        if not row["link"].startswith("l_"):
-            continue
-        left = data.body(row["link"]).xipos
-        right = data.body("r_" + row["link"][2:]).xipos
-        np.testing.assert_allclose(right * [1, -1, 1], left, atol=1e-9)
-
-
 def test_sole_lies_inside_the_published_outline() -> None:
     """Box of the outline: x -0.0507..0.0994, y -0.0388..0.0500."""
     geom = MODEL.geom("l_sole")
@@ -143,13 +122,6 @@ def test_robot_is_as_tall_as_a_nao() -> None:
         top = max(top, center[2] + shift[2] + np.abs(frame[2]) @ half)
     height = top - data.site("l_sole_center").xpos[2]
     assert height == pytest.approx(0.574, abs=0.03)
-
-
-def test_visual_geoms_have_no_mass() -> None:
-    """All mass is in the links' own inertias; shapes are primitives."""
-    assert MODEL.nmesh == 0
-    masses = [float(row["mass_kg"]) for row in LINKS]
-    assert MODEL.body_mass[1:].sum() == pytest.approx(sum(masses), rel=1e-6)
 
 
 def test_foot_force_sensors_are_at_the_published_positions() -> None:

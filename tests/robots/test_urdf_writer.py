@@ -9,7 +9,7 @@ import pytest
 from stepaside.core.poses import Array
 from stepaside.robots.description import RobotDescription, load_robot
 from stepaside.robots.description_types import SensorNames
-from stepaside.robots.urdf_elements import BASE, urdf_tree
+from stepaside.robots.urdf_elements import BASE
 from stepaside.robots.urdf_writer import urdf_of
 
 # Anchors off the origin, two hinges on one body, a zero that is not 0, a
@@ -125,13 +125,6 @@ def test_links_move_as_in_the_model(robot: str, tmp_path: Path) -> None:
         )
         found = pose_in(second, BASE, f"{side[0]}_sole")
         np.testing.assert_allclose(found, expected, atol=1e-7)
-
-
-def test_each_link_but_the_root_has_one_joint_above_it() -> None:
-    nao = load_robot("nao")
-    tree = urdf_tree(nao, nao.compile())
-    children = [joint.child for joint in tree.joints]
-    assert [link.name for link in tree.links] == [BASE, *children]
 
 
 def test_an_optical_frame_looks_along_z() -> None:

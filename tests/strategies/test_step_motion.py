@@ -129,7 +129,7 @@ def bound() -> ValueTable:
     values = np.random.default_rng(2).uniform(0.1, 0.3, grid.shape)
     motions = np.zeros((1, 4, 3))
     rules = make_rules(grid, inf)
-    return ValueTable(grid, values, values, motions, motions, rules, 0.0, 0.0)
+    return ValueTable(values, values, motions, motions, rules, 0.0, 0.0)
 
 
 def value_table(bound: ValueTable) -> PursuitValues:

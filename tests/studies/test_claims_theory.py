@@ -15,10 +15,10 @@ from stepaside.planning import (
     Direction,
     ManeuverPlan,
     ManeuverPlanner,
-    UnicycleTrajectory,
     maneuver,
 )
 from stepaside.planning.footsteps import place_footsteps
+from stepaside.planning.path import UnicycleTrajectory
 from stepaside.planning.plan import PlanSamples
 from stepaside.studies import planner_claims, unicycle_claims
 from stepaside.studies.claims import ONCE, load_claims

@@ -146,54 +146,6 @@ def test_settled_time_is_the_last_arrival_at_the_circle() -> None:
     assert np.abs((after[:3] - target) / scale).max() < 0.02
 
 
-@pytest.mark.parametrize("game", [GAMES[0], GAMES[2], GAMES[3]])
-def test_whole_turns_of_a_start_change_nothing(game: Game) -> None:
-    """Nor where the game is over at once: its state is wrapped too."""
-    starts = np.array([[2.0, 0.5, 2.0], [1.0, -2.0, -3.0], [0.04, 1, -1]])
-    turns = 2.0 * np.pi * np.array([[0, -1, -1], [0, 1, 1], [0, -1, 1]])
-    plain, turned = (
-        play_games(game, s, 2.0, capture_distance=0.05)
-        for s in (starts, starts + turns)
-    )
-    np.testing.assert_allclose(turned.states, plain.states, atol=1e-9)
-    np.testing.assert_allclose(
-        turned.closest_distance, plain.closest_distance, atol=1e-12
-    )
-    assert turned.sides.tolist() == plain.sides.tolist()
-    assert np.abs(turned.states[2, 1:]).max() <= np.pi
-
-
-def test_pursuer_straight_behind_is_not_turned_round() -> None:
-    """At pi the side is -1, at -pi it is +1."""
-    out = play_games(GAMES[3], [[1.0, 0, np.pi], [1.0, 0, -np.pi]], 0.01)
-    assert out.sides.tolist() == [-1, 1]
-
-
-def test_start_within_the_capture_distance_is_captured_immediately() -> None:
-    """Also where it would be out of reach after one step."""
-    starts = [[0.399, 3.0, 0.0], [0.4, 0.0, 0.0], [3.6012652646, 0, 0]]
-    out = play_games(GAMES[0], starts, 1.0, capture_distance=0.4)
-    assert out.captured.tolist() == [True, True, False]
-    assert out.closest_distance[:2].tolist() == [0.399, 0.4]
-    np.testing.assert_array_equal(out.capture_time, [0.0, 0.0, np.nan])
-    np.testing.assert_array_equal(out.states[:2], starts[:2])
-    assert np.isinf(out.settled_time).all()
-    assert out.circle.tolist() == [-1, -1, -1]
-
-
-@pytest.mark.parametrize(
-    ("duration", "expected"), [(0.3, 0.3), (0.31, 0.4), (0.05, 0.1)]
-)
-def test_duration_is_rounded_up_to_whole_steps(
-    duration: float, expected: float
-) -> None:
-    """Straight on at two speeds, the distance tells the time."""
-    game = make_game(2.0, 1.0, 0.5, 0.5, 0.0)
-    out = play_games(game, [[5.0, 0.0, 0.0]], duration, step=0.1)
-    assert out.states[0, 0] == pytest.approx(5.0 - expected)
-    assert out.closest_time[0] == pytest.approx(expected)
-
-
 @pytest.mark.parametrize("game", GAMES)
 def test_the_default_step_has_the_outcomes_of_a_tenth(game: Game) -> None:
     starts = random_starts(300, seed=3)

@@ -247,22 +247,6 @@ def test_every_game_settles_on_one_of_two_circles(game: Game) -> None:
     assert out.sides.tolist() == [1, 1, -1, -1]
 
 
-def test_random_starts_fill_the_box() -> None:
-    starts = random_starts(FAST, 2000, seed=1)
-    assert starts[:, 0].min() == pytest.approx(0.3, abs=0.01)
-    assert starts[:, 0].max() == pytest.approx(4.0, abs=0.01)
-    assert np.abs(starts[:, 1:]).max() == pytest.approx(pi, abs=0.01)
-    again = random_starts(FAST, 2000, seed=1, nearest=1.0, farthest=1.0)
-    assert np.all(again[:, 0] == 1.0)
-    np.testing.assert_array_equal(again[:, 1:], starts[:, 1:])
-
-
-def test_captured_starts_settle_on_nothing() -> None:
-    found = find_basins(FAST, random_starts(FAST, 60), capture_distance=5.0)
-    assert found.captured == 1.0 and found.shares == (0.0, 0.0)
-    assert found.unsettled == 0.0
-
-
 def test_measured_game_names_its_circle() -> None:
     main, other = circles_of(FAST)
     start = RelativeStart(0.6, -1.7, -2.1)

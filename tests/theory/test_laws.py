@@ -39,37 +39,12 @@ def test_moving_aside_is_across_the_line_of_sight_and_behind(
     assert motion[0] <= 1e-12
 
 
-@given(ANGLES, st.sampled_from([-1, 1]))
-def test_moving_back_leads_away_from_the_pursuer(
-    bearing: float, side: int
-) -> None:
-    """Alpha = 0 taken literally in (5) would walk into the pursuer."""
-    heading = laws.evasion_heading(bearing, side, 0.0)
-    away = -cos(heading) * cos(bearing) - sin(heading) * sin(bearing)
-    assert away == pytest.approx(-1.0)
-
-
-@given(ANGLES, st.sampled_from([-1, 1]), st.floats(0.0, pi))
-def test_motions_are_the_strategy_angle_apart_on_the_line_of_sight(
-    bearing: float, side: int, angle: float
-) -> None:
-    """Theory, sec. 1: the angle between the directions of motion is alpha."""
-    evader = laws.evasion_heading(bearing, side, angle) + pi
-    pursuer = bearing + pi  # along the line of sight, seen by the evader
-    assert abs(wrap_angle(evader - pursuer)) == pytest.approx(angle, abs=1e-9)
-
-
 @given(ANGLES, st.sampled_from([-1, 1]), st.floats(0.0, pi))
 def test_mirrored_evader_has_the_mirrored_heading(
     bearing: float, side: int, angle: float
 ) -> None:
     left = laws.evasion_heading(bearing, side, angle)
     assert laws.evasion_heading(-bearing, -side, angle) == -left
-
-
-@given(ANGLES.filter(lambda a: a != 0.0))
-def test_mirrored_bearings_have_mirrored_sides(bearing: float) -> None:
-    assert laws.side_behind(bearing) == -laws.side_behind(-bearing)
 
 
 def test_straight_ahead_the_side_is_that_of_eq_5() -> None:
@@ -106,19 +81,6 @@ def test_without_hysteresis_the_side_is_the_one_behind(
         for side in (-1, 0, 1):
             kept = laws.update_side(side, bearing, 0.0)
             assert kept == laws.side_behind(bearing)
-
-
-def test_first_side_is_the_one_behind() -> None:
-    assert laws.update_side(0, 0.1, 1.0) == -1
-    assert laws.update_side(0, -0.1, 1.0) == 1
-
-
-@given(ANGLES, st.floats(0.0, pi))
-def test_chosen_side_is_stable_at_the_same_bearing(
-    bearing: float, hysteresis: float
-) -> None:
-    side = laws.update_side(0, bearing, hysteresis)
-    assert laws.update_side(side, bearing, hysteresis) == side
 
 
 def test_turning_is_proportional_or_saturated() -> None:

@@ -148,43 +148,6 @@ def test_equal_players_tolerate_sampling_of_1_7_and_delay_of_1_1() -> None:
     assert 0.2 * largest_stable_delay(NAO) == pytest.approx(1.10, abs=0.005)
 
 
-# The saturated evader outruns the line of sight on an unstable circle.
-UNSTABLE = make_game(1.4, 1.75, 0.9, 2.8, 2.65, "saturated")
-
-
-def test_unstable_circle_tolerates_no_sampling_and_no_delay() -> None:
-    assert not circle_of(UNSTABLE).stable
-    assert largest_stable_sample_time(UNSTABLE) == 0.0
-    assert largest_stable_delay(UNSTABLE) == 0.0
-    assert largest_stable_delay(UNSTABLE, 0.1) == 0.0
-
-
-def test_delay_beyond_the_largest_allows_no_sample_time() -> None:
-    quick = make_game(1.0, 1.0, 4.0, 4.0)
-    limit = largest_stable_delay(quick)
-    assert limit == pytest.approx(0.275, abs=0.001)
-    assert largest_stable_sample_time(quick, 1.01 * limit) == 0.0
-    assert largest_stable_sample_time(quick, 0.5 * limit) > 0.0
-
-
-@pytest.mark.parametrize("delay", [0.0, 1.0])
-def test_step_map_is_marginal_at_the_largest_sample_time(
-    delay: float,
-) -> None:
-    limit = largest_stable_sample_time(NAO, delay)
-    assert abs(step_eigenvalues(NAO, limit, delay)[0]) == pytest.approx(1.0)
-    most = largest_stable_delay(NAO, 0.5)
-    assert abs(step_eigenvalues(NAO, 0.5, most)[0]) == pytest.approx(1.0)
-
-
-def test_samples_are_evenly_spaced_and_fill_the_duration() -> None:
-    run = simulate_sampled(NAO, RelativeStart(2.0, 0.1, 0.2), 1.1, 0.4)
-    assert run.times.tolist() == pytest.approx([0.0, 0.4, 0.8, 1.2])
-    assert run.turning_rates.shape == (3, 2) and run.sides.shape == (3,)
-    exact = simulate_sampled(NAO, RelativeStart(2.0, 0.1, 0.2), 1.2, 0.4)
-    assert len(exact.times) == 4
-
-
 def test_game_ends_with_the_period_of_its_capture() -> None:
     """They drive head on: at speeds of 2 and 1 forward and away."""
     game = make_game(2.0, 1.0, 0.5, 0.5, 0.0)
@@ -241,9 +204,4 @@ def test_values_out_of_range_are_refused_by_name(
 ) -> None:
     values = {"duration": 1.0, "sample_time": 0.1} | options
     with pytest.raises(PlanError, match=f"^{name} must"):
-        simulate_sampled(NAO, RelativeStart(1.0), **values)  # type: ignore[arg-type]
-    if name in ("sample_time", "delay"):
-        with pytest.raises(PlanError, match=f"^{name} must"):
-            step_map(NAO, values["sample_time"], values.get("delay", 0.0))
-    with pytest.raises(PlanError, match="^delay must"):
-        delayed_eigenvalues(NAO, 0.0)
+        simulate_sampled(NAO, RelativeStart(1.0), **values)

@@ -1,5 +1,6 @@
 """Test the sampled game of the shield."""
 
+from dataclasses import replace
 from functools import cache
 from math import pi, tau
 
@@ -13,6 +14,7 @@ from stepaside.theory.value import (
     PoseGrid,
     ShieldGame,
     ShieldTable,
+    solve_game,
     solve_shield,
     sub_poses,
 )
@@ -209,9 +211,14 @@ def test_a_start_pays_for_every_place_within_its_loss() -> None:
     values = np.ones(grid.shape)
     values[20:] = 0.0  # from x = 7 m on
     starts = np.zeros((0, *grid.whole().shape))
-    table = ShieldTable(
-        game, grid, values, values, values, starts, 1.0, 1.0, 0.0, 0.0
+    walking = solve_game(motion, motion, grid, outside=lambda _: 0.0)
+    walking = replace(
+        walking,
+        values=values,
+        after=values,
+        rules=walking.rules._replace(outside=1.0),
     )
+    table = ShieldTable(game, walking, values, starts, 1.0, 0.0)
     for x, least in ((6.4, 1.0), (6.5, 0.0), (6.9, 0.0)):
         (found,) = table.start_outcomes((x, 0.3, 0.5), motion, 1.0)
         assert (found > 0.5) == (least > 0.5), (x, found)

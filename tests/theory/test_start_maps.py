@@ -76,30 +76,6 @@ def test_evader_looking_away_can_walk_into_its_pursuer() -> None:
     assert run.captured and isinstance(worst.start, RelativeStart)
 
 
-def test_map_covers_its_box_from_corner_to_corner() -> None:
-    box = StartBox(0.8, 2.0, 0.4, 1.5)
-    counts: list[int] = []
-    found = map_starts(FAST, box, 0.1, shape=(2, 3, 5), progress=counts.append)
-    assert found.shape == (2, 3, 5) and sum(counts) == 30
-    assert found.distances == pytest.approx([0.8, 2.0])
-    assert found.pursuer_errors == pytest.approx([-0.4, 0.0, 0.4])
-    assert found.bearings == pytest.approx([-1.5, -0.75, 0.0, 0.75, 1.5])
-    values = found.grid("closest_distance")
-    one = simulate(FAST, RelativeStart(2.0, -0.4, 0.75), 0.1)
-    assert values[1, 0, 3] == pytest.approx(one.closest_distance, abs=1e-6)
-
-
-def test_captured_point_of_a_grid_ends_the_search() -> None:
-    box = StartBox(0.8, 1.2)
-    options = {"step": 0.05, "capture_distance": 0.5}
-    found = map_starts(FAST, box, 5.0, shape=(2, 7, 7), **options)
-    caught = found.outcomes.captured
-    assert 0 < caught.sum() < caught.size
-    worst = find_worst_start(FAST, found, box, 5.0, **options)
-    assert worst.captured and worst.games == caught.size
-    assert worst.closest_distance == pytest.approx(0.5)
-
-
 def test_search_finds_the_lowest_point(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:

@@ -1,6 +1,5 @@
 """Test games of two cars: closed form, laws, simulated games, files."""
 
-import json
 from dataclasses import replace
 from functools import cache
 from math import pi, tau
@@ -9,25 +8,19 @@ from typing import Any
 
 import numpy as np
 import pytest
-from click.testing import CliRunner
 from numpy.typing import NDArray
 
-from stepaside.cli.bound import bound as bound_command
-from stepaside.cli.main import main
 from stepaside.core.errors import PlanError
 from stepaside.theory.unicycle import make_game, play_games
 from stepaside.theory.value import (
     CarGame,
     ValueTable,
-    fixed_pursuit_game,
     load_table,
     solve_cars,
-    two_car_game,
 )
 from stepaside.theory.value.checks import (
     barrier_offsets,
     compare_evaders,
-    differences,
     draw_starts,
     fixed_angle_evader,
     play,
@@ -37,8 +30,8 @@ from stepaside.theory.value.closed_forms import barrier_poses, barrier_slice
 from stepaside.theory.value.two_cars import barrier, car_poses
 
 Array = NDArray[np.float64]
-PURSUIT = fixed_pursuit_game(1.0, 1.0, 1.0)
-CARS = two_car_game(1.0, 1.0, 1.0)
+PURSUIT = CarGame(1.0, 1.0, pursuer_gain=1.0)
+CARS = CarGame(1.0, 1.0, pursuer_turn=1.0)
 
 
 @cache
@@ -180,29 +173,6 @@ def test_simulated_law_is_that_of_the_unicycles() -> None:
     np.testing.assert_allclose(closest, exact, atol=0.02)
 
 
-def test_errors_of_simulated_games_are_over_all_games() -> None:
-    table = pursuit()
-    starts = draw_starts(0.5, 2.0, 100)
-    (row,) = compare_evaders(
-        PURSUIT, table, {"away": fixed_angle_evader(PURSUIT, 0.0)}, starts
-    )
-    mean = float(table.value(starts).mean())
-    assert row["closest"] - mean == pytest.approx(row["mean_error"])
-    assert row["closest"] / mean == pytest.approx(row["over_bound"])
-    assert 0.0 <= row["above"] <= row["most"] <= row["below"]
-
-
-def test_differences_are_those_at_the_nodes_of_the_coarser_table() -> None:
-    coarse, fine = cars(15), cars(30)
-    off = differences(coarse, fine)
-    assert off.shape == coarse.values.shape
-    x, y, theta = coarse.grid.axes()
-    value = fine.value((x[9], y[4], theta[3]))
-    assert off[9, 4, 3] == pytest.approx(abs(value - coarse.values[9, 4, 3]))
-    assert 0.0 < off.mean() < 0.03
-    assert (differences(coarse, coarse) < 1e-9).all()
-
-
 def test_running_straight_away_keeps_the_distance() -> None:
     for table in (pursuit(), cars()):
         for r in (0.9, 1.7, 2.6):
@@ -213,24 +183,11 @@ def test_running_straight_away_keeps_the_distance() -> None:
     assert cars().value((7.0, 0.0, 0.0)) == pytest.approx(edge + 1.0)
 
 
-def test_closest_approach_falls_with_the_angle_to_turn() -> None:
-    poses = car_poses(2.5, 0.0, np.linspace(0.0, pi, 7))
-    assert (np.diff(cars().value(poses)) < 0.0).all()
-
-
 def test_values_are_mirrored_and_periodic() -> None:
     poses = draw_starts(0.5, 5.0, 200)
     here = cars().value(poses)
     np.testing.assert_allclose(cars().value(poses * [1, -1, -1]), here)
     np.testing.assert_allclose(cars().value(poses + [0, 0, tau]), here)
-
-
-def test_a_lookup_at_a_node_is_its_value() -> None:
-    table = cars()
-    x, y, theta = table.grid.axes()
-    poses = np.stack(np.meshgrid(x, y, theta, indexing="ij"), axis=-1)
-    found = table.value(poses)
-    np.testing.assert_allclose(found, table.values, atol=1e-9)
 
 
 def test_pursuer_turns_towards_and_evader_away() -> None:
@@ -250,7 +207,7 @@ def test_pursuer_turns_towards_and_evader_away() -> None:
 
 
 def test_free_pursuer_is_no_worse_than_one_with_a_law() -> None:
-    free = solve_cars(two_car_game(1.0, 1.0, pi), 3.4, 24)
+    free = solve_cars(CarGame(1.0, 1.0, pursuer_turn=pi), 3.4, 24)
     excess = free.values - pursuit().values
     assert excess.max() < 0.05 and excess.mean() < -0.01
 
@@ -275,22 +232,12 @@ def test_value_is_monotone_in_the_capabilities(
 
 def test_lengths_scale_with_speed_over_gain() -> None:
     """NAO's 0.1 m/s and 0.2 1/s are the same game at half the size."""
-    small = solve_cars(fixed_pursuit_game(0.1, 0.1, 0.2), 1.7, 24)
+    small = solve_cars(CarGame(0.1, 0.1, pursuer_gain=0.2), 1.7, 24)
     np.testing.assert_allclose(2 * small.values, pursuit().values, atol=2e-3)
 
 
-def test_value_falls_with_the_horizon() -> None:
-    values = [
-        solve_cars(PURSUIT, 3.4, 24, horizon=T).values for T in (0.3, 1.0, 3.0)
-    ]
-    first, second = values[0] - values[1], values[1] - values[2]
-    assert first.min() > -0.02 and first.max() > 0.3
-    assert second.min() > -0.02
-    assert np.abs(values[2] - pursuit().values).max() < 0.02
-
-
 def test_a_faster_pursuer_catches_in_the_end() -> None:
-    game = two_car_game(1.3, 1.0, 1.0)
+    game = CarGame(1.3, 1.0, pursuer_turn=1.0)
     soon, late = (
         solve_cars(game, 4.0, 16, horizon=T).value((2.0, 0.0, 0.0))
         for T in (2.0, 12.0)
@@ -298,18 +245,12 @@ def test_a_faster_pursuer_catches_in_the_end() -> None:
     assert late < 0.2 < 1.0 < soon
 
 
-def test_progress_adds_up() -> None:
-    done: list[float] = []
-    solve_cars(PURSUIT, 3.4, 8, progress=done.append)
-    assert sum(done) == pytest.approx(1.0) and min(done) >= 0.0
-
-
 @pytest.mark.parametrize(
     ("make", "words"),
     [
-        (lambda: fixed_pursuit_game(1.0, 1.0, float("nan")), "pursuer_gain"),
-        (lambda: two_car_game(1.0, 1.0, 0.0, 1.0), "pursuer_turn"),
-        (lambda: two_car_game(1.0, -1.0, 1.0), "evader_speed"),
+        (lambda: CarGame(1.0, 1.0, float("nan")), "pursuer_gain"),
+        (lambda: CarGame(1.0, 1.0, 0.0, 0.0, 1.0), "pursuer_turn"),
+        (lambda: CarGame(1.0, -1.0, 0.0, 1.0), "evader_speed"),
         (lambda: replace(CARS, pursuer_gain=1.0), "pursuer_turn"),
         (lambda: solve_cars(CARS, 3.0, 16, horizon=-1.0), "horizon"),
         (lambda: solve_cars(CARS, 3.0, 4), "cells"),
@@ -349,50 +290,3 @@ def test_unreadable_table_is_refused_in_one_line(
     with pytest.raises(PlanError, match="not a valid table of a game") as why:
         load_table(path)
     assert "\n" not in str(why.value)
-
-
-def test_command_prints_its_grid_error(tmp_path: Path) -> None:
-    options = ["--grid", "16", "--games", "20", "--json"]
-    done = CliRunner().invoke(
-        bound_command, [*options, "--output", str(tmp_path / "table.npz")]
-    )
-    assert done.exit_code == 0, done.output
-    found = json.loads(done.output)
-    (row,) = found["refinement"]
-    assert row["cells"] == 8
-    assert found["grid_error_m"] == row["mean_difference_m"] > 0.0
-    assert found["played"][0]["name"] == "optimal"
-    assert found["barrier_reach_m"] > found["capture_m"]
-    assert load_table(tmp_path / "table.npz").change == found["falling_m"]
-
-
-def test_command_compares_with_the_closed_form_and_draws(
-    tmp_path: Path,
-) -> None:
-    figure = tmp_path / "cars.png"
-    words = "--against any --pursuer-turn 1 --capture 1 --grid 24 --games 0"
-    words += f" --figure {figure} --json"
-    done = CliRunner().invoke(bound_command, words.split())
-    assert done.exit_code == 0, done.output
-    found = json.loads(done.stdout)
-    assert found["analytic"]["value_error_median_m"] < 0.02
-    assert len(found["analytic"]["barrier"]) == 12
-    assert found["grid_error_m"] < found["grid_error_95_m"]
-    assert found["grid_error_95_m"] < found["grid_error_worst_m"]
-    assert figure.stat().st_size > 10_000
-
-
-@pytest.mark.parametrize(
-    ("words", "said"),
-    [
-        ("--capture 0", "capture must lie in"),
-        ("--capture 99 --farthest 5", "must be below 5 [m]"),
-        ("--pursuer-speed nan", "--pursuer-speed"),
-        ("--output table.txt", ".npz"),
-        ("--figure table.txt", "--figure"),
-        ("--grid 3", "grid must be an integer"),
-    ],
-)
-def test_bad_options_are_refused(words: str, said: str) -> None:
-    done = CliRunner().invoke(main, ["bound", *words.split()])
-    assert done.exit_code == 2 and said in done.output

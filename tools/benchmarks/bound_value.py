@@ -19,9 +19,7 @@ from stepaside.studies.result_files import header, write_result
 from stepaside.theory.value import (
     CarGame,
     ValueTable,
-    fixed_pursuit_game,
     solve_cars,
-    two_car_game,
 )
 from stepaside.theory.value.checks import (
     Evader,
@@ -35,7 +33,8 @@ from stepaside.theory.value.closed_forms import barrier_poses
 from stepaside.theory.value.two_cars import car_poses
 
 Array = NDArray[np.float64]
-LAW, CARS = fixed_pursuit_game(1.0, 1.0, 1.0), two_car_game(1.0, 1.0, 1.0)
+LAW = CarGame(1.0, 1.0, pursuer_gain=1.0)
+CARS = CarGame(1.0, 1.0, pursuer_turn=1.0)
 GAMES = 4000
 # distance range [v/k], maximum bearings of evader and pursuer
 BOXES = {

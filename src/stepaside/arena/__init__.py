@@ -21,7 +21,7 @@ from .room_generation import (
     draw_initial_poses,
     generate_room,
 )
-from .shapes import Box, Disc, Polygon, hull, wall_between
+from .shapes import Box, Disc, Polygon, hull
 
 __all__ = [
     "BODY_RADIUS",
@@ -47,5 +47,4 @@ __all__ = [
     "room_to_entries",
     "room_from_entries",
     "room_to_toml",
-    "wall_between",
 ]

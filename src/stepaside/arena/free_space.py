@@ -24,16 +24,10 @@ def path_exists(
     end: tuple[float, float],
     radius: float,
 ) -> bool:
-    """Return whether a disc can move from one point to another.
+    """Return whether a disc can move from one point to another, in [m].
 
     The search runs on a grid: a path through a gap that is wider than the
     disc by less than about a cell, 2 cm, may be missed.
-
-    Args:
-        room: The room.
-        start: Start point (x, y) in the room, in [m].
-        end: End point (x, y) in the room, in [m].
-        radius: Radius of the disc, in [m].
     """
     if _straight(room, start, end, radius):
         return True
@@ -77,26 +71,15 @@ def _extent(room: Room, points: Array, radius: float) -> tuple[Array, Array]:
         half = 0.5 * np.array([room.width, room.depth], dtype=np.float64)
         return -half, half
     for solid in room.solids:
-        corners, reach = solid.points, solid.hull.radius
+        corners, reach = solid.points, solid.rounding
         points = np.concatenate([points, corners - reach, corners + reach])
     margin = 2.0 * radius + CELL  # room to pass around all obstacles
     return points.min(axis=0) - margin, points.max(axis=0) + margin
 
 
-def check_initial_poses(
-    room: Room, starts: tuple[Pose, Pose], radius: float = BODY_RADIUS
-) -> None:
-    """Check that initial poses are free and connected by a path.
-
-    Args:
-        room: The room.
-        starts: Initial poses of pursuer and evader in the room.
-        radius: Radius of their bodies, in [m].
-
-    Raises:
-        ConfigurationError: If a body overlaps an obstacle or a wall, the
-            bodies overlap each other, or no path connects them.
-    """
+def check_initial_poses(room: Room, starts: tuple[Pose, Pose]) -> None:
+    """Check that initial poses of both are free and connected by a path."""
+    radius = BODY_RADIUS
     for name, pose in zip(PLAYERS, starts, strict=True):
         place = f"({pose.x:g}, {pose.y:g})"
         clearance = float(room.clearance([pose[:2]])[0])
@@ -126,17 +109,12 @@ def check_initial_poses(
         )
 
 
-def measure_room(room: Room, radius: float = BODY_RADIUS) -> dict[str, Any]:
+def measure_room(room: Room) -> dict[str, Any]:
     """Measure a room, as a JSON object.
 
-    Args:
-        room: The room.
-        radius: Radius of a body in the room, in [m].
-
-    Returns:
-        Numbers of obstacles and doors, narrowest gap between solids [m],
-        areas [m^2] of the floor, of the free floor and of the positions of
-        the centre of a body, and the entries of the room's file.
+    Numbers of obstacles and doors, narrowest gap between solids [m], areas
+    [m^2] of the floor, of the free floor and of the positions of the
+    centre of a body, and the entries of the room's file.
     """
     result: dict[str, Any] = {
         "obstacles": len(room.obstacles),
@@ -154,8 +132,10 @@ def measure_room(room: Room, radius: float = BODY_RADIUS) -> dict[str, Any]:
         floor = room.width * room.depth
         result["floor_m2"] = floor
         result["free_m2"] = floor * float((clearance > 0.0).mean())
-        result["body_radius_m"] = radius
-        result["free_for_body_m2"] = floor * float((clearance > radius).mean())
+        result["body_radius_m"] = BODY_RADIUS
+        result["free_for_body_m2"] = floor * float(
+            (clearance > BODY_RADIUS).mean()
+        )
     result["room"] = room_to_entries(room)
     return result
 

@@ -4,20 +4,28 @@ from abc import ABC, abstractmethod
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from functools import cached_property
-from math import pi
-from typing import Any, ClassVar, NamedTuple
+from math import inf, pi, tau
+from typing import ClassVar
 
 import numpy as np
-from numpy.typing import ArrayLike
+from numpy.typing import ArrayLike, NDArray
 
 from ..core.convex import signed_area
 from ..core.poses import Array, Pose
-from .hull_set import HullSet, RoundedHull
+from .obstacle_distances import (
+    PackedObstacles,
+    measure_nearest,
+    measure_points,
+    measure_segments,
+)
+
+DIRECTION_COUNT = 64  # uniform directions; the nearest is within 3 degrees
+Flags = NDArray[np.bool_]
 
 
 @dataclass(frozen=True)
 class Obstacle(ABC):
-    """Convex shape on the floor.
+    """Convex shape on the floor: the hull of points, grown by a radius.
 
     Attributes:
         kind: "disc", "box" or "polygon".
@@ -27,16 +35,17 @@ class Obstacle(ABC):
 
     @property
     @abstractmethod
-    def hull(self) -> RoundedHull:
-        """The shape as points and a radius."""
+    def points(self) -> Array:
+        """Corners, counter-clockwise, or the centre of a disc, in [m]."""
+
+    @property
+    def rounding(self) -> float:
+        """Radius of a disc, in [m]; else 0."""
+        return 0.0
 
     @abstractmethod
     def moved(self, pose: Pose) -> "Obstacle":
-        """Transform the shape.
-
-        Args:
-            pose: Pose of the shape's frame in the target frame.
-        """
+        """Return the shape in another frame, given the pose of its own."""
 
     @property
     def centre(self) -> tuple[float, float]:
@@ -50,86 +59,63 @@ class Obstacle(ABC):
         return self.points
 
     @property
-    def points(self) -> Array:
-        """Corners, counter-clockwise, or the centre of a disc, in [m]."""
-        return self.hull.points
-
-    @property
     def area(self) -> float:
         """Area of the footprint, in [m^2]."""
-        return signed_area(self.points) + pi * self.hull.radius**2
+        return signed_area(self.points) + pi * self.rounding**2
 
     @cached_property
-    def hull_set(self) -> HullSet:
-        """The shape alone as a set of hulls."""
-        return HullSet((self.hull,))
+    def alone(self) -> "ObstacleSet":
+        """The shape alone as a set."""
+        return ObstacleSet((self,))
 
     def clearance(self, points: ArrayLike) -> Array:
-        """Return the signed distances of points from the edge.
-
-        Args:
-            points: Points (x, y) in the frame of the shape, in [m]. Shape
-                (n, 2).
-
-        Returns:
-            Distances, negative inside, in [m]. Shape (n,).
-        """
-        return self.hull_set.clearances(points)[:, 0]
+        """Return signed distances of points (n, 2) from the edge, in [m]."""
+        return self.alone.clearance(points)
 
 
-def clearance_between(one: Obstacle, other: Obstacle) -> float:
-    """Return the signed distance between two shapes in one frame, in [m].
-
-    Where they overlap it is minus the penetration depth.
-    """
-    # Disjoint convex sets are separated along the normal of an edge, or
-    # between two corners, which the distances of the points of each to the
-    # other one cover; so do they for discs, which have no edges.
-    a, b = one.hull_set, other.hull_set
-    overlap = max(
-        float((p.points @ q.normals.T - q.offsets).min(axis=0).max())
-        for p, q in ((a, b), (b, a))
-    )
-    if overlap <= 0.0:
-        return overlap
-    distance = a.clearance(b.points).min() - b.radii[0]
-    return float(min(distance, b.clearance(a.points).min() - a.radii[0]))
-
-
-class PackedObstacles(NamedTuple):
-    """Discs and convex polygons as arrays, for compiled loops.
-
-    Attributes:
-        circles: Centre x, y and radius of a circle around each obstacle, in
-            [m]. Shape (obstacles, 3).
-        firsts: Index of the first edge of each obstacle, and the number of
-            edges. A disc has none: it is its circle. Shape (obstacles + 1,).
-        edges: Edges of all polygons, concatenated: outward unit normal,
-            offset [m], first corner x, y [m], length [m]. Shape (m, 6).
-    """
-
-    circles: Any
-    firsts: Any
-    edges: Any
-
-
-class ObstacleSet(HullSet):
+class ObstacleSet:
     """Obstacles in one frame, with vectorised distance queries.
 
     Iteration yields the obstacles.
 
     Attributes:
         shapes: The obstacles.
+        radii: Radius by which each is rounded, in [m]. Shape (obstacles,).
+        firsts: Index of the first edge of each. Shape (obstacles,).
+        hull_of_edge: Index of the obstacle of each edge. Shape (edges,).
+        points: Start of each edge, in [m]. Shape (edges, 2).
+        edges: Vector to its end, in [m]. A single point has one edge of zero
+            length, whose half plane is empty. Shape (edges, 2).
+        normals: Outward unit normals of the edges. Shape (edges, 2).
+        offsets: Inside an obstacle is ``normals @ p <= offsets``, in [m].
+            Shape (edges,).
     """
 
     def __init__(self, shapes: Iterable[Obstacle] = ()) -> None:
-        """Concatenate the edges of the obstacles.
-
-        Args:
-            shapes: Obstacles in one frame.
-        """
+        """Concatenate the edges of the obstacles."""
         self.shapes = tuple(shapes)
-        super().__init__(shape.hull for shape in self.shapes)
+        parts = [shape.points for shape in self.shapes]
+        counts = np.array([len(points) for points in parts], dtype=np.int64)
+        ends = np.cumsum(counts)
+        self.radii: Array = np.array([x.rounding for x in self.shapes])
+        self.firsts = ends - counts
+        self.hull_of_edge = np.repeat(np.arange(len(counts)), counts)
+        self.points: Array = np.concatenate([np.zeros((0, 2)), *parts])
+        after = np.arange(1, len(self.points) + 1)
+        after[ends - 1] = self.firsts
+        self.edges: Array = self.points[after] - self.points
+        lengths = np.hypot(self.edges[:, 0], self.edges[:, 1])
+        with np.errstate(invalid="ignore"):
+            normals = self.edges[:, ::-1] * (1.0, -1.0) / lengths[:, None]
+        single = lengths == 0.0
+        self.normals: Array = np.where(single[:, None], 0.0, normals)
+        self.offsets: Array = np.where(
+            single, -inf, (self.normals * self.points).sum(axis=1)
+        )
+
+    def __len__(self) -> int:
+        """Return the number of obstacles."""
+        return len(self.shapes)
 
     def __iter__(self) -> Iterator[Obstacle]:
         """Iterate over the obstacles."""
@@ -150,14 +136,167 @@ class ObstacleSet(HullSet):
     @cached_property
     def packed(self) -> PackedObstacles:
         """The obstacles as arrays for compiled loops."""
+        circles = np.zeros((len(self), 3))
+        if len(self):
+            counts = np.bincount(self.hull_of_edge)[:, None]
+            sums = np.add.reduceat(self.points, self.firsts)
+            circles[:, :2] = sums / counts
+            out = self.points - circles[self.hull_of_edge, :2]
+            reach = np.hypot(out[:, 0], out[:, 1])
+            circles[:, 2] = np.maximum.reduceat(reach, self.firsts)
+            circles[:, 2] += self.radii
         lengths = np.hypot(self.edges[:, 0], self.edges[:, 1])
         edges = np.column_stack(
             [self.normals, self.offsets, self.points, lengths]
         )
         sides = lengths > 0.0
-        counts = np.bincount(self.hull_of_edge[sides], minlength=len(self))
-        firsts = np.cumsum([0, *counts])
-        return PackedObstacles(self.circles, firsts, edges[sides])
+        sizes = np.bincount(self.hull_of_edge[sides], minlength=len(self))
+        return PackedObstacles(circles, np.cumsum([0, *sizes]), edges[sides])
+
+    def clearances(self, points: ArrayLike) -> Array:
+        """Return the signed distances of points (n, 2) from each, in [m].
+
+        Negative inside. Shape (n, obstacles).
+        """
+        queries = _rows(points)
+        signed = np.empty((len(queries), len(self)))
+        measure_points(self.packed, queries, signed)
+        return signed
+
+    def clearance(self, points: ArrayLike) -> Array:
+        """Return the signed distances of points from the nearest, in [m].
+
+        They are inf without obstacles. Shape (n,).
+        """
+        queries = _rows(points)
+        least = np.empty(len(queries))
+        measure_nearest(self.packed, queries, least)
+        return least
+
+    def directions_out(self, points: ArrayLike) -> Array:
+        """Return the gradients of the signed distances from each obstacle.
+
+        They are unit vectors away from each; zero at the centre of a disc.
+        Shape (n, obstacles, 2).
+        """
+        queries = _rows(points)
+        heights = queries @ self.normals.T - self.offsets
+        away = queries[:, None] - self.points
+        share = (away * self.edges).sum(axis=2)
+        share /= np.maximum((self.edges**2).sum(axis=1), 1e-300)
+        away -= np.clip(share, 0.0, 1.0)[..., None] * self.edges
+        distances = np.hypot(away[..., 0], away[..., 1])
+        rows = np.arange(len(queries))
+        vectors = np.zeros((len(queries), len(self), 2))
+        ends = [*self.firsts[1:].tolist(), len(self.points)]
+        for n, first in enumerate(self.firsts.tolist()):
+            own = slice(first, ends[n])
+            outside = away[rows, first + distances[:, own].argmin(axis=1)]
+            inside = self.normals[first + heights[:, own].argmax(axis=1)]
+            beyond = heights[:, own].max(axis=1, keepdims=True) > 0.0
+            vectors[:, n] = np.where(beyond, outside, inside)
+        lengths = np.hypot(vectors[..., 0], vectors[..., 1])[..., None]
+        directions: Array = vectors / np.maximum(lengths, 1e-12)
+        return directions
+
+    def segments_intersect(self, starts: ArrayLike, ends: ArrayLike) -> Flags:
+        """Return whether line segments touch each. Shape (n, obstacles).
+
+        Starts may be one for all. Shapes (n, 2), or (1, 2), and (n, 2).
+        """
+        hit: Flags = self._from_segments(starts, ends, self.radii * 0.0) <= 0.0
+        return hit
+
+    def segments_keep_clear(
+        self, allowed: Array, starts: ArrayLike, ends: ArrayLike
+    ) -> Flags:
+        """Return whether line segments keep a distance from every obstacle.
+
+        The distance from each is in [m], shape (obstacles,); segments are
+        given as in :meth:`segments_intersect`. Shape (n,).
+        """
+        clear: Flags = self._from_segments(starts, ends, allowed) >= allowed
+        return np.asarray(clear.all(axis=1))
+
+    def _from_segments(
+        self, starts: ArrayLike, ends: ArrayLike, enough: Array
+    ) -> Array:
+        """Return clearances of segments, exact up to ``enough``, in [m]."""
+        last = _rows(ends)
+        first = _rows(np.broadcast_to(starts, last.shape))
+        found = np.empty((len(last), len(self)))
+        measure_segments(self.packed, first, last, enough, found)
+        return found
+
+    def swept_clearances(self, corners: Array) -> Array:
+        """Return lower bounds of the clearance of a moving outline.
+
+        The separation of two convex sets along any direction is a lower bound
+        of their distance, and equals it along the best direction. So the
+        largest separation over a finite set of directions is conservative.
+
+        Args:
+            corners: Corners of the outline at successive instants, between
+                which they move along straight lines, in [m]. Shape
+                (instants, corners, 2).
+
+        Returns:
+            Lower bounds of the distance between the hull of two successive
+            outlines and the nearest hull of this set, in [m]; not positive
+            if they may touch, inf without hulls. Shape (instants - 1,), or
+            (1,) for one instant.
+        """
+        if not len(self):
+            return np.full(max(1, len(corners) - 1), inf)
+        directions, nearest = self._separations
+        reach = (corners @ directions).max(axis=1)
+        if len(reach) > 1:
+            reach = np.maximum(reach[:-1], reach[1:])
+        separations = nearest[None, :, :] - reach[:, None, :]
+        least: Array = separations.max(axis=2).min(axis=1)
+        return least
+
+    @cached_property
+    def _separations(self) -> tuple[Array, Array]:
+        """Return directions, and the least coordinate of each hull along them.
+
+        Shapes (2, directions) and (hulls, directions), the latter in [m].
+        """
+        angles = np.arange(DIRECTION_COUNT) * (tau / DIRECTION_COUNT)
+        even = np.stack([np.cos(angles), np.sin(angles)], axis=-1)
+        # The distance from a long wall is exact only along its own normals.
+        sides = self.normals[np.isfinite(self.offsets)]
+        around = np.concatenate([even, -sides])
+        directions: Array = np.unique(np.round(around, 12), axis=0).T
+        directions /= np.hypot(*directions)
+        along = self.points @ directions
+        nearest = np.minimum.reduceat(along, self.firsts)
+        nearest -= self.radii[:, None]
+        return directions, nearest
+
+
+def _rows(points: ArrayLike) -> Array:
+    """Return points as rows of an array for compiled loops. Shape (n, 2)."""
+    return np.ascontiguousarray(points, dtype=np.float64).reshape(-1, 2)
+
+
+def clearance_between(one: Obstacle, other: Obstacle) -> float:
+    """Return the signed distance between two shapes in one frame, in [m].
+
+    Where they overlap it is minus the penetration depth.
+    """
+    # Disjoint convex sets are separated along the normal of an edge, or
+    # between two corners, which the distances of the points of each to the
+    # other one cover; so do they for discs, which have no edges.
+    a, b = one.alone, other.alone
+    overlap = max(
+        float((p.points @ q.normals.T - q.offsets).min(axis=0).max())
+        for p, q in ((a, b), (b, a))
+    )
+    if overlap <= 0.0:
+        return overlap
+    distance = a.clearance(b.points).min() - b.radii[0]
+    return float(min(distance, b.clearance(a.points).min() - a.radii[0]))
 
 
 NO_OBSTACLES = ObstacleSet()

@@ -117,13 +117,8 @@ class Room:
             raise ERROR("a room must have walls for its doors")
         for side in SIDES:
             length = self.depth if side in ("east", "west") else self.width
-            ends = sorted(
-                (door.at - 0.5 * door.width, door.at + 0.5 * door.width)
-                for door in self.doors
-                if door.side == side
-            )
             low = -0.5 * (length or 0.0)
-            for begin, end in ends:
+            for begin, end in self._gaps(side):
                 if begin < low - 1e-9 or end > 0.5 * (length or 0.0) + 1e-9:
                     raise ERROR(
                         f"doors must lie in their wall and not overlap: "
@@ -131,6 +126,14 @@ class Room:
                         f"{begin:g} to {end:g}"
                     )
                 low = end
+
+    def _gaps(self, side: str) -> list[tuple[float, float]]:
+        """Return begin and end of the doors of a side, in [m]."""
+        return sorted(
+            (door.at - 0.5 * door.width, door.at + 0.5 * door.width)
+            for door in self.doors
+            if door.side == side
+        )
 
     @property
     def has_walls(self) -> bool:
@@ -155,12 +158,7 @@ class Room:
             away = away if side in ("east", "north") else -away
             # The east and west walls include the corners.
             low = -0.5 * along - (WALL if upright else 0.0)
-            gaps = sorted(
-                (door.at - 0.5 * door.width, door.at + 0.5 * door.width)
-                for door in self.doors
-                if door.side == side
-            )
-            for begin, end in [*gaps, (-low, -low)]:
+            for begin, end in [*self._gaps(side), (-low, -low)]:
                 length, middle = begin - low, 0.5 * (begin + low)
                 low = end
                 if length < 1e-3:
@@ -177,41 +175,25 @@ class Room:
         return (*self.obstacles, *self.walls)
 
     def solids_at(self, time: float, ahead: float = 0.0) -> Solids:
-        """Return the solids and the floor that moving boxes cover.
+        """Return the solids and the floor that moving boxes cover for a time.
 
-        Args:
-            time: Begin of the interval, in [s].
-            ahead: Length of the interval, in [s].
+        The interval begins at a time and lasts ``ahead``, in [s].
         """
         end = time + ahead
         return (*self.solids, *(b.swept(time, end) for b in self.moving))
 
     def is_inside(self, points: ArrayLike) -> NDArray[np.bool_]:
-        """Return whether points lie between the walls.
-
-        Args:
-            points: Points (x, y) in the room, in [m]. Shape (n, 2).
-
-        Returns:
-            Shape (n,); all True without walls.
-        """
-        queries = np.asarray(points, dtype=np.float64)
-        if self.width is None or self.depth is None:
-            return np.ones(len(queries), dtype=np.bool_)
-        half = 0.5 * np.array([self.width, self.depth])
-        inside: NDArray[np.bool_] = np.all(np.abs(queries) <= half, axis=1)
+        """Return whether points (n, 2) lie between the walls; True without."""
+        sides = (self.width or np.inf, self.depth or np.inf)
+        inside: NDArray[np.bool_]
+        inside = np.all(np.abs(points) <= 0.5 * np.array(sides), axis=1)
         return inside
 
     def clearance(self, points: ArrayLike) -> Array:
-        """Return the signed distances of points to the nearest solid.
+        """Return the signed distances of points to the nearest solid, in [m].
 
-        Args:
-            points: Points (x, y) in the room, in [m]. Shape (n, 2).
-
-        Returns:
-            Distances, in [m]: negative inside a solid and beyond the walls
-            of a closed room, inf on an empty floor without walls. Shape
-            (n,).
+        They are negative inside a solid and beyond the walls of a closed room,
+        inf on an empty floor without walls. Shape (n,).
         """
         queries = np.asarray(points, dtype=np.float64)
         shapes = self._obstacle_set if self.is_closed else self.solid_set
@@ -222,20 +204,10 @@ class Room:
         return least
 
     def sees(self, starts: ArrayLike, ends: ArrayLike) -> NDArray[np.bool_]:
-        """Return whether lines of sight are free of solids.
-
-        Args:
-            starts: Points (x, y) in the room, in [m]. Shape (n, 2).
-            ends: Points (x, y) in the room, in [m]. Shape (n, 2).
-
-        Returns:
-            Whether each segment touches no solid. Shape (n,).
-        """
-        hidden: NDArray[np.bool_]
-        hidden = np.any(
-            self.solid_set.segments_intersect(starts, ends), axis=1
-        )
-        return ~hidden
+        """Return whether lines of sight touch no solid. Shape (n,)."""
+        free: NDArray[np.bool_]
+        free = ~self.solid_set.segments_intersect(starts, ends)
+        return np.asarray(free.all(axis=1))
 
     @cached_property
     def _obstacle_set(self) -> ObstacleSet:

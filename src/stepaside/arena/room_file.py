@@ -60,14 +60,7 @@ class RoomEntries:
 
 
 def load_room(file: AnyPath) -> Room:
-    """Read a room.
-
-    Args:
-        file: TOML file, or a JSON file with the suffix ".json".
-
-    Raises:
-        ConfigurationError: If the file cannot be read, or is invalid.
-    """
+    """Read a room from a TOML file, or a JSON file with the suffix ".json"."""
     file = as_path(file, "file")
     entries = load_entries(file)
     try:
@@ -77,12 +70,7 @@ def load_room(file: AnyPath) -> Room:
 
 
 def room_from_entries(entries: Mapping[str, Any]) -> Room:
-    """Build a room from the entries of a file; see :class:`RoomEntries`.
-
-    Raises:
-        ConfigurationError: If an entry is unknown, missing, of the wrong
-            type or out of its range.
-    """
+    """Build a room from the entries of a file; see :class:`RoomEntries`."""
     return read_entries(RoomEntries, entries).room
 
 

@@ -36,31 +36,15 @@ class RoomRecipe:
     depth: float | None = setting(
         3.0, "Depth of the floor, along y; none for no walls", SIDE
     )
-    discs: int = setting(
-        0,
-        "Number of discs",
-        COUNT,
-    )
-    boxes: int = setting(
-        0,
-        "Number of boxes",
-        COUNT,
-    )
+    discs: int = setting(0, "Number of discs", COUNT)
+    boxes: int = setting(0, "Number of boxes", COUNT)
     polygons: int = setting(
         0,
         "Number of polygons with three to six corners",
         COUNT,
     )
-    doors: int = setting(
-        0,
-        "Number of doors in the walls",
-        COUNT,
-    )
-    smallest: float = setting(
-        0.1,
-        "Minimum radius of an obstacle",
-        RADIUS,
-    )
+    doors: int = setting(0, "Number of doors in the walls", COUNT)
+    smallest: float = setting(0.1, "Minimum radius of an obstacle", RADIUS)
     largest: float = setting(
         0.25,
         "Maximum radius of an obstacle, of its circumcircle for boxes and "
@@ -77,9 +61,8 @@ class RoomRecipe:
         """Validate sizes and numbers."""
         check_settings(self)
         Room(self.width, self.depth)
-        check_within(
-            self.largest, self.smallest, LARGEST, "largest", "m", ERROR
-        )
+        least = self.smallest
+        check_within(self.largest, least, LARGEST, "largest", "m", ERROR)
         if self.doors and self.width is None:
             raise ERROR("a room must have walls for its doors")
 
@@ -92,16 +75,9 @@ class RoomRecipe:
 def generate_room(recipe: RoomRecipe, seed: int) -> Room:
     """Draw a random room with initial poses.
 
-    Obstacles do not overlap. Initial distance and headings are drawn as in a
-    duel; the line of sight is free, and a path leads from one player to the
-    other.
-
-    Args:
-        recipe: Size of the room and number of obstacles.
-        seed: Seed of the random numbers.
-
-    Raises:
-        ConfigurationError: If the obstacles do not fit into the room.
+    Obstacles do not overlap. Initial distance and headings are drawn as in
+    a duel; the line of sight is free, and a path leads from one player to
+    the other.
     """
     random = named_generator(seed, "room")
     doors: list[Door] = []
@@ -122,12 +98,9 @@ def generate_room(recipe: RoomRecipe, seed: int) -> Room:
             )
             made = kind(x, y, radius, random)
             around = Disc(x, y, radius)
-            inside = all(
-                abs(at) + radius <= 0.5 * side
-                for at, side in zip((x, y), recipe.floor, strict=True)
-            )
-            if inside and not any(
-                clearance_between(o, around) < 0.0 for o in obstacles
+            inside = radius <= 0.5 * min(recipe.floor)
+            if inside and all(
+                clearance_between(o, around) >= 0.0 for o in obstacles
             ):
                 obstacles.append(made)
                 break
@@ -143,19 +116,10 @@ def draw_initial_poses(
 ) -> tuple[Pose, Pose]:
     """Draw initial poses of pursuer and evader in a room.
 
-    Args:
-        room: The room.
-        seed: Seed of the random numbers.
-        radius: Radius of their bodies, in [m]; their clearance is at least
-            16 cm more, the radius of the tightest turn by (2).
-
-    Returns:
-        Poses of pursuer and evader in the room: 0.6 m to 1.5 m apart, the
-        pursuer within 90 degrees of facing the evader, the evader within
-        30 degrees of facing the pursuer, with a free line of sight.
-
-    Raises:
-        ConfigurationError: If no such poses are found.
+    They are 0.6 m to 1.5 m apart, the pursuer within 90 degrees of facing
+    the evader, the evader within 30 degrees of facing the pursuer, with a
+    free line of sight. Their clearance is at least 16 cm, the radius of
+    the tightest turn by (2), more than the radius of a body.
     """
     random = named_generator(seed, "room starts")
     half = 0.5 * np.array([room.width or 0.0, room.depth or 0.0])
@@ -191,11 +155,7 @@ def draw_initial_poses(
 def draw_any_start(seed: int) -> tuple[Pose, Pose]:
     """Draw initial poses on an open floor, 0.6 to 1.5 m apart.
 
-    Args:
-        seed: Seed of the random numbers.
-
-    Returns:
-        Poses of pursuer, at the origin, and evader, with any headings.
+    The pursuer is at the origin; both have any headings.
     """
     random = named_generator(seed, "any start")
     apart = random.uniform(NEAREST, FARTHEST)

@@ -2,20 +2,20 @@
 
 from dataclasses import dataclass
 from functools import cached_property
-from math import atan2, cos, hypot, sin, tau
+from math import atan2, hypot, tau
 from typing import ClassVar
 
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ..core.convex import convex_hull
+from ..core.convex import convex_hull, next_corners, signed_area
+from ..core.errors import ConfigurationError, shown
 from ..core.poses import Array, Pose, wrap_angle
 from ..core.ranges import Range
 from ..core.setting import REQUIRED, check_settings, setting
-from .hull_set import RoundedHull, rounded_hull
 from .obstacles import Obstacle
-from .polygon_checks import SMALLEST, check_convex
 
+SMALLEST = 1e-3  # least radius or edge, in [m]
 FARTHEST = 1000.0  # largest coordinate or side, in [m]
 COORDINATE = Range(-FARTHEST, FARTHEST, "m", "from the origin of the room")
 SIDE = Range(SMALLEST, FARTHEST, "m", "from a pin to a hall")
@@ -41,9 +41,14 @@ class Disc(Obstacle):
         check_settings(self, prefix="disc ")
 
     @cached_property
-    def hull(self) -> RoundedHull:
-        """The centre, grown by the radius."""
-        return rounded_hull([(self.x, self.y)], self.radius)
+    def points(self) -> Array:
+        """The centre, in [m]. Shape (1, 2)."""
+        return np.array([(self.x, self.y)])
+
+    @property
+    def rounding(self) -> float:
+        """Radius, in [m]."""
+        return self.radius
 
     @property
     def outline(self) -> Array:
@@ -82,9 +87,9 @@ class Polygon(Obstacle):
         object.__setattr__(self, "corners", check_convex(self.corners))
 
     @cached_property
-    def hull(self) -> RoundedHull:
-        """The corners, without a radius."""
-        return rounded_hull(self.corners)
+    def points(self) -> Array:
+        """The corners, in [m]. Shape (n, 2)."""
+        return np.array(self.corners)
 
     def moved(self, pose: Pose) -> "Polygon":
         """Take the polygon out of a frame with a pose in the parent frame."""
@@ -111,14 +116,12 @@ class Box(Obstacle):
             COORDINATE.check(value, "box corner")
 
     @cached_property
-    def hull(self) -> RoundedHull:
-        """The four corners, without a radius."""
-        c, s = cos(self.heading), sin(self.heading)
-        corners = []
-        for along, across in ((1, 1), (-1, 1), (-1, -1), (1, -1)):
-            u, v = 0.5 * along * self.width, 0.5 * across * self.depth
-            corners.append((self.x + c * u - s * v, self.y + s * u + c * v))
-        return rounded_hull(corners)
+    def points(self) -> Array:
+        """The four corners, in [m]. Shape (4, 2)."""
+        half = 0.5 * np.array([self.width, self.depth])
+        corners = half * [(1, 1), (-1, 1), (-1, -1), (1, -1)]
+        pose = Pose(self.x, self.y, self.heading)
+        return pose.transform_points(corners)
 
     @property
     def centre(self) -> tuple[float, float]:
@@ -158,24 +161,34 @@ class CentreLine:
         return Box(x, y, self.length, self.thickness, heading)
 
 
-def wall_between(start: Point, end: Point, thickness: float = WALL) -> Box:
-    """Return the wall whose centre line runs between two points, in [m].
-
-    Raises:
-        ConfigurationError: If a value is out of its range.
-    """
-    return CentreLine(start, end, thickness).box
-
-
 def hull(points: ArrayLike) -> Polygon:
-    """Return the convex hull of points.
-
-    Args:
-        points: Points (x, y) in the frame of the polygon, in [m]. Shape
-            (n, 2).
-
-    Raises:
-        ConfigurationError: If they are collinear.
-    """
+    """Return the convex hull of points (n, 2), which must not be collinear."""
     corners = convex_hull(np.asarray(points, dtype=np.float64), 1e-12)
     return Polygon(tuple((x, y) for x, y in corners.tolist()))
+
+
+def check_convex(corners: tuple[Point, ...]) -> tuple[Point, ...]:
+    """Return the corners of a convex polygon, counter-clockwise.
+
+    The exterior angles of a polygon that does not cross itself add up to one
+    turn; those of a convex one have the same sign.
+    """
+    points = np.array(corners)
+    edges = next_corners(points) - points
+    after = next_corners(edges)
+    crosses = edges[:, 0] * after[:, 1] - edges[:, 1] * after[:, 0]
+    angles = np.arctan2(crosses, (edges * after).sum(axis=1))
+    turns = round(float(angles.sum()) / tau)
+    lengths = np.hypot(edges[:, 0], edges[:, 1])
+    longest, doubled = lengths.max(), 2.0 * turns * signed_area(points)
+    for holds, rule in (
+        (abs(turns) == 1, "not cross itself"),
+        (lengths.min() >= SMALLEST, f"have edges >= {SMALLEST:g} [m]"),
+        ((turns * crosses).min() >= -1e-9 * longest**2, "be convex"),
+        (doubled >= SMALLEST * longest, "have an inside"),
+    ):
+        if not holds:
+            raise ConfigurationError(
+                f"polygon must {rule}, got corners {shown(corners)}"
+            )
+    return corners if turns > 0 else corners[::-1]

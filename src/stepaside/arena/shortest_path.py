@@ -93,14 +93,7 @@ def path_corners(solids: ObstacleSet, radius: float) -> Array:
 
     Each corner of a solid is passed along a polygonal chain around the arc
     from the normal of one edge to that of the next, at a distance of the
-    radius plus 1 cm.
-
-    Args:
-        solids: Obstacles and walls.
-        radius: Radius of the disc, in [m].
-
-    Returns:
-        Corners, in [m]. Shape (n, 2).
+    radius plus 1 cm. Shape (n, 2).
     """
     after = np.arctan2(solids.normals[:, 1], solids.normals[:, 0])
     before = np.arange(len(after)) - 1

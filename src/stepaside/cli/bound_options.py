@@ -140,13 +140,10 @@ class BoundOptions:
 
     def game(self) -> "CarGame":
         """Return the game."""
-        from ..theory.value import fixed_pursuit_game, two_car_game
+        from ..theory.value import CarGame
 
-        speeds = self.pursuer_speed, self.evader_speed
-        if self.against == "pursuit":
-            return fixed_pursuit_game(
-                *speeds, self.pursuer_gain, self.evader_turn
-            )
-        turn = self.pursuer_turn
-        limit = pi * self.pursuer_gain if turn is None else turn
-        return two_car_game(*speeds, limit, self.evader_turn)
+        gain, turn = self.pursuer_gain, 0.0
+        if self.against == "any":
+            gain, turn = 0.0, self.pursuer_turn or pi * gain
+        own = self.evader_turn or 0.0
+        return CarGame(self.pursuer_speed, self.evader_speed, gain, turn, own)

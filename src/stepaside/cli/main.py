@@ -1,5 +1,6 @@
 """Command-line interface: the group of all commands and its errors."""
 
+import re
 import sys
 from importlib import import_module
 from typing import Any, NoReturn
@@ -7,7 +8,7 @@ from typing import Any, NoReturn
 import click
 
 from .. import __version__
-from ..core.errors import StepAsideError, shorten_words
+from ..core.errors import StepAsideError
 from ..core.extras import install_hint
 from ..core.signal_handling import interrupted_status, interruptible
 
@@ -120,7 +121,7 @@ def _leave() -> NoReturn:
 def _refuse(message: str) -> NoReturn:
     from .terminal import echo
 
-    line = shorten_words(" ".join(message.split()))
+    line = re.sub(r"(\S{60})\S{181,}", r"\1...", " ".join(message.split()))
     echo(f"stepaside: {line}", err=True)
     sys.exit(2)
 

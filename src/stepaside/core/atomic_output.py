@@ -27,9 +27,6 @@ def check_file(
         name: Name of the option, for messages.
         suffixes: Permitted suffixes; any if empty.
         overwrite: Whether an existing file may be replaced.
-
-    Raises:
-        ConfigurationError: If it cannot be written, with the reason.
     """
     there, rule = _existing(file, name), ""
     if suffixes and file.suffix.lower() not in suffixes:
@@ -49,13 +46,7 @@ def check_file(
 
 
 def check_folder(folder: Path, name: str = "output", *, new: bool) -> None:
-    """Check that a folder can be written to; see :func:`check_file`.
-
-    Args:
-        folder: Folder of the output files.
-        name: Name of the option, for messages.
-        new: Whether it must be new or empty.
-    """
+    """Check that a folder can be written, and if ``new`` is new or empty."""
     place = folder
     if _existing(folder, name) is None:
         place = folder.absolute().parent
@@ -78,11 +69,8 @@ def free_file(file: Path) -> Path:
 def atomic_draft(file: Path) -> Iterator[Path]:
     """Yield a draft that replaces the file atomically on success.
 
-    Args:
-        file: Output file; a link is followed. Missing folders are created.
-
-    Raises:
-        OutputError: If it cannot be written; the draft is removed.
+    A link is followed, missing folders are created. A draft that cannot be
+    written is removed.
     """
     target = Path(os.path.realpath(file))
     with _draft_of(target) as draft:
@@ -97,12 +85,6 @@ def folder_draft(folder: Path) -> Iterator[Path]:
     """Yield an unfinished folder for a folder that is to be written.
 
     The caller renames it when it is complete; otherwise it is removed.
-
-    Args:
-        folder: Folder to write. Missing parents are created.
-
-    Raises:
-        OutputError: If it cannot be written.
     """
     with _draft_of(folder) as draft:
         draft.mkdir()

@@ -11,18 +11,11 @@ Point = tuple[float, float]
 
 
 def convex_hull(points: Array, tolerance: float = 0.0) -> Array:
-    """Return the corners of the convex hull of points.
+    """Return the corners of the convex hull of points (n, 2). Shape (m, 2).
 
-    Andrew's monotone chain.
-
-    Args:
-        points: Points (x, y) in any frame, in [m]. Shape (n, 2).
-        tolerance: Corners are dropped when the triangle with their two
-            neighbours has at most half this area, in [m^2].
-
-    Returns:
-        Corners, counter-clockwise from the smallest x; the two ends if all
-        points lie on a line. Shape (m, 2).
+    Andrew's monotone chain: counter-clockwise from the smallest x; the two
+    ends if all points lie on a line. Corners are dropped when the triangle
+    with their two neighbours has at most half the tolerance as area.
     """
     ordered = sorted((x, y) for x, y in points.tolist())
     lower = lower_hull(ordered, tolerance)
@@ -33,12 +26,9 @@ def convex_hull(points: Array, tolerance: float = 0.0) -> Array:
 def lower_hull(
     ordered: Sequence[Point], tolerance: float = 0.0
 ) -> list[Point]:
-    """Return the corners of the lower half of a convex hull.
+    """Return the lower half of a convex hull of points in ascending order.
 
-    Args:
-        ordered: Points (x, y) in ascending order; in descending order they
-            give the upper half.
-        tolerance: See :func:`convex_hull`.
+    In descending order they give the upper half.
     """
     hull: list[Point] = []
     for p in ordered:
@@ -60,8 +50,7 @@ def next_corners(polygon: Array) -> Array:
 def half_planes(polygon: Array) -> tuple[Array, Array]:
     """Return the half planes whose intersection is a convex polygon.
 
-    Args:
-        polygon: Corners in any frame, counter-clockwise, in [m]. Shape (n, 2).
+    Corners are counter-clockwise. Shape (n, 2).
 
     Returns:
         Unit normals a that point outwards, and offsets b in [m]: a point p
@@ -76,11 +65,7 @@ def half_planes(polygon: Array) -> tuple[Array, Array]:
 
 
 def signed_area(polygon: Array) -> float:
-    """Return the area of a polygon, negative if clockwise, in [m^2].
-
-    Args:
-        polygon: Corners in any frame, in [m]. Shape (n, 2).
-    """
+    """Return the area of a polygon (n, 2), negative if clockwise, in [m^2]."""
     after = next_corners(polygon)
     doubled = polygon[:, 0] * after[:, 1] - polygon[:, 1] * after[:, 0]
     return 0.5 * float(doubled.sum())
@@ -90,10 +75,6 @@ def grown_hull_area(points: Array, radius: float) -> float:
     """Return the area of the hull of points grown by a radius, in [m^2].
 
     For positions of a disc it is the smallest convex floor for its path.
-
-    Args:
-        points: Points (x, y) in one frame, in [m]. Shape (n, 2).
-        radius: Radius of the disc, in [m].
     """
     hull = convex_hull(np.asarray(points, dtype=np.float64))
     perimeter = float(np.hypot(*(np.roll(hull, -1, axis=0) - hull).T).sum())

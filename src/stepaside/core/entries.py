@@ -18,11 +18,7 @@ MAX_CHARACTERS = 2**20  # of a file
 
 
 def check_regular(path: Path) -> None:
-    """Refuse a pipe, a socket or a device, whose reading may never end.
-
-    Raises:
-        OSError: If it is one.
-    """
+    """Raise OSError for a pipe or device, whose reading may never end."""
     if path.exists() and not (path.is_file() or path.is_dir()):
         raise OSError(errno.EINVAL, "not a regular file", str(path))
 
@@ -30,11 +26,7 @@ def check_regular(path: Path) -> None:
 def load_entries(
     path: Path, error: type[StepAsideError] = ERROR
 ) -> dict[str, Any]:
-    """Read the nested entries of a TOML file, or of one with suffix .json.
-
-    Raises:
-        StepAsideError: Of class ``error``, if the file cannot be read.
-    """
+    """Read the nested entries of a TOML file, or of one with suffix .json."""
     try:
         check_regular(path)
         with path.open("rb") as file:
@@ -52,13 +44,9 @@ def parse_entries(
     error: type[StepAsideError] = ERROR,
     read: Callable[[str], Any] = tomllib.loads,
 ) -> dict[str, Any]:
-    """Parse text into nested entries.
+    """Parse text, TOML by default, into nested entries.
 
-    Args:
-        text: TOML, or what ``read`` parses.
-        source: Origin of the text, for messages.
-        error: Class of the error.
-        read: Parser.
+    The source is its origin, for messages.
     """
     if len(text) > MAX_CHARACTERS:
         raise error(f"{source} must have at most {MAX_CHARACTERS} characters")

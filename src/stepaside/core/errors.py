@@ -1,7 +1,6 @@
 """Errors raised by this package, and checks of values."""
 
 import os
-import re
 import sys
 from contextlib import suppress
 from math import tau
@@ -17,10 +16,6 @@ LARGEST, LEAST = 1e12, 1e-12
 
 class StepAsideError(Exception):
     """Base class of every error that this package raises."""
-
-    def __str__(self) -> str:
-        """Return the message with overlong words cut."""
-        return shorten_words(super().__str__())
 
 
 Kind = type[StepAsideError]
@@ -58,11 +53,6 @@ class CampaignError(StepAsideError, RuntimeError):
     """A campaign cannot go on: its workers are lost or do not fit."""
 
 
-def shorten_words(text: str) -> str:
-    """Return a text with words cut that are longer than any path."""
-    return re.sub(r"(\S{60})\S{181,}", r"\1...", text)
-
-
 def shown(value: object) -> str:
     """Return a short text of any value, for a message."""
     try:
@@ -77,12 +67,10 @@ def shown(value: object) -> str:
 def as_number(value: object, *, whole: bool = False) -> float | None:
     """Return a number in double precision, or an integer, which stays exact.
 
-    NumPy would compare a half or single precision number with bounds in that
-    precision, where they may round to zero or infinity.
-
-    Returns:
-        The number; None for any other type, such as ``bool``, and for an
-        integer beyond double precision.
+    It is None for any other type, such as ``bool``, and for an integer
+    beyond double precision. NumPy would compare a half or single precision
+    number with bounds in that precision, where they may round to zero or
+    infinity.
     """
     if isinstance(value, bool):
         return None
@@ -140,12 +128,7 @@ def check_bearing(value: float, name: str, error: Kind = PlanError) -> None:
 def as_path(
     path: AnyPath, name: str, error: Kind = ConfigurationError
 ) -> Path:
-    """Return a path as a :class:`~pathlib.Path`.
-
-    Raises:
-        StepAsideError: Of class ``error``, with the name, if it is no path
-            or contains a null character.
-    """
+    """Return a path; raise ``error`` if it is none or has a null character."""
     with suppress(TypeError):
         found = Path(path)
         if "\0" not in str(found):

@@ -37,12 +37,10 @@ class History(Generic[Value]):
         time: float,
         mix: Callable[[Value, Value, float], Value] | None = None,
     ) -> Value:
-        """Return the value at a time, or else the oldest one.
+        """Return the value at a time, in [s], or else the oldest one.
 
-        Args:
-            time: Time, in [s].
-            mix: Function that interpolates between two values by the share
-                of the second; by default the earlier one is returned.
+        Between two values it is the earlier one, or their mix by the share of
+        the second.
         """
         later: tuple[float, Value] | None = None
         for entry in reversed(self._values):

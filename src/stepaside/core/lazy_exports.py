@@ -18,10 +18,7 @@ def lazy_exports(
 ) -> "tuple[Callable[[str], Any], Callable[[], list[str]], list[str]]":
     """Return ``__getattr__``, ``__dir__`` and ``__all__`` of a package.
 
-    Args:
-        package: Its ``__name__``.
-        file: Its ``__file__``; the stub has the same name and ends in
-            ``.pyi``. Every import in it is ``from .module import names``.
+    Every import in its stub is ``from .module import names``.
     """
     with open(f"{file.removesuffix('.py')}.pyi", encoding="utf-8") as stub:
         found = re.findall(r"(?m)^from (\S+) import (.+)$", stub.read())

@@ -11,9 +11,8 @@ from .extras import install_hint
 def open_session(network: str | bytes) -> Any:
     """Return a session of an ONNX file, by its path or content.
 
-    Raises:
-        PolicyError: If the runtime cannot read it, with its own reason.
-        ModuleNotFoundError: Without the extra that brings ONNX Runtime.
+    A file that the runtime cannot read is a :class:`.PolicyError` with its
+    own reason.
     """
     try:
         import onnxruntime

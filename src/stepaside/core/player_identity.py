@@ -17,13 +17,7 @@ class Role(StrEnum):
 
 
 class PlayerIdentity(NamedTuple):
-    """Name, role and team of a player.
-
-    Attributes:
-        name: Name of the player, unique in its game.
-        role: Its role.
-        team: Name of its team.
-    """
+    """Name of a player, unique in its game, with its role and team."""
 
     name: str
     role: Role

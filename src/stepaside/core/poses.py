@@ -102,12 +102,7 @@ class Pose(NamedTuple):
         )
 
     def along_arc(self, way: float, turn: float) -> "Pose":
-        """Return the pose after an arc; see :func:`arc`.
-
-        Args:
-            way: Distance driven ahead, in [m].
-            turn: Angle turned meanwhile, in [rad].
-        """
+        """Return the pose after a way, in [m], and a turn; see :func:`arc`."""
         half = 0.5 * turn
         along = self.theta + half
         if abs(half) > 1e-8:

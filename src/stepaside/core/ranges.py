@@ -30,12 +30,7 @@ class Range(NamedTuple):
     def check(
         self, value: object, name: str, error: Kind = ConfigurationError
     ) -> None:
-        """Check that a value is a number in the range; a ``bool`` is not.
-
-        Raises:
-            StepAsideError: Of class ``error``, with name, range, unit and
-                value.
-        """
+        """Check that a value is a number in the range; a ``bool`` is not."""
         if not self.holds(value):
             raise error(f"{name} must {self.rule}, got {shown(value)}")
 

@@ -31,10 +31,7 @@ def angles_of(axes: Array) -> tuple[float, float, float]:
 
 
 def rotation_about(axis: Sequence[float] | Array, angle: float) -> Array:
-    """Return the rotation by an angle, in [rad], about a unit axis.
-
-    Shape (3, 3).
-    """
+    """Return the rotation by an angle, in [rad], about a unit axis (3, 3)."""
     x, y, z = axis
     across = np.array([[0.0, -z, y], [z, 0.0, -x], [-y, x, 0.0]])
     turned: Array = np.eye(3) + sin(angle) * across

@@ -185,12 +185,7 @@ class EntryReader:
     ) -> Any:
         """Return a value as a type; note a problem where it does not fit.
 
-        Args:
-            value: The value.
-            hint: The type.
-            path: Path, for messages.
-            described: Description of the field.
-            base: Value for entries that a table omits.
+        The base gives values for entries that a table omits.
         """
         range = described.range
         if hint is float and type(value) is float and range:  # most often
@@ -382,10 +377,6 @@ def check_settings(
         settings: Dataclass of settings.
         error: Class of the error.
         prefix: Prefix of each name in messages, like ``person.``.
-
-    Raises:
-        StepAsideError: Of class ``error``; names everything that does not
-            fit.
     """
     reader, kind = EntryReader(), cast(Any, type(settings))
     for name, (hint, described, _) in _entries(kind).items():

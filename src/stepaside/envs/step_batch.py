@@ -10,7 +10,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from ..arena.obstacles import PackedObstacles
+from ..arena.obstacle_distances import PackedObstacles, hull_clearance
 from ..core.compilation import compiled, copy_values, inlined
 from ..core.poses import Array
 from ..strategies.learned.observation_terms import (
@@ -21,7 +21,6 @@ from ..strategies.learned.observation_terms import (
     SENSED_TERMS,
     ring_points,
 )
-from ..strategies.search.distance_field import hull_clearance
 from ..strategies.search.step_motion import walk_arc
 from ..theory import laws
 

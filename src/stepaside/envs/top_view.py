@@ -42,8 +42,8 @@ def draw_top_view(
     axes = figure.add_axes((0.0, 0.0, 1.0, 1.0))
     axes.set_axis_off()
     for solid in room.solids:
-        if solid.hull.radius > 0.0:
-            shape: Any = Circle(solid.centre, solid.hull.radius)
+        if solid.rounding > 0.0:
+            shape: Any = Circle(solid.centre, solid.rounding)
         else:
             shape = Outline(solid.outline, closed=True)
         shape.set_facecolor("0.7")

@@ -12,6 +12,7 @@ from typing import NamedTuple, Protocol
 import numpy as np
 
 from ..arena import NO_OBSTACLES, ObstacleSet
+from ..arena.obstacle_distances import clearance_at
 from ..core.errors import StrategyError
 from ..core.player_identity import PlayerIdentity
 from ..core.poses import Array, Pose, wrap_angle
@@ -23,7 +24,6 @@ from ..sim.person_motion import PersonMotion
 from ..strategies.decision_maker import DecisionMaker
 from ..strategies.knowledge import Intent, Knowledge, Limits, OtherPlayer
 from ..strategies.opponent_choice import choose_opponent
-from ..strategies.search.distance_field import clearance_at
 from ..strategies.strategy import Strategy
 from ..strategies.velocity_set import STILL, respond
 from .game import GameInPlay

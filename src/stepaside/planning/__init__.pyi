@@ -7,7 +7,6 @@ from .maneuver import CenterState as CenterState
 from .maneuver import ManeuverPlanner as ManeuverPlanner
 from .maneuver import TemplateDrive as TemplateDrive
 from .path import Direction as Direction
-from .path import UnicycleTrajectory as UnicycleTrajectory
 from .plan import ManeuverPlan as ManeuverPlan
 from .plan import PlanSamples as PlanSamples
 
@@ -23,5 +22,4 @@ __all__ = [
     "PlanSamples",
     "SoleRectangle",
     "TemplateDrive",
-    "UnicycleTrajectory",
 ]

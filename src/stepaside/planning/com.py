@@ -14,7 +14,6 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ..core.errors import check_positive
 from ..core.poses import Array
 from .zmp import PiecewisePolynomial, evaluate
 
@@ -46,18 +45,13 @@ class BoundedCom:
     def solve(
         cls, zmp: PiecewisePolynomial, eta: float, com_start: ArrayLike
     ) -> "BoundedCom":
-        """Solve (15)-(17).
+        """Solve (15)-(17); the velocity at the start follows from (16).
 
         Args:
             zmp: ZMP reference, constant after its end.
             eta: Rate of the pendulum, in [1/s].
-            com_start: CoM at the start in the frame of the ZMP, in [m].
-                Shape (...), as the ZMP.
-
-        Returns:
-            The solution; its velocity at the start follows from (16).
+            com_start: CoM at the start, in [m]. Shape (...), as the ZMP.
         """
-        check_positive(eta, "eta", "1/s")
         p = zmp.coefficients
         durations = zmp.durations
         dcm = _particular(p, 1.0 / eta)
@@ -79,15 +73,13 @@ class BoundedCom:
         return cls(zmp, eta, dcm, com, growth, decay)
 
     def sample(self, times: ArrayLike) -> tuple[Array, Array, Array]:
-        """Evaluate ZMP, DCM and CoM.
+        """Evaluate ZMP, DCM and CoM, in [m]. Shape (m, ...) each.
+
+        The CoM velocity is ``eta * (dcm - com)``.
 
         Args:
             times: Times since the start, in [s]; any, also after the end of
                 the ZMP's last piece. Shape (m,).
-
-        Returns:
-            ZMP, DCM and CoM, in [m]. Shape (m, ...) each. The CoM velocity
-            is ``eta * (dcm - com)``.
         """
         index, s = self.zmp.locate(times)
         beyond = np.maximum(s - self.zmp.durations[index], 0.0)
@@ -106,11 +98,7 @@ class BoundedCom:
 
 
 def _particular(p: Array, step: float) -> Array:
-    r"""Polynomial solution of :math:`q - \mathrm{step}\, \dot{q} = p`.
-
-    It is :math:`q = p + \mathrm{step}\, \dot{p} + \mathrm{step}^2 \ddot{p}
-    + \dots`, a sum that ends.
-    """
+    r"""Polynomial solution of :math:`q - \mathrm{step}\, \dot{q} = p`."""
     q = p.copy()
     for j in reversed(range(p.shape[0] - 1)):
         q[j] += step * (j + 1) * q[j + 1]

@@ -5,7 +5,6 @@ from enum import Enum
 
 import numpy as np
 
-from ..core.errors import check_positive
 from ..core.poses import Array, rotate
 from .path import UnicycleTrajectory
 
@@ -24,14 +23,7 @@ class Foot(Enum):
 
 @dataclass(frozen=True, slots=True)
 class Footstep:
-    """Placement of one foot frame in the plan frame.
-
-    Attributes:
-        foot: Foot that lands.
-        x: Sagittal coordinate, in [m], positive forward.
-        y: Coronal coordinate, in [m], positive leftward.
-        theta: Heading, in [rad].
-    """
+    """Placement of one foot frame in the plan frame."""
 
     foot: Foot
     x: float
@@ -65,13 +57,7 @@ def place_footsteps(
     Returns:
         Rows (x [m], y [m], theta [rad]) in the plan frame, in landing order;
         odd rows are of the other foot. Shape (n, 3).
-
-    Raises:
-        PlanError: If an argument is not finite and positive.
     """
-    check_positive(count, "count", "steps")
-    check_positive(stride, "stride", "m")
-    check_positive(foot_spacing, "foot_spacing", "m")
     times = np.arange(1, count + 1) * (stride / trajectory.speed)
     steps = trajectory.poses(times)
     left = np.full(count, 0.5 * foot_spacing * first_foot.value)

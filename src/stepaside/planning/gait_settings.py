@@ -186,14 +186,10 @@ class GaitSettings:
         return self.step_duration < FAST_STEP
 
     def at_pace(self, pace: float) -> "GaitSettings":
-        """Return the gait with a reduced step rate.
+        """Return the gait at a fraction of its step rate, in (0, 1].
 
-        Args:
-            pace: Fraction of the step rate, in (0, 1]. The step height
-                decreases with it, linearly to half the height at pace 0.
-
-        Returns:
-            Gait with longer supports; the same gait at pace 1.
+        The step height decreases with it, linearly to half the height at pace
+        0.
         """
         if pace == 1.0:
             return self
@@ -206,14 +202,7 @@ class GaitSettings:
         )
 
     def stride_share(self, turn: float) -> float:
-        """Return the fraction of the stride that a turn allows.
-
-        Args:
-            turn: Turn of one step, in [rad].
-
-        Returns:
-            Fraction in [0.1, 1].
-        """
+        """Return the share of the stride for a turn of a step, in [rad]."""
         return stride_share(
             turn, self.stride, self.outer_stride, self.foot_spacing
         )

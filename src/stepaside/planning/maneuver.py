@@ -1,14 +1,15 @@
 """Maneuver planning: path, footsteps, ZMP and CoM (paper, Sec. III-B to E)."""
 
+from dataclasses import replace
 from typing import NamedTuple
 
 import numpy as np
 
 from ..core.errors import (
+    LEAST,
     PlanError,
     check_bearing,
     check_finite,
-    check_positive,
     check_within,
 )
 from ..core.poses import Array, Pose, rotate
@@ -57,11 +58,7 @@ FULL_SPEED = TemplateDrive()
 
 
 class ManeuverPlanner:
-    """Maneuver planner for one gait, for pursuer and evader alike.
-
-    Attributes:
-        settings: Gait.
-    """
+    """Maneuver planner for one gait, for pursuer and evader alike."""
 
     def __init__(self, settings: GaitSettings) -> None:
         """Prepare a planner; the maps of each schedule are computed once."""
@@ -73,18 +70,13 @@ class ManeuverPlanner:
     ) -> Schedule:
         """Return the schedule of ``count`` footsteps, built at first use.
 
-        Args:
-            count: Number of footsteps.
-            standing: Whether the robot starts from standing.
-            pace: Fraction of the gait's step rate; rounded to eighths, and
-                at least 0.5, so that few schedules suffice.
+        The pace is rounded to eighths, and at least 0.5, so that few schedules
+        suffice.
         """
-        check_positive(pace, "pace", "1")
-        check_within(pace, 0.0, 1.0, "pace", "1")
+        check_within(pace, LEAST, 1.0, "pace", "1")
         pace = max(MIN_PACE, round(PACES * pace) / PACES)
         key = (count, standing, pace)
         if key not in self._schedules:
-            check_positive(count, "count", "steps")
             self._schedules[key] = Schedule(
                 self.settings.at_pace(pace), count, standing=standing
             )
@@ -128,8 +120,7 @@ class ManeuverPlanner:
         """
         check_bearing(bearing, "bearing")
         saturated, speed_factor, pace = drive
-        check_positive(speed_factor, "speed_factor", "1")
-        check_within(speed_factor, 0.0, 1.0, "speed_factor", "1")
+        check_within(speed_factor, LEAST, 1.0, "speed_factor", "1")
         gait = self.settings
         schedule = self.schedule(
             gait.horizon if count is None else count,
@@ -150,38 +141,21 @@ class ManeuverPlanner:
             foot_spacing=gait.foot_spacing,
             first_foot=first_foot,
         )
-        placements[0] = swing_start or (
-            0.0,
-            gait.foot_spacing * first_foot.value,
-            0.0,
-        )
+        abreast = Pose(0.0, gait.foot_spacing * first_foot.value, 0.0)
+        placements[0] = swing_start or abreast
         inputs = _inputs(schedule, placements, state)
         return ManeuverPlan(
             schedule, bearing, direction, first_foot, placements, inputs
         )
 
-    def placed(
-        self,
-        plan: ManeuverPlan,
-        placements: Array,
-    ) -> ManeuverPlan:
+    def placed(self, plan: ManeuverPlan, placements: Array) -> ManeuverPlan:
         """Return a plan with other footsteps, from the same state.
 
-        Args:
-            plan: The plan.
-            placements: Placements of the feet, laid out as in the plan; the
-                first two must be the same. Shape (count + 2, 3).
+        The placements are laid out as in the plan; the first two are the same.
         """
         state = CenterState(_pair(plan.inputs[-1]), _pair(plan.start_velocity))
         inputs = _inputs(plan.schedule, placements, state)
-        return ManeuverPlan(
-            plan.schedule,
-            plan.bearing,
-            plan.direction,
-            plan.first_foot,
-            placements,
-            inputs,
-        )
+        return replace(plan, placements=placements, inputs=inputs)
 
     def plan_halt(
         self,
@@ -193,11 +167,7 @@ class ManeuverPlanner:
     ) -> ManeuverPlan:
         """Plan a halt: one last step that brings the feet abreast.
 
-        Args:
-            first_foot: Foot that lands.
-            state: Present CoM in the frame of the support foot.
-            swing_start: Pose of the swing foot in that frame.
-            pace: Fraction of the gait's step rate.
+        Arguments are as in :meth:`plan`.
         """
         schedule = self.schedule(1, standing=False, pace=pace)
         spacing = self.settings.foot_spacing * first_foot.value
@@ -228,7 +198,7 @@ def _inputs(
     check_finite(x + y, "CoM position", "m")
     check_finite(vx + vy, "CoM velocity", "m/s")
     n = schedule.count
-    inputs = np.zeros((schedule.inputs, 2))
+    inputs = np.zeros((schedule.input_count, 2))
     inputs[: n + 1] = anchors[1:]
     inputs[n + 1] = (x, y) if schedule.standing else inputs[0]
     if schedule.has_swing_reaction:

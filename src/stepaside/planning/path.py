@@ -6,7 +6,6 @@ from enum import Enum
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ..core.errors import check_bearing, check_positive
 from ..core.poses import Array, arc, rotate
 from ..theory import laws
 
@@ -41,12 +40,6 @@ class UnicycleTrajectory:
     gain: float
     direction: Direction
     saturated: bool = False
-
-    def __post_init__(self) -> None:
-        """Check the parameters."""
-        check_bearing(self.bearing, "bearing")
-        check_positive(self.speed, "speed", "m/s")
-        check_positive(self.gain, "gain", "1/s")
 
     def poses(self, times: ArrayLike) -> Array:
         r"""Evaluate the trajectory.

@@ -121,11 +121,7 @@ class ManeuverPlan:
         return coefficients
 
     def support(self, duration: float = inf) -> tuple[SupportPhase, ...]:
-        """Return the support phases, with half planes for the ZMP.
-
-        Args:
-            duration: Phases that begin later are omitted, in [s].
-        """
+        """Return the support phases that begin before a time, in [s]."""
         return support_phases(
             self.schedule, self.placements, self.first_foot, duration
         )

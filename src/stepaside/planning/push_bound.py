@@ -26,13 +26,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ..core.convex import convex_hull
-from ..core.errors import (
-    check_bearing,
-    check_not_negative,
-    check_positive,
-    check_within,
-)
+from ..core.convex import convex_hull, half_planes
+from ..core.errors import check_within
 from ..core.poses import Array, Pose
 from .footsteps import Foot
 from .gait_settings import GaitSettings
@@ -86,16 +81,8 @@ def push_bound(
 
     Returns:
         Impulse at the CoM, in [N s]; 0 if the DCM cannot be held at all.
-
-    Raises:
-        PlanError: If a value is not finite or out of its range.
     """
-    check_positive(mass, "mass", "kg")
-    check_bearing(direction, "direction")
     check_within(time, 0.0, plan.schedule.first_step_duration, "time", "s")
-    check_not_negative(lasts, "lasts", "s")
-    for name, value in reach._asdict().items():
-        check_not_negative(value, f"reach.{name}", "m")
     dcm = plan.sample([time]).dcm[0]
     heading = np.array([cos(direction), sin(direction)])
     eta = plan.schedule.settings.eta
@@ -115,17 +102,14 @@ def push_bound(
 def held_regions(
     plan: ManeuverPlan, time: float, reach: FootReach
 ) -> list[Array]:
-    """Return convex regions of DCMs that can be held.
+    """Return convex regions of DCMs that can be held, in [m].
 
-    Args:
-        plan: Current plan.
-        time: Time since it began, in [s].
-        reach: Reachable landings.
+    First the region held by the feet on the floor, then that held by the
+    next footstep. Their union need not be convex.
 
     Returns:
-        Corners of each region in the plan frame, counter-clockwise, in [m]:
-        first the region held by the feet on the floor, then that held by
-        the next footstep. Their union need not be convex. Shapes (n, 2).
+        Corners of each region in the plan frame, counter-clockwise. Shapes
+        (n, 2).
     """
     gait, phases = plan.schedule.settings, plan.support()
     now = max(i for i, phase in enumerate(phases) if phase.start <= time)
@@ -147,22 +131,13 @@ def held_regions(
 def ray_interval(
     start: Array, heading: Array, polygon: Array
 ) -> tuple[float, float]:
-    """Intersect a ray with a convex polygon.
+    """Return where a ray enters and leaves a convex polygon, in [m].
 
-    Args:
-        start: Origin of the ray in the frame of the polygon, in [m]. Shape
-            (2,).
-        heading: Unit vector. Shape (2,).
-        polygon: Corners in any frame, counter-clockwise, in [m]. Shape
-            (n, 2).
-
-    Returns:
-        Distances of entry and exit, in [m]; (0, 0) if it misses.
+    Corners are counter-clockwise. Shape (n, 2). It is (0, 0) if the ray
+    misses.
     """
-    edges = np.roll(polygon, -1, axis=0) - polygon
-    outward = np.column_stack([edges[:, 1], -edges[:, 0]])
-    room = ((polygon - start) * outward).sum(axis=1)
-    rate = outward @ heading
+    outward, offsets = half_planes(polygon)
+    room, rate = offsets - outward @ start, outward @ heading
     enters, leaves, beside = rate < 0.0, rate > 0.0, rate == 0.0
     enter = max(0.0, float((room[enters] / rate[enters]).max()))
     leave = float((room[leaves] / rate[leaves]).min())
@@ -174,11 +149,7 @@ def ray_interval(
 def _held_after_landing(
     gait: GaitSettings, reach: FootReach, support: Foot
 ) -> Array:
-    """Return DCMs at a landing that its two feet can hold.
-
-    Returns:
-        Corners of a convex region in the axes of the stance foot.
-    """
+    """Return DCMs at a landing that its feet can hold, in the stance foot."""
     side = support.other.value
     near = 2.0 * gait.sole.inner + reach.gap
     far = max(gait.foot_spacing + reach.outward, near)

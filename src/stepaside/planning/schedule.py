@@ -78,7 +78,7 @@ class Schedule:
         self.durations = self._durations()
         self.starts = np.concatenate([[0.0], np.cumsum(self.durations)])
         self.has_swing_reaction = settings.swing_reaction > 0.0
-        self.inputs = count + 4 + self.has_swing_reaction
+        self.input_count = count + 4 + self.has_swing_reaction
 
     @property
     def duration(self) -> float:
@@ -99,7 +99,7 @@ class Schedule:
     def zmp_map(self) -> PiecewisePolynomial:
         """ZMP of unit inputs: coefficients (4, pieces, inputs)."""
         n, pieces = self.count, self.durations.size
-        w = np.zeros((DEGREE + 1, pieces, self.inputs))
+        w = np.zeros((DEGREE + 1, pieces, self.input_count))
         first = 1 if self.standing else 0
         if self.standing:
             self._join(w, 0, {n + 1: 1.0}, {0: 1.0})
@@ -116,7 +116,7 @@ class Schedule:
         self, w: Array, piece: int, a: dict[int, float], b: dict[int, float]
     ) -> None:
         """Set a piece to move from point ``a`` to point ``b``."""
-        start, change = np.zeros(self.inputs), np.zeros(self.inputs)
+        start, change = np.zeros(self.input_count), np.zeros(self.input_count)
         for index, weight in a.items():
             start[index] += weight
             change[index] -= weight
@@ -157,7 +157,7 @@ class Schedule:
     @cached_property
     def pendulum_map(self) -> BoundedCom:
         """Closed form for unit inputs."""
-        com_start = np.zeros(self.inputs)
+        com_start = np.zeros(self.input_count)
         com_start[-1] = 1.0
         return BoundedCom.solve(self.pivot_map, self.settings.eta, com_start)
 
@@ -190,11 +190,7 @@ class Schedule:
         return step, (walked - step * s.step_duration) / s.single_support
 
     def sampler(self, times: ArrayLike) -> Sampler:
-        """Build the maps to samples at given times.
-
-        Args:
-            times: Times since the plan began, in [s]. Shape (m,).
-        """
+        """Build the maps to samples at times since the plan began, in [s]."""
         t = np.asarray(times, dtype=np.float64)
         pendulum = np.concatenate(self._pendulum(t))
         step, phase = self.swing_phases(t)

@@ -4,7 +4,7 @@ import numpy as np
 
 from ..core.poses import Pose
 from .footsteps import Foot
-from .maneuver import CenterState, ManeuverPlanner, TemplateDrive
+from .maneuver import CenterState, ManeuverPlanner
 from .path import Direction
 from .plan import ManeuverPlan
 
@@ -28,7 +28,6 @@ def steady_plan(
     direction: Direction,
     *,
     first_foot: Foot,
-    saturated: bool = False,
 ) -> ManeuverPlan:
     """Return the plan of a steady walk with a constant bearing.
 
@@ -40,13 +39,9 @@ def steady_plan(
         bearing: Desired heading in the frame of each support foot, in [rad].
         direction: Forward or backward.
         first_foot: Foot that lands first.
-        saturated: Whether the template turns by (6) instead of (8).
 
     Returns:
         The plan, whose first step begins in the periodic state.
-
-    Raises:
-        PlanError: If the bearing is not finite.
     """
 
     def plan_from(
@@ -59,7 +54,6 @@ def steady_plan(
             first_foot=foot,
             state=CenterState((x, y), (vx, vy)),
             swing_start=swing_start,
-            drive=TemplateDrive(saturated),
         )
 
     def recur(state: np.ndarray) -> np.ndarray:

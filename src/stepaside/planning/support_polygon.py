@@ -51,7 +51,7 @@ def support_phases(
     first_foot: Foot,
     duration: float = inf,
 ) -> tuple[SupportPhase, ...]:
-    """Return the support phases of a plan.
+    """Return the support phases of a plan in order, without gaps.
 
     At the instant between two phases both apply: the foot that lands or
     lifts off is on the floor, but the ZMP already has to be under the foot
@@ -59,13 +59,9 @@ def support_phases(
 
     Args:
         schedule: Timing of the plan.
-        placements: Rows (x [m], y [m], theta [rad]) of the first swing
-            foot, the support foot and the footsteps. Shape (count + 2, 3).
+        placements: As in :class:`.ManeuverPlan`. Shape (count + 2, 3).
         first_foot: Foot that lands first.
         duration: Phases that begin later are omitted, in [s].
-
-    Returns:
-        Phases in order, without gaps.
     """
     sole = schedule.settings.sole
     sides = (first_foot, first_foot.other)
@@ -96,16 +92,7 @@ def _step_rows(step: int) -> tuple[tuple[int, ...], tuple[int, ...]]:
 
 
 def sole_corners(pose: Array, foot: Foot, sole: SoleRectangle) -> Array:
-    """Return the corners of a sole in the frame of its pose.
-
-    Args:
-        pose: Foot frame (x [m], y [m], theta [rad]). Shape (3,).
-        foot: Side of the foot.
-        sole: Shape of the left sole.
-
-    Returns:
-        Corners, in [m]. Shape (4, 2).
-    """
+    """Return the corners of a sole in the frame of its pose. Shape (4, 2)."""
     left = np.array(
         [
             [sole.front, sole.outer],

@@ -47,14 +47,7 @@ def swing_progress(phase: Any, profile: SwingProfile = "minimum-jerk") -> Any:
 
 
 def swing_acceleration(profile: SwingProfile) -> Array:
-    """Return the second derivative of the progress, by powers of the phase.
-
-    Args:
-        profile: See :func:`swing_progress`.
-
-    Returns:
-        Coefficients, the constant first. Shape (degree + 1,).
-    """
+    """Return the second derivative of the progress, by powers of the phase."""
     progress = np.array(_PROGRESS[profile], dtype=np.float64)
     powers = np.arange(progress.size)
     acceleration: Array = (progress * powers * (powers - 1))[2:]
@@ -64,19 +57,11 @@ def swing_acceleration(profile: SwingProfile) -> Array:
 def swing_height(
     phase: ArrayLike, apex: float, profile: SwingProfile = "minimum-jerk"
 ) -> Array:
-    """Return the height of a swing foot over the floor, in [m].
+    """Return the height of a swing foot over the floor, in [m]. Shape (n,).
 
-    The apex is reached half-way. Velocity vanishes at lift-off and
-    touch-down; so does acceleration with the minimum-jerk profile, while
-    the even one has a lower vertical velocity.
-
-    Args:
-        phase: Phase of single support. Shape (n,).
-        apex: Largest height, in [m].
-        profile: See :func:`swing_progress`.
-
-    Returns:
-        Heights. Shape (n,).
+    The apex is reached half-way. Velocity vanishes at lift-off and touch-
+    down; so does acceleration with the minimum-jerk profile, while the
+    even one has a lower vertical velocity.
     """
     s = np.clip(np.asarray(phase, dtype=np.float64), 0.0, 1.0)
     power = 2 if profile == "even" else 3

@@ -17,13 +17,7 @@ SHORT = 0.18  # largest stride of a step on the spot, in foot spacings
 
 
 def pose_beside_foot(foot: Pose, side: Foot, foot_spacing: float) -> Pose:
-    """Return the pose with which the unicycle passes a stance foot.
-
-    Args:
-        foot: Pose of the foot, in any frame.
-        side: Side of the foot.
-        foot_spacing: Coronal distance between feet, in [m].
-    """
+    """Return the pose with which the unicycle passes a stance foot."""
     return foot.compose(Pose(0.0, -0.5 * foot_spacing * side.value, 0.0))
 
 
@@ -32,16 +26,8 @@ def path_samples(
 ) -> Array:
     """Return samples of the unicycle's path from placements of the feet.
 
-    Each is half a spacing beside its foot, with the same heading.
-
-    Args:
-        placements: Alternate feet, beginning with ``first_foot``: rows
-            (x [m], y [m], theta [rad]). Shape (n, 3).
-        first_foot: Side of the first foot.
-        foot_spacing: Coronal distance between feet, in [m].
-
-    Returns:
-        Poses of the unicycle in the same frame. Shape (n, 3).
+    Each is half a spacing beside its foot, with the same heading. Feet
+    alternate, beginning with the first one. Shape (n, 3).
     """
     samples: Array = np.array(placements, dtype=np.float64)
     right = np.full(len(samples), -0.5 * foot_spacing * first_foot.value)
@@ -94,16 +80,9 @@ def poses_on_path(
 def progress_by_time(schedule: Schedule, times: Array) -> Array:
     """Return the progress between the feet of a plan by time.
 
+    It is an input of :func:`poses_on_path`, of shape (m, footsteps + 1).
     The first one is undefined for a start from standing: the CoM may then
     be anywhere between the two samples.
-
-    Args:
-        schedule: Schedule of the plan.
-        times: Times since the plan began, in [s]. Shape (m,).
-
-    Returns:
-        Progress, as input of :func:`poses_on_path`. Shape (m, footsteps +
-        1).
     """
     gait = schedule.settings
     begun = schedule.starts[1] if schedule.standing else 0.0

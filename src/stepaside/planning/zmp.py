@@ -12,8 +12,6 @@ from ..core.poses import Array
 class PiecewisePolynomial:
     r"""Piecewise polynomial in local time, then a constant.
 
-    After the last piece the value is constant.
-
     Attributes:
         durations: Duration of each piece, in [s]. Shape (n,).
         coefficients: Coefficient of :math:`s^j` of each piece, in
@@ -31,14 +29,9 @@ class PiecewisePolynomial:
         return value
 
     def locate(self, times: ArrayLike) -> tuple[np.ndarray, Array]:
-        """Return the piece of each time, and the local time in it.
+        """Return the piece of each time, and the local time in it, in [s].
 
-        Args:
-            times: Times since the first piece began, in [s]. Shape (m,).
-
-        Returns:
-            Indices of the pieces, and local times in [s], which exceed the
-            duration only after the end. Shapes (m,), (m,).
+        Local times exceed the duration only after the end.
         """
         t = np.asarray(times, dtype=np.float64)
         starts = np.concatenate([[0.0], np.cumsum(self.durations)[:-1]])
@@ -48,15 +41,7 @@ class PiecewisePolynomial:
 
 
 def evaluate(coefficients: Array, local_times: Array) -> Array:
-    """Evaluate polynomials, each at its own local time.
-
-    Args:
-        coefficients: Shape (degree + 1, m, ...).
-        local_times: In [s]. Shape (m,).
-
-    Returns:
-        Values. Shape (m, ...).
-    """
+    """Evaluate polynomials (degree + 1, m, ...) at local times (m,) in [s]."""
     s = local_times.reshape(-1, *[1] * (coefficients.ndim - 2))
     value = np.zeros(coefficients.shape[1:])
     for coefficient in coefficients[::-1]:
@@ -67,12 +52,11 @@ def evaluate(coefficients: Array, local_times: Array) -> Array:
 def least_values(coefficients: Array, duration: float) -> Array:
     """Return the least values of cubic polynomials over [0, duration].
 
+    They are at an end or where the derivative vanishes.
+
     Args:
         coefficients: Of the powers 0 to 3. Shape (4, n).
         duration: Length of the interval, in [s].
-
-    Returns:
-        Least values, at an end or where the derivative vanishes. Shape (n,).
     """
     c0, c1, c2, c3 = coefficients
     # Roots of c1 + 2 c2 s + 3 c3 s^2 without cancellation, also if any is 0.

@@ -15,17 +15,15 @@ from .head import HeadDescription
 class BodyPose:
     """Torso and head of a body in odometry, measured at one instant.
 
+    Positions are in [m], axes are columns. Shapes (3,), (3, 3).
+
     Attributes:
         time: Time of the measurement, in [s].
-        pose_torso_in_odometry: Planar pose of the torso in odometry.
-        position_torso_in_odometry: Position of the torso in odometry, in [m].
-            Shape (3,).
-        axes_torso_in_odometry: Axes of the torso in odometry, as columns.
-            Shape (3, 3).
-        position_head_in_odometry: Position of the head in odometry, in [m].
-            Shape (3,).
-        axes_head_in_odometry: Axes of the head in odometry, as columns. Shape
-            (3, 3).
+        pose_torso_in_odometry: Planar pose of the torso.
+        position_torso_in_odometry: Position of the torso.
+        axes_torso_in_odometry: Axes of the torso.
+        position_head_in_odometry: Position of the head.
+        axes_head_in_odometry: Axes of the head.
         yaw: Measured yaw of the head, in [rad].
         pitch: Measured pitch of the head, in [rad].
     """
@@ -62,11 +60,8 @@ def torso_pose_on_foot(
 ) -> SpatialTorsoPose:
     """Return the torso pose that puts the stance foot at a given pose.
 
-    Args:
-        posture: Posture of the measured joints.
-        foot: Stance foot: 0 left, 1 right.
-        support: Pose of the stance foot in odometry.
-        tilt: Roll and pitch of the torso, in [rad].
+    The stance foot is 0 (left) or 1 (right); tilt is roll and pitch of the
+    torso, in [rad].
     """
     lean = rotation(*tilt, 0.0)
     # Torso heading = foot heading - foot yaw relative to the levelled torso.
@@ -89,14 +84,11 @@ class BodyKinematics:
     """
 
     def __init__(
-        self, description: RobotDescription, head: HeadDescription
+        self,
+        description: RobotDescription,
+        head: HeadDescription,
     ) -> None:
-        """Look up the head joints.
-
-        Args:
-            description: Robot description.
-            head: Head of that robot.
-        """
+        """Look up the head joints."""
         self.forward = ForwardKinematics(description, head.body)
         names = self.forward.tree.motors
         self.yaw, self.pitch = names.index(head.yaw), names.index(head.pitch)
@@ -120,18 +112,7 @@ class BodyKinematics:
         """
         posture = self.forward.posture(joints)
         foot = 0 if left_supports else 1
-        torso = torso_pose_on_foot(posture, foot, support, tilt)
-        return self._with_head(time, joints, posture, torso)
-
-    def _with_head(
-        self,
-        time: float,
-        joints: Array,
-        posture: MeasuredPosture,
-        torso: SpatialTorsoPose,
-    ) -> BodyPose:
-        """Add the head to a torso pose."""
-        place, axes, heading = torso
+        place, axes, heading = torso_pose_on_foot(posture, foot, support, tilt)
         return BodyPose(
             time,
             Pose(float(place[0]), float(place[1]), heading),

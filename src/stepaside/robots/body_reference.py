@@ -61,15 +61,9 @@ class BodyReference(NamedTuple):
         return left + 0.5 * remainder(right - left, tau)
 
     def roll(self, lean: float) -> float:
-        """Return the roll of a torso that leans over the stance foot.
+        """Return the roll of a torso that leans over the stance foot, [rad].
 
-        The roll is proportional to the lateral position of the CoM: zero
-        midway between the feet, ``lean`` with the CoM over one of them.
-
-        Args:
-            lean: Roll with the CoM over one foot, in [rad].
-
-        Returns:
-            Roll, in [rad].
+        It is proportional to the lateral position of the CoM: zero midway
+        between the feet, ``lean`` with the CoM over one of them.
         """
         return torso_roll(self.row(), lean)

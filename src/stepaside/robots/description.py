@@ -151,10 +151,6 @@ class RobotDescription:
         Args:
             colour: Colour of its accent, or of its torso, red to opacity; by
                 default that of the model.
-
-        Raises:
-            ModelError: If the file is not a model, or lacks a body or joint
-                of the overlay.
         """
         from .model_reader import read_model
 
@@ -195,15 +191,7 @@ class RobotDescription:
             geom.material, geom.rgba = "", colour
 
     def compile(self, colour: Colour | None = None) -> mujoco.MjModel:
-        """Compile the model and check it against the description.
-
-        Args:
-            colour: As in :meth:`spec`.
-
-        Raises:
-            ModelError: If MuJoCo cannot compile it, or it lacks a body,
-                site, joint or actuator.
-        """
+        """Compile the model and check it against the description."""
         try:
             model = self.spec(colour).compile()
         except ValueError as error:
@@ -219,12 +207,7 @@ class RobotDescription:
         return model
 
     def _motors(self, model: mujoco.MjModel) -> set[str]:
-        """Return the names of the joints that have an actuator.
-
-        Raises:
-            ModelError: If a joint has several actuators, or an actuator
-                drives something else than a joint.
-        """
+        """Return the names of the joints that have an actuator."""
         import mujoco
 
         motors: set[str] = set()
@@ -246,10 +229,7 @@ class RobotDescription:
     def coupled_joints(self, model: mujoco.MjModel) -> dict[str, str]:
         """Return the joints that share a motor, as follower to leader.
 
-        These are the equality constraints joint1 = joint2.
-
-        Args:
-            model: Compiled model of this robot alone.
+        These are the equality constraints joint1 = joint2 of a model.
         """
         import mujoco
 
@@ -277,15 +257,7 @@ class RobotDescription:
     ) -> None:
         """Check that a model has all elements that the description names.
 
-        Args:
-            bodies: Names of the bodies of the model.
-            sites: Names of its sites.
-            joints: Names of its joints.
-            motors: Names of its actuated joints.
-
-        Raises:
-            ModelError: If a body, site, joint or actuator is missing; lists
-                the existing ones.
+        Motors are the actuated joints.
         """
         self._require("torso", [self.torso], "body", bodies)
         feet = [self.left_foot, self.right_foot]
@@ -317,32 +289,20 @@ def known_robots() -> list[str]:
     return sorted(p.name for p in root.iterdir() if (p / FILE).is_file())
 
 
-def _is_file(path: Path) -> bool:
-    """Return whether a file exists; False for an invalid file name."""
-    try:
-        return path.is_file()
-    except (OSError, ValueError):
-        return False
-
-
 def load_robot(robot: AnyPath) -> RobotDescription:
     """Load a robot by name, or from a folder.
 
     Args:
         robot: Name of a robot of this package, or a folder with a
             ``robot.toml``; ``./nao`` is a folder.
-
-    Raises:
-        ModelError: If there is no such robot, or its file has unknown,
-            missing or ill-typed entries.
     """
     given = as_path(robot, "robot", ModelError)
     folder = Path(str(files(__package__))) / given
     if str(robot).startswith("."):
         folder = given.absolute()
-    elif not _is_file(folder / FILE):
+    elif not (folder / FILE).is_file():
         folder = given
-    if not _is_file(folder / FILE):
+    if not (folder / FILE).is_file():
         raise ModelError(
             f"robot must be one of {', '.join(known_robots())} or a folder "
             f"with a {FILE}, got {str(robot)!r}"

@@ -19,8 +19,7 @@ class MeasuredPosture(NamedTuple):
         position_com_in_torso: Position of the CoM, in [m]. Shape (3,).
         positions_feet_in_torso: Positions of left and right foot, in [m].
             Shape (2, 3).
-        axes_feet_in_torso: Rotation matrices of left and right foot. Shape (2,
-            3, 3).
+        axes_feet_in_torso: Rotation matrices of both. Shape (2, 3, 3).
         position_head_in_torso: Position of the head, in [m]; zero without a
             head. Shape (3,).
         axes_head_in_torso: Rotation matrix of the head; identity without a
@@ -57,9 +56,7 @@ class ForwardKinematics:
     ) -> None:
         """Load the kinematic tree.
 
-        Args:
-            description: Robot description.
-            head: Body that carries the cameras; None to leave out the head.
+        The head is the body that carries the cameras; None leaves it out.
         """
         self.description = description
         self.tree = tree = load_tree(description)
@@ -87,12 +84,7 @@ class ForwardKinematics:
         self._posture: MeasuredPosture
 
     def posture(self, joint_positions: Array) -> MeasuredPosture:
-        """Return the posture at measured joint angles.
-
-        Args:
-            joint_positions: Angles of the actuated joints, in [rad].
-                Shape (joints,).
-        """
+        """Return the posture at angles of the actuated joints, in [rad]."""
         key = joint_positions.tobytes()
         if key != self._cache_key:
             self.evaluate(joint_positions)
@@ -110,15 +102,10 @@ class ForwardKinematics:
         self.run()
 
     def force_sensors(self) -> Array:
-        """Return the positions of the foot force sensors.
+        """Return the positions of the foot force sensors. Shape (8, 2).
 
-        Returns:
-            (x, y) in the foot frame, in [m]: front left, front right, rear
-            left, rear right of the left foot, then of the right foot.
-            Shape (8, 2).
-
-        Raises:
-            ModelError: If the robot lacks one.
+        They are (x, y) in the foot frame, in [m]: front left, front right,
+        rear left, rear right of the left foot, then of the right foot.
         """
         corners = []
         for i, name in enumerate(self.description.sensors.feet):

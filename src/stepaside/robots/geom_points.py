@@ -13,18 +13,10 @@ TYPES = mujoco.mjtGeom
 def geom_points_in_world(
     model: mujoco.MjModel, data: mujoco.MjData, geom: int
 ) -> Array:
-    """Return points that span a geom, in the world.
+    """Return points that span a geom, in the world, in [m]. Shape (n, 3).
 
-    Round geoms give their extreme points along the axes of the world; planes
-    and height fields give none.
-
-    Args:
-        model: Compiled model.
-        data: Its state.
-        geom: Index of the geom.
-
-    Returns:
-        Points, in [m]. Shape (n, 3).
+    Round geoms give their extreme points along the axes of the world;
+    planes and height fields give none.
     """
     kind = int(model.geom_type[geom])
     size = model.geom_size[geom]

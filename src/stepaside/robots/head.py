@@ -24,8 +24,8 @@ class Mount:
     Attributes:
         position_in_body: Position in the frame of the body, in [m]. Shape
             (3,).
-        axes_in_body: Axes (forward, left, up) of the sensor in the frame of
-            the body, as columns. Shape (3, 3).
+        axes_in_body: Axes (forward, left, up) of the sensor, as columns.
+            Shape (3, 3).
         on_torso: Whether the body is the torso, which the head joints do not
             turn.
     """
@@ -76,14 +76,7 @@ class HeadDescription:
         return self.torso if mount.on_torso else self.body
 
     def depth_mounts(self, *, rear: bool) -> tuple[Mount, ...]:
-        """Return the mounts of the depth cameras that are used.
-
-        Args:
-            rear: Whether those on the torso are.
-
-        Raises:
-            ModelError: If they are, and there is none.
-        """
+        """Return the mounts of the depth cameras, the rear ones if wanted."""
         if not rear:
             return self.depth[:1]
         if len(self.depth) == 1:
@@ -98,38 +91,21 @@ ANGLE = Range(-180.0, 180.0, "deg", "half a turn")
 
 
 @dataclass(frozen=True)
-class _CameraEntries:
-    """Camera on the head in ``head.toml``."""
+class _SensorEntries:
+    """Camera or sonar in ``head.toml``."""
 
     place: Place = setting(REQUIRED, "Place in the frame of the body [m]")
-    pitch: float = setting(REQUIRED, "Pitch, positive downward", ANGLE)
+    roll: float = setting(0.0, "Roll", ANGLE)
+    pitch: float = setting(0.0, "Pitch, positive downward", ANGLE)
+    yaw: float = setting(0.0, "Yaw, positive leftward", ANGLE)
+    housing: Place = setting(
+        (0.026, 0.124, 0.029), "Depth, width and height of a depth camera [m]"
+    )
 
-    def mount(self, yaw: float | None = None) -> Mount:
-        """Return the mount; a yaw, in [deg], is of one on the torso."""
-        turn = rotation(0.0, radians(self.pitch), radians(yaw or 0.0))
-        return Mount(np.array(self.place), turn, yaw is not None)
-
-
-@dataclass(frozen=True)
-class _DepthEntries(_CameraEntries):
-    """Depth camera on the head."""
-
-    housing: Place = setting(REQUIRED, "Depth, width and height [m]")
-
-
-@dataclass(frozen=True)
-class _RearEntries(_DepthEntries):
-    """Depth camera on the torso."""
-
-    yaw: float = setting(REQUIRED, "Yaw, positive leftward", ANGLE)
-
-
-@dataclass(frozen=True)
-class _SonarEntries:
-    """Sonar in ``head.toml``, on the torso."""
-
-    place: Place = setting(REQUIRED, "Place in the frame of the torso [m]")
-    turn: Place = setting(REQUIRED, "Roll, pitch and yaw [rad]")
+    def mount(self, *, on_torso: bool = False) -> Mount:
+        """Return the mount."""
+        turn = radians(self.roll), radians(self.pitch), radians(self.yaw)
+        return Mount(np.array(self.place), rotation(*turn), on_torso)
 
 
 @dataclass(frozen=True)
@@ -158,35 +134,27 @@ class _HeadEntries:
     yaw: str = setting(REQUIRED, "Yaw joint")
     pitch: str = setting(REQUIRED, "Pitch joint")
     coupling: _CouplingEntries = setting(REQUIRED, "Pitch limits by yaw")
-    top: _CameraEntries = setting(REQUIRED, "Colour camera")
-    depth: _DepthEntries = setting(REQUIRED, "Depth camera")
+    top: _SensorEntries = setting(REQUIRED, "Colour camera")
+    depth: _SensorEntries = setting(REQUIRED, "Depth camera")
     camera: str = setting("upper_camera", "Colour camera in the model")
-    rear: _RearEntries | tuple[_RearEntries, ...] = setting(
+    rear: _SensorEntries | tuple[_SensorEntries, ...] = setting(
         (), "Depth cameras on the torso"
     )
-    sonar: dict[str, _SonarEntries] = setting(
-        dict[str, _SonarEntries](), "Sonars by name"
+    sonar: dict[str, _SensorEntries] = setting(
+        dict[str, _SensorEntries](), "Sonars on the torso by name"
     )
 
 
 def load_head(description: RobotDescription) -> HeadDescription:
-    """Read ``head.toml`` in the folder of a robot description.
-
-    Raises:
-        ModelError: If there is none, or entries do not fit.
-    """
+    """Read ``head.toml`` in the folder of a robot description."""
     path = description.folder / FILE
     if not path.is_file():
         raise ModelError(
             f"{description.name} has no cameras: {path} is missing; "
             "without it sensing must be ideal"
         )
-    own = read_entries(
-        _HeadEntries,
-        load_entries(path, ModelError),
-        str(path),
-        error=ModelError,
-    )
+    entries = load_entries(path, ModelError)
+    own = read_entries(_HeadEntries, entries, str(path), error=ModelError)
     rear = own.rear if isinstance(own.rear, tuple) else (own.rear,)
     return HeadDescription(
         own.body,
@@ -196,10 +164,7 @@ def load_head(description: RobotDescription) -> HeadDescription:
         own.camera,
         np.radians([*vars(own.coupling).values()]),
         own.top.mount(),
-        (own.depth.mount(), *(each.mount(each.yaw) for each in rear)),
+        (own.depth.mount(), *(each.mount(on_torso=True) for each in rear)),
         (own.depth.housing, *(each.housing for each in rear)),
-        {
-            name: Mount(np.array(each.place), rotation(*each.turn), True)
-            for name, each in own.sonar.items()
-        },
+        {name: each.mount(on_torso=True) for name, each in own.sonar.items()},
     )

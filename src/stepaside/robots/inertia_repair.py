@@ -15,19 +15,14 @@ TYPICAL_GYRATION = 0.4  # radius of gyration of a link by its length
 
 
 def repair_inertias(spec: mujoco.MjSpec) -> list[str]:
-    """Give every link of a model a valid mass and inertia.
+    """Give every link a valid mass and inertia; return the repaired ones.
 
     Links without mass get a millionth of a kilogram. Inertias that are not
-    positive definite keep their axes and get positive moments; MuJoCo would
-    refuse to compile them. If the radius of gyration of a link exceeds the
-    size of the robot, units are wrong, and all inertias that are too large
-    for their links are replaced by typical ones for links of that length.
-
-    Args:
-        spec: Model; changed in place.
-
-    Returns:
-        Names of the links whose inertia was replaced.
+    positive definite keep their axes and get positive moments; MuJoCo
+    would refuse to compile them. If the radius of gyration of a link
+    exceeds the size of the robot, units are wrong, and all inertias that
+    are too large for their links are replaced by typical ones for links of
+    that length.
     """
     spec.compiler.boundmass = LEAST_MASS
     spec.compiler.boundinertia = LEAST_MASS * DEFAULT_RADIUS**2

@@ -117,8 +117,7 @@ class LegLoads:
         """Prepare the loads of a robot.
 
         Args:
-            kinematics: Inverse kinematics, whose present posture is
-                evaluated at every tick.
+            kinematics: Inverse kinematics, whose present posture is evaluated.
             zmp_forward: Sagittal coordinate of the anchor of a foot in its
                 frame, in [m].
             tick: Control period, in [s].
@@ -142,17 +141,11 @@ class LegLoads:
     def torques(
         self, reference: BodyReference, zmp: tuple[float, float]
     ) -> Array:
-        """Return the torques at the present posture of the kinematics.
+        """Return the torques of all motors, in [N m]. Shape (joints,).
 
-        To be called once a tick: accelerations are second differences of
-        the last three postures; they are zero in the first two calls.
-
-        Args:
-            reference: Reference of that posture.
-            zmp: ZMP of the plan in the frame of the reference, in [m].
-
-        Returns:
-            Torques of all motors, in [N m]. Shape (joints,).
+        To be called once a tick, with the reference of the present posture and
+        the ZMP in its frame: accelerations are second differences of the last
+        three postures; they are zero in the first two calls.
         """
         states = np.array([self._kinematics.state] * 2)
         row = np.array([reference.row()])
@@ -167,12 +160,8 @@ class LegLoads:
         Args:
             states: States of the kinematics, the one before the first tick
                 included; see :class:`.LegStates`.
-            references: References of the ticks, rows of
-                :meth:`.BodyReference.row`. Shape (ticks, 15).
+            references: Rows of :meth:`.BodyReference.row`. Shape (ticks, 15).
             zmp: ZMP of the plan, in [m]. Shape (ticks, 2).
-
-        Returns:
-            Torques of all motors, in [N m]. Shape (ticks, joints).
         """
         ticks = len(references)
         points = np.empty((ticks + 2, *self._points.shape[1:]))

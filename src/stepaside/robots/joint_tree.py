@@ -214,12 +214,8 @@ def place_frames(
 ) -> None:
     """Set the CoM and the poses of all frames in the torso frame.
 
-    Args:
-        tree: Moving links.
-        angles: Angles of the joints, in [rad] or [m].
-        com: CoM, in [m]. Shape (3,).
-        frame_places: Origins of the frames, in [m]. Shape (frames, 3).
-        frame_axes: Their axes, as columns. Shape (frames, 3, 3).
+    Positions are in [m], axes are columns. Shapes (3,), (frames, 3),
+    (frames, 3, 3).
     """
     links, mass = tree.parents.shape[0], 0.0
     axes, places = np.empty((links, 3, 3)), np.empty((links, 3))

@@ -49,11 +49,7 @@ class LegJoints:
 
     @classmethod
     def of(cls, description: RobotDescription, tree: RobotTree) -> "LegJoints":
-        """Look up the leg joints of a robot in its tree.
-
-        Raises:
-            ModelError: If a leg joint has neither motor nor leader.
-        """
+        """Look up the leg joints of a robot in its tree."""
         free = tuple(
             name for name in description.legs if name not in tree.followers
         )

@@ -20,7 +20,7 @@ from .newton_step import (
     SINGULAR,
     STATE,
     linearise,
-    track_rows,
+    newton_steps,
 )
 from .tree_cache import load_tree
 
@@ -76,13 +76,7 @@ class LegKinematics:
     def __init__(self, description: RobotDescription, *, tick: float) -> None:
         """Begin at the standing angles, with the torso at the origin.
 
-        Args:
-            description: Robot description.
-            tick: Time between tracked references, in [s].
-
-        Raises:
-            ModelError: If the kinematic tree cannot be loaded, or the joints
-                that follow each other leave a foot no free rotation.
+        A tick is the time between tracked references, in [s].
         """
         self.description = description
         tree = load_tree(description)
@@ -110,7 +104,7 @@ class LegKinematics:
         self._reference_row = np.zeros((1, 15))
         self._state_rows = np.zeros((2, self.state.size))
         self._track_row = bound(
-            *(track_rows, legs.links, self._limits, legs.lean, True),
+            *(newton_steps, legs.links, self._limits, legs.lean, True),
             *(GREATEST_ERROR, self._reference_row),
             *(self._state_rows, self.error),
         )
@@ -159,13 +153,7 @@ class LegKinematics:
         return remainder(self.state[-2], tau)
 
     def stand(self, reference: BodyReference) -> Array:
-        """Solve a posture from the standing angles.
-
-        Args:
-            reference: Target of CoM and feet.
-
-        Returns:
-            Joint targets, in [rad]. Shape (joints,).
+        """Solve a posture from the standing angles; return joint targets.
 
         Raises:
             ReachError: If the legs cannot reach it; names the worst row.
@@ -188,10 +176,9 @@ class LegKinematics:
         return self.joint_targets
 
     def com_heights(self, reference: BodyReference) -> tuple[float, float]:
-        """Return least and greatest CoM height with the feet of a reference.
+        """Return least and greatest CoM height over the reference's feet.
 
-        Returns:
-            The heights, in [m]; both 0 if no height is in reach.
+        They are in [m]; both 0 if no height is in reach.
         """
         x, y, _ = reference.com
 
@@ -239,7 +226,7 @@ class LegKinematics:
         row = np.array([reference.row()], dtype=np.float64)
         for _ in range(ITERATIONS):
             states[0] = states[1]
-            track_rows(
+            newton_steps(
                 *(legs.links, self._stand_limits, legs.lean, False),
                 *(np.inf, row, states, errors),
             )
@@ -250,11 +237,8 @@ class LegKinematics:
     def track(self, reference: BodyReference) -> Array:
         """Track a reference by one step from the last posture.
 
-        A joint at a limit of its range or speed stays there, and the torso
-        and the other joints minimise the residuals.
-
-        Args:
-            reference: Target of CoM and feet at this tick.
+        A joint at a limit of its range or speed stays there, and the torso and
+        the other joints minimise the residuals.
 
         Returns:
             Joint targets, in [rad]. Shape (joints,).
@@ -272,20 +256,13 @@ class LegKinematics:
     def track_rows(self, references: Array) -> LegStates:
         """Track references tick by tick, up to one that is out of reach.
 
-        The targets are those of :meth:`track` called for each of them.
-
-        Args:
-            references: Rows of :meth:`.BodyReference.row`. Shape (ticks, 15).
-
-        Returns:
-            States and targets of the ticks that are in reach.
-
-        Raises:
-            ReachError: If a residual of the first is too large.
+        They are rows of :meth:`.BodyReference.row`, shape (ticks, 15). The
+        targets are those of :meth:`track` called for each of them, which
+        raises for the first.
         """
         rows = np.empty((len(references) + 1, self.state.size))
         rows[0] = self.state
-        count = track_rows(
+        count = newton_steps(
             *(self.legs.links, self._limits, self.legs.lean, True),
             *(GREATEST_ERROR, references, rows, self.error),
         )

@@ -14,15 +14,8 @@ def resolve_meshes(
     """Replace the mesh files of a model by absolute paths.
 
     A file is looked up as the model names it, then by name in the folders.
-    Meshes without a file are deleted, with the geoms that show them.
-
-    Args:
-        spec: Model; changed in place.
-        path: File of the model.
-        folders: Additional folders with mesh files.
-
-    Returns:
-        Files that are missing, or of a format that MuJoCo does not read.
+    Meshes without a file, or of a format that MuJoCo does not read, are
+    returned and deleted, with the geoms that show them.
     """
     by_name: dict[str, Path] = {}
     for folder in folders:

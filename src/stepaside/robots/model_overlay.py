@@ -56,9 +56,6 @@ def put_overlay(
         sensors: Names of the sensors.
         path: File of the model.
         mesh_folders: Additional folders with mesh files.
-
-    Raises:
-        ModelError: If the model lacks a body or a joint of the overlay.
     """
     strip(spec, torso, path, mesh_folders)
     rotate_torso_frame(spec, torso, overlay.turn)
@@ -81,20 +78,10 @@ def put_overlay(
 def strip(
     spec: mujoco.MjSpec, torso: str, path: Path, folders: list[Path]
 ) -> list[str]:
-    """Reduce a model to the floating-base body of the robot.
+    """Reduce a model to the floating-base body with a root body.
 
-    Args:
-        spec: Model; changed in place.
-        torso: Root body of the robot.
-        path: File of the model.
-        folders: Additional folders with mesh files.
-
-    Returns:
-        Mesh files that are missing or cannot be read, whose geoms are
-        removed.
-
-    Raises:
-        ModelError: If there is no such root.
+    It returns the mesh files that are missing or cannot be read, whose
+    geoms are removed. They are looked up in further folders, too.
     """
     spec.compiler.fusestatic = False
     repair_inertias(spec)
@@ -168,11 +155,7 @@ def _copy_settings(settings: Any, source: Any) -> None:
 
 
 def find_body(spec: mujoco.MjSpec, name: str) -> mujoco.MjsBody:
-    """Return a body by name.
-
-    Raises:
-        ModelError: If there is none.
-    """
+    """Return a body by name; :class:`.ModelError` if there is none."""
     body = spec.body(name)
     if body is None:
         names = ", ".join(b.name for b in spec.bodies)

@@ -31,14 +31,10 @@ UNKNOWN_ATTRIBUTE = re.compile(
 
 
 def read_model(path: Path) -> mujoco.MjSpec:
-    """Read an MJCF or URDF file.
+    """Read an MJCF or URDF file as an editable model.
 
-    Args:
-        path: Model file; it is not changed.
-
-    Returns:
-        The editable model. Attributes of physics and rendering settings
-        that this version of MuJoCo does not support are ignored.
+    Attributes of physics and rendering settings that this version of
+    MuJoCo does not support are ignored.
 
     Raises:
         ValueError: If it is not a model; with the message of MuJoCo.
@@ -55,11 +51,7 @@ def read_model(path: Path) -> mujoco.MjSpec:
 
 
 def _root_of(path: Path) -> ElementTree.Element:
-    """Return the root element with includes expanded.
-
-    Raises:
-        ValueError: If the file is not XML.
-    """
+    """Return the root element with includes expanded."""
     try:
         return _expand_includes(path, path.parent)
     except (ElementTree.ParseError, UnicodeDecodeError) as error:

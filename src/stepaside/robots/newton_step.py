@@ -35,15 +35,8 @@ def motion_by(
 ) -> tuple[float, float, float, float, float, float]:
     """Return the motion of a point by the joint of a link at unit speed.
 
-    Args:
-        tree: Moving links.
-        axes: Axes of the links. Shape (links, 3, 3).
-        places: Origins of the links, in [m]. Shape (links, 3).
-        link: Link whose joint moves.
-        point: Point that moves with the link, in [m].
-
-    Returns:
-        Velocity, in [m/s], then angular velocity, in [rad/s].
+    That is the velocity, in [m/s], then the angular velocity, in [rad/s],
+    of a point that moves with the link.
     """
     a, b, c = turned(axes, link, tree.axes, link)
     if not tree.hinges[link]:
@@ -170,11 +163,7 @@ def _add_foot(
 
 @compiled
 def solve(matrix: Array, right: Array) -> bool:
-    """Solve a square system in place; both arguments change.
-
-    Returns:
-        Whether it has a solution, which is then in ``right``.
-    """
+    """Solve a square system in place, into ``right``; return whether so."""
     n = right.shape[0]
     for k in range(n):
         pivot, most = k, abs(matrix[k, k])
@@ -206,7 +195,7 @@ def solve(matrix: Array, right: Array) -> bool:
 
 @compiled
 def keeps_limits(step: Array, state: Array, limits: Array) -> bool:
-    """Return whether a step keeps to all limits; see :func:`track_rows`."""
+    """Return whether a step keeps to all limits; see :func:`newton_steps`."""
     n = limits.shape[0]
     for j in range(n):
         low, high, reach = limits[j, 0], limits[j, 1], limits[j, 3]
@@ -239,7 +228,7 @@ def move_within(
         jacobian: Derivatives of the rows. Shape (rows, unknowns).
         errors: Residuals. Shape (rows,).
         state: Row of :class:`.LegStates`.
-        limits: See :func:`track_rows`.
+        limits: See :func:`newton_steps`.
         matrix: Changed. Shape (unknowns, unknowns).
         step: The step. Shape (unknowns,).
     """
@@ -283,7 +272,7 @@ def move_within(
 
 
 @compiled
-def track_rows(
+def newton_steps(
     tree: JointTree,
     limits: Array,
     lean: float,

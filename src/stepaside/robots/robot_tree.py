@@ -5,12 +5,10 @@ posture all link frames are parallel to the torso frame. Bodies that are
 welded together are one link.
 """
 
-import json
-from dataclasses import dataclass, fields
-from typing import Any, NamedTuple
+from dataclasses import dataclass
+from typing import NamedTuple
 
 from ..core.brief_repr import brief_repr
-from ..core.errors import ModelError
 
 HINGE, SLIDE = "hinge", "slide"
 Triple = tuple[float, float, float]
@@ -145,47 +143,3 @@ class RobotTree:
             chain.insert(0, link)
             link = self.links[link].parent
         return chain
-
-    def to_json(self) -> dict[str, Any]:
-        """Return entries for JSON, which :meth:`from_json` reads."""
-        entries = {f.name: getattr(self, f.name) for f in fields(self)}
-        entries["links"] = [link._asdict() for link in self.links]
-        for kind in ("bodies", "sites"):
-            frames = entries[kind].items()
-            entries[kind] = {name: frame._asdict() for name, frame in frames}
-        return entries
-
-    @classmethod
-    def from_json(cls, entries: dict[str, Any]) -> "RobotTree":
-        """Read the entries of :meth:`to_json`.
-
-        Raises:
-            ModelError: If an entry is missing or ill-typed.
-        """
-        try:
-            values = {f.name: _tuples(entries[f.name]) for f in fields(cls)}
-            values["links"] = tuple(Link(**x) for x in values["links"])
-            for kind in ("bodies", "sites"):
-                frames = values[kind].items()
-                values[kind] = {n: LinkFrame(**frame) for n, frame in frames}
-            values["servos"] = tuple(Servo(*x) for x in values["servos"])
-            values["size"] = BodySize(*values["size"])
-            return cls(**values)
-        except (KeyError, TypeError, AttributeError) as error:
-            raise ModelError(f"not a robot tree: {error!r}") from error
-
-
-def _tuples(entry: Any) -> Any:
-    """Return an entry of JSON with tuples in place of lists."""
-    if isinstance(entry, list):
-        return tuple(map(_tuples, entry))
-    if isinstance(entry, dict):
-        return {name: _tuples(value) for name, value in entry.items()}
-    return entry
-
-
-def write_tree(tree: RobotTree, digest: str, version: int) -> str:
-    """Return the text of a tree file, one link or frame per line."""
-    entries = {"version": version, "digest": digest} | tree.to_json()
-    lines = [f' "{name}": {json.dumps(x)}' for name, x in entries.items()]
-    return "{\n" + ",\n".join(lines).replace("}, ", "},\n  ") + "\n}\n"

@@ -14,11 +14,8 @@ def rotate_torso_frame(
 ) -> None:
     """Rotate the frame of a torso; its body and links do not move.
 
-    Args:
-        spec: Model; changed in place.
-        torso: Root body, with no joint but a free one.
-        quaternion: Orientation (w, x, y, z) of the published torso frame in
-            the new one.
+    The torso has no joint but a free one. The quaternion (w, x, y, z) is
+    the orientation of the published frame in the new one.
     """
     if tuple(quaternion) == IDENTITY:
         return

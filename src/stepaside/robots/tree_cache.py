@@ -4,13 +4,14 @@ import json
 from hashlib import sha256
 from pathlib import Path
 
+from ..core.entries import load_entries, read_entries, to_entries
 from ..core.errors import ModelError
 from .description import RobotDescription
 from .description_types import NO_OVERLAY
-from .robot_tree import RobotTree, write_tree
+from .robot_tree import RobotTree
 
 FILE = "tree.json"
-VERSION = 3  # of the file format
+VERSION = 4  # of the file format
 CACHE_SIZE = 16  # trees that are cached
 _cache: dict[tuple[Path, str], RobotTree] = {}
 
@@ -18,12 +19,8 @@ _cache: dict[tuple[Path, str], RobotTree] = {}
 def load_tree(description: RobotDescription) -> RobotTree:
     """Return the tree of a robot, stored or else compiled.
 
-    The stored tree is used unless it is older than the model. The same model
-    gives the same object.
-
-    Raises:
-        ModelError: If the tree lacks an element of the description, or has
-            to be compiled and MuJoCo is not installed.
+    The stored tree is used unless it is older than the model. The same
+    model gives the same object.
     """
     digest = digest_of(description)
     key = (description.folder, digest)
@@ -37,23 +34,15 @@ def load_tree(description: RobotDescription) -> RobotTree:
 
 
 def store_tree(description: RobotDescription) -> Path:
-    """Compile the tree of a robot and write it beside its description.
-
-    Raises:
-        ModelError: If the model lacks an element of the description, or a
-            file of that name is not a compiled tree.
-    """
+    """Compile the tree of a robot and write it beside its description."""
     from .tree_compiler import compile_tree
 
     path = description.folder / FILE
-    if path.exists() and not _is_tree(path):
-        raise ModelError(
-            f"{path} must be a compiled tree, which is replaced, or absent, "
-            "got another file"
-        )
-    tree = compile_tree(description)
-    text = write_tree(tree, digest_of(description), VERSION)
-    path.write_text(text, encoding="utf-8")
+    marks = {"version": VERSION, "digest": digest_of(description)}
+    entries = marks | to_entries(compile_tree(description))
+    lines = [f' "{name}": {json.dumps(x)}' for name, x in entries.items()]
+    text = ",\n".join(lines).replace("}, ", "},\n  ")  # a link on each line
+    path.write_text(f"{{\n{text}\n}}\n", encoding="utf-8")
     return path
 
 
@@ -77,26 +66,18 @@ def digest_of(description: RobotDescription) -> str:
     return digest.hexdigest()[:16]
 
 
-def _is_tree(path: Path) -> bool:
-    """Return whether a file is a stored tree."""
-    try:
-        entries = json.loads(path.read_text(encoding="utf-8"))
-    except (OSError, ValueError, RecursionError):
-        return False
-    return isinstance(entries, dict) and {"version", "digest"} <= set(entries)
-
-
 def _read_or_compile(description: RobotDescription, digest: str) -> RobotTree:
     path = description.folder / FILE
     reason = "is missing"
     if path.is_file():
+        reason = "is older than the model"
         try:
-            entries = json.loads(path.read_text(encoding="utf-8"))
-            if (entries["version"], entries["digest"]) == (VERSION, digest):
-                return RobotTree.from_json(entries)
-            reason = "is older than the model"
-        except (KeyError, TypeError, ValueError) as error:
-            reason = f"cannot be read ({error!r})"
+            entries = load_entries(path, ModelError)
+            marks = [entries.pop(x, None) for x in ("version", "digest")]
+            if marks == [VERSION, digest]:
+                return read_entries(RobotTree, entries, error=ModelError)
+        except ModelError as error:
+            reason = f"cannot be read ({error})"
     try:
         from .tree_compiler import compile_tree
     except ImportError as error:

@@ -26,17 +26,12 @@ KINDS = {
 }
 ZERO = (0.0, 0.0, 0.0)
 TORSO = Link("", -1, "", ZERO, ZERO, 0.0, 0.0, 0.0, 0.0, ZERO)
+UNLIMITED = 1e6  # of joints without limits, in [rad] or [m]
 DECIMALS = 14  # to which numbers are rounded: 0 and 1 become exact
 
 
 def compile_tree(description: RobotDescription) -> RobotTree:
-    """Compile the model of a robot and extract its kinematic tree.
-
-    Raises:
-        ModelError: If the model lacks an element of the description, the
-            torso has no free joint, or another joint is neither hinge nor
-            slide.
-    """
+    """Compile the model of a robot and extract its kinematic tree."""
     model = description.compile()
     data = mujoco.MjData(model)
     mujoco.mj_kinematics(model, data)  # at the zero posture
@@ -125,7 +120,7 @@ class _TreeExtractor:
         anchor = self._to_torso(data.xanchor[joint])
         low, high = model.jnt_range[joint].tolist()
         if not model.jnt_limited[joint]:
-            low, high = -np.inf, np.inf
+            low, high = -UNLIMITED, UNLIMITED
         self._links.append(
             Link(
                 name,

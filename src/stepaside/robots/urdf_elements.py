@@ -84,15 +84,8 @@ def urdf_tree(
     """Return links and joints of a robot, as they are in its URDF.
 
     The root is ``base_link``, at the origin of the torso. The soles are
-    ``l_sole`` and ``r_sole``; cameras of a described head have a frame each,
-    with an optical frame.
-
-    Args:
-        description: Description of the robot.
-        model: Its compiled model.
-
-    Raises:
-        ModelError: If it has a joint that URDF cannot express.
+    ``l_sole`` and ``r_sole``; cameras of a described head have a frame
+    each, with an optical frame.
     """
     data = mujoco.MjData(model)
     data.qpos[:] = 0.0
@@ -132,15 +125,8 @@ def _frames_of(
     description: RobotDescription, model: mujoco.MjModel
 ) -> list[UrdfJoint]:
     """Return the frames of soles, IMU and cameras, placed in their bodies."""
-    sites = dict(
-        zip(
-            SOLES,
-            (description.left_foot, description.right_foot),
-            strict=True,
-        )
-    )
-    frames = []
-    for name, site in sites.items():
+    frames, feet = [], (description.left_foot, description.right_foot)
+    for name, site in zip(SOLES, feet, strict=True):
         frames.append(_site_frame(model, name, model.site(site).id))
     gyro = model.sensor(description.sensors.gyro)
     frames.append(_site_frame(model, IMU, int(gyro.objid[0])))
@@ -168,14 +154,7 @@ def _joints_of(
 ) -> list[UrdfJoint]:
     """Return the joints of a body; several hinges get links between them.
 
-    Args:
-        model: Compiled model.
-        data: Its state with all joints at 0.
-        body: Index of the body.
-        parent: Link of its parent.
-
-    Raises:
-        ModelError: If one is a ball or a free joint.
+    The data are those with all joints at 0.
     """
     before = data.xmat[parent.body].reshape(3, 3)
     place = data.xpos[parent.body] + before @ parent.anchor
@@ -204,11 +183,7 @@ def _joints_of(
 
 
 def _kind_of(model: mujoco.MjModel, joint: int) -> str:
-    """Return the type of a joint in URDF.
-
-    Raises:
-        ModelError: If it is a ball or a free joint.
-    """
+    """Return the type of a joint in URDF."""
     kind = int(model.jnt_type[joint])
     if kind == _JOINTS.mjJNT_SLIDE:
         return "prismatic"

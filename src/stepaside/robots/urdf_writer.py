@@ -27,13 +27,7 @@ def urdf_of(
 ) -> str:
     """Return the URDF of a robot, as XML text; see :func:`urdf_tree`.
 
-    Args:
-        description: Description of the robot.
-        colour: Colour of its accent; by default that of the model.
-
-    Raises:
-        ModelError: If MuJoCo cannot compile the model, or it has a joint
-            that URDF cannot express.
+    The colour of its accent is by default that of the model.
     """
     model = description.compile(colour)
     tree = urdf_tree(description, model)

@@ -19,7 +19,7 @@ if TYPE_CHECKING:  # the solver imports Numba
 
 FAR = 4.5  # of the game against eqs. (1)-(2), in v/k
 CARS_FAR = 8.0  # of the two cars, in turning radii
-FORMAT = 6  # of the files
+FORMAT = 7  # of the files
 UNREADABLE = (OSError, ValueError, KeyError, EOFError, BadZipFile)
 
 
@@ -56,9 +56,9 @@ def pursuit_bound(cells: int) -> "ValueTable":
 
     The table has a number of cells along each axis.
     """
-    from ..theory.value import fixed_pursuit_game
+    from ..theory.value import CarGame
 
-    game = fixed_pursuit_game(1.0, 1.0, 1.0)
+    game = CarGame(1.0, 1.0, pursuer_gain=1.0)
     return _load_or_solve("pursuit", game, FAR, cells)
 
 
@@ -70,9 +70,9 @@ def cars_bound(cells: int) -> "ValueTable":
 
 def unit_cars() -> "CarGame":
     """Return the game of :func:`cars_bound`."""
-    from ..theory.value import two_car_game
+    from ..theory.value import CarGame
 
-    return two_car_game(1.0, 1.0, 1.0)
+    return CarGame(1.0, 1.0, pursuer_turn=1.0)
 
 
 @lru_cache(maxsize=8)

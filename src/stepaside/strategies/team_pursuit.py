@@ -23,8 +23,7 @@ class CyclicPursuit(PursuitVariant):
     """Pursuer of the next player of its own team, in the order of names.
 
     With all players of a team in cyclic pursuit they end on a regular
-    polygon (:mod:`stepaside.theory.unicycle.cyclic_pursuit`). Without a
-    team it pursues the opponent.
+    polygon. Without a team it pursues the opponent.
     """
 
     def decide(self, knowledge: Knowledge, memory: Any) -> tuple[Intent, Any]:

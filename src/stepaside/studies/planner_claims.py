@@ -14,8 +14,8 @@ from ..planning import (
     GaitSettings,
     ManeuverPlan,
     ManeuverPlanner,
-    UnicycleTrajectory,
 )
+from ..planning.path import UnicycleTrajectory
 
 BEARING = 0.9  # desired heading, in [rad]
 GAIT = GaitSettings()

@@ -37,11 +37,7 @@ def wrap_once(angle: float) -> float:
 
 
 def pursuit_heading(bearing: float) -> float:
-    """Return the desired heading of the pursuer, theta* = theta_aim, eq. (2).
-
-    Args:
-        bearing: Bearing of the evader in the pursuer's frame, in [rad].
-    """
+    """Return the desired heading of the pursuer, the bearing itself, (2)."""
     return bearing
 
 
@@ -62,37 +58,27 @@ def evasion_heading(bearing: float, side: int, angle: float) -> float:
 
 
 def side_behind(bearing: float) -> int:
-    """Return the side whose normal lies behind the evader (Sec. II-B).
+    """Return the side, +1 or -1, whose normal lies behind (Sec. II-B).
 
     At bearings 0 and pi neither normal is behind; at 0 the result is the
-    side of (5) as printed.
-
-    Args:
-        bearing: Bearing of the pursuer in the evader's frame, in [-pi, pi],
-            in [rad].
-
-    Returns:
-        +1 or -1.
+    side of (5) as printed. The bearing is that of the pursuer in the
+    evader's frame, in [-pi, pi], in [rad].
     """
     return -1 if bearing > 0.0 else 1
 
 
 def update_side(side: int, bearing: float, hysteresis: float) -> int:
-    """Update the side of the evader with hysteresis.
+    """Update the side of the evader, +1 or -1, with hysteresis.
 
     The side changes only when the pursuer is clearly on the other side, so
     that noise does not flip it, neither at bearing 0 nor where the bearing
     wraps.
 
     Args:
-        side: Current side, +1 or -1; 0 if none has been chosen.
-        bearing: Bearing of the pursuer in the evader's frame, in [-pi, pi],
-            in [rad].
+        side: Current side; 0 if none has been chosen.
+        bearing: As in :func:`side_behind`.
         hysteresis: Least angle past 0 and short of pi at which the side
             changes, in [rad]; from pi/2 on it never does.
-
-    Returns:
-        +1 or -1.
     """
     if side == 0:
         return side_behind(bearing)
@@ -101,22 +87,12 @@ def update_side(side: int, bearing: float, hysteresis: float) -> int:
 
 
 def proportional_rate(error: float, gain: float) -> float:
-    """Return the turning rate of (2), (4) and (8), in [rad/s].
-
-    Args:
-        error: Desired heading in the player's frame, in [rad].
-        gain: Steering gain k, in [1/s].
-    """
+    """Return the turning rate of (2), (4) and (8), k times the error."""
     return gain * error
 
 
 def saturated_rate(error: float, gain: float) -> float:
-    """Return the turning rate of (6), in [rad/s].
-
-    Args:
-        error: Desired heading in the player's frame, in [rad].
-        gain: Magnitude k of the turning rate, in [rad/s].
-    """
+    """Return the turning rate of (6), of magnitude k, in [rad/s]."""
     if error > 0.0:
         return gain
     return -gain if error < 0.0 else 0.0
@@ -129,12 +105,6 @@ def is_evading(
 
     The distance on the limit circle may exceed the safety radius (Sec. IV:
     0.9 m against 0.8 m); without the latch an evader would stop and start
-    on it.
-
-    Args:
-        evading: Whether the evader evades already.
-        distance: Distance to the pursuer, in [m].
-        safety_radius: Distance below which evasion begins, in [m].
-        release: Distance from which on evasion ends, in [m].
+    on it. Distances are in [m].
     """
     return distance < (release if evading else safety_radius)

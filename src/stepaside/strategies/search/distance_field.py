@@ -6,12 +6,16 @@ centre less at most half the diagonal. Where the bound does not suffice, the
 listed obstacles give the exact distance.
 """
 
-from math import inf, isnan, sqrt
+from math import isnan, sqrt
 from typing import Any, NamedTuple
 
 import numpy as np
 
-from ...arena.obstacles import PackedObstacles
+from ...arena.obstacle_distances import (
+    PackedObstacles,
+    clearance_at,
+    hull_clearance,
+)
 from ...core.compilation import inlined
 
 CELL = 0.1  # side of a cell, in [m]; 0.05 and 0.2 take longer
@@ -57,58 +61,6 @@ def distance_field(
         np.full((side, side), np.nan),
         np.empty((side, side, LISTED + 1), dtype=np.int64),
     )
-
-
-@inlined
-def hull_clearance(
-    packed: PackedObstacles, k: int, x: float, y: float, nearest: float
-) -> float:
-    """Return the clearance of a point from one hull, at most ``nearest``.
-
-    The point is in the frame of the obstacles, in [m].
-    """
-    edges, firsts, circles = packed.edges, packed.firsts, packed.circles
-    dx, dy = x - circles[k, 0], y - circles[k, 1]
-    reach = nearest + circles[k, 2]
-    square = dx * dx + dy * dy
-    if reach <= 0.0 or square > reach * reach:
-        return nearest
-    if firsts[k] == firsts[k + 1]:
-        disc: float = min(nearest, sqrt(square) - circles[k, 2])
-        return disc
-    beyond = -inf
-    for i in range(firsts[k], firsts[k + 1]):
-        height = edges[i, 0] * x + edges[i, 1] * y - edges[i, 2]
-        if height > beyond:
-            beyond = height
-            if beyond >= nearest:
-                return nearest
-    if beyond > 0.0:
-        square = inf
-        for i in range(firsts[k], firsts[k + 1]):
-            # The edge runs to the left of its normal.
-            dx, dy = x - edges[i, 3], y - edges[i, 4]
-            along = dy * edges[i, 0] - dx * edges[i, 1]
-            along = min(max(along, 0.0), edges[i, 5])
-            dx += along * edges[i, 1]
-            dy -= along * edges[i, 0]
-            square = min(square, dx * dx + dy * dy)
-        beyond = sqrt(square)
-    return min(nearest, beyond)
-
-
-@inlined
-def clearance_at(
-    packed: PackedObstacles, x: float, y: float, enough: float
-) -> float:
-    """Return the signed distance of a point from the nearest obstacle.
-
-    It is negative inside, and at most ``enough``, in [m].
-    """
-    nearest = enough
-    for k in range(packed.circles.shape[0]):
-        nearest = hull_clearance(packed, k, x, y, nearest)
-    return nearest
 
 
 @inlined

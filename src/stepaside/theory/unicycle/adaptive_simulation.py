@@ -16,7 +16,6 @@ from numpy.typing import ArrayLike, NDArray
 
 from ...core.brief_repr import brief_repr
 from ...core.errors import StepAsideError, check_positive
-from ...core.poses import Pose
 from .relative_coordinates import RelativeStart
 from .relative_motion import (
     SLACK,
@@ -34,6 +33,7 @@ from .relative_motion import (
 from .unicycle_game import Game, check_side
 
 Array = NDArray[np.float64]
+TOLERANCE = 1e-11  # relative, of a step
 _PROBES = np.linspace(0.0, 1.0, 9)[1:]  # of a step, at which events are seen
 
 
@@ -63,10 +63,7 @@ class PlayedGame:
     _pieces: tuple[Callable[[Array], Array], ...] = field(repr=False)
 
     def states(self, times: ArrayLike) -> Array:
-        """Evaluate the states.
-
-        Args:
-            times: Times between 0 and ``end_time``, in [s]. Shape (n,).
+        """Evaluate the states at times between 0 and ``end_time``, in [s].
 
         Returns:
             Columns r [m], a, psi, direction of the line of sight [rad], x, y
@@ -81,13 +78,12 @@ class PlayedGame:
         return found
 
     def poses(self, times: ArrayLike) -> tuple[Array, Array]:
-        """Evaluate the poses of pursuer and evader.
+        """Evaluate the poses of pursuer and evader, likewise.
 
-        Args:
-            times: Times between 0 and ``end_time``, in [s]. Shape (n,).
+        The frame is the initial one of the pursuer.
 
         Returns:
-            Poses (x [m], y [m], theta [rad]) in the world. Shape (n, 3) each.
+            Poses (x [m], y [m], theta [rad]). Shape (n, 3) each.
         """
         r, a, psi, sight, x, y = self.states(times).T
         ends = x + r * np.cos(sight), y + r * np.sin(sight)
@@ -101,7 +97,6 @@ class _Piece:
 
     rules: Rules
     mode: Mode
-    tolerance: float
 
     def rates(self, states: Array) -> Rates:
         """Return the rates of one or many states."""
@@ -126,9 +121,8 @@ class _Piece:
     ) -> tuple[Any, Array, bool]:
         """Integrate until an edge, the capture or the end of the game.
 
-        Returns:
-            Dense output; times from the begin to the end of the piece, at
-            which the distance was checked, in [s]; whether it ended early.
+        It returns the dense output, the times in [s] at which the distance was
+        checked, and whether it ended early.
         """
         from scipy.integrate import solve_ivp
         from scipy.optimize import brentq
@@ -143,8 +137,8 @@ class _Piece:
             method="DOP853",
             dense_output=True,
             events=leaves,
-            rtol=self.tolerance,
-            atol=0.1 * self.tolerance,
+            rtol=TOLERANCE,
+            atol=0.1 * TOLERANCE,
             max_step=4.0 / gain,
         )
         if run.status < 0:
@@ -185,8 +179,6 @@ def simulate(
     *,
     side: int | None = None,
     capture_distance: float = 1e-6,
-    pursuer: Pose = Pose(0.0, 0.0, 0.0),  # noqa: B008 (immutable)
-    tolerance: float = 1e-11,
 ) -> PlayedGame:
     """Simulate one game.
 
@@ -196,9 +188,6 @@ def simulate(
         duration: Time after which the game ends, in [s].
         side: Initial side, +1 or -1; the one behind the evader if None.
         capture_distance: Distance at which the game ends, in [m].
-        pursuer: Initial pose of the pursuer in the world.
-        tolerance: Relative tolerance of a step; the absolute tolerance is a
-            tenth of it.
 
     Raises:
         StepAsideError: If a value is out of range or the integrator fails.
@@ -210,14 +199,14 @@ def simulate(
     here, mode = initial_mode(
         RelativeState(*start.wrapped()), side or 0, rules
     )
-    state = np.array([*here, pursuer.theta + here.a, pursuer.x, pursuer.y])
+    state = np.array([*here, here.a, 0.0, 0.0])
     time, best = 0.0, (float(here.r), 0.0)
     captured = best[0] <= capture_distance
     switches, sides, pieces = [], [mode.side], []
     if captured:
         pieces.append(lambda times: np.tile(state[:, None], len(times)))
     while not captured and time < duration:
-        piece = _Piece(rules, mode, tolerance)
+        piece = _Piece(rules, mode)
         dense, times, early = piece.solve(time, state, duration)
         pieces.append(dense)
         best = min(best, piece.closest(dense, times))

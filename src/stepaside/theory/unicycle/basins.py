@@ -44,49 +44,30 @@ def random_starts(
     count: int,
     *,
     seed: int = 0,
-    nearest: float | None = None,
-    farthest: float | None = None,
 ) -> Array:
-    """Draw initial states, uniform in distance and bearings.
+    """Draw initial states r [m], a, psi [rad], uniformly. Shape (count, 3).
 
-    Args:
-        game: Parameters of the game; its unit of distance is the evader's
-            speed over the smaller gain.
-        count: Number of initial states.
-        seed: Seed of the random numbers.
-        nearest: Least distance, in [m]; 0.3 units if None.
-        farthest: Largest distance, in [m]; 4 units if None.
-
-    Returns:
-        Rows of r [m], a, psi [rad]. Shape (count, 3).
+    Distances are 0.3 to 4 units, of the evader's speed over the
+    smaller gain.
     """
     unit = game.evader.speed / min(game.pursuer.gain, game.evader.gain)
-    low = NEAREST * unit if nearest is None else nearest
-    high = FARTHEST * unit if farthest is None else farthest
     rng = np.random.default_rng(seed)
-    r = rng.uniform(low, high, count)
+    r = rng.uniform(NEAREST * unit, FARTHEST * unit, count)
     return np.column_stack([r, rng.uniform(-np.pi, np.pi, (count, 2))])
 
 
-def find_basins(
-    game: Game,
-    starts: Array,
-    *,
-    duration: float | None = None,
-    **options: Any,
-) -> Basins:
+def find_basins(game: Game, starts: Array, **options: Any) -> Basins:
     """Play a game from many initial states and classify the outcomes.
+
+    Games are long enough to reach all stable circles.
 
     Args:
         game: Parameters of the game.
         starts: Rows of r [m], a, psi [rad]. Shape (n, 3).
-        duration: Duration of each game, in [s]; if None, long enough to
-            reach all stable circles of the game.
         options: Further options of :func:`.batch.play_games`.
     """
     circles = circles_of(game)
-    until_all, step = duration_and_step(game)
-    duration = until_all if duration is None else duration
+    duration, step = duration_and_step(game)
     out = play_games(game, starts, duration, step=step, **options)
     captured = float(out.captured.mean())
     return Basins(

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ...core.brief_repr import brief_repr
-from ...core.errors import PlanError, check_bearing, check_positive, shown
+from ...core.errors import PlanError, check_bearing, check_positive
 from ...core.poses import wrap_angles
 from .circles import Circle, circles_of
 from .relative_motion import RelativeState, deviation, rules_of
@@ -77,9 +77,6 @@ def play_games(
         side: Initial side, +1 or -1; 0 for the one behind the evader.
         progress: Called with the number of games of each finished chunk of
             16,384.
-
-    Raises:
-        PlanError: If a value is out of range.
     """
     from .batch_kernel import play_all  # imports Numba
 
@@ -127,12 +124,10 @@ def circle_states(circles: Sequence[Circle]) -> Array:
 def circle_deviations(
     circles: Array, states: Array, sides: ArrayLike
 ) -> Array:
-    """Return the deviations (n, m) of states from circles: the largest each.
+    """Return the largest deviations (n, m) of states from circles.
 
-    Args:
-        circles: Rows of r [m], a, psi [rad] at side +1. Shape (n, 3).
-        states: Rows of r [m], a, psi [rad]. Shape (m, 3).
-        sides: Side of each state. Shape (m,).
+    Both are rows of r [m], a, psi [rad], the circles at side +1. Shapes
+    (n, 3), (m, 3).
     """
     circle, state = RelativeState(*circles.T[..., None]), states.T
     found: Array = deviation(RelativeState(*state), np.asarray(sides), circle)
@@ -141,13 +136,7 @@ def circle_deviations(
 
 def _wrapped(starts: ArrayLike) -> Array:
     """Return initial states with wrapped angles. Shape (n, 3)."""
-    try:
-        states = np.array(starts, dtype=np.float64).reshape(-1, 3)
-    except (TypeError, ValueError, OverflowError) as error:
-        raise PlanError(
-            "starts must be rows of distance [m] and two bearings [rad], got "
-            f"{shown(starts)}"
-        ) from error
+    states = np.array(starts, dtype=np.float64).reshape(-1, 3)
     if not (np.isfinite(states).all() and (states[:, 0] > 0.0).all()):
         raise PlanError("starts must be finite with distance > 0 [m]")
     angles = states[:, 1:]

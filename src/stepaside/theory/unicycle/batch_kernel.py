@@ -39,12 +39,8 @@ EDGE, CLOSEST, CAPTURE = 0, 1, 2  # events at which a step is divided
 class _Step(NamedTuple):
     """A game after one step, or at the capture within it.
 
-    Attributes:
-        state: State.
-        mode: Mode.
-        closest: Closest approach within the step, in [m].
-        when: Its time since the begin of the step, in [s].
-        captured: Whether the step ended there by capture.
+    The closest approach of the step is in [m], its time ``when`` since the
+    begin of the step in [s].
     """
 
     state: RelativeState

@@ -57,13 +57,10 @@ class Certificate:
             converges to the circle.
         distance_m: Lower bound of the distance at all times, in [m]; None
             if nothing is proved.
-        plain_distance_m: Weaker bound, which only uses
-            |c(d) - c(0)| <= v |d|, in [m]; None if nothing is proved.
     """
 
     holds: bool
     distance_m: float | None = None
-    plain_distance_m: float | None = None
 
 
 def certify(game: Game, start: RelativeStart, *, side: int = 0) -> Certificate:
@@ -81,8 +78,7 @@ def certify(game: Game, start: RelativeStart, *, side: int = 0) -> Certificate:
             f"law and an angle > 0 [rad], got {game}"
         )
     check_side(side)
-    speed, gain, alpha = game.pursuer.speed, game.pursuer.gain, game.angle
-    radius = circle_of(game).distance_m
+    alpha, radius = game.angle, circle_of(game).distance_m
     r, a, psi = start.wrapped()
     if side == 0:
         side = side_behind(psi)
@@ -92,28 +88,23 @@ def certify(game: Game, start: RelativeStart, *, side: int = 0) -> Certificate:
     b = evasion_heading(psi, 1, alpha)
     d, x = a - b, 0.5 * (a + b - alpha)
     spread = abs(r * exp(1j * x) - radius)
-    plain = radius - spread - speed * abs(d) / gain
     spread = _largest_spread(spread, d, game, radius)
     bound = radius - spread
     unwrapped = stays_unwrapped(game, a, psi) or _unwrapped(
         game, bound, radius, d
     )
     if bound > 0.0 and unwrapped and _keeps_side(game, bound, radius):
-        return Certificate(True, bound, plain)
+        return Certificate(True, bound)
     return Certificate(False)
 
 
 def stays_unwrapped(game: Game, pursuer_error: float, bearing: float) -> bool:
     """Return whether no error of a game between equal players ever wraps.
 
-    It is proved inside the diamond, for an evader with the side rule "behind"
-    (its error never exceeds the angle), or for one that keeps its side at an
-    angle of at most pi / 2 and whose initial error is below pi.
-
-    Args:
-        game: Parameters, with equal speeds and gains, proportional law.
-        pursuer_error: Pursuer's error in [-pi, pi], mirrored to side +1.
-        bearing: Bearing of the pursuer, likewise.
+    It is proved inside the diamond, for an evader with the side rule
+    "behind" (its error never exceeds the angle), or for one that keeps its
+    side at an angle of at most pi / 2 and whose initial error is below pi.
+    Both angles are mirrored to side +1, in [-pi, pi].
     """
     if not abs(pursuer_error) + abs(bearing) < pi:
         return False
@@ -143,10 +134,7 @@ def _largest_spread(
 def largest_change(alpha: float, low: float, high: float) -> float:
     """Return the maximum of |sin((alpha + d) / 2) - sin(alpha / 2)|.
 
-    Args:
-        alpha: Evasion angle in [0, pi], in [rad].
-        low: Least d of the interval, above -2 pi, in [rad].
-        high: Largest d of the interval, below 2 pi, in [rad].
+    The interval of d lies within (-2 pi, 2 pi).
     """
     # The sine has its maximum at pi - alpha and its minimum at -pi - alpha.
     extrema = [d for d in (pi - alpha, -pi - alpha) if low < d < high]

@@ -14,6 +14,8 @@ from .relative_motion import NEAR
 from .unicycle_game import Game
 
 Array = NDArray[np.float64]
+PRECISION = 1e-6  # to which a deviation from the circle has decayed
+SAMPLES = 361  # of a path
 
 
 @dataclass(frozen=True, slots=True)
@@ -40,13 +42,9 @@ class FittedCircle:
 
 
 def fit_circle(points: Array) -> tuple[Array, float]:
-    """Fit a circle to points by linear least squares.
+    """Fit centre (2,) and radius of a circle to points (n, 2), in [m].
 
-    Args:
-        points: Points (x, y) in any frame, in [m]. Shape (n, 2).
-
-    Returns:
-        Centre, shape (2,), and radius, in [m].
+    Linear least squares.
     """
     origin = points.mean(axis=0)
     local = points - origin
@@ -59,13 +57,7 @@ def fit_circle(points: Array) -> tuple[Array, float]:
 def circle_at(
     circles: tuple[Circle, ...], state: Array, side: int
 ) -> Circle | None:
-    """Find the circle that a state is on, within 2 % and 0.02 rad.
-
-    Args:
-        circles: Circles of the game.
-        state: r [m], a, psi [rad]. Shape (3,).
-        side: Side of the evader, +1 or -1.
-    """
+    """Find the circle that a state r, a, psi is on, to 2 % and 0.02 rad."""
     if not circles:
         return None
     errors = circle_deviations(circle_states(circles), state[None], [side])
@@ -73,11 +65,11 @@ def circle_at(
     return circles[nearest] if errors[nearest, 0] <= NEAR else None
 
 
-def settling_time(game: Game, *, precision: float = 1e-6) -> float:
+def settling_time(game: Game) -> float:
     """Return the duration after which the last turn is a circle, in [s]."""
     gain = min(game.pursuer.gain, game.evader.gain)
     ends = [
-        -np.log(precision) * circle.time_constant_s
+        -np.log(PRECISION) * circle.time_constant_s
         + 2.0 * pi / abs(circle.turning_rate_rad_s)
         for circle in circles_of(game)
         if circle.stable
@@ -85,20 +77,15 @@ def settling_time(game: Game, *, precision: float = 1e-6) -> float:
     return float(30.0 / gain + max(ends, default=30.0 / gain))
 
 
-def measure(run: PlayedGame, *, count: int = 361) -> FittedCircle:
-    """Fit circles to the last turn of a game, or its last tenth if shorter.
-
-    Args:
-        run: Game without capture.
-        count: Number of samples of each path.
-    """
+def measure(run: PlayedGame) -> FittedCircle:
+    """Fit circles to the last turn of a game, or its last tenth if shorter."""
     last = run.states([run.end_time])[0, :3]
     circle = circle_at(circles_of(run.game), last, run.sides[-1])
     span = 0.1 * run.end_time
     if circle is not None:
         turn = 2.0 * pi / abs(circle.turning_rate_rad_s)
         span = min(turn, 0.5 * run.end_time)
-    times = np.linspace(run.end_time - span, run.end_time, count)
+    times = np.linspace(run.end_time - span, run.end_time, SAMPLES)
     pursuer, evader = run.poses(times)
     center_p, radius_p = fit_circle(pursuer[:, :2])
     center_e, radius_e = fit_circle(evader[:, :2])

@@ -113,13 +113,9 @@ class GameParameters(NamedTuple):
 class Equilibria:
     """Equilibria of many games, unordered; every array has shape (n,).
 
-    Attributes:
-        game: Index of the game.
-        turning_rate: Common turning rate, signed, in [rad/s].
-        pursuer_error: Error of the pursuer, in (-pi, pi], in [rad].
-        evader_error: Error of the evader, in (-pi, pi], in [rad].
-        distance: Distance, in [m].
-        sliding: Whether the saturated evader slides on zero error.
+    They have the index of their game, common turning rate [rad/s], errors
+    in (-pi, pi] [rad], distance [m], and whether the saturated evader
+    slides on zero error.
     """
 
     game: NDArray[np.int64]
@@ -132,16 +128,11 @@ class Equilibria:
     def eigenvalues(
         self, games: GameParameters, *, saturated: bool
     ) -> NDArray[np.complex128]:
-        """Return the eigenvalues of the linearisation, in [1/s].
+        """Return the eigenvalues of the linearisation, in [1/s]. Shape (n, 3).
 
-        Args:
-            games: Parameters of the games.
-            saturated: Whether the evader turns by (6) rather than by (4).
-
-        Returns:
-            Eigenvalues. Shape (n, 3). Where the evader slides, two of the
-            sliding motion, on which the bearing is constant, and minus
-            infinity: that is reached in finite time.
+        Where the evader slides, they are two of the sliding motion, on which
+        the bearing is constant, and minus infinity: that is reached in finite
+        time.
         """
         vp, ve, kp, ke, alpha = games.pick(self.game)
         psi = self.evader_error - alpha
@@ -160,16 +151,8 @@ class Equilibria:
 def relative_jacobian(vp: Any, ve: Any, r: Any, a: Any, psi: Any) -> Array:
     """Linearise the relative motion with the turning rates held.
 
-    Args:
-        vp: Speed of the pursuer, in [m/s]. All arguments are numbers, or
-            arrays of one shape.
-        ve: Speed of the evader, in [m/s].
-        r: Distance, in [m].
-        a: Error of the pursuer, in [rad].
-        psi: Bearing of the pursuer in the evader's frame, in [rad].
-
-    Returns:
-        Derivatives of the rates of (r, a, psi). Shape (..., 3, 3).
+    It is the derivative of the rates of (r, a, psi), for speeds vp and ve,
+    for numbers or arrays of one shape. Shape (..., 3, 3).
     """
     rate = (vp * np.sin(a) - ve * np.sin(psi)) / r  # of the line of sight
     opening = np.array([0.0 * rate, vp * np.sin(a), -ve * np.sin(psi)])
@@ -180,12 +163,7 @@ def relative_jacobian(vp: Any, ve: Any, r: Any, a: Any, psi: Any) -> Array:
 
 
 def find_equilibria(games: GameParameters, *, saturated: bool) -> Equilibria:
-    """Find all equilibria of games whose evader keeps its side.
-
-    Args:
-        games: Parameters of the games, of shape (n,).
-        saturated: Whether the evader turns by (6) rather than by (4).
-    """
+    """Find all equilibria of games whose evader keeps its side."""
     found = _saturated(games) if saturated else _proportional(games)
     index, rate, b, sliding = found
     vp, ve, kp, _, alpha = games.pick(index)

@@ -2,8 +2,6 @@
 
 from math import cos, pi
 
-from ...core.errors import check_not_negative, check_positive
-
 HALF_WIDTHS = 0.55  # sum for a person and a NAO, with arms, in [m]
 
 
@@ -11,17 +9,9 @@ def lateral_displacement(speed: float, turning: float, time: float) -> float:
     r"""Return the lateral displacement, in [m], of a unicycle moving aside.
 
     It faces the person first and turns at its full rate until it drives
-    across the line of sight: :math:`y = \frac{v}{\omega} (1 - \cos \omega t)`
-    until :math:`\omega t = \pi / 2`, then straight.
-
-    Args:
-        speed: Driving speed v, in [m/s].
-        turning: Largest turning rate, in [rad/s].
-        time: Time since the begin of the motion, in [s].
+    across the line of sight: :math:`y = \frac{v}{\omega} (1 - \cos \omega
+    t)` until :math:`\omega t = \pi / 2`, then straight.
     """
-    check_positive(speed, "speed", "m/s")
-    check_positive(turning, "turning", "rad/s")
-    check_not_negative(time, "time", "s")
     turned = min(turning * time, 0.5 * pi)
     straight = time - turned / turning
     return speed * ((1.0 - cos(turned)) / turning + straight)
@@ -48,7 +38,5 @@ def lateral_clearance(
         Clearance when the person passes the initial position of the
         unicycle, in [m]; negative for a contact.
     """
-    check_positive(person_speed, "person_speed", "m/s")
-    check_not_negative(distance, "distance", "m")
     time = max(0.0, distance / person_speed - first_step)
     return lateral_displacement(speed, turning, time) - HALF_WIDTHS

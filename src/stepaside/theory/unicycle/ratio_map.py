@@ -43,11 +43,7 @@ def map_ratios(
 ) -> RatioMap:
     """Compute the circles of all games on a grid of ratios.
 
-    Args:
-        angle: Evasion angle in [0, pi], in [rad].
-        law: Turning law of the evader.
-        speed_ratios: Pursuer's over evader's speed. Shape (n,).
-        gain_ratios: Evader's over pursuer's gain. Shape (m,).
+    The evasion angle is in [rad]; ratios are those of :class:`RatioMap`.
     """
     speeds = np.asarray(speed_ratios, dtype=np.float64)
     gains = np.asarray(gain_ratios, dtype=np.float64)

@@ -51,16 +51,10 @@ class RelativeStart:
         a, psi = wrap_angle(self.pursuer_error), wrap_angle(self.bearing)
         return self.distance, a, psi
 
-    def evader_pose(self, pursuer: Pose) -> Pose:
-        """Return the pose of the evader in the frame of the pursuer's pose."""
-        sight = pursuer.theta + self.pursuer_error
-        return Pose(
-            pursuer.x + self.distance * cos(sight),
-            pursuer.y + self.distance * sin(sight),
-            sight + pi - self.bearing,
-        )
-
     def poses(self) -> tuple[Pose, Pose]:
         """Return the poses of both in the initial frame of the pursuer."""
-        origin = Pose(0.0, 0.0, 0.0)
-        return origin, self.evader_pose(origin)
+        r, sight = self.distance, self.pursuer_error
+        turned = sight + pi - self.bearing
+        return Pose(0.0, 0.0, 0.0), Pose(
+            r * cos(sight), r * sin(sight), turned
+        )

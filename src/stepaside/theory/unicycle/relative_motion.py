@@ -277,10 +277,9 @@ def cross(
 
 @inlined
 def deviation(state: RelativeState, side: Any, circle: RelativeState) -> Any:
-    """Return the largest deviation of a state from a circle.
+    """Return the largest deviation of a state from a circle, given at side +1.
 
-    It is the largest of that of r, relative to the circle's, and those of a
-    and psi, in [rad]. The circle is given at side +1.
+    That of r is relative to the circle's, those of a and psi in [rad].
     """
     angles = np.maximum(
         abs(side * state.a - circle.a), abs(side * state.psi - circle.psi)

@@ -17,7 +17,7 @@ from ...core.errors import check_not_negative, check_positive
 from ...core.poses import Pose, arc
 from .. import laws
 from .relative_coordinates import RelativeStart
-from .unicycle_game import Game, check_side
+from .unicycle_game import Game
 
 Array = NDArray[np.float64]
 _PARTS = 16  # samples per arc for the closest approach
@@ -30,9 +30,10 @@ class SampledRun:
     Attributes:
         times: Sampling times, in [s]. Shape (n + 1,).
         states: r [m], a, psi [rad] at those times. Shape (n + 1, 3).
-        pursuer: Poses (x, y [m], theta [rad]) of the pursuer in the world.
+        pursuer: Poses (x, y [m], theta [rad]) of the pursuer in its first
+            frame.
             Shape (n + 1, 3).
-        evader: Poses of the evader in the world. Shape (n + 1, 3).
+        evader: Poses of the evader there. Shape (n + 1, 3).
         turning_rates: Rates of pursuer and evader decided at each sample,
             in [rad/s]. Shape (n, 2).
         sides: Side decided at each sample. Shape (n,).
@@ -58,10 +59,7 @@ def choose_turning(
 ) -> tuple[float, float, int]:
     """Return the turning rates of both players, in [rad/s], and the side.
 
-    Args:
-        game: Parameters of the game.
-        start: Perceived relative coordinates.
-        side: Current side, or 0 if none has been chosen.
+    The side is 0 if none has been chosen.
     """
     _, a, psi = start.wrapped()
     if side == 0 or not game.keeps_side:
@@ -104,9 +102,7 @@ def simulate_sampled(
     sample_time: float,
     *,
     delay: float = 0.0,
-    side: int = 0,
     capture_distance: float = 1e-6,
-    pursuer: Pose = Pose(0.0, 0.0, 0.0),  # noqa: B008 (immutable)
 ) -> SampledRun:
     """Simulate one game with turning rates held between samples.
 
@@ -117,16 +113,13 @@ def simulate_sampled(
         sample_time: Sampling period, in [s].
         delay: Age of a perception when it takes effect, in [s]. Before the
             first one does, both players drive straight.
-        side: Initial side, +1 or -1; 0 for the one behind the evader.
         capture_distance: Distance at which the game ends, in [m].
-        pursuer: Initial pose of the pursuer in the world.
     """
     check_positive(duration, "duration", "s")
     check_positive(sample_time, "sample_time", "s")
     check_not_negative(delay, "delay", "s")
     check_positive(capture_distance, "capture_distance", "m")
-    check_side(side)
-    evader = start.evader_pose(pursuer)
+    (pursuer, evader), side = start.poses(), 0
     whole = floor(delay / sample_time + 1e-12)
     late = max(0.0, delay - whole * sample_time)
     count = ceil(duration / sample_time - 1e-9)

@@ -10,7 +10,7 @@ from math import floor, pi
 import numpy as np
 from numpy.typing import NDArray
 
-from ...core.errors import PlanError, check_not_negative, check_positive
+from ...core.errors import PlanError
 from .circles import (
     Circle,
     circle_of,
@@ -22,14 +22,13 @@ from .unicycle_game import Game
 Array = NDArray[np.float64]
 # Longest delay in sample times: each adds two rows to an eigenvalue problem.
 MAX_DEPTH = 200
+NODES = 24  # intervals of a collocation
 
 
 def smooth_circle(game: Game) -> Circle:
-    """Return the main circle if the law is smooth about it.
+    """Return the main circle; raise unless the law is smooth about it.
 
-    Raises:
-        PlanError: If there is no circle, or the saturated evader slides on
-            it: with sampling it chatters about zero error instead.
+    A saturated evader that slides on it chatters about zero error instead.
     """
     circle = circle_of(game)
     if not circle.exists:
@@ -47,10 +46,9 @@ def smooth_circle(game: Game) -> Circle:
 def _linearised(game: Game) -> tuple[Array, Array, Array]:
     """Linearise the relative motion about the circle, and the laws.
 
-    Returns:
-        Derivative of the rates of (r, a, psi) by the state, shape (3, 3), and
-        by the turning rates of pursuer and evader, shape (3, 2); derivative
-        of the turning rates that the laws give by the state, shape (2, 3).
+    It returns derivatives of the rates of (r, a, psi) by the state (3, 3)
+    and by the turning rates of both players (3, 2), and of the turning
+    rates that the laws give by the state (2, 3).
     """
     circle = smooth_circle(game)
     by_state = relative_jacobian(
@@ -80,20 +78,14 @@ def _held_transition(
 def step_map(game: Game, sample_time: float, delay: float = 0.0) -> Array:
     """Linearise one sampling period about the circle.
 
-    Along the circle the relative state is constant, so the linearisation of
-    the held motion has constant coefficients and its exponential is exact.
-
-    Args:
-        game: Parameters of the game.
-        sample_time: Sampling period, in [s].
-        delay: Age of a perception when it takes effect, in [s].
+    Along the circle the relative state is constant, so the linearisation
+    of the held motion has constant coefficients and its exponential is
+    exact. With a delay, turning rates are queued, the newest first.
 
     Returns:
-        Map of (r, a, psi, queued turning rates, newest first) over one
-        period. Shape (n, n) with n = 3, or more with a delay.
+        Map of (r, a, psi, queued turning rates) over one period. Shape
+        (n, n) with n = 3, or more with a delay.
     """
-    check_positive(sample_time, "sample_time", "s")
-    check_not_negative(delay, "delay", "s")
     state, turning, feedback = _linearised(game)
     whole = floor(delay / sample_time + 1e-12)
     if whole > MAX_DEPTH:
@@ -131,20 +123,13 @@ def step_eigenvalues(
 
 
 def delayed_eigenvalues(game: Game, delay: float) -> tuple[complex, ...]:
-    """Return the three rightmost eigenvalues of the law without sampling.
+    """Return the slowest eigenvalues of the law with a delay, in [1/s].
 
-    The history over one delay is collocated at Chebyshev points.
-
-    Args:
-        game: Parameters of the game.
-        delay: Delay of the perception, in [s].
-
-    Returns:
-        Eigenvalues, the slowest first, in [1/s].
+    There is no sampling. The history over one delay is collocated at
+    Chebyshev points.
     """
-    check_positive(delay, "delay", "s")
     state, turning, feedback = _linearised(game)
-    n = 24  # intervals of the collocation
+    n = NODES
     k = np.arange(n + 1)
     x = np.cos(pi * k / n)
     c = np.where((k == 0) | (k == n), 2.0, 1.0) * (-1.0) ** k

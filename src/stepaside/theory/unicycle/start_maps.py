@@ -90,14 +90,10 @@ class StartMap:
 
 @dataclass(frozen=True, slots=True)
 class WorstStart:
-    """Initial state with the closest approach in a box.
+    """Initial state with the closest approach in a box, in [m].
 
-    Attributes:
-        start: The initial state.
-        closest_distance: Closest approach, in [m]; the capture distance if
-            the evader is captured.
-        captured: Whether the evader is captured.
-        games: Number of games of the search.
+    That is the capture distance if the evader is captured. ``games``
+    counts those of the search.
     """
 
     start: RelativeStart
@@ -141,15 +137,8 @@ def find_worst_start(
 ) -> WorstStart:
     """Search the worst initial state from the local minima of a map.
 
-    Each is moved by the Nelder-Mead simplex method; the best result counts.
-
-    Args:
-        game: Parameters of the game.
-        start_map: Map over the same box.
-        box: Box of initial states.
-        duration: Duration of each game, in [s].
-        capture_distance: Distance at which a game ends, in [m].
-        options: Options of :func:`.batch.play_games`.
+    Each is moved by the Nelder-Mead simplex method; the best result
+    counts. Arguments are those of :func:`map_starts`.
     """
     from scipy.optimize import minimize
 

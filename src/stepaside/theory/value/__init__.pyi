@@ -5,7 +5,7 @@ from .shield_solver import solve_shield
 from .shield_table import ShieldTable
 from .solver import PursuerLaw, solve_game
 from .table import ValueTable, load_table
-from .two_cars import CarGame, fixed_pursuit_game, solve_cars, two_car_game
+from .two_cars import CarGame, solve_cars
 
 __all__ = [
     "CarGame",
@@ -17,12 +17,10 @@ __all__ = [
     "ShieldTable",
     "SpeedEllipse",
     "ValueTable",
-    "fixed_pursuit_game",
     "load_table",
     "solve_cars",
     "solve_chauffeur",
     "solve_game",
     "solve_shield",
     "sub_poses",
-    "two_car_game",
 ]

@@ -68,15 +68,10 @@ class SpeedEllipse:
         return min(self.forward, self.backward, self.sideways)
 
     def boundary(self, count: int) -> Array:
-        """Return velocities on the boundary, and zero.
+        """Return velocities on the boundary, and zero. Shape (count + 1, 2).
 
-        Args:
-            count: Number of velocities on the boundary.
-
-        Returns:
-            Velocities away from the pursuer and to the left of the line of
-            sight from the pursuer, in [m/s]; the last is zero.
-            Shape (count + 1, 2).
+        They point away from the pursuer and to the left of the line of sight
+        from the pursuer, in [m/s].
         """
         angles = tau * np.arange(count) / count
         along, across = np.cos(angles), np.sin(angles)
@@ -100,12 +95,7 @@ class ChauffeurGame:
     velocities: SpeedEllipse
 
     def __post_init__(self) -> None:
-        """Check the values.
-
-        Raises:
-            PlanError: If a value is out of range, or the evader is not
-                slower: it then escapes from any start on an open floor.
-        """
+        """Check the values."""
         check_positive(self.pursuer_speed, "pursuer_speed", "m/s")
         check_positive(self.turning_radius, "turning_radius", "m")
         if not self.velocities.largest < self.pursuer_speed:
@@ -177,9 +167,6 @@ def solve_chauffeur(
             at 30.
         farthest: Largest distance ahead in the table, in [m].
         progress: Called with fractions of the work done since the last call.
-
-    Raises:
-        PlanError: If a value is out of range.
     """
     check_within(cells, 8, 400, "cells", "1")
     held = game.period
@@ -212,13 +199,8 @@ def solve_chauffeur(
 def barrier_of(game: ChauffeurGame, capture: float) -> Array:
     """Return poses on the left half of the barrier, without its ends.
 
-    Args:
-        game: Game of an evader with the same speed in every direction.
-        capture: Capture distance below the guaranteed one, in [m].
-
-    Raises:
-        PlanError: If there is no closed form; see
-            :func:`.closed_forms.chauffeur_barrier`.
+    The evader has one speed in every direction; the capture distance is
+    below the guaranteed one, in [m]. Shape (n, 3).
     """
     if game.guaranteed_distance is None:
         raise PlanError(
@@ -232,16 +214,7 @@ def barrier_of(game: ChauffeurGame, capture: float) -> Array:
 def standing_table(
     table: ValueTable, game: ChauffeurGame, response: float
 ) -> ValueTable:
-    """Return the values of an evader that stands at first.
-
-    Args:
-        table: Table of the game.
-        game: The game.
-        response: Time for which the evader still stands, in [s].
-
-    Raises:
-        PlanError: If the time is negative, or longer than a full turn.
-    """
+    """Return the values of an evader that at first stands for a time, [s]."""
     check_within(response, 0.0, tau / game.turn, "response", "s")
     if response == 0.0:
         return table

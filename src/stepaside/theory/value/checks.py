@@ -72,13 +72,9 @@ def play(
 def barrier_offsets(table: ValueTable, poses: Array, capture: float) -> Array:
     """Return how far the barrier of a table is from states, in [m].
 
-    Offsets are those in the pursuer's plane, to first order; positive inside
-    what can be captured by the table.
-
-    Args:
-        table: Table of the game.
-        poses: Poses on the barrier of a capture distance. Shape (n, 3).
-        capture: The distance, in [m].
+    Offsets are those in the pursuer's plane, to first order; positive
+    inside what can be captured by the table. The poses, shape (n, 3), are
+    on the barrier of a capture distance in [m].
     """
     step = table.grid.spacing * np.eye(3)[:2]
     rises = [table.value(poses + d) - table.value(poses - d) for d in step]
@@ -101,13 +97,8 @@ def compare_evaders(
 ) -> list[dict[str, Any]]:  # fmt: skip
     """Simulate evaders from the same starts and compare them with a table.
 
-    Games take the time of a turn at the slowest rate of the game.
-
-    Args:
-        game: Game of cars.
-        table: Its table.
-        evaders: Velocities by poses, by name; None for those of the table.
-        starts: Poses of the evader in the pursuer's frame. Shape (n, 3).
+    Games take the time of a turn at the slowest rate of the game. An
+    evader gives velocities by poses; None stands for that of the table.
 
     Returns:
         For each: name, mean closest approach, its share of the mean value,
@@ -155,13 +146,9 @@ def compare_evaders(
 
 
 def fixed_angle_evader(game: CarGame, angle: float) -> Evader:
-    """Return the evader of eq. (4) with the side behind it.
+    """Return the evader of eq. (4) with an angle and the side behind it.
 
     Its gain is the pursuer's, or reaches the limit at an error of pi.
-
-    Args:
-        game: Game of cars.
-        angle: Evasion angle, in [rad]; MOVE_ASIDE is the paper's.
     """
     gain = game.pursuer_gain or game.evader_turn / pi
 

@@ -42,12 +42,6 @@ def guaranteed_distance(ratio: float) -> float:
         \sqrt{1 + \gamma^2 - 2 \gamma \sin(1 / \gamma)}
 
     above, where the evader can circle with the car.
-
-    Args:
-        ratio: Speed of the evader over that of the car, in (0, 1).
-
-    Raises:
-        PlanError: If the ratio is out of range.
     """
     check_within(ratio, 1e-6, 1.0, "ratio", "1")
     if ratio * asin(ratio) <= 1.0:
@@ -58,17 +52,12 @@ def guaranteed_distance(ratio: float) -> float:
 def chauffeur_barrier(ratio: float, capture: float, count: int = 60) -> Array:
     """Return the left half of the barrier of a point with one speed.
 
-    Args:
-        ratio: Speed of the evader over that of the car, at most 0.897.
-        capture: Capture distance below the guaranteed one.
-        count: Number of points.
+    There is a closed form up to 0.897 of the speed of the car, and capture
+    distances below the guaranteed one.
 
     Returns:
         Points (x, y) in the frame of the car, from the circle of capture to
         where both halves meet. Shape (count, 2).
-
-    Raises:
-        PlanError: If there is no closed form, or the barrier does not close.
     """
     if ratio * asin(min(ratio, 1.0)) > 1.0:
         raise PlanError(
@@ -99,9 +88,6 @@ def turn_back(
         pursuer: Turning rate of the pursuer: -1, 0 or 1.
         evader: Turning rate of the evader: -1, 0 or 1.
         t: Duration, in units of one over the turning rate.
-
-    Returns:
-        Earlier x, y and theta.
     """
     x, y, theta = state
     forward, aside = _car_ago(evader, t)
@@ -149,17 +135,11 @@ def barrier_slice(
 ) -> tuple[Array, Array]:
     """Compute the barrier at one angle: both halves up to their crossing.
 
-    Args:
-        capture: Distance of capture.
-        theta: Angle between the motions; see :func:`left_half`.
-        count: Points on each piece.
+    Arguments are those of :func:`left_half`.
 
     Returns:
         Points (x, y) from one end on the capture circle to the other, in
         turning radii, shape (n, 2), and their pieces, negative on the right.
-
-    Raises:
-        PlanError: If the halves do not cross.
     """
     left, pieces = left_half(capture, theta, count)
     right, others = left_half(capture, tau - theta, count)
@@ -173,17 +153,12 @@ def barrier_slice(
 def barrier_poses(capture: float, angles: int = 18) -> tuple[Array, Array]:
     """Compute poses of the evader on the barrier of two identical cars.
 
-    Args:
-        capture: Distance of capture, in turning radii.
-        angles: Number of angles between the motions, over (0, pi]; the rest
-            follows by symmetry.
+    Angles between the motions are over (0, pi]; the rest follows by
+    symmetry.
 
     Returns:
         Poses in the pursuer's frame, in turning radii and [rad], shape
         (n, 3), and their pieces; see :func:`barrier_slice`.
-
-    Raises:
-        PlanError: If the distance is not positive.
     """
     check_positive(capture, "capture", "radii")
     poses, numbers = [], []

@@ -30,13 +30,8 @@ def followed(
 ) -> tuple[float, float, float]:
     """Return the pose of a pursuer with a law after a part of a period.
 
-    The direction of the robot changes evenly meanwhile.
-
-    Args:
-        pose: Pose before.
-        before: Position of the robot then.
-        after: Position of the robot after the part.
-        rules: Speed and gain of the pursuer.
+    The direction of the robot, from its position before to that after,
+    changes evenly meanwhile.
     """
     x, y, theta = pose
     closed = 1.0 - exp(-rules.rate)
@@ -61,12 +56,8 @@ def outcome_of(
 ) -> float:
     """Return the smaller of least distance on the way and value after it.
 
-    Args:
-        v: Values at the end.
-        pose: Pose of the robot in the frame of its opponent.
-        motion: Poses in the initial frame of the robot. Shape (parts, 3).
-        answer: Poses of the opponent in its own. Shape (parts, 3).
-        rules: Grid of the values, and how the distance is reckoned.
+    The motion is given in the initial frame of the robot, the answer in
+    that of the opponent. Shapes (parts, 3).
     """
     x, y, theta = pose
     c, s = cos(theta), sin(theta)

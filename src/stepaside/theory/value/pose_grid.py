@@ -57,12 +57,8 @@ class PoseGrid(NamedTuple):
     ) -> "PoseGrid":
         """Return the left half, with a node at the opponent.
 
-        Args:
-            spacing: Spacing of positions, in [m].
-            ahead: Distance of the edge ahead of the opponent, in [m].
-            behind: That of the edge behind it, in [m].
-            aside: That of the edge beside it, in [m].
-            headings: Number of headings.
+        Edges lie at distances ahead of the opponent, behind and beside it, in
+        [m].
         """
         back = ceil(behind / spacing)
         nodes = back + ceil(ahead / spacing) + 1, ceil(aside / spacing) + 1
@@ -112,15 +108,10 @@ def whole_values(values: Array) -> Array:
 
 
 def least_within(values: Array, grid: PoseGrid, radius: float) -> Array:
-    """Return the least values within a displacement of the position.
+    """Return the least values within a displacement of the position, in [m].
 
     Values are interpolated linearly between nodes; eight directions of the
     displacement are tried.
-
-    Args:
-        values: Values of the nodes.
-        grid: Their grid.
-        radius: Radius of the displacement, in [m].
     """
     found = values
     times = max(1, ceil(radius / grid.spacing))

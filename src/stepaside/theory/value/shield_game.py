@@ -46,11 +46,8 @@ class PersonModel:
     def walks(self, duration: float) -> Array:
         """Return the walks that are tried against the robot.
 
-        Args:
-            duration: Duration, in [s].
-
-        Returns:
-            Poses in the initial frame. Shape (n, PARTS, 3).
+        They are poses in the initial frame, for a duration in [s]. Shape (n,
+        PARTS, 3).
         """
         most = self.turn
         twists = [
@@ -103,11 +100,7 @@ class ShieldGame:
         return self.speed - self.disturbance / self.period
 
     def sag(self, duration: float) -> float:
-        """Return the greatest deviation from the chord of a part, in [m].
-
-        Args:
-            duration: Duration that is divided into parts, in [s].
-        """
+        """Return the greatest deviation from the chord of a part, in [m]."""
         part = duration / PARTS
         person = self.person.speed * self.person.turn
         return (person + self.speed * self.turn) * part**2 / 8.0

@@ -5,7 +5,6 @@ along the edges that no single motion can jump over.
 """
 
 from math import ceil, inf, pi
-from time import perf_counter
 
 import numpy as np
 
@@ -21,7 +20,7 @@ from .pose_grid import (
 )
 from .shield_game import SEGMENTS, ShieldGame
 from .shield_table import ShieldTable
-from .solver import make_rules, solve_game, step_back
+from .solver import make_rules, no_answer, solve_game, step_back
 from .table import ValueTable
 
 CELLS = 10  # in the required distance
@@ -57,16 +56,12 @@ def solve_shield(
     Returns:
         Tables. States outside the grid may turn out unsafe where the robot is
         too slow, or the required distance too large, for the person.
-
-    Raises:
-        PlanError: If a value is out of range.
     """
     check_positive(least, "least", "m")
     check_within(cells, 4, 100, "cells", "1")
     check_within(headings, 8, 180, "headings", "1")
     check_within(response, 0.0, 10.0, "response", "s")
     check_within(wait, 0.0, 10.0, "wait", "s")
-    begin = perf_counter()
     stands, scale = response + wait, GROWTH
     hopeless = least >= _keepable(game)
     for _ in range(0 if hopeless else TRIALS):
@@ -78,17 +73,15 @@ def solve_shield(
             most = _approach(game, wait, grid) + game.loss_in(wait)
             if _edge(standing, most, grid) >= least:
                 return ShieldTable(
-                    game, grid, walking.values, walking.after, standing,
-                    starts, walking.rules.outside, response, wait,
-                    perf_counter() - begin,
-                )  # fmt: skip
+                    game, walking, standing, starts, response, wait
+                )
         scale *= GROWTH
     grid = PoseGrid(-least, least / cells, (2, 2, headings))
-    v, starts = np.zeros(grid.shape), np.zeros((0, *grid.whole().shape))
-    return ShieldTable(
-        game, grid, v, v, v, starts, 0.0, response, wait,
-        perf_counter() - begin,
-    )  # fmt: skip
+    nothing = solve_game(
+        game.motions, no_answer(), grid, most=0.0, outside=lambda _: 0.0
+    )
+    starts = np.zeros((0, *grid.whole().shape))
+    return ShieldTable(game, nothing, nothing.values, starts, response, wait)
 
 
 def _solve(

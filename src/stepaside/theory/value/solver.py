@@ -88,9 +88,6 @@ def solve_game(
         reach: Distance from changes within which values may change, in [m].
         periods: Largest number of periods that are looked ahead.
         progress: Called with fractions of the work done since the last call.
-
-    Raises:
-        PlanError: If a value is out of range.
     """
     begin, done, first, change = perf_counter(), 0.0, 0.0, inf
     check_not_negative(disturbance, "disturbance", "m")
@@ -129,9 +126,8 @@ def solve_game(
     if progress is not None:
         progress(1.0 - done)
     after = least_within(v, grid, disturbance)
-    return ValueTable(
-        grid, v, after, motions, replies, rules, change, perf_counter() - begin
-    )
+    seconds = perf_counter() - begin
+    return ValueTable(v, after, motions, replies, rules, change, seconds)
 
 
 def make_rules(
@@ -188,7 +184,7 @@ def step_back(
         after: Values at the end.
         motions: Motions of the robot, of which the best counts.
         answers: Motions of the opponent meanwhile.
-        rules: OutcomeRules of the outcome.
+        rules: Rules of the outcome.
         grid: Grid of the values.
         start: Values to be lowered, of nodes that cannot change, too.
         reach: As in :func:`solve_game`.

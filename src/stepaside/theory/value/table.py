@@ -27,7 +27,6 @@ class ValueTable:
     """Distance that a robot can keep, by its pose in the opponent's frame.
 
     Attributes:
-        grid: Grid of the poses.
         values: Distances of the nodes, in [m]. Shape ``grid.shape``.
         after: Least values within the disturbance, likewise.
         motions: Motions of the robot. Shape (n, parts, 3).
@@ -37,7 +36,6 @@ class ValueTable:
         seconds: Computing time, in [s].
     """
 
-    grid: PoseGrid
     values: Array
     after: Array
     motions: Array
@@ -47,6 +45,13 @@ class ValueTable:
     seconds: float
 
     __repr__ = brief_repr
+
+    @property
+    def grid(self) -> PoseGrid:
+        """Grid of the poses."""
+        own = self.rules
+        shape = own.columns, own.rows, own.headings
+        return PoseGrid(own.left, own.spacing, shape, own.right)
 
     def value(self, poses: ArrayLike) -> Array:
         """Return the distance that the robot can keep.
@@ -65,9 +70,6 @@ class ValueTable:
         """Return the number of the motion that keeps the largest distance.
 
         Where it does not matter, the value after it decides.
-
-        Args:
-            poses: As in :meth:`value`.
         """
         chosen: Numbers = self.decisions(poses)[..., 0]
         return chosen
@@ -75,11 +77,7 @@ class ValueTable:
     def decisions(self, poses: ArrayLike) -> Numbers:
         """Return the numbers of best motions and of answers to them.
 
-        Args:
-            poses: As in :meth:`value`.
-
-        Returns:
-            Numbers. Shape (..., 2).
+        Shape (..., 2).
         """
         states = np.asarray(poses, dtype=np.float64)
         out = np.zeros((states.size // 3, 2), np.int64)
@@ -113,21 +111,13 @@ class ValueTable:
         kinds = OutcomeRules.__annotations__.values()
         row = zip(kinds, arrays["rules"].tolist(), strict=True)
         rules = OutcomeRules._make(kind(value) for kind, value in row)
-        shape = rules.columns, rules.rows, rules.headings
-        grid = PoseGrid(rules.left, rules.spacing, shape, rules.right)
-        parts = {name: arrays[name] for name in PARTS}
-        change, seconds = float(parts.pop("change")), parts.pop("seconds")
-        return cls(
-            grid, rules=rules, change=change, seconds=float(seconds), **parts
-        )
+        v, after, motions, answers, *rest = (arrays[name] for name in PARTS)
+        change, seconds = map(float, rest)
+        return cls(v, after, motions, answers, rules, change, seconds)
 
 
 def load_table(path: AnyPath) -> ValueTable:
-    """Read a table written by :meth:`ValueTable.save`.
-
-    Raises:
-        PlanError: If the file is not a valid table.
-    """
+    """Read a table written by :meth:`ValueTable.save`."""
     path = as_path(path, "path", PlanError)
     try:
         with np.load(path, allow_pickle=False) as file:

@@ -25,6 +25,7 @@ from .pose_grid import PoseGrid, sub_poses
 from .solver import MOST, PursuerLaw, solve_game
 from .table import ValueTable
 
+BEARINGS = 64  # of either player, on a barrier
 TURNS = 5  # of each car, evenly spaced
 HELD = 0.5  # turn of the quicker car in a period, in [rad]
 CELLS_HELD = 2.0  # that the distance changes by in a period, at least
@@ -42,14 +43,15 @@ class CarGame:
             a pursuer without a law.
         pursuer_turn: Largest turning rate :math:`\omega_p` of the pursuer, in
             [rad/s]; zero for one with a law.
-        evader_turn: Largest turning rate of the evader, in [rad/s].
+        evader_turn: Largest turning rate of the evader, in [rad/s]; by
+            default the pursuer's, :math:`k \pi` or :math:`\omega_p`.
     """
 
     pursuer_speed: float
     evader_speed: float
-    pursuer_gain: float
-    pursuer_turn: float
-    evader_turn: float
+    pursuer_gain: float = 0.0
+    pursuer_turn: float = 0.0
+    evader_turn: float = 0.0
 
     def __post_init__(self) -> None:
         """Check the values."""
@@ -57,7 +59,9 @@ class CarGame:
         check_positive(self.evader_speed, "evader_speed", "m/s")
         check_not_negative(self.pursuer_gain, "pursuer_gain", "1/s")
         check_not_negative(self.pursuer_turn, "pursuer_turn", "rad/s")
-        check_positive(self.evader_turn, "evader_turn", "rad/s")
+        turn = self.evader_turn or self.pursuer_turn or pi * self.pursuer_gain
+        object.__setattr__(self, "evader_turn", turn)
+        check_positive(turn, "evader_turn", "rad/s")
         if (self.pursuer_gain > 0.0) == (self.pursuer_turn > 0.0):
             raise PlanError(
                 "pursuer_turn must be > 0 without pursuer_gain, else 0, got "
@@ -103,62 +107,14 @@ class CarGame:
         return max(HELD / quickest, CELLS_HELD * spacing / speed)
 
     def law(self, poses: Array, time: float) -> Array:
-        """Return velocities of the pursuer by its law. Shape (n, 3).
+        """Return velocities of the pursuer by its law, held for a time in [s].
 
-        Args:
-            poses: Poses of the evader in its frame. Shape (n, 3).
-            time: Time for which they are held, in [s].
+        Shape (n, 3), as the poses of the evader.
         """
         aim = np.arctan2(poses[:, 1], poses[:, 0])
         turn = aim * (1.0 - np.exp(-self.pursuer_gain * time)) / time
         speed = np.full_like(aim, self.pursuer_speed)
         return np.column_stack([speed, 0.0 * aim, turn])
-
-
-def fixed_pursuit_game(
-    pursuer_speed: float,
-    evader_speed: float,
-    gain: float,
-    evader_turn: float | None = None,
-) -> CarGame:
-    r"""Return the game of any evader against the pursuer of eqs. (1)-(2).
-
-    Args:
-        pursuer_speed: Speed of the pursuer, in [m/s].
-        evader_speed: Speed of the evader, in [m/s].
-        gain: Gain of the pursuer, in [1/s].
-        evader_turn: Largest turning rate of the evader, in [rad/s]; by
-            default :math:`k \pi`, the pursuer's own.
-
-    Raises:
-        PlanError: If a value is out of range.
-    """
-    check_positive(gain, "pursuer_gain", "1/s")
-    turn = gain * pi if evader_turn is None else evader_turn
-    return CarGame(pursuer_speed, evader_speed, gain, 0.0, turn)
-
-
-def two_car_game(
-    pursuer_speed: float,
-    evader_speed: float,
-    pursuer_turn: float,
-    evader_turn: float | None = None,
-) -> CarGame:
-    """Return the game of any evader against any pursuer, of two cars.
-
-    Args:
-        pursuer_speed: Speed of the pursuer, in [m/s].
-        evader_speed: Speed of the evader, in [m/s].
-        pursuer_turn: Largest turning rate of the pursuer, in [rad/s].
-        evader_turn: Largest turning rate of the evader, in [rad/s]; by
-            default the pursuer's.
-
-    Raises:
-        PlanError: If a value is out of range.
-    """
-    check_positive(pursuer_turn, "pursuer_turn", "rad/s")
-    turn = pursuer_turn if evader_turn is None else evader_turn
-    return CarGame(pursuer_speed, evader_speed, 0.0, pursuer_turn, turn)
 
 
 def solve_cars(
@@ -181,9 +137,6 @@ def solve_cars(
         cells: Cells in that distance, and number of headings.
         horizon: Duration of the game, in [s]; for ever by default.
         progress: Called with fractions of the work done since the last call.
-
-    Raises:
-        PlanError: If a value is out of range.
     """
     check_positive(far, "far", "m")
     check_within(cells, 8, 400, "cells", "1")
@@ -219,36 +172,24 @@ def car_poses(
             [rad].
         bearing: Bearing :math:`\psi` of the pursuer in the frame of an evader
             that walks backwards, in [rad].
-
-    Returns:
-        Poses in the pursuer's frame. Shape (..., 3).
     """
     r, a, psi = np.broadcast_arrays(distance, error, bearing)
     return np.stack([r * np.cos(a), r * np.sin(a), wrap_angles(a - psi)], -1)
 
 
-def barrier(table: ValueTable, capture: float, count: int = 64) -> Array:
-    """Return the largest distances from which capture is possible.
+def barrier(table: ValueTable, capture: float) -> Array:
+    """Return the largest distances from which capture is possible, in [m].
 
-    Args:
-        table: Table of a game of cars.
-        capture: Capture distance, in [m].
-        count: Number of bearings of either player, even.
-
-    Returns:
-        For each pair of bearings the largest distance at which the value
-        crosses the capture distance, in [m]; the capture distance itself
-        where the evader always escapes. Shape (count / 2, count).
-
-    Raises:
-        PlanError: If the capture distance is outside the grid.
+    It is that at which the value crosses the capture distance, for each
+    pair of bearings; the capture distance itself where the evader always
+    escapes. Shape (32, 64).
     """
     spacing = table.grid.spacing
     far = table.grid.edge
     check_within(capture, 0.0, far, "capture", "m")
     r = np.arange(capture, far, 0.5 * spacing)
-    angles = tau / count * (np.arange(count) + 0.5) - pi
-    a, psi = angles[count // 2 :, None, None], angles[:, None]
+    angles = tau / BEARINGS * (np.arange(BEARINGS) + 0.5) - pi
+    a, psi = angles[BEARINGS // 2 :, None, None], angles[:, None]
     values = table.value(car_poses(r, a, psi))
     captured = values < capture
     captured[..., 0] = True
