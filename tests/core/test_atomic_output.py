@@ -189,6 +189,13 @@ def test_a_run_that_cannot_be_written_is_saved_in_the_temporary_folder(
 EXAMPLES = Path(__file__).parents[2] / "examples"
 
 
+@pytest.fixture(scope="module")
+def folder(tmp_path_factory: pytest.TempPathFactory, short: DuelRun) -> Path:
+    path = tmp_path_factory.mktemp("runs") / "run"
+    write_run(path, short)
+    return path
+
+
 NEEDED = {
     "plan": ["--role", "evader", "--bearing", "40deg"],
     "unicycles": [],
