@@ -1,68 +1,23 @@
-"""Fake players and a fake world, for tests of matches and recorders."""
+"""A fake world with fake players, for tests of games and recorders."""
 
 from collections.abc import Callable, Iterator
+from math import hypot, inf
 from types import SimpleNamespace
 from typing import Any
 
 import numpy as np
 import pytest
 
+from stepaside.core.player_identity import PlayerIdentity, Role
 from stepaside.core.poses import Array, Pose
-from stepaside.games import match as loop
-from stepaside.games.match import Match
+from stepaside.games import game as loop
+from stepaside.games.game import GameInPlay, GameObserver, GameRules
 from stepaside.games.outcome import Outcome
-from stepaside.games.pair_match import PairMatch
 from stepaside.games.player import Snapshot
 from stepaside.locomotion.walk_snapshots import StepStarted
 from stepaside.planning import Foot
-from stepaside.sim.push import Push
 
 TICK = 0.004
-
-
-class FakeTruth:
-    """A place on the floor."""
-
-    reach = 0.4
-
-    def __init__(self, x: float, y: float) -> None:
-        self.position_torso_in_world, self.heading_in_world = (x, y), 0.0
-
-    @property
-    def position_reference_in_world(self) -> tuple[float, float]:
-        """Reference point: 0.1 m to the left."""
-        x, y = self.position_torso_in_world
-        return x, y + 0.1
-
-
-class FakeWorld:
-    """A clock, and contacts as they are told."""
-
-    def __init__(self, tick: float = TICK) -> None:
-        self.ticks = 0
-        self.physics = SimpleNamespace(tick=tick)
-        self.contacts: tuple[str, ...] = ()
-        self.asked = 0
-        self.told: list[str] = []
-
-    @property
-    def time(self) -> float:
-        """Time, in [s]."""
-        return self.ticks * float(self.physics.tick)
-
-    def step(self) -> None:
-        """Let a tick pass."""
-        self.told.append("time passes")
-        self.ticks += 1
-
-    def robots_touch(self) -> bool:
-        """Whether a contact was requested."""
-        self.asked += 1
-        return bool(self.contacts)
-
-    def touching(self) -> tuple[str, ...]:
-        """Players whose contact was requested."""
-        return self.contacts
 
 
 class FakeLog:
@@ -91,38 +46,21 @@ class FakeLog:
 
 
 class FakePlayer:
-    """Does what it is told at a tick; its ticks are told to its world."""
+    """Stands where it is told, and does what it is told at a tick."""
 
-    def __init__(
-        self, world: FakeWorld, name: str, x: float = 0.0, y: float = 0.0
-    ) -> None:
-        self.world, self.name = world, name
-        self.truth: Any = FakeTruth(x, y)
-        self.begun: StepStarted | None = None
-        self.reports: Any = ()
-        self.is_ready = True
-        self.starts = 0
-        self.is_moving = self.has_fallen = False
-        self.closed = 0
+    begun: StepStarted | None = None
+
+    def __init__(self, world: "FakeWorld", name: str, x: float) -> None:
+        self.world, self.name, self.x = world, name, x
         self.does: dict[int, Callable[[], None]] = {}
         self.seen: dict[str, Any] = {}
 
-    def start(self) -> None:
-        """Count it."""
-        self.starts += 1
-
-    def tick(self) -> None:
-        """Do what was told for this tick."""
-        self.world.told.append(self.name)
-        self.does.get(self.world.ticks, lambda: None)()
-
     def snapshot(self) -> Snapshot:
         """Requested sighting, by default of a position."""
-        x, y = self.truth.position_torso_in_world
         values: dict[str, Any] = {
-            "place": Pose(x, y + 0.1, self.truth.heading_in_world),
-            "torso": Pose(x, y, self.truth.heading_in_world),
-            "com": (x, y, 0.3),
+            "place": Pose(self.x, 0.0, 0.0),
+            "torso": Pose(self.x, 0.0, 0.0),
+            "com": (self.x, 0.0, 0.3),
         } | self.seen
         return Snapshot(self.name, self.world.time, **values)
 
@@ -130,58 +68,103 @@ class FakePlayer:
         """Return an empty log."""
         return FakeLog(self)
 
-    def push(self, *pushes: Push) -> None:
-        """Stand like a rock."""
+
+class FakeWorld:
+    """A clock, players on a line, and falls and contacts as they are told."""
+
+    contact = Outcome.CONTACT
+
+    def __init__(self, *places: float) -> None:
+        self.ticks, self.closed, self.acting = 0, 0, ""
+        self.physics = SimpleNamespace(tick=TICK)
+        self.fell: tuple[str, ...] = ()
+        self.contacts: tuple[str, ...] = ()
+        self.told: list[str] = []
+        self.players = [
+            FakePlayer(self, name, x)
+            for name, x in zip("abcdef", places, strict=False)
+        ]
+
+    @property
+    def time(self) -> float:
+        """Time, in [s]."""
+        return self.ticks * float(self.physics.tick)
+
+    def states(self) -> dict[str, Pose]:
+        """Poses of all players."""
+        return {p.name: Pose(p.x, 0.0, 0.0) for p in self.players}
+
+    def apart(self, one: str, other: str) -> float:
+        """Distance of two players."""
+        x, y = (self.states()[name].x for name in (one, other))
+        return hypot(x - y, 0.0)
+
+    def decide(self) -> None:
+        """Let all players do what they were told for this tick."""
+        for player in self.players:
+            self.acting = player.name
+            self.told.append(player.name)
+            player.does.get(self.ticks, lambda: None)()
+
+    def flush(self) -> None:
+        """Note it."""
+        self.told.append("networks")
+
+    def step(self, limit: float = inf) -> None:
+        """Let a tick pass."""
+        self.told.append("time passes")
+        self.ticks += 1
+
+    def fallen(self) -> tuple[str, ...]:
+        """Players whose fall was requested."""
+        return self.fell if self.ticks else ()
+
+    def touching(self) -> tuple[str, ...]:
+        """Players whose contact was requested."""
+        return self.contacts if self.ticks else ()
 
     def close(self) -> None:
         """Count it."""
         self.closed += 1
 
 
-class FakeObserver:
+class FakeObserver(GameObserver):
     """Tells the world's list when it looked."""
 
     def __init__(self) -> None:
-        self.ended_with: list[tuple[Outcome, str, float]] = []
+        self.ended_with: list[tuple[Outcome | None, str, float]] = []
 
-    def before(self, match: Match) -> None:
+    def before(self, game: GameInPlay) -> None:
         """Look first."""
-        self._tell(match, "before")
+        self._tell(game, "before")
 
-    def acted(self, match: Match) -> None:
+    def acted(self, game: GameInPlay) -> None:
         """Look after all acted."""
-        self._tell(match, "acted")
+        self._tell(game, "acted")
 
-    def ended(self, match: Match, outcome: Outcome) -> None:
+    def ended(self, game: GameInPlay) -> None:
         """Note how it ended."""
-        self.ended_with.append((outcome, match.message, match.world.time))
+        self.ended_with.append((game.outcome, game.message, game.world.time))
 
-    def _tell(self, match: Match, word: str) -> None:
-        world: Any = match.world
+    def _tell(self, game: GameInPlay, word: str) -> None:
+        world: Any = game.world
         world.told.append(word)
 
 
-def game(
-    *places: float, observers: Any = (), **options: Any
-) -> tuple[Match, FakeWorld, list[FakePlayer]]:
-    """Players on a line, named a, b, c, ..."""
-    world: Any = FakeWorld()
-    players = [
-        FakePlayer(world, name, x)
-        for name, x in zip("abcdef", places, strict=False)
-    ]
-    match = Match(world, players, observers, **options)
-    return match, world, players
-
-
-def pair(
-    *places: float, observers: Any = (), **options: Any
-) -> tuple[PairMatch, FakeWorld, list[FakePlayer]]:
-    """Pursuer and evader on a line, named a and b."""
-    _, world, players = game(*places)
-    in_match: Any = world
-    match = PairMatch(in_match, players, observers, **options)
-    return match, world, players
+def fake_game(
+    *places: float,
+    duration: float = 1.0,
+    observers: Any = (),
+    roles: tuple[Role, ...] = (Role.PURSUER, Role.EVADER),
+) -> tuple[GameInPlay, Any]:
+    """Players on a line, named a, b, c, ...: by default a pursues b."""
+    world: Any = FakeWorld(*places)
+    identities = {
+        player.name: PlayerIdentity(player.name, role, role)
+        for player, role in zip(world.players, roles, strict=False)
+    }
+    rules = GameRules(duration, identities=identities)
+    return GameInPlay(world, rules, observers), world
 
 
 def raising(error: BaseException) -> Callable[[], None]:

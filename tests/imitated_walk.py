@@ -16,11 +16,12 @@ import onnx
 from onnx import TensorProto, helper, numpy_helper
 
 import stepaside.robots
-from stepaside.games.walk_game import WalkGame
+from stepaside.games.recorded_game import RecordedGame
 from stepaside.games.walk_settings import WalkSettings
 from stepaside.planning import Foot
 from stepaside.robots.description import load_robot
 from stepaside.robots.tree_cache import load_tree
+from walkers import walker_of
 
 HIDDEN, SAMPLES = 400, 20_000
 PHASES = 64  # of a gait cycle
@@ -123,18 +124,18 @@ def _targets(
         bearing=bearing,
         backward=backward,
     )
-    game = WalkGame(settings, recorded=False)
+    game = RecordedGame(settings, recorded=False, endless=True)
     rows, phases = [], []
     while game.world.time < settings.duration:
         now = game.world.time
         assert game.tick() is None, game.message
-        state = game.walker.scheme.state
+        state = walker_of(game).scheme.state
         if now >= STEADY and state.plan is not None:
             first = state.plan.first_foot is Foot.LEFT
             phase = (now - state.plan_started) / cycle + 0.5 * (not first)
             phases.append(phase % 1.0)
-            rows.append(game.world.data.ctrl.copy())
-    game.close()
+            rows.append(game.in_physics.data.ctrl.copy())
+    game.world.close()
     order = np.argsort(phases)
     times, values = np.array(phases)[order], np.array(rows)[order]
     grid = np.arange(PHASES) / PHASES
@@ -143,9 +144,11 @@ def _targets(
 
 
 def _resting_targets() -> np.ndarray:
-    game = WalkGame(WalkSettings(duration=1.0), recorded=False)
-    targets: np.ndarray = game.walker.scheme.joint_targets.copy()
-    game.close()
+    game = RecordedGame(
+        WalkSettings(duration=1.0), recorded=False, endless=True
+    )
+    targets: np.ndarray = walker_of(game).scheme.joint_targets.copy()
+    game.world.close()
     return targets
 
 

@@ -10,17 +10,17 @@ from .drivers.robot import JointRobot as JointRobot
 from .drivers.robot import JointTargets as JointTargets
 from .drivers.robot import VelocityRobot as VelocityRobot
 from .drivers.velocity_limits import VelocityLimits as VelocityLimits
-from .games import Duel as Duel
 from .games import DuelRun as DuelRun
 from .games import DuelSettings as DuelSettings
 from .games import Outcome as Outcome
+from .games import RecordedGame as RecordedGame
 from .games import Run as Run
 from .games import WalkRun as WalkRun
 from .games import run_duel as run_duel
+from .games import run_walk as run_walk
 from .games.configuration_file import load_configuration as load_configuration
 from .games.duel_settings import StartSettings as StartSettings
 from .games.run_archive import load_run as load_run
-from .games.walk_game import run_walk as run_walk
 from .games.walk_settings import WalkSettings as WalkSettings
 from .locomotion.zmp.control_settings import ControlSettings as ControlSettings
 from .perception.measurement import RobotState as RobotState
@@ -70,7 +70,6 @@ __all__ = [
     "ControlScheme",
     "ControlSettings",
     "Direction",
-    "Duel",
     "DuelRun",
     "DuelSettings",
     "Evasion",
@@ -87,6 +86,7 @@ __all__ = [
     "Pose",
     "Pursuit",
     "Push",
+    "RecordedGame",
     "RobotState",
     "RobotStatus",
     "Run",

@@ -206,16 +206,16 @@ def test_robot_writes_a_valid_mujoco_model(tmp_path: Path) -> None:
 def test_interrupted_duel_reports_its_run(
     monkeypatch: pytest.MonkeyPatch, tmp_path: Path
 ) -> None:
-    from stepaside.games.duel import Duel
+    from stepaside.games.recorded_game import RecordedGame
 
-    tick = Duel.advance
+    tick = RecordedGame.advance
 
-    def impatient(self: Duel) -> Any:
-        if self.world.ticks >= 300:
+    def impatient(self: RecordedGame) -> Any:
+        if self.in_physics.ticks >= 300:
             raise KeyboardInterrupt
         return tick(self)
 
-    monkeypatch.setattr(Duel, "advance", impatient)
+    monkeypatch.setattr(RecordedGame, "advance", impatient)
     folder = tmp_path / "run"
     result = run("duel", "--seed", "2", "--output", str(folder))
     assert result.exit_code == 130

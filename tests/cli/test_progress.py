@@ -14,8 +14,8 @@ from stepaside.cli.progress import (
     announce_effort,
     duration_text,
 )
-from stepaside.games.duel import run_duel
 from stepaside.games.duel_settings import DuelSettings
+from stepaside.games.recorded_game import run_duel
 from stepaside.report.run_folder import write_run
 
 pytestmark = pytest.mark.usefixtures("blank_figures")

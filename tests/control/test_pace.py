@@ -11,7 +11,7 @@ from fake_robot import FIRST, GAIT, STEP, FakeStrategy, Run
 from stepaside.control.strategy_runner import MAX_PACE_CHANGE, next_pace
 from stepaside.core.poses import Pose
 from stepaside.games.outcome import Outcome
-from stepaside.games.walk_game import WalkGame
+from stepaside.games.recorded_game import RecordedGame
 from stepaside.games.walk_settings import WalkSettings
 from stepaside.locomotion.zmp.control_settings import ControlSettings
 from stepaside.planning import (
@@ -24,6 +24,7 @@ from stepaside.planning import (
 )
 from stepaside.planning.steady_gait import landing_state
 from stepaside.strategies import Evasion, Intent, Knowledge, Limits, Walk
+from walkers import walker_of
 
 FAST = PRESETS["fast"]
 LIMITS = Limits(FAST.speed, FAST.gain, FAST.stride, FAST.step_duration)
@@ -111,11 +112,12 @@ def test_steps_last_as_the_pace_requests() -> None:
 @pytest.mark.parametrize("pace", [0.5, 0.75])
 def test_a_calm_walk_walks(pace: float) -> None:
     """In physics, and the calmer the slower."""
-    walking = WalkGame(
+    walking = RecordedGame(
         WalkSettings(gait=FAST, control=ControlSettings("closed-form", True)),
         recorded=False,
+        endless=True,
     )
-    walker = walking.walker
+    walker = walker_of(walking)
     walker.scheme.decisions.adopt(Walk(pace=pace))
     while walking.world.time < 2.5:
         assert walking.tick() is not Outcome.FALL

@@ -22,8 +22,8 @@ from stepaside.core.atomic_output import (
     free_file,
 )
 from stepaside.core.errors import ConfigurationError, OutputError
-from stepaside.games.duel import run_duel
 from stepaside.games.duel_settings import DuelSettings
+from stepaside.games.recorded_game import run_duel
 from stepaside.games.run import DuelRun
 from stepaside.report import run_figure, unicycle_figures
 from stepaside.report.run_folder import save_run, write_run

@@ -12,7 +12,7 @@ from stepaside.core.signal_handling import (
     interruptible,
 )
 from stepaside.games.outcome import Outcome
-from stepaside.games.walk_game import run_walk
+from stepaside.games.recorded_game import run_walk
 from stepaside.games.walk_settings import WalkSettings
 from stepaside.games.walker_log import WalkerLog
 

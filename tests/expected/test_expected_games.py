@@ -19,7 +19,7 @@ from expected.asking import GAME, answer, command, own_evader
 from legs_robot import nao_on_legs
 from stepaside.cli.duel import print_duel
 from stepaside.envs import game_v0  # registers the environments, too
-from stepaside.games.duel import run_duels
+from stepaside.games.recorded_game import run_duels
 from stepaside.games.served_duel import serve_duel
 
 SHORT = sa.DuelSettings(duration=1.2, start=sa.StartSettings(distance=0.7))

@@ -11,7 +11,7 @@ import pytest
 import stepaside as sa
 from flows.calls import stepaside
 from legs_robot import nao_on_legs
-from stepaside.games.match import play
+from stepaside.games.game import play
 from stepaside.games.robot_settings import with_robot
 from stepaside.robots.description import load_robot
 from stepaside.robots.head import load_head
@@ -137,16 +137,16 @@ def test_velocities_of_a_hardware_body_are_those_of_its_encoders(
     pytest.importorskip("onnxruntime")
     folder = nao_on_legs(tmp_path / "nao")
     settings = with_robot(sa.DuelSettings(duration=1.0), str(folder))
-    duel = sa.Duel(replace(settings, body=sa.BODIES["hardware"]))
-    play(duel, 0.5)
-    evader: Any = duel.players[1]
+    duel = sa.RecordedGame(replace(settings, body=sa.BODIES["hardware"]))
+    play(duel)
+    evader: Any = duel.in_physics.players[1]
     robot = evader.robot
     step, tick = sa.BODIES["hardware"].encoder_step, robot.tick
     before = robot.read().joint_positions
-    duel.world.step()
+    duel.in_physics.step()
     read = robot.read()
     changed = read.joint_positions - before
     np.testing.assert_allclose(read.joint_velocities, changed / tick)
     steps = read.joint_velocities * tick / step
     np.testing.assert_allclose(steps, np.rint(steps), atol=1e-6)
-    assert not np.isin(read.joint_velocities, duel.world.data.qvel).all()
+    assert not np.isin(read.joint_velocities, duel.in_physics.data.qvel).all()

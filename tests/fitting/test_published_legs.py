@@ -15,9 +15,9 @@ pytest.importorskip("onnxruntime")
 
 from stepaside.cli.main import main
 from stepaside.fitting.legs_measurement import LegsTrial, run_trial
-from stepaside.games.duel import run_duel
 from stepaside.games.duel_settings import DuelSettings
 from stepaside.games.outcome import Outcome
+from stepaside.games.recorded_game import run_duel
 from stepaside.games.robot_settings import with_legs, with_robot
 from stepaside.locomotion.policy.contract_reader import read_contract
 from stepaside.locomotion.policy.legs_settings import LegsSettings

@@ -8,10 +8,10 @@ import pytest
 
 from stepaside.core.poses import Array
 from stepaside.games.outcome import Outcome
+from stepaside.games.recorded_game import run_walk
 from stepaside.games.run import Run
 from stepaside.games.run_captions import describe_state
 from stepaside.games.trajectory import Trajectory
-from stepaside.games.walk_game import run_walk
 from stepaside.games.walk_settings import WalkSettings
 from stepaside.report.viewer.scene_layers import push_arrows
 

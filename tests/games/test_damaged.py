@@ -18,8 +18,8 @@ from stepaside.cli.main import main
 from stepaside.core.errors import ConfigurationError
 from stepaside.games import archive_reader as reading
 from stepaside.games.array_checks import ARRAY_SPECS
-from stepaside.games.duel import run_duel
 from stepaside.games.duel_settings import DuelSettings
+from stepaside.games.recorded_game import run_duel
 from stepaside.games.run import DuelRun
 from stepaside.games.run_archive import (
     CONFIGURATION,

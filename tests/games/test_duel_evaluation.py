@@ -36,6 +36,10 @@ def planned(
     return PlanningTimes(len(times) + 1, np.array(times), jump, margin)
 
 
+STARTS = {
+    "pursuer": Pose(0.0, 0.0, 0.0),
+    "evader": Pose(0.79, 0.0, 0.0),
+}
 PLANNED = {
     "pursuer": planned([3e-4, 1e-4, 2e-4], 1e-12, 0.021),
     "evader": planned(),
@@ -49,18 +53,18 @@ def figures(
     duration: float = 60.0,
     planning: dict[str, PlanningTimes] | None = None,
     sight: SightReport | None = None,
-    wall_time: float = 3.0,
     captured_at: float | None = None,
 ) -> dict[str, Any]:
     """Return the summary of a duel, as plain values."""
     match: Any = SimpleNamespace(
         world=SimpleNamespace(time=duration),
         message="played",
-        min_distance=0.61,
-        triggered_at=2.5,
-        triggered_distance=0.79,
+        closest={("evader", "pursuer"): 0.61},
         touched=(),
-        captured_at=captured_at,
+        captured_at={("evader", "pursuer"): captured_at}
+        if captured_at
+        else {},
+        real_time_factor=20.0,
     )
     found = summarise(
         settings,
@@ -68,8 +72,8 @@ def figures(
         record.times,
         record.tracks(),
         PLANNED if planning is None else planning,
+        {"evader": (2.5, STARTS)},
         sight,
-        wall_time,
     )
     return asdict(found)
 
@@ -96,7 +100,6 @@ def test_a_duel_that_ended_at_once_has_a_summary(count: int) -> None:
     found = figures(Record(times=TIMES[:count]), duration=0.0)
     assert found["distance_m"] == pytest.approx(THEORY.distance_m)
     assert found["converged_at_s"] is None
-    assert found["real_time_factor"] == 0.0
 
 
 def test_a_value_that_does_not_exist_is_none() -> None:

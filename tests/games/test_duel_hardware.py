@@ -8,9 +8,9 @@ import numpy as np
 import pytest
 
 from fake_robot import walk_of
-from stepaside.games.duel import Duel, run_duel
 from stepaside.games.duel_settings import DuelSettings, StartSettings
 from stepaside.games.outcome import Outcome
+from stepaside.games.recorded_game import RecordedGame, run_duel
 from stepaside.games.run import DuelRun
 from stepaside.games.walker import SimulatedPlayer
 from stepaside.locomotion.zmp.control_settings import STABILISED
@@ -40,17 +40,17 @@ def test_a_robot_that_never_walked_has_no_zmp_margin() -> None:
 
 
 def test_both_robots_of_a_hardware_duel_have_servo_and_sensor_models() -> None:
-    duel = Duel(hardware())
-    assert duel.world.physics.tick == 0.012
+    duel = RecordedGame(hardware())
+    assert duel.in_physics.physics.tick == 0.012
     masses = []
-    for walker in duel.players:
+    for walker in duel.in_physics.players:
         assert isinstance(walker, SimulatedPlayer)
         robot, balance = walker.robot, walk_of(walker.scheme).balance
         assert isinstance(robot.servos, RealisticServos)
         assert isinstance(balance, ClosedLoop)
         assert balance.stabiliser.settings == STABILISED
-        torso = duel.world.model.body(f"{robot.name}/torso").id
-        masses.append(duel.world.model.body_mass[torso])
+        torso = duel.in_physics.model.body(f"{robot.name}/torso").id
+        masses.append(duel.in_physics.model.body_mass[torso])
         readings = [robot.read() for _ in range(3)]
         # Noise differs from reading to reading, encoders are coarse.
         assert np.abs(readings[0].gyro - readings[2].gyro).max() > 0.0

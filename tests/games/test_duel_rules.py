@@ -8,36 +8,39 @@ import numpy as np
 import pytest
 
 from fake_players import clock
-from stepaside.core.constants import CAPTURE_DISTANCE
-from stepaside.games.duel import Duel, run_duel
 from stepaside.games.duel_settings import DuelSettings, StartSettings
 from stepaside.games.game import Progress
 from stepaside.games.outcome import Outcome
+from stepaside.games.recorded_game import RecordedGame, run_duel
 from stepaside.games.walker import SimulatedPlayer
 from stepaside.sim.camera_settings import RoomObject, SceneSettings
 from stepaside.sim.ground_truth import torsos_apart
 from stepaside.sim.simulated_robot import SimulatedRobot
+from stepaside.sim.world import World
 
 START = StartSettings(1.3, 0.4, -0.2)
 
 
-def begun(**changes: Any) -> Duel:
-    return Duel(DuelSettings(**{"start": START, **changes}))
+def begun(**changes: Any) -> RecordedGame:
+    return RecordedGame(DuelSettings(**{"start": START, **changes}))
 
 
-def walkers(duel: Duel) -> list[SimulatedPlayer]:
+def walkers(duel: RecordedGame) -> list[SimulatedPlayer]:
     return [
         player
-        for player in duel.players
+        for player in duel.in_physics.players
         if isinstance(player, SimulatedPlayer)
     ]
 
 
 def test_robots_begin_at_the_poses_of_the_start() -> None:
     duel = begun()
-    pursuer, evader = (player.truth for player in duel.players)
-    assert [player.name for player in duel.players] == ["pursuer", "evader"]
-    assert duel.player("evader") is duel.players[1]
+    pursuer, evader = (player.truth for player in duel.in_physics.players)
+    assert [player.name for player in duel.in_physics.players] == [
+        "pursuer",
+        "evader",
+    ]
+    assert duel.in_physics.player("evader") is duel.in_physics.players[1]
     assert duel.distance == pytest.approx(1.3, abs=1e-6)
     assert pursuer.heading_in_world == pytest.approx(0.4)
     assert abs(evader.heading_in_world) == pytest.approx(pi - 0.2)
@@ -48,16 +51,18 @@ def test_robots_begin_at_the_poses_of_the_start() -> None:
         evader.position_reference_in_world, [1.3, 0.0], atol=1e-6
     )
     assert duel.settings.start == START
-    assert duel.min_distance == torsos_apart(pursuer, evader)
-    assert duel.triggered_at is None and duel.triggered_distance is None
+    assert duel.closest == {
+        ("evader", "pursuer"): torsos_apart(pursuer, evader)
+    }
+    assert duel.in_physics.first_moves == {}
 
 
-def lay_down(duel: Duel, number: int) -> None:
+def lay_down(duel: RecordedGame, number: int) -> None:
     robot = walkers(duel)[number].robot
     at = robot.qpos_slice.start
-    duel.world.data.qpos[at + 2] = 1.0
-    duel.world.data.qpos[at + 3 : at + 7] = (0.5**0.5, 0.5**0.5, 0.0, 0.0)
-    mujoco.mj_forward(duel.world.model, duel.world.data)
+    duel.in_physics.data.qpos[at + 2] = 1.0
+    duel.in_physics.data.qpos[at + 3 : at + 7] = (0.5**0.5, 0.5**0.5, 0.0, 0.0)
+    mujoco.mj_forward(duel.in_physics.model, duel.in_physics.data)
 
 
 @pytest.mark.parametrize(
@@ -71,42 +76,51 @@ def lay_down(duel: Duel, number: int) -> None:
 def test_a_fall_ends_a_duel_and_is_reported(
     monkeypatch: pytest.MonkeyPatch, fallen: tuple[int, ...], message: str
 ) -> None:
-    decide = Duel.decide
+    decide = RecordedGame.decide
 
-    def clumsy(duel: Duel) -> Outcome | None:
-        if duel.world.ticks == 4:
+    def clumsy(duel: RecordedGame) -> None:
+        if duel.in_physics.ticks == 4:
             for number in fallen:
                 lay_down(duel, number)
-        return decide(duel)
+        decide(duel)
 
-    monkeypatch.setattr(Duel, "decide", clumsy)
+    monkeypatch.setattr(RecordedGame, "decide", clumsy)
     result = run_duel(DuelSettings(start=START, duration=1.0))
     assert result.outcome is Outcome.FALL and result.message == message
     assert result.duration == pytest.approx(0.02)
     assert result.times[-1] == result.duration
 
 
-def touching(distance: float, *names: str, **changes: Any) -> tuple[Any, str]:
+def touching(
+    monkeypatch: pytest.MonkeyPatch,
+    distance: float,
+    *names: str,
+    **changes: Any,
+) -> tuple[Any, str]:
     """Return outcome and message with bodies in contact at a distance."""
     duel = begun(start=StartSettings(distance, 0.0, 0.0), **changes)
-    world: Any = duel.world
-    world.robots_touch = lambda: True
-    world.touching = lambda: names
+    monkeypatch.setattr(World, "robots_touch", lambda world: True)
+    monkeypatch.setattr(World, "touching", lambda world: names)
     return duel.tick(), duel.message
 
 
-def test_contact_is_checked_where_it_is_possible() -> None:
+def test_contact_is_checked_where_it_is_possible(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
     """Robots two arm spans apart can only touch obstacles."""
     both = ("evader", "pursuer")
     words = "evader and pursuer touched at 0.00 s"
-    assert touching(0.6, *both) == (Outcome.CONTACT, words)
-    assert touching(0.9, *both) == (None, "")
+    assert touching(monkeypatch, 0.6, *both) == (Outcome.CONTACT, words)
+    assert touching(monkeypatch, 0.9, *both) == (None, "")
     room = SceneSettings(things=[RoomObject("red box", 3.0, 0.0)])
-    assert touching(0.9, "evader", "thing 0", room=room) == (
+    assert touching(monkeypatch, 0.9, "evader", "thing 0", room=room) == (
         Outcome.CONTACT,
         "evader and thing 0 touched at 0.00 s",
     )
-    assert touching(0.6, *both, pursuer="person") == (Outcome.CONTACT, words)
+    assert touching(monkeypatch, 0.6, *both, pursuer="person") == (
+        Outcome.CONTACT,
+        words,
+    )
 
 
 def test_without_contact_a_near_duel_goes_on() -> None:
@@ -114,48 +128,45 @@ def test_without_contact_a_near_duel_goes_on() -> None:
     assert duel.tick() is None
 
 
-def test_closest_approach_and_trigger_are_recorded(
+def test_the_first_motion_of_each_player_is_noted(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
-    """The last player triggers; motion of the pursuer does not."""
     duel = begun()
+    world = duel.in_physics
     pursuer, evader = walkers(duel)
-    ways = iter((1.0, 0.9, 0.95, 0.85))
-    moves = {pursuer: True, evader: False}
-
-    def apart(duel: Duel) -> float:
-        moves[evader] = duel.world.ticks >= 3
-        return next(ways)
-
-    monkeypatch.setattr(Duel, "torsos_apart", property(apart))
-    monkeypatch.setattr(Duel, "distance", 0.7)
-    monkeypatch.setattr(SimulatedPlayer, "is_moving", property(moves.get))
+    moves = {pursuer: 0, evader: 3}
+    monkeypatch.setattr(
+        SimulatedPlayer,
+        "is_moving",
+        property(lambda walker: world.ticks >= moves[walker]),
+    )
     monkeypatch.setattr(SimulatedPlayer, "tick", lambda walker: None)
-    duel.min_distance = 5.0
-    closest = []
     for _ in range(4):
         duel.tick()
-        closest.append(duel.min_distance)
-    assert closest == [1.0, 0.9, 0.9, 0.85]
-    assert duel.triggered_at == pytest.approx(0.012)
-    assert duel.triggered_distance == 0.7
+    times = {name: time for name, (time, _) in world.first_moves.items()}
+    assert times == pytest.approx({"pursuer": 0.004, "evader": 0.012})
+    _, poses = world.first_moves["evader"]
+    assert poses["evader"].x - poses["pursuer"].x == pytest.approx(
+        1.3, abs=0.01
+    )
 
 
-def test_capture_is_the_first_time_at_the_capture_distance(
+def test_a_duel_begins_when_all_players_are_ready(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
-    """The game goes on, and the first time is kept."""
+    """Earlier motion does not count."""
     duel = begun()
-    ways = iter((0.4, CAPTURE_DISTANCE, 0.3, 0.4, 0.2))
-    monkeypatch.setattr(Duel, "torsos_apart", property(lambda _: next(ways)))
-    monkeypatch.setattr(SimulatedPlayer, "tick", lambda walker: None)
-    monkeypatch.setattr(Duel, "distance", 0.3)
-    told = []
-    for _ in range(5):
-        assert duel.tick() is None
-        told.append(duel.captured_at)
-    assert told[0] is None
-    assert told[1:] == 4 * [pytest.approx(0.008)]
+    world = duel.in_physics
+    monkeypatch.setattr(
+        SimulatedPlayer, "is_ready", property(lambda _: world.ticks >= 2)
+    )
+    monkeypatch.setattr(SimulatedPlayer, "is_moving", True)
+    for _ in range(2):
+        duel.tick()
+        assert world.started_at is None and world.first_moves == {}
+    duel.tick()
+    assert world.started_at == pytest.approx(0.008)
+    assert world.first_moves["evader"][0] == pytest.approx(0.012)
 
 
 def test_a_duel_lasts_its_duration() -> None:
@@ -185,13 +196,13 @@ def test_an_interrupted_duel_is_recorded_and_its_robots_closed(
     monkeypatch.setattr(
         SimulatedRobot, "close", lambda robot: closed.append(robot.name)
     )
-    clock(monkeypatch, 1.0)
+    clock(monkeypatch, 0.05)
 
     def interrupt(progress: Progress) -> None:
         raise KeyboardInterrupt
 
     result = run_duel(DuelSettings(start=START, duration=5.0), interrupt)
     assert result.outcome is Outcome.INTERRUPTED
-    assert result.message == "interrupted at 0.10 s"
-    assert result.duration == pytest.approx(0.1)
+    assert result.message == "interrupted at 0.02 s"
+    assert result.duration == pytest.approx(0.02)
     assert closed == ["pursuer", "evader"]

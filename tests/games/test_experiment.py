@@ -13,9 +13,9 @@ from click.testing import CliRunner, Result
 from stepaside.cli.main import main
 from stepaside.core.errors import ConfigurationError
 from stepaside.core.poses import Array, Pose
-from stepaside.games.duel import run_duel
 from stepaside.games.duel_settings import DuelSettings, StartSettings
 from stepaside.games.experiment import import_experiment
+from stepaside.games.recorded_game import run_duel
 from stepaside.games.run_archive import load_run, write_run_files
 
 pytest.importorskip("rosbags", reason="rosbags is not installed")

@@ -10,7 +10,7 @@ import pytest
 from stepaside.arena import Room, RoomRecipe, generate_room
 from stepaside.games import Outcome, StrategyTrack, play_strategies
 from stepaside.games.game_file import parse_game
-from stepaside.games.game_match import run_game
+from stepaside.games.recorded_game import run_game
 from stepaside.strategies import Evasion, Pursuit, StepGame, Strategy
 from stepaside.theory.unicycle import RelativeStart
 

@@ -7,7 +7,7 @@ import pytest
 
 from stepaside.arena import Disc, Room
 from stepaside.games import DuelSettings
-from stepaside.games.duel_furnishing import scenery_of_duel
+from stepaside.games.settings_as_game import complete, scenery_of
 
 ALONE = DuelSettings()
 INSIDE = replace(
@@ -29,7 +29,7 @@ def test_a_world_has_the_objects_of_its_duel(
 ) -> None:
     spec = mujoco.MjSpec()
 
-    scenery_of_duel(settings).furnish(spec)
+    scenery_of(complete(settings)).furnish(spec)
     bodies = {body.name for body in spec.bodies} - {"world"}
     assert wanted <= bodies and bool(wanted) == bool(bodies)
     kinds = {name.partition("/")[0].rstrip(" 1234") for name in bodies}

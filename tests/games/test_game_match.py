@@ -12,11 +12,11 @@ import pytest
 from stepaside.core.errors import ConfigurationError
 from stepaside.core.player_identity import Role
 from stepaside.core.poses import Array
+from stepaside.games.game import play
 from stepaside.games.game_file import load_game, parse_game
-from stepaside.games.game_match import GameMatch, run_game
 from stepaside.games.game_settings import GameSettings
-from stepaside.games.match import play
 from stepaside.games.outcome import Outcome
+from stepaside.games.recorded_game import RecordedGame, run_game
 from stepaside.games.run import MatchRun
 from stepaside.games.run_archive import load_run
 from stepaside.games.walker import SimulatedPlayer
@@ -158,7 +158,7 @@ def test_cameras_see_several_pursuers_but_do_not_name_them(
 ) -> None:
     pytest.importorskip("cv2")
     standing = {"strategy": "stand"}
-    match = GameMatch(
+    match = RecordedGame(
         game(
             robot("red", "pursuer", *places[0], pi, **standing),
             robot("ruby", "pursuer", *places[1], pi, **standing),
@@ -166,8 +166,8 @@ def test_cameras_see_several_pursuers_but_do_not_name_them(
             cameras={"colour": {"renderer": "raycast"}},
         )
     )
-    play(match, 1.6)
-    blue = match.player("blue")
+    play(match)
+    blue = match.in_physics.player("blue")
     assert isinstance(blue, SimulatedPlayer)
     known = blue.scheme.senses.in_sight
     assert known is not None and known.identity.name == "blue"
@@ -230,8 +230,9 @@ def test_a_fall_ends_the_game_and_is_counted_for_its_player() -> None:
         "direction": 0.0,
         "player": "ruby",
     }
-    match = GameMatch(game(*THREE, duration=3.0, pushes=[push]))
-    run = match.run(*play(match, 3.0))
+    match = RecordedGame(game(*THREE, duration=3.0, pushes=[push]))
+    play(match)
+    run = match.run()
     assert run.outcome is Outcome.FALL and run.summary.fallen == ["ruby"]
     assert [p.name for p in run.summary.results if p.fell] == ["ruby"]
 

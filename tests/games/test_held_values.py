@@ -12,8 +12,8 @@ import pytest
 import vendor_humanoid as stranger
 from stepaside.fitting.leg_detection import find_legs
 from stepaside.fitting.model_analysis import analyse_model
-from stepaside.games.duel import Duel
 from stepaside.games.duel_settings import DuelSettings, StartSettings
+from stepaside.games.recorded_game import RecordedGame
 from stepaside.games.walker import SimulatedPlayer
 from stepaside.planning import (
     Direction,
@@ -68,9 +68,9 @@ def test_values_returned_by_a_duel_do_not_change_later(
     settings = DuelSettings(
         duration=3.0, start=StartSettings(0.7, 0.1, 0.1), body=BODIES[body]
     )
-    duel, kept = Duel(settings), Kept()
+    duel, kept = RecordedGame(settings, endless=True), Kept()
     ticks = 0
-    walker = duel.players[1]
+    walker = duel.in_physics.players[1]
     assert isinstance(walker, SimulatedPlayer)
     robot: Any = walker.robot
     read, write = robot.read, robot.write
@@ -102,7 +102,7 @@ def test_values_returned_by_a_duel_do_not_change_later(
             kept.keep("tracks", duel.recorder.tracks())
         assert duel.tick() is None
         ticks += 1
-    duel.close()
+    duel.world.close()
     kept.check()
 
 

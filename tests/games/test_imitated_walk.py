@@ -13,10 +13,10 @@ from imitated_walk import nao_on_imitated_walk
 from stepaside.control.sight_sources import CameraSight
 from stepaside.core.poses import Pose
 from stepaside.fitting.legs_measurement import LegsTrial, run_trial
-from stepaside.games.duel import Duel, run_duel
 from stepaside.games.duel_settings import DuelSettings
 from stepaside.games.outcome import Outcome
 from stepaside.games.policy_player import PolicyPlayer
+from stepaside.games.recorded_game import RecordedGame, run_duel
 from stepaside.games.robot_settings import with_robot
 from stepaside.locomotion.policy.legs_settings import LegsSettings
 from stepaside.robots.description import load_robot
@@ -83,15 +83,15 @@ def test_cameras_on_learned_legs_are_where_the_loaded_foot_puts_them(
         cameras=CameraSettings(ColourSettings(renderer="raycast")),
         start=start,
     )
-    duel = Duel(settings)
-    evader = duel.players[1]
+    duel = RecordedGame(settings, endless=True)
+    evader = duel.in_physics.players[1]
     assert isinstance(evader, PolicyPlayer)
     senses = evader.scheme.senses
     assert isinstance(senses, CameraSight)
-    head = duel.world.model.body("evader/head").id
+    head = duel.in_physics.model.body("evader/head").id
     errors = []
     while duel.world.time < 4.0:
-        true = duel.world.data.xpos[head].copy()
+        true = duel.in_physics.data.xpos[head].copy()
         assert duel.tick() is None
         body = senses.perception.body
         assert body is not None
@@ -99,7 +99,7 @@ def test_cameras_on_learned_legs_are_where_the_loaded_foot_puts_them(
         place = evader.frame.compose(Pose(x, y, 0.0))
         if duel.world.time > 1.2:  # attitude is calibrated
             errors.append(np.array([place.x, place.y, z]) - true)
-    duel.close()
+    duel.world.close()
     assert np.abs(errors)[:, 2].max() < 0.01
     assert np.abs(errors).max() < 0.03
     assert evader.is_moving

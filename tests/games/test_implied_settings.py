@@ -16,11 +16,10 @@ from stepaside.games.configuration_file import (
     parse_settings,
     settings_entries,
 )
-from stepaside.games.duel import run_duel
 from stepaside.games.duel_settings import DuelSettings, RobotSettings
 from stepaside.games.game_file import load_game
+from stepaside.games.recorded_game import run_duel, run_walk
 from stepaside.games.robot_settings import with_legs
-from stepaside.games.walk_game import run_walk
 from stepaside.games.walk_settings import WalkSettings
 from stepaside.locomotion.zmp.control_settings import ControlSettings
 from stepaside.planning import PRESETS

@@ -9,17 +9,17 @@ import pytest
 
 DUEL = """
 import sys
-from stepaside.games.duel import Duel
+from stepaside.games.recorded_game import RecordedGame
 from stepaside.games.duel_settings import DuelSettings
 from stepaside.locomotion.zmp.control_settings import STABILISED
 from stepaside.sim.body_settings import BODIES
 
 body = {"body": BODIES["hardware"], "control": STABILISED}
-duel = Duel(DuelSettings(seed=1, duration=5.0, **body))
+duel = RecordedGame(DuelSettings(seed=1, duration=5.0, **body))
 while duel.world.time < 5.0 and duel.tick() is None:
     pass
 assert ("numba" in sys.modules) is (sys.argv[1] == "0")
-print(*duel.world.data.qpos)
+print(*duel.in_physics.data.qpos)
 """
 
 

@@ -9,8 +9,8 @@ import pytest
 
 from stepaside.core.errors import ConfigurationError
 from stepaside.core.poses import Pose
-from stepaside.games.duel import Duel, run_duel
 from stepaside.games.duel_settings import DuelSettings, StartSettings
+from stepaside.games.recorded_game import RecordedGame, run_duel
 from stepaside.sim.person_motion import (
     PersonMotion,
     read_path,
@@ -122,7 +122,7 @@ def test_a_person_without_a_solid_body_walks_through_a_robot() -> None:
     result = run_duel(standing)
     assert result.outcome.value == "completed"
     assert result.summary.min_distance_m < 0.05
-    model = Duel(standing).world.model
+    model = RecordedGame(standing).in_physics.model
     assert model.body("pursuer/trunk").geomnum[0] > 0  # sensors see it
 
 

@@ -1,16 +1,17 @@
 """Test the fast gait against a person at walking speed."""
 
+from dataclasses import replace
 from math import atan2, pi, radians, sin
 from typing import Any
 
 import pytest
 
 from stepaside.core.poses import Pose
-from stepaside.games.duel import Duel
 from stepaside.games.duel_settings import DuelSettings, StartSettings
+from stepaside.games.game import play
 from stepaside.games.initial_poses import draw_start
-from stepaside.games.match import play
 from stepaside.games.outcome import Outcome
+from stepaside.games.recorded_game import RecordedGame
 from stepaside.games.template_game import play_template
 from stepaside.locomotion.zmp.control_settings import ControlSettings
 from stepaside.planning import PRESETS
@@ -54,11 +55,11 @@ def duel(**changes: Any) -> DuelSettings:
 
 def test_a_person_at_one_metre_a_second_is_evaded() -> None:
     """Afterwards the robot stands again."""
-    game = Duel(duel())
-    outcome, wall_time = play(game, 9.0)
-    assert outcome is Outcome.COMPLETED
-    assert not game.players[1].is_moving
-    summary = game.run(outcome, wall_time).summary
+    game = RecordedGame(replace(duel(), duration=9.0))
+    play(game)
+    assert game.outcome is Outcome.COMPLETED
+    assert not game.in_physics.players[1].is_moving
+    summary = game.run().summary
     begun = summary.triggered_at_distance_m
     assert begun == pytest.approx(0.7 + 3.5 * 1.0, abs=0.1)
     theory = summary.theory.closest_approach_m

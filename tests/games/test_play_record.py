@@ -12,12 +12,12 @@ from stepaside.core.poses import Array, Pose, wrap_angle
 from stepaside.drivers.play_log import PlayLog, PlayTick, joint_row
 from stepaside.drivers.safety import SafetyState
 from stepaside.games.configuration_file import dump_configuration
-from stepaside.games.duel import Duel
 from stepaside.games.duel_settings import DuelSettings, StartSettings
 from stepaside.games.outcome import Outcome
 from stepaside.games.play_rows import monotonic_times
 from stepaside.games.play_settings import PlaySettings
 from stepaside.games.player import Snapshot
+from stepaside.games.recorded_game import RecordedGame
 from stepaside.games.run_archive import complete_play, load_run
 from stepaside.games.run_captions import describe_state
 from stepaside.games.walker import SimulatedPlayer
@@ -71,9 +71,9 @@ class Walked:
         settings = DuelSettings(
             start=START, body=BODIES["delayed"], duration=4.0
         )
-        duel = Duel(settings, recorded=False)
+        duel = RecordedGame(settings, recorded=False, endless=True)
         self.folder, log = folder, log_at(folder, EVADER)
-        evader = duel.players[1]
+        evader = duel.in_physics.players[1]
         assert isinstance(evader, SimulatedPlayer)
         look_at(log, evader)
         self.true: list[tuple[Snapshot, Array]] = []
@@ -82,10 +82,10 @@ class Walked:
         while duel.world.time < 4.0:
             self.true.append((evader.snapshot(), evader.robot.posture))
             self.others.append(
-                duel.players[0].truth.position_reference_in_world
+                duel.in_physics.players[0].truth.position_reference_in_world
             )
             assert duel.tick() is None
-        duel.close()
+        duel.world.close()
         log.close()
         self.run = complete_play(
             folder, EVADER, Outcome.COMPLETED, "long enough"

@@ -13,11 +13,15 @@ from legs_robot import nao_on_legs
 from stepaside.arena import Room
 from stepaside.cli.main import main
 from stepaside.core.poses import Pose
-from stepaside.games.duel import Duel, run_duel, run_duels
 from stepaside.games.duel_settings import DuelSettings
-from stepaside.games.match import play
+from stepaside.games.game import play
 from stepaside.games.outcome import Outcome
 from stepaside.games.policy_player import PolicyPlayer
+from stepaside.games.recorded_game import (
+    RecordedGame,
+    run_duel,
+    run_duels,
+)
 from stepaside.games.robot_settings import with_legs, with_robot
 from stepaside.locomotion.policy.policy_walk import PolicyWalk
 from stepaside.planning import Direction, GaitSettings
@@ -30,7 +34,7 @@ from stepaside.theory.unicycle.circles import find_circle
 
 @pytest.fixture(scope="module")
 def standing(tmp_path_factory: pytest.TempPathFactory) -> DuelSettings:
-    """Duel of robots whose policy holds the standing posture."""
+    """RecordedGame of robots whose policy holds the standing posture."""
     folder = nao_on_legs(tmp_path_factory.mktemp("legs") / "nao")
     settings = with_robot(DuelSettings(duration=1.5, seed=3), str(folder))
     return replace(settings, start=replace(settings.start, distance=1.0))
@@ -100,8 +104,8 @@ def test_a_robot_in_a_room_knows_it(standing: DuelSettings) -> None:
         room=replace(standing.room, plan=Room(2.6, 2.6, starts=starts)),
         evader_strategy=strategy,
     )
-    duel = Duel(settings)
-    play(duel, 1.3)
+    duel = RecordedGame(settings)
+    play(duel)
     assert duel.settings.start.least == 0.5
     assert duel.settings.start.distance == pytest.approx(2.0)
     known = strategy.told[-1]
@@ -153,12 +157,12 @@ def test_a_body_velocity_reaches_the_policy_every_80_ms(
     standing: DuelSettings,
 ) -> None:
     strategy = Sidestepper()
-    duel = Duel(replace(standing, evader_strategy=strategy))
-    _, evader = duel.players
+    duel = RecordedGame(replace(standing, evader_strategy=strategy))
+    _, evader = duel.in_physics.players
     assert isinstance(evader, PolicyPlayer)
     walk = evader.scheme.locomotion
     assert isinstance(walk, PolicyWalk)
-    play(duel, 1.3)
+    play(duel)
     assert walk.legs.intended == BodyVelocity(0.0, 0.2, 0.1)
     velocities = strategy.told[-1].limits.velocities
     assert velocities == walk.velocities

@@ -1,14 +1,14 @@
 """Test that each recorded array holds the quantity of its name."""
 
 from math import pi
+from typing import Any
 
 import numpy as np
 import pytest
 
-from fake_players import FakePlayer, FakeWorld, begun, game
+from fake_players import FakePlayer, begun, fake_game
 from stepaside.core.poses import Array, Pose
-from stepaside.games.match import Match
-from stepaside.games.outcome import Outcome
+from stepaside.games.game import GameInPlay
 from stepaside.games.recorder import Recorder
 from stepaside.planning import Foot
 
@@ -29,12 +29,13 @@ def tell(player: FakePlayer, number: int) -> None:
 
 def recorder(
     tick: float = 0.004,
-) -> tuple[Recorder, Match, FakeWorld, list[FakePlayer]]:
-    match, world, players = game(0.0, 2.0)
+) -> tuple[Recorder, GameInPlay, Any, list[FakePlayer]]:
+    match, world = fake_game(0.0, 2.0)
+    players = world.players
     world.physics.tick = tick
     for number, player in enumerate(players):
         tell(player, number)
-    return Recorder(players, tick=tick), match, world, players
+    return Recorder(world), match, world, players
 
 
 def arrays_of(made: Recorder) -> dict[str, Array]:
@@ -126,7 +127,7 @@ def test_samples_are_taken_when_due_and_at_the_end() -> None:
             made.before(match)
             world.step()
         for _ in range(2):
-            made.ended(match, Outcome.COMPLETED)
+            made.ended(match)
         found = [0.0, 0.02, 0.04] if expected is None else expected
         np.testing.assert_allclose(made.times, found)
 

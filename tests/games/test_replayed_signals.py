@@ -6,11 +6,10 @@ import numpy as np
 import pytest
 
 from stepaside.core.constants import GRAVITY
-from stepaside.games.duel import run_duel
 from stepaside.games.duel_settings import DuelSettings, StartSettings
+from stepaside.games.recorded_game import run_duel, run_walk
 from stepaside.games.replayed_signals import RobotSignals, repeat_game
 from stepaside.games.run import DuelRun, Run, WalkRun
-from stepaside.games.walk_game import run_walk
 from stepaside.games.walk_settings import WALKER, WalkSettings
 from stepaside.robots.description import load_robot
 

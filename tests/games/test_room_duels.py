@@ -25,9 +25,9 @@ from stepaside.games.configuration_file import (
     dump_configuration,
     read_settings,
 )
-from stepaside.games.duel import Duel, run_duel
 from stepaside.games.duel_settings import DuelSettings, StartSettings
 from stepaside.games.outcome import Outcome
+from stepaside.games.recorded_game import RecordedGame, run_duel
 from stepaside.games.run_archive import results_of
 from stepaside.sim.camera_settings import SceneSettings
 from stepaside.sim.obstacle_geoms import HEIGHT, add_solids
@@ -93,8 +93,8 @@ def test_a_box_has_the_size_and_heading_of_its_file() -> None:
 
 def test_players_begin_at_the_starts_of_the_room() -> None:
     room = replace(FULL, starts=STARTS)
-    duel = Duel(placed(room))
-    for player, start in zip(duel.players, STARTS, strict=True):
+    duel = RecordedGame(placed(room))
+    for player, start in zip(duel.in_physics.players, STARTS, strict=True):
         np.testing.assert_allclose(
             player.truth.position_reference_in_world, start[:2], atol=1e-6
         )
@@ -103,14 +103,14 @@ def test_players_begin_at_the_starts_of_the_room() -> None:
     assert told.distance == pytest.approx(2.0)
     assert told.pursuer_offset == pytest.approx(0.8 - pi / 2)
     assert told.evader_offset == pytest.approx(-1.5 + pi / 2)
-    again = Duel(duel.settings).settings
+    again = RecordedGame(duel.settings).settings
     assert again.start == told and again.room == duel.settings.room
 
 
 def test_a_room_excludes_other_starts_and_a_map_of_people() -> None:
     room = replace(FULL, starts=STARTS)
     with pytest.raises(ConfigurationError, match="start.distance must be"):
-        Duel(placed(room, start=StartSettings(distance=1.0)))
+        RecordedGame(placed(room, start=StartSettings(distance=1.0)))
     with pytest.raises(ConfigurationError, match="with a person as pursuer"):
         placed(
             room,

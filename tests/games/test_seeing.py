@@ -16,8 +16,8 @@ from stepaside.games.configuration_file import (
     dump_configuration,
     parse_settings,
 )
-from stepaside.games.duel import Duel
 from stepaside.games.duel_settings import StartSettings
+from stepaside.games.recorded_game import RecordedGame
 from stepaside.games.run_archive import results_of
 from stepaside.games.walker import SimulatedPlayer
 from stepaside.perception.gaze import MAX_YAW, SCAN_SPEED
@@ -49,10 +49,10 @@ def play() -> Run:
     return run_duel(SEEING)
 
 
-def walkers(duel: Duel) -> list[SimulatedPlayer]:
+def walkers(duel: RecordedGame) -> list[SimulatedPlayer]:
     return [
         player
-        for player in duel.players
+        for player in duel.in_physics.players
         if isinstance(player, SimulatedPlayer)
     ]
 
@@ -123,7 +123,7 @@ def test_the_evader_tracks_below_the_near_limit_of_its_camera(
 ) -> None:
     """Depth camera and sonars alone give bearing and distance."""
     start = StartSettings(distance, 0.0, radians(15.0))
-    duel = Duel(replace(SEEING, start=start))
+    duel = RecordedGame(replace(SEEING, start=start))
     pursuer, evader = (walker.robot for walker in walkers(duel))
     scheme = walkers(duel)[1].scheme
     senses = scheme.senses
@@ -152,7 +152,7 @@ def test_a_person_nearby_is_one_track_and_not_lost() -> None:
     person = PersonSettings("steer", 0.073, 0.146)
     start = StartSettings(0.95, 0.0, radians(10.0))
     settings = replace(SEEING, pursuer="person", person=person, start=start)
-    duel = Duel(replace(settings, duration=7.0))
+    duel = RecordedGame(replace(settings, duration=7.1))
     evader = walkers(duel)[0]
     perception, truth = perception_of(evader), evader.truth
     errors, ranges = [], []
@@ -163,7 +163,7 @@ def test_a_person_nearby_is_one_track_and_not_lost() -> None:
             continue
         assert seen is not None
         x, y = truth.position_torso_in_world
-        u, v = duel.players[0].truth.position_torso_in_world
+        u, v = duel.in_physics.players[0].truth.position_torso_in_world
         bearing = atan2(v - y, u - x) - truth.heading_in_world
         errors.append(degrees(abs(wrap_angle(seen.bearing - bearing))))
         ranges.append(abs(seen.distance - hypot(u - x, v - y)))
@@ -200,10 +200,10 @@ def test_a_rear_camera_shows_a_person_behind(rear: bool) -> None:
 
 def test_the_estimated_camera_pose_is_true_while_walking() -> None:
     """Encoders and tilt give the camera position within 1 cm or so."""
-    duel = Duel(replace(SEEING, duration=3.0))
+    duel = RecordedGame(replace(SEEING, duration=3.1))
     pursuer = walkers(duel)[0]
     perception, truth = perception_of(pursuer), pursuer.truth
-    head = duel.world.model.body("pursuer/head").id
+    head = duel.in_physics.model.body("pursuer/head").id
     heights, headings = [], []
     start = None
     while duel.world.time < 3.0:
@@ -213,7 +213,7 @@ def test_the_estimated_camera_pose_is_true_while_walking() -> None:
         if start is None:
             start = truth.heading_in_world - body.pose_torso_in_odometry.theta
         # The body is a tick older than the truth.
-        true = duel.world.data.xpos[head]
+        true = duel.in_physics.data.xpos[head]
         heights.append(body.position_head_in_odometry[2] - true[2])
         headings.append(
             truth.heading_in_world - body.pose_torso_in_odometry.theta - start
@@ -225,7 +225,7 @@ def test_the_estimated_camera_pose_is_true_while_walking() -> None:
 
 def test_images_are_dropped_and_delayed_as_set() -> None:
     cameras = replace(RAYS, drop_frames=0.5, added_latency=0.2)
-    duel = Duel(replace(SEEING, cameras=cameras, duration=4.0))
+    duel = RecordedGame(replace(SEEING, cameras=cameras, duration=4.0))
     pursuer = walkers(duel)[0]
     ages: list[float] = []
     while duel.world.time < 4.0:
@@ -240,7 +240,9 @@ def test_images_are_dropped_and_delayed_as_set() -> None:
 
 
 def test_depth_images_keep_to_their_limits() -> None:
-    duel = Duel(replace(SEEING, room=SceneSettings(things=list(CLUTTER))))
+    duel = RecordedGame(
+        replace(SEEING, room=SceneSettings(things=list(CLUTTER)))
+    )
     eyes = walkers(duel)[1].robot.eyes
     assert eyes is not None
     depth = DepthSettings()
@@ -305,21 +307,21 @@ def test_rendering_and_ray_casting_agree() -> None:
     for kind in (renderer, "raycast"):
         cameras = CameraSettings(colour=ColourSettings(renderer=kind))
         start = StartSettings(1.0, radians(10.0), radians(-10.0))
-        duel = Duel(replace(SEEING, cameras=cameras, start=start))
+        duel = RecordedGame(replace(SEEING, cameras=cameras, start=start))
         found: list[float] = []
         while duel.world.time < 0.1:
             duel.tick()
-            for report in duel.players[0].reports:
+            for report in duel.in_physics.players[0].reports:
                 found.extend(report.azimuths)
-        duel.close()
+        duel.world.close()
         azimuths[kind] = degrees(found[0])
     assert azimuths[renderer] == pytest.approx(azimuths["raycast"], abs=0.8)
     assert azimuths[renderer] == pytest.approx(-10.0, abs=1.5)
 
 
 def test_sonars_detect_an_obstacle_in_front_of_the_chest() -> None:
-    duel = Duel(replace(SEEING, start=StartSettings(0.6, 0.0, 0.0)))
-    mujoco.mj_forward(duel.world.model, duel.world.data)
+    duel = RecordedGame(replace(SEEING, start=StartSettings(0.6, 0.0, 0.0)))
+    mujoco.mj_forward(duel.in_physics.model, duel.in_physics.data)
     eyes = walkers(duel)[1].robot.eyes
     assert eyes is not None
     echoes = [p for p in eyes.read(0.0) if isinstance(p, SonarEcho)]
@@ -327,4 +329,6 @@ def test_sonars_detect_an_obstacle_in_front_of_the_chest() -> None:
     for echo in echoes:
         assert echo.distance is not None
         assert 0.4 < echo.distance < 0.62
-    assert hypot(*duel.players[0].truth.position_torso_in_world) < 0.05
+    assert (
+        hypot(*duel.in_physics.players[0].truth.position_torso_in_world) < 0.05
+    )

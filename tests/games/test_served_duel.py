@@ -17,8 +17,8 @@ from stepaside.drivers.play_log import PlayTick
 from stepaside.drivers.robot_session import RobotSession
 from stepaside.drivers.safety import SafetyState
 from stepaside.drivers.scheme_factory import scheme_factory
-from stepaside.games.duel import run_duel
 from stepaside.games.duel_settings import DuelSettings, StartSettings
+from stepaside.games.recorded_game import run_duel
 from stepaside.games.robot_endpoints import LolaEndpoint
 from stepaside.games.run import DuelRun
 from stepaside.games.run_archive import load_run, results_of

@@ -16,8 +16,7 @@ from stepaside.drivers.velocity_loop import (
     VelocityLoop,
 )
 from stepaside.games.duel_settings import DuelSettings, StartSettings
-from stepaside.games.match import play
-from stepaside.games.pair_match import PairMatch
+from stepaside.games.game import play
 from stepaside.games.robot_endpoints import RobotEndpoint
 from stepaside.games.served_duel import serve_duel
 from stepaside.games.velocity_walker import VelocityWalker
@@ -89,11 +88,11 @@ class NoWire:
 @pytest.fixture(scope="module")
 def distance_without_a_wire() -> float:
     """Return the final distance of a duel in one process, in [m]."""
-    world, robots = commanded_robots(SETTINGS)
+    game, robots = commanded_robots(SETTINGS)
     sources = {robot: NoWire(robot, ROLES[robot.name]).act for robot in robots}
-    match = PairMatch(world, robots, [VelocityCommands(sources)])
-    play(match, SETTINGS.duration)
-    return match.min_distance
+    game.observers = (VelocityCommands(sources),)
+    play(game)
+    return min(game.closest.values())
 
 
 def client(

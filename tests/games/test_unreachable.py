@@ -9,9 +9,9 @@ from threading import Event
 import numpy as np
 import pytest
 
-from stepaside.games.duel import run_duel
 from stepaside.games.duel_settings import PLAYERS, DuelSettings, StartSettings
 from stepaside.games.outcome import Outcome
+from stepaside.games.recorded_game import run_duel
 from stepaside.games.run import DuelRun
 from stepaside.games.run_archive import load_run
 from stepaside.games.run_captions import describe_state

@@ -28,7 +28,8 @@ STEP = 0.547  # of the gait, in [s]
 @pytest.fixture(scope="module")
 def walked() -> tuple[VelocityWalker, VelocityWalker, list[BodyVelocity]]:
     """Return two robots that walked for 5 s, then rested for 3 s."""
-    world, players = commanded_robots(SETTINGS)
+    game, players = commanded_robots(SETTINGS)
+    world = game.in_physics
     before = [player.state().velocity for player in players]
     players[0].command(BodyVelocity(0.06, 0.0, 0.1))
     players[1].command(BodyVelocity(-0.2, 0.0, 0.2))
@@ -112,7 +113,8 @@ def test_a_robot_may_serve_no_sighting() -> None:
 def test_a_hardware_like_robot_turns_by_its_command() -> None:
     """Feet twist and joints yield, which only the gyro measures."""
     hardware = replace(SETTINGS, seed=7, body=BODIES["hardware"])
-    world, players = commanded_robots(hardware)
+    game, players = commanded_robots(hardware)
+    world = game.in_physics
     for player, forward in zip(players, (0.06, -0.06), strict=True):
         player.command(BodyVelocity(forward, 0.0, 0.12))
     turned = np.zeros(2)
@@ -132,7 +134,8 @@ def test_a_hardware_like_robot_turns_by_its_command() -> None:
 
 def test_a_served_sighting_is_relative_to_the_heading_of_its_time() -> None:
     """Also while the robot turns."""
-    world, players = commanded_robots(SETTINGS)
+    game, players = commanded_robots(SETTINGS)
+    world = game.in_physics
     for robot in players:
         robot.command(BodyVelocity(0.05, 0.0, 0.12))
     poses: list[dict[int, tuple[Pose, float]]] = [{}, {}]

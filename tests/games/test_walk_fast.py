@@ -7,12 +7,13 @@ from typing import Any
 import pytest
 
 from stepaside.games.outcome import Outcome
+from stepaside.games.recorded_game import RecordedGame, run_walk
 from stepaside.games.run_archive import results_of
-from stepaside.games.walk_game import WalkGame, run_walk
 from stepaside.games.walk_settings import WalkSettings
 from stepaside.locomotion.zmp.control_settings import ControlSettings
 from stepaside.planning import PRESETS, GaitSettings
 from stepaside.sim.body_settings import BODIES
+from walkers import walker_of
 
 FAST = PRESETS["fast"]
 CONTROL = ControlSettings("closed-form", True)
@@ -78,11 +79,12 @@ def test_without_the_swing_reaction_the_torso_rocks() -> None:
 
 def test_the_first_foot_lands_within_half_a_second() -> None:
     """From the start of the walk, by the measured foot force."""
-    walking = WalkGame(
+    walking = RecordedGame(
         WalkSettings(gait=FAST, control=CONTROL, backward=True),
         recorded=False,
+        endless=True,
     )
-    walker = walking.walker
+    walker = walker_of(walking)
     began = lifted = landed = None
     while landed is None and walking.world.time < 3.0:
         assert walking.tick() is not Outcome.FALL

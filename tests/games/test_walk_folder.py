@@ -11,12 +11,11 @@ from click.testing import CliRunner
 
 from stepaside.cli.main import main
 from stepaside.core.errors import ConfigurationError
-from stepaside.games.duel import run_duel
 from stepaside.games.duel_settings import DuelSettings
 from stepaside.games.outcome import Outcome
+from stepaside.games.recorded_game import run_duel, run_walk
 from stepaside.games.run import WalkRun
 from stepaside.games.run_archive import load_run, write_run_files
-from stepaside.games.walk_game import run_walk
 from stepaside.games.walk_settings import WalkSettings
 from stepaside.report.compare_figure import mean_speed
 from stepaside.report.run_folder import write_run

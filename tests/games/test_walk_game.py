@@ -10,10 +10,10 @@ from click.testing import CliRunner
 
 from stepaside.cli.main import main
 from stepaside.games.outcome import Outcome
+from stepaside.games.recorded_game import run_walk
 from stepaside.games.run import WalkRun
 from stepaside.games.run_archive import results_of
 from stepaside.games.support_foot_columns import express_in_support_foot
-from stepaside.games.walk_game import run_walk
 from stepaside.games.walk_settings import WalkSettings
 from stepaside.locomotion.zmp.control_settings import OPEN_LOOP, STABILISED
 from stepaside.planning import GaitSettings

@@ -6,39 +6,39 @@ import pytest
 
 from fake_robot import walk_of
 from stepaside.core.poses import Array, Pose
+from stepaside.games.recorded_game import RecordedGame
 from stepaside.games.recorder import Recorder
 from stepaside.games.support_foot_columns import (
     COLUMNS,
     express_in_support_foot,
 )
-from stepaside.games.walk_game import WalkGame
 from stepaside.games.walk_settings import WalkSettings
 from stepaside.locomotion.zmp.control_settings import STABILISED
 from stepaside.locomotion.zmp.feedback_loop import ClosedLoop
 from stepaside.locomotion.zmp.state_estimator import BodyState
 from stepaside.planning import Foot
+from walkers import walker_of
 
 
 @pytest.fixture(scope="module")
-def walking() -> WalkGame:
+def walking() -> RecordedGame:
     """Return a robot that has walked a few steps in a circle."""
-    made = WalkGame(WalkSettings(bearing=0.6, control=STABILISED))
+    made = RecordedGame(WalkSettings(bearing=0.6, control=STABILISED))
     for _ in range(1100):
         assert made.tick() is None
     return made
 
 
-def recorder(walking: WalkGame) -> Recorder:
+def recorder(walking: RecordedGame) -> Recorder:
     """Return an additional recorder of a walk."""
-    tick = walking.world.physics.tick
-    return Recorder([walking.walker], tick=tick, closely=True)
+    return Recorder(walking.in_physics, closely=True)
 
 
 def columns(made: Recorder) -> dict[str, Array]:
     return express_in_support_foot(made.times, made.tracks()["walker"])
 
 
-def last(walking: WalkGame) -> dict[str, float]:
+def last(walking: RecordedGame) -> dict[str, float]:
     made = recorder(walking)
     made.every = 1
     made.before(walking)
@@ -48,10 +48,10 @@ def last(walking: WalkGame) -> dict[str, float]:
 
 
 def test_a_walk_is_expressed_in_the_frame_of_the_support_foot(
-    walking: WalkGame,
+    walking: RecordedGame,
 ) -> None:
     """True values, references and estimates agree in one frame."""
-    walker = walking.walker
+    walker = walker_of(walking)
     seen = last(walking)
     assert seen["time"] == walking.world.time
     foot = walker.scheme.locomotion.step(walking.world.time).swing.other
@@ -84,10 +84,10 @@ def test_a_walk_is_expressed_in_the_frame_of_the_support_foot(
 
 
 def test_vectors_are_rotated_and_points_transformed(
-    walking: WalkGame,
+    walking: RecordedGame,
 ) -> None:
     """The pose of the foot is recovered from the columns."""
-    walker = walking.walker
+    walker = walker_of(walking)
     seen = last(walking)
     foot = walker.scheme.locomotion.step(walking.world.time).swing.other
     description = walker.scheme.kinematics.description
@@ -95,7 +95,7 @@ def test_vectors_are_rotated_and_points_transformed(
         Foot.LEFT: description.left_foot,
         Foot.RIGHT: description.right_foot,
     }[foot]
-    data = walking.world.data
+    data = walking.in_physics.data
     place = data.site(f"walker/{name}")
     heading = np.arctan2(place.xmat[3], place.xmat[0])
     frame = Pose(place.xpos[0], place.xpos[1], float(heading))
@@ -109,7 +109,7 @@ def test_vectors_are_rotated_and_points_transformed(
     )
     zmp = frame.transform_points([[seen["zmp_x"], seen["zmp_y"]]])[0]
     np.testing.assert_allclose(zmp, walker.robot.measured_zmp())
-    model = walking.world.model
+    model = walking.in_physics.model
     torso = model.body(f"walker/{description.torso}").id
     slopes = np.zeros((3, model.nv))
     mujoco.mj_jacSubtreeCom(model, data, slopes, torso)
@@ -133,25 +133,25 @@ def test_vectors_are_rotated_and_points_transformed(
         )
 
 
-def test_tilt_is_roll_and_pitch_of_the_torso(walking: WalkGame) -> None:
-    data = walking.world.data
+def test_tilt_is_roll_and_pitch_of_the_torso(walking: RecordedGame) -> None:
+    data = walking.in_physics.data
     before = data.qpos.copy()
     for roll, pitch in ((0.2, 0.1), (-0.3, 0.05)):
         yaw = np.zeros(4)
         mujoco.mju_euler2Quat(yaw, [roll, pitch, 0.8], "XYZ")
         data.qpos[3:7] = yaw
-        mujoco.mj_forward(walking.world.model, data)
+        mujoco.mj_forward(walking.in_physics.model, data)
         seen = last(walking)
         assert seen["roll"] == pytest.approx(roll)
         assert seen["pitch"] == pytest.approx(pitch)
     data.qpos[:] = before
-    mujoco.mj_forward(walking.world.model, data)
+    mujoco.mj_forward(walking.in_physics.model, data)
 
 
 def test_estimates_are_in_the_frame_of_the_support_foot(
-    walking: WalkGame,
+    walking: RecordedGame,
 ) -> None:
-    walker = walking.walker
+    walker = walker_of(walking)
     balance = walk_of(walker.scheme).balance
     assert isinstance(balance, ClosedLoop)
     stabiliser = balance.stabiliser

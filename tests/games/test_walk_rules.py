@@ -10,9 +10,10 @@ import pytest
 from fake_players import clock
 from fake_robot import walk_of
 from stepaside.core.errors import ReachError
+from stepaside.games.game import Ended, Progress
 from stepaside.games.outcome import Outcome
+from stepaside.games.recorded_game import RecordedGame, run_walk
 from stepaside.games.support_foot_columns import upright_samples
-from stepaside.games.walk_game import WalkGame, run_walk
 from stepaside.games.walk_settings import WalkSettings
 from stepaside.locomotion.walk_snapshots import Phase
 from stepaside.locomotion.zmp.control_settings import STABILISED
@@ -21,15 +22,16 @@ from stepaside.planning import Direction
 from stepaside.sim.body_settings import BODIES
 from stepaside.sim.push import Push
 from stepaside.strategies import Walk
+from walkers import walker_of
 
 
 def way(bearing: float, *, backward: bool = False) -> tuple[float, float]:
     """Return forward and leftward displacement after 3.5 s, in [m]."""
-    walking = WalkGame(WalkSettings(bearing=bearing, backward=backward))
-    x, y = walking.walker.truth.position_torso_in_world
+    walking = RecordedGame(WalkSettings(bearing=bearing, backward=backward))
+    x, y = walker_of(walking).truth.position_torso_in_world
     while walking.world.time < 3.5:
         assert walking.tick() is None
-    u, v = walking.walker.truth.position_torso_in_world
+    u, v = walker_of(walking).truth.position_torso_in_world
     return u - x, v - y
 
 
@@ -46,56 +48,57 @@ def test_a_robot_walks_where_its_bearing_points() -> None:
 def test_the_settings_decide_the_direction() -> None:
     for backward in (False, True):
         settings = WalkSettings(bearing=0.3, backward=backward)
-        walker = WalkGame(settings).walker
+        walker = walker_of(RecordedGame(settings))
         strategy: Any = walker.scheme.decisions.strategy
         wanted = Direction.BACKWARD if backward else Direction.FORWARD
         assert strategy == Walk(0.3, wanted)
-    walking = WalkGame(WalkSettings())
-    assert abs(walking.walker.truth.heading_in_world) < 1e-9
+    walking = RecordedGame(WalkSettings())
+    assert abs(walker_of(walking).truth.heading_in_world) < 1e-9
     walking.tick()
-    sighting = walking.walker.scheme.sighting
+    sighting = walker_of(walking).scheme.sighting
     assert sighting is not None and sighting.distance == inf
-    assert walking.walker.is_moving
-    hardware = WalkGame(WalkSettings(body=BODIES["hardware"], seed=3))
-    assert hardware.world.physics.tick == 0.012
-    other = WalkGame(WalkSettings(body=BODIES["hardware"], seed=4))
-    masses = [w.world.model.body_mass for w in (hardware, other)]
+    assert walker_of(walking).is_moving
+    hardware = RecordedGame(WalkSettings(body=BODIES["hardware"], seed=3))
+    assert hardware.in_physics.physics.tick == 0.012
+    other = RecordedGame(WalkSettings(body=BODIES["hardware"], seed=4))
+    masses = [w.in_physics.model.body_mass for w in (hardware, other)]
     assert np.abs(masses[0] - masses[1]).max() > 1e-4
 
 
 def test_a_fall_is_detected_by_truth_reach_or_the_robot_itself() -> None:
-    walking = WalkGame(WalkSettings())
+    walking = RecordedGame(WalkSettings())
     assert walking.tick() is None
-    scheme: Any = walking.walker.scheme
+    scheme: Any = walker_of(walking).scheme
     walk_of(scheme).phase = Phase.FALLEN
     scheme.update = lambda measured: scheme.joint_targets
     assert walking.tick() is Outcome.FALL
     assert walking.message == "walker fell at 0.01 s"
-    walk_of(scheme).phase = Phase.WALKING
+    walk_of(scheme).phase, walking.ended = Phase.WALKING, None
     assert walking.tick() is None
-    data = walking.world.data
+    data = walking.in_physics.data
     data.qpos[2:7] = (1.0, 0.5**0.5, 0.5**0.5, 0.0, 0.0)
-    mujoco.mj_forward(walking.world.model, data)
+    mujoco.mj_forward(walking.in_physics.model, data)
     assert walking.tick() is Outcome.FALL
 
     def out_of_reach(measured: object) -> Any:
         raise ReachError("too far")
 
-    other = WalkGame(WalkSettings())
-    scheme = other.walker.scheme
+    other = RecordedGame(WalkSettings())
+    scheme = walker_of(other).scheme
     scheme.update = out_of_reach
-    assert other.tick() is Outcome.UNREACHABLE and other.world.ticks == 0
+    assert other.tick() is Outcome.UNREACHABLE and other.in_physics.ticks == 0
     assert other.message == "walker lost its footing at 0.00 s: too far"
 
 
 def test_a_walk_that_falls_ends_there(monkeypatch: pytest.MonkeyPatch) -> None:
-    tick = WalkGame.advance
+    tick = RecordedGame.advance
 
-    def clumsy(walking: WalkGame) -> Outcome | None:
+    def clumsy(walking: RecordedGame) -> None:
         tick(walking)
-        return None if walking.world.ticks < 40 else Outcome.FALL
+        if walking.in_physics.ticks >= 40:
+            walking.ended = Ended(Outcome.FALL, "")
 
-    monkeypatch.setattr(WalkGame, "advance", clumsy)
+    monkeypatch.setattr(RecordedGame, "advance", clumsy)
     result = run_walk(WalkSettings(duration=3.0))
     assert result.outcome is Outcome.FALL
     assert result.duration == pytest.approx(0.16)
@@ -128,16 +131,6 @@ def test_a_walk_lasts_its_duration(duration: float, ticks: int) -> None:
     assert told.min_zmp_margin_m > 0.02
 
 
-def test_without_a_record_nothing_is_stored() -> None:
-    result = run_walk(WalkSettings(duration=0.2), record=False)
-    assert result.times.size == 0 and result.summary.min_zmp_margin_m is None
-    assert result.outcome is Outcome.COMPLETED
-    assert result.summary.tracking.com_x_m is None
-    assert result.summary.steps == 1  # counted, though nothing is kept
-    walking = WalkGame(WalkSettings(), recorded=False)
-    assert walking.observers == (walking.tally,)
-
-
 def test_steps_and_pushes_of_a_walk_are_counted() -> None:
     pushes = (Push(0.1, 0.5, 0.0), Push(0.05, 1.0, pi / 2))
     settings = WalkSettings(duration=3.0, pushes=pushes)
@@ -167,16 +160,16 @@ def solved(iterations: int) -> MpcResult:
 
 
 def test_feedback_is_summarised(monkeypatch: pytest.MonkeyPatch) -> None:
-    tick = WalkGame.advance
+    tick = RecordedGame.advance
 
-    def adapted(walking: WalkGame) -> Outcome | None:
-        balance: Any = walk_of(walking.walker.scheme).balance
+    def adapted(walking: RecordedGame) -> None:
+        balance: Any = walk_of(walker_of(walking).scheme).balance
         balance.stabiliser.adapted = 7
-        answer = solved(walking.world.ticks)
+        answer = solved(walking.in_physics.ticks)
         balance.stabiliser.zmp_feedback.solved = answer
-        return tick(walking)
+        tick(walking)
 
-    monkeypatch.setattr(WalkGame, "advance", adapted)
+    monkeypatch.setattr(RecordedGame, "advance", adapted)
     result = run_walk(WalkSettings(duration=0.012, control=STABILISED))
     assert result.summary.adapted_steps == 7
     assert result.summary.qp is not None and result.summary.qp.solves == 3
@@ -186,13 +179,13 @@ def test_feedback_is_summarised(monkeypatch: pytest.MonkeyPatch) -> None:
 def test_an_interrupted_walk_is_recorded(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
-    clock(monkeypatch, 1.0)
+    clock(monkeypatch, 0.05)
 
-    def interrupt(time: float) -> None:
+    def interrupt(progress: Progress) -> None:
         raise KeyboardInterrupt
 
     result = run_walk(WalkSettings(duration=3.0), interrupt)
     assert result.outcome is Outcome.INTERRUPTED
-    assert result.message == "interrupted at 0.10 s"
-    assert result.duration == pytest.approx(0.1)
-    np.testing.assert_allclose(result.times, 0.02 * np.arange(6), atol=1e-12)
+    assert result.message == "interrupted at 0.02 s"
+    assert result.duration == pytest.approx(0.02)
+    np.testing.assert_allclose(result.times, [0.0, 0.02], atol=1e-12)

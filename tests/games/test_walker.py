@@ -5,8 +5,8 @@ from typing import Any
 import numpy as np
 
 from stepaside.games import DuelSettings
-from stepaside.games.duel import Duel
-from stepaside.games.match import play
+from stepaside.games.game import play
+from stepaside.games.recorded_game import RecordedGame
 from stepaside.games.walker import SimulatedPlayer
 from stepaside.locomotion.zmp.control_settings import STABILISED
 
@@ -17,8 +17,8 @@ def test_a_walking_robot_measures_only_when_a_decision_is_due() -> None:
     """In open loop with exact sightings; the motion is the same."""
     readings, tracks = [], []
     for coasts in (True, False):
-        duel = Duel(DuelSettings(seed=3, duration=DURATION))
-        pursuer = duel.players[0]
+        duel = RecordedGame(DuelSettings(seed=3, duration=DURATION))
+        pursuer = duel.in_physics.players[0]
         assert isinstance(pursuer, SimulatedPlayer)
         if not coasts:
             pursuer.scheme.coast = lambda now: None  # type: ignore[method-assign]
@@ -32,8 +32,8 @@ def test_a_walking_robot_measures_only_when_a_decision_is_due() -> None:
             return measured
 
         robot.read = note
-        outcome, wall_time = play(duel, DURATION)
-        tracks.append(duel.run(outcome, wall_time).tracks["pursuer"])
+        play(duel)
+        tracks.append(duel.run().tracks["pursuer"])
         readings.append(times)
     sparing, each = readings
     assert len(each) == round(DURATION / 0.004)
@@ -49,8 +49,8 @@ def test_feedback_reads_sightings_only_when_a_decision_is_due() -> None:
     seen, tracks = [], []
     for sparing in (True, False):
         settings = DuelSettings(seed=3, duration=DURATION, control=STABILISED)
-        duel = Duel(settings)
-        robot: Any = duel.players[0].robot  # type: ignore[attr-defined]
+        duel = RecordedGame(settings)
+        robot: Any = duel.in_physics.players[0].robot  # type: ignore[attr-defined]
         read, times = robot.read, list[float]()
 
         def note(
@@ -67,8 +67,8 @@ def test_feedback_reads_sightings_only_when_a_decision_is_due() -> None:
             return measured
 
         robot.read = note
-        outcome, wall_time = play(duel, DURATION)
-        tracks.append(duel.run(outcome, wall_time).tracks["pursuer"])
+        play(duel)
+        tracks.append(duel.run().tracks["pursuer"])
         seen.append(times)
     assert len(seen[1]) == round(DURATION / 0.004)
     walking = [time for time in seen[0] if time > 2.0]

@@ -3,8 +3,9 @@
 import numpy as np
 import pytest
 
-from stepaside.games.walk_game import WalkGame
+from stepaside.games.recorded_game import RecordedGame
 from stepaside.games.walk_settings import WalkSettings
+from walkers import walker_of
 
 CYCLES = 12
 
@@ -17,15 +18,15 @@ def test_an_ideal_body_walks_its_plan(bearing: float, backward: bool) -> None:
     settings = WalkSettings(duration=20.0, bearing=bearing, backward=backward)
     gait = settings.gait
     cycle = 2.0 * gait.step_duration
-    walking = WalkGame(settings, recorded=False)
+    walking = RecordedGame(settings, recorded=False, endless=True)
     been: list[tuple[float, ...]] = []
     while walking.world.time < settings.duration - 1e-9:
         assert walking.tick() is None, walking.message
-        truth = walking.walker.truth
+        truth = walker_of(walking).truth
         been.append(
             (*truth.position_reference_in_world, truth.heading_in_world)
         )
-    ticks = cycle / walking.world.physics.tick
+    ticks = cycle / walking.in_physics.physics.tick
     span, first = round(CYCLES * ticks), round(ticks)
     rows = np.array(been[-span - first :])
     # From every phase of the gait: sway is no way, nor is it radius.

@@ -7,8 +7,8 @@ import pytest
 
 from stepaside.core.errors import ConfigurationError
 from stepaside.core.poses import Array, wrap_angle
-from stepaside.games.duel import Duel
 from stepaside.games.duel_settings import DuelSettings, StartSettings
+from stepaside.games.recorded_game import RecordedGame
 from stepaside.games.walker import SimulatedPlayer
 from stepaside.perception.lidar_perception import (
     find_people,
@@ -65,7 +65,7 @@ def test_a_floor_seen_with_a_wrong_tilt_is_nobody(tilt: float) -> None:
 
 
 def test_a_robot_sees_who_comes_from_behind() -> None:
-    duel = Duel(
+    duel = RecordedGame(
         DuelSettings(
             duration=3.0,
             pursuer="person",
@@ -78,13 +78,14 @@ def test_a_robot_sees_who_comes_from_behind() -> None:
     errors, settled = [], False
     while duel.world.time < 2.0:
         assert duel.tick() is None
-        player = duel.players[1]
+        player = duel.in_physics.players[1]
         assert isinstance(player, SimulatedPlayer)
         sighting = player.scheme.sighting
         if sighting is None or duel.world.time < 0.8:
             continue
         (x, y), (u, v) = (
-            each.truth.position_torso_in_world for each in duel.players
+            each.truth.position_torso_in_world
+            for each in duel.in_physics.players
         )
         bearing = atan2(y - v, x - u) - player.truth.heading_in_world
         off = abs(wrap_angle(sighting.bearing - bearing))

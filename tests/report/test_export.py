@@ -14,8 +14,8 @@ from click.testing import CliRunner
 from stepaside.cli.main import main
 from stepaside.core.constants import GRAVITY
 from stepaside.core.poses import Array
-from stepaside.games.duel import run_duel
 from stepaside.games.duel_settings import DuelSettings, StartSettings
+from stepaside.games.recorded_game import run_duel
 from stepaside.games.run import Run
 from stepaside.games.run_archive import load_run, write_run_files
 from stepaside.robots.description import load_robot

@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 
 from stepaside.core.poses import Array
-from stepaside.games.duel import Duel, run_duel
 from stepaside.games.duel_settings import DuelSettings, StartSettings
+from stepaside.games.recorded_game import RecordedGame, run_duel
 from stepaside.games.run import DuelRun
 from stepaside.locomotion.zmp.control_settings import ControlSettings
 from stepaside.planning import Foot
@@ -63,7 +63,7 @@ def test_footsteps_that_have_not_landed_are_left_out(run: DuelRun) -> None:
 
 def test_a_live_page_draws_footsteps_where_robots_step(run: DuelRun) -> None:
     trail = PlotHistory()
-    duel = Duel(SETTINGS, (trail,))
+    duel = RecordedGame(SETTINGS, (trail,), endless=True)
     while duel.world.time < run.times[-1]:
         assert duel.tick() is None
     wanted = footsteps_in(run)["pursuer"]

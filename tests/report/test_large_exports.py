@@ -16,11 +16,10 @@ from scipy.spatial.transform import Rotation
 from stepaside.arena import Disc, Room
 from stepaside.cli.main import main
 from stepaside.core.poses import Pose
-from stepaside.games.duel import run_duel
 from stepaside.games.duel_settings import DuelSettings, StartSettings
+from stepaside.games.recorded_game import run_duel, run_walk
 from stepaside.games.run import Run
 from stepaside.games.run_archive import load_run, write_run_files
-from stepaside.games.walk_game import run_walk
 from stepaside.games.walk_settings import WalkSettings
 from stepaside.robots.urdf_elements import BASE
 from stepaside.sim.camera_settings import SceneSettings

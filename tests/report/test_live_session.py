@@ -12,8 +12,8 @@ import pytest
 
 from match_callbacks import observe_ticks, stop_observing
 from stepaside.core.errors import ConfigurationError, StepAsideError
-from stepaside.games.duel import Duel
 from stepaside.games.duel_settings import DuelSettings, StartSettings
+from stepaside.games.recorded_game import RecordedGame
 from stepaside.games.run_archive import load_run
 from stepaside.games.walker import SimulatedPlayer
 from stepaside.locomotion.walk_snapshots import Phase
@@ -21,7 +21,6 @@ from stepaside.report.viewer import live_session as live
 from stepaside.report.viewer import plot_history as trails
 from stepaside.report.viewer import run_saving as saving
 from stepaside.report.viewer.drive_panel import TURN
-from stepaside.report.viewer.live_match import LiveMatch
 from stepaside.report.viewer.live_session import LiveSession
 from stepaside.report.viewer.status_text import outlook, status_text
 from stepaside.strategies import Walk
@@ -48,7 +47,7 @@ def settle(session: LiveSession, rounds: int = 1) -> None:
         assert served.wait(LONG), session.error
 
 
-def _setter(event: Event) -> Callable[[LiveMatch], None]:
+def _setter(event: Event) -> Callable[[RecordedGame], None]:
     return lambda duel: event.set()
 
 
@@ -57,7 +56,7 @@ def loop_thread(session: LiveSession) -> Thread:
     found: list[Thread] = []
     done = Event()
 
-    def note(duel: LiveMatch) -> None:
+    def note(duel: RecordedGame) -> None:
         found.append(current_thread())
         done.set()
 
@@ -69,9 +68,9 @@ def loop_thread(session: LiveSession) -> Thread:
 def run_until(session: LiveSession, time: float) -> None:
     """Let time pass up to a tick, and stop there."""
     reached, duel = Event(), session.match
-    tick = duel.world.physics.tick
+    tick = duel.in_physics.physics.tick
 
-    def look(duel: Duel) -> None:
+    def look(duel: RecordedGame) -> None:
         if duel.world.time + tick >= time - 1e-9:
             session.running = False
             reached.set()
@@ -85,7 +84,7 @@ def run_until(session: LiveSession, time: float) -> None:
 
 def walker(session: LiveSession, number: int = 0) -> SimulatedPlayer:
     """Player who is a robot."""
-    player = session.match.players[number]
+    player = session.match.in_physics.players[number]
     assert isinstance(player, SimulatedPlayer)
     return player
 
@@ -154,7 +153,7 @@ def time_for(
     made.speed = speed
     times = []
 
-    def pay(duel: Duel) -> None:
+    def pay(duel: RecordedGame) -> None:
         times.append(clock.now)
         clock.now += cost(duel.world.time)
 
@@ -196,8 +195,12 @@ def test_a_push_changes_the_run() -> None:
         made.speed = inf
         way: list[float] = []
 
-        def record_command(duel: Duel, way: list[float] = way) -> None:
-            way.append(float(duel.players[0].truth.position_com_in_world[1]))
+        def record_command(duel: RecordedGame, way: list[float] = way) -> None:
+            way.append(
+                float(
+                    duel.in_physics.players[0].truth.position_com_in_world[1]
+                )
+            )
 
         observe_ticks(made.match, record_command)
         made.push("pursuer", impulse, pi / 2)
@@ -231,11 +234,11 @@ def test_a_duel_is_let_go_by_the_thread_that_drew_for_it() -> None:
     """When another one has begun, and at the end; each of them once."""
     made = LiveSession(SETTINGS)
     loop = loop_thread(made)
-    closed: list[tuple[LiveMatch, Thread]] = []
+    closed: list[tuple[RecordedGame, Thread]] = []
 
-    def watch() -> LiveMatch:
+    def watch() -> RecordedGame:
         duel = made.match
-        duel.close = lambda: closed.append(  # type: ignore[method-assign]
+        duel.world.close = lambda: closed.append(  # type: ignore[method-assign]
             (duel, current_thread())
         )
         return duel
@@ -326,7 +329,7 @@ def test_of_a_live_duel_the_first_minutes_are_kept(
     assert duel.world.time >= 2.0
     np.testing.assert_allclose(duel.recorder.times, 0.02 * np.arange(51))
     assert all(len(t.com) == 51 for t in duel.recorder.tracks().values())
-    assert isinstance(duel, Duel) and duel.sight_observer is None
+    assert isinstance(duel, RecordedGame) and duel.sight_observer is None
     assert duel.observers[0] is session.trail
 
 

@@ -5,8 +5,8 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from stepaside.games.duel import run_duel
 from stepaside.games.duel_settings import DuelSettings, StartSettings
+from stepaside.games.recorded_game import run_duel
 from stepaside.games.run import DuelRun
 from stepaside.report.landed_footsteps import footsteps_in
 from stepaside.report.overlays import (

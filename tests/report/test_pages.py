@@ -28,14 +28,13 @@ from injection_strings import HOSTILE
 from match_callbacks import observe_ticks, stop_observing
 from stepaside.cli.main import main
 from stepaside.games.configuration_file import dump_configuration
-from stepaside.games.duel import Duel
 from stepaside.games.duel_settings import DuelSettings, StartSettings
+from stepaside.games.recorded_game import RecordedGame
 from stepaside.games.run_archive import load_run
 from stepaside.games.walker import SimulatedPlayer
 from stepaside.report.replay_page import write_page
 from stepaside.report.scene import RunScene
 from stepaside.report.text_escaping import visible
-from stepaside.report.viewer.live_match import LiveMatch
 from stepaside.report.viewer.live_session import LiveSession
 
 SLOW = 0.02  # speed at which a sight of some seconds lasts for minutes
@@ -86,13 +85,13 @@ def test_a_live_duel_can_be_watched_pushed_and_driven(browser: Any) -> None:
     live.start()
     session = live.session
 
-    def slow_down(duel: Duel) -> None:
+    def slow_down(duel: RecordedGame) -> None:
         """Let the walk towards the evader last, however slow the page is."""
         if duel.world.time > 1.0:
             session.speed = SLOW
 
     slowing = observe_ticks(session.match, slow_down)
-    pursuer = session.match.players[0]
+    pursuer = session.match.in_physics.players[0]
     assert isinstance(pursuer, SimulatedPlayer)
     try:
         page = open_page(browser)
@@ -166,7 +165,7 @@ def settle(page: Any, session: LiveSession) -> None:
         until(page, served.is_set)
 
 
-def _setter(event: threading.Event) -> Callable[[LiveMatch], None]:
+def _setter(event: threading.Event) -> Callable[[RecordedGame], None]:
     return lambda duel: event.set()
 
 

@@ -12,8 +12,8 @@ import numpy as np
 import pytest
 
 from stepaside.core.poses import Array
-from stepaside.games.duel import run_duel
 from stepaside.games.duel_settings import DuelSettings, StartSettings
+from stepaside.games.recorded_game import run_duel
 from stepaside.games.run import DuelRun
 from stepaside.games.run_captions import describe_state
 from stepaside.games.trajectory import Trajectory

@@ -12,9 +12,9 @@ import pytest
 
 from stepaside.core.errors import ConfigurationError, OutputError
 from stepaside.core.poses import Array
-from stepaside.games.duel import run_duel
 from stepaside.games.duel_circle import circle_of_theory
 from stepaside.games.duel_settings import DuelSettings, StartSettings
+from stepaside.games.recorded_game import run_duel
 from stepaside.games.run import DuelRun, Run
 from stepaside.games.run_archive import FORMAT, load_run, results_of
 from stepaside.games.trajectory import Trajectory

@@ -40,7 +40,7 @@ def stepped(session: LiveSession, duration: float) -> None:
 
 
 def test_a_person_walks_on_in_a_step(session: LiveSession) -> None:
-    person, evader = session.match.players
+    person, evader = session.match.in_physics.players
     assert isinstance(person, FloorPlayer) and isinstance(
         evader, SimulatedPlayer
     )
@@ -51,7 +51,10 @@ def test_a_person_walks_on_in_a_step(session: LiveSession) -> None:
         np.hypot(*(np.array(person.truth.position_torso_in_world) - began))
     )
     assert way == pytest.approx(0.15, rel=0.01)  # a second at its pace
-    assert phases_of(session.match) == (Phase.WALKING, Phase.STANDING)
+    assert phases_of(session.match.in_physics.players) == (
+        Phase.WALKING,
+        Phase.STANDING,
+    )
     assert len(session.trail.history) == 9
     assert set(session.trail.traces) == {
         *("pursuer/CoM", "evader/CoM", "evader/ZMP")
@@ -72,7 +75,7 @@ def test_the_robot_is_pushed_and_the_person_is_not(
     assert session.match.world.time == pytest.approx(0.1)
     session.push("evader", 0.4, pi / 2)
     stepped(session, 0.2)
-    evader = session.match.players[1]
+    evader = session.match.in_physics.players[1]
     assert (
         isinstance(evader, SimulatedPlayer) and evader.robot.pusher is not None
     )
@@ -108,7 +111,9 @@ def test_a_person_cannot_be_driven(session: LiveSession) -> None:
         stepped(session, 0.5)
         panel.show()
         assert session.error is None
-        ways.append(session.match.players[0].truth.position_torso_in_world)
+        ways.append(
+            session.match.in_physics.players[0].truth.position_torso_in_world
+        )
         gui["Stop driving"].press()
         stepped(session, 0.01)
     assert ways[0] == ways[1]
@@ -137,7 +142,7 @@ def test_of_a_person_only_its_way_is_drawn(session: LiveSession) -> None:
     }
     places = [
         player.truth.position_torso_in_world
-        for player in session.match.players
+        for player in session.match.in_physics.players
     ]
     (sight,) = drawn["line of sight", "pursuer-evader"]
     np.testing.assert_allclose(sight[:, :2], places)

@@ -11,8 +11,9 @@ import pytest
 
 from fake_page import Scene
 from stepaside.core.poses import Array, Pose
-from stepaside.games.duel import Duel
 from stepaside.games.duel_settings import DuelSettings, StartSettings
+from stepaside.games.initial_poses import initial_poses
+from stepaside.games.recorded_game import RecordedGame
 from stepaside.locomotion.walk_snapshots import Phase, WalkState
 from stepaside.planning import Foot, SoleRectangle
 from stepaside.planning.support_polygon import sole_corners
@@ -188,23 +189,23 @@ def test_layers_lie_above_each_other() -> None:
     assert rgb("#0a141e") == (10, 20, 30)
 
 
-def playing(time: float, **changes: Any) -> tuple[Duel, PlotHistory]:
+def playing(time: float, **changes: Any) -> tuple[RecordedGame, PlotHistory]:
     start, trail = StartSettings(0.75, 0.3, -0.2), PlotHistory()
-    duel = Duel(DuelSettings(start=start, **changes), (trail,))
+    duel = RecordedGame(DuelSettings(start=start, **changes), (trail,))
     while duel.world.time < time:
         assert duel.tick() is None
     return duel, trail
 
 
 @pytest.fixture(scope="module")
-def played() -> tuple[Duel, PlotHistory]:
+def played() -> tuple[RecordedGame, PlotHistory]:
     return playing(2.0)
 
 
-def walks(duel: Duel) -> list[tuple[str, WalkState, Pose]]:
+def walks(duel: RecordedGame) -> list[tuple[str, WalkState, Pose]]:
     """Name, state and true odometry of both robots."""
     found = []
-    for player in duel.players:
+    for player in duel.in_physics.players:
         walk, odometry = player.snapshot().walk, true_odometry(player)
         assert walk is not None and odometry is not None
         found.append((player.name, walk, odometry))
@@ -212,12 +213,12 @@ def walks(duel: Duel) -> list[tuple[str, WalkState, Pose]]:
 
 
 def test_a_plan_is_drawn_in_the_world(
-    played: tuple[Duel, PlotHistory],
+    played: tuple[RecordedGame, PlotHistory],
 ) -> None:
     """Its path runs midway between the footsteps, on the floor's frame."""
     duel, trail = played
     for (name, walk, frame), wanted_frame in zip(
-        walks(duel), duel.frames, strict=True
+        walks(duel), initial_poses(duel.settings), strict=True
     ):
         # Two seconds of a walk in open loop: millimetres from its start.
         np.testing.assert_allclose(frame, wanted_frame, atol=5e-3)
@@ -250,7 +251,9 @@ def test_nothing_is_planned_before_a_robot_walks() -> None:
         assert name not in trail.steps
 
 
-def test_old_footsteps_are_left_out(played: tuple[Duel, PlotHistory]) -> None:
+def test_old_footsteps_are_left_out(
+    played: tuple[RecordedGame, PlotHistory],
+) -> None:
     """The last ones are drawn, however many are kept."""
     duel, trail = played
     name, walk, frame = walks(duel)[0]
@@ -323,11 +326,11 @@ def test_the_support_polygon_is_of_the_feet_that_stand(
     assert outline[0, 0, 2] == HEIGHTS["support polygon"]
 
 
-def told(duel: Duel, trail: PlotHistory, **changes: Any) -> Any:
+def told(duel: RecordedGame, trail: PlotHistory, **changes: Any) -> Any:
     """A session as the layers need it."""
     traces = {
         f"{player.name}/{what}": [(0.1 * i, 0.2) for i in range(4)]
-        for player in duel.players
+        for player in duel.in_physics.players
         for what in ("CoM", "ZMP")
     }
     values = {
@@ -356,11 +359,14 @@ def drawn(session: Any) -> dict[tuple[str, str], tuple[Array, str]]:
 
 
 def test_every_layer_of_the_present_moment_is_drawn(
-    played: tuple[Duel, PlotHistory],
+    played: tuple[RecordedGame, PlotHistory],
 ) -> None:
     duel, trail = played
     found = drawn(told(duel, trail))
-    places = [player.truth.position_torso_in_world for player in duel.players]
+    places = [
+        player.truth.position_torso_in_world
+        for player in duel.in_physics.players
+    ]
     assert [name for name, _, _ in walks(duel)] == list(COLOURS)
     for name, walk, frame in walks(duel):
         for layer, wanted, colour in (
@@ -394,17 +400,18 @@ def test_every_layer_of_the_present_moment_is_drawn(
     assert shade == EVADER
     circle, shade = found["theoretical circle", "both"]
     assert circle.shape == (72, 2, 3) and shade == THEORY
-    assert duel.triggered_at is not None and len(found) == 15
+    assert "evader" in duel.in_physics.first_moves and len(found) == 15
     sight, shade = found["line of sight", "pursuer-evader"]
     np.testing.assert_allclose(sight[0, :, :2], places)
     np.testing.assert_allclose(sight[0, :, 2], 0.25)
     assert shade == THEORY
 
 
-def walking(plan: Any) -> Any:
-    """A player with a plan, or without."""
+def walking(plan: Any, moves: tuple[str, ...] = ("evader",)) -> Any:
+    """A world whose pursuer has a plan, or none."""
     walk = SimpleNamespace(plan=plan)
-    return SimpleNamespace(snapshot=lambda: SimpleNamespace(walk=walk))
+    player = SimpleNamespace(snapshot=lambda: SimpleNamespace(walk=walk))
+    return SimpleNamespace(first_moves=moves, player=lambda name: player)
 
 
 @pytest.mark.parametrize("bearing", [0.5, -0.5, 0.0, None])
@@ -412,7 +419,7 @@ def test_the_circle_passes_both_robots_on_the_pursuers_side(
     bearing: float | None,
 ) -> None:
     plan = None if bearing is None else SimpleNamespace(bearing=bearing)
-    duel: Any = SimpleNamespace(triggered_at=1.0, pursuer=walking(plan))
+    duel = walking(plan)
     places = [np.array([1.0, 1.0]), np.array([1.6, 1.6])]
     lines = drawing.circle_lines(duel, 0.6, places)
     middle = lines[:, 0, :2].mean(axis=0)
@@ -428,14 +435,14 @@ def test_the_circle_passes_both_robots_on_the_pursuers_side(
 
 
 def test_a_circle_that_cannot_be_is_not_drawn() -> None:
-    def lines(radius: float | None, apart: float, at: float | None) -> int:
-        duel: Any = SimpleNamespace(triggered_at=at, pursuer=walking(None))
+    def lines(radius: float | None, apart: float, *moves: str) -> int:
+        duel = walking(None, moves)
         places = [np.zeros(2), np.array([apart, 0.0])]
         return len(drawing.circle_lines(duel, radius, places))
 
-    assert lines(0.6, 1.1, 1.0) == 72
-    assert lines(None, 1.1, 1.0) == 0 == lines(0.6, 1.1, None)
-    assert lines(0.6, 1.3, 1.0) == 0 == lines(0.6, 0.0, 1.0)
+    assert lines(0.6, 1.1, "evader") == 72
+    assert lines(None, 1.1, "evader") == 0 == lines(0.6, 1.1, "pursuer")
+    assert lines(0.6, 1.3, "evader") == 0 == lines(0.6, 0.0, "evader")
 
 
 STAND, WALK, HALT, FELL = (

@@ -9,20 +9,20 @@ import pytest
 from stepaside.control import ControlScheme
 from stepaside.core.errors import ConfigurationError
 from stepaside.core.poses import Array
-from stepaside.games.walk_game import WalkGame
+from stepaside.games.recorded_game import RecordedGame
 from stepaside.games.walk_settings import WalkSettings
 from stepaside.robots.description import load_robot
 from stepaside.sim.body_settings import BODIES, BodySettings
 from stepaside.sim.physics_settings import PhysicsSettings
 from stepaside.sim.simulated_robot import SimulatedRobot
+from walkers import walker_of
 
 
 def standing(
     body: BodySettings, tick: float = 0.004
 ) -> tuple[SimulatedRobot, ControlScheme]:
-    walker = WalkGame(
-        WalkSettings(body=body, physics=PhysicsSettings(tick=tick))
-    ).walker
+    physics = PhysicsSettings(tick=tick)
+    walker = walker_of(RecordedGame(WalkSettings(body=body, physics=physics)))
     return walker.robot, walker.scheme
 
 

@@ -6,8 +6,8 @@ import numpy as np
 from fake_robot import GAIT
 from stepaside.arena import BODY_RADIUS
 from stepaside.core.poses import Array, Pose
-from stepaside.games.duel import Duel
 from stepaside.games.duel_settings import DuelSettings, StartSettings
+from stepaside.games.recorded_game import RecordedGame
 from stepaside.games.walker import SimulatedPlayer
 from stepaside.robots.description import load_robot
 from stepaside.sim.outline_measurement import measure_outline
@@ -17,9 +17,9 @@ ANGLES = np.arange(64) * (2.0 * np.pi / 64)
 AROUND = np.stack([np.cos(ANGLES), np.sin(ANGLES)], axis=-1)
 
 
-def reach_of(duel: Duel, name: str) -> Array:
+def reach_of(duel: RecordedGame, name: str) -> Array:
     """How far the boxes of all that can collide reach, along 64 ways."""
-    model, data = duel.world.model, duel.world.data
+    model, data = duel.in_physics.model, duel.in_physics.data
     most = np.full(len(AROUND), -np.inf)
     root = model.body(f"{name}/torso").rootid[0]
     for geom in range(model.ngeom):
@@ -58,13 +58,13 @@ def test_a_walking_body_stays_within_its_outline_by_the_margin() -> None:
     settings = DuelSettings(
         seed=3, start=StartSettings(0.75, 0.8, 0.1), duration=9.0
     )
-    duel = Duel(settings)
+    duel = RecordedGame(settings, endless=True)
     beyond = []
     while duel.world.time < settings.duration:
         assert duel.tick() is None
-        if duel.world.ticks % 10:
+        if duel.in_physics.ticks % 10:
             continue
-        for player in duel.players:
+        for player in duel.in_physics.players:
             assert isinstance(player, SimulatedPlayer)
             body = player.scheme.state.reference
             corners = np.concatenate(

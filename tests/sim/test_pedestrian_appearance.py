@@ -9,10 +9,10 @@ import pytest
 
 from stepaside.core.errors import ConfigurationError
 from stepaside.core.poses import Array, Pose
-from stepaside.games.duel import Duel
 from stepaside.games.duel_settings import DuelSettings, StartSettings
 from stepaside.games.floor_player import FloorPlayer
 from stepaside.games.floor_world import FloorPerson
+from stepaside.games.recorded_game import RecordedGame
 from stepaside.games.walker import SimulatedPlayer
 from stepaside.sim.pedestrian_appearance import FIGURES
 from stepaside.sim.person_body import (
@@ -130,8 +130,8 @@ def test_a_person_starts_at_the_pursuer_pose() -> None:
             start=start,
             person=PersonSettings("straight", miss=miss),
         )
-        duel = Duel(settings)
-        person, evader = duel.players
+        duel = RecordedGame(settings)
+        person, evader = duel.in_physics.players
         assert isinstance(person, FloorPlayer) and isinstance(
             evader, SimulatedPlayer
         )

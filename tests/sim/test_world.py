@@ -5,22 +5,22 @@ import numpy as np
 import pytest
 
 from stepaside.core.errors import ConfigurationError
-from stepaside.games.duel import Duel
 from stepaside.games.duel_settings import DuelSettings, StartSettings
 from stepaside.games.outcome import Outcome
+from stepaside.games.recorded_game import RecordedGame
 from stepaside.games.walker import SimulatedPlayer
 from stepaside.sim.physics_settings import PhysicsSettings
 
 
-def standing(distance: float = 2.0, **changes: object) -> Duel:
+def standing(distance: float = 2.0, **changes: object) -> RecordedGame:
     start = StartSettings(distance, 0.3, -0.2)
-    return Duel(DuelSettings(start=start, **changes))  # type: ignore[arg-type]
+    return RecordedGame(DuelSettings(start=start, **changes))  # type: ignore[arg-type]
 
 
-def walkers(duel: Duel) -> list[SimulatedPlayer]:
+def walkers(duel: RecordedGame) -> list[SimulatedPlayer]:
     return [
         player
-        for player in duel.players
+        for player in duel.in_physics.players
         if isinstance(player, SimulatedPlayer)
     ]
 
@@ -30,7 +30,7 @@ def test_dense_and_sparse_solvers_agree_in_contact() -> None:
     duel = standing()
     for _ in range(50):
         assert duel.tick() is None
-    model, data = duel.world.model, duel.world.data
+    model, data = duel.in_physics.model, duel.in_physics.data
     found = []
     for jacobian in (
         mujoco.mjtJacobian.mjJAC_DENSE,
@@ -90,7 +90,7 @@ def test_contact_ends_the_duel(
     duel = standing()
     assert duel.tick() is None
     pursuer, evader = (w.robot.qpos_slice.start for w in walkers(duel))
-    qpos = duel.world.data.qpos
+    qpos = duel.in_physics.data.qpos
     qpos[evader : evader + 7] = qpos[pursuer : pursuer + 7]
     qpos[evader] += distance
     assert duel.tick() is expected

@@ -13,7 +13,7 @@ import pytest
 
 from stepaside.core.errors import ConfigurationError
 from stepaside.games import DuelSettings
-from stepaside.games.duel import Duel
+from stepaside.games.recorded_game import RecordedGame
 from stepaside.planning import Direction
 from stepaside.strategies import (
     Evasion,
@@ -246,7 +246,7 @@ def test_settings_can_be_read_where_the_file_is_not() -> None:
     """Figures of an old run need no strategy; a duel does."""
     settings = DuelSettings(evader_strategy="gone.py:Timid")
     with pytest.raises(ConfigurationError, match=r"no file gone\.py"):
-        Duel(settings)
+        RecordedGame(settings)
 
 
 def test_a_file_is_read_as_it_is_now(

@@ -164,7 +164,7 @@ def test_a_duel_that_is_stopped_is_no_game(
         played.append(settings.seed)
         return ended
 
-    monkeypatch.setattr("stepaside.games.duel.run_duel", cut_short)
+    monkeypatch.setattr("stepaside.games.recorded_game.run_duel", cut_short)
     settings = replace(SETTINGS, level="physics", game=StepGame(duration=1.0))
     with pytest.raises(KeyboardInterrupt):
         play_record(settings, (ASIDE, "pursuit"), 3)

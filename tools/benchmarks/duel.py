@@ -14,8 +14,8 @@ import numpy as np
 
 from stepaside.core.errors import ConfigurationError
 from stepaside.core.poses import Array
-from stepaside.games.duel import Duel
 from stepaside.games.duel_settings import DuelSettings
+from stepaside.games.recorded_game import RecordedGame
 from stepaside.locomotion.zmp.control_settings import STABILISED
 from stepaside.sim.body_settings import BODIES
 
@@ -33,7 +33,9 @@ def measure_duel(duration: float = 60.0, rounds: int = 3) -> dict[str, float]:
     hardware = DuelSettings(
         seed=1, body=BODIES["hardware"], control=STABILISED, duration=duration
     )
-    spent = min(_play(Duel(hardware), duration)[0] for _ in range(rounds))
+    spent = min(
+        _play(RecordedGame(hardware), duration)[0] for _ in range(rounds)
+    )
     return figures | {"hardware_real_time_factor": duration / spent}
 
 
@@ -41,11 +43,11 @@ def measure_camera_duel() -> dict[str, float]:
     """Return the speed of a duel with cameras; nothing without OpenCV."""
     settings = DuelSettings(seed=1, sensing="cameras", duration=CAMERA_DUEL)
     try:
-        duel = Duel(settings)
+        duel = RecordedGame(settings)
     except ConfigurationError:
         return {}
     spent, _ = _play(duel, CAMERA_DUEL)
-    duel.close()
+    duel.world.close()
     return {"camera_duel_real_time_factor": CAMERA_DUEL / spent}
 
 
@@ -54,11 +56,13 @@ def _measure_duel(duration: float, rounds: int) -> dict[str, float]:
     settings = DuelSettings(seed=1, duration=duration)
     best = {name: np.inf for name in ("duel", "bare", "stepped", "control")}
     for _ in range(rounds):
-        duel = Duel(settings)
+        duel = RecordedGame(settings)
         spent, commands = _play(duel, duration)
         times = {"duel": spent, "control": _control_time(settings)}
         for name, rendered in (("bare", True), ("stepped", False)):
-            world = Duel(settings, recorded=False, rendered=rendered).world
+            world = RecordedGame(
+                settings, recorded=False, rendered=rendered
+            ).in_physics
             model, data = world.model, world.data
             start = process_time()
             for command in commands:
@@ -69,7 +73,7 @@ def _measure_duel(duration: float, rounds: int) -> dict[str, float]:
                 else:
                     world.step()
             times[name] = process_time() - start
-            if not np.array_equal(data.qpos, duel.world.data.qpos):
+            if not np.array_equal(data.qpos, duel.in_physics.data.qpos):
                 raise SystemExit("the bare run took another way")
         best = {name: min(best[name], times[name]) for name in best}
     return {
@@ -83,13 +87,16 @@ def _measure_duel(duration: float, rounds: int) -> dict[str, float]:
     }
 
 
-def _play(duel: Duel, duration: float) -> tuple[float, Sequence[Array]]:
+def _play(
+    duel: RecordedGame, duration: float
+) -> tuple[float, Sequence[Array]]:
     """Return the processor time of a duel, in [s], and all its commands."""
-    data, commands = duel.world.data, []
-    ticks = round(duration / duel.world.physics.tick)
+    data, commands = duel.in_physics.data, []
+    ticks = round(duration / duel.in_physics.physics.tick)
     start = process_time()
     for _ in range(ticks):
-        if duel.tick() is not None:
+        duel.tick()
+        if duel.ended is not None:
             raise SystemExit("the duel ended early")
         commands.append(data.ctrl.copy())
     return process_time() - start, commands
@@ -101,13 +108,13 @@ def _control_time(settings: DuelSettings) -> float:
     Plans are included: it is an average over ticks, most of which only follow
     a plan.
     """
-    duel = Duel(settings)
+    duel = RecordedGame(settings)
     spent, count = 0.0, 0
     for _ in range(5000):
         start = process_time()
-        for player in duel.players:
+        for player in duel.in_physics.players:
             player.tick()
         spent += process_time() - start
         count += 2
-        duel.world.step()
+        duel.in_physics.step()
     return spent / count

@@ -23,9 +23,9 @@ from stepaside.cli.legs_measure import measurement_facts
 from stepaside.core.atomic_output import atomic_draft
 from stepaside.core.worker_pool import worker_pool
 from stepaside.fitting.legs_measurement import measure_legs
-from stepaside.games.duel import run_duel
 from stepaside.games.duel_circle import circle_of_theory
 from stepaside.games.duel_settings import DuelSettings
+from stepaside.games.recorded_game import run_duel
 from stepaside.games.robot_settings import (
     LEGS_GAIT,
     with_legs,

@@ -25,9 +25,9 @@ from benchmark_options import ask
 from resumable_jobs import finished, gather
 
 from stepaside.core.random_streams import named_generator
-from stepaside.games.duel import run_duel
 from stepaside.games.duel_evaluation import template_closest_approach
 from stepaside.games.duel_settings import SENSING, DuelSettings
+from stepaside.games.recorded_game import run_duel
 from stepaside.games.robot_settings import with_legs, with_robot
 from stepaside.locomotion.policy.legs_loader import load_legs
 from stepaside.locomotion.policy.legs_settings import LegsSettings

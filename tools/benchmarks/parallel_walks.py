@@ -6,8 +6,8 @@ from typing import Any
 
 from resumable_jobs import Row, finished, gather
 
+from stepaside.games.recorded_game import run_walk
 from stepaside.games.run_archive import results_of
-from stepaside.games.walk_game import run_walk
 from stepaside.games.walk_settings import WalkSettings
 from stepaside.studies.result_files import header, write_result
 

@@ -13,8 +13,8 @@ from typing import Any
 from benchmark_options import ask, seeds_of
 from resumable_jobs import Row, finished, gather, spread
 
+from stepaside.games.recorded_game import run_walk
 from stepaside.games.run_archive import results_of
-from stepaside.games.walk_game import run_walk
 from stepaside.games.walk_settings import WalkSettings
 from stepaside.locomotion.zmp.control_settings import (
     STABILISED,

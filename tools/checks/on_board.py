@@ -37,8 +37,8 @@ AMONG_TICKS = 0.99  # percentile of the tick times that is reported
 
 def record(file: Path) -> None:
     """Record the measurements and joint targets of two robots."""
-    from stepaside.games.duel import Duel
     from stepaside.games.duel_settings import DuelSettings
+    from stepaside.games.recorded_game import RecordedGame
     from stepaside.games.walker import SimulatedPlayer
     from stepaside.locomotion.zmp.control_settings import STABILISED
     from stepaside.sim.body_settings import BODIES
@@ -49,10 +49,10 @@ def record(file: Path) -> None:
         body=BODIES["delayed"],
         control=STABILISED,
     )
-    duel = Duel(settings, recorded=False)
+    world = RecordedGame(settings, recorded=False).in_physics
     rows: dict[str, list[Any]] = {role: [] for role in ROLES}
     for _ in range(round(SECONDS / TICK)):
-        for player in duel.players:
+        for player in world.players:
             assert isinstance(player, SimulatedPlayer)
             m = player.robot.read()
             targets = player.scheme.update(m).copy()
@@ -61,7 +61,7 @@ def record(file: Path) -> None:
             sensed = (m.joint_positions, m.gyro, m.accelerometer)
             row = [m.time], *sensed, m.foot_forces, seen, targets
             rows[player.name].append(np.concatenate(row))
-        duel.world.step()
+        world.step()
     kept = {role: np.array(rows[role]) for role in ROLES}
     np.savez_compressed(file, allow_pickle=False, **kept)
 

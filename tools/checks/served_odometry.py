@@ -12,14 +12,13 @@ from math import hypot
 import numpy as np
 
 from stepaside.core.poses import Array, Pose
-from stepaside.games.duel_as_game import build_duel_world
 from stepaside.games.duel_settings import (
     PLAYERS,
     DuelSettings,
     StartSettings,
 )
-from stepaside.games.game_world import RemoteControl
-from stepaside.games.initial_poses import with_initial_poses
+from stepaside.games.physics_world import RemoteControl
+from stepaside.games.recorded_game import RecordedGame
 from stepaside.games.velocity_walker import VelocityWalker
 from stepaside.locomotion.zmp.control_settings import STABILISED
 from stepaside.sim.body_settings import BODIES
@@ -39,29 +38,25 @@ def walked(seed: int, first: int) -> list[Array]:
         Rows for each: odometry (x, y, heading), truth in odometry likewise,
         and commanded velocities. Shape (ticks, 8).
     """
-    settings = with_initial_poses(
-        DuelSettings(
-            seed=seed,
-            start=StartSettings(4.0, 3.14, 3.14),
-            body=BODIES["hardware"],
-            control=STABILISED,
-        )
+    settings = DuelSettings(
+        seed=seed,
+        start=StartSettings(4.0, 3.14, 3.14),
+        body=BODIES["hardware"],
+        control=STABILISED,
     )
     remote = RemoteControl(balances=True, ideal_sight=True)
-    stage = build_duel_world(
-        settings,
-        rendered=False,
-        remote=dict.fromkeys(PLAYERS, remote),
-    )
-    robots = [p for p in stage.players if isinstance(p, VelocityWalker)]
+    world = RecordedGame(
+        settings, remote=dict.fromkeys(PLAYERS, remote)
+    ).in_physics
+    robots = [p for p in world.players if isinstance(p, VelocityWalker)]
     rows: list[list[list[float]]] = [[] for _ in robots]
-    for _ in range(round(DURATION / stage.world.physics.tick)):
+    for _ in range(round(DURATION / world.physics.tick)):
         for number, robot in enumerate(robots):
             forward, turn = COMMANDS[first + number]
             robot.command(BodyVelocity(forward, 0.0, turn))
             robot.tick()
             rows[number].append(compared(robot))
-        stage.world.step()
+        world.step()
     return [np.array(each) for each in rows]
 
 

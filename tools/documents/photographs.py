@@ -24,8 +24,8 @@ from PIL import Image
 from playwright.sync_api import sync_playwright
 from tqdm import tqdm
 
-from stepaside.games.duel import run_duel
 from stepaside.games.duel_settings import DuelSettings
+from stepaside.games.recorded_game import run_duel
 from stepaside.report.replay_page import write_page
 from stepaside.report.viewer.live_page import Page
 

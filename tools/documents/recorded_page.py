@@ -8,8 +8,8 @@
 import sys
 from pathlib import Path
 
-from stepaside.games.duel import run_duel
 from stepaside.games.duel_settings import DuelSettings
+from stepaside.games.recorded_game import run_duel
 from stepaside.report.replay_page import write_page
 
 if __name__ == "__main__":

@@ -86,8 +86,8 @@ def _warn_of_expected_end(settings: DuelSettings) -> None:
 
 def _play(settings: DuelSettings) -> "DuelRun":
     """Run the duel with a progress bar on standard error."""
-    from ..games.duel import run_duel
     from ..games.game import Progress
+    from ..games.recorded_game import run_duel
 
     look = "{desc} {bar} {n:.0f}/{total:.0f} s simulated{postfix}"
     total = settings.duration

@@ -103,7 +103,7 @@ def game(
 def _play(settings: "GameSettings") -> "MatchRun":
     """Play the game with a progress bar on standard error."""
     from ..games.game import Progress
-    from ..games.game_match import run_game
+    from ..games.recorded_game import run_game
 
     look = "{desc} {bar} {n:.0f}/{total:.0f} s simulated{postfix}"
     total = settings.duration

@@ -72,9 +72,9 @@ def _draw_sweep(file: Path) -> None:
 
 
 def _draw_duel(file: Path, seed: int) -> None:
-    from ..games.duel import run_duel
     from ..games.duel_settings import DuelSettings
     from ..games.outcome import Outcome
+    from ..games.recorded_game import run_duel
     from ..report.run_figure import draw_run
 
     result = run_duel(DuelSettings(seed=seed, duration=120.0))

@@ -60,14 +60,15 @@ def walk(
 
 def _walk(settings: WalkSettings) -> "WalkRun":
     """Walk with a progress bar on standard error."""
-    from ..games.walk_game import run_walk
+    from ..games.game import Progress
+    from ..games.recorded_game import run_walk
 
     look = "{desc} {bar} {n:.0f}/{total:.0f} s simulated"
     total = settings.duration
     with show_progress("walk", total, "s simulated", bar_format=look) as bar:
 
-        def report(time: float) -> None:
-            bar.n = time
+        def report(progress: Progress) -> None:
+            bar.n = progress.time
             bar.refresh()
 
         result = run_walk(settings, report)

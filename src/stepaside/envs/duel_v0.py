@@ -9,10 +9,10 @@ from numpy.typing import NDArray
 
 from ..arena import OPEN_FLOOR
 from ..core.errors import ConfigurationError, StrategyError
-from ..games.duel import Duel
 from ..games.duel_settings import PLAYERS
 from ..games.floor_games import PAIR, floor_of_two, rules_of_two
 from ..games.game import GameInPlay
+from ..games.recorded_game import RecordedGame
 from ..strategies.constant_walk import StandStill
 from ..strategies.learned.observation_terms import (
     FARTHEST,
@@ -102,7 +102,7 @@ class DuelParallelEnv(ParallelGames):
         if duel.pursuer == "robot":
             duel = replace(duel, pursuer_strategy=played["pursuer"])
         game = PhysicsGame(
-            Duel(duel, recorded=False),
+            RecordedGame(duel, recorded=False, endless=True),
             held,
             duel.room.plan or OPEN_FLOOR,
             PAIR,

@@ -9,10 +9,9 @@ from ..core.player_identity import PlayerIdentity
 from ..core.poses import Pose
 from ..games.floor_world import FloorWalk, FloorWorld
 from ..games.game import GameInPlay
-from ..games.match import Match
 from ..games.outcome import Outcome
+from ..games.recorded_game import RecordedGame
 from ..planning import Direction
-from ..sim.ground_truth import torsos_apart
 from ..strategies.knowledge import STAND, Intent, Knowledge
 
 
@@ -155,7 +154,7 @@ class FloorGame(EpisodeGame):
 
     def _advance(self, until: float) -> None:
         """Play to the next decision, at most to a time, in [s]."""
-        self._game.advance(until)
+        self._game.tick(until)
         self._note()
         ended = self._game.ended
         if ended is None:
@@ -219,7 +218,7 @@ class PhysicsGame(EpisodeGame):
 
     def __init__(
         self,
-        match: Match,
+        match: RecordedGame,
         held: Mapping[str, HeldIntent],
         room: Room,
         identities: Mapping[str, PlayerIdentity],
@@ -275,7 +274,7 @@ class PhysicsGame(EpisodeGame):
     @property
     def poses(self) -> Mapping[str, Pose]:
         """Pose of each player in the room, by name."""
-        return {p.name: p.snapshot().place for p in self._match.players}
+        return self._match.world.states()
 
     def knowledge(self, name: str) -> Knowledge | None:
         """Return what a controlled player knew at its last decision."""
@@ -287,7 +286,7 @@ class PhysicsGame(EpisodeGame):
             self._held[name].intent = intent
         if self._period is not None:
             self._until += self._period
-            tick = self._match.world.physics.tick
+            tick = self._match.in_physics.physics.tick
             while not self.over and self.time + tick <= self._until + 1e-9:
                 self._tick()
             return
@@ -305,12 +304,11 @@ class PhysicsGame(EpisodeGame):
 
     def close(self) -> None:
         """Release the robots."""
-        self._match.close()
+        self._match.world.close()
 
     def _apart(self, one: str, other: str) -> float:
         """Return the distance between the torsos of two players, in [m]."""
-        match = self._match
-        return torsos_apart(match.player(one).truth, match.player(other).truth)
+        return self._match.world.apart(one, other)
 
     def _tick(self) -> None:
         """Advance by one control tick."""

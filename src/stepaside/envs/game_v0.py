@@ -14,9 +14,9 @@ from ..core.errors import AnyPath, ConfigurationError, check_within
 from ..games.floor_games import floor_of, rules_of
 from ..games.game import GameInPlay
 from ..games.game_file import load_game
-from ..games.game_match import GameMatch
 from ..games.game_settings import GameSettings
 from ..games.game_starts import with_starts
+from ..games.recorded_game import RecordedGame
 from ..strategies.knowledge import Knowledge, OtherPlayer
 from ..strategies.learned.observation_terms import (
     FARTHEST,
@@ -109,7 +109,7 @@ class GameParallelEnv(ParallelGames):
             played = GameInPlay(floor_of(settings), rules_of(settings))
             return FloorGame(played, room, self.period)
         game = PhysicsGame(
-            GameMatch(settings, recorded=False),
+            RecordedGame(settings, recorded=False, endless=True),
             held,
             room,
             settings.identities,

@@ -4,8 +4,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ..games.match import Match
-from ..games.outcome import Outcome
+from ..games.game import GameInPlay, GameObserver
+from ..games.physics_world import PhysicsWorld
 from ..games.walker import SimulatedPlayer
 
 STANDING_FROM = 0.3  # time at which transients have settled, in [s]
@@ -32,8 +32,8 @@ class JointStrain(NamedTuple):
     sag: float
 
 
-class StrainGauge:
-    """Match observer that measures the joint strain of the first player."""
+class StrainGauge(GameObserver):
+    """Observer that measures the joint strain of the first player."""
 
     def __init__(self) -> None:
         """Begin without data."""
@@ -42,13 +42,11 @@ class StrainGauge:
         self._ticks = self._saturated = 0
         self._sags: list[float] = []
 
-    def before(self, match: Match) -> None:
-        """Do nothing."""
-
-    def acted(self, match: Match) -> None:
+    def acted(self, game: GameInPlay) -> None:
         """Record the actuator forces of this tick."""
-        model, data = match.world.model, match.world.data
-        now = match.world.time
+        world = game.world
+        assert isinstance(world, PhysicsWorld)
+        model, data, now = world.model, world.data, world.time
         if now < STANDING_FROM:
             return
         if not self._names:
@@ -64,16 +62,13 @@ class StrainGauge:
         self._saturated += bool((loads > 0.999).any())
         if now < STANDING_UNTIL:
             self._standing = np.maximum(self._standing, loads)
-            (walker,) = match.players
+            (walker,) = world.players
             assert isinstance(walker, SimulatedPlayer)
             height = walker.scheme.state.reference.com[2]
             self._sags.append(
                 height - float(walker.truth.position_com_in_world[2])
             )
         self._walking = np.maximum(self._walking, loads)
-
-    def ended(self, match: Match, outcome: Outcome) -> None:
-        """Do nothing."""
 
     def strain(self) -> JointStrain:
         """Return the strain so far."""

@@ -5,10 +5,10 @@ from math import degrees, radians
 from typing import NamedTuple
 
 from ..core.errors import StepAsideError
-from ..games.match import play
+from ..games.game import play
 from ..games.outcome import Outcome
+from ..games.recorded_game import RecordedGame
 from ..games.robot_settings import settings_from_description
-from ..games.walk_game import WalkGame
 from ..games.walk_settings import WalkSettings
 from ..games.walk_summary import WalkSummary
 from ..locomotion.zmp.control_settings import ControlSettings
@@ -162,9 +162,7 @@ def walk_trial(trial: WalkTrial) -> WalkTrialResult:
     feedback = bool(settings.control.feedback)
     gauge = StrainGauge()
     try:
-        game = WalkGame(
-            settings, description=trial.description, observers=(gauge,)
-        )
+        game = RecordedGame(settings, (gauge,), description=trial.description)
     except StepAsideError as error:
         return WalkTrialResult(
             path.name,
@@ -178,14 +176,14 @@ def walk_trial(trial: WalkTrial) -> WalkTrialResult:
             turning=None,
             strain=None,
         )
-    outcome, wall = play(game, duration)
-    run = game.run(outcome, wall)
+    play(game)
+    run = game.run()
     summary = run.summary
     return WalkTrialResult(
         path.name,
         feedback,
         run.message,
-        outcome is Outcome.COMPLETED,
+        run.outcome is Outcome.COMPLETED,
         run.duration / duration,
         summary.tilt_max_deg,
         _com_error(summary, gait),

@@ -29,9 +29,8 @@ from ..sim.offscreen_rendering import (
 from ..sim.sensor_suite import SensorSuite
 from ..sim.simulated_robot import SimulatedRobot
 from ..sim.world import World
+from .game import GameInPlay, GameObserver
 from .game_settings import GameSettings, PlayerSettings
-from .match import Match
-from .outcome import Outcome
 from .sight_evaluation import EvaluatedImage, SightEvaluator
 from .sight_summary import PerceptionSummary, SightReport
 
@@ -183,8 +182,8 @@ class CameraSenses:
         )
 
 
-class SightObserver:
-    """Match observer that evaluates the perception of each robot.
+class SightObserver(GameObserver):
+    """Observer that evaluates the perception of each robot.
 
     Attributes:
         evaluators: Evaluators, by name of the robot.
@@ -206,20 +205,19 @@ class SightObserver:
         """
         self.evaluators = dict(evaluators)
         self._renderer, self._every = renderer, every
+        self._ticks = 0
 
-    def before(self, match: Match) -> None:
+    def before(self, game: GameInPlay) -> None:
         """Compare sightings with the true state, when a sample is due."""
-        if match.world.ticks % self._every == 0:
+        if self._ticks % self._every == 0:
             for evaluator in self.evaluators.values():
-                evaluator.sample(match.world.time)
+                evaluator.sample(game.world.time)
+        self._ticks += 1
 
-    def acted(self, match: Match) -> None:
+    def acted(self, game: GameInPlay) -> None:
         """Evaluate the detections of this tick."""
         for evaluator in self.evaluators.values():
             evaluator.evaluate_tick()
-
-    def ended(self, match: Match, outcome: Outcome) -> None:
-        """Do nothing at the end of the game."""
 
     def sight(self) -> dict[str, Array]:
         """Return estimated and true sightings, by name of the robot."""

@@ -8,8 +8,7 @@ from typing import Protocol
 import numpy as np
 
 from ..core.errors import ConfigurationError
-from .match import Match
-from .outcome import Outcome
+from .game import GameInPlay, GameObserver
 
 TICK = 0.012  # of a served world, that of LoLA, in [s]
 LATE = 0.006  # delay from which a tick counts as late, in [s]
@@ -54,7 +53,7 @@ class RobotServer(Protocol):
         """Stop serving."""
 
 
-class ClientSynchroniser:
+class ClientSynchroniser(GameObserver):
     """Match observer that synchronises a match with its clients.
 
     Attributes:
@@ -132,15 +131,9 @@ class ClientSynchroniser:
         self.lateness.clear()
         self.unanswered = 0
 
-    def before(self, match: Match) -> None:
+    def before(self, game: GameInPlay) -> None:
         """Exchange measurements and commands before the players act."""
         self._exchange()
-
-    def acted(self, match: Match) -> None:
-        """Nothing to do."""
-
-    def ended(self, match: Match, outcome: Outcome) -> None:
-        """Nothing to do."""
 
     def _exchange(self) -> None:
         """Exchange measurements and commands of one tick."""

@@ -1,7 +1,7 @@
 """Summary of a finished duel, compared with theory."""
 
 from collections.abc import Mapping
-from math import degrees, isfinite, pi
+from math import degrees, hypot, isfinite, pi
 
 import numpy as np
 
@@ -19,7 +19,13 @@ from .duel_circle import (
     missing_circle_reason,
     time_scale,
 )
-from .duel_settings import EVADER, PLAYERS, DuelSettings, load_evader
+from .duel_settings import (
+    EVADER,
+    PLAYERS,
+    PURSUER,
+    DuelSettings,
+    load_evader,
+)
 from .duel_summary import (
     DuelSummary,
     PlanTimes,
@@ -28,48 +34,55 @@ from .duel_summary import (
     TheorySummary,
 )
 from .forecast import ExpectedEnd, forecast
-from .pair_match import PairMatch
+from .game import GameInPlay
 from .sight_summary import SightReport
 from .template_game import play_template
 from .trajectory import PlanningTimes, Trajectory
 
+FirstMoves = Mapping[str, tuple[float, Mapping[str, Pose]]]
+
 
 def summarise(
     settings: DuelSettings,
-    match: PairMatch,
+    game: GameInPlay,
     times: Array,
     tracks: Mapping[str, Trajectory],
     planning: Mapping[str, PlanningTimes],
+    first_moves: FirstMoves,
     seen: SightReport | None,
-    wall_time: float,
 ) -> DuelSummary:
-    """Compute the summary of a finished duel.
+    """Compute the summary of a duel.
 
     Args:
         settings: Settings of the duel, with the initial poses filled in.
-        match: The match that was played.
+        game: The game that was played.
         times: Times of the samples, in [s]. Shape (n,).
         tracks: Trajectory of each player, by name.
         planning: Planning times of each player, by name.
+        first_moves: Time and poses at which players first moved, by name.
         seen: Evaluation of perception, with camera sensing.
-        wall_time: Time that the computation took, in [s].
     """
     pursuer, evader = (tracks[name].unicycle for name in PLAYERS)
     theory = circle_of_theory(settings)
     converged = convergence_time(times, pursuer, evader, settings, theory)
     tail = times >= times[-1] * 2.0 / 3.0
     last = pursuer[tail], evader[tail]
-    start, now = settings.start, match.world.time
+    start, pair = settings.start, (EVADER, PURSUER)
+    triggered_at, apart = None, None
+    if EVADER in first_moves:
+        triggered_at, poses = first_moves[EVADER]
+        (x, y, _), (u, v, _) = poses[PURSUER], poses[EVADER]
+        apart = hypot(u - x, v - y)
     return DuelSummary(
         seed=settings.seed,
         start=StartSummary(
             start.distance, start.pursuer_offset, start.evader_offset
         ),
-        triggered_at_s=match.triggered_at,
-        triggered_at_distance_m=match.triggered_distance,
+        triggered_at_s=triggered_at,
+        triggered_at_distance_m=apart,
         distance_m=float(distance_between(*last).mean()),
         relative_orientation_deg=degrees(float(angle_between(*last).mean())),
-        min_distance_m=match.min_distance,
+        min_distance_m=game.closest[pair],
         converged_at_s=converged,
         replans=sum(len(p.times) for p in planning.values()),
         max_com_velocity_jump_m_s=max(
@@ -85,13 +98,13 @@ def summarise(
         ),
         theory=_theory(settings, converged),
         plan_time_us=_plan_times(planning),
-        real_time_factor=now / max(wall_time, 1e-9),
+        real_time_factor=game.real_time_factor,
         pursuer=_player("pursuer", tracks, tail, seen),
         evader=_player("evader", tracks, tail, seen),
         sight=None if seen is None else seen.together,
-        touched=list(match.touched),
+        touched=list(game.touched),
         notes=list(settings.notes),
-        captured_at_s=match.captured_at,
+        captured_at_s=game.captured_at.get(pair),
     )
 
 

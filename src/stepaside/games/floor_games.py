@@ -1,6 +1,5 @@
 """Games on the floor: of two strategies, and of the settings of a game."""
 
-from collections.abc import Callable
 from math import pi
 from typing import NamedTuple
 
@@ -9,7 +8,7 @@ import numpy as np
 from ..arena import NO_OBSTACLES, OPEN_FLOOR, Room
 from ..core.brief_repr import brief_repr
 from ..core.constants import CAPTURE_DISTANCE
-from ..core.errors import ConfigurationError
+from ..core.errors import ConfigurationError, StrategyError
 from ..core.player_identity import PlayerIdentity, Role
 from ..core.poses import Array, Pose, wrap_angles
 from ..sim.crowd_motion import CrowdMotion
@@ -23,7 +22,6 @@ from ..theory.unicycle.relative_coordinates import RelativeStart
 from ..theory.unicycle.unicycle_game import Game
 from .floor_world import (
     PARTS,
-    PERIOD,
     FloorAgent,
     FloorBulk,
     FloorMotion,
@@ -33,7 +31,7 @@ from .floor_world import (
     FloorWalk,
     FloorWorld,
 )
-from .game import GameInPlay, GameRules, Progress, play
+from .game import GameInPlay, GameRules, play
 from .game_settings import GameSettings, PlayerSettings
 from .game_strategies import MARGIN, strategy_of
 from .outcome import Outcome
@@ -168,15 +166,18 @@ def track_of(
 
     Raises:
         KeyboardInterrupt: If the user interrupted it.
+        StrategyError: If a strategy failed.
     """
     assert game.ended is not None
     if game.ended.outcome is Outcome.INTERRUPTED:
         raise KeyboardInterrupt
+    if game.ended.outcome is Outcome.FAILED:
+        raise StrategyError(game.message)
     poses, evades = recorder.poses(), recorder.world.motions["evader"]
     times = evades.decision_times if isinstance(evades, FloorWalk) else []
     return StrategyTrack(
         game.ended.outcome,
-        np.array(recorder.times),
+        recorder.times,
         poses["pursuer"],
         poses["evader"],
         room.clearance(poses["evader"][:, :2]),
@@ -251,35 +252,13 @@ def floor_of(settings: GameSettings) -> FloorWorld:
 
 
 def rules_of(settings: GameSettings) -> GameRules:
-    """Return what ends a game of these settings."""
-    goals = {p.name: p.goal for p in settings.players if p.goal and p.decides}
-    return GameRules(
-        settings.duration,
-        CAPTURE_DISTANCE,
-        settings.identities,
-        goals,
-    )
+    """Return what ends a game of these settings.
 
-
-def play_floor(
-    settings: GameSettings,
-    report: Callable[[Progress], None] | None = None,
-) -> tuple[GameInPlay, FloorRecorder]:
-    """Play a game on the floor; its record has a sample each 20 ms.
-
-    Args:
-        settings: Settings with the initial poses filled in.
-        report: Called about five times a second with the progress.
-
-    Raises:
-        StepAsideError: If a strategy is invalid or a recorded run is
-            unreadable.
+    In physics a game goes on after a capture: contact ends it.
     """
-    world = floor_of(settings)
-    recorder = FloorRecorder(world, PERIOD)
-    game = GameInPlay(world, rules_of(settings), (recorder,))
-    play(game, report)
-    return game, recorder
+    goals = {p.name: p.goal for p in settings.players if p.goal and p.decides}
+    capture = 0.0 if settings.level == "physics" else CAPTURE_DISTANCE
+    return GameRules(settings.duration, capture, settings.identities, goals)
 
 
 def _motion(settings: GameSettings, own: PlayerSettings) -> FloorMotion:

@@ -4,21 +4,15 @@ A body on the floor shows the player and gives its true state. Its motion is
 that of a game without bodies (:mod:`.floor_world`).
 """
 
-from collections.abc import Callable, Sequence
-from typing import TYPE_CHECKING, Protocol
+from collections.abc import Callable
+from typing import Protocol
 
-from ..core.errors import ConfigurationError
 from ..core.poses import Pose
-from ..locomotion.walk_snapshots import StepStarted
-from ..sim.ground_truth import FloorTruth, GroundTruth
-from ..sim.push import Push
+from ..sim.ground_truth import FloorTruth
 from ..sim.template_body import pose_template
 from ..sim.world import World
 from .floor_world import AT_ONCE, FloorMotion, Seen
-from .player import Snapshot, TruthLog
-
-if TYPE_CHECKING:
-    from ..perception.pipeline import FrameReport
+from .player import Player, Snapshot
 
 MARKER_HEIGHT = 0.27  # that stands for the CoM of a marker, in [m]
 MARKER_REACH = 0.1  # of a marker, which touches nothing, in [m]
@@ -62,36 +56,19 @@ class MarkerBody:
         pose_template(self.world.model, self.world.data, self.name, pose)
 
 
-class FloorPlayer:
+class FloorPlayer(Player):
     """Player that physics does not move.
 
     Attributes:
-        name: Name of the player.
-        truth: Its true state.
         motion: Its motion.
-        begun: None: it plans no footsteps.
-        reports: Empty: it has no cameras.
-        is_ready: True.
-        is_moving: True.
-        has_fallen: False: it does not fall.
     """
-
-    begun: StepStarted | None = None
-    reports: "Sequence[FrameReport]" = ()
-    is_ready = True
-    is_moving = True
-    has_fallen = False
 
     def __init__(
         self, body: FloorBody, motion: FloorMotion, seen: Callable[[], Seen]
     ) -> None:
         """Combine a body, its motion, and what it sees of all players."""
         self.name, self._body, self.motion = body.name, body, motion
-        self.truth: GroundTruth = body.truth
-        self._seen = seen
-
-    def start(self) -> None:
-        """Do nothing: it begins with the simulation."""
+        self.truth, self._seen = body.truth, seen
 
     def tick(self) -> None:
         """Advance the motion by one tick."""
@@ -107,27 +84,5 @@ class FloorPlayer:
         """Return the state at this instant."""
         x, y, z = self.truth.position_com_in_world.tolist()
         pose = self._body.truth.pose
-        return Snapshot(
-            name=self.name,
-            time=self._body.world.time,
-            place=pose,
-            torso=pose,
-            com=(x, y, z),
-        )
-
-    def motion_log(self, *, closely: bool) -> TruthLog:
-        """Return an empty log of its motion; it has no estimates."""
-        return TruthLog(self.truth)
-
-    def push(self, *pushes: Push) -> None:
-        """Reject pushes.
-
-        Raises:
-            ConfigurationError: Always.
-        """
-        raise ConfigurationError(
-            f"only a robot can be pushed, got {self.name}"
-        )
-
-    def close(self) -> None:
-        """Do nothing: it holds no resources."""
+        time = self._body.world.time
+        return Snapshot(self.name, time, pose, pose, (x, y, z))

@@ -26,8 +26,10 @@ from ..strategies.knowledge import Intent, Knowledge, Limits, OtherPlayer
 from ..strategies.opponent_choice import choose_opponent
 from ..strategies.strategy import Strategy
 from ..strategies.velocity_set import STILL, respond
-from .game import GameInPlay
+from .game import GameInPlay, GameObserver
+from .outcome import Outcome
 from .recorded_motion import RecordedMotion
+from .trajectory import PlanningTimes, Trajectory
 
 PERIOD = 0.02  # of records, and of the decisions of people, in [s]
 AT_ONCE = 1e-9  # times that differ by less are one instant, in [s]
@@ -214,19 +216,11 @@ class FloorWalk:
         return self._known[1]
 
     def decide(self, now: float, seen: Seen) -> None:
-        """Decide, and follow the intent until the next decision.
-
-        Raises:
-            StrategyError: If the strategy returns no intent.
-        """
+        """Decide, and follow the intent until the next decision."""
         begun = thread_time()
         intent, known = self.given, self.look(now, seen)
         if intent is None and known is not None:
-            try:
-                intent = self.agent.evaluate(known)
-            except StrategyError as error:
-                name = type(self.agent.strategy).__name__
-                raise StrategyError(f"strategy {name}: {error}") from error
+            intent = self.agent.evaluate(known)
         self.decision_times.append(thread_time() - begun)
         limits, parts = self.agent.limits, self._parts
         duration, self._since = limits.step_duration / parts, now
@@ -445,7 +439,11 @@ class FloorWorld:
         motions: Motion of each player, by name.
         time: Time, in [s].
         until: Time of the next decision, in [s].
+        acting: Name of the player that decides, or decided last.
+        contact: Outcome of a game that ends by contact with an obstacle.
     """
+
+    contact = Outcome.TOUCHED
 
     def __init__(
         self,
@@ -461,6 +459,7 @@ class FloorWorld:
             bodies: Players whose contact with an obstacle ends the game.
         """
         self.motions, self.time, self.until = dict(motions), 0.0, 0.0
+        self.acting = ""
         self._seen = {name: own.pose for name, own in self.motions.items()}
         self._obstacles = obstacles
         self._bodies = {
@@ -486,8 +485,9 @@ class FloorWorld:
             StrategyError: If a strategy fails.
         """
         now = self.time + AT_ONCE
-        for motion in self.motions.values():
+        for name, motion in self.motions.items():
             if motion.due <= now:
+                self.acting = name
                 motion.decide(self.time, self._seen)
         self.until = min([motion.due for motion in self.motions.values()])
 
@@ -498,21 +498,32 @@ class FloorWorld:
             motion.advance(self.time)
         self._seen = {name: own.pose for name, own in self.motions.items()}
 
-    def touching(self) -> str:
-        """Return the name of the first player at an obstacle; or none."""
-        for name, own in self._bodies.items():
-            if not own.is_clear(own.pose, self._obstacles):
-                return name
-        return ""
+    def apart(self, one: str, other: str) -> float:
+        """Return the distance between two players, in [m]."""
+        (x, y, _), (u, v, _) = self._seen[one], self._seen[other]
+        return hypot(u - x, v - y)
+
+    def flush(self) -> None:
+        """Do nothing: there are no networks."""
+
+    def fallen(self) -> tuple[str, ...]:
+        """Return no names: nobody falls."""
+        return ()
+
+    def touching(self) -> tuple[str, ...]:
+        """Return the names of the players at an obstacle."""
+        return tuple(
+            name
+            for name, own in self._bodies.items()
+            if not own.is_clear(own.pose, self._obstacles)
+        )
+
+    def close(self) -> None:
+        """Do nothing: it holds no resources."""
 
 
-class FloorRecorder:
-    """Observer that samples the poses of all players on the floor.
-
-    Attributes:
-        world: The world.
-        times: Times of the samples, in [s].
-    """
+class FloorRecorder(GameObserver):
+    """Observer that samples the poses of all players on the floor."""
 
     def __init__(self, world: FloorWorld, period: float = 0.0) -> None:
         """Begin an empty record.
@@ -522,8 +533,13 @@ class FloorRecorder:
             period: Time between samples, in [s]; 0 for one at each decision.
         """
         self.world, self._period = world, period
-        self.times: list[float] = []
+        self._times: list[float] = []
         self._rows: list[Sequence[Pose]] = []
+
+    @property
+    def times(self) -> Array:
+        """Times of the samples, in [s]. Shape (n,)."""
+        return np.array(self._times)
 
     def acted(self, game: GameInPlay) -> None:
         """Sample the motion up to the next decision."""
@@ -532,18 +548,18 @@ class FloorRecorder:
             self._note(world.time, list(world.states().values()))
             return
         until = min(world.until, game.rules.duration)
-        while (time := period * len(self.times)) < until - AT_ONCE:
+        while (time := period * len(self._times)) < until - AT_ONCE:
             motions = world.motions.values()
             self._note(time, [own.pose_at(time) for own in motions])
 
     def ended(self, game: GameInPlay) -> None:
         """Take the last sample."""
         time = self.world.time
-        if not self.times or self.times[-1] < time - AT_ONCE:
+        if not self._times or self._times[-1] < time - AT_ONCE:
             self._note(time, list(self.world.states().values()))
 
     def _note(self, time: float, poses: Sequence[Pose]) -> None:
-        self.times.append(time)
+        self._times.append(time)
         self._rows.append(poses)
 
     def poses(self) -> dict[str, Array]:
@@ -551,8 +567,25 @@ class FloorRecorder:
 
         Shapes (n, 3).
         """
-        found = np.array(self._rows).reshape(len(self.times), -1, 3)
+        found = np.array(self._rows).reshape(len(self._times), -1, 3)
         return {
             name: found[:, number]
             for number, name in enumerate(self.world.motions)
         }
+
+    def tracks(self) -> dict[str, Trajectory]:
+        """Return the trajectories, with each CoM on the floor, by name."""
+        return {name: _track(rows) for name, rows in self.poses().items()}
+
+    def planning(self) -> dict[str, PlanningTimes]:
+        """Return no planning times, by name of the player."""
+        none = PlanningTimes(0, np.zeros(0), 0.0, None)
+        return dict.fromkeys(self.world.motions, none)
+
+
+def _track(poses: Array) -> Trajectory:
+    """Return the trajectory of a template."""
+    poses = poses.copy()
+    poses[:, 2] = np.unwrap(poses[:, 2])
+    com = np.column_stack([poses[:, :2], np.zeros(len(poses))])
+    return Trajectory(com=com, torso=poses.copy(), place=poses)

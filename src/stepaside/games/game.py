@@ -1,11 +1,14 @@
-"""Game without bodies: a world, rules, a judge, and the loop that plays it."""
+"""Game: a world, rules, a judge, and the loop that plays it."""
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
+from itertools import combinations
 from math import hypot, inf
 from time import perf_counter
 from typing import NamedTuple, Protocol
 
+from ..core.constants import CAPTURE_DISTANCE
+from ..core.errors import ReachError, StrategyError
 from ..core.player_identity import PlayerIdentity
 from ..core.poses import Pose
 from ..core.signal_handling import DeferredInterrupt
@@ -16,33 +19,57 @@ REPORT_PERIOD = 0.2  # between two progress reports, in [s]
 
 
 class PlayedWorld(Protocol):
-    """World in which a game is played.
+    """World in which a game is played: in physics, or on a floor.
 
     Attributes:
-        time: Time, in [s].
+        contact: Outcome of a game that ends because players touch something.
     """
 
-    time: float
+    contact: Outcome
+
+    @property
+    def time(self) -> float:
+        """Time, in [s]."""
+
+    @property
+    def acting(self) -> str:
+        """Name of the player that decides, or decided last."""
 
     def states(self) -> Mapping[str, Pose]:
         """Return the pose of each player in the world, by name."""
+
+    def apart(self, one: str, other: str) -> float:
+        """Return the distance of two bodies by the rules, in [m]."""
 
     def decide(self) -> None:
         """Let the players decide that are due.
 
         Raises:
             StrategyError: If a strategy fails.
+            ReachError: If legs cannot reach their references.
         """
+
+    def flush(self) -> None:
+        """Evaluate networks that wait, in this and in other worlds."""
 
     def step(self, limit: float) -> None:
         """Move all players on, at most to a time, in [s]."""
 
-    def touching(self) -> str:
-        """Return the name of a player at an obstacle; empty for none."""
+    def fallen(self) -> tuple[str, ...]:
+        """Return the names of the players that have fallen."""
+
+    def touching(self) -> tuple[str, ...]:
+        """Return the names of players whose contact ends the game."""
+
+    def close(self) -> None:
+        """Release what the players hold."""
 
 
-class GameObserver(Protocol):
-    """Observer of a game, such as a recorder."""
+class GameObserver:
+    """Observer of a game, such as a recorder or a live page."""
+
+    def before(self, game: "GameInPlay") -> None:
+        """Observe the world before the players decide."""
 
     def acted(self, game: "GameInPlay") -> None:
         """Observe the world after they have decided, before they move."""
@@ -56,7 +83,8 @@ class Progress(NamedTuple):
 
     Attributes:
         time: Simulated time, in [s].
-        distance: Smallest distance between opponents, in [m]; None without.
+        distance: Smallest distance between opponents, or else between any
+            players, in [m]; None with one player.
         real_time_factor: Simulated time over time passed.
     """
 
@@ -89,7 +117,7 @@ class Ended(NamedTuple):
     Attributes:
         outcome: How it ended.
         message: The reason, as text.
-        players: Names of the players that ended it.
+        players: Names of the players and things that ended it.
     """
 
     outcome: Outcome
@@ -105,7 +133,11 @@ class GameInPlay:
         rules: Its rules.
         observers: Its observers.
         ended: How it ended; None while it goes on.
+        closest: Least distance so far of each evader and pursuer, in [m].
+        captured_at: Time at which that distance first was at most the
+            capture distance, in [s]; it ends a game only by its rules.
         goals_at: Time at which players reached their goals, in [s], by name.
+        wall_time: Share of the time that the computation took, in [s].
     """
 
     def __init__(
@@ -126,56 +158,116 @@ class GameInPlay:
             if ids[evader].role == "evader"
             and ids[evader].opposes(ids[pursuer])
         ]
+        self.closest = dict.fromkeys(self._pairs, inf)
+        self.captured_at: dict[tuple[str, str], float] = {}
+        self.wall_time = 0.0
         self.ended = self._judge()
 
     @property
+    def outcome(self) -> Outcome | None:
+        """How it ended; None while it goes on."""
+        return None if self.ended is None else self.ended.outcome
+
+    @property
+    def message(self) -> str:
+        """Reason for the end, as text; empty while it goes on."""
+        return "" if self.ended is None else self.ended.message
+
+    @property
+    def real_time_factor(self) -> float:
+        """Simulated time over computing time; 1 while it goes on."""
+        time = self.world.time
+        return time / self.wall_time if self.wall_time > 0.0 else 1.0
+
+    @property
+    def touched(self) -> tuple[str, ...]:
+        """Names of what was in contact, if that ended the game."""
+        by_contact = self.outcome in (Outcome.CONTACT, Outcome.TOUCHED)
+        return self.ended.players if self.ended and by_contact else ()
+
+    @property
+    def fallen(self) -> tuple[str, ...]:
+        """Names of the players that fell, if that ended the game."""
+        fell = self.outcome is Outcome.FALL
+        return self.ended.players if self.ended and fell else ()
+
+    @property
     def distance(self) -> float | None:
-        """Smallest distance between opponents, in [m]; None without."""
+        """Smallest distance between opponents, in [m].
+
+        Without opponents that of all players; None with one player.
+        """
         poses = self.world.states()
+        pairs = self._pairs or combinations(poses, 2)
         return min(
             (
                 hypot(poses[a].x - poses[b].x, poses[a].y - poses[b].y)
-                for a, b in self._pairs
+                for a, b in pairs
             ),
             default=None,
         )
 
-    def advance(self, until: float = inf) -> None:
-        """Let the players decide and move to the next instant, and judge.
+    def tick(self, limit: float = inf) -> Outcome | None:
+        """Let the players decide and move on, and judge; return the outcome.
 
         Args:
-            until: Time at which the next instant is at the latest, in [s].
-
-        Raises:
-            StrategyError: If a strategy fails.
+            limit: Time at which they move no farther, in [s].
         """
-        self.world.decide()
+        self.decide()
+        self.world.flush()
+        self.advance(limit)
+        return self.outcome
+
+    def decide(self) -> None:
+        """Let the players decide, before their networks are evaluated."""
+        for observer in self.observers:
+            observer.before(self)
+        try:
+            self.world.decide()
+        except (ReachError, StrategyError) as error:
+            failed, now = isinstance(error, StrategyError), self.world.time
+            what = "'s strategy failed" if failed else " lost its footing"
+            who = self.world.acting
+            self.ended = Ended(
+                Outcome.FAILED if failed else Outcome.UNREACHABLE,
+                f"{who}{what} at {now:.2f} s: {error}",
+                (who,),
+            )
+
+    def advance(self, limit: float = inf) -> None:
+        """Move on after all have decided, unless one failed, and judge."""
+        if self.ended is not None:
+            return
         for observer in self.observers:
             observer.acted(self)
-        self.world.step(min(until, self.rules.duration))
+        self.world.step(min(limit, self.rules.duration))
         self.ended = self._judge()
 
     def _judge(self) -> Ended | None:
-        """Apply the rules."""
+        """Apply the rules, and note approaches."""
         world, rules = self.world, self.rules
-        now = world.time
-        if name := world.touching():
-            message = f"{name} touched an obstacle at {now:.2f} s"
-            return Ended(Outcome.TOUCHED, message, (name,))
-        if rules.capture:
-            poses = world.states()
-            for evader, pursuer in self._pairs:
-                (x, y, _), (u, v, _) = poses[evader], poses[pursuer]
-                if hypot(u - x, v - y) <= rules.capture:
-                    return Ended(
-                        Outcome.CAPTURED,
-                        f"{pursuer} captured {evader} at {now:.2f} s",
-                        (evader, pursuer),
-                    )
+        now, caught = world.time, None
+        for pair in self._pairs:
+            apart = world.apart(*pair)
+            if apart < self.closest[pair]:
+                self.closest[pair] = apart
+            if apart <= CAPTURE_DISTANCE:
+                self.captured_at.setdefault(pair, now)
+            if caught is None and apart <= rules.capture:
+                caught = pair
+        if names := world.fallen():
+            message = f"{' and '.join(names)} fell at {now:.2f} s"
+            return Ended(Outcome.FALL, message, names)
+        if names := world.touching():
+            message = f"{' and '.join(names)} touched at {now:.2f} s"
+            return Ended(world.contact, message, names)
+        if rules.capture and caught is not None:
+            evader, pursuer = caught
+            message = f"{pursuer} captured {evader} at {now:.2f} s"
+            return Ended(Outcome.CAPTURED, message, caught)
         if rules.goals and self._all_arrived():
-            return Ended(
-                Outcome.COMPLETED, f"all goals reached at {now:.2f} s"
-            )
+            message = f"all goals reached at {now:.2f} s"
+            return Ended(Outcome.COMPLETED, message)
         if now >= rules.duration - 1e-9:
             return Ended(Outcome.COMPLETED, f"played {now:.2f} s")
         return None
@@ -191,30 +283,47 @@ class GameInPlay:
 
 
 def play(
-    game: GameInPlay, report: Callable[[Progress], None] | None = None
+    *games: GameInPlay, report: Callable[[Progress], None] | None = None
 ) -> None:
-    """Play a game to its end; a KeyboardInterrupt ends it, too.
+    """Play games side by side to their ends, with one use of networks.
+
+    Each game has the same bits as when it is played alone. At any end,
+    including a KeyboardInterrupt, which interrupts those that still go on,
+    the observers keep the record of what was played, and the worlds are
+    closed.
 
     Args:
-        game: The game.
-        report: Called about five times a second with the progress.
-
-    Raises:
-        StrategyError: If a strategy fails.
+        games: The games, which share their networks.
+        report: Called about five times a second with the progress of the
+            first game.
     """
     began = reported = perf_counter()
     try:
         with DeferredInterrupt() as interrupt:
-            while game.ended is None:
+            while playing := [game for game in games if game.ended is None]:
                 interrupt.let_through()
-                game.advance()
-                now = perf_counter()
-                if report is not None and now - reported > REPORT_PERIOD:
-                    reported, time = now, game.world.time
-                    report(Progress(time, game.distance, time / (now - began)))
+                for game in playing:
+                    game.decide()
+                for game in playing:
+                    game.world.flush()
+                for game in playing:
+                    game.advance()
+                if report is None or games[0].ended is not None:
+                    continue
+                now, time = perf_counter(), games[0].world.time
+                if now - reported > REPORT_PERIOD:
+                    reported, factor = now, time / (now - began)
+                    report(Progress(time, games[0].distance, factor))
     except KeyboardInterrupt:
-        if game.ended is None:
-            message = f"interrupted at {game.world.time:.2f} s"
-            game.ended = Ended(Outcome.INTERRUPTED, message)
-    for observer in game.observers:
-        observer.ended(game)
+        for game in games:
+            if game.ended is None:
+                message = f"interrupted at {game.world.time:.2f} s"
+                game.ended = Ended(Outcome.INTERRUPTED, message)
+    finally:
+        for game in games:
+            game.world.close()
+    share = (perf_counter() - began) / max(1, len(games))
+    for game in games:
+        game.wall_time = share
+        for observer in game.observers:
+            observer.ended(game)

@@ -1,9 +1,9 @@
 """Summary of a finished game of any number of players."""
 
 from collections.abc import Mapping
-from dataclasses import dataclass
 from itertools import combinations
 from math import isfinite
+from typing import NamedTuple
 
 import numpy as np
 
@@ -13,6 +13,7 @@ from ..sim.crowd_motion import RADIUS
 from ..theory.unicycle.circle_fit import fit_circle
 from .duel_circle import angle_between, cycle_mean, distance_between
 from .duel_summary import PlanTimes
+from .game import GameInPlay
 from .game_settings import GameSettings, PlayerSettings
 from .game_summary import CrowdResult, GameSummary, PairResult, PlayerResult
 from .outcome import Outcome
@@ -22,49 +23,40 @@ MOVED = 0.02  # distance from the start that counts as motion, in [m]
 INTRUSIONS = (0.45, 1.2)  # of crowd navigation: intimate and personal, [m]
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class GameRecord:
+class GameRecord(NamedTuple):
     """Record of a finished game.
 
     Attributes:
         settings: Settings with the initial poses filled in.
-        outcome: How it ended.
-        message: Reason for the end, as text.
-        duration: Simulated time, in [s].
+        game: The game that was played.
         times: Times of the samples, in [s]. Shape (n,).
         tracks: Trajectory of each player, by name.
         planning: Planning times of each player, by name.
-        goals_at: Time at which players reached their goals, in [s], by name.
-        touched: Names of the bodies in contact, if contact ended the game.
-        fallen: Names of the players that fell.
     """
 
     settings: GameSettings
-    outcome: Outcome
-    message: str
-    duration: float
+    game: GameInPlay
     times: Array
     tracks: Mapping[str, Trajectory]
     planning: Mapping[str, PlanningTimes]
-    goals_at: Mapping[str, float]
-    touched: tuple[str, ...]
-    fallen: tuple[str, ...]
 
 
-def summarise_game(record: GameRecord, wall_time: float) -> GameSummary:
-    """Compute the summary of a finished game.
-
-    Args:
-        record: Record of the game.
-        wall_time: Time that the computation took, in [s].
-    """
-    settings, planning = record.settings, record.planning.values()
+def summarise_game(
+    settings: GameSettings,
+    game: GameInPlay,
+    times: Array,
+    tracks: Mapping[str, Trajectory],
+    planning: Mapping[str, PlanningTimes],
+) -> GameSummary:
+    """Compute the summary of a game; see :class:`GameRecord`."""
+    record = GameRecord(settings, game, times, tracks, planning)
+    spent = planning.values()
     pairs = [
         _pair(record, one, other)
         for one, other in combinations(settings.names, 2)
     ]
     people = [p for p in settings.players if p.body == "person"]
-    plans = 1e6 * np.concatenate([p.times for p in planning])
+    plans = 1e6 * np.concatenate([p.times for p in spent])
     return GameSummary(
         seed=settings.seed,
         level=settings.level,
@@ -76,18 +68,18 @@ def summarise_game(record: GameRecord, wall_time: float) -> GameSummary:
             if p.decides and people
         ],
         replans=len(plans),
-        max_com_velocity_jump_m_s=max(p.velocity_jump for p in planning),
+        max_com_velocity_jump_m_s=max(p.velocity_jump for p in spent),
         min_zmp_margin_m=min(
-            (p.zmp_margin for p in planning if p.zmp_margin is not None),
+            (p.zmp_margin for p in spent if p.zmp_margin is not None),
             default=None,
         ),
         plan_time_us=PlanTimes(
             float(np.median(plans)) if len(plans) else None,
             float(np.quantile(plans, 0.99)) if len(plans) else None,
         ),
-        real_time_factor=record.duration / max(wall_time, 1e-9),
-        touched=list(record.touched),
-        fallen=list(record.fallen),
+        real_time_factor=game.real_time_factor,
+        touched=list(game.touched),
+        fallen=list(game.fallen),
     )
 
 
@@ -140,9 +132,9 @@ def _player(
         path_m=float(np.hypot(*steps).sum()),
         radius_m=float(radius) if isfinite(radius) else None,
         moved_at_s=float(times[first[0]]) if first.size else None,
-        fell=own.name in record.fallen,
-        touched=own.name in record.touched,
-        goal_at_s=record.goals_at.get(own.name),
+        fell=own.name in record.game.fallen,
+        touched=own.name in record.game.touched,
+        goal_at_s=record.game.goals_at.get(own.name),
         closest_m=min(
             (pair.closest_m for pair in pairs if own.name in pair.players),
             default=None,
@@ -162,7 +154,7 @@ def _crowd(
         ]
     )
     if record.settings.level == "physics" and own.body == "robot":
-        collisions = int(own.name in record.touched)
+        collisions = int(own.name in record.game.touched)
     else:
         touching = apart < own.radius + RADIUS
         begins = np.diff(touching.astype(int), axis=1, prepend=0) > 0
@@ -172,13 +164,13 @@ def _crowd(
     intimate, personal = (
         period * int(np.count_nonzero(nearest < limit)) for limit in INTRUSIONS
     )
-    arrived = record.goals_at.get(own.name)
+    arrived = record.game.goals_at.get(own.name)
     reached = (
         arrived is not None
         if own.goal
-        else (record.outcome is Outcome.COMPLETED)
+        else (record.game.outcome is Outcome.COMPLETED)
     )
-    unharmed = own.name not in (*record.touched, *record.fallen)
+    unharmed = own.name not in (*record.game.touched, *record.game.fallen)
     return CrowdResult(
         name=own.name,
         people=len(people),

@@ -81,12 +81,19 @@ class Scenery(NamedTuple):
 
 
 def scenery_of_game(
-    settings: GameSettings, *, templates: Collection[str] = ()
+    settings: GameSettings,
+    scene: SceneSettings | None = None,
+    walls: float = 0.0,
+    *,
+    templates: Collection[str] = (),
 ) -> Scenery:
     """Return obstacles, people, templates and cameras of a game.
 
     Args:
         settings: Settings of the game.
+        scene: What cameras see around the players of a duel, whose people
+            wear their own clothes; nothing by default.
+        walls: Distance of visible walls from the origin, in [m]; 0 for none.
         templates: Names of robots that are shown as templates.
     """
     colours = colours_in_world(settings)
@@ -101,9 +108,9 @@ def scenery_of_game(
     if seeing:
         furnishings.append(
             furnisher(
-                SceneSettings(),
+                scene or SceneSettings(),
                 load_head(load_robot(seeing[0].robot)),
-                walls=0.0,
+                walls=walls,
                 housings=[p.name for p in seeing if p.role == "evader"],
                 rear=settings.cameras.rear_camera,
                 upper=[p.name for p in seeing],
@@ -116,7 +123,7 @@ def scenery_of_game(
                 own = player.person
                 add_person(
                     *(spec, player.name, FIGURES[own.figure]),
-                    shirt=colours[player.name],
+                    shirt=None if scene else colours[player.name],
                     solid=own.solid,
                 )
             elif player.body != "robot" or player.name in templates:

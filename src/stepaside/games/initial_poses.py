@@ -11,8 +11,6 @@ from .duel_settings import DuelSettings, StartSettings
 
 SLOW_SPEED = 0.15  # speed up to which a person begins nearby, in [m/s]
 LEAD_TIME = 5.0  # extra distance of a faster person over its speed, in [s]
-WALL_MARGIN = 1.0  # smallest distance of a start from the walls, in [m]
-WALL_DISTANCE = 3.5  # from a start to walls moved for it: camera range, [m]
 SAME = 1e-6  # tolerance within which starts are equal, in [m] and [rad]
 
 
@@ -87,26 +85,6 @@ def initial_poses(settings: DuelSettings) -> tuple[Pose, Pose]:
         Pose(0.0, 0.0, start.pursuer_offset),
         Pose(start.distance, 0.0, pi + start.evader_offset),
     )
-
-
-def wall_distance(settings: DuelSettings) -> float:
-    """Return the distance of the walls from the origin.
-
-    A player that began outside the walls would pass through one, undetected
-    until then. If a start is not well inside, the walls are moved beyond the
-    range of a depth camera at that start.
-
-    Args:
-        settings: Settings of the duel, with the start filled in.
-
-    Returns:
-        Distance, in [m]; 0 without walls.
-    """
-    walls = settings.room.walls
-    reach = max(abs(c) for frame in initial_poses(settings) for c in frame[:2])
-    if not walls or reach + WALL_MARGIN <= walls:
-        return walls
-    return reach + WALL_DISTANCE
 
 
 def _agreeing(given: StartSettings, drawn: StartSettings) -> StartSettings:

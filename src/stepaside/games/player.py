@@ -4,6 +4,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Protocol
 
+from ..core.errors import ConfigurationError
 from ..core.poses import Array, Pose
 from ..core.row_table import RowTable
 from ..locomotion.walk_snapshots import StepStarted, WalkState
@@ -119,41 +120,41 @@ class TruthLog:
         }
 
 
-class Player(Protocol):
-    """Player of a match.
+class Player:
+    """Player of a game in physics: a robot, a person or a moved body.
 
     Attributes:
         name: Name of the player.
         truth: True state, for the rules of the game and the record.
-        begun: Step begun at the last tick, if any.
-        reports: Detections of the images that arrived at the last tick.
     """
 
     name: str
-
-    @property
-    def truth(self) -> GroundTruth:
-        """True state."""
+    truth: GroundTruth
 
     @property
     def begun(self) -> StepStarted | None:
         """Step begun at the last tick, if any."""
+        return None
 
     @property
     def reports(self) -> "Sequence[FrameReport]":
         """Detections of the images that arrived at the last tick."""
+        return ()
 
     @property
     def is_ready(self) -> bool:
         """Whether it is ready for the game to begin."""
+        return True
 
     @property
     def is_moving(self) -> bool:
         """Whether it has left its standing state."""
+        return True
 
     @property
     def has_fallen(self) -> bool:
         """Whether it has fallen, or has detected a fall."""
+        return False
 
     def start(self) -> None:
         """Receive the signal that the game begins."""
@@ -168,6 +169,7 @@ class Player(Protocol):
 
     def snapshot(self) -> Snapshot:
         """Return the state at this instant."""
+        raise NotImplementedError
 
     def motion_log(self, *, closely: bool) -> MotionLog:
         """Return an empty log of its motion.
@@ -175,54 +177,38 @@ class Player(Protocol):
         Args:
             closely: Whether to include foot states and estimates.
         """
+        return TruthLog(self.truth)
 
     def push(self, *pushes: Push) -> None:
-        """Schedule pushes, now or later.
+        """Schedule pushes of the torso, now or later.
 
         Raises:
             ConfigurationError: If the player cannot be pushed.
         """
+        raise ConfigurationError(
+            f"only a robot can be pushed, got {self.name}"
+        )
 
     def close(self) -> None:
         """Release its resources."""
 
 
-class PhysicalPlayer:
+class PhysicalPlayer(Player):
     """Simulated robot in a match; what moves it is up to subclasses.
 
     Attributes:
-        name: Name of the player.
         robot: Simulated robot.
-        truth: True state.
     """
 
     def __init__(self, robot: "SimulatedRobot") -> None:
         """Take a robot that stands in its world."""
         self.name, self.robot = robot.name, robot
-        self.truth: GroundTruth = robot.truth
-
-    @property
-    def begun(self) -> StepStarted | None:
-        """None: its steps are unknown."""
-        return None
-
-    @property
-    def reports(self) -> "Sequence[FrameReport]":
-        """Detections of the images that arrived at the last tick: none."""
-        return ()
-
-    @property
-    def is_ready(self) -> bool:
-        """True: nothing has to happen before the game begins."""
-        return True
+        self.truth = robot.truth
 
     @property
     def has_fallen(self) -> bool:
         """Whether it has fallen."""
         return self.truth.has_fallen
-
-    def start(self) -> None:
-        """Do nothing: it begins with the simulation."""
 
     def snapshot(self) -> Snapshot:
         """Return the state at this instant, without plans."""

@@ -1,14 +1,12 @@
 """Recorder of a match: one trajectory per player."""
 
-from collections.abc import Sequence
-
 import numpy as np
 
 from ..core.poses import Array, Pose
 from ..locomotion.walk_snapshots import StepStarted
 from ..planning import Foot, ManeuverPlan
-from .match import Match
-from .outcome import Outcome
+from .game import GameInPlay, GameObserver
+from .physics_world import PhysicsWorld
 from .player import Player
 from .trajectory import PlanningTimes, Trajectory, margin_of
 
@@ -64,28 +62,26 @@ class PlayerRecord:
         )
 
 
-class Recorder:
-    """Match observer that samples all players.
+class Recorder(GameObserver):
+    """Observer of a game in physics that samples all players.
 
     Attributes:
         every: Control ticks between samples.
     """
 
-    def __init__(
-        self, players: Sequence[Player], *, tick: float, closely: bool = False
-    ) -> None:
-        """Record players.
+    def __init__(self, world: PhysicsWorld, *, closely: bool = False) -> None:
+        """Record the players of a world.
 
         Args:
-            players: The players.
-            tick: Control period, in [s].
+            world: The world.
             closely: Whether to record foot states and estimates.
         """
-        self.every = max(1, round(PERIOD / tick))
+        self._world = world
+        self.every = max(1, round(PERIOD / world.physics.tick))
         self._times: list[float] = []
         self._records = {
             player.name: PlayerRecord(player, closely=closely)
-            for player in players
+            for player in world.players
         }
 
     @property
@@ -93,29 +89,29 @@ class Recorder:
         """Times of the samples, in [s]. Shape (n,)."""
         return np.array(self._times)
 
-    def before(self, match: Match) -> None:
+    def before(self, game: GameInPlay) -> None:
         """Take a sample when one is due."""
-        if match.world.ticks % self.every == 0:
-            self._sample(match)
+        if self._world.ticks % self.every == 0:
+            self._sample()
 
-    def acted(self, match: Match) -> None:
+    def acted(self, game: GameInPlay) -> None:
         """Record the steps that begin at this tick."""
-        for player in match.players:
+        for player in self._world.players:
             if player.begun is not None:
                 self._records[player.name].begun.append(player.begun)
 
-    def ended(self, match: Match, outcome: Outcome) -> None:
+    def ended(self, game: GameInPlay) -> None:
         """Take the last sample, unless one of this instant exists."""
         for record in self._records.values():
             # An interrupt may have cut the last sample short.
             record.log.truncate(len(self._times))
-        if not self._times or self._times[-1] < match.world.time:
-            self._sample(match)
+        if not self._times or self._times[-1] < self._world.time:
+            self._sample()
 
-    def _sample(self, match: Match) -> None:
+    def _sample(self) -> None:
         for record in self._records.values():
             record.log.add()
-        self._times.append(match.world.time)
+        self._times.append(self._world.time)
 
     def tracks(self) -> dict[str, Trajectory]:
         """Return the trajectories recorded so far, by name of the player."""

@@ -6,7 +6,7 @@ forces, plans, the memory of the strategy, and camera images.
 """
 
 from collections.abc import Callable, Iterator, Mapping
-from dataclasses import dataclass, field, fields, is_dataclass
+from dataclasses import dataclass, field, fields, is_dataclass, replace
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -15,14 +15,13 @@ from ..core.poses import Array, Pose
 from ..core.row_table import RowTable
 from ..locomotion.walk_snapshots import StepStarted
 from ..perception.images import ColourImage, DepthImage
-from .duel import Duel
-from .game import Progress
-from .game_match import GameMatch
-from .match import Match, play
+from .game import GameInPlay, GameObserver, Progress, play
 from .outcome import Outcome
-from .recorder import Recorder
-from .run import Run, is_duel, is_match, is_walk
-from .walk_game import WalkGame
+from .physics_world import PhysicsWorld
+from .recorded_game import RecordedGame
+from .recorder import PERIOD
+from .run import Run
+from .settings_as_game import PlayableSettings
 from .walker import RobotPlayer, SimulatedPlayer
 
 Image = ColourImage | DepthImage
@@ -203,8 +202,8 @@ class RobotSignalRecord:
         )
 
 
-class SignalRecorder:
-    """Match observer that records the signals of all robots.
+class SignalRecorder(GameObserver):
+    """Observer that records the signals of all robots.
 
     Samples are taken when :class:`Recorder` takes its own.
     """
@@ -214,32 +213,34 @@ class SignalRecorder:
         self._records: dict[str, RobotSignalRecord] = {}
         self._last = -1.0
 
-    def before(self, match: Match) -> None:
+    def before(self, game: GameInPlay) -> None:
         """Take a sample when one is due."""
+        world = game.world
+        assert isinstance(world, PhysicsWorld)
         if not self._records:
             self._records = {
                 player.name: RobotSignalRecord(player)
-                for player in match.players
+                for player in world.players
                 if isinstance(player, RobotPlayer)
             }
-            self._every = Recorder((), tick=match.world.physics.tick).every
-        if match.world.ticks % self._every == 0:
-            self._sample(match)
+            self._every = max(1, round(PERIOD / world.physics.tick))
+        if world.ticks % self._every == 0:
+            self._sample(world.time)
 
-    def acted(self, match: Match) -> None:
+    def acted(self, game: GameInPlay) -> None:
         """Record plans and images of this tick."""
         for record in self._records.values():
-            record.act(match.world.time)
+            record.act(game.world.time)
 
-    def ended(self, match: Match, outcome: Outcome) -> None:
+    def ended(self, game: GameInPlay) -> None:
         """Take the last sample, unless one of this instant exists."""
-        if self._last < match.world.time:
-            self._sample(match)
+        if self._last < game.world.time:
+            self._sample(game.world.time)
 
-    def _sample(self, match: Match) -> None:
-        self._last = match.world.time
+    def _sample(self, now: float) -> None:
+        self._last = now
         for record in self._records.values():
-            record.sample(match.world.time)
+            record.sample(now)
 
     def signals(self, run: Run) -> dict[str, RobotSignals]:
         """Return the signals of all robots of a run, by name."""
@@ -268,17 +269,13 @@ def repeat_game(
         KeyboardInterrupt: If it was interrupted.
     """
     recorder = SignalRecorder()
-    game: Duel | GameMatch | WalkGame
-    if is_match(run) and run.robots:
-        game = GameMatch(run.settings, (recorder,))
-    elif is_duel(run):
-        game = Duel(run.settings, (recorder,))
-    elif is_walk(run):
-        game = WalkGame(run.settings, observers=(recorder,))
-    else:
+    settings = run.settings
+    if not isinstance(settings, PlayableSettings) or not run.robots:
         return RepeatedGame({}, f"a {run.game} cannot be repeated")
-    outcome, _ = play(game, run.duration, report)
-    if outcome is Outcome.INTERRUPTED:
+    game = RecordedGame(settings, (recorder,))
+    game.rules = replace(game.rules, duration=run.duration)
+    play(game, report=report)
+    if game.outcome is Outcome.INTERRUPTED:
         raise KeyboardInterrupt
     again, times = game.recorder.tracks(), game.recorder.times
     for name in run.robots:

@@ -3,7 +3,7 @@
 from typing import TYPE_CHECKING, NamedTuple, Protocol
 
 from .client_synchroniser import TICK, RobotServer
-from .game_world import RemoteControl
+from .physics_world import RemoteControl
 from .player import Player
 from .served_player import ServedPlayer
 from .velocity_walker import VelocityWalker

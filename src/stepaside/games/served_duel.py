@@ -6,14 +6,9 @@ from typing import Any, NamedTuple
 
 from ..core.errors import ConfigurationError
 from .client_synchroniser import TICK, ClientSynchroniser, RobotServer
-from .duel import make_duel_run
-from .duel_as_game import build_duel_world
 from .duel_settings import DuelSettings
-from .game import Progress
-from .initial_poses import with_initial_poses
-from .match import play
-from .pair_match import PairMatch
-from .recorder import Recorder
+from .game import Progress, play
+from .recorded_game import RecordedGame
 from .robot_endpoints import RobotEndpoint
 from .run import DuelRun
 from .run_archive import results_of
@@ -75,13 +70,14 @@ def serve_duel(
                 "a served player must be a robot that walks by maneuvers, "
                 f"got {name}"
             )
-    settings = with_initial_poses(settings)
-    stage = build_duel_world(
+    servers: list[RobotServer] = []
+    exchange = ClientSynchroniser(servers, lock_step=lock_step)
+    game = RecordedGame(
         settings,
-        rendered=False,
+        (exchange,),
         remote={name: each.control for name, each in endpoints.items()},
     )
-    world, players = stage.world, stage.players
+    world = game.in_physics
     if world.physics.tick != TICK:
         raise ConfigurationError(
             f"a served duel needs a tick of {TICK:g} [s], "
@@ -89,29 +85,15 @@ def serve_duel(
             "hardware"
         )
     with ExitStack() as stack:
-        servers: list[RobotServer] = []
-        for player in players:
-            if player.name in endpoints:
-                endpoint = endpoints[player.name]
-                servers.append(endpoint.serve(player, lock_step=lock_step))
-                stack.callback(servers[-1].close)
-        exchange = ClientSynchroniser(servers, lock_step=lock_step)
-        recorder = Recorder(players, tick=TICK)
+        for name, endpoint in endpoints.items():
+            player = world.player(name)
+            servers.append(endpoint.serve(player, lock_step=lock_step))
+            stack.callback(servers[-1].close)
         exchange.gather(patience)
-        for player in players:
+        for player in world.players:
             if isinstance(player, ServedPlayer):
                 player.begin()
-        match = PairMatch(
-            world,
-            players,
-            (exchange, recorder),
-            has_things=settings.has_things,
-            networks=stage.networks,
-        )
-        outcome, wall = play(match, settings.duration, report)
+        play(game, report=report)
     return ServedDuel(
-        make_duel_run(settings, match, outcome, recorder, None, wall),
-        exchange.late,
-        exchange.histogram(),
-        exchange.unanswered,
+        game.run(), exchange.late, exchange.histogram(), exchange.unanswered
     )

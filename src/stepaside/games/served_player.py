@@ -22,8 +22,6 @@ class ServedPlayer(PhysicalPlayer):
     Its plans and detections are unknown to this process. Its server waits
     for the client before the match.
 
-    Attributes:
-        is_moving: Whether its targets have left the initial stance.
     """
 
     def __init__(
@@ -37,12 +35,17 @@ class ServedPlayer(PhysicalPlayer):
                 moving.
         """
         super().__init__(robot)
-        self.is_moving = False
+        self._moves = False
         self._head = list(head)
         self._waiting = True
         self._measurement: RobotState | None = None
         self._ticks = -1
         self._stance: Array | None = None
+
+    @property
+    def is_moving(self) -> bool:
+        """Whether its targets have left the initial stance."""
+        return self._moves
 
     def begin(self) -> None:
         """Begin the game: apply commands from now on."""
@@ -78,7 +81,7 @@ class ServedPlayer(PhysicalPlayer):
             self._stance = targets
         change = np.abs(targets - self._stance)
         change[self._head] = 0.0
-        self.is_moving = self.is_moving or bool(change.max() > MOVING)
+        self._moves = self._moves or bool(change.max() > MOVING)
         self.robot.servos.soften(stiffness)
         self.robot.write(targets)
 

@@ -100,7 +100,9 @@ def express_in_support_foot(
     return {name: found[name] for name in COLUMNS}
 
 
-def upright_samples(times: Array, outcome: Outcome) -> NDArray[np.bool_]:
+def upright_samples(
+    times: Array, outcome: Outcome | None
+) -> NDArray[np.bool_]:
     """Return a mask of the evenly spaced samples of an upright robot.
 
     The last sample is at the end of the game, which may come between two

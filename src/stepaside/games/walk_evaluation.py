@@ -1,20 +1,21 @@
 """Summary of a finished walk."""
 
+from collections.abc import Mapping, Sequence
 from math import degrees
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
 from ..core.poses import Array
 from ..locomotion.zmp.mpc import MpcResult
-from .outcome import Outcome
+from .game import GameInPlay
 from .support_foot_columns import (
     COLUMNS,
     express_in_support_foot,
     upright_samples,
 )
-from .trajectory import Trajectory
-from .walk_settings import WalkSettings
+from .trajectory import PlanningTimes, Trajectory
+from .walk_settings import WALKER, WalkSettings
 from .walk_summary import (
     ErrorStatistics,
     EstimationErrors,
@@ -22,6 +23,7 @@ from .walk_summary import (
     TrackingErrors,
     WalkSummary,
 )
+from .walker import SimulatedPlayer
 
 WARM_UP = 3.0  # left out of the evaluation, in [s]
 ESTIMATED = {
@@ -52,103 +54,80 @@ class WalkingPace(NamedTuple):
     turn: float | None = None
 
 
-class StepCounts(NamedTuple):
-    """Values of a walk that are not in its trajectory.
-
-    Attributes:
-        steps: Footsteps begun.
-        adapted: Footsteps that feedback adapted.
-        impulse: Sum of the impulses of all pushes in the world (x, y), in
-            [N s].
-        zmp_margin: Smallest ZMP margin of the executed plans, in [m].
-        answers: Results of the solver of the MPC, if there is one.
-        wall_time: Time that the computation took, in [s].
-    """
-
-    steps: int
-    adapted: int
-    impulse: tuple[float, float]
-    zmp_margin: float | None
-    answers: tuple[MpcResult, ...]
-    wall_time: float
-
-
 def summarise_walk(
     settings: WalkSettings,
-    outcome: Outcome,
-    duration: float,
+    game: GameInPlay,
     times: Array,
-    track: Trajectory,
-    counted: StepCounts,
+    tracks: Mapping[str, Trajectory],
+    planning: Mapping[str, PlanningTimes],
+    walker: SimulatedPlayer,
+    solved: Sequence[MpcResult],
 ) -> WalkSummary:
-    """Compute the summary of a finished walk.
+    """Compute the summary of a walk.
 
     Args:
         settings: Settings of the walk.
-        outcome: How it ended.
-        duration: Simulated time, in [s].
+        game: The game that was played.
         times: Times of the samples, in [s]. Shape (n,).
-        track: Trajectory with foot states and estimates; without samples if
+        tracks: Trajectory with foot states and estimates; without samples if
             the walk was not recorded.
-        counted: Values that are not in the trajectory.
+        planning: Planning times of the robot.
+        walker: The robot.
+        solved: Results of the solver of the MPC, if there is one.
     """
     columns = {name: np.zeros(0) for name in COLUMNS}
     if len(times):
-        mask = upright_samples(times, outcome)
-        in_foot = express_in_support_foot(times, track)
+        mask = upright_samples(times, game.outcome)
+        in_foot = express_in_support_foot(times, tracks[WALKER])
         columns = {name: values[mask] for name, values in in_foot.items()}
-    return summarise_columns(settings, duration, columns, counted)
+    own, pusher = planning[WALKER], walker.robot.pusher
+    return WalkSummary(
+        seed=settings.seed,
+        steps=own.steps,
+        adapted_steps=walker.scheme.state.adapted,
+        method=str(settings.control.method),
+        feedback=bool(settings.control.feedback),
+        push_impulse_n_s=(0.0, 0.0) if pusher is None else pusher.impulse,
+        min_zmp_margin_m=own.zmp_margin,
+        qp=_solver(solved),
+        real_time_factor=game.real_time_factor,
+        **measured(columns, 2.0 * settings.gait.step_duration),
+    )
 
 
-def summarise_columns(
-    settings: WalkSettings,
-    duration: float,
-    columns: dict[str, Array],
-    counted: StepCounts,
-) -> WalkSummary:
-    """Compute the summary of a walk in the frame of the support foot.
+def measured(columns: dict[str, Array], cycle: float) -> dict[str, Any]:
+    """Return the values of a summary that columns of a walk give.
 
     Args:
-        settings: Settings of the walk.
-        duration: Simulated time, in [s].
         columns: Evenly spaced samples, by the names of ``COLUMNS``.
-        counted: Values that are not in the columns.
+        cycle: Duration of a gait cycle, in [s].
     """
     steady = columns["time"] >= WARM_UP
     a = {name: values[steady] for name, values in columns.items()}
-    pace = _pace(a, 2.0 * settings.gait.step_duration)
-    return WalkSummary(
-        seed=settings.seed,
-        steps=counted.steps,
-        adapted_steps=counted.adapted,
-        method=str(settings.control.method),
-        feedback=bool(settings.control.feedback),
-        push_impulse_n_s=counted.impulse,
-        speed_m_s=pace.speed,
-        speed_ratio=pace.way,
-        yaw_rate_deg_s=pace.yaw_rate,
-        yaw_ratio=pace.turn,
-        slip_per_step_m=_slip(a),
-        tracking=TrackingErrors(
+    pace = _pace(a, cycle)
+    return {
+        "speed_m_s": pace.speed,
+        "speed_ratio": pace.way,
+        "yaw_rate_deg_s": pace.yaw_rate,
+        "yaw_ratio": pace.turn,
+        "slip_per_step_m": _slip(a),
+        "tracking": TrackingErrors(
             com_x_m=_error(a["com_x"], a["com_reference_x"]),
             com_y_m=_error(a["com_y"], a["com_reference_y"]),
             zmp_x_m=_error(a["zmp_x"], a["zmp_reference_x"]),
             zmp_y_m=_error(a["zmp_y"], a["zmp_reference_y"]),
         ),
-        estimation=EstimationErrors(
+        "estimation": EstimationErrors(
             **{
                 f"{name}_{unit}": _error(a[f"estimated_{name}"], a[name])
                 for name, unit in ESTIMATED.items()
             }
         ),
-        tilt_max_deg=_tilt(a),
-        min_zmp_margin_m=counted.zmp_margin,
-        qp=_solver(counted.answers),
-        real_time_factor=duration / max(counted.wall_time, 1e-9),
-    )
+        "tilt_max_deg": _tilt(a),
+    }
 
 
-def _solver(answers: tuple[MpcResult, ...]) -> SolverSummary | None:
+def _solver(answers: Sequence[MpcResult]) -> SolverSummary | None:
     """Summarise the solver of the MPC; None without one."""
     if not answers:
         return None

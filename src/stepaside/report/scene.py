@@ -8,11 +8,11 @@ import numpy as np
 from ..arena import Room
 from ..core.errors import ConfigurationError
 from ..core.poses import Array, Pose
-from ..games.duel_furnishing import scenery_of_duel
 from ..games.experiment_settings import ExperimentSettings
 from ..games.game_furnishing import Scenery, scenery_of_game
 from ..games.play_settings import PlaySettings
 from ..games.run import Run, is_duel, is_match
+from ..games.settings_as_game import scenery_of
 from ..robots.description import load_robot
 from ..sim.pedestrian_appearance import FIGURES
 from ..sim.person_body import mocap_indices, set_person_pose
@@ -82,7 +82,7 @@ class RunScene:
         if is_match(run):
             return scenery_of_game(run.settings, templates=self._templates)
         if is_duel(run):
-            return scenery_of_duel(run.settings)
+            return scenery_of(run.settings)
         return Scenery(
             tuple(partial(add_template, name=name) for name in self._templates)
         )

@@ -8,9 +8,9 @@ import numpy as np
 
 from ..core.errors import PlanError
 from ..core.poses import Pose
-from ..games.duel import run_duels
 from ..games.duel_settings import DuelSettings
 from ..games.outcome import Outcome
+from ..games.recorded_game import run_duels
 from ..games.run import DuelRun
 from ..theory.unicycle.certificate import certify
 from ..theory.unicycle.relative_coordinates import RelativeStart

@@ -6,10 +6,10 @@ from math import inf
 import numpy as np
 
 from ..arena import RoomRecipe, generate_room
-from ..games.duel import run_duel
 from ..games.duel_settings import PLAYERS, DuelSettings
 from ..games.floor_games import StrategyTrack
 from ..games.outcome import Outcome
+from ..games.recorded_game import run_duel
 from ..games.run import DuelRun
 from ..sim.camera_settings import SceneSettings
 from ..strategies.strategy_game import StepGame

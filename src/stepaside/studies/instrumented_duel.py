@@ -6,10 +6,11 @@ from typing import NamedTuple
 import numpy as np
 
 from ..core.poses import Array
-from ..games.duel import Duel
 from ..games.duel_settings import PLAYERS, DuelSettings
-from ..games.match import Match, play
+from ..games.game import GameInPlay, GameObserver, play
 from ..games.outcome import Outcome
+from ..games.physics_world import PhysicsWorld
+from ..games.recorded_game import RecordedGame
 from ..games.run import DuelRun
 from ..games.walker import SimulatedPlayer
 from ..robots.description import load_robot
@@ -56,14 +57,14 @@ class InstrumentedDuel:
 def play_instrumented(settings: DuelSettings) -> InstrumentedDuel:
     """Play a duel to its end, as ``run_duel`` does, recording every tick."""
     observers = {name: _TickObserver(settings, name) for name in PLAYERS}
-    duel = Duel(settings, tuple(observers.values()))
-    run = duel.run(*play(duel, settings.duration))
+    duel = RecordedGame(settings, tuple(observers.values()))
+    play(duel)
+    run, world = duel.run(), duel.in_physics
     if run.outcome is Outcome.INTERRUPTED:
         raise KeyboardInterrupt
     found = InstrumentedDuel(
         run,
-        duel.world.physics.tick
-        * np.arange(duel.world.ticks, dtype=np.float64),
+        world.physics.tick * np.arange(world.ticks, dtype=np.float64),
     )
     for name, observer in observers.items():
         loads, feet, references = zip(*observer.rows, strict=True)
@@ -74,7 +75,7 @@ def play_instrumented(settings: DuelSettings) -> InstrumentedDuel:
     return found
 
 
-class _TickObserver:
+class _TickObserver(GameObserver):
     """Observer of one robot of a match: its state at the end of each tick."""
 
     def __init__(self, settings: DuelSettings, name: str) -> None:
@@ -83,12 +84,13 @@ class _TickObserver:
         self._name, self._plan = name, object()
         self._robot = load_robot(settings.robot_of(name).robot)
 
-    def before(self, match: Match) -> None:
+    def before(self, game: GameInPlay) -> None:
         """Record the state after the previous tick."""
-        world, robot = match.world, self._robot
+        world, robot = game.world, self._robot
+        assert isinstance(world, PhysicsWorld)
         if len(self.rows) == world.ticks:
             return
-        player = match.player(self._name)
+        player = world.player(self._name)
         assert isinstance(player, SimulatedPlayer)
         state = player.scheme.state
         world.update_sensors()
@@ -114,9 +116,6 @@ class _TickObserver:
             self.plans.append(WalkedPlan(state.plan_started, sent, standing))
         self._plan = state.plan
 
-    def acted(self, match: Match) -> None:
-        """Do nothing."""
-
-    def ended(self, match: Match, outcome: Outcome) -> None:
+    def ended(self, game: GameInPlay) -> None:
         """Record the state after the last tick."""
-        self.before(match)
+        self.before(game)

@@ -8,9 +8,9 @@ import numpy as np
 from ..core.errors import ConfigurationError
 from ..core.poses import wrap_angle
 from ..core.random_streams import named_generator
-from ..games.duel import run_duels
 from ..games.duel_settings import DuelSettings, StartSettings
 from ..games.outcome import Outcome
+from ..games.recorded_game import run_duels
 from ..games.run import DuelRun
 from ..sim.crowd_motion import REACTIONS
 from ..sim.person_settings import PersonSettings

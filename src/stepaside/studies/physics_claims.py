@@ -6,7 +6,6 @@ from math import degrees, nan
 import numpy as np
 
 from ..core.errors import ConfigurationError
-from ..games.duel import run_duel
 from ..games.duel_circle import (
     angle_between,
     circle_of_theory,
@@ -15,6 +14,7 @@ from ..games.duel_circle import (
 )
 from ..games.duel_settings import PLAYERS, DuelSettings, StartSettings
 from ..games.outcome import Outcome
+from ..games.recorded_game import run_duel
 from ..games.robot_settings import with_robot
 from ..games.run import DuelRun
 from ..planning import PRESETS

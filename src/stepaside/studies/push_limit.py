@@ -7,8 +7,8 @@ from math import radians
 
 from ..core.errors import ConfigurationError, check_within
 from ..games.outcome import Outcome
+from ..games.recorded_game import run_walk
 from ..games.robot_settings import game_settings_from_description
-from ..games.walk_game import run_walk
 from ..games.walk_settings import WalkSettings
 from ..planning import Direction, Foot, ManeuverPlanner
 from ..planning.push_bound import FootReach, push_bound
@@ -108,7 +108,7 @@ def play_push(settings: PushSettings) -> Record:
     """
     outcomes: dict[float, bool] = {}
     while (strength := next_strength(outcomes)) is not None:
-        run = run_walk(settings.pushed(strength), record=False)
+        run = run_walk(settings.pushed(strength))
         if run.outcome is Outcome.INTERRUPTED:
             raise KeyboardInterrupt
         outcomes[strength] = run.outcome is Outcome.COMPLETED

@@ -12,16 +12,15 @@ from ..games.configuration_file import parse_settings
 from ..games.duel_settings import DuelSettings
 from ..games.floor_games import play_unicycles
 from ..games.game_file import parse_game
-from ..games.game_match import run_game
 from ..games.game_settings import GameSettings
 from ..games.outcome import Outcome
+from ..games.recorded_game import run_game, run_walk
 from ..games.robot_settings import (
     body_of_robot,
     with_legs,
     with_players,
     with_robot,
 )
-from ..games.walk_game import run_walk
 from ..games.walk_settings import WalkSettings
 from ..planning import PRESETS
 from ..sim.body_settings import BODIES

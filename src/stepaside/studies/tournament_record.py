@@ -85,7 +85,7 @@ def _humanoid_values(
     Raises:
         KeyboardInterrupt: If it was interrupted; it is not recorded then.
     """
-    from ..games.duel import run_duel
+    from ..games.recorded_game import run_duel
     from .tournament_physics import duel_settings, record_values_of
 
     run = run_duel(

@@ -8,7 +8,7 @@ import viser
 
 from ...core.errors import StepAsideError
 from ...games.duel_settings import PLAYERS, PURSUER, DuelSettings
-from ...games.match import Match
+from ...games.recorded_game import RecordedGame
 from ...games.walker import RobotPlayer
 from ...strategies import Strategy, Walk
 from .live_match import LiveSettings
@@ -173,7 +173,9 @@ class DrivePanel:
 
     def _is_robot(self, name: str) -> bool:
         """Return whether a player is a robot with its own strategy."""
-        return isinstance(self._session.match.player(name), RobotPlayer)
+        return isinstance(
+            self._session.match.in_physics.player(name), RobotPlayer
+        )
 
     def _state_text(self) -> str:
         """Return the state of teleoperation as text."""
@@ -192,8 +194,8 @@ class DrivePanel:
     def _adopt(self, name: str, strategy: Strategy | None) -> None:
         """Set the strategy of a robot; None for its own again."""
 
-        def change(match: Match) -> None:
-            robot = match.player(name)
+        def change(match: RecordedGame) -> None:
+            robot = match.in_physics.player(name)
             if not isinstance(robot, RobotPlayer):
                 return
             decisions = robot.scheme.decisions

@@ -8,10 +8,9 @@ from typing import Any
 import viser
 
 from ...core.errors import StepAsideError
-from ...games.duel import Duel
 from ...games.duel_settings import EVADER, SENSING, DuelSettings
 from ...games.implied_settings import EVASION
-from ...games.match import Match
+from ...games.recorded_game import RecordedGame
 from ...games.walker import RobotPlayer
 from ...locomotion.zmp.control_settings import (
     OPEN_LOOP,
@@ -87,7 +86,7 @@ class DuelPanel:
         self._bodies_by_name, self._body_name = body_choices(settings)
         self._presets = duel_presets(settings)
         self.preset = gui.add_dropdown("Preset", tuple(self._presets))
-        start = self._duel.settings.start
+        start = self._session.match.settings.start
         with gui.add_folder("Evader (from its next step)"):
             self._angle = gui.add_number(
                 "Evasion angle [deg]",
@@ -143,13 +142,6 @@ class DuelPanel:
         assert isinstance(settings, DuelSettings)
         return settings
 
-    @property
-    def _duel(self) -> Duel:
-        """The duel that is played."""
-        duel = self._session.match
-        assert isinstance(duel, Duel)
-        return duel
-
     def _update_strategy(self) -> None:
         """Change the evader's strategy from its next plan on."""
         try:
@@ -174,8 +166,8 @@ class DuelPanel:
             replace(settings, strategy=strategy, evader_strategy=EVASION)
         )
 
-        def change(match: Match) -> None:
-            evader = match.player(EVADER)
+        def change(match: RecordedGame) -> None:
+            evader = match.in_physics.player(EVADER)
             if isinstance(evader, RobotPlayer):
                 evader.scheme.decisions.adopt(strategy)
 
@@ -215,7 +207,7 @@ class DuelPanel:
 
     def _starts(self) -> list[tuple[Any, float]]:
         """Return the controls of the start, with those of the duel."""
-        start = self._duel.settings.start
+        start = self._session.match.settings.start
         off = start.pursuer_offset or 0.0, start.evader_offset or 0.0
         return [
             (self._distance, round(start.distance or 1.0, 3)),

@@ -3,7 +3,8 @@
 import numpy as np
 
 from ...core.poses import Array, Pose
-from ...games.pair_match import PairMatch
+from ...games.duel_settings import PLAYERS, DuelSettings
+from ...games.physics_world import PhysicsWorld
 from ...locomotion.walk_snapshots import WalkState
 from ..figure_style import EVADER, PURSUER, PUSHED, THEORY
 from .live_match import safety_radii
@@ -41,7 +42,7 @@ def draw_session(layers: SceneLayers, session: LiveSession) -> None:
         now = session.match.world.time
         lines: list[Lines] = []
         positions = {}
-        for player in session.match.players:
+        for player in session.match.in_physics.players:
             snapshot, name = player.snapshot(), player.name
             colour = colours[name]
             positions[name] = np.array(snapshot.torso[:2])
@@ -60,9 +61,11 @@ def draw_session(layers: SceneLayers, session: LiveSession) -> None:
             ends = positions[one], positions[other]
             sight = np.array([[[*end, 0.25] for end in ends]])
             lines.append(("line of sight", f"{one}-{other}", sight, THEORY))
-        if isinstance(session.match, PairMatch):
+        if isinstance(session.settings, DuelSettings):
             circle = circle_lines(
-                session.match, session.theory_radius, [*positions.values()]
+                session.match.in_physics,
+                session.theory_radius,
+                [*positions.values()],
             )
             lines.append(("theoretical circle", "both", circle, THEORY))
     for layer, owner, segments, colour in lines:
@@ -112,7 +115,7 @@ def paler(colour: str) -> str:
 
 
 def circle_lines(
-    duel: PairMatch, radius: float | None, positions: list[Array]
+    world: PhysicsWorld, radius: float | None, positions: list[Array]
 ) -> Array:
     """Return the theoretical circle through both players. Shape (n, 2, 3).
 
@@ -121,18 +124,18 @@ def circle_lines(
     apart than the diameter.
 
     Args:
-        duel: The duel.
+        world: World of the duel.
         radius: Radius of the evader's circle, in [m]; None without one.
         positions: Of pursuer and evader in the world, in [m].
     """
-    if radius is None or duel.triggered_at is None:
+    if radius is None or PLAYERS[1] not in world.first_moves:
         return np.zeros((0, 2, 3))
     midpoint = 0.5 * (positions[0] + positions[1])
     sight = positions[1] - positions[0]
     half = 0.5 * float(np.hypot(*sight))
     if half >= radius or half < 1e-6:
         return np.zeros((0, 2, 3))
-    walk = duel.pursuer.snapshot().walk
+    walk = world.player(PLAYERS[0]).snapshot().walk
     plan = None if walk is None else walk.plan
     side = 1.0 if plan is None or plan.bearing >= 0.0 else -1.0
     normal = side * np.array([-sight[1], sight[0]]) / (2.0 * half)

@@ -7,17 +7,15 @@ from typing import Any, NamedTuple
 from ...arena import Room
 from ...core.errors import ConfigurationError
 from ...core.player_identity import PlayerIdentity, Role
-from ...games.duel import Duel
 from ...games.duel_circle import circle_of_theory
 from ...games.duel_settings import EVADER, PLAYERS, DuelSettings
-from ...games.game_match import GameMatch
+from ...games.game import GameObserver
 from ...games.game_settings import GameSettings
 from ...games.implied_settings import EVASION
-from ...games.match import MatchObserver
+from ...games.recorded_game import RecordedGame
 from ..settling_report import settling_time
 
 LiveSettings = DuelSettings | GameSettings
-LiveMatch = Duel | GameMatch
 
 
 class LiveTheory(NamedTuple):
@@ -71,8 +69,8 @@ def identities_of(settings: LiveSettings) -> Mapping[str, PlayerIdentity]:
 
 
 def open_match(
-    settings: LiveSettings, observers: tuple[MatchObserver, ...]
-) -> LiveMatch:
+    settings: LiveSettings, observers: tuple[GameObserver, ...]
+) -> RecordedGame:
     """Return a game for a page, which keeps no whole record.
 
     Args:
@@ -83,15 +81,15 @@ def open_match(
         ConfigurationError: If it is no game in physics.
         StepAsideError: If the settings are invalid.
     """
-    if isinstance(settings, DuelSettings):
-        return Duel(settings, observers, recorded=False, rendered=True)
-    if settings.level != "physics":
+    if isinstance(settings, GameSettings) and settings.level != "physics":
         raise ConfigurationError(
             "level must be physics for a live page, got "
             f"{settings.level!r}; `stepaside game` plays it, and `stepaside "
             "replay` shows the run"
         )
-    return GameMatch(settings, observers, recorded=False, rendered=True)
+    return RecordedGame(
+        settings, observers, recorded=False, rendered=True, endless=True
+    )
 
 
 def trigger_distance(settings: DuelSettings) -> float:

@@ -128,7 +128,7 @@ class Page:
 
     def _add_bodies(self) -> SceneBodies:
         """Add the bodies of the game."""
-        model = self.session.match.world.model
+        model = self.session.match.in_physics.model
         bodies = SceneBodies(self.server.scene, model)
         bodies.add_labels(model, self.session.names)
         self._shown = stage_of(self.session.settings)

@@ -13,16 +13,16 @@ from typing import TYPE_CHECKING
 from ...core.errors import StepAsideError
 from ...core.player_identity import Role
 from ...core.poses import Array
-from ...games.duel import Duel
-from ...games.match import MatchObserver
+from ...games.duel_settings import DuelSettings
+from ...games.game import GameObserver
 from ...games.outcome import Outcome
 from ...games.player import Snapshot
+from ...games.recorded_game import RecordedGame
 from ...locomotion.walk_snapshots import Phase
 from ...sim.push import Push
 from ...strategies.approach import Approach
 from ..figure_style import colours_of
 from .live_match import (
-    LiveMatch,
     LiveSettings,
     identities_of,
     open_match,
@@ -83,7 +83,6 @@ class LiveSession:
         match: The game that is played.
         running: Whether simulated time passes.
         speed: Simulated time per wall-clock time; inf for no limit.
-        outcome: Outcome of the game; None while it is played.
         error: Message of an error in the loop; None if there was none.
         trail: Recent history of the game.
         colours: Colour of each player, by name.
@@ -113,7 +112,7 @@ class LiveSession:
         self._closing = threading.Event()
         self._thread = threading.Thread(target=self._loop, daemon=True)
         self.generation = 0
-        self._open: LiveMatch | None = None
+        self._open: RecordedGame | None = None
         self._thread.start()
         try:
             self._in_loop(lambda: self._begin(settings))
@@ -142,17 +141,21 @@ class LiveSession:
     def _begin(self, settings: LiveSettings) -> None:
         # A live game has no end, so that its history is bounded.
         trail = PlotHistory()
-        recorders: tuple[MatchObserver, ...] = trail, LiveRecording()
+        recorders: tuple[GameObserver, ...] = trail, LiveRecording()
         match = open_match(settings, recorders)
         self._close_match()
         self._open = match
         self.match = match
-        self.outcome: Outcome | None = None
         self.trail = trail
         self.driven = ""
         self.adopt_settings(settings)
         self.commands: list[dict[str, float | str | bool]] = []
         self.generation += 1
+
+    @property
+    def outcome(self) -> Outcome | None:
+        """Outcome of the game; None while it is played."""
+        return self.match.outcome
 
     @property
     def opponents(self) -> tuple[tuple[str, str], ...]:
@@ -175,7 +178,7 @@ class LiveSession:
     @property
     def names(self) -> tuple[str, ...]:
         """Names of the players, in the order in which they act."""
-        return tuple(player.name for player in self.match.players)
+        return tuple(player.name for player in self.match.in_physics.players)
 
     @property
     def theory(self) -> tuple[float, float] | None:
@@ -213,7 +216,7 @@ class LiveSession:
         Args:
             duration: Simulated time, in [s].
         """
-        ticks = max(1, round(duration / self.match.world.physics.tick))
+        ticks = max(1, round(duration / self.match.in_physics.physics.tick))
         self._requests.append(lambda: self._advance(ticks))
 
     def push(self, player: str, impulse: float, direction: float) -> None:
@@ -230,9 +233,9 @@ class LiveSession:
         """
         match = self.match
         push = Push(impulse, match.world.time, direction)
-        self._in_loop(lambda: match.player(player).push(push))
+        self._in_loop(lambda: match.in_physics.player(player).push(push))
 
-    def change(self, request: Callable[[LiveMatch], None]) -> None:
+    def change(self, request: Callable[[RecordedGame], None]) -> None:
         """Request a change of the game between two ticks.
 
         Args:
@@ -254,7 +257,7 @@ class LiveSession:
             StepAsideError: If it cannot be written.
         """
         with self.lock:
-            return saving.save(self.match, self.outcome, self.commands)
+            return saving.save(self.match, self.commands)
 
     def record_command(self, **command: float | str | bool) -> None:
         """Record a command of teleoperation with the simulated time.
@@ -277,19 +280,17 @@ class LiveSession:
         """Return a copy of the present state."""
         with self.lock:  # no tick may change the state meanwhile
             match, history = self.match, self.trail.history
-            data, distance = match.world.data, match.distance
-            no_angle = 0.0 if isinstance(match, Duel) else nan
+            world, distance = match.in_physics, match.distance
+            is_duel = isinstance(self.settings, DuelSettings)
             return LiveSnapshot(
-                match.world.time,
-                data.xpos.copy(),
-                data.xquat.copy(),
-                tuple(player.snapshot() for player in match.players),
-                phases_of(match),
+                world.time,
+                world.data.xpos.copy(),
+                world.data.xquat.copy(),
+                tuple(player.snapshot() for player in world.players),
+                phases_of(world.players),
                 nan if distance is None else distance,
-                match.min_distance
-                if isinstance(match, Duel)
-                else self.trail.closest,
-                history[-1][2] if history else no_angle,
+                min(match.closest.values(), default=self.trail.closest),
+                history[-1][2] if history else 0.0 if is_duel else nan,
                 self.trail.approach(self.settings.cycle),
                 match.message,
             )
@@ -305,7 +306,7 @@ class LiveSession:
                     due = measured = perf_counter()
                     simulated = 0.0
                     continue
-                tick = self.match.world.physics.tick
+                tick = self.match.in_physics.physics.tick
                 self._advance(1)
                 simulated += tick
                 now = perf_counter()
@@ -327,7 +328,7 @@ class LiveSession:
     def _close_match(self) -> None:
         """Close the game in the thread that owns its graphics."""
         if self._open is not None:
-            self._open.close()
+            self._open.world.close()
             self._open = None
 
     def _fail(self, message: str) -> None:
@@ -344,7 +345,4 @@ class LiveSession:
             if self.outcome is not None:
                 return
             with self.lock:
-                self._tick()
-
-    def _tick(self) -> None:
-        self.outcome = self.match.tick()
+                self.match.tick()

@@ -11,9 +11,9 @@ from numpy.typing import NDArray
 from ...core.poses import Pose
 from ...games.approach_forecast import estimate_approach
 from ...games.duel_circle import angle_between
-from ...games.match import Match
-from ...games.outcome import Outcome
-from ...games.pair_match import PairMatch
+from ...games.duel_settings import PLAYERS
+from ...games.game import GameInPlay, GameObserver
+from ...games.physics_world import PhysicsWorld
 from ...games.player import Player, Snapshot
 from ...locomotion.walk_snapshots import StepStarted
 from ...planning import Foot
@@ -33,7 +33,7 @@ HINGE = mujoco.mjtJoint.mjJNT_HINGE
 Footprint = tuple[Foot, Pose]  # and its landing pose in the world
 
 
-class PlotHistory:
+class PlotHistory(GameObserver):
     """Observer of a game that keeps its recent history.
 
     Attributes:
@@ -69,23 +69,25 @@ class PlotHistory:
         self.labels: tuple[str, ...] = ()
         self.frames: dict[str, FrameReport] = {}
 
-    def before(self, match: Match) -> None:
+    def before(self, game: GameInPlay) -> None:
         """Record a sample when one is due."""
-        every = max(1, round(PERIOD / match.world.physics.tick))
-        if match.world.ticks == 0 or match.world.ticks % every:
+        world = game.world
+        assert isinstance(world, PhysicsWorld)
+        every = max(1, round(PERIOD / world.physics.tick))
+        if world.ticks == 0 or world.ticks % every:
             return
-        snapshots = [player.snapshot() for player in match.players]
-        distance, angle = match.distance, nan
-        if isinstance(match, PairMatch):
+        snapshots = [player.snapshot() for player in world.players]
+        distance, angle = game.distance, nan
+        if tuple(s.name for s in snapshots) == PLAYERS:
             pursuer, evader = (np.array([s.place]) for s in snapshots)
             angle = degrees(float(angle_between(pursuer, evader)[0]))
             x, y = (pursuer - evader)[0, :2].tolist()
-            self.offsets.append((match.world.time, x, y))
+            self.offsets.append((world.time, x, y))
         if distance is not None:
             self.closest = min(self.closest, distance)
         apart = nan if distance is None else distance
-        self.history.append((match.world.time, apart, angle))
-        self._record_signals(match, snapshots)
+        self.history.append((world.time, apart, angle))
+        self._record_signals(world, snapshots)
         for snapshot in snapshots:
             self._trace(f"{snapshot.name}/CoM", snapshot.com[:2])
             # The ZMP is NaN while no foot is in contact.
@@ -99,9 +101,11 @@ class PlotHistory:
             steps = self.steps.setdefault(player.name, deque(maxlen=MAX_STEPS))
             steps.append((begun.foot, odometry.compose(begun.landing)))
 
-    def _record_signals(self, match: Match, snapshots: list[Snapshot]) -> None:
+    def _record_signals(
+        self, world: PhysicsWorld, snapshots: list[Snapshot]
+    ) -> None:
         """Record poses, joint angles, CoM and ZMP of a sample."""
-        data, model = match.world.data, match.world.model
+        data, model = world.data, world.model
         joints = [j for j in range(model.njnt) if model.jnt_type[j] == HINGE]
         values: list[float] = []
         for snapshot in snapshots:
@@ -116,16 +120,14 @@ class PlotHistory:
                 *(f"{model.joint(j).name} [rad]" for j in joints),
             )
 
-    def acted(self, match: Match) -> None:
+    def acted(self, game: GameInPlay) -> None:
         """Store the steps that begin, and the images that arrived."""
-        for player in match.players:
+        assert isinstance(game.world, PhysicsWorld)
+        for player in game.world.players:
             if player.begun is not None:
                 self._note_step(player, player.begun)
             for report in player.reports:
                 self.frames[f"{player.name}, {report.camera}"] = report
-
-    def ended(self, match: Match, outcome: Outcome) -> None:
-        """Do nothing."""
 
     def approach(self, cycle: float) -> Approach | None:
         """Return the approach of the pursuer over the last gait cycle.

@@ -7,10 +7,8 @@ from typing import Any
 
 from ...core.atomic_output import atomic_draft
 from ...core.errors import ConfigurationError
-from ...games.duel import Duel
-from ...games.game_match import GameMatch
-from ...games.match import Match
-from ...games.outcome import Outcome
+from ...games.game import GameInPlay, GameObserver
+from ...games.recorded_game import RecordedGame
 from ..run_folder import free_folder, write_run
 
 MAX_RECORDED = 600.0  # simulated time that is recorded, in [s]
@@ -18,32 +16,18 @@ MAX_FOLDERS = 20  # that one page may write
 COMMAND_FILE = "hand.json"
 
 
-class LiveRecording:
+class LiveRecording(GameObserver):
     """Observer that records the first ``MAX_RECORDED`` seconds of a game."""
 
-    def before(self, match: Match) -> None:
+    def before(self, game: GameInPlay) -> None:
         """Record a sample."""
-        if (
-            isinstance(match, (Duel, GameMatch))
-            and match.world.time <= MAX_RECORDED
-        ):
-            match.recorder.before(match)
+        if isinstance(game, RecordedGame) and game.world.time <= MAX_RECORDED:
+            game.recorder.before(game)
 
-    def acted(self, match: Match) -> None:
+    def acted(self, game: GameInPlay) -> None:
         """Record the steps that begin."""
-        if (
-            isinstance(match, (Duel, GameMatch))
-            and match.world.time <= MAX_RECORDED
-        ):
-            match.recorder.acted(match)
-
-    def ended(self, match: Match, outcome: Outcome) -> None:
-        """Record the last sample."""
-        if (
-            isinstance(match, (Duel, GameMatch))
-            and match.world.time <= MAX_RECORDED
-        ):
-            match.recorder.ended(match, outcome)
+        if isinstance(game, RecordedGame) and game.world.time <= MAX_RECORDED:
+            game.recorder.acted(game)
 
 
 class RunSaver:
@@ -61,15 +45,13 @@ class RunSaver:
 
     def save(
         self,
-        match: Duel | GameMatch,
-        outcome: Outcome | None,
+        match: RecordedGame,
         commands: Any,
     ) -> Path:
         """Write a game so far.
 
         Args:
             match: The game; it must not change meanwhile.
-            outcome: Outcome of the game; None while it is played.
             commands: Commands of teleoperation, as plain values.
 
         Returns:
@@ -90,7 +72,7 @@ class RunSaver:
                 raise ConfigurationError(
                     "nothing has been recorded yet: start the game first"
                 )
-            run = match.run(outcome or Outcome.INTERRUPTED, match.world.time)
+            run = match.run()
             name = f"live-seed{run.settings.seed}"
             folder = write_run(free_folder(self._parent, name), run).parent
             if commands:

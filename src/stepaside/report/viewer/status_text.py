@@ -4,7 +4,6 @@ from collections.abc import Sequence
 from math import inf, isfinite, log
 
 from ...games.approach_forecast import LEAST, describe_motion
-from ...games.match import Match
 from ...games.player import Player
 from ...locomotion.walk_snapshots import Phase
 from ...strategies.approach import Approach
@@ -127,9 +126,9 @@ def players_text(names: Sequence[str], phases: Sequence[Phase]) -> str:
     return "\n\n".join(lines)
 
 
-def phases_of(match: Match) -> tuple[Phase, ...]:
+def phases_of(players: Sequence[Player]) -> tuple[Phase, ...]:
     """Return the phase of each player."""
-    return tuple(phase_of(player) for player in match.players)
+    return tuple(phase_of(player) for player in players)
 
 
 def phase_of(player: Player) -> Phase:

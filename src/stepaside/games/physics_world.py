@@ -1,6 +1,8 @@
-"""World of a game of any number of players, with its players."""
+"""World of a game in physics, with its players."""
 
 from collections.abc import Mapping, Sequence
+from itertools import combinations
+from math import inf
 from types import MappingProxyType
 from typing import TYPE_CHECKING, NamedTuple
 
@@ -18,19 +20,21 @@ from ..core.poses import Pose
 from ..core.random_streams import named_generator
 from ..locomotion.policy.network_pool import NetworkPool
 from ..locomotion.zmp.reference_table import standing_reference
-from ..robots.description import load_robot
+from ..perception.measurement import Sighting
+from ..robots.description import RobotDescription, load_robot
 from ..robots.head import load_head
 from ..robots.leg_kinematics import LegKinematics
 from ..sim.body_settings import at_tick, with_control_period
 from ..sim.camera_settings import RoomObject
 from ..sim.crowd_motion import CrowdMotion
-from ..sim.ground_truth import GroundTruth
+from ..sim.ground_truth import GroundTruth, torsos_apart
 from ..sim.ideal_sensors import IdealLineOfSight
 from ..sim.pedestrian_appearance import FIGURES
 from ..sim.person_body import PersonBody
 from ..sim.physics_settings import PhysicsSettings
 from ..sim.push import pushes_by_robot
 from ..sim.world import World
+from ..strategies import Strategy
 from .floor_games import (
     agent_of,
     bodies_of,
@@ -42,6 +46,7 @@ from .floor_world import FloorMotion, FloorPerson, FloorReplay, FloorWalk, Seen
 from .game_furnishing import Scenery, scenery_of_game
 from .game_settings import GameSettings, PlayerSettings
 from .game_strategies import strategy_of
+from .outcome import Outcome
 from .player import Player
 from .recorded_motion import RecordedMotion
 from .served_player import ServedPlayer
@@ -71,23 +76,34 @@ class RemoteControl(NamedTuple):
     ideal_sight: bool
 
 
-class GameWorld:
-    """World of a game with its players, ready for the first tick.
+class PhysicsWorld(World):
+    """World of a game in physics; see :class:`~.game.PlayedWorld`.
 
     Attributes:
-        world: World with robots, people and obstacles.
         players: The players, in the order of the settings.
         networks: Networks of robots on learned legs.
+        started_at: Time at which the game began, in [s]: all players were
+            ready, for example had scanned the room; None before.
+        first_moves: Time at which a player first moved in the game, in [s],
+            and the poses of all then, by name. Motion before ``started_at``
+            does not count.
+        acting: Name of the player that acts, or acted last.
+        contact: Outcome of a game that ends by contact.
     """
+
+    contact = Outcome.CONTACT
 
     def __init__(
         self,
         settings: GameSettings,
         scenery: Scenery | None = None,
         *,
-        rendered: bool,
+        rendered: bool = False,
+        has_things: bool | None = None,
         remote: Mapping[str, RemoteControl] = MappingProxyType({}),
         networks: NetworkPool | None = None,
+        strategies: Mapping[str, Strategy] = MappingProxyType({}),
+        descriptions: Mapping[str, RobotDescription] = MappingProxyType({}),
     ) -> None:
         """Build the world and place the players in it.
 
@@ -95,10 +111,16 @@ class GameWorld:
             settings: Settings with the initial poses filled in.
             scenery: Everything but robots; that of the settings by default.
             rendered: Whether to render the world; cameras do so anyway.
+            has_things: Whether there are obstacles besides the players; by
+                default, whether there is a room.
             remote: Control of the robots that other processes control, by
                 name of the player.
             networks: Networks of robots on learned legs, shared with other
                 games.
+            strategies: Strategies that replace those of the settings, by
+                name of the player.
+            descriptions: Descriptions that replace those of the settings,
+                likewise.
 
         Raises:
             StepAsideError: If the settings contradict each other or cannot
@@ -106,16 +128,17 @@ class GameWorld:
         """
         self._settings, self._remote = settings, remote
         self.networks = networks or NetworkPool()
-        self._setups = _setups_of(settings)
+        self._setups = _setups_of(settings, descriptions)
         physics = _physics_of(settings, self._setups, self.networks)
         self._strategies = {
-            own.name: strategy_of(own, self._map_in_world(own))
+            own.name: strategies.get(own.name)
+            or strategy_of(own, self._map_in_world(own))
             for own in settings.players
             if own.body == "robot" and own.name not in remote
         }
         self._senses = self._camera_senses(physics.tick)
         scenery = scenery or scenery_of_game(settings)
-        self.world = World(
+        super().__init__(
             {name: own.description for name, own in self._setups.items()},
             physics,
             settings.body,
@@ -124,11 +147,11 @@ class GameWorld:
             rendered=rendered or self._senses is not None,
             colours=scenery.colours,
         )
-        for move in scenery.movers_in(self.world.model, self.world.data):
+        for move in scenery.movers_in(self.model, self.data):
             move(0.0)
-            self.world.before_step.append(move)
+            self.before_step.append(move)
         self._states = {
-            name: setup.true_state_in(self.world)
+            name: setup.true_state_in(self)
             for name, setup in self._setups.items()
         }
         self._walks = {
@@ -149,12 +172,86 @@ class GameWorld:
             for own in settings.players
         }
         self.players = tuple(self._player(own) for own in settings.players)
-        mujoco.mj_forward(self.world.model, self.world.data)
+        mujoco.mj_forward(self.model, self.data)
         if settings.pushes:
             pushes = pushes_by_robot(settings.pushes, settings.robots)
             for player in self.players:
                 if pushes.get(player.name):
                     player.push(*pushes[player.name])
+        self._has_things = (
+            settings.room is not None if has_things is None else has_things
+        )
+        self._pairs = [
+            (one.truth, other.truth, one.truth.reach + other.truth.reach)
+            for one, other in combinations(self.players, 2)
+        ]
+        self.acting = ""
+        self.started_at: float | None = None
+        self.first_moves: dict[str, tuple[float, dict[str, Pose]]] = {}
+
+    def player(self, name: str) -> Player:
+        """Return the player with a name.
+
+        Raises:
+            KeyError: If there is none.
+        """
+        return {player.name: player for player in self.players}[name]
+
+    def states(self) -> dict[str, Pose]:
+        """Return reference point and heading of each player, by name."""
+        return {
+            name: Pose(
+                *truth.position_reference_in_world, truth.heading_in_world
+            )
+            for name, truth in self._truths.items()
+        }
+
+    def apart(self, one: str, other: str) -> float:
+        """Return the distance between two torsos, in [m]."""
+        return torsos_apart(self._truths[one], self._truths[other])
+
+    def decide(self) -> None:
+        """Let all players act at one control tick, before the networks."""
+        if self.started_at is None and all(p.is_ready for p in self.players):
+            self.started_at = self.time
+            for player in self.players:
+                player.start()
+        for player in self.players:
+            self.acting = player.name
+            player.tick()
+
+    def flush(self) -> None:
+        """Evaluate the networks, which send their targets."""
+        self.networks.flush()
+
+    def step(self, limit: float = inf) -> None:
+        """Advance by one control tick."""
+        super().step()
+        if self.started_at is None:
+            return
+        for player in self.players:
+            if player.name not in self.first_moves and player.is_moving:
+                self.first_moves[player.name] = self.time, self.states()
+
+    def fallen(self) -> tuple[str, ...]:
+        """Return the names of the players that have fallen."""
+        return tuple(p.name for p in self.players if p.has_fallen)
+
+    def touching(self) -> tuple[str, ...]:
+        """Return the names of bodies in contact, after the first step."""
+        near = self.ticks and (
+            self._has_things
+            or any(
+                torsos_apart(one, other) < reach
+                for one, other, reach in self._pairs
+            )
+        )
+        return super().touching() if near and self.robots_touch() else ()
+
+    def close(self) -> None:
+        """Close all players."""
+        for player in self.players:
+            player.close()
 
     def _camera_senses(self, tick: float) -> "CameraSenses | None":
         """Return the camera sensing of the robots; None without cameras.
@@ -185,8 +282,8 @@ class GameWorld:
             if own.name in self._walks:
                 pose = self._walks[own.name].pose  # it looks along its path
             figure = FIGURES[own.person.figure]
-            return PersonBody(self.world, own.name, pose, figure)
-        return MarkerBody(self.world, own.name, pose)
+            return PersonBody(self, own.name, pose, figure)
+        return MarkerBody(self, own.name, pose)
 
     def _player(self, own: PlayerSettings) -> Player:
         """Return a player of the world."""
@@ -227,7 +324,7 @@ class GameWorld:
             self._walks[own.name],
             {},
             target_of_person(settings, own),
-            self.world.physics.tick,
+            self.physics.tick,
         )
 
     def _map_in_world(self, own: PlayerSettings) -> Pose:
@@ -253,7 +350,7 @@ class GameWorld:
             from .policy_player import place_policy_player
 
             return place_policy_player(
-                self.world,
+                self,
                 setup,
                 own.legs,
                 strategy,
@@ -263,7 +360,7 @@ class GameWorld:
                 clearance=clearance,
             )
         return place_walker(
-            self.world,
+            self,
             setup,
             strategy,
             sensing=self._sensing(own),
@@ -291,19 +388,19 @@ class GameWorld:
             from .velocity_walker import place_velocity_walker
 
             return place_velocity_walker(
-                self.world,
+                self,
                 setup,
                 truth=truth,
                 sensing=sensing,
                 clearance=clearance,
             )
         description, gait = setup.description, setup.gait
-        kinematics = LegKinematics(description, tick=self.world.physics.tick)
+        kinematics = LegKinematics(description, tick=self.physics.tick)
         half = 0.5 * gait.foot_spacing
         left, right = Pose(0.0, half, 0.0), Pose(0.0, -half, 0.0)
         kinematics.stand(standing_reference(left, right, gait))
         robot = place_robot(
-            self.world,
+            self,
             setup,
             kinematics,
             sensing=sensing,
@@ -319,7 +416,7 @@ class GameWorld:
 
     def _sensing(self, own: PlayerSettings) -> RobotSensing:
         """Return the senses of a robot."""
-        tick = self.world.physics.tick
+        tick = self.physics.tick
         if own.senses == "cameras":
             assert self._senses is not None
             seen = self._senses.perceptions.get(own.name)
@@ -329,8 +426,10 @@ class GameWorld:
                 MeasuredSight()
                 if seen is None
                 else CameraSight(seen, tick=tick, unnamed=unnamed),
-                eyes=self._senses.eyes_of(self.world, own.name),
+                eyes=self._senses.eyes_of(self, own.name),
             )
+        if own.senses == "ideal" and len(self._settings.players) == 1:
+            return RobotSensing(MeasuredSight(Sighting(0.0, 0.0, inf)))
         if own.senses == "ideal":
             return RobotSensing(
                 SightOfPlayers(own.identity, own.target), self._sights(own)
@@ -344,7 +443,7 @@ class GameWorld:
         return RobotSensing(
             LidarSight(perception, tick=tick),
             eyes=Lidar(
-                self.world,
+                self,
                 own.name,
                 description.torso,
                 settings.lidar,
@@ -409,7 +508,9 @@ class GameWorld:
         return SightObserver(evaluators, self._senses.renderer, every=every)
 
 
-def _setups_of(settings: GameSettings) -> dict[str, WalkerSetup]:
+def _setups_of(
+    settings: GameSettings, descriptions: Mapping[str, RobotDescription]
+) -> dict[str, WalkerSetup]:
     """Return the robots of a game before they stand in the world."""
     robots = [p for p in settings.players if p.body == "robot"]
     body = settings.body
@@ -418,7 +519,7 @@ def _setups_of(settings: GameSettings) -> dict[str, WalkerSetup]:
     return {
         own.name: WalkerSetup(
             own.name,
-            load_robot(own.robot),
+            descriptions.get(own.name) or load_robot(own.robot),
             own.gait,
             own.control,
             body,
