@@ -30,15 +30,8 @@ class ControlScheme:
         locomotion: Locomotion,
         senses: SightSource,
     ) -> None:
-        """Begin standing.
-
-        Args:
-            decisions: Strategy of the player.
-            locomotion: Locomotion of the robot.
-            senses: Source of sightings.
-        """
-        self.decisions = decisions
-        self.locomotion = locomotion
+        """Begin standing."""
+        self.decisions, self.locomotion = decisions, locomotion
         self.senses = senses
         self.sighting: Sighting | None = None
         decisions.templates.note(0.0, locomotion.pose)
@@ -46,13 +39,7 @@ class ControlScheme:
         self._coasted: float | None = None  # since the last update, until [s]
 
     def update(self, measurement: RobotState) -> Array:
-        """Run one control tick.
-
-        Args:
-            measurement: RobotState of the tick.
-
-        Returns:
-            Joint targets, in [rad]. Shape (joints,).
+        """Return the joint targets of one control tick, in [rad].
 
         Raises:
             ReachError: If the legs cannot follow the reference.
@@ -77,19 +64,15 @@ class ControlScheme:
         return targets
 
     def starts(self, now: float) -> bool:
-        """Return whether a standing robot starts to walk.
-
-        See :class:`~stepaside.locomotion.locomotion.IntentSource`.
-        """
+        """Return whether a standing robot starts; see `.IntentSource`."""
         return self.decisions.starts(now, self.sighting, self.senses.turning)
 
     def decide(
         self, now: float, support: Pose, side: Foot, *, moving: bool
     ) -> MotionRequest | None:
-        """Decide on the next step; None if the opponent is lost.
+        """Decide on the next step; see `.IntentSource`.
 
-        ``support`` is the pose in odometry of the foot that has landed. See
-        :class:`~stepaside.locomotion.locomotion.IntentSource`.
+        None if the opponent is lost.
         """
         turning = self.senses.turning
         if self.sighting is None and not turning:
@@ -155,12 +138,9 @@ class ControlScheme:
 
         Only for a robot whose sightings need not be followed tick by tick.
 
-        Args:
-            now: Time of the tick, in [s].
-
         Returns:
-            Joint targets, in [rad], shape (joints,); None if this tick needs
-            a measurement, and then nothing has changed.
+            Joint targets, in [rad]; None if this tick needs a measurement,
+            and then nothing has changed.
 
         Raises:
             ReachError: If the legs cannot follow the reference.

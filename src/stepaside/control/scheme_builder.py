@@ -66,9 +66,7 @@ def build_scheme(
         body = senses.perception.kinematics
         forward = None if body is None else body.forward
     walk = build_walk(
-        description,
-        gait,
-        control,
+        *(description, gait, control),
         tick=tick,
         delay=delay,
         clearance=clearance,
@@ -93,38 +91,23 @@ def build_walk(
     clearance: ClearanceSetup | None = None,
     forward: ForwardKinematics | None = None,
 ) -> ManeuverWalk:
-    """Build the walk by maneuvers of one robot.
+    """Build the walk by maneuvers of one robot; see :func:`build_scheme`.
 
-    Args:
-        description: Robot description.
-        gait: Gait.
-        control: Control settings.
-        tick: Control period, in [s].
-        delay: Time from a command to the motion, in [s].
-        clearance: Known obstacles and required clearance, if any.
-        forward: Kinematics of the measured body; built if not given.
-
-    Raises:
-        ReachError: If the standing posture of the gait is out of reach.
+    ``forward`` are the kinematics of the measured body; built if not given.
     """
-    kinematics = LegKinematics(description, tick=tick)
-    return ManeuverWalk(
-        gait,
-        kinematics,
-        build_balance(
-            description,
-            gait,
-            control,
-            tick=tick,
-            delay=delay,
-            kinematics=kinematics,
-            forward=forward,
-        ),
+    legs = LegKinematics(description, tick=tick)
+    balance = build_balance(
+        *(description, gait, control),
         tick=tick,
         delay=delay,
-        guard=None
-        if clearance is None
-        else build_guard(clearance, gait, control),
+        kinematics=legs,
+        forward=forward,
+    )
+    guard = None
+    if clearance is not None:
+        guard = build_guard(clearance, gait, control)
+    return ManeuverWalk(
+        gait, legs, balance, tick=tick, delay=delay, guard=guard
     )
 
 

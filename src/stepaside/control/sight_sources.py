@@ -1,7 +1,7 @@
 """Sources of sightings of the opponent: measurements or camera."""
 
 from collections.abc import Callable
-from typing import TYPE_CHECKING, NamedTuple, Protocol
+from typing import TYPE_CHECKING, NamedTuple
 
 from ..core.player_identity import PlayerIdentity, Role
 from ..core.poses import ALL_AROUND, Array, Sector
@@ -31,26 +31,23 @@ class PlayersInSight(NamedTuple):
     sightings: tuple[Sighting, ...]
 
 
-class SightSource(Protocol):
-    """Source of sightings, which also directs the gaze.
-
-    Attributes:
-        turning: Turn of the body on the spot that a scan requests before the
-            first sighting: 1 to the left, -1 to the right, or 0.
-        views: Bearings at which others are seen.
-    """
+class SightSource:
+    """Source of sightings from all around, which leaves the head as it is."""
 
     @property
     def views(self) -> tuple[Sector, ...]:
         """Bearings at which others are seen."""
+        return ALL_AROUND
 
     @property
     def turning(self) -> float:
         """Turn on the spot for a scan: 1 left, -1 right, or 0."""
+        return 0.0
 
     @property
     def in_sight(self) -> PlayersInSight | None:
         """All players seen; None from a source that knows one opponent."""
+        return None
 
     def see(
         self,
@@ -66,16 +63,14 @@ class SightSource(Protocol):
             tilt: Roll and pitch of the torso, in [rad], if balance
                 estimates them.
         """
+        raise NotImplementedError
 
     def aim(self, targets: Array) -> None:
-        """Write the head angles into joint targets, in [rad]."""
+        """Write the head angles, if any, into joint targets, in [rad]."""
 
 
-class MeasuredSight:
-    """Latest of the sightings that measurements contain, from all around."""
-
-    turning, views = 0.0, ALL_AROUND
-    in_sight: PlayersInSight | None = None
+class MeasuredSight(SightSource):
+    """Latest of the sightings that measurements contain."""
 
     def __init__(self, sighting: Sighting | None = None) -> None:
         """Begin with an initial sighting, if any."""
@@ -88,21 +83,15 @@ class MeasuredSight:
         tilt: tuple[float, float] | None,
     ) -> Sighting | None:
         """Return the newest sighting."""
-        if measurement.sighting is not None:
-            self._last = measurement.sighting
+        self._last = measurement.sighting or self._last
         return self._last
 
-    def aim(self, targets: Array) -> None:
-        """Leave the head as it is."""
 
-
-class SightOfPlayers(MeasuredSight):
+class SightOfPlayers(SightSource):
     """Latest sightings of several players, one of which is the opponent.
 
     See :func:`stepaside.strategies.opponent_choice.choose_opponent`.
     """
-
-    in_sight: PlayersInSight
 
     def __init__(self, identity: PlayerIdentity, target: str = "") -> None:
         """Begin without sightings.
@@ -115,7 +104,11 @@ class SightOfPlayers(MeasuredSight):
         self._latest: dict[str, Sighting] = {}
         self._numbers: dict[str, int] = {}
         self._chosen = ""
-        self.in_sight = PlayersInSight(identity, ())
+
+    @property
+    def in_sight(self) -> PlayersInSight:
+        """Own identity, and the latest sighting of each player."""
+        return PlayersInSight(self._identity, tuple(self._latest.values()))
 
     def see(
         self,
@@ -145,13 +138,10 @@ class SightOfPlayers(MeasuredSight):
             target=self._target,
             present=self._chosen,
         )
-        self.in_sight = PlayersInSight(
-            self._identity, tuple(self._latest.values())
-        )
 
 
-class _PerceivedSight:
-    """Sightings from exteroceptive sensors, relative to the support foot.
+class LidarSight(SightSource):
+    """Sightings from scans of a lidar, relative to the support foot.
 
     The pose of a sensor uses the torso tilt that balance estimates; without
     an estimate, an attitude filter of its own.
@@ -189,7 +179,7 @@ class _PerceivedSight:
         )
 
 
-class CameraSight(_PerceivedSight):
+class CameraSight(LidarSight):
     """Sightings from images, with a head that looks at the opponent."""
 
     perception: "Perception"
@@ -251,13 +241,3 @@ class CameraSight(_PerceivedSight):
     def aim(self, targets: Array) -> None:
         """Turn the head to the last known position of the opponent."""
         self.perception.aim(targets)
-
-
-class LidarSight(_PerceivedSight):
-    """Sightings from scans of a lidar, from all around."""
-
-    turning, views = 0.0, ALL_AROUND
-    in_sight: PlayersInSight | None = None
-
-    def aim(self, targets: Array) -> None:
-        """Leave the head as it is."""

@@ -29,16 +29,11 @@ RECENT = 1.0  # age up to which the own pose at a sighting is known, in [s]
 
 
 def next_pace(before: float, wanted: float, *, standing: bool) -> float:
-    """Return the pace of the next step, with a bounded change.
+    """Return the pace of the next step, with a bounded change while walking.
 
     Shorter steps need less lateral sway of the CoM. The mismatch with the
     state that the last step prepared is absorbed by the correction of the
     next plan, a ZMP shift that has to stay well inside the sole.
-
-    Args:
-        before: Pace of the last step.
-        wanted: Requested pace.
-        standing: Whether the robot stands; then any pace is possible.
     """
     if standing:
         return wanted
@@ -74,8 +69,8 @@ class StrategyRunner(DecisionMaker):
             gait: Gait.
             surroundings: Known obstacles; none by default.
             turns: Calibration of the turning rate; none by default.
-            velocities: Velocities that the legs deliver; by default those of
-                a unicycle.
+            velocities: Velocities of the legs; those of a unicycle by
+                default.
             views: Bearings at which the robot sees others.
         """
         super().__init__(strategy, limits_of(gait, velocities, views))
@@ -96,12 +91,7 @@ class StrategyRunner(DecisionMaker):
             self.identity, self._in_sight = in_sight
 
     def calibrate(self, measurement: RobotState, *, stands: bool) -> None:
-        """Update the turn calibration, if there is one.
-
-        Args:
-            measurement: RobotState of the tick.
-            stands: Whether the robot stands still.
-        """
+        """Update the turn calibration, if there is one."""
         if self.turns is not None:
             heading = self.templates.at(measurement.time).theta
             rate = float(measurement.gyro[2])
@@ -114,12 +104,8 @@ class StrategyRunner(DecisionMaker):
 
         With a turn calibration the robot stands for a while first. If the
         robot starts, the strategy decides again at the time of the step,
-        and the memory of this decision is discarded.
-
-        Args:
-            now: Time of the decision, in [s].
-            sighting: Last sighting; None if there is none.
-            turning: Turn on the spot for a scan: 1 left, -1 right, 0 none.
+        and the memory of this decision is discarded. Arguments are those of
+        :meth:`decide`.
 
         Raises:
             StrategyError: If the strategy returns no intent.
@@ -214,13 +200,7 @@ class StrategyRunner(DecisionMaker):
     def _other(
         self, now: float, template: Pose, sighting: Sighting
     ) -> OtherPlayer:
-        """Return a player in the frame of the knowledge.
-
-        Args:
-            now: Time of the decision, in [s].
-            template: Pose of that frame in odometry.
-            sighting: Latest sighting of the player.
-        """
+        """Return a player in the frame of the knowledge, in odometry."""
         assert sighting.identity is not None
         x, y = self._position_of(sighting)
         name, step = sighting.identity.name, self.limits.step_duration
@@ -257,11 +237,8 @@ class StrategyRunner(DecisionMaker):
     def _position_of(self, sighting: Sighting) -> tuple[float, float]:
         """Return the position of a recognised player in odometry, in [m]."""
         assert sighting.identity is not None
-        known = self._sightings.get(sighting.identity.name)
-        if known is None or known[0] != sighting.time:
-            self._sight_of(sighting)
-            known = self._sightings[sighting.identity.name]
-        _, template, sight, distance = known
+        self._sight_of(sighting)
+        _, template, sight, distance = self._sightings[sighting.identity.name]
         return (
             template.x + distance * cos(sight),
             template.y + distance * sin(sight),

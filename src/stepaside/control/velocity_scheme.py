@@ -1,15 +1,57 @@
 """Control of a robot that walks at commanded velocities."""
 
+from math import pi
+
 from ..core.history import History
 from ..core.poses import Array, Pose
 from ..locomotion.locomotion import MotionRequest
-from ..locomotion.maneuver_walk import ManeuverWalk
+from ..locomotion.maneuver_walk import ManeuverWalk, velocity_limits
 from ..locomotion.walk_snapshots import Phase
 from ..perception.measurement import RobotState
-from ..planning import Direction, Foot
+from ..planning import Direction, Foot, GaitSettings
+from ..strategies.knowledge import STAND, Intent
 from .strategy_runner import MEMORY
 from .turn_calibration import TurnCalibration
-from .velocity_walk import limit_velocity, request_at_velocity
+
+STILL = 1e-3  # speed [m/s] or turning rate [rad/s] that counts as zero
+IN_PLACE = 1e-3  # speed factor of a turn on the spot
+
+
+def limit_velocity(
+    forward: float, turn: float, gait: GaitSettings
+) -> tuple[float, float]:
+    """Limit a driving velocity, in [m/s], and a turning rate, in [rad/s].
+
+    Both are scaled alike to what a gait can walk, on the same path.
+    """
+    speed, rate = velocity_limits(gait)
+    share = 1.0 / max(1.0, abs(forward) / speed, abs(turn) / rate)
+    return share * forward, share * turn
+
+
+def request_at_velocity(
+    forward: float,
+    turn: float,
+    gait: GaitSettings,
+    *,
+    under_way: Direction | None,
+) -> MotionRequest:
+    """Return the request that walks at a velocity.
+
+    A reversal of the direction under way halts the robot first.
+    """
+    forward, turn = limit_velocity(forward, turn, gait)
+    speed, rate = velocity_limits(gait)
+    direction = Direction.FORWARD if forward >= 0.0 else Direction.BACKWARD
+    if abs(forward) < STILL:
+        direction = under_way or Direction.FORWARD
+    rests = abs(forward) < STILL and abs(turn) < STILL
+    if rests or under_way not in (None, direction):
+        return MotionRequest(STAND, direction, saturated=False)
+    share = max(IN_PLACE, min(1.0, abs(forward) / speed))
+    return MotionRequest(
+        Intent(pi * turn / rate, share), direction, saturated=False
+    )
 
 
 class VelocityScheme:
@@ -24,12 +66,7 @@ class VelocityScheme:
     """
 
     def __init__(self, locomotion: ManeuverWalk, tick: float) -> None:
-        """Begin standing.
-
-        Args:
-            locomotion: Locomotion of the robot.
-            tick: Control period, in [s].
-        """
+        """Begin standing, at a control period in [s]."""
         self.locomotion = locomotion
         self.headings: History[float] = History(MEMORY)
         self.headings.note(0.0, locomotion.torso_heading)
@@ -49,13 +86,7 @@ class VelocityScheme:
         self._commanded = forward, turn
 
     def update(self, measurement: RobotState) -> Array:
-        """Run one control tick.
-
-        Args:
-            measurement: RobotState of the tick.
-
-        Returns:
-            Joint targets, in [rad]. Shape (joints,).
+        """Return the joint targets of one control tick, in [rad].
 
         Raises:
             ReachError: If the legs cannot follow the reference.
@@ -77,19 +108,13 @@ class VelocityScheme:
         return targets
 
     def starts(self, now: float) -> bool:
-        """Return whether a standing robot starts to walk.
-
-        See :class:`~stepaside.locomotion.locomotion.IntentSource`.
-        """
+        """Return whether a standing robot starts; see `.IntentSource`."""
         return self._request().intent.walks
 
     def decide(
         self, now: float, support: Pose, side: Foot, *, moving: bool
     ) -> MotionRequest:
-        """Return the step that follows the command.
-
-        See :class:`~stepaside.locomotion.locomotion.IntentSource`.
-        """
+        """Return the step that follows the command; see `.IntentSource`."""
         return self._request()
 
     def _request(self) -> MotionRequest:

@@ -60,11 +60,8 @@ class ManeuverClearance(NamedTuple):
     ) -> bool:
         """Return whether the maneuver leads out of the margin.
 
-        Args:
-            margin: Required clearance, in [m].
-            map_error: Tolerated loss of clearance on the way, in [m].
-            gained: Clearance that is gained at least, unless the maneuver
-                ends outside the margin, in [m].
+        On the way the error of the map is tolerated as loss of clearance;
+        ``gained`` is what is gained at least, unless it ends outside.
         """
         farther = self.last > min(self.now + gained, margin)
         near = self.least >= self.now - map_error - NEARER
@@ -88,16 +85,7 @@ class Guard:
         margin: float,
         footholds: FootstepAdjustment | None = None,
     ) -> None:
-        """Prepare the guard of one robot.
-
-        Args:
-            surroundings: Known obstacles.
-            outline: Outline of the body.
-            planner: Maneuver planner of the gait, for the halts.
-            margin: Required clearance, in [m].
-            footholds: Adjustment of footsteps, used with the MPC; none by
-                default.
-        """
+        """Prepare the guard; with the MPC footsteps are adjusted."""
         self._footholds = footholds
         self.surroundings, self.margin = surroundings, margin
         self._outline, self._planner = outline, planner
@@ -169,11 +157,7 @@ class Guard:
     ) -> bool:
         """Return whether a maneuver may be executed.
 
-        Args:
-            plan: The maneuver.
-            pose_plan_in_odometry: Pose of the plan frame, the support foot.
-            standing: Whether the robot stands; inside the margin it may then
-                move out of it.
+        Inside the margin a standing robot may move out of it.
         """
         if not self.surroundings.solids:
             return True

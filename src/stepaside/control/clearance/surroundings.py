@@ -33,12 +33,7 @@ class Surroundings(Protocol):
         """Pose of the own odometry in the frame of the obstacles."""
 
     def note(self, measurement: RobotState, pose: Pose) -> None:
-        """Update from the measurement of one tick.
-
-        Args:
-            measurement: RobotState of the tick.
-            pose: Place of the CoM and heading in odometry at the tick.
-        """
+        """Update from a measurement; the pose of the CoM is in odometry."""
 
 
 class OpenFloor:
@@ -69,12 +64,7 @@ class KnownRoom:
     map_error = 0.0
 
     def __init__(self, room: Room, start: Pose) -> None:
-        """Begin with the room at time zero.
-
-        Args:
-            room: The room.
-            start: Initial pose of the own odometry in the room.
-        """
+        """Begin at time zero, with the pose of the odometry in the room."""
         self._room, self._next = room, 0.0
         self.solids = ObstacleSet(room.solids_at(0.0, AHEAD))
         self.pose_odometry_in_map = start
@@ -105,12 +95,7 @@ class MappedRoom:
     map_error = CELL
 
     def __init__(self, floor: FloorMap, *, unknown_is_free: bool) -> None:
-        """Begin without obstacles.
-
-        Args:
-            floor: Map that perception updates.
-            unknown_is_free: Whether unknown floor counts as free.
-        """
+        """Begin without obstacles; perception updates the map."""
         self._floor, self._unseen_is_free = floor, unknown_is_free
         self.solids = NO_OBSTACLES
         self._read, self._next = 0, 0.0

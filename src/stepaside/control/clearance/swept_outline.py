@@ -56,7 +56,7 @@ class BodyOutline:
         return float(np.hypot(self.trunk[:, 0], self.trunk[:, 1]).max())
 
     def along(self, plan: ManeuverPlan, frame: Pose, part: "Part") -> Array:
-        """Return the corners of the body over a part of a plan.
+        """Return the corners of the body over a part of a plan, in [m].
 
         Args:
             plan: The plan.
@@ -64,8 +64,7 @@ class BodyOutline:
             part: "step" for its first step, "all" for all of it.
 
         Returns:
-            Corners at successive instants, in [m]. Shape (instants, n + m + k,
-            2).
+            Shape (instants, n + m + k, 2).
         """
         samples = plan.sample(_sampler(plan.schedule, part))
         left, right = samples.left_foot, samples.right_foot
