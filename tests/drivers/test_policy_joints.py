@@ -21,9 +21,12 @@ from stepaside.drivers.motors import motors_of
 from stepaside.drivers.robot import JointRobot, JointTargets
 from stepaside.drivers.safety import SafetyState
 from stepaside.drivers.scheme_factory import policy_gains, scheme_factory
-from stepaside.locomotion.policy.initial_posture import InitialPosture
 from stepaside.locomotion.policy.legs_loader import load_policy
 from stepaside.locomotion.policy.legs_settings import LegsSettings
+from stepaside.locomotion.policy.policy_legs import (
+    InitialPosture,
+    initial_posture,
+)
 from stepaside.perception.measurement import Sighting
 from stepaside.planning import GaitSettings
 from stepaside.robots.description import RobotDescription, load_robot
@@ -137,7 +140,7 @@ def test_a_policy_walks_a_robot_that_takes_targets_and_gains(
     legs = LegsSettings(str(folder / "policy.onnx"))
     contract, _ = load_policy(legs, description)
     angles = zip(contract.joints, contract.default_posture, strict=True)
-    posture = InitialPosture(ForwardKinematics(description), dict(angles))
+    posture = initial_posture(ForwardKinematics(description), dict(angles))
     robot = GainsRobot(description, posture)
     motors = motors_of(robot, description)
     gains = policy_gains(contract, motors)
@@ -180,7 +183,7 @@ def test_a_robot_without_a_joint_of_the_policy_is_refused(
     legs = LegsSettings(str(folder / "policy.onnx"))
     contract, _ = load_policy(legs, description)
     angles = zip(contract.joints, contract.default_posture, strict=True)
-    posture = InitialPosture(ForwardKinematics(description), dict(angles))
+    posture = initial_posture(ForwardKinematics(description), dict(angles))
     motors = motors_of(GainsRobot(description, posture), description)
     fewer = motors._replace(names=motors.names[:2])
     with pytest.raises(ModelError, match="'LHipYawPitch' has no motor"):

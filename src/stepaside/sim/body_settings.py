@@ -114,39 +114,27 @@ class BodySettings:
     @property
     def has_ideal_servos(self) -> bool:
         """Whether servos follow commands without delay or error."""
-        return self.servo_values == BodySettings().servo_values
+        return not self._differs(
+            *("delay_cycles", "torque_speed", "efficiency"),
+            *("stiffness", "servo_gain", "backlash"),
+        )
 
     @property
     def has_sensor_errors(self) -> bool:
         """Whether sensors have noise, bias, resolution or delay."""
-        values = [getattr(self, name) for name in _SENSORS]
-        return self.imu_delay_cycles > 0 or any(v > 0.0 for v in values)
-
-    @property
-    def servo_values(self) -> tuple[float, ...]:
-        """Settings that affect the servos."""
-        return (
-            self.delay_cycles,
-            self.torque_speed,
-            self.efficiency,
-            self.stiffness,
-            self.servo_gain,
-            self.backlash,
+        return self._differs(
+            *("imu_delay_cycles", "encoder_step", "gyro_noise", "gyro_bias"),
+            *("accelerometer_noise", "accelerometer_bias"),
+            *("force_noise", "force_gain_error"),
         )
 
+    def _differs(self, *names: str) -> bool:
+        return any(getattr(self, n) != getattr(IDEAL, n) for n in names)
 
-_SENSORS = (
-    "encoder_step",
-    "gyro_noise",
-    "gyro_bias",
-    "accelerometer_noise",
-    "accelerometer_bias",
-    "force_noise",
-    "force_gain_error",
-)
 
+IDEAL = BodySettings()
 BODIES = {
-    "ideal": BodySettings(),
+    "ideal": IDEAL,
     "delayed": BodySettings(cycle=0.012, delay_cycles=3, imu_delay_cycles=1),
     "hardware": BodySettings(
         cycle=0.012,
@@ -170,14 +158,10 @@ BODIES = {
 
 
 def at_tick(body: BodySettings, tick: float) -> BodySettings:
-    """Return a body with the same delays, counted in control ticks.
+    """Return a body with the same delays, counted in control ticks, in [s].
 
     A walking policy has its own period, of which the tick is a fraction, and
     does not follow the control period of the body.
-
-    Args:
-        body: Settings of the body.
-        tick: Control period of the physics settings, in [s].
     """
     if body.cycle == 0.0:
         return body

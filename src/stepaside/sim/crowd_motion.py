@@ -121,14 +121,7 @@ class CrowdMotion:
         goal: Vector,
         obstacles: ObstacleSet = NO_OBSTACLES,
     ) -> None:
-        """Start a walk.
-
-        Args:
-            settings: Settings of the walk.
-            start: Initial pose in the world.
-            goal: Goal in the world, in [m].
-            obstacles: Walls and obstacles of the room.
-        """
+        """Start a walk to a goal in the world, in [m]."""
         self._settings, self._obstacles = settings, obstacles
         self.pose = start
         self._goals = [goal, start[:2]]
@@ -235,11 +228,8 @@ class CrowdMotion:
             if hypot(u, v) > STANDING
             else atan2(y - robot.y, x - robot.x)
         )
-        place = (
-            robot.x + BLOCKING * cos(ahead),
-            robot.y + BLOCKING * sin(ahead),
-        )
-        return place, speed
+        dx, dy = BLOCKING * cos(ahead), BLOCKING * sin(ahead)
+        return (robot.x + dx, robot.y + dy), speed
 
     def _forces(self, noticed: int | None) -> Vector:
         """Return the acceleration by players and walls, in [m/s^2]."""

@@ -165,10 +165,7 @@ class OffscreenRenderer:
     ) -> Pixels:
         """Render the image of a camera. Shape (height, width, 3).
 
-        Args:
-            data: State of the model.
-            camera: Index of a camera of the model, or a free camera.
-            decorate: Function that adds to the scene before rendering.
+        ``decorate`` adds to the scene before.
         """
         self._gl.make_current()
         view = camera

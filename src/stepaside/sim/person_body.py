@@ -33,12 +33,8 @@ def add_person(
 ) -> None:
     """Add the bodies of a person to a world; physics does not move them.
 
-    Args:
-        spec: Specification of the world.
-        name: Prefix of the bodies.
-        figure: Pedestrian model.
-        shirt: Colour of the shirt; that of the model by default.
-        solid: Whether robots and obstacles can touch the bodies.
+    Robots and obstacles can touch a solid one. The shirt has the colour of
+    the model by default.
     """
 
     def capsule(

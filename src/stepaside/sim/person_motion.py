@@ -32,14 +32,10 @@ class PersonMotion:
         evader: Place,
         obstacles: ObstacleSet = NO_OBSTACLES,
     ) -> None:
-        """Start a walk.
+        """Start a walk, towards the evader where the path says so.
 
-        Args:
-            settings: Settings of the walk.
-            start: Initial pose in the world; a recorded path ignores it.
-            evader: Initial position of the evader in the world, in [m].
-            obstacles: Walls and obstacles of a room, along which a person
-                slides; a recorded path ignores them.
+        A person slides along obstacles. A recorded path ignores them, and
+        the initial pose.
 
         Raises:
             ConfigurationError: If a recorded path cannot be read.
@@ -72,13 +68,7 @@ class PersonMotion:
             self.pose = self._recorded_pose(0.0)
 
     def advance(self, time: float, duration: float, evader: Place) -> None:
-        """Advance the walk by one step.
-
-        Args:
-            time: Time at the end of the step, in [s].
-            duration: Duration of the step, in [s].
-            evader: Position of the evader in the world, in [m].
-        """
+        """Advance the walk by one step, which ends at a time."""
         if self._recorded is not None:
             self.pose = self._recorded_pose(time)
             return

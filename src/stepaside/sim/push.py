@@ -67,11 +67,7 @@ class ScheduledPush(NamedTuple):
 
 
 def check_pushes(pushes: Sequence[Push], robots: Sequence[str]) -> None:
-    """Check that pushes name robots of a game.
-
-    Args:
-        pushes: Pushes of a game.
-        robots: Names of the robots; a push without a name is of the last.
+    """Check that pushes name robots of a game, or none.
 
     Raises:
         ConfigurationError: If a push names any other player.

@@ -122,12 +122,8 @@ class SensorErrors:
     def velocities(self, exact: Array, angles: Array, now: float) -> Array:
         """Return joint velocities as encoders give them, in [rad/s].
 
-        They are the change of the quantised angles since the last reading.
-
-        Args:
-            exact: True velocities, at the first reading. Shape (joints,).
-            angles: Quantised angles, in [rad]. Shape (joints,).
-            now: Time, in [s].
+        They are the change of the quantised angles since the last reading;
+        the exact ones at the first.
         """
         last, self._last = self._last, (now, angles)
         if self._body.encoder_step == 0.0 or last is None or now <= last[0]:
@@ -173,14 +169,10 @@ def perturb_masses(
     *,
     length_unit: float = 1.0,
 ) -> None:
-    """Perturb the masses of the links of a robot in place.
+    """Perturb the masses of the bodies of a MuJoCo specification in place.
 
-    Args:
-        spec_bodies: Bodies of a MuJoCo specification.
-        body: Magnitudes of the errors.
-        torso: Name of the torso, whose CoM is shifted.
-        generator: Random generator of the errors.
-        length_unit: Size of the robot relative to NAO's.
+    The CoM of the torso is shifted; ``length_unit`` is the size of the robot
+    relative to NAO's.
     """
     for part in spec_bodies:  # type: ignore[attr-defined]
         error = generator.uniform(-1, 1)

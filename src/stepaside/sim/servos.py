@@ -24,13 +24,7 @@ def set_joint_gains(
     r"""Set the gains of the torque :math:`k_p (q^* - q) - k_d \dot q`.
 
     MuJoCo evaluates it at every physics step and limits it to the torque
-    limits of the actuators.
-
-    Args:
-        model: Compiled model; changed in place.
-        actuators: Indices of the actuators.
-        names: Names of their joints, in the same order.
-        gains: Gains by joint; joints that are absent keep theirs.
+    limits of the actuators. Joints without gains keep theirs.
     """
     for actuator, name in zip(actuators.tolist(), names, strict=True):
         if name in gains:

@@ -80,12 +80,10 @@ def build_model(
                 geom.friction[0] = physics.friction
         if body is not None and body.mass_error + body.com_error > 0.0:
             generator = named_generator(seed, f"masses/{name}")
+            unit = description.game.get("length_unit", 1.0)
             perturb_masses(
-                part.bodies,
-                body,
-                description.torso,
-                generator,
-                length_unit=description.game.get("length_unit", 1.0),
+                *(part.bodies, body, description.torso, generator),
+                length_unit=unit,
             )
         # Otherwise MuJoCo warns that the options differ.
         part.option = spec.option
@@ -147,11 +145,7 @@ class World:
             load_tree(robot)  # raises if model and description differ
         self.physics = physics
         self.model = build_model(
-            robots,
-            physics,
-            body,
-            seed,
-            furnish,
+            *(robots, physics, body, seed, furnish),
             rendered=rendered,
             colours=colours,
         )
@@ -262,14 +256,9 @@ class World:
 
 
 def transform_free_joint(qpos: Sequence[float], pose: Pose) -> list[float]:
-    """Transform the free joint of a robot from odometry to the world.
+    """Transform position and quaternion from odometry to the world.
 
-    Args:
-        qpos: Position and quaternion in odometry. Shape (7,).
-        pose: Pose of the odometry frame in the world.
-
-    Returns:
-        Position and quaternion in the world. Shape (7,).
+    The pose is of the odometry frame in the world. Shapes (7,).
     """
     x, y, z, w, a, b, c = qpos
     place = pose.compose(Pose(x, y, 0.0))

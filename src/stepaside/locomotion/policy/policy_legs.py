@@ -1,5 +1,7 @@
 """Learned legs of one robot: a body velocity in, joint targets out."""
 
+from typing import NamedTuple
+
 import numpy as np
 
 from ...core.compilation import bound, compiled
@@ -11,7 +13,6 @@ from ...robots.forward_kinematics import ForwardKinematics
 from ...strategies.velocity_set import STILL, BodyVelocity, VelocitySet
 from .contract import PolicyContract
 from .gravity_filter import GravityFilter
-from .initial_posture import InitialPosture
 from .leg_odometry import LegOdometry
 from .network import PolicyNetwork
 from .runner import BodyMotion, PolicyRunner
@@ -35,6 +36,39 @@ def learn(
         learned = correction[i] + learning[0] * missing
         correction[i] = min(max(learned, -BOUND), BOUND)
         wanted[i] = intended[i] + correction[i]
+
+
+class InitialPosture(NamedTuple):
+    """Posture in which a robot with a walking policy begins.
+
+    Attributes:
+        joint_names: Names of the actuated joints.
+        joint_targets: Their angles, in [rad]. Shape (joints,).
+        posture: Position and quaternion of the torso in odometry, then the
+            angles of all joints. Shape (7 + joints,).
+    """
+
+    joint_names: tuple[str, ...]
+    joint_targets: Array
+    posture: Array
+
+
+def initial_posture(
+    forward: ForwardKinematics, angles: dict[str, float]
+) -> InitialPosture:
+    """Stand upright with given angles, the soles beside the odometry's origin.
+
+    Joints without an angle take that of the description, or 0 rad.
+    """
+    tree = forward.tree
+    known = {**forward.description.standing, **angles}
+    targets = np.array([known.get(name, 0.0) for name in tree.motors])
+    feet = forward.posture(targets).positions_feet_in_torso
+    x, y, _ = feet.mean(axis=0)
+    names = [tree.followers.get(name, name) for name in tree.joints]
+    joints = (known.get(name, 0.0) for name in names)
+    place = -x, -y, -feet[:, 2].min(), 1.0, 0.0, 0.0, 0.0
+    return InitialPosture(tree.motors, targets, np.array([*place, *joints]))
 
 
 class PolicyLegs:
@@ -100,7 +134,7 @@ class PolicyLegs:
             for motor in sorted({m for m in joints if joints.count(m) > 1})
         )
         angles = zip(contract.joints, contract.default_posture, strict=True)
-        self.standing = InitialPosture(forward, dict(angles))
+        self.standing = initial_posture(forward, dict(angles))
         self._targets = self.standing.joint_targets.copy()
         self._network = network
         self.odometry = odometry = LegOdometry(
@@ -146,15 +180,10 @@ class PolicyLegs:
         return self._targets
 
     def update(self, measurement: RobotState, velocity: BodyVelocity) -> Array:
-        """Run one control tick.
+        """Return the joint targets of one control tick, in [rad].
 
-        Args:
-            measurement: RobotState of the tick, with joint velocities.
-            velocity: Intended velocity; the nearest deliverable one with the
-                same path is walked.
-
-        Returns:
-            Joint targets, in [rad], in the order of the motors.
+        The nearest deliverable velocity with the path of the intended one is
+        walked.
 
         Raises:
             PolicyError: If the network returns NaN or infinity.
