@@ -24,6 +24,8 @@ from .opponent_track import OpponentTrack
 from .strategy import BackwardStrategy
 from .velocity_set import STILL, BodyVelocity, VelocitySet, respond
 
+DIRECTIONS = 24  # of dashes
+HORIZON = 6.0  # of a rollout, in [s]
 INTERVAL = 0.08  # between comparisons of a standing robot, in [s]
 # Positions of the last 0.6 s at most every 0.03 s, which show a velocity
 # once they span 0.3 s.
@@ -100,16 +102,6 @@ class DashEvasion(BackwardStrategy):
         "clearance within this time",
         Range(0.0, MOST, "s", "a time ahead", above=True),
     )
-    horizon: float = setting(
-        6.0,
-        "Duration of a rollout",
-        Range(0.5, 20.0, "s", "decisions take longer"),
-    )
-    directions: int = setting(
-        24,
-        "Directions of dashes",
-        Range(4, 360, "1", "decisions take longer", whole=True),
-    )
     effort: float = setting(
         EFFORT,
         "Gain for which a robot walks instead of standing",
@@ -141,7 +133,7 @@ class DashEvasion(BackwardStrategy):
         """Return the memory before the first sighting."""
         # Compiles the rollouts now instead of at the first decision.
         still = VelocitySet((0.0, 1.0), (0.0, 1.0), (-1.0, 1.0))
-        dashes = make_dashes(self.directions, 0.0, still, LATER)
+        dashes = make_dashes(DIRECTIONS, 0.0, still, LATER)
         paths, _ = roll_out(Pose(0.0, 0.0, 0.0), STILL, dashes, still, 0.1)
         self._worth(paths, Opponent(1.0, 0.0, 0.0, 0.0), inf)
         return DashMemory()
@@ -171,11 +163,9 @@ class DashEvasion(BackwardStrategy):
                 return STAND, stands
         looks = limits.views != ALL_AROUND
         dashes = make_dashes(
-            self.directions, pose.theta, velocities, LATER, both_ends=looks
+            DIRECTIONS, pose.theta, velocities, LATER, both_ends=looks
         )
-        paths, headings = roll_out(
-            pose, velocity, dashes, velocities, self.horizon
-        )
+        paths, headings = roll_out(pose, velocity, dashes, velocities, HORIZON)
         value = self._values(paths, opponent)
         value = value + self._bonus(dashes, memory.angle)
         if looks:

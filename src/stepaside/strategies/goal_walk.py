@@ -1,12 +1,11 @@
 """Walk to a goal among other players."""
 
 from dataclasses import dataclass
-from math import atan2, cos, hypot, pi, sin
+from math import cos, hypot, pi, sin
 from typing import Any
 
 import numpy as np
 
-from ..arena.shortest_path import first_waypoint
 from ..core.poses import Array, Pose, wrap_angle
 from ..core.ranges import Range
 from ..core.setting import check_settings, setting
@@ -64,28 +63,19 @@ class GoalWalk(PursuitVariant):
         there = knowledge.pose_in_map.inverse().compose(Pose(x, y, 0.0))
         if hypot(there.x, there.y) < ARRIVED:
             return STAND, memory
-        intent, memory = self.pursuit.decide(
-            knowledge.towards(there.x, there.y), memory
-        )
-        velocities = knowledge.limits.velocities
+        aimed = knowledge.towards(there.x, there.y)
+        intent, memory = self.pursuit.decide(aimed, memory)
+        velocities, bearing = knowledge.limits.velocities, aimed.bearing
         if velocities is not None:
-            solids, bearing = knowledge.obstacles_in_map, atan2(*there[1::-1])
-            if solids:
-                here, radius = knowledge.pose_in_map, self.pursuit.body_radius
-                u, v = first_waypoint(solids, here[:2], (x, y), radius)
-                bearing = atan2(v - here.y, u - here.x) - here.theta
+            if knowledge.obstacles_in_map:
+                bearing = self.pursuit.path_bearing(aimed)
             return self._clear_velocity(knowledge, bearing, velocities), memory
-        if not knowledge.others:
-            return intent, memory
-        heading = self._clear_heading(knowledge, intent.heading)
-        if heading is None:
-            return STAND, memory
-        return Intent(wrap_angle(heading)), memory
+        if knowledge.others:
+            intent = self._clear_heading(knowledge, intent.heading)
+        return intent, memory
 
-    def _clear_heading(
-        self, knowledge: Knowledge, wanted: float
-    ) -> float | None:
-        """Return the heading that keeps clear, in [rad]; None if none does."""
+    def _clear_heading(self, knowledge: Knowledge, wanted: float) -> Intent:
+        """Return the heading that keeps clear; stand if none does."""
         limits = knowledge.limits
         speed = limits.stride / limits.step_duration
         directions = wanted + DEVIATIONS
@@ -96,8 +86,8 @@ class GoalWalk(PursuitVariant):
         best = int((costs + self._wall_cost(knowledge, own)).argmin())
         contacts = when[:, best][least[:, best] < self.contact]
         if contacts.size and contacts.min() < SOON:
-            return None
-        return float(directions[best])
+            return STAND
+        return Intent(wrap_angle(float(directions[best])))
 
     def _clear_velocity(
         self, knowledge: Knowledge, bearing: float, velocities: VelocitySet

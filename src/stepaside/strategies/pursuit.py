@@ -124,7 +124,7 @@ class Pursuit:
             seen = self._aimed(knowledge, memory.track)
         bearing = seen.bearing
         if seen.obstacles_in_map:
-            bearing = self._path_bearing(seen, memory.side)
+            bearing = self.path_bearing(seen, memory.side)
             aside = wrap_angle(bearing - seen.bearing)
             if abs(aside) > DETOUR:
                 side = 1 if aside > 0.0 else -1
@@ -194,7 +194,7 @@ class Pursuit:
         nearer = after < np.minimum(self.body_radius, now - 1e-9)
         return bool(nearer.any())
 
-    def _path_bearing(self, knowledge: Knowledge, side: int) -> float:
+    def path_bearing(self, knowledge: Knowledge, side: int = 0) -> float:
         """Return the bearing of the first vertex of the path, in [rad]."""
         x, y, theta = knowledge.pose_in_map
         u, v = first_waypoint(

@@ -146,16 +146,15 @@ class ShieldModel:
         return share if self.saturated else pi * share
 
     def twist(self, intent: Intent) -> tuple[BodyVelocity, float]:
-        """Return the velocity and the duration to which an intent commits."""
+        """Return velocity and duration that an intent at pace 1 commits to."""
         limits, sign = self.limits, float(self.direction.value)
         if self.velocities is not None:
             if intent.velocity is not None:
                 return self.velocities.nearest(intent.velocity), LEGS_INTERVAL
-            rate = intent.pace * limits.gain * intent.heading
-            ahead = sign * intent.speed_factor * intent.pace * limits.speed
-            twist = BodyVelocity(ahead, 0.0, rate)
+            ahead = sign * intent.speed_factor * limits.speed
+            twist = BodyVelocity(ahead, 0.0, limits.gain * intent.heading)
             return self.velocities.nearest(twist), limits.step_duration
-        duration = limits.step_duration / intent.pace
+        duration = limits.step_duration
         turn = intent.heading * (1.0 if self.saturated else limits.share)
         turn = min(max(turn, -self.turn), self.turn)
         share = min(intent.speed_factor, limits.stride_share(turn))

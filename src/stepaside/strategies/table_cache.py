@@ -26,12 +26,9 @@ UNREADABLE = (OSError, ValueError, KeyError, EOFError, BadZipFile)
 def cached(
     name: str, key: object, solve: Callable[[], Mapping[str, Array]]
 ) -> Mapping[str, Array]:
-    """Return arrays from the cache folder, or compute and keep them.
+    """Return arrays from the cache folder, or solve and keep them.
 
-    Args:
-        name: Begin of the name of the file.
-        key: All that the arrays depend on; equal keys have equal ``repr``.
-        solve: Computes the arrays.
+    The key is all that they depend on; equal keys have equal ``repr``.
     """
     digest = sha256(repr((FORMAT, key)).encode()).hexdigest()
     file = cache_folder() / f"{name}-{digest[:16]}.npz"
