@@ -9,10 +9,10 @@
 # %% language="bash"
 # stepaside serve --lola pursuer=P.sock --lola evader=E.sock \
 #     --duration 20 --lockstep --json > result.json &
-# stepaside play --role pursuer --robot lola:P.sock \
-#     --wait 60 --record pursuer &
-# stepaside play --role evader --robot lola:E.sock \
-#     --wait 60 --record evader
+# stepaside play lola:P.sock --role pursuer \
+#     --set wait=60 --record pursuer &
+# stepaside play lola:E.sock --role evader \
+#     --set wait=60 --record evader
 # wait
 
 # %% [markdown]

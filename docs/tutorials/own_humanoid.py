@@ -47,4 +47,4 @@ Image("game/duel.png", width=720)
 # %% [markdown]
 # A robot that is not steady yet is improved by `stepaside robot tune`
 # ([your own humanoid](../robots.md)); one with a learned walking policy takes
-# it with `--legs FILE.onnx` ([learned legs](../legs.md)).
+# it with `--set legs.network=FILE.onnx` ([learned legs](../legs.md)).

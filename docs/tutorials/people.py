@@ -20,7 +20,7 @@ Image("person/duel.png", width=720)
 # The paper's legs walk at most 0.26 m/s, so the answer depends on when the
 # robot begins. `stepaside study people` measures it for speeds, directions
 # and aims ([evading people](../people.md)); with a learned walking policy
-# (`--legs FILE.onnx`) a humanoid moves at about 1 m/s, also sideways
+# (`legs.network=FILE.onnx`) a humanoid moves at about 1 m/s, also sideways
 # ([learned legs](../legs.md)).
 
 # %% language="bash"

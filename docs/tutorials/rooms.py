@@ -7,10 +7,10 @@
 #
 # ## A room
 #
-# A seed makes a room; a file describes one by hand (`stepaside room --help`).
+# A seed makes a room; a file describes one (`stepaside run room --help`).
 
 # %% language="bash"
-# stepaside room --seed 4 --size 3x3 --discs 3 --figure room.png \
+# stepaside run room --seed 4 --width 3 --depth 3 --discs 3 --figure room.png \
 #     --output room.toml
 
 # %%

@@ -17,6 +17,8 @@ pursuer_speed = 0.1
 evader_speed = 0.1
 pursuer_gain = 0.2
 evader_gain = 0.2
+aim = 0.0
+bearing = 0.0
 duration = 120.0
 
 [grid]

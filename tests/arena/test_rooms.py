@@ -136,7 +136,7 @@ def test_room_survives_a_round_trip_through_a_file(tmp_path: Path) -> None:
     assert load_room(file) == room
     again = tmp_path / "again.json"
     answer = CliRunner().invoke(
-        main, ["room", str(file), "--output", str(again), "--json"]
+        main, ["run", "room", str(file), "--output", str(again), "--json"]
     )
     assert answer.exit_code == 0, answer.output
     assert load_room(again) == room
@@ -196,7 +196,7 @@ def test_invalid_file_is_refused_in_one_line(
 ) -> None:
     file = tmp_path / "room.toml"
     file.write_text(text, encoding="utf-8")
-    answer = CliRunner().invoke(main, ["room", str(file)])
+    answer = CliRunner().invoke(main, ["run", "room", str(file)])
     assert answer.exit_code == 2
     assert len(answer.output.splitlines()) == 1
     with pytest.raises(ConfigurationError, match=rule):

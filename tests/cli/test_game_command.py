@@ -1,4 +1,4 @@
-"""Test ``stepaside game``: tables, JSON, run folder and bad input."""
+"""Test ``stepaside run FILE``: tables, JSON, run folder and bad input."""
 
 import json
 from pathlib import Path
@@ -38,7 +38,7 @@ def file(tmp_path: Path) -> Path:
 
 
 def run(*arguments: str | Path) -> Result:
-    return CliRunner().invoke(main, ["game", *map(str, arguments)])
+    return CliRunner().invoke(main, ["run", "game", *map(str, arguments)])
 
 
 def test_a_game_prints_players_and_pairs_and_writes_a_folder(

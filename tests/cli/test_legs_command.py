@@ -1,4 +1,4 @@
-"""Test ``stepaside legs``."""
+"""Test ``stepaside robot legs``."""
 
 import json
 from pathlib import Path
@@ -16,7 +16,7 @@ def test_inspect_prints_the_contract_with_its_sources(
 ) -> None:
     path = constant_policy(tmp_path / "a.onnx", default_joint_pos=[0.1] * 3)
     with pytest.raises(SystemExit) as left:
-        main(["legs", "inspect", str(path), "--json"])
+        main(["robot", "legs", "inspect", str(path), "--json"])
     assert left.value.code == 2  # holosoma names no posture of these joints
     facts = json.loads(capsys.readouterr().out)
     assert facts["convention"] == "holosoma"
@@ -43,7 +43,7 @@ def test_inspect_refuses_in_one_line(
 ) -> None:
     path = constant_policy(tmp_path / "a.onnx")
     with pytest.raises(SystemExit) as left:
-        main(["legs", "inspect", str(path), *options])
+        main(["robot", "legs", "inspect", str(path), *options])
     assert left.value.code == 2
     error = capsys.readouterr().err
     assert words in error and error.count("\n") == 1

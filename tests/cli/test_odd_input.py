@@ -19,16 +19,18 @@ WAITING = {"serve", "play", "view"}
 EXAMPLE = Path(__file__).parents[2] / "examples" / "two-pursuers.toml"
 SHORT = {
     "duel": ["--duration=0.02"],
-    "walk": ["--duration=0.02"],
-    "game": ["--duration=0.02"],
-    "plan": ["--role=evader", "--bearing=0.3", "--steps=4"],
-    "unicycles": ["--duration=1"],
-    "circle": ["--starts=2"],
-    "map": ["--grid=2", "--distances=1", "--duration=1"],
-    "bound": ["--grid=16", "--refine=0", "--games=0", "--horizon=0.05"],
+    "run walk": ["--duration=0.02"],
+    "run game": ["--duration=0.02"],
+    "theory plan": ["--role=evader", "--bearing=0.3", "--steps=4"],
+    "run unicycles": ["--duration=1"],
+    "theory circle": ["--starts=2"],
+    "theory map": ["--grid=2", "--set=distances=1", "--set=duration=1"],
+    "theory bound": ["--grid=16", "--games=0", "--set=horizon=0.05"],
 }
 # They compute in this process as long as the numbers say.
-COMPUTING = {"unicycles", "circle", "map", "bound", "plan"}
+COMPUTING = {name for name in SHORT if name.startswith("theory")} | {
+    "run unicycles"
+}
 LARGE = 50.0
 ODD = st.one_of(
     st.sampled_from(

@@ -10,25 +10,25 @@ from click.testing import CliRunner, Result
 from stepaside.cli.main import COMMANDS, main
 from stepaside.cli.tables import format_value, label_of, unit_of
 from stepaside.core import progress
-from stepaside.games import match
+from stepaside.games import game
 
 pytestmark = pytest.mark.usefixtures("blank_figures", "inline_workers")
 
 TABLES = [
     "duel --duration 1",
-    "walk --duration 20",
-    "plan --role evader --bearing 0.3",
-    "unicycles --speed 0.1 --gain 0.2",
-    "unicycles --strategy move-aside --pursuer-strategy lead --duration 2",
-    "circle --speed 0.1 --gain 0.2 --starts 2",
-    "circle --evader-gain 0.3 --sample-time 0.1 --starts 1",
-    "map --grid 3 --distances 2 --duration 5",
-    "bound --grid 16 --refine 1 --games 10 --horizon 0.1",
-    "bound --grid 16 --refine 0 --games 0 --horizon 0.1 --against any",
-    "bound --against person --evader-speed 0.6 --grid 16 --refine 0",
+    "run walk --duration 20",
+    "theory plan --role evader --bearing 0.3",
+    "run unicycles --speed 0.1 --gain 0.2",
+    "run unicycles --set pursuer_strategy=lead --duration 2",
+    "theory circle --speed 0.1 --gain 0.2 --starts 2",
+    "theory circle --set evader_gain=0.3 --set sample_time=0.1 --starts 1",
+    "theory map --grid 3 --set distances=2 --set duration=5",
+    "theory bound --grid 16 --games 10 --set horizon=0.1",
+    "theory bound --grid 16 --games 0 --set horizon=0.1 --against any",
+    "theory bound --against person --evader-speed 0.6 --grid 16",
     "study tournament --set seed=0:1 --set game.duration=1 "
     "--set evader=evasion --workers 1",
-    "room --discs 2 --doors 1",
+    "run room --discs 2 --doors 1",
     "robot nao",
 ]
 
@@ -41,7 +41,7 @@ def shown_by(words: str) -> Result:
     """Run a command; its progress is a line at each update."""
     shown = CliRunner().invoke(main, words.split())
     assert shown.exit_code == 0, shown.output
-    command = words.split()[0]
+    command = words.removeprefix("run ").removeprefix("theory ").split()[0]
     lines = [
         line
         for line in shown.stderr.splitlines()
@@ -58,7 +58,7 @@ def shown_by(words: str) -> Result:
 def progress_lines(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.chdir(tmp_path)
     monkeypatch.setattr(progress, "PERIOD", 0.0)
-    monkeypatch.setattr(match, "REPORT_PERIOD", 0.0)
+    monkeypatch.setattr(game, "REPORT_PERIOD", 0.0)
 
 
 @pytest.mark.parametrize("words", TABLES)
@@ -93,7 +93,7 @@ def test_name_becomes_a_label_and_its_suffix_a_unit(
     assert label_of(name, unit=True) == with_unit
 
 
-@pytest.mark.parametrize("words", ["walk --duration 9", TABLES[0]])
+@pytest.mark.parametrize("words", ["run walk --duration 9", TABLES[0]])
 def test_progress_is_not_among_json(words: str, progress_lines: None) -> None:
     assert shown_by(f"{words} --json").stdout.startswith("{")
 

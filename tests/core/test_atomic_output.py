@@ -1,13 +1,11 @@
 """Test output files: checked first, replaced atomically, never unasked."""
 
 import errno
-import json
 import os
 import subprocess
 import sys
 import threading
 from collections.abc import Callable
-from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -25,7 +23,7 @@ from stepaside.core.errors import ConfigurationError, OutputError
 from stepaside.games.duel_settings import DuelSettings
 from stepaside.games.recorded_game import run_duel
 from stepaside.games.run import DuelRun
-from stepaside.report import run_figure, unicycle_figures
+from stepaside.report import run_figure
 from stepaside.report.run_folder import save_run, write_run
 
 pytestmark = pytest.mark.usefixtures("blank_figures")
@@ -186,7 +184,14 @@ def test_a_run_that_cannot_be_written_is_saved_in_the_temporary_folder(
     assert list(there.iterdir()) == []
 
 
-EXAMPLES = Path(__file__).parents[2] / "examples"
+OUTPUTS = {  # words of commands that write a file, and its suffix
+    "theory plan --role evader --bearing 40deg --figure": ".png",
+    "theory circle --starts 0 --sweep": ".svg",
+    "theory bound --grid 16 --games 0 --output": ".npz",
+    "run room --output": ".toml",
+    "robot check nao --workers 1 --figure": ".png",
+    "study duels --output": ".sqlite",
+}
 
 
 @pytest.fixture(scope="module")
@@ -196,45 +201,39 @@ def folder(tmp_path_factory: pytest.TempPathFactory, short: DuelRun) -> Path:
     return path
 
 
-NEEDED = {
-    "plan": ["--role", "evader", "--bearing", "40deg"],
-    "unicycles": [],
-    "circle": ["--starts", "0"],
-    "bound": ["--grid", "16", "--refine", "0", "--games", "0"],
-    "map": ["--grid", "3", "--distances", "2", "--duration", "1"],
-    "robot show": ["nao"],
-    "robot check": ["nao", "--workers", "1"],
-    "duel": ["--duration", "1", "--json"],
-    "game": [
-        str(EXAMPLES / "two-pursuers.toml"),
-        "--level",
-        "unicycle",
-        "--json",
-    ],
-    "room": [],
-    "walk": [],
-}
-
-
-def test_a_figure_without_a_suffix_is_reported_with_one(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+@pytest.mark.parametrize("kind", sorted({*BAD} - {"device"}))
+@pytest.mark.parametrize("words", OUTPUTS)
+def test_every_command_refuses_a_bad_path_in_one_line(
+    tmp_path: Path, words: str, kind: str
 ) -> None:
-    few = partial(unicycle_figures.draw_sweep, marks=0)
-    monkeypatch.setattr(unicycle_figures, "draw_sweep", few)
-    words = ["circle", "--starts", "0", "--json"]
-    figure = ["--sweep", str(tmp_path / "a")]
-    result = CliRunner().invoke(main, [*words, *figure])
-    assert json.loads(result.stdout)["sweep"] == str(tmp_path / "a.png")
-    assert [p.name for p in tmp_path.iterdir()] == ["a.png"]
-    again = CliRunner().invoke(main, [*words, *figure])
-    assert again.exit_code == 2 and "--overwrite" in again.output
-    result = CliRunner().invoke(main, [*words, *figure, "--overwrite"])
-    assert result.exit_code == 0
-    both = ["--sweep", str(tmp_path / "b"), "--figure", f"{tmp_path}/b.png"]
-    result = CliRunner().invoke(main, [*words, *both])
-    assert (
-        result.exit_code == 2 and "must differ from the file" in result.output
-    )
+    path = BAD[kind](tmp_path)
+    if kind in ("looping", "dangling", "pipe"):
+        path = path.rename(path.with_name(path.name + OUTPUTS[words]))
+    before = sorted(tmp_path.rglob("*"))
+    result = CliRunner().invoke(main, [*words.split(), f"{path}"])
+    assert result.exit_code == 2, result.output
+    assert result.output.count("\n") == 1 and "must" in result.output
+    assert len(result.output) < 500
+    assert sorted(tmp_path.rglob("*")) == before
+
+
+def test_a_figure_gets_a_suffix_and_replaces_the_one_before(
+    tmp_path: Path,
+) -> None:
+    words = [
+        "theory",
+        "plan",
+        "--role",
+        "evader",
+        "--bearing",
+        "1",
+        "--figure",
+    ]
+    file = tmp_path / "a.png"
+    file.write_text("old")
+    result = CliRunner().invoke(main, [*words, str(tmp_path / "a")])
+    assert result.exit_code == 0, result.output
+    assert file.read_bytes()[:4] == b"\x89PNG"
 
 
 def test_a_summary_is_printed_although_its_figure_cannot_be_written(
@@ -245,8 +244,8 @@ def test_a_summary_is_printed_although_its_figure_cannot_be_written(
 
     monkeypatch.setattr(Path, "write_bytes", full)
     for words in (
-        ["plan", *NEEDED["plan"], "--figure"],
-        ["unicycles", "--duration", "1", "--figure"],
+        ["theory", "plan", "--role", "evader", "--bearing", "1", "--figure"],
+        ["run", "unicycles", "--duration", "1", "--figure"],
     ):
         option = [words.pop(), str(tmp_path / "c.png")]
         result = CliRunner().invoke(main, [*words, *option])

@@ -79,8 +79,9 @@ def test_play_accepts_what_is_launched(description: Any) -> None:
         ]
         assert words[:2] == ["stepaside", "play"]
         context = play.make_context("play", words[2:])
-        assert context.params["role"] == declared["role"]
-    assert declared["robot"].startswith("ros2:/")
+        assert context.params["address"] == declared["address"]
+        assert f"role={declared['role']}" in context.params["sets"]
+    assert declared["address"].startswith("ros2:/")
 
 
 def test_every_file_that_setup_installs_exists(

@@ -146,10 +146,10 @@ def test_a_topic_is_held_while_it_is_true() -> None:
     ("words", "said"),
     [
         (
-            "--robot lola:x --dead-man key",
+            "lola:x --dead-man key",
             "requires a robot without a chest button",
         ),
-        ("--robot ros2:/x --dead-man foot", "must be key, gamepad, gamepad:"),
+        ("ros2:/x --dead-man foot", "must be key, gamepad, gamepad:"),
     ],
 )
 def test_an_invalid_switch_is_refused(

@@ -277,7 +277,7 @@ def test_the_command_prints_verdicts_and_exits_with_1(
 ) -> None:
     file = tmp_path / "robot.py"
     file.write_text(FILE, encoding="utf-8")
-    words = ["play", "--robot", f"{file}:Robot", "--check", "--json"]
+    words = ["play", f"{file}:Robot", "--check", "--json"]
     with pytest.raises(SystemExit) as left:
         main(words)
     assert left.value.code == 1

@@ -400,7 +400,7 @@ def refused(capsys: pytest.CaptureFixture[str], *words: str) -> str:
 def test_a_robot_that_is_not_there_is_said_in_one_line(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    words = ["play", "--robot", f"lola:{tmp_path}/none", "--wait", "0.3"]
+    words = ["play", f"lola:{tmp_path}/none", "--set", "wait=0.3"]
     began = monotonic()
     assert "no robot listens at" in refused(capsys, *words)
     assert 0.3 < monotonic() - began < 20.0
@@ -409,7 +409,7 @@ def test_a_robot_that_is_not_there_is_said_in_one_line(
 def test_lola_takes_no_gains(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    words = ["play", "--robot", f"lola:{tmp_path}/x", "--legs", "x.onnx"]
+    words = ["play", f"lola:{tmp_path}/x", "--set", "legs.network=x.onnx"]
     assert "requires a robot that takes gains" in refused(capsys, *words)
 
 
@@ -424,7 +424,7 @@ def test_an_invalid_player_is_not_served(
 
 
 def played(path: Path, *words: str) -> "subprocess.Popen[str]":
-    command = [sys.executable, "-m", "stepaside", "play", "--robot"]
+    command = [sys.executable, "-m", "stepaside", "play"]
     return subprocess.Popen(
         [*command, f"lola:{path}", *words], stderr=subprocess.PIPE, text=True
     )
@@ -488,7 +488,13 @@ def test_a_session_that_is_lost_is_got_again_for_a_while(
     tmp_path: Path,
 ) -> None:
     """It begins limp, as the first did; a dry run moves nothing."""
-    words = "--dry-run", "--reconnect", "3", "--record", str(tmp_path / "run")
+    words = (
+        "--dry-run",
+        "--set",
+        "reconnect=3",
+        "--record",
+        str(tmp_path / "run"),
+    )
     play = played(tmp_path / "e", *words)
     for _ in range(2):
         robot = TimedDaemon(tmp_path / "e")

@@ -38,7 +38,7 @@ def play(robot: NaoqiPeer, *words: str) -> subprocess.Popen[str]:
     """Play the pursuer on the robot, in a process of its own."""
     command = [sys.executable, "-m", "stepaside", "play", "--role", "pursuer"]
     return subprocess.Popen(
-        [*command, f"--robot=naoqi:{robot.url}", *words],
+        [*command, f"naoqi:{robot.url}", *words],
         stdout=subprocess.PIPE,
         stderr=subprocess.PIPE,
         text=True,
@@ -111,7 +111,7 @@ def test_a_dry_run_commands_nothing(robot: NaoqiPeer) -> None:
 def test_nobody_at_an_address_is_said() -> None:
     command = [sys.executable, "-m", "stepaside", "play", "--role", "evader"]
     done = subprocess.run(
-        [*command, "--robot=naoqi:tcp://127.0.0.1:9", "--wait=0.1"],
+        [*command, "naoqi:tcp://127.0.0.1:9", "--set=wait=0.1"],
         capture_output=True,
         text=True,
     )

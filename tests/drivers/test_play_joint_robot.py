@@ -113,7 +113,7 @@ def started(folder: Path, kind: str, *options: str) -> "subprocess.Popen[str]":
     """A play of a robot, which logs its calls."""
     file = folder / "echo.py"
     file.write_text(ROBOT, encoding="utf-8")
-    words = [sys.executable, "-c", PLAY, "play", "--robot", f"{file}:{kind}"]
+    words = [sys.executable, "-c", PLAY, "play", f"{file}:{kind}"]
     path = [str(ADAPTERS), os.environ.get("PYTHONPATH", "")]
     return subprocess.Popen(
         [*words, *options],
@@ -196,7 +196,7 @@ def test_the_clock_of_a_simulated_joint_robot_may_be_said_to_pause(
     tmp_path: Path,
 ) -> None:
     """Its class says so; then the option says the same."""
-    words = "--duration", "0.5", "--sim-time", "--wait", "0"
+    words = "--duration", "0.5", "--set", "sim_time=true", "--set", "wait=0"
     real = started(tmp_path, "Echo", *words)
     said = real.communicate(timeout=LONGEST)[1]
     assert real.returncode == 2

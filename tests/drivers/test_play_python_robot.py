@@ -85,7 +85,7 @@ def start() -> Iterator[Callable[..., Any]]:
             return walkers[-1]
         plays.append(
             subprocess.Popen(
-                [sys.executable, "-c", PLAY, "play", "--robot", robot]
+                [sys.executable, "-c", PLAY, "play", robot]
                 + [*TEMPLATE, *options],
                 env=os.environ | {"WALKER_PORT": str(of.port)},
                 stdin=keys,
@@ -285,7 +285,7 @@ def test_a_robot_that_is_not_there_is_reported(
 ) -> None:
     monkeypatch.setenv("WALKER_PORT", "1")
     with pytest.raises(SystemExit) as left:
-        main(["play", "--robot", ROBOT, *TEMPLATE, "--wait", "0"])
+        main(["play", ROBOT, *TEMPLATE, "--set", "wait=0"])
     assert left.value.code == 2
     said = capsys.readouterr().err.strip().splitlines()[-1]
     assert "open() of WalkerRobot failed: ConnectionError" in said
@@ -303,6 +303,6 @@ def test_a_wrong_name_is_refused_in_one_line(
     robot: str, said: str, capsys: pytest.CaptureFixture[str]
 ) -> None:
     with pytest.raises(SystemExit) as left:
-        main(["play", "--robot", robot, *TEMPLATE])
+        main(["play", robot, *TEMPLATE])
     assert left.value.code == 2
     assert said in capsys.readouterr().err.strip().splitlines()[-1]

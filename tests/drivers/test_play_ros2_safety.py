@@ -36,9 +36,9 @@ SLACK = 1.0  # of a busy machine, in [s]
 ZERO = [0.0] * 36
 PLAY = "from stepaside.cli.main import main; main()"
 WORDS = (
-    "play --role pursuer --robot ros2:/it --set gait.speed=0.3 "
+    "play ros2:/it --role pursuer --set gait.speed=0.3 "
     "--set gait.gain=0.6 "
-    "--max-speed 0.4 --max-turn 0.8 --dead-man ros2:/hold"
+    "--set max_speed=0.4 --set max_turn=0.8 --dead-man ros2:/hold"
 ).split()
 
 
@@ -301,7 +301,12 @@ def test_a_robot_that_steps_sideways_is_commanded_so(tmp_path: Path) -> None:
     file = tmp_path / "sideways.py"
     file.write_text(SIDEWAYS)
     session = Session(
-        *("--max-lateral", "0.2", "--pursuer-strategy", f"{file}:Sideways"),
+        *(
+            "--set",
+            "max_lateral=0.2",
+            "--set",
+            f"pursuer_strategy={file}:Sideways",
+        ),
         domain=DOMAIN + 1,  # the other session goes on
     )
     try:

@@ -24,15 +24,15 @@ def refused(capsys: pytest.CaptureFixture[str], *words: str) -> str:
 @pytest.mark.parametrize(
     ("words", "said"),
     [
-        ("play --role evader --robot nao:x", "rcss:, or be FILE.py:CLASS"),
-        ("play --role evader --robot ros2:/na-o", "namespace must be"),
-        ("play --role evader --robot naoqi:x:0", "naoqi:tcp://HOST:PORT"),
+        ("play nao:x --role evader", "rcss:, or be FILE.py:CLASS"),
+        ("play ros2:/na-o --role evader", "namespace must be"),
+        ("play naoqi:x:0 --role evader", "naoqi:tcp://HOST:PORT"),
         (
-            "play --robot ros2:/e --max-lateral 0.3 --max-speed 0.4",
-            "--max-lateral requires --max-speed and --max-turn",
+            "play ros2:/e --set max_lateral=0.3 --set max_speed=0.4",
+            "max_lateral requires max_speed and max_turn",
         ),
         (
-            "play --robot naoqi:tcp://127.0.0.1:1 --max-lateral 0.3",
+            "play naoqi:tcp://127.0.0.1:1 --set max_lateral=0.3",
             "requires a robot at ros2:",
         ),
         ("serve", "--lola PLAYER=PATH or --ros2"),
@@ -59,8 +59,8 @@ LOCALHOST = "ROS_AUTOMATIC_DISCOVERY_RANGE=LOCALHOST"
     "words",
     [
         "serve --ros2 evader=/alone",
-        "play --role evader --robot ros2:/alone",
-        "play --role evader --robot ros2:/alone --dry-run",
+        "play ros2:/alone --role evader",
+        "play ros2:/alone --role evader --dry-run",
     ],
 )
 def test_local_topics_name_the_setting_that_ros_needs(words: str) -> None:

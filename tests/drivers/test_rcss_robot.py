@@ -227,9 +227,9 @@ def test_a_k1_is_played_in_the_real_simulator(
 ) -> None:
     """The evader sees its pursuer 4 m ahead, is walked, and recorded."""
     play = "from stepaside.cli.main import main; main()"
-    words = [sys.executable, "-c", play, "play", "--robot", league]
-    words += ["--description", str(described_k1)]
-    words += ["--legs", str(described_k1 / "stands.onnx")]
+    words = [sys.executable, "-c", play, "play", league]
+    words += ["--robot", str(described_k1)]
+    words += ["--set", f"legs.network={described_k1}/stands.onnx"]
     run = tmp_path / "run"
     pursuer = subprocess.Popen(
         [*words, "--role", "pursuer"], stderr=subprocess.DEVNULL

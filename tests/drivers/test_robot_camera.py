@@ -294,8 +294,12 @@ class BlindJoints(sa.JointRobot):
 @pytest.mark.parametrize(
     ("kind", "words", "said"),
     [
-        ("Blind", [], "requires the method image() of Blind, or --images"),
-        ("Blind", ["--images", "v4l2:x"], "--images requires camera of Blind"),
+        ("Blind", [], "requires the method image() of Blind, or images"),
+        (
+            "Blind",
+            ["--set", "images=v4l2:x"],
+            "images requires camera of Blind",
+        ),
         ("BlindJoints", [], "requires the method image() of BlindJoints"),
     ],
 )
@@ -309,9 +313,9 @@ def test_a_robot_without_camera_is_refused(
     pytest.importorskip("cv2")
     file = tmp_path / "blind.py"
     file.write_text(BLIND, encoding="utf-8")
-    command = ["play", "--robot", f"{file}:{kind}", "--sensing", "cameras"]
+    command = ["play", f"{file}:{kind}", "--sensing", "cameras"]
     with pytest.raises(SystemExit) as left:
-        main([*command, *words, "--wait", "0"])
+        main([*command, *words, "--set", "wait=0"])
     assert left.value.code == 2
     assert said in capsys.readouterr().err.strip().splitlines()[-1]
 

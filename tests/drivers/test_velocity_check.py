@@ -255,7 +255,7 @@ def test_the_command_prints_verdicts_and_exits_with_1(
 ) -> None:
     file = tmp_path / "robot.py"
     file.write_text(FILE, encoding="utf-8")
-    words = ["play", "--robot", f"{file}:Robot", "--check", "--dry-run"]
+    words = ["play", f"{file}:Robot", "--check", "--dry-run"]
 
     def printed(*options: str) -> Any:
         with pytest.raises(SystemExit) as left:
@@ -273,11 +273,11 @@ def test_the_command_prints_verdicts_and_exits_with_1(
 @pytest.mark.parametrize(
     ("words", "said"),
     [
-        ("play --robot ros2:/x --check", "--check requires --robot FILE.py"),
-        ("play --robot ros2:/x --json", "--json requires --check"),
+        ("play ros2:/x --check", "--check requires the address FILE.py"),
+        ("play ros2:/x --json", "--json requires --check"),
         (
-            "play --robot x.py:X --check --record run",
-            "--record requires a play without --check",
+            "play x.py:X --check --record run",
+            "record requires a play without --check",
         ),
     ],
 )

@@ -72,7 +72,7 @@ role = "evader"
 strategy = "walk"
 start = [-0.5, 0.0, 3.14159]
 """)
-    assert answer("game", file)["outcome"] != "completed"
+    assert answer("run", "game", file)["outcome"] != "completed"
 
 
 @pytest.mark.xfail(
@@ -94,7 +94,7 @@ def test_a_step_takes_the_same_time_in_games_and_tournaments(
             "SELECT walked_m, survived_s FROM results"
         ).fetchone()
     file.write_text(GAME.replace("1.0", "10.0") + f'strategy = "{own}"')
-    blue = answer("game", file, "--level", "steps")["results"][1]
+    blue = answer("run", "game", file, "--level", "steps")["results"][1]
     speed = blue["path_m"] / (10.0 - blue["moved_at_s"])
     assert speed == pytest.approx(walked / lasted, rel=0.05)
 
@@ -128,7 +128,7 @@ body = "person"
 person = { path = "straight", speed = 1.0 }
 start = [2.0, 0.0, 3.14159]
 """)
-    (robot,) = answer("game", file)["crowd"]
+    (robot,) = answer("run", "game", file)["crowd"]
     assert robot["collisions"] == 1 and not robot["success"]
 
 
@@ -295,10 +295,11 @@ def test_a_study_of_too_many_cases_is_refused(tmp_path: Path) -> None:
 def test_a_file_without_records_is_not_merged(tmp_path: Path) -> None:
     part = tmp_path / "games.sqlite"
     part.write_text("no records")
-    done = command("merge", part, "--output", tmp_path / "whole.sqlite")
+    whole = tmp_path / "whole.sqlite"
+    done = command("study", "duels", part, "--output", whole)
     assert done.exit_code == 2
     assert "must be a SQLite file with records" in done.stderr
-    assert not (tmp_path / "whole.sqlite").exists()
+    assert not whole.exists()
 
 
 def test_games_are_written_to_any_path(file: Path, tmp_path: Path) -> None:

@@ -64,7 +64,7 @@ def test_metadata_that_are_not_read_are_named(
     key: str, tmp_path: Path
 ) -> None:
     network = mjlab(tmp_path / "a.onnx", **{key: "1,1,1,1,1,1"})
-    facts = stepaside("legs", "inspect", network, "--json").json
+    facts = stepaside("robot", "legs", "inspect", network, "--json").json
     (finding,) = facts["findings"]
     assert finding["text"] == f"metadata key '{key}' is not read"
 
@@ -81,7 +81,7 @@ def test_properties_of_observations_are_those_of_the_metadata(
         observation_terms_flatten_history_dim="1,1,1,1,1,0",
         run_path="me/run",
     )
-    facts = stepaside("legs", "inspect", network, "--json").json
+    facts = stepaside("robot", "legs", "inspect", network, "--json").json
     assert not facts["findings"]
     terms = facts["contract"]["terms"]
     scales = [[0.25], [1.0], [1.0], [0.05], [1.0], [2.0, 2.0, 0.25]]
@@ -95,11 +95,11 @@ def test_a_history_is_that_of_the_metadata(tmp_path: Path) -> None:
     zeros = np.zeros((len(JOINTS), 5 * 18)), np.zeros(len(JOINTS))
     network = tmp_path / "a.onnx"
     write_policy(network, *zeros, given)
-    facts = stepaside("legs", "inspect", network, "--json").json
+    facts = stepaside("robot", "legs", "inspect", network, "--json").json
     assert not facts["findings"] and facts["contract"]["history"] == 5
     given["observation_terms_flatten_history_dim"] = "0,0,0,0,0,1"
     write_policy(network, *zeros, given)
-    said = refused("legs", "inspect", network)
+    said = refused("robot", "legs", "inspect", network)
     assert "observation_terms_flatten_history_dim" in said
 
 
@@ -110,13 +110,13 @@ def test_unequal_histories_are_refused_by_name(
     key: str, tmp_path: Path
 ) -> None:
     network = mjlab(tmp_path / "a.onnx", **{key: "1,1,1,5,1,1"})
-    assert key in refused("legs", "inspect", network)
+    assert key in refused("robot", "legs", "inspect", network)
 
 
 def test_nested_metadata_are_refused_in_one_line(tmp_path: Path) -> None:
     deep = "[" * 100_000 + "]" * 100_000
     network = constant_policy(tmp_path / "a.onnx", kp=deep)
-    assert "'kp'" in refused("legs", "inspect", network)
+    assert "'kp'" in refused("robot", "legs", "inspect", network)
 
 
 def test_a_nested_deployment_file_is_refused_in_one_line(
@@ -125,7 +125,9 @@ def test_a_nested_deployment_file_is_refused_in_one_line(
     network = constant_policy(tmp_path / "a.onnx")
     deep = "[" * 5000 + "]" * 5000
     (tmp_path / "a.yaml").write_text(deep, encoding="utf-8")
-    said = refused("legs", "inspect", network, "--legs-contract", "legged_gym")
+    said = refused(
+        "robot", "legs", "inspect", network, "--legs-contract", "legged_gym"
+    )
     assert "a.yaml" in said
 
 
@@ -135,7 +137,7 @@ def test_a_clock_that_is_a_number_is_refused_by_name(tmp_path: Path) -> None:
     with (folder / "robot.toml").open("a", encoding="utf-8") as file:
         file.write("\n[locomotion]\nclock = 7\n")
     network = constant_policy(tmp_path / "a.onnx")
-    said = refused("legs", "inspect", network, "--robot", folder)
+    said = refused("robot", "legs", "inspect", network, "--robot", folder)
     assert "locomotion.clock" in said
 
 
@@ -145,11 +147,20 @@ def test_the_reason_why_a_network_cannot_be_read_is_passed_on(
     """Of a network whose weights beside it are missing."""
     network = external(constant_policy(tmp_path / "a.onnx"))
     (tmp_path / "a.onnx.data").unlink()
-    said = refused("legs", "inspect", network)
+    said = refused("robot", "legs", "inspect", network)
     assert "a.onnx.data" in said or "external" in said
 
 
-@pytest.mark.parametrize("words", [("legs", "inspect"), ("game",)])
+@pytest.mark.parametrize(
+    "words",
+    [
+        ("robot", "legs", "inspect"),
+        (
+            "run",
+            "game",
+        ),
+    ],
+)
 @pytest.mark.parametrize("kind", ["pipe", "zeros"])
 def test_only_regular_files_are_read(
     words: tuple[str, ...], kind: str, tmp_path: Path
@@ -163,7 +174,9 @@ def test_only_regular_files_are_read(
 
 def inspected(network: Path, value: float) -> None:
     """Check that a network is found right, and acts by its observation."""
-    assert not stepaside("legs", "inspect", network, "--json").json["findings"]
+    assert not stepaside("robot", "legs", "inspect", network, "--json").json[
+        "findings"
+    ]
     loaded = PolicyNetwork(network)
     seen = np.full(18, value)
     for factor in (1.0, 2.0):
@@ -219,7 +232,9 @@ def test_an_observation_may_have_one_to_three_axes(
 
 def test_weights_may_be_in_a_file_beside_the_network(tmp_path: Path) -> None:
     network = external(mjlab(tmp_path / "a.onnx"))
-    assert not stepaside("legs", "inspect", network, "--json").json["findings"]
+    assert not stepaside("robot", "legs", "inspect", network, "--json").json[
+        "findings"
+    ]
 
 
 def test_weights_of_a_strategy_may_lie_beside_it(tmp_path: Path) -> None:
@@ -229,7 +244,7 @@ def test_weights_of_a_strategy_may_lie_beside_it(tmp_path: Path) -> None:
     network = tmp_path / "a.onnx"
     layer = np.zeros((2, 2)), np.zeros(2)
     LearnedStrategy(dense_network([layer]), contract).save(network)
-    words = "unicycles", "--duration", 1, "--evader-strategy"
+    words = "run", "unicycles", "--duration", 1, "--strategy"
     stepaside(*words, network)
     stepaside(*words, external(network))
 
@@ -242,7 +257,7 @@ def test_a_network_that_draws_is_named(tmp_path: Path) -> None:
     nodes.append(node("RandomNormalLike", ["plain"], ["noise"], dtype=1))
     nodes.append(node("Add", ["plain", "noise"], ["actions"]))
     onnx.save(model, network)
-    (finding,) = stepaside("legs", "inspect", network, "--json").json[
+    (finding,) = stepaside("robot", "legs", "inspect", network, "--json").json[
         "findings"
     ]
     assert "random" in finding["text"]
@@ -275,7 +290,7 @@ def test_the_reason_of_the_runtime_is_passed_on(
     onnx.save(model, network)
     if change == "cut":
         network.write_bytes(network.read_bytes()[:200])
-    assert reason in refused("legs", "inspect", network)
+    assert reason in refused("robot", "legs", "inspect", network)
 
 
 def two_states(
@@ -312,7 +327,7 @@ def two_states(
 
 def actions_of(network: Path) -> Any:
     """Return the actions at the third evaluation: h has counted two."""
-    stepaside("legs", "inspect", network)
+    stepaside("robot", "legs", "inspect", network)
     loaded = PolicyNetwork(network)
     memory = loaded.initial_memory()
     for _ in range(3):
@@ -336,7 +351,7 @@ def test_states_that_no_name_tells_apart_are_refused(tmp_path: Path) -> None:
     network = two_states(tmp_path / "a.onnx")
     content = network.read_bytes().replace(b"h_in", b"aaaa")
     network.write_bytes(content.replace(b"c_in", b"bbbb"))
-    assert "must be fed back" in refused("legs", "inspect", network)
+    assert "must be fed back" in refused("robot", "legs", "inspect", network)
 
 
 def test_inputs_may_leave_the_number_of_walkers_open(tmp_path: Path) -> None:
@@ -350,4 +365,4 @@ def test_inputs_may_leave_the_number_of_walkers_open(tmp_path: Path) -> None:
 
 def test_a_state_of_integers_is_refused_by_name(tmp_path: Path) -> None:
     network = two_states(tmp_path / "a.onnx", kind="INT64")
-    assert "c_in" in refused("legs", "inspect", network)
+    assert "c_in" in refused("robot", "legs", "inspect", network)

@@ -25,7 +25,7 @@ def test_the_status_of_a_command_is_that_of_its_signal(
     if getsignal(number) == SIG_IGN:
         pytest.skip("this signal is ignored here, as under nohup")
     own = own_evader(tmp_path / "own.py", number=int(number))
-    words = ("unicycles", "--duration", 2, "--evader-strategy", own)
+    words = ("run", "unicycles", "--duration", 2, "--strategy", own)
     assert command(*words).exit_code == 128 + number
 
 
@@ -33,8 +33,13 @@ def test_a_file_that_is_replaced_keeps_its_mode(tmp_path: Path) -> None:
     figure = tmp_path / "plan.svg"
     figure.write_text("old")
     figure.chmod(0o600)
-    words = ("--role", "evader", "--bearing", "40deg", "--overwrite")
-    done = command("plan", *words, "--figure", figure)
+    words = (
+        "--role",
+        "evader",
+        "--bearing",
+        "40deg",
+    )
+    done = command("theory", "plan", *words, "--figure", figure)
     assert done.exit_code == 0, done.output
     assert figure.read_text("utf-8") != "old"
     assert figure.stat().st_mode & 0o777 == 0o600
@@ -46,12 +51,12 @@ def test_a_file_may_begin_with_a_byte_order_mark(
 ) -> None:
     """Editors of Windows write one."""
     text, words = {
-        "game": (GAME, ["game"]),
+        "game": (GAME, ["run", "game"]),
         "configuration": (
             "duration = 0.5\n",
-            ["duel", "--print-config", "--config"],
+            ["duel", "--settings", "--config"],
         ),
-        "room": ("width = 3.0\ndepth = 3.0\n", ["room"]),
+        "room": ("width = 3.0\ndepth = 3.0\n", ["run", "room"]),
     }[kind]
     monkeypatch.chdir(tmp_path)  # games are written there
     file = tmp_path / "file.toml"

@@ -169,10 +169,19 @@ def unicycles_of(
     Both decide every 0.4 s.
     """
     return stepaside(
-        *("unicycles", "--speed", 0.1, "--gain", 0.2, "--distance", distance),
-        *("--sample-time", 0.4),
+        *(
+            "run",
+            "unicycles",
+            "--speed",
+            0.1,
+            "--gain",
+            0.2,
+            "--distance",
+            distance,
+        ),
+        *("--set", "sample_time=0.4"),
         *("--aim", aim, "--bearing", bearing, "--duration", duration),
-        *("--evader-strategy", evader, "--json"),
+        *("--strategy", evader, "--json"),
     ).json
 
 
@@ -241,6 +250,7 @@ def walk_on_uneven_floor(height: float, *, seed: int) -> Any:
     """Walk for 20 s on an uneven floor; return the summary."""
     return stepaside(
         *(
+            "run",
             "walk",
             "--set",
             f"physics.unevenness={height}",
@@ -254,7 +264,7 @@ def walk_on_uneven_floor(height: float, *, seed: int) -> Any:
 
 def game_of_file(file: Path) -> Any:
     """Play the game that a file lists; return the summary."""
-    return stepaside("game", file, "--json").json
+    return stepaside("run", "game", file, "--json").json
 
 
 def study(file: Path, output: Path, *words: object, **process: Any) -> Output:
@@ -294,10 +304,9 @@ def commands() -> list[str]:
     return [line.split()[0] for line in listed.splitlines() if line[2:3] > " "]
 
 
-def merge(output: Path, *parts: Path) -> Output:
-    """Join the results of shards."""
-    files = map(table_in, parts)
-    return stepaside("merge", *files, "--output", table_in(output))
+def merge(file: Path, output: Path, *parts: Path) -> Output:
+    """Join the results of the shards of a study."""
+    return study(file, output, *map(table_in, parts))
 
 
 def frame_of_duels(settings: dict[str, Any], seeds: Sequence[int]) -> Any:
@@ -364,7 +373,7 @@ def play_ros2(
     if dead_man:
         options += ["--dead-man", f"ros2:{dead_man}"]
     robot = f"ros2:{namespace}"
-    return start_stepaside("play", "--robot", robot, *options, *words)
+    return start_stepaside("play", robot, *options, *words)
 
 
 def serve_ros2(
@@ -383,7 +392,7 @@ def play_lola(
 ) -> subprocess.Popen[str]:
     """Start to control the joints of a NAO V6, as evader."""
     return start_stepaside(
-        *("play", "--robot", f"lola:{path}", "--role", "evader"),
+        *("play", f"lola:{path}", "--role", "evader"),
         *("--duration", duration, "--record", record),
     )
 
@@ -422,7 +431,7 @@ def play_own(
             word = f"{path}={value}" if path else value
             options += [f"--{option}", word]
     return start_stepaside(
-        "play", "--robot", robot, *options, *words, env=env, stdin=stdin
+        "play", robot, *options, *words, env=env, stdin=stdin
     )
 
 
@@ -463,13 +472,15 @@ def inspect_legs(
     """Read the contract of a walking policy."""
     words = ("--robot", robot) if robot else ()
     return stepaside(
-        "legs", "inspect", network, *words, "--json", status=status
+        "robot", "legs", "inspect", network, *words, "--json", status=status
     ).json
 
 
 def measure_legs(robot: Path) -> Any:
     """Measure what the learned legs of a robot deliver."""
-    return stepaside("legs", "measure", robot, "--workers", 1, "--json").json
+    return stepaside(
+        "robot", "legs", "measure", robot, "--workers", 1, "--json"
+    ).json
 
 
 def duel_on_legs(

@@ -20,7 +20,7 @@ FILES = {
     "run/configuration.toml": "duration = 1\n",
 }
 CASES = {  # of each line: what the message names
-    "duel --duration nan": ("--duration", "nan"),
+    "duel --duration nan": ("duration", "nan"),
     "duel --config unknown.toml --output new": ("unknown.toml", "speeds"),
     "duel --config broken.toml --output new": ("broken.toml", "line 2|end"),
     "duel --config none.toml --output new": ("none.toml",),
@@ -30,14 +30,14 @@ CASES = {  # of each line: what the message names
     "duel --room room.toml --output new": ("width", "-1"),
     "duel --robot nobody --output new": ("robot", "nobody"),
     "duel --output run": ("run",),
-    "walk --push 1@x:2 --output new": ("--push", "x"),
-    "game alone.toml --output new": ("a ", "opponent"),
+    "run walk --push 1@x:2 --output new": ("push", "x"),
+    "run alone.toml --output new": ("a ", "opponent"),
     "study study.toml --output new.sqlite": ("speeed",),
     "study tournament --set seed=5:2 --output new.sqlite": ("at least one",),
     "robot init robot.urdf --output new": ("robot.urdf", "XML"),
-    "legs inspect junk.onnx": ("junk.onnx", "ONNX"),
+    "robot legs inspect junk.onnx": ("junk.onnx", "ONNX"),
     "show run -o new.html": ("run", "summary.json"),
-    "duel --duration 1 --figure new.bmp": ("--figure", ".png", "new.bmp"),
+    "theory circle --figure new.bmp": ("--figure", ".png", "new.bmp"),
     "duel --pursuer person --set person.path=table.csv": ("table.csv", "y"),
 }
 
@@ -90,7 +90,8 @@ def test_what_is_bad_is_refused_in_python(
 def test_joining_only_damaged_results_is_refused(tmp_path: Path) -> None:
     part, whole = tmp_path / "part.sqlite", tmp_path / "all.sqlite"
     part.write_text("half a li")
-    calls.stepaside("merge", part, "--output", whole, status=2)
+    words = ("study", "duels", part, "--output", whole)
+    calls.stepaside(*words, status=2)
     assert not whole.exists()
 
 
@@ -99,4 +100,4 @@ def test_a_game_file_may_begin_with_a_byte_order_mark(tmp_path: Path) -> None:
     text = (calls.EXAMPLES / "two-pursuers.toml").read_text("utf-8")
     file.write_text(text, "utf-8-sig")
     words = ("--level", "steps", "--duration", 0.1, "--json")
-    calls.stepaside("game", file, *words)
+    calls.stepaside("run", "game", file, *words)

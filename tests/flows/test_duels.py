@@ -254,7 +254,16 @@ def test_a_run_of_an_own_humanoid_opens_from_another_folder(
     described = Path(sa.__file__).parent / "robots" / "nao"
     shutil.copytree(described, tmp_path / "own")
     stepaside(
-        *("walk", "--robot", "own", "--duration", 0.5, "--output", "run"),
+        *(
+            "run",
+            "walk",
+            "--robot",
+            "own",
+            "--duration",
+            0.5,
+            "--output",
+            "run",
+        ),
         cwd=tmp_path,
     )
     elsewhere = tmp_path / "elsewhere"

@@ -50,7 +50,11 @@ def folders(tmp_path_factory: pytest.TempPathFactory) -> dict[str, Path]:
     levels = ("unicycle", "steps", "physics")
     for level in levels:
         kept_summary(
-            "game", folder / level, folder / "two.toml", "--level", level
+            "run",
+            folder / level,
+            folder / "two.toml",
+            "--level",
+            level,
         )
     return {level: folder / level for level in levels}
 

@@ -39,7 +39,7 @@ crowd = { speed = 0.8, returns = true }
 def test_two_pursuers_walk_at_their_evader(tmp_path: Path) -> None:
     """In physics; each pair's closest approach is that of its arrays."""
     game = EXAMPLES / "two-pursuers.toml"
-    seen = kept_summary("game", tmp_path / "run", game, "--duration", 10)
+    seen = kept_summary("run", tmp_path / "run", game, "--duration", 10)
     assert seen["outcome"] == "completed" and seen["fallen"] == []
     assert len(seen["pairs"]) == 3
     kept = trajectories(tmp_path / "run")
@@ -119,7 +119,7 @@ start = {start}
 """
     folder.mkdir()
     (folder / "game.toml").write_text(text)
-    kept_summary("game", folder / "run", folder / "game.toml")
+    kept_summary("run", folder / "run", folder / "game.toml")
     return trajectories(folder / "run")
 
 
@@ -154,7 +154,7 @@ def test_cyclic_pursuit_ends_on_its_polygon() -> None:
     side = 2 * radius * sin(pi / 3)
     assert (radius, side) == pytest.approx((0.4775, 0.8270), abs=1e-4)
     game = EXAMPLES / "cyclic-pursuit.toml"
-    seen = summary("game", game, "--level", "steps")
+    seen = summary("run", "game", game, "--level", "steps")
     assert seen["outcome"] == "completed" and len(seen["results"]) == 3
     for player in seen["results"]:
         assert player["radius_m"] == pytest.approx(radius, rel=0.01)
@@ -166,7 +166,7 @@ def test_cyclic_pursuit_ends_on_its_polygon() -> None:
 def test_a_robot_crosses_a_crowd(tmp_path: Path) -> None:
     """The summary says what its arrays say of people and the goal."""
     (tmp_path / "crowd.toml").write_text(CROWD)
-    seen = kept_summary("game", tmp_path / "run", tmp_path / "crowd.toml")
+    seen = kept_summary("run", tmp_path / "run", tmp_path / "crowd.toml")
     (robot,) = seen["crowd"]
     kept = trajectories(tmp_path / "run")
     names = [f"person-{n}" for n in range(1, 5)]

@@ -45,7 +45,7 @@ def expected(count: int) -> list[tuple[float, float, float]]:
 def test_a_plan_follows_the_paper(tmp_path: Path) -> None:
     figure = tmp_path / "plan.png"
     plan = stepaside(
-        *("plan", "--role", "evader", "--bearing", f"{BEARING}deg"),
+        *("theory", "plan", "--role", "evader", "--bearing", f"{BEARING}deg"),
         *("--steps", COUNT, "--first-foot", "left", "--json"),
         *("--figure", figure),
     ).json

@@ -15,7 +15,7 @@ FIGURE_2 = circle(speed=1.0, gain=0.5)
 
 def test_fig_2_of_the_paper(tmp_path: Path) -> None:
     seen = summary(
-        *("unicycles", "--speed", 1, "--gain", 0.5, "--angle", "90deg"),
+        *("run", "unicycles", "--speed", 1, "--gain", 0.5, "--angle", "90deg"),
         *("--figure", tmp_path / "fig2.svg"),
     )
     assert FIGURE_2.radius == pytest.approx(2.546, abs=1e-3)
@@ -71,8 +71,9 @@ def test_circles_and_basins_of_a_faster_pursuer() -> None:
     """A close reversed circle draws a fifth of all starts."""
     fast, slow, one, four = 2.0, 1.0, 1.0, 4.0
     seen = summary(
-        *("circle", "--pursuer-speed", fast, "--evader-speed", slow),
-        *("--pursuer-gain", one, "--evader-gain", four),
+        *("theory", "circle", "--set", f"pursuer_speed={fast}"),
+        *("--set", f"evader_speed={slow}", "--set", f"pursuer_gain={one}"),
+        *("--set", f"evader_gain={four}"),
         *("--angle", "90deg", "--starts", 150),
     )
     main, reversed_one = seen["circles"]
@@ -96,7 +97,7 @@ def test_circles_and_basins_of_a_faster_pursuer() -> None:
 def test_stability_of_the_main_circle() -> None:
     """Eigenvalues -k and (k/2)(-1 ± sqrt(1 - α²))."""
     angle, gain = 0.6, 0.5
-    seen = summary("circle", "--angle", angle, "--starts", 0)
+    seen = summary("theory", "circle", "--angle", angle, "--starts", 0)
     rates = sorted(real for real, _ in seen["eigenvalues_per_s"])
     slow, quick = (
         gain / 2 * (-1 + sign * sqrt(1 - angle**2)) for sign in (1, -1)
@@ -110,9 +111,9 @@ def test_stability_of_the_main_circle() -> None:
 def test_a_map_finds_the_worst_start() -> None:
     """That of a pursuer that looks past the evader is within the grid."""
     seen = summary(
-        *("map", "--speed", 0.1, "--gain", 0.2, "--grid", 5),
-        *("--nearest", 0.8, "--farthest", 1.2, "--distances", 3),
-        *("--facing", "30.5deg", "--aim", "120deg"),
+        *("theory", "map", "--speed", 0.1, "--gain", 0.2, "--grid", 5),
+        *("--nearest", 0.8, "--farthest", 1.2, "--set", "distances=3"),
+        *("--set", "facing=30.5deg", "--set", "aim=120deg"),
     )
     assert seen["games"] == 3 * 5 * 5
     worst = seen["worst_start"]
@@ -167,8 +168,18 @@ def test_optimal_evasion_of_a_car_has_merzs_barrier(tmp_path: Path) -> None:
 
     table = tmp_path / "cars.npz"
     stepaside(
-        *("bound", "--against", "any", "--pursuer-turn", 1, "--capture", 1),
-        *("--grid", 16, "--refine", 0, "--games", 0, "--horizon", 1.6),
+        *(
+            "theory",
+            "bound",
+            "--against",
+            "any",
+            "--set",
+            "pursuer_turn=1",
+            "--capture",
+            1,
+        ),
+        *("--grid", 16, "--set", "refine=0", "--games", 0),
+        *("--set", "horizon=1.6"),
         *("--output", table),
     )
     starts = np.array(grazing_starts())
@@ -185,9 +196,10 @@ def test_a_person_is_escaped_as_isaacs_says() -> None:
     ratio = robot / person
     closed = radius * (sqrt(1 - ratio**2) + ratio * asin(ratio) - 1)
     seen = summary(
-        *("bound", "--against", "person", "--pursuer-speed", person),
-        *("--evader-speed", robot, "--person-turning-radius", radius),
-        *("--grid", 30, "--refine", 0),
+        *("theory", "bound", "--against", "person", "--pursuer-speed", person),
+        *("--evader-speed", robot),
+        *("--set", f"person_turning_radius={radius}"),
+        *("--grid", 30, "--set", "refine=0"),
     )
     assert seen["closed_form_m"] == pytest.approx(closed)
     assert seen["guaranteed_m"] == pytest.approx(closed, rel=0.05)

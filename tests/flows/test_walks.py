@@ -25,7 +25,7 @@ def pushed(impulse: float, *options: object) -> Any:
         options: Other options of the command.
     """
     push = f"{impulse}@3:90deg"
-    return summary("walk", "--duration", 6, "--push", push, *options)
+    return summary("run", "walk", "--duration", 6, "--push", push, *options)
 
 
 def shift(impulse: float) -> float:
@@ -49,7 +49,11 @@ def test_a_push_beyond_the_bound_fells_it_and_the_run_says_so() -> None:
     impulse = 6.0
     assert shift(impulse) > HALF_SOLE + SPACING
     seen = pushed(
-        impulse, "--set", "control.feedback=true", "--method", "measured"
+        impulse,
+        "--set",
+        "control.feedback=true",
+        "--set",
+        "control.method=measured",
     )
     assert seen["outcome"] == "fall"
     assert "walker fell at" in seen["message"]
@@ -61,7 +65,13 @@ def test_mpc_holds_a_push_that_fells_an_open_loop() -> None:
     impulse = 1.1
     blind = pushed(impulse)
     assert blind["outcome"] == "fall"
-    seen = pushed(impulse, "--set", "control.feedback=true", "--method", "mpc")
+    seen = pushed(
+        impulse,
+        "--set",
+        "control.feedback=true",
+        "--set",
+        "control.method=mpc",
+    )
     assert seen["outcome"] == "completed"
     assert seen["method"] == "mpc" and seen["feedback"] is True
     assert seen["qp"]["solves"] > 500 and seen["qp"]["infeasible"] == 0
@@ -89,7 +99,7 @@ def test_mpc_without_a_push_walks_the_plan() -> None:
 
 
 def test_the_fast_gait_walks_at_its_pace() -> None:
-    seen = summary("walk", "--gait", "fast", "--duration", 6)
+    seen = summary("run", "walk", "--gait", "fast", "--duration", 6)
     assert seen["outcome"] == "completed"
     assert seen["feedback"] is True
     assert seen["speed_m_s"] == pytest.approx(FAST, rel=0.03)

@@ -20,12 +20,12 @@ from stepaside.games.duel_settings import DuelSettings, RobotSettings
 from stepaside.games.game_file import load_game
 from stepaside.games.recorded_game import run_duel, run_walk
 from stepaside.games.robot_settings import with_legs
+from stepaside.games.settings_reader import settings_of
 from stepaside.games.walk_settings import WalkSettings
 from stepaside.locomotion.zmp.control_settings import ControlSettings
 from stepaside.planning import PRESETS
 from stepaside.sim.body_settings import BODIES
 from stepaside.strategies import Evasion
-from stepaside.studies.study_games import settings_of
 
 DUEL = DuelSettings()
 FAST = replace(DUEL, gait=PRESETS["fast"])
@@ -48,7 +48,7 @@ CASES: dict[str, tuple[str, DuelSettings, tuple[Any, ...]]] = {
         ("measured", True, "evasion", "distance"),
     ),
     "mpc": (
-        "--method mpc",
+        "--set control.method=mpc",
         replace(DUEL, control=ControlSettings("mpc")),
         ("mpc", True, "evasion", "distance"),
     ),
@@ -63,12 +63,12 @@ CASES: dict[str, tuple[str, DuelSettings, tuple[Any, ...]]] = {
         ("closed-form", True, "evasion", "time"),
     ),
     "person, learned legs": (
-        "--pursuer person --legs walk.onnx",
+        "--pursuer person --set legs.network=walk.onnx",
         LEGS,
         ("closed-form", False, "step-aside", None),
     ),
     "learned legs": (
-        "--legs walk.onnx",
+        "--set legs.network=walk.onnx",
         replace(LEGS, pursuer="robot"),
         ("closed-form", False, "evasion", "distance"),
     ),
@@ -78,7 +78,7 @@ CASES: dict[str, tuple[str, DuelSettings, tuple[Any, ...]]] = {
         ("closed-form", False, "evasion", "distance"),
     ),
     "explicit method": (
-        "--gait fast --method measured",
+        "--gait fast --set control.method=measured",
         replace(FAST, control=ControlSettings("measured")),
         ("measured", True, "evasion", "distance"),
     ),
@@ -92,7 +92,7 @@ CASES: dict[str, tuple[str, DuelSettings, tuple[Any, ...]]] = {
         ("closed-form", True, "evasion", "distance"),
     ),
     "explicit strategy": (
-        "--pursuer person --legs walk.onnx --strategy evasion",
+        "--pursuer person --set legs.network=walk.onnx --strategy evasion",
         replace(LEGS, evader_strategy="evasion"),
         ("closed-form", False, "evasion", "distance"),
     ),
@@ -136,7 +136,7 @@ def test_settings_imply_the_same_from_every_door(
     assert resolved.strategy.trigger == trigger
     assert resolved.resolved() == resolved
 
-    line = ["duel", *words.split(), "--print-config"]
+    line = ["duel", *words.split(), "--settings"]
     shown = CliRunner().invoke(main, line)
     assert shown.exit_code == 0, shown.stderr
     entries = tomllib.loads(shown.stdout)

@@ -69,7 +69,7 @@ def test_a_description_gives_gait_control_and_distances(
 
 def given(*words: str) -> dict[str, Any]:
     """Return the configuration that a command would use."""
-    result = CliRunner().invoke(main, [*words, "--print-config"])
+    result = CliRunner().invoke(main, [*words, "--settings"])
     assert result.exit_code == 0, result.output
     return tomllib.loads(result.stdout)
 
@@ -147,8 +147,8 @@ def test_a_body_has_the_errors_of_its_robot(tmp_path: Path) -> None:
     for options, cycles in (([], 1), (["--set", "body.delay_cycles=2"], 2)):
         shown = CliRunner().invoke(
             main,
-            ["walk", "--robot", robot, "--body", "hardware", *options]
-            + ["--print-config"],
+            ["run", "walk", "--robot", robot, "--body", "hardware", *options]
+            + ["--settings"],
         )
         assert tomllib.loads(shown.output)["body"]["delay_cycles"] == cycles
     wrong = changed_nao(

@@ -17,7 +17,7 @@ from stepaside.arena import (
     room_from_entries,
 )
 from stepaside.arena.room_generation import RoomRecipe
-from stepaside.cli.options.print_config import commented
+from stepaside.cli.settings_text import commented
 from stepaside.control.clearance.map_settings import MapSettings
 from stepaside.core.errors import ConfigurationError
 from stepaside.core.poses import Pose

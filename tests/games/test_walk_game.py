@@ -178,5 +178,5 @@ def test_a_walk_is_repeated_to_the_bit_only_with_its_seed() -> None:
 
 
 def run(*arguments: str) -> tuple[int, str, str]:
-    result = CliRunner().invoke(main, ["walk", *arguments])
+    result = CliRunner().invoke(main, ["run", "walk", *arguments])
     return result.exit_code, result.stdout, result.stderr

@@ -21,17 +21,16 @@ COMMANDS = {
     "duel in a room": "duel --room 3 --duration 1",
     "duel with cameras": "duel --sensing cameras --duration 0.4",
     "duel with a person": "duel --pursuer person --duration 2",
-    "walk": "walk --duration 3 --push 0.5@1:90deg",
-    "game": f"game {EXAMPLES}/two-pursuers.toml --duration 1",
-    "plan": "plan --role evader --bearing 40deg",
-    "unicycles": "unicycles --speed 0.1 --gain 0.2",
-    "circle": "circle --starts 0 --sweep",
-    "ratios": "circle --starts 0",
-    "map": "map --grid 3 --distances 2 --duration 5",
-    "bound": "bound --grid 16 --refine 0 --games 0 --horizon 0.1",
-    "chauffeur": "bound --against person --evader-speed 0.6 --grid 16 "
-    "--refine 0",
-    "room": "room --discs 2 --doors 1",
+    "walk": "run walk --duration 3 --push 0.5@1:90deg",
+    "game": f"run {EXAMPLES}/two-pursuers.toml --duration 1",
+    "plan": "theory plan --role evader --bearing 40deg",
+    "unicycles": "run unicycles --speed 0.1 --gain 0.2",
+    "circle": "theory circle --starts 0 --sweep",
+    "ratios": "theory circle --starts 0",
+    "map": "theory map --grid 3 --set distances=2 --set duration=5",
+    "bound": "theory bound --grid 16 --games 0 --set horizon=0.1",
+    "chauffeur": "theory bound --against person --evader-speed 0.6 --grid 16",
+    "room": "run room --discs 2 --doors 1",
     "study": "study tournament --set seed=0:2 --set game.duration=1 "
     "--set evader=evasion,optimal --workers 1",
 }
@@ -61,6 +60,8 @@ def drawn(monkeypatch: pytest.MonkeyPatch) -> Iterator[list[Figure]]:
 def draw(words: str, file: Path) -> None:
     """Run a command that writes a figure; a warning is an error."""
     option = [] if words.endswith("--sweep") else ["--figure"]
+    if words.startswith(("duel", "run walk", f"run {EXAMPLES}")):
+        option, file = ["--output"], file.with_suffix("")
     with warnings.catch_warnings():
         warnings.simplefilter("error")
         result = CliRunner().invoke(main, [*words.split(), *option, str(file)])
@@ -109,7 +110,7 @@ def test_a_duel_s_figure_shows_its_distance_beside_theory(
     drawn: list[Figure], tmp_path: Path
 ) -> None:
     folder = tmp_path / "run"
-    draw(f"duel --duration 3 --output {folder}", tmp_path / "a.png")
+    draw("duel --duration 3", folder)
     run, axes = load_run(folder, "duel"), drawn[-1].axes
     (panel,) = [each for each in axes if each.get_ylabel() == "distance [m]"]
     curves = [np.column_stack(line.get_data()) for line in panel.lines]

@@ -14,7 +14,6 @@ from click.testing import CliRunner
 from hypothesis import given
 from hypothesis import strategies as st
 
-from stepaside.cli import reproduce_figures
 from stepaside.cli.main import main
 from stepaside.core import worker_pool as workers
 from stepaside.games.robot_settings import LEGS_GAIT
@@ -31,6 +30,7 @@ from stepaside.studies.claims import (
 from stepaside.studies.results_version import RESULTS
 from stepaside.studies.study import run_study
 
+COMMAND = "stepaside.cli.reproduce"
 NAN, INF = float("nan"), float("inf")
 IT = Claim("it is one", "I", "paper", 1.0, "m", 0.1)
 
@@ -216,7 +216,7 @@ Call = Callable[..., Any]
 @pytest.fixture
 def reproduce(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Call:
     monkeypatch.setattr(workers, "worker_pool", ThreadPoolExecutor)
-    monkeypatch.setattr(reproduce_figures, "draw_figures", lambda *_: [])
+    monkeypatch.setattr(f"{COMMAND}.draw_figures", lambda *_: [])
 
     def call(*words: str) -> Any:
         line = ["reproduce", "--workers", "1", "--output", str(tmp_path)]

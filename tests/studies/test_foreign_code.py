@@ -55,7 +55,7 @@ def test_a_strategy_that_exits_is_refused_with_its_name(
     tmp_path: Path, place: str, code: str
 ) -> None:
     name = strategy(tmp_path, **{place: code})
-    words = ("unicycles", "--duration", "1", "--evader-strategy", name)
+    words = ("run", "unicycles", "--duration", "1", "--strategy", name)
     result = CliRunner().invoke(main, words)
     assert result.exit_code == 2
     assert "SystemExit" in result.output and "own.py" in result.output
@@ -69,7 +69,7 @@ def test_a_strategy_that_fails_later_ends_its_game_in_words(
     tmp_path: Path, code: str
 ) -> None:
     name = strategy(tmp_path, decide=LATE.format(code))
-    words = ("unicycles", "--duration", "9", "--evader-strategy", name)
+    words = ("run", "unicycles", "--duration", "9", "--strategy", name)
     result = CliRunner().invoke(main, words)
     assert result.exit_code == 2
     assert (
@@ -95,8 +95,8 @@ def test_what_a_strategy_prints_is_not_among_json(tmp_path: Path) -> None:
     code = "; ".join(PRINTS)
     name = strategy(tmp_path, **dict.fromkeys(PLACES, code))
     found = command(
-        *("unicycles", "--duration", "0.1", "--json"),
-        *("--evader-strategy", name),
+        *("run", "unicycles", "--duration", "0.1", "--json"),
+        *("--strategy", name),
     )
     assert found.returncode == 0, found.stderr
     assert json.loads(found.stdout)["evader_strategy"] == name
@@ -119,7 +119,7 @@ def test_what_workers_print_is_not_among_json(tmp_path: Path) -> None:
 def test_json_goes_out_where_standard_error_is_closed(tmp_path: Path) -> None:
     name = strategy(tmp_path, decide="print('noise')")
     line = [sys.executable, "-m", "stepaside", "unicycles", "--json"]
-    line += ["--duration", "0.1", "--evader-strategy", name]
+    line += ["--duration", "0.1", "--strategy", name]
     found = subprocess.run(
         ["sh", "-c", '"$@" 2>&-', "sh", *line],
         stdout=subprocess.PIPE,
@@ -130,9 +130,15 @@ def test_json_goes_out_where_standard_error_is_closed(tmp_path: Path) -> None:
 
 
 def test_json_and_a_configuration_are_printed_as_before() -> None:
-    for words in (("walk",), ("duel",)):
+    for words in (
+        (
+            "run",
+            "walk",
+        ),
+        ("duel",),
+    ):
         result = CliRunner().invoke(
-            main, [*words, "--json", "--print-config"], catch_exceptions=False
+            main, [*words, "--json", "--settings"], catch_exceptions=False
         )
         assert result.exit_code == 0 and "[gait]" in result.stdout
 
@@ -152,7 +158,7 @@ MODELS = (
     "words",
     [
         ("duel", "--duration", "1", "--json", "--robot"),
-        ("walk", "--duration", "1", "--json", "--robot"),
+        ("run", "walk", "--duration", "1", "--json", "--robot"),
         ("robot",),
         ("duel", "--duration", "1", "--json", "--pursuer", "ROBOT"),
     ],

@@ -15,7 +15,7 @@ from stepaside.strategies import LookAhead
 from stepaside.strategies.table_cache import pursuit_bound
 from stepaside.studies import tournament_record
 from stepaside.studies.study_design import PRESETS
-from stepaside.studies.study_games import settings_of
+from stepaside.studies.study_games import settings_of_study as settings_of
 
 
 @pytest.fixture(scope="module", autouse=True)
@@ -64,7 +64,7 @@ def test_a_record_has_what_varies_and_what_came_out() -> None:
         (0.8, 1.0),
         (0.8, 2.0),
     ]
-    assert all(row["closest_m"]["mean"] < row["distance"] for row in rows)
+    assert all(row["closest_m"]["mean"] <= row["distance"] for row in rows)
 
 
 def test_whatever_changes_a_result_changes_its_key(tmp_path: Path) -> None:

@@ -1,7 +1,7 @@
 r"""Measure a walking policy: tracking, random commands, duels on its circle.
 
-Walks the commands of ``stepaside legs measure`` and ten minutes of random
-commands, writes the response beside the robot, and plays duels with it::
+Walks the commands of ``stepaside robot legs measure`` and ten minutes of
+random commands, writes the response beside the robot, and plays duels::
 
     stepaside robot init g1_12dof.urdf --output runs/g1_12
     uv run tools/export_policy.py motion.pt --convention legged_gym \

@@ -338,7 +338,7 @@ def command(name: str, *words: str, **streams: Any) -> "subprocess.Popen[str]":
 
 def played(python: str, kind: str) -> dict[str, Any]:
     """Check ``stepaside play`` at a ROS 2 robot, and without one."""
-    words = ("--role", "pursuer", "--robot", "ros2:/theirs")
+    words = ("ros2:/theirs", "--role", "pursuer")
     with TemporaryFile("w+") as said:
         with started(python, "robot", "--command", kind) as node:
             process = command(

@@ -63,8 +63,8 @@ ENTRIES = (
         "planned in closed form ([How it works](how-it-works.md)).",
         (
             "python examples/plan_maneuver.py",
-            "stepaside plan --role evader --bearing=-50deg --first-foot right "
-            "--figure plan.png",
+            "stepaside theory plan --role evader --bearing=-50deg "
+            "--first-foot right --figure plan.png",
         ),
         "plan.png",
     ),
@@ -74,7 +74,7 @@ ENTRIES = (
         "([Unicycles](unicycles.md)).",
         (
             "python examples/unicycle_games.py",
-            "stepaside unicycles --distance 2 --figure unicycles.png",
+            "stepaside run unicycles --distance 2 --figure unicycles.png",
         ),
         "unicycles.png",
     ),
@@ -90,9 +90,9 @@ ENTRIES = (
         "measured motion ([Feedback](walking.md)).",
         (
             "python examples/change_gait.py 4",
-            "stepaside walk --push 1.2@5:90deg --body delayed --duration 9 "
-            "--output pushed",
-            "stepaside show pushed -o push.gif --begin 4 --duration 4 "
+            "stepaside run walk --push 1.2@5:90deg --body delayed "
+            "--duration 9 --output pushed",
+            "stepaside show pushed -o push.gif --set begin=4 --duration 4 "
             f"--speed 0.5 --camera follow {FILM}",
         ),
         "push.gif",
@@ -114,7 +114,7 @@ ENTRIES = (
         (
             "stepaside duel --room examples/rooms/narrow-door.toml "
             "--strategy look-ahead --duration 40 --output door",
-            "stepaside show door -o door.gif --camera fixed --begin 0 "
+            "stepaside show door -o door.gif --camera fixed --set begin=0 "
             "--duration 40 --speed 4 --rate 5 --width 400 --height 260",
         ),
         "door.gif",
@@ -122,14 +122,14 @@ ENTRIES = (
     Entry(
         "Two pursuers",
         "Two robots pursue a third ([Games of many](games.md)).",
-        ("stepaside game examples/two-pursuers.toml --seed 3 --output two",),
+        ("stepaside run examples/two-pursuers.toml --seed 3 --output two",),
         "two/game.png",
     ),
     Entry(
         "Cyclic pursuit",
         "Three robots, each after the next, end on an equilateral triangle.",
         (
-            "stepaside game examples/cyclic-pursuit.toml --level steps "
+            "stepaside run examples/cyclic-pursuit.toml --level steps "
             "--output cycle",
         ),
         "cycle/game.png",
@@ -138,7 +138,7 @@ ENTRIES = (
         "Through a crowd",
         "One robot among ten people, who keep clear of each other.",
         (
-            "stepaside game examples/crowd.toml --level steps --seed 1 "
+            "stepaside run examples/crowd.toml --level steps --seed 1 "
             "--output crowd",
         ),
         "crowd/game.png",
@@ -166,8 +166,9 @@ ENTRIES = (
         "All circles of a faster pursuer, stable and unstable "
         "([Unicycles](unicycles.md)).",
         (
-            "stepaside circle --pursuer-speed 2 --evader-speed 1 "
-            "--pursuer-gain 1 --evader-gain 4 --figure circles.png",
+            "stepaside theory circle --set pursuer_speed=2 "
+            "--set evader_speed=1 --set pursuer_gain=1 --set evader_gain=4 "
+            "--figure circles.png",
         ),
         "circles.png",
     ),

@@ -1,49 +1,55 @@
-"""``stepaside bound --against person``: the chauffeur's game."""
+"""``stepaside theory bound --against person``: the chauffeur's game."""
 
 from dataclasses import asdict
+from functools import partial
+from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from .output_files import attempt
-from .progress import show_progress
+from ..core.progress import show_progress
 from .tables import print_table, scalar_rows
+from .terminal import print_json
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
-
     from ..theory.value import ChauffeurGame, ValueTable
-    from .bound_options import BoundOptions
 
 RADIUS = 2.5  # of a person's turns by default, in [m]
 CONTACT = 0.55  # sum of the half widths of a robot and a person, in [m]
 RESPONSE = 0.4  # of a robot that starts to walk by default, in [s]
 
 
-def person_report(
-    options: "BoundOptions", figure: str | None, *, quiet: bool
-) -> dict[str, Any]:
-    """Solve the game, draw its figure, and return the values for JSON.
+def bound_person(settings: Any, figure: Path | None, *, as_json: bool) -> None:
+    """Solve the game, print the values and draw the figure.
 
     Args:
-        options: Options of the command.
+        settings: Settings of the bound.
         figure: File of the figure, or None.
-        quiet: Whether to print lines instead of a progress bar.
+        as_json: Whether to print one JSON object.
     """
-    from ..theory.value import solve_chauffeur
+    from ..theory.value import ChauffeurGame, SpeedEllipse, solve_chauffeur
     from ..theory.value.chauffeur import standing_table
 
-    game = _game(options)
-    capture = CONTACT if options.capture is None else options.capture
-    response = RESPONSE if options.response is None else options.response
-    cells = [options.grid // 2**n for n in range(options.refine, -1, -1)]
-    work = sum(count**2 for count in cells)
+    speed = settings.evader_speed
+    game = ChauffeurGame(
+        settings.pursuer_speed,
+        settings.person_turning_radius or RADIUS,
+        SpeedEllipse(
+            settings.evader_forward or speed,
+            speed,
+            settings.evader_sideways or speed,
+        ),
+    )
+    capture, response = settings.capture or CONTACT, settings.response
+    response = RESPONSE if response is None else response
+    counts = [settings.grid // 2**n for n in range(settings.refine, -1, -1)]
+    work = sum(count**2 for count in counts)
     tables = []
-    with show_progress("bound", 1.0, quiet=quiet) as bar:
-        for count in cells:
+    with show_progress("bound", 1.0, quiet=as_json) as bar:
+        for count in counts:
             table = solve_chauffeur(
                 game,
                 count,
-                farthest=options.farthest,
-                progress=scaled(bar, count**2 / work),
+                farthest=settings.farthest,
+                progress=partial(_add, bar, count**2 / work),
             )
             tables.append((count, table))
     standing = standing_table(table, game, response)
@@ -51,35 +57,21 @@ def person_report(
         "response_s": response,
         "start_ahead_m": _reach(standing, capture),
     }
+    if as_json:
+        print_json(result)
+    else:
+        print_table(scalar_rows(result, 4))
+        if not result["avoidable"]:
+            text = "the person can always make contact"
+            print_table([("no start is safe", text)])
     if figure is not None:
         from ..report.value_figures import draw_chauffeur
 
-        drawn = game, table, standing, capture, figure
-        if attempt(lambda: draw_chauffeur(*drawn)):
-            result["figure"] = figure
-    return result
+        draw_chauffeur(game, table, standing, capture, str(figure))
 
 
-def scaled(bar: Any, share: float) -> "Callable[[float], object]":
-    """Return a callback for one table, a share of the work."""
-    return lambda part: bar.update(share * part)
-
-
-def _game(options: "BoundOptions") -> "ChauffeurGame":
-    """Return the game of the options."""
-    from ..theory.value import ChauffeurGame, SpeedEllipse
-
-    speed = options.evader_speed
-    radius = options.person_turning_radius
-    return ChauffeurGame(
-        options.pursuer_speed,
-        RADIUS if radius is None else radius,
-        SpeedEllipse(
-            options.evader_forward or speed,
-            speed,
-            options.evader_sideways or speed,
-        ),
-    )
+def _add(bar: Any, share: float, part: float) -> None:
+    bar.update(share * part)
 
 
 def _values(
@@ -142,12 +134,3 @@ def _reach(table: "ValueTable", capture: float) -> float | None:
 
     far = table.grid.distances(np.inf)
     return float(far[table.values < capture].max(initial=capture))
-
-
-def print_person_bound(result: dict[str, Any]) -> None:
-    """Print the result in two columns."""
-    print_table(scalar_rows(result, 4))
-    if not result["avoidable"]:
-        print_table(
-            [("no start is safe", "the person can always make contact")]
-        )

@@ -32,17 +32,17 @@ def check_camera(robot: Any, connection: ConnectionSettings) -> None:
     if connection.images is None and not has_images:
         if connection.in_python:
             raise click.UsageError(
-                "--sensing cameras requires the method image() of "
-                f"{kind.__name__}, or --images"
+                "sensing by cameras requires the method image() of "
+                f"{kind.__name__}, or images"
             )
-        remedy = "--images" if joints else "a robot with a camera"
+        remedy = "images" if joints else "a robot with a camera"
         raise click.UsageError(
-            f"--sensing cameras requires {remedy}, got {connection.robot!r}, "
-            "which brings no images"
+            f"sensing by cameras requires {remedy}, got "
+            f"{connection.address!r}, which brings no images"
         )
     if connection.images is not None and not joints and robot.camera is None:
         raise click.UsageError(
-            f"--images requires camera of {kind.__name__}: "
+            f"images requires camera of {kind.__name__}: "
             "CameraMount(forward, left, up, ...), the pose of the camera on "
             "the robot"
         )
@@ -55,7 +55,7 @@ def open_camera(
     *,
     needs_mount: bool = False,
 ) -> "RobotCamera":
-    """Open the camera of a robot, or that of ``--images``.
+    """Open the camera of a robot, or that of ``images``.
 
     Args:
         settings: Settings with optics and latency of the camera.
@@ -86,9 +86,8 @@ def open_camera(
         dds, topic = connection.join_domain(), parse_namespace(name)
         camera = TopicCamera(dds, topic, model, latency=latency)
         return RobotCamera(camera, apart=True, mount=mount)
-    raise click.BadParameter(
-        f"must begin with {V4L2} or {ROS2}, got {name!r}",
-        param_hint="--images",
+    raise click.UsageError(
+        f"images must begin with {V4L2} or {ROS2}, got {name!r}"
     )
 
 

@@ -1,94 +1,108 @@
-"""``stepaside circle``: circles of a game, from its equations."""
+"""``stepaside theory circle``: circles of a game, from its equations."""
 
+from dataclasses import dataclass
+from math import log
+from pathlib import Path
 from typing import Any
 
 import click
 
-from ..core.atomic_output import FIGURES
+from ..core.entries import to_entries
+from ..core.errors import PlanError
+from ..core.progress import show_progress
+from ..core.ranges import SEEDS, Range
+from ..core.setting import setting
+from ..games.unicycle_settings import UnicycleGameSettings, positive
 from ..theory.unicycle.unicycle_game import Game
-from .circle_tables import describe_circles, print_circles
-from .options.common_options import (
-    capture_option,
-    delay_option,
-    figure_option,
-    figure_width,
-    json_option,
-    sample_time_option,
-    seed_option,
+from .options import figure_option, figure_width, json_option
+from .settings import takes_settings
+from .tables import (
+    finite,
+    format_value,
+    print_columns,
+    print_table,
+    table_rows,
 )
-from .output_files import OutputFile, attempt, writes_files
-from .progress import STEPS, announce_effort, show_progress
-from .terminal import print_json
-from .unicycle_options import describe_game, finite, game_options
+from .terminal import echo, print_json
+
+NAMED = {
+    "--speed": "speed",
+    "--gain": "gain",
+    "--angle": "angle",
+    "--law": "law",
+    "--starts": "starts",
+}
+OF_CIRCLE = (
+    "distance_m",
+    "radius_pursuer_m",
+    "radius_evader_m",
+    "turning_rate_rad_s",
+    "headings_apart_rad",
+    "motions_apart_rad",
+    "pursuer_error_rad",
+    "evader_error_rad",
+    "time_constant_s",
+)
+COLUMNS = {
+    "direction": "direction",
+    "side_rule": "side rule",
+    "distance_m": "distance",
+    "radius_evader_m": "evader's radius",
+    "stable": "stable",
+    "time_constant_s": "time constant",
+    "starts_share": "basin",
+}
+
+
+@dataclass(frozen=True, slots=True)
+class CircleSettings(UnicycleGameSettings):
+    """Game, sampling, and random starts of the basins of attraction."""
+
+    sample_time: float = setting(
+        0.0,
+        "Sampling period; turning rates are constant in between",
+        positive("s", 0.0),
+    )
+    delay: float = setting(
+        0.0, "Delay from sensing to turning", positive("s", 0.0)
+    )
+    starts: int = setting(
+        400,
+        "Number of random starts, for the basins of attraction",
+        Range(0, 1_000_000, "1", "more take hours", whole=True),
+    )
+    seed: int = setting(0, "Random seed of the starts", SEEDS)
+    capture: float = setting(1e-6, "Capture distance", positive("m"))
 
 
 @click.command("circle")
-@game_options
-@sample_time_option()
-@delay_option()
-@click.option(
-    "--sweep",
-    type=OutputFile(*FIGURES),
-    help="Write a figure of the circle over evasion angle, gain ratio and "
-    "speed ratio.",
+@takes_settings(NAMED, settings=CircleSettings)
+@figure_option(help="Write a map of the reversed circle over the ratios.")
+@figure_option(
+    "--sweep", help="Write a figure of the circle over angle and ratios."
 )
 @figure_width
-@figure_option(
-    help="Write a map of the reversed circle over gain and speed ratio."
-)
-@click.option(
-    "--starts",
-    type=click.IntRange(0, 1_000_000),
-    default=400,
-    show_default=True,
-    help="Number of random initial poses simulated to measure the basins of "
-    "attraction.",
-)
-@seed_option(
-    default=0, show_default=True, help="Random seed of the initial poses."
-)
-@capture_option(default=1e-6, show_default=True)
 @json_option
-@writes_files
 def circle(
-    game: Game,
-    sample_time: float,
-    delay: float,
-    sweep: str | None,
-    figure: str | None,
-    starts: int,
-    seed: int,
-    body: float,
+    settings: CircleSettings,
+    figure: Path | None,
+    sweep: Path | None,
     as_json: bool,
 ) -> None:
     """Find the circles of a game, their stability and basins of attraction."""
-    _announce(game, starts)
-    result = describe_circle(game, sample_time, delay)
-    drawn = (starts, seed, body)
-    with show_progress("circle", starts, "games", quiet=as_json) as bar:
-        result |= describe_circles(game, *drawn, bar.update)
+    game = settings.game
+    result = describe_circle(game, settings.sample_time, settings.delay)
+    with show_progress("circle", settings.starts, "games", quiet=as_json) as b:
+        result |= _find_circles(settings, b.update)
+    print_json(result) if as_json else print_circles(result)
     if figure is not None:
         from ..report.unicycle_figures import draw_ratios
 
-        if attempt(lambda: draw_ratios(game, figure)):
-            result["figure"] = figure
+        draw_ratios(game, str(figure))
     if sweep is not None:
         from ..report.unicycle_figures import draw_sweep
 
-        if attempt(lambda: draw_sweep(game, sweep)):
-            result["sweep"] = sweep
-    if as_json:
-        print_json(result)
-        return
-    print_circles(result)
-
-
-def _announce(game: Game, starts: int) -> None:
-    """Announce long simulations."""
-    from ..theory.unicycle.basins import duration_and_step
-
-    duration, step = duration_and_step(game) if starts else (0.0, 1.0)
-    announce_effort(f"{starts} games", starts * duration / step / STEPS)
+        draw_sweep(game, str(sweep))
 
 
 def describe_circle(
@@ -98,27 +112,19 @@ def describe_circle(
     from ..theory.unicycle.circles import circle_of
 
     found = circle_of(game)
-    names = (
-        "radius_pursuer_m",
-        "radius_evader_m",
-        "distance_m",
-        "turning_rate_rad_s",
-        "headings_apart_rad",
-        "motions_apart_rad",
-        "pursuer_error_rad",
-        "evader_error_rad",
-        "time_constant_s",
-    )
-    result: dict[str, Any] = {"exists": found.exists}
-    result["radius_m"] = finite(found.radius_pursuer_m)
-    result |= {name: finite(getattr(found, name)) for name in names}
-    result["eigenvalues_per_s"] = _pairs(found.eigenvalues)
-    result["stable"] = found.stable if found.exists else None
-    result["sliding"] = found.sliding
-    result["sample_time_s"], result["delay_s"] = sample_time, delay
+    result: dict[str, Any] = {
+        "exists": found.exists,
+        "radius_m": finite(found.radius_pursuer_m),
+        **{name: finite(getattr(found, name)) for name in OF_CIRCLE},
+        "eigenvalues_per_s": _pairs(found.eigenvalues),
+        "stable": found.stable if found.exists else None,
+        "sliding": found.sliding,
+        "sample_time_s": sample_time,
+        "delay_s": delay,
+    }
     if found.exists:
         result |= _describe_sampling(game, found.sliding, sample_time, delay)
-    result["game"] = describe_game(game)
+    result["game"] = to_entries(game)
     return result
 
 
@@ -142,8 +148,6 @@ def _describe_sampling(
         "largest_stable_delay_s": _largest_delay(game, sample_time),
     }
     if sample_time > 0.0:
-        from math import log
-
         values = sampled.step_eigenvalues(game, sample_time, delay)
         size = abs(values[0])
         result["step_eigenvalues"] = _pairs(values)
@@ -161,7 +165,6 @@ def _describe_sampling(
 
 def _largest_delay(game: Game, sample_time: float) -> float | None:
     """Return the largest stable delay; None if sampling is too fine."""
-    from ..core.errors import PlanError
     from ..theory.unicycle.sampled_stability import largest_stable_delay
 
     try:
@@ -172,3 +175,83 @@ def _largest_delay(game: Game, sample_time: float) -> float | None:
 
 def _pairs(values: tuple[complex, ...]) -> list[list[float]]:
     return [[value.real, value.imag] for value in values]
+
+
+def _find_circles(settings: CircleSettings, progress: Any) -> dict[str, Any]:
+    """Return every circle, and the fraction of starts that end on it."""
+    from ..theory.unicycle.basins import find_basins, random_starts
+    from ..theory.unicycle.circles import circles_of
+
+    game = settings.game
+    if settings.starts == 0:
+        found = [_describe(each, None) for each in circles_of(game)]
+        return {"circles": found, "starts": None}
+    drawn = random_starts(game, settings.starts, seed=settings.seed)
+    basins = find_basins(
+        game, drawn, capture_distance=settings.capture, progress=progress
+    )
+    return {
+        "circles": [
+            _describe(each, share)
+            for each, share in zip(basins.circles, basins.shares, strict=True)
+        ],
+        "starts": {
+            "number": settings.starts,
+            "seed": settings.seed,
+            "nearest_m": float(drawn[:, 0].min()),
+            "farthest_m": float(drawn[:, 0].max()),
+            "duration_s": basins.duration,
+            "capture_m": settings.capture,
+            "captured_share": basins.captured,
+            "unsettled_share": basins.unsettled,
+            "mean_closest_distance_m": basins.closest_distance,
+        },
+    }
+
+
+def _describe(found: Any, share: float | None) -> dict[str, Any]:
+    """Return one circle for JSON."""
+    return {
+        "exists": found.exists,
+        "direction": found.direction,
+        "side_rule": "behind" if found.behind else "latched",
+        **{name: finite(getattr(found, name)) for name in OF_CIRCLE},
+        "bearing_rad": found.bearing_rad,
+        "sliding": found.sliding,
+        "stable": found.stable,
+        "eigenvalues_per_s": _pairs(found.eigenvalues),
+        "share": share,
+    }
+
+
+def print_circles(result: dict[str, Any]) -> None:
+    """Print the result as tables."""
+    lists = ("circles", "game", "starts")
+    if result["exists"]:
+        print_table(table_rows(result, (k for k in result if k not in lists)))
+    else:
+        which = "main circle" if result["circles"] else "circle"
+        echo(f"There is no {which} for these speeds, gains and angle.")
+    rows = [
+        each
+        | {
+            "direction": "main" if each["direction"] > 0 else "reversed",
+            "starts_share": each["share"],
+        }
+        for each in result["circles"]
+    ]
+    if rows:
+        echo()
+        print_columns(
+            list(COLUMNS.values()),
+            [
+                [format_value(name, row[name]) for name in COLUMNS]
+                for row in rows
+            ],
+            left=range(len(COLUMNS)),
+            indent="  ",
+        )
+    if result["starts"] is not None:
+        echo("\n  games that did not end on a circle")
+        names = ("captured_share", "unsettled_share")
+        print_table(table_rows(result["starts"], names))

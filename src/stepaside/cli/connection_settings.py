@@ -7,8 +7,9 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
+from ..core.errors import ConfigurationError
 from ..core.ranges import Range
-from ..core.setting import REQUIRED, check_settings, setting
+from ..core.setting import check_settings, setting
 from ..core.user_file import FILE_AND_NAME
 from ..games.duel_settings import (
     EVADER,
@@ -17,10 +18,10 @@ from ..games.duel_settings import (
     load_evader,
 )
 from ..games.play_settings import PYTHON
+from ..games.unicycle_settings import WHY, positive
 from ..locomotion.zmp.control_settings import OPEN_LOOP, STABILISED
 from ..strategies import Strategy, load_strategy
-from .options.parameter_types import REASON, positive
-from .options.settings_options import CONTROL, GIVEN
+from .settings import CONTROL, GIVEN
 from .terminal import echo
 
 if TYPE_CHECKING:
@@ -36,19 +37,13 @@ _SWITCH = re.compile(r"key|gamepad(:.+)?|ros2:/.+")
 class ConnectionSettings:
     """Player of ``stepaside play`` and the connection to its robot."""
 
-    robot: str = setting(
-        REQUIRED,
-        "Address of the robot: lola:PATH or lola: (on the robot itself); "
-        "naoqi:tcp://HOST:PORT; ros2:/NAMESPACE; "
-        "rcss:HOST:PORT; or FILE.py:CLASS, a VelocityRobot or JointRobot in "
-        "Python",
-    )
+    address: str = setting("", "Address of the robot")
     role: str = setting(
         EVADER,
         "Role of the robot",
         names=PLAYERS,
     )
-    description: str = setting(
+    robot: str = setting(
         "nao",
         "Name of a robot, or folder of its description",
     )
@@ -59,7 +54,7 @@ class ConnectionSettings:
     )
     images: str | None = setting(
         None,
-        "Source of images for --sensing cameras: v4l2:DEVICE or "
+        "Source of images with sensing by cameras: v4l2:DEVICE or "
         "ros2:/TOPIC; the robot's own camera by default",
     )
     max_speed: float | None = setting(
@@ -75,7 +70,7 @@ class ConnectionSettings:
     max_lateral: float | None = setting(
         None,
         "Maximum lateral speed of a ROS 2 robot that steps sideways; requires "
-        "--max-speed and --max-turn, and without it no lateral velocity is "
+        "max_speed and max_turn, and without it no lateral velocity is "
         "commanded",
         positive("m/s", None),
     )
@@ -117,7 +112,7 @@ class ConnectionSettings:
     wait: float = setting(
         10.0,
         "Maximum time to wait for the first connection",
-        Range(1e-9, 1e9, "s", REASON, also=(0.0,)),
+        Range(1e-9, 1e9, "s", WHY, also=(0.0,)),
     )
     reconnect: float | None = setting(
         None,
@@ -148,36 +143,35 @@ class ConnectionSettings:
     )
 
     def __post_init__(self) -> None:
-        """Validate ranges, names and combinations of options."""
+        """Validate ranges, names and combinations."""
         check_settings(self)
         switch = self.dead_man
         if switch is not None and not _SWITCH.fullmatch(switch):
-            raise click.BadParameter(
-                "must be key, gamepad, gamepad:DEVICE or ros2:/TOPIC, got "
-                f"{switch!r}",
-                param_hint="--dead-man",
+            raise ConfigurationError(
+                "dead_man must be key, gamepad, gamepad:DEVICE or "
+                f"ros2:/TOPIC, got {switch!r}"
             )
         limited = self.max_speed and self.max_turn
-        if self.robot.startswith(ROS2) and self.max_lateral and not limited:
-            raise click.UsageError(
-                "--max-lateral requires --max-speed and --max-turn"
+        if self.address.startswith(ROS2) and self.max_lateral and not limited:
+            raise ConfigurationError(
+                "max_lateral requires max_speed and max_turn"
             )
 
     @property
     def in_python(self) -> bool:
         """Whether the robot is a class in a user's file."""
-        known = self.robot.startswith((LOLA, NAOQI, ROS2, RCSS))
-        return not known and FILE_AND_NAME.fullmatch(self.robot) is not None
+        known = self.address.startswith((LOLA, NAOQI, ROS2, RCSS))
+        return not known and FILE_AND_NAME.fullmatch(self.address) is not None
 
     @property
     def language(self) -> str:
         """Protocol of the robot, as in the settings of a play."""
-        return PYTHON if self.in_python else self.robot.partition(":")[0]
+        return PYTHON if self.in_python else self.address.partition(":")[0]
 
     @property
     def on_nao(self) -> bool:
         """Whether the protocol is that of a NAO, with its chest button."""
-        return self.robot.startswith((LOLA, NAOQI))
+        return self.address.startswith((LOLA, NAOQI))
 
     def robot_maker(self, settings: DuelSettings) -> "Callable[[], Any]":
         """Return a function that makes the robot, without connecting.
@@ -188,11 +182,11 @@ class ConnectionSettings:
         if self.in_python:
             from ..drivers.robot_loader import load_robot_class
 
-            return load_robot_class(self.robot)
+            return load_robot_class(self.address)
         from ..drivers.robot_loader import RobotRequest, find_robot
 
-        name, _, address = self.robot.partition(":")
-        if self.robot.startswith(ROS2) and not self.network:
+        name, _, address = self.address.partition(":")
+        if self.address.startswith(ROS2) and not self.network:
             from ..drivers.ros2_dds import LOCAL
 
             echo(f"stepaside: {LOCAL}", err=True)
@@ -202,7 +196,7 @@ class ConnectionSettings:
             RobotRequest(
                 address,
                 self.role,
-                self.description,
+                self.robot,
                 dry_run=self.dry_run,
                 camera=colour.model(),
                 latency=colour.latency + settings.cameras.added_latency,
@@ -215,10 +209,9 @@ class ConnectionSettings:
             ),
         )
         if make is None:
-            raise click.BadParameter(
-                f"must begin with {LOLA}, {NAOQI}, {ROS2} or {RCSS}, or be "
-                f"FILE.py:CLASS, got {self.robot!r}",
-                param_hint="--robot",
+            raise ConfigurationError(
+                f"the address must begin with {LOLA}, {NAOQI}, {ROS2} or "
+                f"{RCSS}, or be FILE.py:CLASS, got {self.address!r}"
             )
         return make
 

@@ -12,7 +12,7 @@ import click
 
 from .. import __version__
 from ..core.extras import EXTRAS
-from .options.common_options import json_option
+from .options import json_option
 from .terminal import echo, print_json
 
 

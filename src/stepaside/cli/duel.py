@@ -7,71 +7,55 @@ import click
 
 from ..core.constants import CAPTURE_DISTANCE
 from ..games.duel_settings import DuelSettings
-from .options.common_options import (
-    figure_option,
-    figure_width,
-    folder_option,
-    json_option,
-)
-from .options.settings_options import DUEL, takes_settings
-from .output_files import attempt, writes_files
-from .progress import SIMULATED, announce_effort, show_progress
-from .run_output import save_run
+from .options import folder_option, json_option
+from .run_output import finish_run, play_with_bar, run_folder
+from .settings import takes_settings
 from .tables import print_table
-from .terminal import echo, print_json
+from .terminal import echo
 
 if TYPE_CHECKING:
     from ..games.duel_summary import DuelSummary
     from ..games.run import DuelRun
     from ..games.sight_summary import PerceptionSummary
 
+NAMED = {
+    "--seed": "seed",
+    "--duration": "duration",
+    "--robot": "robot",
+    "--gait": "gait",
+    "--body": "body",
+    "--sensing": "sensing",
+    "--room": "room.plan",
+    "--distance": "start.distance",
+    "--strategy": "evader_strategy",
+    "--pursuer": "pursuer",
+}
+"""Settings of a duel with an option of their own."""
+
 
 @click.command("duel")
-@takes_settings(DuelSettings, DUEL)
-@folder_option(
-    help="Run folder; a new one in runs/ by default, none with --json."
-)
-@figure_option(help="Write a copy of the figure (.png, .svg or .pdf).")
-@figure_width
+@takes_settings(NAMED, settings=DuelSettings)
+@folder_option()
 @json_option
-@writes_files
-def duel(
-    settings: DuelSettings,
-    output: Path | None,
-    figure: str | None,
-    as_json: bool,
-) -> None:
+def duel(settings: DuelSettings, output: Path | None, as_json: bool) -> None:
     """Simulate a duel of two humanoids in physics.
 
     Prints values measured over the last third of the duel beside those of
     theory, and writes a run folder with the configuration, the trajectories
     and a figure.
     """
-    from ..games.outcome import Outcome
-    from ..games.run_archive import results_of
-    from ..report.run_folder import check_output, figure_name, free_folder
+    from ..games.recorded_game import run_duel
     from ..report.settling_report import explain_missing_circle
 
-    if output is None and not as_json:
-        output = free_folder(Path("runs"), f"duel-seed{settings.seed}")
-    if output is not None:
-        check_output(output)
-    seconds = settings.duration
-    announce_effort(f"a duel of {seconds:g} s", seconds / SIMULATED)
+    folder = run_folder(output, as_json, f"duel-seed{settings.seed}")
     _warn_of_expected_end(settings)
-    run = _play(settings)
-    saved = save_run(output, run)
-    if figure is not None and run.outcome is not Outcome.INTERRUPTED:
-        from ..report.run_figure import draw_run
-
-        attempt(lambda: draw_run(run, Path(figure)))
-    if as_json:
-        print_json(results_of(run) | saved.entries)
-    else:
-        print_duel(run, explain_missing_circle(run))
-        saved.print_paths(figure_name(run))
-    saved.raise_failure()
-    saved.exit_if_interrupted(run.outcome)
+    run = play_with_bar(settings, run_duel)
+    finish_run(
+        run,
+        folder,
+        as_json,
+        lambda: print_duel(run, explain_missing_circle(run)),
+    )
 
 
 def _warn_of_expected_end(settings: DuelSettings) -> None:
@@ -82,28 +66,6 @@ def _warn_of_expected_end(settings: DuelSettings) -> None:
     end = forecast(with_initial_poses(settings))
     if end and end.expected in (ExpectedEnd.CONTACT, ExpectedEnd.NO_CIRCLE):
         echo(f"stepaside: expected outcome: {end.words}", err=True)
-
-
-def _play(settings: DuelSettings) -> "DuelRun":
-    """Run the duel with a progress bar on standard error."""
-    from ..games.game import Progress
-    from ..games.recorded_game import run_duel
-
-    look = "{desc} {bar} {n:.0f}/{total:.0f} s simulated{postfix}"
-    total = settings.duration
-    with show_progress("duel", total, "s simulated", bar_format=look) as bar:
-
-        def report(progress: Progress) -> None:
-            bar.n = progress.time
-            bar.set_postfix_str(
-                f"distance {progress.distance:.2f} m, "
-                f"{progress.real_time_factor:.1f}x real time"
-            )
-
-        result = run_duel(settings, report)
-        bar.n = min(result.duration, settings.duration)
-        bar.refresh()
-    return result
 
 
 def print_duel(run: "DuelRun", unsettled: str) -> None:

@@ -1,125 +1,62 @@
-"""``stepaside game``: a game of any number of players, from a file."""
+"""``stepaside run FILE``: a game of any number of players."""
 
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import click
 
-from .options.common_options import (
-    figure_option,
-    figure_width,
-    folder_option,
-    game_time_option,
-    json_option,
-    seed_option,
-)
-from .options.parameter_types import NameType
-from .output_files import attempt, writes_files
-from .progress import SIMULATED, announce_effort, show_progress
-from .run_output import save_run
+from .options import file_argument, folder_option, json_option
+from .run_output import finish_run, play_with_bar, run_folder
+from .settings import changes_of, lists_option, set_option, set_pair
+from .settings_text import commented
 from .tables import print_table
-from .terminal import echo, print_json
+from .terminal import echo, write_result
 
 if TYPE_CHECKING:
-    from ..games.game_settings import GameSettings
     from ..games.run import MatchRun
-
 
 MOST_PAIRS = 15  # that are all printed
 
 
-def _levels() -> tuple[str, ...]:
-    from ..games.game_settings import GAME_LEVELS
-
-    return GAME_LEVELS
-
-
-level_option = click.option(
-    "--level",
-    type=NameType(_levels),
-    help="Level of the game, instead of that of the file.",
-)
-
-
 @click.command("game")
-@click.argument(
-    "file", type=click.Path(exists=True, dir_okay=False, path_type=Path)
-)
-@seed_option()
-@game_time_option()
-@level_option
-@folder_option(
-    help="Run folder; a new one in runs/ by default, none with --json."
-)
-@figure_option(help="Write a copy of the figure (.png, .svg or .pdf).")
-@figure_width
+@file_argument("file")
+@click.option("--seed", metavar="NUMBER", help="Random seed.")
+@click.option("--duration", metavar="NUMBER", help="Simulated time [s].")
+@click.option("--level", metavar="TEXT", help="Level of simulation.")
+@lists_option
+@set_option
+@folder_option()
 @json_option
-@writes_files
 def game(
     file: Path,
+    sets: tuple[str, ...],
+    lists: bool,
     output: Path | None,
-    figure: str | None,
     as_json: bool,
-    **changes: Any,
+    **named: str | None,
 ) -> None:
     """Play the game of the players that FILE lists.
 
     FILE is TOML with a table [[players]] for each player: a robot, its
-    template unicycle, a person, or a recorded player. Prints the closest
-    approach of each pair, and writes a run folder, which `stepaside show`
-    shows.
+    template unicycle, a person, or a recorded player (docs/games.md). Prints
+    the closest approach of each pair, and writes a run folder, which
+    `stepaside show` shows.
     """
+    from ..core.setting import entries_of
     from ..games.game_file import load_game
-    from ..games.outcome import Outcome
-    from ..games.run_archive import results_of
-    from ..report.run_folder import check_output, figure_name, free_folder
-
-    given = {k: v for k, v in changes.items() if v is not None}
-    settings = load_game(file, **given)
-    if output is None and not as_json:
-        output = free_folder(Path("runs"), f"game-seed{settings.seed}")
-    if output is not None:
-        check_output(output)
-    seconds = settings.duration
-    share = 0.5 * max(len(settings.robots), 1)
-    if settings.level == "physics":
-        what = f"a game of {len(settings.players)} players and {seconds:g} s"
-        announce_effort(what, share * seconds / SIMULATED)
-    run = _play(settings)
-    saved = save_run(output, run)
-    if figure is not None and run.outcome is not Outcome.INTERRUPTED:
-        from ..report.run_figure import draw_run
-
-        attempt(lambda: draw_run(run, Path(figure)))
-    if as_json:
-        print_json(results_of(run) | saved.entries)
-    else:
-        print_game(run)
-        saved.print_paths(figure_name(run))
-    saved.raise_failure()
-    saved.exit_if_interrupted(run.outcome)
-
-
-def _play(settings: "GameSettings") -> "MatchRun":
-    """Play the game with a progress bar on standard error."""
-    from ..games.game import Progress
+    from ..games.game_settings import GameSettings
     from ..games.recorded_game import run_game
 
-    look = "{desc} {bar} {n:.0f}/{total:.0f} s simulated{postfix}"
-    total = settings.duration
-    with show_progress("game", total, "s simulated", bar_format=look) as bar:
-
-        def report(progress: Progress) -> None:
-            bar.n = progress.time
-            text = f"{progress.real_time_factor:.1f}x real time"
-            if progress.distance is not None:
-                text = f"least distance {progress.distance:.2f} m, {text}"
-            bar.set_postfix_str(text)
-
-        result = run_game(settings, report)
-        bar.n = min(result.duration, settings.duration)
-        bar.refresh()
-    return result
+    texts = [(name, text) for name, text in named.items() if text]
+    texts += map(set_pair, sets)
+    changes = changes_of(texts, entries_of(GameSettings), GameSettings)
+    settings = load_game(file, **changes)
+    if lists:
+        write_result(commented(settings))
+        return
+    folder = run_folder(output, as_json, f"game-seed{settings.seed}")
+    run = play_with_bar(settings, run_game)
+    finish_run(run, folder, as_json, lambda: print_game(run))
 
 
 def print_game(run: "MatchRun") -> None:

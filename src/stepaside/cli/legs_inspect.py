@@ -1,4 +1,4 @@
-"""``stepaside legs inspect``: contract of a walking policy, with findings."""
+"""``stepaside robot legs inspect``: a policy's contract."""
 
 from math import isfinite
 from pathlib import Path
@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from .options.common_options import json_option
+from .options import json_option
 from .tables import print_table
 from .terminal import echo, print_json
 

@@ -1,4 +1,4 @@
-"""``stepaside legs measure``: velocities that learned legs deliver."""
+"""``stepaside robot legs measure``: velocities that learned legs deliver."""
 
 from dataclasses import replace
 from math import isfinite
@@ -8,14 +8,13 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from ..core.atomic_output import atomic_draft
-from .options.common_options import (
+from ..core.progress import show_progress
+from .options import (
     figure_option,
     json_option,
     seed_option,
     workers_option,
 )
-from .output_files import attempt, writes_files
-from .progress import show_progress
 from .tables import print_table
 from .terminal import echo, print_json
 
@@ -55,11 +54,10 @@ BODIES = ("ideal", "delayed", "hardware")
     help="Also walk so many times for 60 s at random commands, and count "
     "falls.  [default: 0]",
 )
-@seed_option(default=1, show_default=True, help="Seed of sensor errors.")
-@workers_option()
+@seed_option(help="Seed of sensor errors.")
+@workers_option
 @figure_option(help="Write a figure of commands and delivered velocities.")
 @json_option
-@writes_files
 def measure(
     robot: str,
     legs: str,
@@ -69,7 +67,7 @@ def measure(
     random_walks: int,
     seed: int,
     workers: int | None,
-    figure: str | None,
+    figure: Path | None,
     as_json: bool,
 ) -> None:
     """Walk the learned legs of ROBOT at a grid of commands.
@@ -108,15 +106,15 @@ def measure(
     with atomic_draft(file) as draft:
         entries = response_entries(result.response, Path(network))
         draft.write_text(tomli_w.dumps(entries), encoding="utf-8")
-    if figure is not None:
-        from ..report.study_figures import draw_response
-
-        attempt(lambda: draw_response(result.response, Path(figure)))
     if as_json:
         print_json(measurement_facts(result) | {"file": str(file)})
     else:
         _print(result)
         echo(f"\nwrote {file}")
+    if figure is not None:
+        from ..report.study_figures import draw_response
+
+        draw_response(result.response, figure)
 
 
 def _measure(

@@ -2,6 +2,8 @@
 
 import re
 import sys
+from collections.abc import Mapping
+from difflib import get_close_matches
 from importlib import import_module
 from typing import Any, NoReturn
 
@@ -14,23 +16,15 @@ from ..core.signal_handling import interrupted_status, interruptible
 
 COMMANDS = {
     "duel": "Simulate a duel of two humanoids in physics.",
-    "game": "Play a game of any number of players, from a file.",
+    "run": "Run a game file, a walk, unicycles, or a random room.",
     "study": "Play any grid of settings, or a preset: tournament, people.",
-    "merge": "Join the files of the shards of a study.",
-    "view": "Watch a duel in the browser; push or drive the robots.",
+    "view": "Watch a game in the browser; push or drive the robots.",
     "show": "Show runs: page, film, figure, tables, MCAP, URDF.",
-    "walk": "Simulate the walk of one humanoid and measure it.",
-    "plan": "Plan one maneuver: footsteps, ZMP and CoM.",
-    "unicycles": "Simulate one game of two unicycles (Sec. II).",
-    "circle": "Find all circles of a game and their basins of attraction.",
-    "map": "Map the closest approach over initial poses; find the worst.",
-    "bound": "Compute the best closest approach any evader can achieve.",
-    "room": "Generate a random room, or inspect a room file.",
-    "play": "Control a robot over LoLA, NAOqi or ROS 2.",
-    "serve": "Serve simulated robots over LoLA or ROS 2.",
+    "theory": "Compute circles, maps, bounds and plans.",
     "reproduce": "Measure every claim of the paper and write a report.",
-    "robot": "Show, describe, check or tune a robot.",
-    "legs": "Inspect or measure a learned walking policy.",
+    "play": "Control a robot over LoLA, NAOqi, ROS 2 or its own SDK.",
+    "serve": "Serve simulated robots over LoLA or ROS 2.",
+    "robot": "Show, describe, check or tune a robot and its legs.",
     "doctor": "Report what is installed, what is missing, and how to get it.",
 }
 
@@ -38,17 +32,49 @@ COMMANDS = {
 class LazyGroup(click.Group):
     """Command group that imports each command on first use."""
 
+    def __init__(
+        self,
+        *args: Any,
+        lazy: Mapping[str, str] | None = None,
+        module: str = "{}",
+        default: str = "",
+        **values: Any,
+    ) -> None:
+        """List the commands.
+
+        Args:
+            args: As for :class:`click.Group`.
+            lazy: Short help of each command by name.
+            module: Module of a command, with {} for its name.
+            default: Command for words that are no command; none if empty.
+            values: As for :class:`click.Group`.
+        """
+        super().__init__(*args, **values)
+        self._lazy, self._module = lazy or {}, module
+        self._default = default
+
+    def parse_args(self, ctx: click.Context, args: list[str]) -> list[str]:
+        """Insert the default command unless a command is named."""
+        names = (*self._lazy, *self.get_help_option_names(ctx))
+        if self._default and args and args[0] not in names:
+            args = [self._default, *args]
+        return super().parse_args(ctx, args)
+
     def list_commands(self, ctx: click.Context) -> list[str]:
         """Return the names of all commands."""
-        return list(COMMANDS)
+        return list(self._lazy)
 
     def get_command(
         self, ctx: click.Context, cmd_name: str
     ) -> click.Command | None:
         """Import and return one command, or None if it does not exist."""
-        if cmd_name not in COMMANDS:
+        if cmd_name not in self._lazy:
+            near = get_close_matches(cmd_name, self._lazy, 1)
+            if near:
+                ctx.fail(f"no command {cmd_name!r}; did you mean {near[0]}?")
             return None
-        module = import_module(f"stepaside.cli.{cmd_name}")
+        name = self._module.format(cmd_name)
+        module = import_module(f"stepaside.cli.{name}")
         command: click.Command = getattr(module, cmd_name)
         return command
 
@@ -57,7 +83,7 @@ class LazyGroup(click.Group):
     ) -> None:
         """Write the list of commands without importing any."""
         with formatter.section("Commands"):
-            formatter.write_dl(list(COMMANDS.items()))
+            formatter.write_dl(list(self._lazy.items()))
 
     def main(self, *args: Any, **extra: Any) -> NoReturn:
         """Run a command; report each expected error in one line, status 2."""
@@ -80,15 +106,15 @@ class LazyGroup(click.Group):
             file = f"{error.filename}: " if error.filename else ""
             _refuse(f"{file}{(error.strerror or str(error)).lower()}")
         except (click.Abort, KeyboardInterrupt):
-            _leave()
+            click.echo(
+                "stepaside: interrupted; partial output discarded", err=True
+            )
+            sys.exit(interrupted_status())
         sys.exit(status if isinstance(status, int) else 0)
 
 
 def all_commands() -> dict[str, click.Command]:
-    """Return every command by its full name, like ``robot check``.
-
-    A group appears itself only if it can be invoked without a subcommand.
-    """
+    """Return every command by its full name, like ``robot check``."""
     commands: dict[str, click.Command] = {}
     queue: list[tuple[str, click.Group]] = [("", main)]
     while queue:
@@ -100,9 +126,8 @@ def all_commands() -> dict[str, click.Command]:
             full_name = f"{prefix} {name}".strip()
             if isinstance(command, click.Group):
                 queue.append((full_name, command))
-                if not command.invoke_without_command:
-                    continue
-            commands[full_name] = command
+            else:
+                commands[full_name] = command
     return commands
 
 
@@ -113,11 +138,6 @@ def _errors_of_executors() -> type[Exception]:
     return BrokenExecutor
 
 
-def _leave() -> NoReturn:
-    click.echo("stepaside: interrupted; partial output discarded", err=True)
-    sys.exit(interrupted_status())
-
-
 def _refuse(message: str) -> NoReturn:
     from .terminal import echo
 
@@ -126,7 +146,7 @@ def _refuse(message: str) -> NoReturn:
     sys.exit(2)
 
 
-@click.group(cls=LazyGroup, invoke_without_command=True)
+@click.group(cls=LazyGroup, lazy=COMMANDS, invoke_without_command=True)
 @click.version_option(__version__)
 @click.pass_context
 def main(context: click.Context) -> None:

@@ -1,4 +1,4 @@
-"""``stepaside plan``: one maneuver as a table, a figure or JSON."""
+"""``stepaside theory plan``: one maneuver as a table, a figure or JSON."""
 
 from dataclasses import dataclass, fields, replace
 from math import degrees, pi
@@ -13,9 +13,8 @@ from ..core.setting import check_settings, setting
 from ..games.duel_settings import DuelSettings
 from ..games.walk_settings import WalkSettings
 from ..planning import PRESETS, Direction, Foot, GaitSettings
-from .options.common_options import figure_option, figure_width, json_option
-from .options.settings_options import takes_settings
-from .output_files import attempt, writes_files
+from .options import figure_option, figure_width, json_option
+from .settings import takes_settings
 from .terminal import echo, print_json
 
 if TYPE_CHECKING:
@@ -81,7 +80,7 @@ ENTRIES_OF_GAMES = frozenset(
     for field in fields(kind)
 )
 
-MANEUVER = {
+NAMED = {
     "--role": "role",
     "--bearing": "bearing",
     "--steps": "steps",
@@ -92,17 +91,11 @@ MANEUVER = {
 
 
 @click.command("plan")
-@takes_settings(
-    PlanSettings,
-    MANEUVER,
-    without=("gait.horizon",),
-    ignored=ENTRIES_OF_GAMES,
-)
+@takes_settings(NAMED, aside=ENTRIES_OF_GAMES, settings=PlanSettings)
 @figure_option()
 @figure_width
 @json_option
-@writes_files
-def plan(settings: PlanSettings, figure: str | None, as_json: bool) -> None:
+def plan(settings: PlanSettings, figure: Path | None, as_json: bool) -> None:
     """Plan one maneuver from standing: path, footsteps, ZMP and CoM.
 
     --role and --bearing are required. The gait may come from the
@@ -113,7 +106,7 @@ def plan(settings: PlanSettings, figure: str | None, as_json: bool) -> None:
     role, bearing, gait = settings.role, settings.bearing, settings.gait
     for name, value in (("--role", role), ("--bearing", bearing)):
         if value is None:
-            raise click.UsageError(f"Missing option '{name}'.")
+            raise click.UsageError(f"missing option {name}")
     assert role is not None and bearing is not None  # for the type checker
     maneuver = ManeuverPlanner(gait).plan(
         bearing,
@@ -130,8 +123,7 @@ def plan(settings: PlanSettings, figure: str | None, as_json: bool) -> None:
     if figure is not None:
         from ..report.plan_figure import draw_plan
 
-        if attempt(lambda: draw_plan(maneuver, role, Path(figure))):
-            echo(f"figure: {figure}", err=as_json)
+        draw_plan(maneuver, role, figure)
 
 
 def _to_json(settings: PlanSettings, maneuver: "ManeuverPlan") -> Any:

@@ -12,13 +12,8 @@ import click
 from ..games.duel_settings import EVADER, PURSUER, DuelSettings
 from ..strategies.registry import OF_EVASION
 from .connection_settings import ROS2, ConnectionSettings, with_feedback
-from .options.common_options import json_option
-from .options.settings_options import (
-    refuse_options,
-    refuse_settings,
-    takes,
-    takes_settings,
-)
+from .options import json_option
+from .settings import refuse_settings, takes_settings
 
 if TYPE_CHECKING:
     from ..drivers.joint_loop import JointLoop
@@ -26,21 +21,25 @@ if TYPE_CHECKING:
 
 CONNECTING = 6.0  # longest time that connecting takes, in [s]
 PAUSE = 0.3  # between two attempts, in [s]
-UNUSED_BY_CHECK = {
+UNUSED_BY_CHECK = (
     *("record", "duration", "dead_man", "images", "max_speed", "max_turn"),
     *("sim_time", "role", "remap", "opponent", "people", "max_lateral"),
-}
+)
 TIME_IS_UP = "played long enough"
 INTERRUPTED = "interrupted"
 
 
-OF_PLAY = {
+NAMED = {
+    "--role": "role",
+    "--robot": "robot",
     "--strategy": "evader_strategy",
-    "--pursuer-strategy": "pursuer_strategy",
-    "--legs": "legs.network",
-    "--gait": "gait",
-    "--method": "control.method",
     "--sensing": "sensing",
+    "--duration": "duration",
+    "--record": "record",
+    "--domain": "domain",
+    "--dead-man": "dead_man",
+    "--dry-run": "dry_run",
+    "--check": "check",
 }
 SECTIONS = (
     *("evader_strategy", "pursuer_strategy", "strategy", "shield", "gait"),
@@ -49,29 +48,28 @@ SECTIONS = (
 
 
 @click.command("play")
+@click.argument("address", default="")
 @takes_settings(
-    DuelSettings,
-    OF_PLAY,
+    NAMED,
     sections=SECTIONS,
-    robot_argument="description",
+    settings=DuelSettings,
+    connection=ConnectionSettings,
 )
-@takes(ConnectionSettings, "connection")
 @json_option
 def play(
-    settings: DuelSettings, connection: ConnectionSettings, as_json: bool
+    address: str,
+    settings: DuelSettings,
+    connection: ConnectionSettings,
+    as_json: bool,
 ) -> None:
     """Control a robot in a game over LoLA, NAOqi, ROS 2 or its own SDK.
 
     \b
-    --robot lola:ADDRESS       joint targets for a NAO V6, every 12 ms
-    --robot naoqi:tcp://...    velocities for the robot's own walking
-                               controller
-    --robot ros2:/NAMESPACE    velocities for the robot's own walking
-                               controller, on ROS 2 topics
-    --robot rcss:HOST:PORT     joint targets for a K1 or T1 in the RoboCup
-                               simulator
-    --robot FILE.py:CLASS      velocities or joint targets for any robot, by
-                               a class that calls its SDK
+    ADDRESS  lola:PATH         joint targets for a NAO V6, every 12 ms
+             naoqi:tcp://...   velocities for the robot's own controller
+             ros2:/NAMESPACE   velocities for the robot's own controller
+             rcss:HOST:PORT    joint targets in the RoboCup simulator
+             FILE.py:CLASS     a class that calls the robot's SDK
                                (docs/connect-your-robot.md)
 
     With joint control, the robot slowly moves to its stance and turns its
@@ -80,13 +78,16 @@ def play(
     stops the robot and lets it rest; a second Ctrl-C makes it go limp (joint
     control) or stand at once.
     """  # noqa: D301 (\b is a character for click)
+    if not address:
+        raise click.UsageError("missing argument ADDRESS of the robot")
+    connection = replace(connection, address=address)
     logging.basicConfig(
         format="stepaside: %(message)s", level=logging.INFO, stream=sys.stderr
     )
     if connection.check:
         from .play_check import check_adapter
 
-        refuse_options(UNUSED_BY_CHECK, "a play without --check")
+        refuse_settings(UNUSED_BY_CHECK, "a play without --check")
         check_adapter(connection, as_json=as_json)
         return
     if as_json:
@@ -96,15 +97,15 @@ def play(
     from ..drivers.status_line import StatusLine
     from .robot_connections import open_loop
 
-    if connection.robot.startswith(ROS2):  # before it joins a domain
+    if connection.address.startswith(ROS2):  # before it joins a domain
         _refuse_unused(settings, connection, joints=False)
     make = connection.robot_maker(settings)
     robot = make()
     joints = isinstance(robot, JointRobot)
     _refuse_unused(settings, connection, joints=joints)
     if joints and robot.paced:
-        refuse_options(
-            {"sim_time"},
+        refuse_settings(
+            ("sim_time",),
             "a robot with velocity commands, or a JointRobot with paced = "
             "False",
         )
@@ -148,7 +149,7 @@ def _refuse_unused(
     other = "pursuer_strategy" if evades else "evader_strategy"
     refuse_settings(
         (other,),
-        f"--role {PURSUER if evades else EVADER}, got {connection.role}",
+        f"role {PURSUER if evades else EVADER}, got {connection.role}",
     )
     strategy = (
         settings.evader_strategy if evades else settings.pursuer_strategy
@@ -159,24 +160,45 @@ def _refuse_unused(
             f"the strategy {' or '.join(OF_EVASION)}, got {strategy}",
         )
     if joints:
-        refuse_options(
-            {"max_speed", "max_turn"}, "a robot with velocity commands"
+        refuse_settings(
+            (
+                "max_speed",
+                "max_turn",
+            ),
+            "a robot with velocity commands",
         )
         if connection.on_nao:
-            refuse_options({"dead_man"}, "a robot without a chest button")
+            refuse_settings(("dead_man",), "a robot without a chest button")
     else:
-        refuse_options({"delay_ticks", "reconnect"}, "joint control")
+        refuse_settings(
+            (
+                "delay_ticks",
+                "reconnect",
+            ),
+            "joint control",
+        )
         refuse_settings(("legs.", "control."), "joint control")
     if settings.sensing != "cameras":
-        refuse_options({"images"}, "--sensing cameras, got ideal")
-    if not connection.robot.startswith(ROS2):
-        refuse_options(
-            {"remap", "opponent", "people", "max_lateral"},
+        refuse_settings(("images",), "sensing cameras, got ideal")
+    if not connection.address.startswith(ROS2):
+        refuse_settings(
+            (
+                "remap",
+                "opponent",
+                "people",
+                "max_lateral",
+            ),
             f"a robot at {ROS2}",
         )
-    sources = connection.robot, connection.images, connection.dead_man
+    sources = connection.address, connection.images, connection.dead_man
     if not any(ROS2 in str(source) for source in sources):
-        refuse_options({"domain", "network"}, f"a robot or images at {ROS2}")
+        refuse_settings(
+            (
+                "domain",
+                "network",
+            ),
+            f"a robot or images at {ROS2}",
+        )
 
 
 def _run_sessions(session: Callable[[], str], reconnect: float | None) -> str:

@@ -4,7 +4,7 @@ from typing import TYPE_CHECKING
 
 import click
 
-from .options.settings_options import refuse_options
+from .settings import refuse_settings
 from .terminal import echo, print_json
 
 if TYPE_CHECKING:
@@ -35,7 +35,8 @@ def check_adapter(connection: "ConnectionSettings", *, as_json: bool) -> None:
     """
     if not connection.in_python:
         raise click.UsageError(
-            f"--check requires --robot FILE.py:CLASS, got {connection.robot!r}"
+            "--check requires the address FILE.py:CLASS, got "
+            f"{connection.address!r}"
         )
     from ..drivers.guardian_process import fork_guardian
     from ..drivers.joint_check import JointCheck
@@ -50,13 +51,13 @@ def check_adapter(connection: "ConnectionSettings", *, as_json: bool) -> None:
             text = finding.text
             echo(f"{finding.verdict:<8} {finding.name:<17} {text}")
 
-    make = load_robot_class(connection.robot)
+    make = load_robot_class(connection.address)
     robot, dry_run, motors = make(), connection.dry_run, None
     if isinstance(robot, JointRobot):
-        motors = motors_of(robot, load_robot(connection.description))
+        motors = motors_of(robot, load_robot(connection.robot))
         warning = MOVES.format(round(PER_JOINT * len(motors.names)))
     else:
-        refuse_options({"description"}, "a robot that is driven by its joints")
+        refuse_settings(("robot",), "a robot that is driven by its joints")
         warning = WALKS
     guardian = None
     if not dry_run:
@@ -77,7 +78,7 @@ def check_adapter(connection: "ConnectionSettings", *, as_json: bool) -> None:
             guardian.dismiss()
     if as_json:
         found = [each._asdict() for each in check.findings]
-        summary = {"robot": connection.robot, "passes": check.passes}
+        summary = {"robot": connection.address, "passes": check.passes}
         print_json(summary | {"findings": found})
     if not check.passes:
         raise SystemExit(1)

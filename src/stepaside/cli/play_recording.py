@@ -129,7 +129,7 @@ def settings_of_play(
     return PlaySettings(
         role=connection.role,
         language=connection.language,
-        robot=connection.description,
+        robot=connection.robot,
         plays=describe_strategy(
             settings.evader_strategy
             if connection.role == EVADER

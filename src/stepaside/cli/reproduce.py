@@ -1,24 +1,21 @@
 """``stepaside reproduce``: measurement of every claim of the paper."""
 
 import json
+from math import tau
 from pathlib import Path
 from typing import Any
 
 import click
 
 from ..core.atomic_output import atomic_draft, check_folder
-from ..core.errors import OutputError
-from .campaign_options import (
-    CampaignOptions,
-    campaign_options,
-    finish_campaign,
-    run_campaign,
-)
-from .options.common_options import (
+from .options import (
+    executor_option,
     json_option,
     seed_option,
+    shard_option,
+    workers_option,
 )
-from .progress import announce_effort
+from .study_output import finish_study, run_with_bar
 from .terminal import echo, exit_interrupted, print_json, resume_message
 
 RECORDS = "claims.sqlite"
@@ -26,14 +23,11 @@ SKIPPED = (
     "  skipped the paper's game on learned legs: --legs-robot names a robot "
     "with a walking policy"
 )
+SHOWN = 120.0  # of the duel in the figure, in [s]
 
 
 @click.command("reproduce")
-@seed_option(
-    default=1,
-    show_default=True,
-    help="Random seed of the first run; later runs increment it.",
-)
+@seed_option(help="Random seed of the first run; later runs increment it.")
 @click.option(
     "--runs",
     type=click.IntRange(0, 1_000),
@@ -56,15 +50,17 @@ SKIPPED = (
     help="Folder of the report. Measurements in it are reused if settings "
     "and results version are the same.",
 )
-@campaign_options
+@workers_option
+@executor_option
+@shard_option
 @json_option
 def reproduce(
     seed: int,
     runs: int,
     legs_robot: str,
     output: Path,
-    campaign: CampaignOptions,
     as_json: bool,
+    **campaign: Any,
 ) -> None:
     """Measure every claim of the paper and write a report.
 
@@ -76,51 +72,48 @@ def reproduce(
 
     check_folder(output, new=False)
     study = claim_study(range(seed, seed + runs), legs_robot)
-    announce_effort(
-        f"every claim of the paper, {runs} runs of those in physics",
-        (20 + 120 * runs) / campaign.shard[1],
-        campaign.workers,
-    )
-    run = run_campaign(study, output / RECORDS, campaign, "runs")
-    finish_campaign(run, "runs")
-    if campaign.shard[1] > 1:
+    run = run_with_bar(study, output / RECORDS, "runs", **campaign)
+    finish_study(run, "runs")
+    if campaign["shard"][1] > 1:
         echo(f"results: {output}", err=as_json)
         return
     rows = claim_rows(run)
-    page: Path | None = None
-    lost: OutputError | None = None
+    if as_json:
+        print_json(rows)
+    else:
+        for row in rows:
+            echo(f"  {row['verdict']:<6} {row['section']:<13} {row['claim']}")
+        held = sum(row["verdict"] == "holds" for row in rows)
+        echo(f"\n{held} of {len(rows)} hold")
+    if not legs_robot:
+        echo(SKIPPED, err=as_json)
     try:
-        page = _write_all(output, (seed, runs, legs_robot), rows)
+        page = _write_page(output, (seed, runs), rows)
     except KeyboardInterrupt:
         done = "all runs and completed figures"
         exit_interrupted(resume_message(done, output))
-    except OutputError as error:
-        lost = error
-    _tell(rows, page, as_json)
-    if not legs_robot:
-        echo(SKIPPED, err=as_json)
-    if lost is not None:
-        raise lost
+    echo(f"page: {page}", err=as_json)
     if any(row["verdict"] != "holds" for row in rows):
         raise SystemExit(1)
 
 
-def _write_all(
-    output: Path, given: tuple[int, int, str], rows: list[dict[str, Any]]
+def _write_page(
+    output: Path, given: tuple[int, int], rows: list[dict[str, Any]]
 ) -> Path:
     """Write figures, results and the report.
 
     Args:
         output: Folder of the report.
-        given: Seed, number of runs, and robot on learned legs.
+        given: Seed and number of runs.
         rows: Rows of all claims.
     """
     from ..report.claims_page import write_page
+    from ..report.unicycle_figures import time_shown
     from ..studies.paper_figures import paper_figures
     from ..studies.results_version import RESULTS, library_versions
-    from .reproduce_figures import draw_figures, turns_shown
+    from ..studies.unicycle_claims import FIG_2, play
 
-    seed, runs, legs_robot = given
+    seed, runs = given
     figures = draw_figures(output, seed if runs else None)
     made = {
         "seed": seed,
@@ -131,20 +124,44 @@ def _write_all(
     with atomic_draft(output / "claims.json") as draft:
         text = json.dumps(made | {"rows": rows}, indent=1, allow_nan=False)
         draft.write_text(text + "\n", encoding="utf-8")
-    beside = paper_figures(rows, *turns_shown())
+    run = play(FIG_2)
+    end = time_shown(run)
+    pursuer, _ = run.poses([0.0, end])
+    turns = abs(float(pursuer[1, 2] - pursuer[0, 2])) / tau
+    beside = paper_figures(rows, turns, end)
     return write_page(output, rows, beside, figures, made)
 
 
-def _tell(
-    rows: list[dict[str, Any]], page: Path | None, as_json: bool
-) -> None:
-    """Print all verdicts and the path of the report."""
-    if as_json:
-        print_json(rows)
-        return
-    for row in rows:
-        echo(f"  {row['verdict']:<6} {row['section']:<13} {row['claim']}")
-    held = sum(row["verdict"] == "holds" for row in rows)
-    echo(f"\n{held} of {len(rows)} hold")
-    if page is not None:
-        echo(f"page: {page}")
+def draw_figures(folder: Path, seed: int | None) -> list[tuple[str, str]]:
+    """Draw counterparts of Fig. 2 and Fig. 5, and a sweep over strategies.
+
+    Args:
+        folder: Folder of the figures.
+        seed: Seed of the duel; None to leave it out.
+
+    Returns:
+        Caption and file name of each figure.
+    """
+    from ..games import DuelSettings, Outcome, run_duel
+    from ..report.run_figure import draw_run
+    from ..report.unicycle_figures import draw_game, draw_sweep
+    from ..studies.unicycle_claims import FIG_2, play
+
+    draw_game(play(FIG_2), folder / "fig2.png")
+    draw_sweep(FIG_2, folder / "sweep.png")
+    drawn = [
+        ("Unicycles under (1)-(4), in the manner of Fig. 2", "fig2.png"),
+        (
+            "The circle over angle and ratios: theory as lines, simulation "
+            "as marks",
+            "sweep.png",
+        ),
+    ]
+    if seed is None:
+        return drawn
+    run = run_duel(DuelSettings(seed=seed, duration=SHOWN))
+    if run.outcome is Outcome.INTERRUPTED:
+        raise KeyboardInterrupt  # do not draw a partial duel
+    duel = f"duel-seed{seed}.png"
+    draw_run(run, folder / duel)
+    return [*drawn, ("Two NAOs in physics, in the manner of Fig. 5", duel)]

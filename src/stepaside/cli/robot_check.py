@@ -5,9 +5,8 @@ from typing import TYPE_CHECKING
 
 import click
 
-from .options.common_options import figure_option, json_option, workers_option
-from .output_files import attempt, writes_files
-from .progress import show_progress
+from ..core.progress import show_progress
+from .options import figure_option, json_option, workers_option
 from .tables import print_table
 from .terminal import echo, print_json
 
@@ -18,12 +17,11 @@ if TYPE_CHECKING:
 
 @click.command("check")
 @click.argument("folder")
-@workers_option()
+@workers_option
 @figure_option(help="Write an image of the standing robot with its soles.")
 @json_option
-@writes_files
 def check(
-    folder: str, workers: int | None, figure: str | None, as_json: bool
+    folder: str, workers: int | None, figure: Path | None, as_json: bool
 ) -> None:
     """Check whether the robot in FOLDER can play.
 
@@ -35,14 +33,14 @@ def check(
 
     description = load_robot(folder)
     report = _check(description, workers)
-    if figure is not None:
-        from ..report.robot_figure import draw_robot
-
-        attempt(lambda: draw_robot(description, Path(figure)))
     if as_json:
         print_json({"robot": description.name} | report.to_json())
     else:
         _print(report)
+    if figure is not None:
+        from ..report.robot_figure import draw_robot
+
+        draw_robot(description, figure)
     if not report.passes:
         raise SystemExit(1)
 

@@ -56,15 +56,15 @@ def _open_joints(
     from ..robots.description import load_robot
     from .camera_connections import open_camera
 
-    description = load_robot(connection.description)
+    description = load_robot(connection.robot)
     legs, gains = settings.legs, None
     sees = settings.sensing == "cameras"
     motors = motors_of(robot, description)
     if legs.walks:
         if not robot.takes_gains:
             raise click.UsageError(
-                "--legs requires a robot that takes gains, got "
-                f"{connection.robot!r}"
+                "legs requires a robot that takes gains, got "
+                f"{connection.address!r}"
             )
         contract, _ = load_policy(legs, description)
         gains = policy_gains(contract, motors)

@@ -7,8 +7,7 @@ import click
 
 from ..core.atomic_output import atomic_draft, check_file, check_folder
 from ..core.errors import StepAsideError
-from .options.common_options import folder_option, json_option
-from .output_files import overwrite_option
+from .options import folder_option, json_option
 from .tables import print_table
 from .terminal import echo, print_json
 
@@ -28,7 +27,9 @@ from .terminal import echo, print_json
     help="Folder with mesh files; repeatable. The folder of the model by "
     "default.",
 )
-@overwrite_option
+@click.option(
+    "--overwrite", is_flag=True, help="Replace the description in the folder."
+)
 @json_option
 def init(
     model: Path,

@@ -6,9 +6,8 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from ..core.atomic_output import atomic_draft
-from .campaign_options import executor_option
-from .options.common_options import json_option, workers_option
-from .progress import show_progress
+from ..core.progress import show_progress
+from .options import executor_option, json_option, workers_option
 from .tables import print_table
 from .terminal import echo, exit_interrupted, print_json, resume_message
 
@@ -23,8 +22,8 @@ RECORDS = "tune.sqlite"
 @click.argument(
     "folder", type=click.Path(exists=True, file_okay=False, path_type=Path)
 )
-@workers_option()
-@executor_option()
+@workers_option
+@executor_option
 @json_option
 def tune(
     folder: Path, workers: int | None, executor: str, as_json: bool

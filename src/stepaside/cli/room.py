@@ -1,63 +1,46 @@
-"""``stepaside room``: generation of random rooms, and metrics of a room."""
+"""``stepaside run room``: a random room, or the room of a file."""
 
-from dataclasses import replace
+import json
 from pathlib import Path
-from typing import Any
 
 import click
 
-from ..arena import RoomRecipe
-from .options.common_options import (
+from ..arena import Room, RoomRecipe
+from .options import (
     figure_option,
+    file_argument,
     json_option,
+    output_file,
     seed_option,
 )
-from .options.parameter_types import OutputFile, SizeType
-from .options.settings_options import refuse_options, takes
-from .output_files import attempt, writes_files
+from .settings import refuse_settings, takes_settings
 from .tables import print_table, scalar_rows
 from .terminal import print_json
 
-OF_RECIPE = {
-    f"--{name.replace('_', '-')}": name
-    for name in (
-        *("discs", "boxes", "polygons", "doors"),
-        *("smallest", "largest", "door_width"),
-    )
+NAMED = {
+    f"--{name}": name
+    for name in ("width", "depth", "discs", "boxes", "polygons", "doors")
 }
 
 
 @click.command("room")
-@click.argument(
-    "file",
-    required=False,
-    type=click.Path(exists=True, dir_okay=False, path_type=Path),
-)
-@seed_option(default=1, show_default=True)
-@click.option(
-    "--size",
-    type=SizeType(),
-    default="3x3",
-    show_default=True,
-    help="Width and depth of the room [m]; open for a floor without walls.",
-)
-@takes(RoomRecipe, "recipe", OF_RECIPE)
+@file_argument("file", required=False)
+@seed_option()
+@takes_settings(NAMED, settings=RoomRecipe)
 @click.option(
     "--output",
-    type=OutputFile(".toml", ".json"),
+    type=output_file("--output", ".toml", ".json"),
     help="Write the room (.toml or .json).",
 )
 @figure_option()
 @json_option
-@writes_files
 def room(
     file: Path | None,
     seed: int,
-    size: tuple[float, float] | None,
-    output: str | None,
-    figure: str | None,
+    settings: RoomRecipe,
+    output: Path | None,
+    figure: Path | None,
     as_json: bool,
-    recipe: RoomRecipe,
 ) -> None:
     """Generate a random room with initial poses, or inspect a room FILE.
 
@@ -67,42 +50,24 @@ def room(
     from ..arena.free_space import measure_room
 
     if file is None:
-        width, depth = size or (None, None)
-        recipe = replace(recipe, width=width, depth=depth)
-        made = generate_room(recipe, seed)
+        made = generate_room(settings, seed)
     else:
-        _refuse_both()
+        refuse_settings(("",), "a random room, got a room file")
         made = load_room(file)
         if made.starts is not None:
             check_initial_poses(made, made.starts)
     result = measure_room(made)
-    if output is not None and attempt(lambda: _write(made, Path(output))):
-        result["output"] = output
+    print_json(result) if as_json else print_table(scalar_rows(result, 4))
+    if output is not None:
+        _write(made, output)
     if figure is not None:
         from ..report.plan_view import draw_room
 
-        if attempt(lambda: draw_room(made, figure)):
-            result["figure"] = figure
-    if as_json:
-        print_json(result)
-        return
-    print_table(scalar_rows(result, 4))
+        draw_room(made, str(figure))
 
 
-def _refuse_both() -> None:
-    """Refuse options that generate a room if a file is given."""
-    own = {"file", "output", "figure", "as_json", "overwrite"}
-    params = click.get_current_context().command.params
-    refuse_options(
-        {param.name or "" for param in params} - own,
-        "a random room, got a room file",
-    )
-
-
-def _write(made: Any, file: Path) -> None:
+def _write(made: Room, file: Path) -> None:
     """Write a room in the format of the file suffix."""
-    import json
-
     from ..arena import room_to_entries, room_to_toml
     from ..core.atomic_output import atomic_draft
 

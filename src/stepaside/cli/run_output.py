@@ -1,92 +1,119 @@
-"""Saving of a finished run, and the messages about where it is."""
+"""Games of commands: played with a progress bar, saved and reported."""
 
+from collections.abc import Callable
 from pathlib import Path
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING, Any, TypeVar
 
-from ..core.errors import OutputError
-from .terminal import NOTHING_SAVED, echo, exit_interrupted
+from ..core.progress import show_progress
+from .terminal import NOTHING_SAVED, echo, exit_interrupted, print_json
 
 if TYPE_CHECKING:
-    from ..games.outcome import Outcome
+    from ..games.game import Progress
     from ..games.run import Run
 
-
-class SavedRun(NamedTuple):
-    """Location of a saved run.
-
-    Attributes:
-        folder: Run folder; None if the run is not saved.
-        failed: Error on writing to the requested folder; None if there was
-            none.
-    """
-
-    folder: Path | None = None
-    failed: OutputError | None = None
-
-    @property
-    def entries(self) -> dict[str, str]:
-        """Path of the folder as an entry of JSON; empty if not saved."""
-        return {} if self.folder is None else {"run_folder": str(self.folder)}
-
-    def print_paths(self, figure: str) -> None:
-        """Print the paths of figure and run folder, if the run is saved."""
-        if self.folder is not None:
-            drawn = self.folder / figure
-            echo(f"\nfigure:     {drawn}" if drawn.exists() else "")
-            echo(f"run folder: {self.folder}")
-
-    def exit_if_interrupted(self, outcome: "Outcome") -> None:
-        """Exit if Ctrl-C ended the game, and print where the run is saved."""
-        from ..games.outcome import Outcome
-
-        if outcome is Outcome.INTERRUPTED:
-            exit_interrupted(
-                f"{NOTHING_SAVED} without --output"
-                if self.folder is None
-                else f"the run so far is saved in {self.folder}"
-            )
-
-    def raise_failure(self) -> None:
-        """Raise the error on writing, after everything else is printed.
-
-        Raises:
-            OutputError: If the run could not be written where requested.
-        """
-        if self.failed is not None:
-            raise self.failed
+R = TypeVar("R", bound="Run")
 
 
-def check_run_folder(output: Path | None) -> None:
-    """Check that a run can be written to a folder.
+def run_folder(
+    output: Path | None, as_json: bool, name: str | None
+) -> Path | None:
+    """Return the folder of a run, checked; None if it is not saved.
+
+    Args:
+        output: Requested folder.
+        as_json: Whether the result is printed as JSON.
+        name: Name of a new folder in ``runs``; None for no such folder.
 
     Raises:
         ConfigurationError: If the folder is not empty or not writable.
     """
+    from ..report.run_folder import check_output, free_folder
+
+    if output is None and name is not None and not as_json:
+        output = free_folder(Path("runs"), name)
     if output is not None:
-        from ..report.run_folder import check_output
-
         check_output(output)
+    return output
 
 
-def save_run(output: Path | None, run: "Run") -> SavedRun:
-    """Write a run to a folder, or to a temporary one if that fails.
+def play_with_bar(
+    settings: Any, play: Callable[[Any, "Callable[[Progress], None]"], R]
+) -> R:
+    """Play a game with a progress bar on standard error.
 
     Args:
-        output: Requested folder; None saves nothing.
-        run: Run to save.
-
-    Returns:
-        Where it is saved.
+        settings: Settings of the game.
+        play: Function that plays it and reports its progress.
     """
-    if output is None:
-        return SavedRun()
-    from ..report.run_folder import save_run
+    look = "{desc} {bar} {n:.0f}/{total:.0f} s simulated{postfix}"
+    total = settings.duration
+    with show_progress(
+        settings.game, total, "s simulated", bar_format=look
+    ) as bar:
 
-    folder, failed = save_run(output, run)
-    if folder is not None and folder != output:
-        echo(
-            f"stepaside: cannot write to {output}; the run is saved in "
-            f"{folder}",
-            err=True,
+        def report(progress: "Progress") -> None:
+            bar.n = progress.time
+            text = f"{progress.real_time_factor:.1f}x real time"
+            if progress.distance is not None:
+                text = f"distance {progress.distance:.2f} m, {text}"
+            bar.set_postfix_str(text)
+
+        run = play(settings, report)
+        bar.n = min(run.duration, total)
+        bar.refresh()
+    return run
+
+
+def finish_run(
+    run: "Run",
+    folder: Path | None,
+    as_json: bool,
+    show: Callable[[], None],
+    results: Any = None,
+) -> None:
+    """Save and print a run; exit as its outcome and its saving require.
+
+    A run that cannot be saved where requested is saved in the temporary
+    folder.
+
+    Args:
+        run: The run.
+        folder: Folder to write; None to save nothing.
+        as_json: Whether to print one JSON object.
+        show: Prints the summary.
+        results: Results for JSON; those of the run by default.
+
+    Raises:
+        OutputError: If the run could not be written to the folder.
+    """
+    from ..games.outcome import Outcome
+    from ..games.run_archive import results_of
+    from ..report.run_folder import figure_name, save_run
+
+    failed = None
+    if folder is not None:
+        requested = folder
+        folder, failed = save_run(requested, run)
+        if failed is not None and folder is not None:
+            echo(
+                f"stepaside: cannot write to {requested}; the run is saved "
+                f"in {folder}",
+                err=True,
+            )
+    if as_json:
+        saved = {} if folder is None else {"run_folder": str(folder)}
+        print_json((results or results_of(run)) | saved)
+    else:
+        show()
+        if folder is not None:
+            figure = folder / figure_name(run)
+            echo(f"\nfigure:     {figure}" if figure.exists() else "")
+            echo(f"run folder: {folder}")
+    if failed is not None:
+        raise failed
+    if run.outcome is Outcome.INTERRUPTED:
+        exit_interrupted(
+            f"{NOTHING_SAVED} without --output"
+            if folder is None
+            else f"the run so far is saved in {folder}"
         )
-    return SavedRun(folder, failed)

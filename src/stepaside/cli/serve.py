@@ -1,64 +1,71 @@
 """``stepaside serve``: simulated robots for external controllers."""
 
+import gc
+from collections.abc import Sequence
 from contextlib import ExitStack
 from dataclasses import replace
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import click
 
-from ..games.duel_settings import DuelSettings
-from .connection_settings import with_feedback
-from .options.common_options import (
-    domain_option,
-    folder_option,
-    json_option,
-    network_option,
-)
-from .options.parameter_types import SECONDS, NameType
-from .options.settings_options import DUEL, refuse_options, takes_settings
-from .run_output import check_run_folder, save_run
+from ..games.duel_settings import PLAYERS, DuelSettings
+from .connection_settings import join_domain, with_feedback
+from .options import folder_option, json_option
+from .run_output import finish_run, run_folder
+from .settings import takes_settings
 from .tables import format_value, print_table, table_rows
-from .terminal import print_json
 
-SIGHTS = ("ideal", "none")
+if TYPE_CHECKING:
+    from ..games.robot_endpoints import RobotEndpoint
+
+NAMED = {
+    "--seed": "seed",
+    "--duration": "duration",
+    "--robot": "robot",
+    "--distance": "start.distance",
+}
 
 
 @click.command("serve")
-@takes_settings(DuelSettings, DUEL)
+@takes_settings(NAMED, settings=DuelSettings)
 @click.option(
     "--lola",
-    "lola",
     multiple=True,
     metavar="PLAYER=PATH",
-    help="Serve the joints of a player's robot over LoLA, at the path of a "
-    "socket.",
+    help="Serve the joints of a player's robot over LoLA, at a socket.",
 )
 @click.option(
     "--ros2",
-    "ros2",
     multiple=True,
     metavar="PLAYER=/NAMESPACE",
-    help="Serve a player's robot with its own walking controller over ROS 2 "
-    "topics.",
+    help="Serve a player's robot with its own walking controller.",
 )
-@domain_option()
-@network_option()
+@click.option(
+    "--domain",
+    type=click.IntRange(0, 232),
+    help="ROS 2 domain; ROS_DOMAIN_ID by default, or 0 if that is not set.",
+)
+@click.option(
+    "--network",
+    is_flag=True,
+    help="Make the ROS 2 topics visible to other machines.",
+)
 @click.option(
     "--sight",
-    type=NameType(lambda: SIGHTS),
-    default=SIGHTS[0],
+    type=click.Choice(("ideal", "none")),
+    default="ideal",
     show_default=True,
     help="Serve the true line of sight along with each robot, or nothing.",
 )
 @click.option(
-    "--lockstep/--no-lockstep",
-    default=False,
+    "--lockstep",
+    is_flag=True,
     help="Wait for every command instead of running in real time.",
 )
 @click.option(
     "--wait",
-    type=SECONDS,
+    type=click.FloatRange(1e-9, 1e9),
     default=60.0,
     show_default=True,
     help="Maximum time to wait until all clients are ready [s].",
@@ -67,12 +74,15 @@ SIGHTS = ("ideal", "none")
 @json_option
 def serve(
     settings: DuelSettings,
+    lola: tuple[str, ...],
+    ros2: tuple[str, ...],
+    domain: int | None,
+    network: bool,
     sight: str,
     lockstep: bool,
     wait: float,
     output: Path | None,
     as_json: bool,
-    **languages: Any,
 ) -> None:
     """Serve simulated robots over LoLA or ROS 2, and play a duel.
 
@@ -85,18 +95,34 @@ def serve(
     stiffness on. LoLA has a cycle of 12 ms; an ideal body is therefore
     replaced by the delayed one.
     """  # noqa: D301 (\b is a character for click)
-    import gc
-
+    from ..games.robot_endpoints import LolaEndpoint, Ros2Endpoint
     from ..games.served_duel import serve_duel
-    from .server_options import endpoints_of
 
-    if not languages["ros2"]:
-        refuse_options({"domain", "network"}, "--ros2")
-    check_run_folder(output)
-    with ExitStack() as stack:
-        endpoints = endpoints_of(
-            languages, stack, ideal_sight=sight == "ideal"
+    if not ros2 and (network or domain is not None):
+        raise click.UsageError("--domain and --network require --ros2")
+    folder, sees = run_folder(output, as_json, None), sight == "ideal"
+    endpoints: dict[str, RobotEndpoint] = {
+        name: LolaEndpoint(place, sees)
+        for name, place in _players("--lola", lola, "PATH", ())
+    }
+    served_over_ros2 = _players("--ros2", ros2, "/NAMESPACE", endpoints)
+    if not endpoints and not served_over_ros2:
+        raise click.UsageError(
+            "at least one player must be served: --lola PLAYER=PATH or "
+            "--ros2 PLAYER=/NAMESPACE"
         )
+    with ExitStack() as stack:
+        if served_over_ros2:
+            from ..drivers.ros2_dds import parse_namespace
+            from ..drivers.ros2_server import WorldClock
+
+            dds = join_domain(domain, network=network)
+            stack.callback(dds.close)
+            clock = WorldClock(dds)
+            for name, place in served_over_ros2:
+                endpoints[name] = Ros2Endpoint(
+                    dds, clock, parse_namespace(place), sees
+                )
         gc.collect()
         gc.freeze()
         served = serve_duel(
@@ -105,25 +131,34 @@ def serve(
             lock_step=lockstep,
             patience=wait,
         )
-    run, plain = served.run, served.to_json()
-    saved = save_run(output, run)
-    if as_json:
-        print_json(plain | saved.entries)
-    else:
-        late = ", ".join(f"{k} ms: {n}" for k, n in served.lateness_ms.items())
-        print_table(
-            [
-                ("outcome", f"{plain['outcome']}: {plain['message']}"),
-                ("pursuer radius", _radius(plain["pursuer"])),
-                ("evader radius", _radius(plain["evader"])),
-                *table_rows(plain, ("distance_m",), 3),
-                ("late ticks", str(served.late_ticks)),
-                ("lateness", late),
-            ]
-        )
-        saved.print_paths(f"{run.game}.png")
-    saved.raise_failure()
-    saved.exit_if_interrupted(run.outcome)
+    plain = served.to_json()
+    late = ", ".join(f"{k} ms: {n}" for k, n in served.lateness_ms.items())
+    rows = [
+        ("outcome", f"{plain['outcome']}: {plain['message']}"),
+        ("pursuer radius", _radius(plain["pursuer"])),
+        ("evader radius", _radius(plain["evader"])),
+        *table_rows(plain, ("distance_m",), 3),
+        ("late ticks", str(served.late_ticks)),
+        ("lateness", late),
+    ]
+    finish_run(served.run, folder, as_json, lambda: print_table(rows), plain)
+
+
+def _players(
+    option: str, texts: Sequence[str], address: str, taken: Any
+) -> list[tuple[str, str]]:
+    """Parse players and addresses; each player may be served once."""
+    found = dict[str, str]()
+    for text in texts:
+        name, _, place = text.partition("=")
+        known = name in PLAYERS and name not in taken and name not in found
+        if not known or not place:
+            raise click.UsageError(
+                f"{option} must be {' or '.join(PLAYERS)}={address}, each "
+                f"player once, got {text!r}"
+            )
+        found[name] = place
+    return list(found.items())
 
 
 def _radius(player: dict[str, Any]) -> str:

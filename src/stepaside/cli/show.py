@@ -2,7 +2,7 @@
 
 import webbrowser
 from collections.abc import Callable
-from dataclasses import fields, replace
+from dataclasses import replace
 from pathlib import Path
 from tempfile import mkdtemp
 from typing import TYPE_CHECKING, Any, cast
@@ -11,13 +11,11 @@ import click
 
 from ..core.atomic_output import FIGURES, check_file, check_folder, reason_of
 from ..core.errors import ConfigurationError, OutputError
+from ..core.progress import show_progress
 from ..report.film_settings import FilmSettings
 from ..report.text_escaping import visible
-from .options.common_options import browser_option, figure_width, json_option
-from .options.settings_options import refuse_options, takes
-from .output_files import overwrite_option
-from .progress import IMAGES, announce_effort, show_progress
-from .run_output import check_run_folder, save_run
+from .options import browser_option, figure_width, json_option
+from .settings import GIVEN, refuse_settings, takes_settings
 from .tables import print_columns, print_table
 from .terminal import NOTHING_SAVED, echo, exit_interrupted, print_json
 
@@ -29,9 +27,15 @@ if TYPE_CHECKING:
 PAGES, FILMS = (".html", ".htm"), (".mp4", ".gif")
 FORMATS = (".mcap", ".csv", ".parquet", ".urdf")
 SUFFIXES = (*PAGES, *FILMS, *FIGURES, *FORMATS)
-FILM = {
-    ".mp4": FilmSettings(),
-    ".gif": FilmSettings(480, 270, rate=10.0, duration=12.0),
+GIF: dict[str, Any] = {
+    "width": 480,
+    "height": 270,
+    "rate": 10.0,
+    "duration": 12.0,
+}
+NAMED = {
+    f"--{name}": name
+    for name in ("width", "height", "rate", "speed", "duration", "camera")
 }
 # Columns by game: header, entry of the summary, and format.
 COLUMNS = {
@@ -99,19 +103,17 @@ COLUMNS = {
     help="Play the game again for what a run folder does not hold: efforts, "
     "IMU, foot forces, plans, strategy, images (.mcap, .csv, .parquet).",
 )
-@takes(FilmSettings, "film", build=dict)
+@takes_settings(NAMED, film=FilmSettings)
 @figure_width
-@browser_option()
-@overwrite_option
+@browser_option
 @json_option
 def show(
     runs: tuple[Path, ...],
     outputs: tuple[Path, ...],
     frames: tuple[str, ...],
     repeat: bool,
-    film: dict[str, Any],
+    film: FilmSettings,
     opens: bool,
-    overwrite: bool,
     as_json: bool,
 ) -> None:
     """Show the runs in the folders RUNS, or write them as files.
@@ -124,12 +126,11 @@ def show(
     from ..games.run_archive import load_run, results_of
 
     if not {".mp4", ".gif"} & {path.suffix for path in outputs}:
-        names = {field.name for field in fields(FilmSettings)}
-        refuse_options(names, "-o NAME.mp4 or NAME.gif")
+        refuse_settings(("",), "-o NAME.mp4 or NAME.gif")
     is_bag = runs[0].is_file() or (runs[0] / "metadata.yaml").is_file()
-    if not is_bag:
-        refuse_options({"frames"}, "a ROS 2 bag")
-    _check_outputs(outputs, overwrite=overwrite, is_bag=is_bag)
+    if frames and not is_bag:
+        raise click.UsageError("--frame requires a ROS 2 bag")
+    _check_outputs(outputs, is_bag=is_bag)
     bag: dict[str, Any] = {}
     if is_bag:
         loaded: list[Run] = [_measure(runs, frames)]
@@ -146,8 +147,6 @@ def show(
     if shown:
         folder = Path(mkdtemp(prefix="stepaside-"))
         outputs = (folder / f"{loaded[0].name}.html",)
-    elif outputs or not single:
-        refuse_options(("opens",), "one run without -o")
     written: dict[str, Any] = {}
     failed: list[OutputError] = []
     try:
@@ -177,10 +176,10 @@ def show(
         raise failed[0]
 
 
-def _check_outputs(
-    outputs: tuple[Path, ...], *, overwrite: bool, is_bag: bool
-) -> None:
+def _check_outputs(outputs: tuple[Path, ...], *, is_bag: bool) -> None:
     """Refuse outputs that cannot be written, or that coincide."""
+    from ..report.run_folder import check_output
+
     if len({path.resolve() for path in outputs}) < len(outputs):
         raise ConfigurationError("each -o must name another file")
     for path in outputs:
@@ -190,11 +189,11 @@ def _check_outputs(
                 "bag"
             )
         if not path.suffix and is_bag:
-            check_run_folder(path)
+            check_output(path)
         elif path.suffix in FORMATS:
             check_folder(path, "-o", new=True)
         else:
-            check_file(path, "-o", suffixes=SUFFIXES, overwrite=overwrite)
+            check_file(path, "-o", suffixes=SUFFIXES, overwrite=True)
 
 
 def _measure(bags: tuple[Path, ...], frames: tuple[str, ...]) -> Any:
@@ -214,7 +213,7 @@ def _write(
     path: Path,
     folders: tuple[Path, ...],
     runs: "list[Run]",
-    film: dict[str, Any],
+    film: FilmSettings,
     *,
     repeat: bool,
 ) -> dict[str, Any]:
@@ -231,8 +230,9 @@ def _write(
             f"-o {path}"
         )
     if not suffix:
-        saved = save_run(path, runs[0])
-        saved.raise_failure()
+        from ..report.run_folder import write_run
+
+        write_run(path, runs[0])
     elif suffix in FIGURES:
         _draw(runs, path)
     elif suffix in PAGES:
@@ -240,9 +240,9 @@ def _write(
 
         write_page(runs[0], path)
     elif suffix in FILMS:
-        chosen = _even(replace(FILM[suffix], **film))
-        _announce(chosen, runs[0])
-        more["pictures"] = _render(folders[0], path, chosen)
+        if suffix == ".gif":
+            film = _small(film)
+        more["pictures"] = _render(folders[0], path, _even(film))
     else:
         more["absent"] = _export(folders[0], path, repeat=repeat)
     try:
@@ -279,16 +279,11 @@ def _even(film: FilmSettings) -> FilmSettings:
     )
 
 
-def _announce(film: FilmSettings, run: "Run") -> None:
-    """Announce long rendering."""
-    shown = min(float(run.times[-1]) - film.begin, film.duration)
-    number = max(shown, 0.0) * film.rate / film.speed
-    size = film.width * film.height / (640 * 480)
-    announce_effort(
-        f"a video of about {number:.0f} frames",
-        number * size / IMAGES,
-        workers=None,
-    )
+def _small(film: FilmSettings) -> FilmSettings:
+    """Return settings of a GIF: small, unless they are given."""
+    given = click.get_current_context().meta[GIVEN]
+    chosen = {k: v for k, v in GIF.items() if k not in given}
+    return replace(film, **chosen)
 
 
 def _render(run: Path, file: Path, film: FilmSettings) -> int:

@@ -6,35 +6,35 @@ from typing import Any
 import click
 
 from ..core.atomic_output import check_file
-from .campaign_options import (
-    CampaignOptions,
-    campaign_options,
-    finish_campaign,
-    run_campaign,
+from .options import (
+    TextType,
+    executor_option,
+    figure_option,
+    json_option,
+    shard_option,
+    workers_option,
 )
-from .options.common_options import figure_option, json_option
-from .options.parameter_types import TextType
-from .output_files import attempt, writes_files
+from .study_output import finish_study, run_with_bar
 from .tables import label_of, print_columns
 from .terminal import print_json, write_result
 
 SUFFIX = ".sqlite"
 
 
-class RecordsFile(TextType[Path]):
-    """SQLite file of records, which may exist."""
-
-    name = "FILE"
-
-    def parse(self, value: Any) -> Path:
-        """Refuse a file that cannot be written."""
-        file = Path(value)
-        check_file(file, "--output", suffixes=(SUFFIX,), overwrite=True)
-        return file
+def _records(text: str) -> Path:
+    """Return a file of records, which may exist, checked."""
+    check_file(Path(text), "--output", suffixes=(SUFFIX,), overwrite=True)
+    return Path(text)
 
 
 @click.command("study")
 @click.argument("source", metavar="PRESET|FILE")
+@click.argument(
+    "parts",
+    nargs=-1,
+    metavar="[PART]...",
+    type=click.Path(exists=True, dir_okay=False, path_type=Path),
+)
 @click.option(
     "--set",
     "sets",
@@ -48,32 +48,32 @@ class RecordsFile(TextType[Path]):
     "--by",
     multiple=True,
     metavar="NAME",
-    help="Value that tells the rows of the table apart; repeatable.  "
-    "[default: those of the study]",
+    help="Value that tells the rows of the table apart; repeatable.",
 )
 @click.option(
     "--value",
     "values",
     multiple=True,
     metavar="NAME",
-    help="Value of the table; repeatable.  [default: those of the study]",
+    help="Value of the table; repeatable.",
 )
 @click.option(
-    "--print/--no-print",
+    "--settings",
     "shows",
-    default=False,
+    is_flag=True,
     help="Print the file of the study, to copy it, and end.",
 )
 @click.option(
     "--output",
-    type=RecordsFile(),
+    type=TextType("FILE", _records),
     help="SQLite file of the records; an interrupted study in it is "
-    "continued. None by default.",
+    "continued.",
 )
-@campaign_options
+@workers_option
+@executor_option
+@shard_option
 @figure_option(help="Write a figure of the first value.")
 @json_option
-@writes_files
 def study(
     source: str,
     sets: tuple[str, ...],
@@ -81,47 +81,47 @@ def study(
     values: tuple[str, ...],
     shows: bool,
     output: Path | None,
-    campaign: CampaignOptions,
-    figure: str | None,
+    parts: tuple[Path, ...],
+    figure: Path | None,
     as_json: bool,
+    **campaign: Any,
 ) -> None:
     """Play all combinations of settings of a PRESET or FILE.
 
     Presets: duels, tournament, rating, pursuers, robustness, pushes and
     people. FILE is TOML with game, settings that all cases share, and a grid
     of values, or a game file; see docs/campaigns.md. Prints shares and means
-    with 95 % intervals for each combination of settings, over all seeds.
+    with 95 % intervals for each combination of settings, over all seeds. The
+    records of the files PART of shards are first added to --output.
     """
+    from ..studies.study import merge_results
     from ..studies.study_design import load_study, preset_file
 
     if shows:
         write_result(preset_file(source).read_text("utf-8"))
         return
     made = load_study(source, sets)
-    run = run_campaign(made, output, campaign, "games")
+    if parts:
+        if output is None:
+            raise click.UsageError("files of shards require --output")
+        merge_results(parts, output)
+    run = run_with_bar(made, output, "games", **campaign)
     rows = run.table(by, values) if run.finished else []
-    if figure is not None and run.completed:
-        from ..report.study_figures import draw_study
-
-        names = by or made.by
-        attempt(lambda: draw_study(rows, names, figure))
     if as_json:
         print_json({"planned": run.total, "done": run.finished, "rows": rows})
     else:
-        print_rows(rows, by or made.by, values or made.values)
-    finish_campaign(run, "games")
+        _print(rows, by or made.by, values or made.values)
+    if figure is not None and run.completed:
+        from ..report.study_figures import draw_study
+
+        draw_study(rows, by or made.by, str(figure))
+    finish_study(run, "games")
 
 
-def print_rows(
+def _print(
     rows: list[dict[str, Any]], by: tuple[str, ...], values: tuple[str, ...]
 ) -> None:
-    """Print a row for each group: shares and means with 95 % intervals.
-
-    Args:
-        rows: Rows of :func:`stepaside.studies.tabulation.tabulate`.
-        by: Names of the groups.
-        values: Names of the values.
-    """
+    """Print a row for each group: shares and means with 95 % intervals."""
     lines = [
         [
             *(_text(row[name]) for name in by),

@@ -24,7 +24,6 @@ UNITS = {
 # Labels of names that are not clear by themselves.
 LABELS = {
     "angle_rad": "evasion angle",
-    "body_m": "capture distance",
     "bearing_rad": "bearing of the pursuer",
     "body_radius_m": "radius of a body",
     "capture_m": "capture distance",
@@ -131,19 +130,9 @@ def scalar_rows(
     return table_rows(result, names, digits)
 
 
-def percent(fraction: float | None) -> str:
-    """Return a fraction in percent; "-" for None."""
-    return "-" if fraction is None else f"{100 * fraction:.1f} %"
-
-
-def interval(low: float, high: float, digits: int = 1) -> str:
-    """Return an interval of fractions, in percent."""
-    return f"{100 * low:.{digits}f}-{100 * high:.{digits}f} %"
-
-
-def number(value: float | None, unit: str = "", digits: int = 3) -> str:
-    """Return a number with its unit; "-" for None."""
-    return "-" if value is None else f"{value:.{digits}f} {unit}".strip()
+def finite(value: float) -> float | None:
+    """Return a value for JSON: None for NaN and infinity."""
+    return value if abs(value) < float("inf") else None
 
 
 def print_columns(

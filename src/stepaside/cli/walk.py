@@ -1,79 +1,43 @@
-"""``stepaside walk``: the walk of one humanoid, with pushes."""
+"""``stepaside run walk``: the walk of one humanoid, with pushes."""
 
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import click
 
 from ..games.walk_settings import WalkSettings
-from .options.common_options import figure_option, folder_option, json_option
-from .options.settings_options import WALK, takes_settings
-from .output_files import attempt, writes_files
-from .progress import SIMULATED, announce_effort, show_progress
-from .run_output import check_run_folder, save_run
+from .options import folder_option, json_option
+from .run_output import finish_run, play_with_bar, run_folder
+from .settings import takes_settings
 from .tables import print_table
-from .terminal import print_json
 
-if TYPE_CHECKING:
-    from ..games.run import WalkRun
+NAMED = {
+    "--seed": "seed",
+    "--duration": "duration",
+    "--robot": "robot",
+    "--gait": "gait",
+    "--body": "body",
+    "--bearing": "bearing",
+    "--push": "pushes",
+}
 
 
 @click.command("walk")
-@takes_settings(WalkSettings, WALK)
+@takes_settings(NAMED, settings=WalkSettings)
 @folder_option(help="Run folder; the run is not saved by default.")
-@figure_option()
 @json_option
-@writes_files
-def walk(
-    settings: WalkSettings,
-    output: Path | None,
-    figure: str | None,
-    as_json: bool,
-) -> None:
+def walk(settings: WalkSettings, output: Path | None, as_json: bool) -> None:
     """Simulate the walk of one humanoid and measure it.
 
     Speed, turning, slip, tracking error and estimation error are measured
     after the first three seconds, in the frame of the support foot.
-    `stepaside show` replays the run folder.
     """
-    from ..games.outcome import Outcome
+    from ..games.recorded_game import run_walk
     from ..games.run_archive import results_of
 
-    check_run_folder(output)
-    seconds = settings.duration
-    announce_effort(f"a walk of {seconds:g} s", seconds / SIMULATED)
-    run = _walk(settings)
-    saved = save_run(output, run)
-    if figure is not None and run.outcome is not Outcome.INTERRUPTED:
-        from ..report.run_figure import draw_run
-
-        attempt(lambda: draw_run(run, Path(figure)))
-    summary = results_of(run) | saved.entries
-    if as_json:
-        print_json(summary)
-    else:
-        _print(summary)
-        saved.print_paths(f"{run.game}.png")
-    saved.raise_failure()
-    saved.exit_if_interrupted(run.outcome)
-
-
-def _walk(settings: WalkSettings) -> "WalkRun":
-    """Walk with a progress bar on standard error."""
-    from ..games.game import Progress
-    from ..games.recorded_game import run_walk
-
-    look = "{desc} {bar} {n:.0f}/{total:.0f} s simulated"
-    total = settings.duration
-    with show_progress("walk", total, "s simulated", bar_format=look) as bar:
-
-        def report(progress: Progress) -> None:
-            bar.n = progress.time
-            bar.refresh()
-
-        result = run_walk(settings, report)
-        bar.n = result.duration
-    return result
+    folder = run_folder(output, as_json, None)
+    run = play_with_bar(settings, run_walk)
+    finish_run(run, folder, as_json, lambda: _print(results_of(run)))
 
 
 def _print(summary: dict[str, Any]) -> None:

@@ -6,6 +6,7 @@ description and from the type of the field.
 """
 
 from collections.abc import Callable, Collection, Mapping
+from contextlib import suppress
 from dataclasses import (
     MISSING,
     dataclass,
@@ -17,7 +18,7 @@ from dataclasses import (
 from difflib import get_close_matches
 from enum import Enum
 from functools import cache
-from math import isfinite
+from math import isfinite, radians
 from pathlib import Path
 from types import NoneType, UnionType
 from typing import (
@@ -37,6 +38,8 @@ from .ranges import Range
 
 T = TypeVar("T")
 REQUIRED: Any = MISSING  # as a default: the setting has none
+ANGLES = {"rad": 1.0, "deg": radians(1.0)}  # units of angles in texts
+NONE = "none"  # text of no value
 _KEY = "setting"  # in the metadata of a field
 
 
@@ -79,6 +82,18 @@ class Setting:
             text += " {unit}"
         return text.replace("{unit}", f"[{self.range.unit}]") + "."
 
+    def meant(self, text: str) -> Any:
+        """Return the value of a word, a preset or an angle with its unit."""
+        for named in (self.words, self.presets):
+            if named is not None and text in named:
+                return named[text]
+        if self.range is not None and self.range.unit == "rad":
+            for unit, factor in ANGLES.items():
+                if text.endswith(unit):
+                    with suppress(ValueError):
+                        return float(text.removesuffix(unit)) * factor
+        return text
+
     @property
     def full_text(self) -> str:
         """The meaning with unit and permitted values."""
@@ -118,21 +133,51 @@ def settings_of(kind: type[Any]) -> Mapping[str, Setting]:
     return found
 
 
-class _Entry(NamedTuple):
-    """Field of a dataclass or a named tuple."""
+class Entry(NamedTuple):
+    """Field of a dataclass or a named tuple.
+
+    Attributes:
+        hint: Type.
+        described: Description.
+        default: Default; :data:`REQUIRED` if there is none.
+    """
 
     hint: Any
     described: Setting
-    default: Any  # MISSING if it is required
+    default: Any
 
 
 @cache
-def _entries(kind: Any) -> dict[str, _Entry]:
+def entries_of(kind: Any, section: str = "") -> dict[str, Entry]:
+    """Return every setting by its path, like ``physics.friction``.
+
+    Args:
+        kind: Class of the settings.
+        section: Path of the section that they are.
+    """
+    found = dict[str, Entry]()
+    for name, entry in _entries(kind).items():
+        path = _joined(section, name)
+        found[path] = entry
+        if is_dataclass(entry.default):
+            found |= entries_of(cast(Any, type(entry.default)), path)
+    return found
+
+
+def similar_paths(kind: Any, name: str) -> list[str]:
+    """Return paths of settings that a wrong path may mean, at most three."""
+    last, paths = name.rpartition(".")[2], entries_of(kind)
+    near = [path for path in paths if path.rpartition(".")[2] == last]
+    return (near or get_close_matches(name, paths, 3))[:3]
+
+
+@cache
+def _entries(kind: Any) -> dict[str, Entry]:
     hints = get_type_hints(kind)
     if not is_dataclass(kind):  # a named tuple
         defaults = kind._field_defaults
         return {
-            name: _Entry(hints[name], _PLAIN, defaults.get(name, MISSING))
+            name: Entry(hints[name], _PLAIN, defaults.get(name, MISSING))
             for name in kind._fields
         }
     found = {}
@@ -142,7 +187,7 @@ def _entries(kind: Any) -> dict[str, _Entry]:
             default = each.default_factory()
         described = each.metadata.get(_KEY, _PLAIN)
         if each.init:
-            found[each.name] = _Entry(hints[each.name], described, default)
+            found[each.name] = Entry(hints[each.name], described, default)
     return found
 
 
@@ -194,12 +239,21 @@ class EntryReader:
         origin, args = get_origin(hint), get_args(hint)
         if hint is Any:
             return value
+        if isinstance(value, str):
+            value = described.meant(value)
+            if described.presets is not None and isinstance(value, str):
+                rule = f"be one of {', '.join(described.presets)}"
+                return self._note(path, rule, value)
         if origin in (Union, UnionType):
             return self._read_any(value, args, path, described, base)
         if origin is Literal or described.names:
             return self._read_name(value, path, described.names or args)
         if hint in self._readers:
-            return self._read_other(value, hint, path)
+            if isinstance(value, hint):
+                return value
+            return self._read_by(self._readers[hint], value, path)
+        if isinstance(value, str) and hasattr(hint, "from_text"):
+            return self._read_by(hint.from_text, value, path)
         if is_dataclass(hint) or hasattr(hint, "_fields"):
             return self.read_table(value, hint, path, base)
         if origin in (tuple, list):
@@ -228,7 +282,7 @@ class EntryReader:
         if not isinstance(value, Mapping):
             return self._note(path, "be a table", value)
         if not self._ignoring:
-            self._note_unknown(value, entries, path)
+            self._note_unknown(value, kind, path)
         values = {}
         for name, (hint, described, default) in entries.items():
             own = getattr(base, name) if isinstance(base, kind) else default
@@ -255,15 +309,18 @@ class EntryReader:
         self.problems.append(f"{path} must {rule}, got {shown(value)}")
 
     def _note_unknown(
-        self, value: Mapping[str, Any], entries: Collection[str], path: str
+        self, value: Mapping[str, Any], kind: Any, path: str
     ) -> None:
+        entries = _entries(kind)
         unknown = [name for name in value if name not in entries]
         if not unknown:
             return
-        near = [x for u in unknown for x in get_close_matches(u, entries, 1)]
+        near = [x for u in unknown for x in similar_paths(kind, u)]
         hint = f"there are {', '.join(entries)}"
         if near:
-            hint = f"did you mean {' or '.join(near)}?"
+            hint = (
+                f"did you mean {' or '.join(_joined(path, n) for n in near)}?"
+            )
         listed = ", ".join(_joined(path, name) for name in unknown)
         self.problems.append(f"unknown entry {listed}; {hint}")
 
@@ -276,7 +333,9 @@ class EntryReader:
         base: Any,
     ) -> Any:
         """Return a value as the first of several types that fits."""
-        if value is None and NoneType in hints:
+        if NoneType in hints and (
+            value is None or value == NONE and str not in hints
+        ):
             return None
         told: list[str] = []
         before = len(self.problems)
@@ -298,11 +357,11 @@ class EntryReader:
             return value
         return self._note(path, f"be one of {', '.join(names)}", value)
 
-    def _read_other(self, value: Any, kind: type[Any], path: str) -> Any:
-        if isinstance(value, kind):
-            return value
+    def _read_by(
+        self, read: Callable[[Any], Any], value: Any, path: str
+    ) -> Any:
         try:
-            return self._readers[kind](value)
+            return read(value)
         except StepAsideError as error:
             self.problems.append(f"{path}: {error}")
         return None

@@ -82,7 +82,7 @@ class JointTargets(NamedTuple):
 class Robot(ABC):
     """Robot behind a vendor's interface.
 
-    ``stepaside play --robot FILE.py:CLASS`` drives it: limits, safety,
+    ``stepaside play FILE.py:CLASS`` drives it: limits, safety,
     guardian, record and status line are those of every robot.
 
     All methods are called from one thread, one after the other; only the

@@ -14,6 +14,7 @@ from .robot_settings import (
     settings_of_robot,
     with_legs,
 )
+from .settings_reader import nested
 
 ALWAYS = {"name", "role", "team", "body", "target", "start"}
 OF_TEMPLATE = {
@@ -35,8 +36,8 @@ def load_game(path: AnyPath, **changes: Any) -> GameSettings:
 
     Args:
         path: TOML file.
-        changes: Settings of the game, like the seed, that replace those of
-            the file.
+        changes: Settings that replace those of the file, by name with dots
+            like ``physics.friction``.
 
     Returns:
         The settings.
@@ -46,7 +47,8 @@ def load_game(path: AnyPath, **changes: Any) -> GameSettings:
             invalid, or a robot does not exist.
     """
     file = as_path(path, "path")
-    return parse_game(load_entries(file) | changes, str(file))
+    entries = nested(changes, load_entries(file))
+    return parse_game(entries, str(file))
 
 
 def parse_game(entries: dict[str, Any], source: str) -> GameSettings:

@@ -1,11 +1,12 @@
 """Pushes of robots."""
 
+import re
 from collections.abc import Sequence
 from dataclasses import dataclass
 from math import pi
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
-from ..core.errors import ConfigurationError
+from ..core.errors import ConfigurationError, shown
 from ..core.ranges import Range
 from ..core.setting import REQUIRED, check_settings, setting
 
@@ -44,6 +45,42 @@ class Push:
     def __post_init__(self) -> None:
         """Check the ranges."""
         check_settings(self, prefix="push ")
+
+    @classmethod
+    def from_text(cls, text: str) -> "Push":
+        """Return the push of a text: 1.2@5:90deg is 1.2 N s at 5 s, left.
+
+        The player may precede it, as in ``pursuer=1.2@5:90deg``.
+
+        Raises:
+            ConfigurationError: If it is not such a text.
+        """
+        parts = _SYNTAX.fullmatch(text)
+        if parts is None:
+            raise ConfigurationError(
+                "a push must be [PLAYER=]IMPULSE@TIME:DIRECTION [N s, s, "
+                f"angle] like 1.2@5:90deg, got {shown(text)}"
+            )
+        return cls(
+            _number(parts["impulse"]),
+            _number(parts["time"]),
+            _number(parts["direction"]),
+            player=parts["player"] or "",
+        )
+
+
+_SYNTAX = re.compile(
+    r"(?:(?P<player>[a-z]+)=)?(?P<impulse>[^@=]+)@(?P<time>[^:]+):"
+    r"(?P<direction>.+)"
+)
+
+
+def _number(text: str) -> Any:
+    """Return a number; any other text as it is, for the checks of fields."""
+    try:
+        return float(text)
+    except ValueError:
+        return text
 
 
 class ScheduledPush(NamedTuple):

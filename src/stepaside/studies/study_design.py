@@ -14,9 +14,10 @@ import numpy as np
 
 from ..core.entries import load_entries
 from ..core.errors import AnyPath, ConfigurationError, as_path
+from ..games.settings_reader import nested
 from ..strategies.registry import file_of
 from .study import MOST_CASES, Study
-from .study_games import GAMES, nested, on_legs, settings_of
+from .study_games import GAMES, on_legs, settings_of_study
 from .tabulation import Record
 
 PRESETS = Path(__file__).with_name("presets")
@@ -73,7 +74,7 @@ class _Design(NamedTuple):
             if name in self.variants:
                 changes = dict(self.variants[name][value])
             entries = nested(changes, entries)
-        return settings_of(GAMES[self.game].settings, entries)
+        return settings_of_study(GAMES[self.game].settings, entries)
 
     def measure(self, case: Case) -> Record:
         """Play the game of a case; return its record."""

@@ -8,29 +8,20 @@ from typing import Any, NamedTuple, get_type_hints
 from ..arena import Room, RoomRecipe, draw_any_start, load_room
 from ..core.errors import ConfigurationError
 from ..core.player_identity import Role
-from ..games.configuration_file import parse_settings
 from ..games.duel_settings import DuelSettings
 from ..games.floor_games import play_unicycles
 from ..games.game_file import parse_game
 from ..games.game_settings import GameSettings
 from ..games.outcome import Outcome
 from ..games.recorded_game import run_game, run_walk
-from ..games.robot_settings import (
-    body_of_robot,
-    with_legs,
-    with_players,
-    with_robot,
-)
+from ..games.settings_reader import settings_of
+from ..games.unicycle_settings import UnicycleSettings
 from ..games.walk_settings import WalkSettings
-from ..planning import PRESETS
-from ..sim.body_settings import BODIES
 from ..strategies import load_strategy
 from ..strategies.registry import check_strategy_name
 from ..strategies.strategy_game import StepGame
 from ..theory.unicycle.adaptive_simulation import simulate
 from ..theory.unicycle.circles import find_circle
-from ..theory.unicycle.relative_coordinates import RelativeStart
-from ..theory.unicycle.unicycle_game import MOVE_ASIDE, make_game
 from .duel_record import play_duel, play_duels
 from .person_encounters import Encounter, play_encounter, play_encounters
 from .push_limit import PushSettings, play_push
@@ -40,8 +31,6 @@ from .tournament_settings import TournamentSettings
 from .tournament_strategies import gain_of
 
 EARLIEST_CAPTURE = 0.02  # with any heading capture ends no game, in [m]
-CONTACT = 1e-6  # distance of unicycles at which their game ends, in [m]
-DECISION_TIME = 0.01  # of unicycles with named strategies, in [s]
 FLOORS = ("room", "open", "any heading")
 
 
@@ -100,43 +89,6 @@ class PairingSettings:
 
 
 @dataclass(frozen=True)
-class UnicycleSettings:
-    """Settings of one game of two unicycles.
-
-    Attributes:
-        pursuer_speed: Speed of the pursuer, in [m/s].
-        evader_speed: Speed of the evader, in [m/s].
-        pursuer_gain: Gain of the pursuer, in [1/s].
-        evader_gain: Gain of the evader, in [1/s].
-        angle: Evasion angle, in [rad].
-        law: Turning law of the evader.
-        side_rule: Rule by which the evader chooses its side.
-        distance: Initial distance, in [m].
-        aim: Initial bearing of the evader in the pursuer's frame, in [rad].
-        bearing: Initial bearing of the pursuer in the evader's frame, in
-            [rad].
-        duration: Duration of the game, in [s].
-        pursuer_strategy: Strategy of the pursuer, which decides every
-            ``DECISION_TIME``; empty for the paper's.
-        evader_strategy: Strategy of the evader, likewise.
-    """
-
-    pursuer_speed: float = 0.1
-    evader_speed: float = 0.1
-    pursuer_gain: float = 0.2
-    evader_gain: float = 0.2
-    angle: float = MOVE_ASIDE
-    law: str = "proportional"
-    side_rule: str = "behind"
-    distance: float = 1.0
-    aim: float = 0.0
-    bearing: float = 0.0
-    duration: float = 60.0
-    pursuer_strategy: str = ""
-    evader_strategy: str = ""
-
-
-@dataclass(frozen=True)
 class TeamGame:
     """A game, with one strategy for all of a role.
 
@@ -192,31 +144,8 @@ class StudyGame(NamedTuple):
     play_together: Callable[[list[Any]], list[Record]] | None = None
 
 
-def nested(
-    changes: Mapping[str, Any], below: Mapping[str, Any] | None = None
-) -> dict[str, Any]:
-    """Return nested entries with changes by name with dots.
-
-    A preset, like ``body = "hardware"``, below changes of its entries
-    becomes the entry with an empty name among them.
-    """
-    found = dict(below or {})
-    for name, value in changes.items():
-        head, dot, rest = name.partition(".")
-        if dot or isinstance(value, dict):
-            own = found.get(head, {})
-            own = own if isinstance(own, dict) else {"": own}
-            found[head] = nested({rest: value} if dot else value, own)
-        else:
-            found[head] = value
-    return found
-
-
-def settings_of(kind: type[Any], entries: Mapping[str, Any]) -> Any:
-    """Return settings from nested entries.
-
-    ``robot`` and ``legs.network`` bring the gait, control and distances of
-    the robot; ``gait`` and ``body`` may be names of presets.
+def settings_of_study(kind: type[Any], entries: Mapping[str, Any]) -> Any:
+    """Return settings from nested entries; see :func:`.settings_of`.
 
     Raises:
         StepAsideError: If an entry is unknown or out of its range, or if
@@ -233,43 +162,13 @@ def settings_of(kind: type[Any], entries: Mapping[str, Any]) -> Any:
         if not duel.get("robot") and not duel.get("legs", {}).get("network"):
             duel.setdefault("gait", "fast")  # NAO's, if none is chosen
         entries["duel"] = duel
-    names = {each.name for each in fields(kind)}
-    hints = get_type_hints(kind)
+    names, hints = {each.name for each in fields(kind)}, get_type_hints(kind)
     inner = {
-        name: settings_of(hints[name], entries.pop(name, {}))
+        name: settings_of_study(hints[name], entries.pop(name, {}))
         for name in ("walk", "duel")
         if name in names
     }
-    base = replace(kind(), **inner)
-    if "robot" in names:
-        base = with_robot(base, str(entries.pop("robot", base.robot)))
-        robots = {
-            player: str(entries.pop(f"{player}_robot"))
-            for player in ("pursuer", "evader")
-            if isinstance(entries.get(f"{player}_robot"), str)
-        }
-        base = with_players(base, robots) if robots else base
-        network = dict(entries.get("legs", {})).get("network")
-        base = with_legs(base, network) if network else base
-        for name in {"gait", "body"} & names:
-            given = entries.get(name)
-            preset = given.pop("", None) if isinstance(given, dict) else given
-            if isinstance(preset, str):
-                presets = PRESETS if name == "gait" else BODIES
-                if preset not in presets:
-                    raise ConfigurationError(
-                        f"{name} must be one of {', '.join(presets)}, got "
-                        f"{preset!r:.40}"
-                    )
-                value = (
-                    PRESETS[preset]
-                    if name == "gait"
-                    else body_of_robot(base.robot, preset)
-                )
-                base = replace(base, **{name: value})
-                if not isinstance(given, dict):
-                    del entries[name]
-    made = parse_settings(kind, entries, "the settings", base=base)
+    made = settings_of(kind, entries, "the settings")
     return replace(made, **inner)
 
 
@@ -340,28 +239,10 @@ def circle_distance(game: StepGame, pursuer: str) -> float | None:
 
 
 def _play_unicycles(settings: UnicycleSettings) -> Record:
-    try:
-        game = make_game(
-            settings.pursuer_speed,
-            settings.evader_speed,
-            settings.pursuer_gain,
-            settings.evader_gain,
-            settings.angle,
-            settings.law,
-            side_rule=settings.side_rule,
-        )
-    except ValueError as error:
-        raise ConfigurationError(f"a game of unicycles: {error}") from error
-    start = RelativeStart(settings.distance, settings.aim, settings.bearing)
-    names = settings.pursuer_strategy, settings.evader_strategy
-    if any(names):
-        track = play_unicycles(
-            game,
-            start,
-            (names[0] or "pursuit", names[1] or "evasion"),
-            (settings.duration, DECISION_TIME),
-            CONTACT,
-        )
+    game, start, names = settings.game, settings.start, settings.strategies
+    if names is not None:
+        times = settings.time, settings.period
+        track = play_unicycles(game, start, names, times, settings.capture)
         nearest = int(track.distances.argmin())
         ended, distance = track.times, float(track.distances[-1])
         return {
@@ -371,7 +252,9 @@ def _play_unicycles(settings: UnicycleSettings) -> Record:
             "closest_at_s": float(ended[nearest]),
             "distance_m": distance,
         }
-    played = simulate(game, start, settings.duration, capture_distance=CONTACT)
+    played = simulate(
+        game, start, settings.time, capture_distance=settings.capture
+    )
     (end,) = played.states([played.end_time])
     return {
         "outcome": "captured" if played.captured else "completed",

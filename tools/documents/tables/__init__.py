@@ -53,7 +53,7 @@ TABLES: dict[str, Callable[..., str]] = {
     "crowds": games_of_many.crowds,
     "rooms": rooms.outcomes,
     "settings": settings.settings,
-    "settings-of-commands": settings.options,
+    "settings-of-commands": settings.settings_of_commands,
     "spreads": many_duels.spreads,
 }
 

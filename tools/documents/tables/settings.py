@@ -5,18 +5,19 @@ from dataclasses import fields, is_dataclass
 from math import isfinite
 from typing import Any, NamedTuple
 
-import click
-
-from stepaside.cli.main import all_commands
-from stepaside.cli.options.parameter_types import NumberType
-from stepaside.cli.options.settings_options import DUEL, WALK, SettingOption
+from stepaside.cli import duel, walk
+from stepaside.cli.bound import BoundSettings
+from stepaside.cli.circle import CircleSettings
+from stepaside.cli.connection_settings import ConnectionSettings
+from stepaside.cli.map import StartMapSettings
 from stepaside.cli.plan import PlanSettings
-from stepaside.core.ranges import Range
 from stepaside.core.setting import Setting as Description
 from stepaside.core.setting import settings_of
 from stepaside.games.duel_settings import DuelSettings
 from stepaside.games.game_settings import GameSettings, PlayerSettings
+from stepaside.games.unicycle_settings import UnicycleSettings
 from stepaside.games.walk_settings import WalkSettings
+from stepaside.report.film_settings import FilmSettings
 from stepaside.sim.camera_settings import RoomObject
 from stepaside.sim.push import Push
 
@@ -28,7 +29,15 @@ CONFIGURATIONS = (
     PlanSettings(),
     GameSettings(players=(PlayerSettings("one"),)),
 )
-OPTIONS = {path: option for option, path in (WALK | DUEL).items()}
+COMMANDS = {
+    "play": ConnectionSettings(),
+    "run unicycles": UnicycleSettings(),
+    "theory circle": CircleSettings(),
+    "theory map": StartMapSettings(),
+    "theory bound": BoundSettings(),
+    "show": FilmSettings(),
+}
+OPTIONS = {path: option for option, path in (walk.NAMED | duel.NAMED).items()}
 LISTS: Mapping[str, type[Any]] = {
     "players": PlayerSettings,
     "room.things": RoomObject,
@@ -77,8 +86,22 @@ def _in(settings: Any, before: str) -> Iterator[Setting]:
 
 def settings(_: Any) -> str:
     """List all settings with option, meaning, range and default."""
+    return _table(all_settings())
+
+
+def settings_of_commands(_: Any) -> str:
+    """List the settings of commands that are no part of a configuration."""
+    found = {
+        f"{command}: {setting.path}": setting
+        for command, values in COMMANDS.items()
+        for setting in _in(values, "")
+    }
+    return _table(found)
+
+
+def _table(found: Mapping[str, Setting]) -> str:
     rows = []
-    for path, setting in all_settings().items():
+    for path, setting in found.items():
         known = settings_of(setting.kind)[setting.name]
         option = OPTIONS.get(path, "")
         if known.range is not None:
@@ -116,42 +139,3 @@ def _default(value: Any, known: Description) -> str:
     if isinstance(value, float) and isfinite(value):
         return f"{value:.6g}"
     return str(value)
-
-
-def options(_: Any) -> str:
-    """List numeric options that are not part of a configuration."""
-    found: dict[tuple[str, str, str], list[str]] = {}
-    for command, made in all_commands().items():
-        for option in _options(made):
-            kind: Any = option.type
-            if isinstance(option, SettingOption):
-                known = option.entry.setting.range
-            elif isinstance(kind, NumberType):
-                known = kind.range
-            elif isinstance(kind, click.IntRange):
-                known = Range(
-                    kind.min or 0, kind.max or 0, "1", "", whole=True
-                )
-            else:
-                known = None
-            if known is None:
-                continue
-            entry = known.words, known.unit
-            found.setdefault((option.opts[0], *entry), []).append(command)
-    rows = [
-        (f"`{name}`", words, unit, ", ".join(commands))
-        for (name, words, unit), commands in sorted(found.items())
-    ]
-    return table(("option", "range", "unit", "commands"), rows)
-
-
-def _options(command: click.Command) -> list[click.Option]:
-    """Return the options of a command that are not part of a configuration."""
-    return [
-        param
-        for param in command.params
-        if isinstance(param, click.Option)
-        and not (
-            isinstance(param, SettingOption) and param.entry.path in OPTIONS
-        )
-    ]

@@ -25,13 +25,11 @@ def generate_launch_description() -> LaunchDescription:
         for name, value in options.items()
     ]
     network = DeclareLaunchArgument("network", default_value="false")
-    command: list[object] = ["stepaside", "play"]
-    for name in options:
-        value = LaunchConfiguration(name)
-        if "." in name:  # a setting, such as gait.speed
-            command += ["--set", [f"{name}=", value]]
-        else:
-            command += [f"--{name}", value]
+    command: list[object] = [
+        *("stepaside", "play", LaunchConfiguration("address"))
+    ]
+    for name in options.keys() - {"address"}:
+        command += ["--set", [f"{name}=", LaunchConfiguration(name)]]
     return LaunchDescription(
         [
             *arguments,
@@ -43,7 +41,7 @@ def generate_launch_description() -> LaunchDescription:
                 condition=UnlessCondition(LaunchConfiguration("network")),
             ),
             ExecuteProcess(
-                cmd=[*command, "--network"],
+                cmd=[*command, "--set", "network=true"],
                 output="screen",
                 sigterm_timeout="15",
                 condition=IfCondition(LaunchConfiguration("network")),

@@ -54,7 +54,7 @@ def load_response(folder: Path, network: Path) -> VelocityResponse | None:
         own = read_entries(VelocityResponse, entries, error=PolicyError)
     except PolicyError as error:
         raise PolicyError(
-            f"{path} is not a response of legs: {error}; `stepaside legs "
-            "measure` writes it anew"
+            f"{path} is not a response of legs: {error}; `stepaside robot "
+            "legs measure` writes it anew"
         ) from error
     return own if own.network == digest_of(network) else None

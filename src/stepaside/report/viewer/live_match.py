@@ -84,7 +84,7 @@ def open_match(
     if isinstance(settings, GameSettings) and settings.level != "physics":
         raise ConfigurationError(
             "level must be physics for a live page, got "
-            f"{settings.level!r}; `stepaside game` plays it, and `stepaside "
+            f"{settings.level!r}; `stepaside run` plays it, and `stepaside "
             "replay` shows the run"
         )
     return RecordedGame(

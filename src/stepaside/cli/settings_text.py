@@ -1,46 +1,51 @@
 """Configuration text in which a comment explains each entry."""
 
-from dataclasses import fields, is_dataclass
-from enum import Enum
+from collections.abc import Collection
+from dataclasses import is_dataclass
 from textwrap import wrap
 from typing import Any
 
-from ...arena import Room, room_to_entries
-from ...core.setting import settings_of
+from ..arena import Room, room_to_entries
+from ..core.entries import to_entries
+from ..core.setting import settings_of
 
 WIDTH = 76  # characters of a comment
 
 
-def commented(settings: Any) -> str:
+def commented(settings: Any, sections: Collection[str] = ()) -> str:
     """Return a configuration in TOML with a comment above each entry.
 
     Args:
         settings: Settings; the comments are their descriptions.
+        sections: Sections and entries to return; all if empty.
     """
-    return "\n".join([_summary(settings), *_lines(settings, ())]) + "\n"
+    summary = f"# {(type(settings).__doc__ or '').splitlines()[0]}"
+    return "\n".join([summary, *_lines(settings, (), sections)]) + "\n"
 
 
-def _summary(settings: Any) -> str:
-    return f"# {(type(settings).__doc__ or '').splitlines()[0]}"
-
-
-def _lines(settings: Any, section: tuple[str, ...]) -> list[str]:
+def _lines(
+    settings: Any, section: tuple[str, ...], only: Collection[str] = ()
+) -> list[str]:
     """Return the entries of a section, then its subsections."""
     described = settings_of(type(settings))
     lines, subsections = [], []
-    for field in fields(settings):
-        value = getattr(settings, field.name)
-        comment = _comment(described[field.name].full_text)
-        path = (*section, field.name)
+    for name, each in described.items():
+        if only and name not in only:
+            continue
+        value = getattr(settings, name)
+        comment = "\n".join(
+            f"# {line}" for line in wrap(each.full_text, WIDTH)
+        )
+        path = (*section, name)
         if isinstance(value, Room):
             subsections += ["", comment, _room(value, path)]
         elif is_dataclass(value):
             subsections += ["", comment, f"[{'.'.join(path)}]"]
             subsections += _lines(value, path)
         elif value is None:
-            lines += [comment, f"# {field.name} ="]
+            lines += [comment, f"# {name} ="]
         else:
-            lines += [comment, f"{field.name} = {_inline(value)}"]
+            lines += [comment, f"{name} = {_inline(value)}"]
     return lines + subsections
 
 
@@ -56,24 +61,14 @@ def _room(room: Room, section: tuple[str, ...]) -> str:
     return text.replace(f"[{section[0]}]\n", "", 1).strip()
 
 
-def _comment(text: str) -> str:
-    return "\n".join(f"# {line}" for line in wrap(text, WIDTH)) or "#"
-
-
 def _inline(value: Any) -> str:
     """Return a value as one line of TOML."""
     import tomli_w
 
-    if is_dataclass(value):
-        pairs = ((f.name, getattr(value, f.name)) for f in fields(value))
-        inner = ", ".join(
-            f"{name} = {_inline(entry)}"
-            for name, entry in pairs
-            if entry is not None
-        )
-        return f"{{ {inner} }}"
-    if isinstance(value, list | tuple):
+    value = to_entries(value)
+    if isinstance(value, dict):
+        pairs = (f"{name} = {_inline(each)}" for name, each in value.items())
+        return f"{{ {', '.join(pairs)} }}"
+    if isinstance(value, list):
         return f"[{', '.join(map(_inline, value))}]"
-    if isinstance(value, Enum):
-        value = value.value
     return tomli_w.dumps({"x": value}).removeprefix("x = ").strip()

@@ -1,0 +1,154 @@
+"""Options that several commands share."""
+
+import re
+from collections.abc import Callable
+from contextlib import nullcontext
+from functools import partial, wraps
+from pathlib import Path
+from typing import Any
+
+import click
+
+from ..core.atomic_output import FIGURES, check_file
+from ..core.errors import StepAsideError
+from ..report.figure_sizes import SHEETS, figures_on
+from ..studies.executors import PROCESSES, SPECIFICATIONS, check_executor
+from .terminal import reserve_stdout
+
+
+class TextType(click.ParamType[Any]):
+    """Type of an option that a function parses."""
+
+    def __init__(self, name: str, parse: Callable[[str], Any]) -> None:
+        """Wrap a function, which raises an error of this package."""
+        self.name, self._parse = name, parse
+
+    def convert(
+        self,
+        value: Any,
+        param: click.Parameter | None,
+        ctx: click.Context | None,
+    ) -> Any:
+        """Parse the value of an option; a default stays."""
+        try:
+            return self._parse(value) if isinstance(value, str) else value
+        except StepAsideError as error:
+            self.fail(str(error), param, ctx)
+
+
+def output_file(option: str, *suffixes: str) -> TextType:
+    """Return the type of an output file, which is replaced if it exists.
+
+    Args:
+        option: Name of the option, for messages.
+        suffixes: Allowed suffixes; a name without one gets the first.
+    """
+
+    def parse(value: str) -> Path:
+        file = Path(value)
+        if file.name and not file.suffix:
+            file = Path(f"{value}{suffixes[0]}")
+        check_file(file, option, suffixes=suffixes, overwrite=True)
+        return file
+
+    return TextType("FILE", parse)
+
+
+def json_option(function: Callable[..., Any]) -> Callable[..., Any]:
+    """Add ``--json``, which reserves standard output for one JSON object."""
+
+    @wraps(function)
+    def command(*args: Any, **values: Any) -> Any:
+        with reserve_stdout() if values["as_json"] else nullcontext():
+            return function(*args, **values)
+
+    return click.option(
+        "--json", "as_json", is_flag=True, help="Print one JSON object."
+    )(command)
+
+
+def _choose_sheet(
+    context: click.Context, _: click.Parameter, name: str
+) -> None:
+    """Set the figure size until the command ends."""
+    context.with_resource(figures_on(name))
+
+
+figure_width = click.option(
+    "--figure-width",
+    type=click.Choice(tuple(SHEETS)),
+    default="screen",
+    callback=_choose_sheet,
+    expose_value=False,
+    help="Size and fonts of figures: for a screen, or for the page or a "
+    "column of a paper.",
+)
+
+
+def figure_option(
+    flag: str = "--figure", help: str = "Write a figure (.png, .svg or .pdf)."
+) -> Callable[..., Any]:
+    """Return an option for the file of a figure."""
+    return click.option(flag, type=output_file(flag, *FIGURES), help=help)
+
+
+folder_option = partial(
+    click.option,
+    "--output",
+    type=click.Path(file_okay=False, path_type=Path),
+    help="Run folder; a new one in runs/ by default, none with --json.",
+)
+file_argument = partial(
+    click.argument,
+    type=click.Path(exists=True, dir_okay=False, path_type=Path),
+)
+seed_option = partial(
+    click.option,
+    "--seed",
+    type=click.IntRange(0, 2**128 - 1),
+    default=1,
+    show_default=True,
+    help="Random seed.",
+)
+browser_option = click.option(
+    "--open/--no-open",
+    "opens",
+    default=True,
+    help="Open the page in a browser.",
+)
+workers_option = click.option(
+    "--workers",
+    type=click.IntRange(1, 1024),  # more than any machine has cores
+    help="Number of worker processes; one per core by default.",
+)
+
+
+def _executor(text: str) -> str:
+    check_executor(text)
+    return text
+
+
+executor_option = click.option(
+    "--executor",
+    type=TextType("EXECUTOR", _executor),
+    default=PROCESSES,
+    show_default=True,
+    help=f"Where cases run: {SPECIFICATIONS}; see docs/campaigns.md.",
+)
+
+
+def _shard(text: str) -> tuple[int, int]:
+    found = re.fullmatch(r"(\d{1,6})/(\d{1,6})", text.strip())
+    if found is None or not 1 <= int(found[1]) <= int(found[2]):
+        raise click.BadParameter(
+            f"must be I/N with integers 1 <= I <= N like 1/4, got {text!r}"
+        )
+    return int(found[1]), int(found[2])
+
+
+shard_option = click.option(
+    "--shard",
+    type=TextType("I/N", _shard),
+    default=(1, 1),
+    help="Run every N-th case only, from the I-th.",
+)

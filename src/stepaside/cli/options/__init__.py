@@ -1,1 +1,0 @@
-"""Options of the commands, declared once, and settings built from them."""

@@ -1,0 +1,335 @@
+"""Settings of commands: a few as options, all by ``--set PATH=VALUE``.
+
+In order of increasing priority: defaults, the file of ``--config``, presets
+such as ``--body``, single settings.
+"""
+
+import tomllib
+from collections.abc import Callable, Collection, Iterator, Mapping
+from dataclasses import fields
+from functools import wraps
+from math import degrees
+from pathlib import Path
+from typing import Any, cast, get_args, get_origin
+
+import click
+
+from ..arena import RoomRecipe
+from ..core.entries import load_entries
+from ..core.setting import (
+    NONE,
+    REQUIRED,
+    Entry,
+    entries_of,
+    similar_paths,
+)
+from ..games.settings_reader import RECIPE, nested, settings_of
+from ..strategies.registry import OF_EVASION
+from .settings_text import commented
+from .terminal import write_result
+
+lists_option = click.option(
+    "--settings",
+    "lists",
+    is_flag=True,
+    help="Print all settings with meaning, unit and range, and end.",
+)
+config_option = click.option(
+    "--config",
+    type=click.Path(exists=True, dir_okay=False, path_type=Path),
+    help="File of settings (TOML); options override it.",
+)
+set_option = click.option(
+    "--set",
+    "sets",
+    multiple=True,
+    metavar="PATH=VALUE",
+    help="Any setting, as --settings lists them; repeatable.",
+)
+Decorator = Callable[[Callable[..., Any]], Callable[..., Any]]
+MEANINGS = {
+    "robot": "Robot: nao, or the folder of a description",
+    "gait": "Gait of NAO",
+    "body": "Imperfections of the body",
+    "sensing": "Sensing of opponents",
+    "room.plan": "Room: a file, or the seed of a random one",
+    "evader_strategy": "Strategy of the evader (docs/strategies.md)",
+    "start.distance": "Initial distance [m]; drawn by default",
+    "pushes": "Push: 1.2@5:90deg is 1.2 N s at 5 s, to the left; repeatable",
+}
+"""Short meanings of options, by path; --settings has the long ones."""
+CONTROL = ("control.method", "control.feedback")
+IMPLY: Mapping[str, tuple[str, ...]] = {
+    "body": CONTROL,
+    "gait": (*CONTROL, "strategy.trigger"),
+    "pursuer": ("strategy.trigger",),
+}
+"""Entries of a file that an option leaves open again, as it implies them."""
+GIVEN = "stepaside.given"  # of a context: paths of the given settings
+
+
+def takes_settings(
+    named: Mapping[str, str],
+    *,
+    sections: tuple[str, ...] = (),
+    aside: Collection[str] = (),
+    **kinds: type[Any],
+) -> Decorator:
+    """Add options of settings, ``--set``, ``--config`` and ``--settings``.
+
+    Args:
+        named: Path of each setting with an option of its own, by option.
+        sections: Sections of the first class that the command uses; all if
+            empty.
+        aside: Entries of a file that belong to other commands.
+        kinds: Class of the settings that each argument receives.
+    """
+    entries = dict[str, Entry]()
+    for kind in kinds.values():
+        found = entries_of(cast(Any, kind))
+        if sections and not entries:
+            found = {k: v for k, v in found.items() if _head(k) in sections}
+        entries |= found
+    if "room.plan" in entries:
+        entries |= entries_of(RoomRecipe, RECIPE)
+
+    def decorate(function: Callable[..., Any]) -> Callable[..., Any]:
+        @wraps(function)
+        def command(**values: Any) -> Any:
+            texts = [
+                (path, text)
+                for flag, path in named.items()
+                for text in _texts(values.pop(_argument(flag)))
+            ]
+            texts += [set_pair(text) for text in values.pop("sets")]
+            changes = changes_of(texts, entries, *kinds.values())
+            click.get_current_context().meta[GIVEN] = frozenset(changes)
+            made = _read(kinds, changes, values.pop("config"), aside)
+            _refuse_unused(changes, entries, made)
+            if values.pop("lists"):
+                first, *others = made.values()
+                write_result(commented(first, sections))
+                for settings in others:
+                    write_result(commented(settings))
+                return None
+            return function(**made, **values)
+
+        result: Callable[..., Any] = command
+        for option in (lists_option, config_option, set_option):
+            result = option(result)
+        for flag, path in reversed(list(named.items())):
+            result = _option(flag, path, entries[path])(result)
+        return result
+
+    return decorate
+
+
+def _option(flag: str, path: str, entry: Entry) -> Decorator:
+    """Return the option of a setting; its value is a text."""
+    described, default = entry.described, _default(entry)
+    text = MEANINGS.get(path, described.text).rstrip(".") + "."
+    if default:
+        text += f"  [default: {default}]"
+    if entry.hint is bool:
+        return click.option(
+            flag, _argument(flag), is_flag=True, default=None, help=text
+        )
+    names = described.presets or described.names
+    unit = described.range and described.range.unit
+    metavar = "|".join(names) if names else "NUMBER" if unit else "TEXT"
+    return click.option(
+        flag,
+        _argument(flag),
+        multiple=_is_list(entry),
+        metavar="ANGLE" if unit == "rad" else metavar,
+        help=text,
+    )
+
+
+def _default(entry: Entry) -> str:
+    """Return the default as a user writes it; empty if there is none."""
+    described, value = entry.described, entry.default
+    if described.default_text:
+        return described.default_text
+    for named in (described.words, described.presets):
+        for name, meant in (named or {}).items():
+            if value == meant and value is not None:
+                return str(name)
+    if value in (None, (), "", False, REQUIRED):
+        return ""
+    if described.range and described.range.unit == "rad":
+        return f"{degrees(value):g}deg"
+    return f"{value:g}" if isinstance(value, float) else str(value)
+
+
+def _argument(flag: str) -> str:
+    return f"option_{flag.lstrip('-').replace('-', '_')}"
+
+
+def _head(path: str) -> str:
+    return path.partition(".")[0]
+
+
+def _is_list(entry: Entry) -> bool:
+    kind, kinds = get_origin(entry.hint), get_args(entry.hint)
+    return kind is list or kind is tuple and kinds[-1] is ...
+
+
+def _texts(value: Any) -> tuple[str, ...]:
+    if isinstance(value, bool | None):
+        return () if value is None else (str(value).lower(),)
+    return value if isinstance(value, tuple) else (value,)
+
+
+def set_pair(text: str) -> tuple[str, str]:
+    """Return path and value of ``--set``.
+
+    Raises:
+        UsageError: If it has no value.
+    """
+    path, equals, value = text.partition("=")
+    if not equals:
+        raise click.UsageError(
+            f"--set must be PATH=VALUE like gait.stride=0.03, got {text}"
+        )
+    return path, value
+
+
+def changes_of(
+    texts: Collection[tuple[str, str]],
+    entries: Mapping[str, Entry],
+    *kinds: type[Any],
+) -> dict[str, Any]:
+    """Return values by path; those of a list are collected.
+
+    Args:
+        texts: Paths and values as a user writes them.
+        entries: Settings by path.
+        kinds: Classes of these settings.
+
+    Raises:
+        UsageError: If there is no such path; the message names similar ones.
+    """
+    found = dict[str, Any]()
+    for path, text in texts:
+        if path not in entries:
+            near = [x for k in kinds for x in similar_paths(k, path)]
+            hint = f"; did you mean {' or '.join(near)}?" if near else ""
+            raise click.UsageError(
+                f"unknown setting {path}{hint}; --settings lists all"
+            )
+        entry = entries[path]
+        value = _value(text, entry)
+        if _is_list(entry) and value not in (entry.described.presets or {}):
+            more = value if isinstance(value, list) else [value]
+            value = [*found.get(path, ()), *(x for x in more if x != NONE)]
+        found[path] = value
+    return found
+
+
+def _value(text: str, entry: Entry) -> Any:
+    """Return what a text means: a text, a value of TOML, or a number."""
+    if entry.hint in (str, Path) or str in get_args(entry.hint):
+        return text
+    try:
+        value = tomllib.loads(f"x = {text}")["x"]
+    except (ValueError, RecursionError):
+        try:
+            return float(text)
+        except ValueError:
+            return text
+    plain = isinstance(value, bool | int | float | str | list | dict)
+    return value if plain else text
+
+
+def _read(
+    kinds: Mapping[str, type[Any]],
+    changes: Mapping[str, Any],
+    config: Path | None,
+    aside: Collection[str],
+) -> dict[str, Any]:
+    """Return the settings of each class from options and file."""
+    file = {} if config is None else load_entries(config)
+    left_open = {e for path in changes for e in IMPLY.get(path, ())}
+    entries = nested(changes, _without(file, left_open))
+    source = "" if config is None or changes else str(config)
+    made, known = {}, {f.name for k in kinds.values() for f in fields(k)}
+    first = next(iter(kinds))
+    for name, kind in kinds.items():
+        own = {field.name for field in fields(kind)}
+        if name == first:  # it refuses what no class knows
+            own |= entries.keys() - known
+        chosen = {k: v for k, v in entries.items() if k in own}
+        settings = settings_of(kind, chosen, source, aside=aside)
+        if hasattr(settings, "resolved"):
+            settings = settings.resolved()
+        made[name] = settings
+    return made
+
+
+def _without(
+    entries: Mapping[str, Any], paths: Collection[str], section: str = ""
+) -> dict[str, Any]:
+    """Return the nested entries of a file without those at some paths."""
+    return {
+        name: _without(value, paths, f"{section}{name}.")
+        if isinstance(value, dict)
+        else value
+        for name, value in entries.items()
+        if f"{section}{name}" not in paths
+    }
+
+
+def _needs(
+    path: str, entries: Mapping[str, Entry]
+) -> Iterator[tuple[str, str]]:
+    """Yield the conditions of a setting and of its sections."""
+    parts = path.split(".")
+    for number in range(1, len(parts) + 1):
+        entry = entries.get(".".join(parts[:number]))
+        if entry is not None and entry.described.needs:
+            yield entry.described.needs
+
+
+def _refuse_unused(
+    given: Collection[str],
+    entries: Mapping[str, Entry],
+    made: Mapping[str, Any],
+) -> None:
+    """Refuse settings that have no effect with the others."""
+    for settings in made.values():
+        unused = [path for path in given if path.startswith("strategy.")]
+        if unused and not getattr(settings, "uses_evasion", True):
+            raise click.UsageError(
+                f"{', '.join(unused)} requires the strategy "
+                f"{' or '.join(OF_EVASION)}, got "
+                f"{settings.named().evader_strategy}"
+            )
+        for own in given:
+            for path, needed in _needs(own, entries):
+                if _head(path) not in {f.name for f in fields(settings)}:
+                    continue
+                value: Any = settings
+                for name in path.split("."):
+                    value = getattr(value, name)
+                if value is None if needed == "" else value != needed:
+                    raise click.UsageError(
+                        f"{own} requires {path} {needed}".rstrip()
+                        + (f", got {value}" if needed else "")
+                    )
+
+
+def refuse_settings(beginnings: tuple[str, ...], requirement: str) -> None:
+    """Refuse settings that have no effect in this call.
+
+    Args:
+        beginnings: Beginnings of their paths.
+        requirement: What they require, for the message.
+
+    Raises:
+        UsageError: If one of them is given.
+    """
+    given = click.get_current_context().meta[GIVEN]
+    for path in sorted(given):
+        if path.startswith(beginnings):
+            raise click.UsageError(f"{path} requires {requirement}")

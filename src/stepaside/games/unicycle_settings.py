@@ -1,0 +1,180 @@
+"""Settings of games of two unicycles."""
+
+from dataclasses import dataclass
+from math import pi
+
+from ..core.errors import ConfigurationError, check_within
+from ..core.ranges import Range
+from ..core.setting import check_settings, setting
+from ..theory.unicycle.relative_coordinates import RelativeStart
+from ..theory.unicycle.unicycle_game import (
+    Game,
+    SideRule,
+    TurningLaw,
+    make_game,
+)
+
+SHORT = 0.01  # decision period without sampling, in [s]
+WHY = "outside this range squares and ratios overflow a double"
+
+
+def positive(unit: str, *also: float | None) -> Range:
+    """Return the common range of positive numbers.
+
+    Args:
+        unit: Unit of the numbers.
+        also: Further permitted values.
+    """
+    return Range(1e-9, 1e9, unit, WHY, also=also)
+
+
+@dataclass(frozen=True, slots=True)
+class UnicycleGameSettings:
+    """Speeds, gains and evasion of two unicycles."""
+
+    speed: float = setting(1.0, "Speed v of both players", positive("m/s"))
+    gain: float = setting(
+        0.5, "Steering gain k of both players", positive("1/s")
+    )
+    pursuer_speed: float | None = setting(
+        None, "Speed of the pursuer, if different", positive("m/s", None)
+    )
+    evader_speed: float | None = setting(
+        None, "Speed of the evader, if different", positive("m/s", None)
+    )
+    pursuer_gain: float | None = setting(
+        None, "Gain of the pursuer, if different", positive("1/s", None)
+    )
+    evader_gain: float | None = setting(
+        None, "Gain of the evader, if different", positive("1/s", None)
+    )
+    angle: float = setting(
+        pi / 2,
+        "Evasion angle {unit}; 90deg moves aside, 0 back",
+        Range(0.0, pi, "rad", "the sign is given by the side"),
+    )
+    law: str = setting(
+        TurningLaw.PROPORTIONAL.value,
+        "Turning law of the evader: eq. (4) or eq. (6)",
+        names=tuple(law.value for law in TurningLaw),
+    )
+    side_rule: str = setting(
+        SideRule.BEHIND.value,
+        "Side of the line of sight to which the evader moves: the side "
+        "behind it at every instant, or its initial side (latched)",
+        names=tuple(rule.value for rule in SideRule),
+    )
+    hysteresis: float = setting(
+        0.0,
+        "Angle beyond the evader's axis at which it changes side",
+        Range(0.0, pi / 2, "rad", "beyond, it never changes side"),
+        needs=("side_rule", "behind"),
+    )
+
+    def __post_init__(self) -> None:
+        """Validate ranges and names."""
+        check_settings(self)
+        check_within(
+            self.hysteresis,
+            0.0,
+            min(self.angle, pi - self.angle),
+            "hysteresis",
+            "rad",
+            ConfigurationError,
+        )
+
+    @property
+    def game(self) -> Game:
+        """The game of these settings."""
+        return make_game(
+            self.pursuer_speed or self.speed,
+            self.evader_speed or self.speed,
+            self.pursuer_gain or self.gain,
+            self.evader_gain or self.gain,
+            self.angle,
+            self.law,
+            side_rule=self.side_rule,
+            hysteresis=self.hysteresis,
+        )
+
+
+@dataclass(frozen=True, slots=True)
+class UnicycleSettings(UnicycleGameSettings):
+    """Settings of one game of two unicycles, with its start."""
+
+    distance: float | None = setting(
+        None,
+        "Initial distance",
+        positive("m", None),
+        default_text="2.5 v/k",
+    )
+    aim: float = setting(
+        0.2,
+        "Initial bearing of the evader in the pursuer's frame",
+        Range(-pi, pi, "rad", "half a turn"),
+    )
+    bearing: float = setting(
+        -0.1,
+        "Initial bearing of the pursuer in the evader's frame",
+        Range(-pi, pi, "rad", "half a turn"),
+    )
+    duration: float | None = setting(
+        None,
+        "Simulated time",
+        positive("s", None),
+        default_text="until the game has settled",
+    )
+    sample_time: float = setting(
+        0.0,
+        "Sampling period; turning rates are constant in between",
+        positive("s", 0.0),
+    )
+    delay: float = setting(
+        0.0,
+        "Delay from sensing to turning {unit}, with a sampling period",
+        positive("s", 0.0),
+    )
+    capture: float = setting(
+        1e-6, "Capture distance, which ends the game", positive("m")
+    )
+    evader_strategy: str = setting(
+        "", "Strategy of the evader", default_text="evasion"
+    )
+    pursuer_strategy: str = setting(
+        "", "Strategy of the pursuer", default_text="pursuit"
+    )
+
+    def __post_init__(self) -> None:
+        """Validate ranges, names and combinations."""
+        UnicycleGameSettings.__post_init__(self)
+        if self.delay > 0.0 and self.sample_time == 0.0:
+            raise ConfigurationError("delay requires sample_time > 0 [s]")
+
+    @property
+    def start(self) -> RelativeStart:
+        """Initial relative pose."""
+        evader = self.game.evader
+        distance = self.distance or 2.5 * evader.speed / evader.gain
+        return RelativeStart(distance, self.aim, self.bearing)
+
+    @property
+    def time(self) -> float:
+        """Simulated time, in [s]."""
+        from ..theory.unicycle.circle_fit import settling_time
+
+        return self.duration or settling_time(self.game)
+
+    @property
+    def strategies(self) -> tuple[str, str] | None:
+        """Strategies of pursuer and evader; None for those of the paper."""
+        if not (self.pursuer_strategy or self.evader_strategy):
+            return None
+        return (
+            self.pursuer_strategy or "pursuit",
+            self.evader_strategy or "evasion",
+        )
+
+    @property
+    def period(self) -> float:
+        """Decision period of strategies, in [s]; short without sampling."""
+        return self.sample_time or SHORT
