@@ -106,10 +106,6 @@ class FakeWorld:
             self.told.append(player.name)
             player.does.get(self.ticks, lambda: None)()
 
-    def flush(self) -> None:
-        """Note it."""
-        self.told.append("networks")
-
     def step(self, limit: float = inf) -> None:
         """Let a tick pass."""
         self.told.append("time passes")

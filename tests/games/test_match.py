@@ -11,7 +11,7 @@ from stepaside.games.outcome import Outcome
 from stepaside.games.recorder import Recorder
 
 
-def test_players_act_in_turn_before_networks_and_physics() -> None:
+def test_players_act_in_turn_before_physics() -> None:
     watcher = FakeObserver()
     game, world = fake_game(
         0.0, 2.0, 5.0, duration=3 * TICK, observers=[watcher]
@@ -19,7 +19,7 @@ def test_players_act_in_turn_before_networks_and_physics() -> None:
     play(game)
     assert game.outcome is Outcome.COMPLETED
     assert game.message == "played 0.01 s"
-    turn = ["before", "a", "b", "c", "networks", "acted", "time passes"]
+    turn = ["before", "a", "b", "c", "acted", "time passes"]
     assert world.told == 3 * turn
     assert watcher.ended_with == [(game.outcome, game.message, world.time)]
     assert world.closed == 1

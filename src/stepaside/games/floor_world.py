@@ -502,9 +502,6 @@ class FloorWorld:
         (x, y, _), (u, v, _) = self._seen[one], self._seen[other]
         return hypot(u - x, v - y)
 
-    def flush(self) -> None:
-        """Do nothing: there are no networks."""
-
     def fallen(self) -> tuple[str, ...]:
         """Return no names: nobody falls."""
         return ()

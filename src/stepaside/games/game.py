@@ -49,9 +49,6 @@ class PlayedWorld(Protocol):
             ReachError: If legs cannot reach their references.
         """
 
-    def flush(self) -> None:
-        """Evaluate networks that wait, in this and in other worlds."""
-
     def step(self, limit: float) -> None:
         """Move all players on, at most to a time, in [s]."""
 
@@ -214,12 +211,11 @@ class GameInPlay:
             limit: Time at which they move no farther, in [s].
         """
         self.decide()
-        self.world.flush()
         self.advance(limit)
         return self.outcome
 
     def decide(self) -> None:
-        """Let the players decide, before their networks are evaluated."""
+        """Let the players decide."""
         for observer in self.observers:
             observer.before(self)
         try:
@@ -285,7 +281,7 @@ class GameInPlay:
 def play(
     *games: GameInPlay, report: Callable[[Progress], None] | None = None
 ) -> None:
-    """Play games side by side to their ends, with one use of networks.
+    """Play games side by side to their ends.
 
     Each game has the same bits as when it is played alone. At any end,
     including a KeyboardInterrupt, which interrupts those that still go on,
@@ -293,7 +289,7 @@ def play(
     closed.
 
     Args:
-        games: The games, which share their networks.
+        games: The games.
         report: Called about five times a second with the progress of the
             first game.
     """
@@ -303,11 +299,7 @@ def play(
             while playing := [game for game in games if game.ended is None]:
                 interrupt.let_through()
                 for game in playing:
-                    game.decide()
-                for game in playing:
-                    game.world.flush()
-                for game in playing:
-                    game.advance()
+                    game.tick()
                 if report is None or games[0].ended is not None:
                     continue
                 now, time = perf_counter(), games[0].world.time

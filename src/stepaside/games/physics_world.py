@@ -18,7 +18,6 @@ from ..core.errors import ConfigurationError
 from ..core.player_identity import Role
 from ..core.poses import Pose
 from ..core.random_streams import named_generator
-from ..locomotion.policy.network_pool import NetworkPool
 from ..locomotion.zmp.reference_table import standing_reference
 from ..perception.measurement import Sighting
 from ..robots.description import RobotDescription, load_robot
@@ -81,7 +80,6 @@ class PhysicsWorld(World):
 
     Attributes:
         players: The players, in the order of the settings.
-        networks: Networks of robots on learned legs.
         started_at: Time at which the game began, in [s]: all players were
             ready, for example had scanned the room; None before.
         first_moves: Time at which a player first moved in the game, in [s],
@@ -101,7 +99,6 @@ class PhysicsWorld(World):
         rendered: bool = False,
         has_things: bool | None = None,
         remote: Mapping[str, RemoteControl] = MappingProxyType({}),
-        networks: NetworkPool | None = None,
         strategies: Mapping[str, Strategy] = MappingProxyType({}),
         descriptions: Mapping[str, RobotDescription] = MappingProxyType({}),
     ) -> None:
@@ -115,8 +112,6 @@ class PhysicsWorld(World):
                 default, whether there is a room.
             remote: Control of the robots that other processes control, by
                 name of the player.
-            networks: Networks of robots on learned legs, shared with other
-                games.
             strategies: Strategies that replace those of the settings, by
                 name of the player.
             descriptions: Descriptions that replace those of the settings,
@@ -127,9 +122,8 @@ class PhysicsWorld(World):
                 be met by the robots.
         """
         self._settings, self._remote = settings, remote
-        self.networks = networks or NetworkPool()
         self._setups = _setups_of(settings, descriptions)
-        physics = _physics_of(settings, self._setups, self.networks)
+        physics = _physics_of(settings, self._setups)
         self._strategies = {
             own.name: strategies.get(own.name)
             or strategy_of(own, self._map_in_world(own))
@@ -211,7 +205,7 @@ class PhysicsWorld(World):
         return torsos_apart(self._truths[one], self._truths[other])
 
     def decide(self) -> None:
-        """Let all players act at one control tick, before the networks."""
+        """Let all players act at one control tick."""
         if self.started_at is None and all(p.is_ready for p in self.players):
             self.started_at = self.time
             for player in self.players:
@@ -219,10 +213,6 @@ class PhysicsWorld(World):
         for player in self.players:
             self.acting = player.name
             player.tick()
-
-    def flush(self) -> None:
-        """Evaluate the networks, which send their targets."""
-        self.networks.flush()
 
     def step(self, limit: float = inf) -> None:
         """Advance by one control tick."""
@@ -356,7 +346,6 @@ class PhysicsWorld(World):
                 strategy,
                 sensing=self._sensing(own),
                 truth=truth,
-                networks=self.networks,
                 clearance=clearance,
             )
         return place_walker(
@@ -531,9 +520,7 @@ def _setups_of(
 
 
 def _physics_of(
-    settings: GameSettings,
-    setups: Mapping[str, WalkerSetup],
-    networks: NetworkPool,
+    settings: GameSettings, setups: Mapping[str, WalkerSetup]
 ) -> PhysicsSettings:
     """Return the physics of a game, at the control period of its robots."""
     legs = {name: settings.player(name).legs for name in setups}
@@ -545,7 +532,7 @@ def _physics_of(
     from .policy_player import policy_physics
 
     walkers = [(legs[name], own.description) for name, own in setups.items()]
-    return policy_physics(settings.physics, settings.body, walkers, networks)
+    return policy_physics(settings.physics, settings.body, walkers)
 
 
 def _start_of(own: PlayerSettings) -> Pose:

@@ -13,7 +13,6 @@ from ..core.poses import Pose
 from ..core.random_streams import named_generator
 from ..locomotion.policy.legs_loader import load_legs, load_policy
 from ..locomotion.policy.legs_settings import LegsSettings
-from ..locomotion.policy.network_pool import NetworkPool
 from ..locomotion.policy.policy_legs import PolicyLegs
 from ..locomotion.policy.policy_walk import PolicyWalk
 from ..robots.description import RobotDescription
@@ -34,17 +33,13 @@ AT_ONCE = 1.0  # a fall until then is one of the policy, in [s]
 
 
 class PolicyPlayer(RobotPlayer):
-    """Simulated robot that walks by a policy.
-
-    Its targets are sent when the networks have been evaluated.
-    """
+    """Simulated robot that walks by a policy."""
 
     def __init__(
         self,
         robot: SimulatedRobot,
         scheme: ControlScheme,
         frame: Pose,
-        networks: NetworkPool,
         surroundings: Surroundings,
     ) -> None:
         """Combine a robot and its controller.
@@ -53,11 +48,10 @@ class PolicyPlayer(RobotPlayer):
             robot: Simulated robot.
             scheme: Its controller.
             frame: Pose of its odometry in the world.
-            networks: Networks of all players.
             surroundings: Known obstacles.
         """
         super().__init__(robot, scheme, frame)
-        self._networks, self._surroundings = networks, surroundings
+        self._surroundings = surroundings
         robot.world.measures_always = True
         # Exact sightings are read when a decision is due.
         self._sees_rarely = robot.sees_exactly
@@ -69,14 +63,7 @@ class PolicyPlayer(RobotPlayer):
         sees = not self._sees_rarely or walk.decides(robot.world.time)
         measured = robot.read(sees=sees)
         self._surroundings.note(measured, walk.pose)
-        self.scheme.update(measured)
-        self._networks.call_afterwards(self._send)
-
-    def _send(self) -> None:
-        """Send joint targets."""
-        targets = self.scheme.joint_targets
-        self.scheme.senses.aim(targets)
-        self.robot.write(targets)
+        robot.write(self.scheme.update(measured))
 
     @property
     def has_fallen(self) -> bool:
@@ -98,7 +85,6 @@ def policy_physics(
     physics: PhysicsSettings,
     body: BodySettings,
     walkers: Sequence[tuple[LegsSettings, RobotDescription]],
-    networks: NetworkPool | None = None,
 ) -> PhysicsSettings:
     """Return physics settings whose tick is the period of the policies.
 
@@ -110,14 +96,13 @@ def policy_physics(
         body: Settings of the body; one with delays or sensor errors keeps
             its tick.
         walkers: Policy and robot of each player.
-        networks: Networks of all players, if they share them.
 
     Raises:
         PolicyError: If a network cannot run on its robot.
     """
     if body.has_sensor_errors or not body.has_ideal_servos:
         return physics
-    periods = {load_policy(*each, networks)[0].period for each in walkers}
+    periods = {load_policy(*each)[0].period for each in walkers}
     if len(periods) != 1:
         return physics
     steps = periods.pop() / physics.time_step
@@ -174,7 +159,6 @@ def place_policy_player(
     *,
     sensing: RobotSensing,
     truth: TrueRobotState,
-    networks: NetworkPool,
     clearance: ClearanceSetup | None = None,
 ) -> PolicyPlayer:
     """Place one robot on learned legs in a world, with its controller.
@@ -187,14 +171,13 @@ def place_policy_player(
         strategy: Strategy of the player.
         sensing: Its senses.
         truth: True state of the robot.
-        networks: Networks of all players, flushed at each tick.
         clearance: Knowledge of the room and required clearance.
 
     Raises:
         PolicyError: If the network cannot run on the robot.
     """
     tick = world.physics.tick
-    policy = load_legs(legs, setup.description, tick=tick, pool=networks)
+    policy = load_legs(legs, setup.description, tick=tick)
     robot = place_on_legs(
         world,
         setup,
@@ -221,4 +204,4 @@ def place_policy_player(
         PolicyWalk(policy, setup.gait, guard),
         sensing.source,
     )
-    return PolicyPlayer(robot, scheme, frame, networks, around)
+    return PolicyPlayer(robot, scheme, frame, around)

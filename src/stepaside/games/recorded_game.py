@@ -6,7 +6,6 @@ from math import inf
 from types import MappingProxyType
 from typing import TYPE_CHECKING, Any, cast
 
-from ..locomotion.policy.network_pool import NetworkPool
 from ..locomotion.zmp.mpc import MpcResult
 from ..robots.description import RobotDescription
 from .duel_evaluation import summarise
@@ -56,7 +55,6 @@ class RecordedGame(GameInPlay):
         recorded: bool = True,
         rendered: bool = False,
         endless: bool = False,
-        networks: NetworkPool | None = None,
         remote: Mapping[str, RemoteControl] = MappingProxyType({}),
         description: RobotDescription | None = None,
     ) -> None:
@@ -68,8 +66,6 @@ class RecordedGame(GameInPlay):
             recorded: Whether to record; the record grows with time.
             rendered: Whether to render the world; cameras do so anyway.
             endless: Whether the duration does not end it.
-            networks: Networks of robots on learned legs, shared with other
-                games.
             remote: Control of the robots that other processes control, by
                 name of the player.
             description: Description of the robot of a walk, if it differs
@@ -93,7 +89,6 @@ class RecordedGame(GameInPlay):
                 rendered=rendered,
                 has_things=duel.has_things if duel else None,
                 remote=remote,
-                networks=networks,
                 strategies=strategies_of(settings),
                 descriptions={WALKER: description} if description else {},
             )
@@ -197,7 +192,7 @@ def run_duel(settings: DuelSettings, report: Report | None = None) -> DuelRun:
 
 
 def run_duels(settings: Sequence[DuelSettings]) -> list[DuelRun]:
-    """Play duels side by side; networks are evaluated for all at once.
+    """Play duels side by side.
 
     Args:
         settings: Settings of each duel.
@@ -227,7 +222,6 @@ def _run(
     settings: Sequence[PlayableSettings], report: Report | None = None
 ) -> list[GameRun[Any, Any]]:
     """Play games side by side to their ends."""
-    networks = NetworkPool()
-    games = [RecordedGame(each, networks=networks) for each in settings]
+    games = [RecordedGame(each) for each in settings]
     play(*games, report=report)
     return [game.run() for game in games]

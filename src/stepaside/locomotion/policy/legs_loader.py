@@ -7,7 +7,6 @@ from .contract import PolicyContract
 from .contract_reader import RobotJoints, read_contract
 from .legs_settings import LegsSettings
 from .network import PolicyNetwork
-from .network_pool import NetworkPool
 from .policy_legs import PolicyLegs
 from .response_file import load_response
 
@@ -15,20 +14,17 @@ from .response_file import load_response
 def load_policy(
     legs: LegsSettings,
     description: RobotDescription,
-    pool: NetworkPool | None = None,
 ) -> tuple[PolicyContract, PolicyNetwork]:
     """Load a network with its contract for one robot.
 
     Args:
         legs: Settings of the legs.
         description: Description of the robot.
-        pool: Pool whose walkers share networks; by default the network is
-            loaded for this robot.
 
     Raises:
         PolicyError: If the network cannot run on the robot.
     """
-    network = (pool or NetworkPool()).load(Path(legs.network))
+    network = PolicyNetwork(Path(legs.network))
     robot = RobotJoints.of(description)
     return read_contract(network, robot, legs.contract).check(), network
 
@@ -38,7 +34,6 @@ def load_legs(
     description: RobotDescription,
     *,
     tick: float,
-    pool: NetworkPool | None = None,
 ) -> PolicyLegs:
     """Build learned legs, with their measured response if there is one.
 
@@ -46,12 +41,11 @@ def load_legs(
         legs: Settings of the legs.
         description: Description of the robot.
         tick: Control period, in [s].
-        pool: Pool whose walkers share networks, if any.
 
     Raises:
         PolicyError: If the network cannot run on the robot.
     """
-    contract, network = load_policy(legs, description, pool)
+    contract, network = load_policy(legs, description)
     return PolicyLegs(
         contract,
         network,
