@@ -14,8 +14,10 @@ import vendor_humanoid as stranger
 from inline_executor import InlineExecutor
 from stepaside.cli.main import main
 from stepaside.fitting.derivation import derive
-from stepaside.fitting.description_edit import rewrite_description
-from stepaside.fitting.description_writer import write_description
+from stepaside.fitting.description_writer import (
+    rewrite_description,
+    write_description,
+)
 from stepaside.fitting.gait_candidates import Candidate
 from stepaside.fitting.gait_search import GaitSearch
 from stepaside.fitting.joint_strain import JointStrain

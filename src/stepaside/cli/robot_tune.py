@@ -36,7 +36,7 @@ def tune(
     are recorded in FOLDER/tune.sqlite, so that an interrupted search can be
     continued with the same command.
     """
-    from ..fitting.description_edit import rewrite_description
+    from ..fitting.description_writer import rewrite_description
     from ..robots.description import FILE, load_robot
 
     description = load_robot(folder)

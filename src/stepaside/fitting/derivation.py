@@ -126,6 +126,18 @@ class DerivedDescription:
     loads: JointLoads
     is_weak: bool
 
+    @property
+    def assumed_torques(self) -> list[str]:
+        """Joints whose torque limit is an estimate."""
+        servos = self.description.overlay.servos
+        return [name for name in servos if name not in self.published_torques]
+
+    @property
+    def assumed_speeds(self) -> list[str]:
+        """Joints whose speed limit is an estimate."""
+        limits = self.description.speed_limits
+        return [name for name in limits if name not in self.published_speeds]
+
 
 def derive(
     model: Path, folder: Path, meshes: list[Path]

@@ -24,49 +24,28 @@ def head_of(analysis: ModelAnalysis) -> dict[str, Any]:
     """
     model, data = analysis.model, analysis.data
     hips = max(leg.hip[2] for leg in analysis.legs)
-    by_axis: dict[int, str] = {}
-    for axis in (2, 1):
-        joints = [
-            j
-            for j in range(model.njnt)
-            if model.jnt_type[j] in JOINT_TYPES
-            and abs(data.xaxis[j, axis]) > ALIGNED
-            and data.xanchor[j, 2] > hips
-            and abs(data.xanchor[j, 1]) < MIDDLE * analysis.length
-            and _carried_mass(analysis, j) < GREATEST_HEAD * analysis.mass
-        ]
-        if joints:
-            lightest = joints[
-                int(np.argmin([_carried_mass(analysis, j) for j in joints]))
-            ]
-            by_axis[axis] = model.joint(lightest).name
-    return {
-        "yaw": by_axis.get(2),
-        "pitch": by_axis.get(1),
-        "cameras": [model.camera(i).name for i in range(model.ncam)],
-    }
-
-
-def _carried_mass(analysis: ModelAnalysis, joint: int) -> float:
-    """Return the mass that a joint carries, in [kg]."""
-    body = int(analysis.model.jnt_bodyid[joint])
-    return float(analysis.model.body_subtreemass[body])
+    carried = model.body_subtreemass[model.jnt_bodyid]
+    fits = (
+        np.isin(model.jnt_type, JOINT_TYPES)
+        & (data.xanchor[:, 2] > hips)
+        & (np.abs(data.xanchor[:, 1]) < MIDDLE * analysis.length)
+        & (carried < GREATEST_HEAD * analysis.mass)
+    )
+    found: dict[str, Any] = {}
+    for name, axis in (("yaw", 2), ("pitch", 1)):
+        joints = np.flatnonzero(fits & (np.abs(data.xaxis[:, axis]) > ALIGNED))
+        found[name] = None
+        if len(joints):
+            lightest = int(joints[carried[joints].argmin()])
+            found[name] = model.joint(lightest).name
+    cameras = [model.camera(i).name for i in range(model.ncam)]
+    return found | {"cameras": cameras}
 
 
 def report_of(derived: DerivedDescription) -> dict[str, Any]:
     """Return the report as values for JSON."""
     analysis, size = derived.analysis, derived.size
     own = derived.description
-    assumed_torques = [
-        name
-        for name in own.overlay.servos
-        if name not in derived.published_torques
-    ]
-    assumed_speeds = [
-        name
-        for name in own.speed_limits
-        if name not in derived.published_speeds
-    ]
     return {
         "name": own.name,
         "model": str(analysis.path),
@@ -91,7 +70,7 @@ def report_of(derived: DerivedDescription) -> dict[str, Any]:
         "omitted_meshes": len(analysis.missing),
         "missing_values": {
             "sole": any(leg.is_guessed for leg in analysis.legs),
-            "torques": assumed_torques,
-            "speed_limits": assumed_speeds,
+            "torques": derived.assumed_torques,
+            "speed_limits": derived.assumed_speeds,
         },
     }
