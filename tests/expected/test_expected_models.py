@@ -13,7 +13,7 @@ import pytest
 import vendor_humanoid as stranger
 from expected.asking import refused
 from flows.calls import stepaside
-from stepaside.fitting.requirements import check_requirements
+from stepaside.fitting.robot_verification import check_requirements
 from stepaside.robots.description import RobotDescription, load_robot
 
 

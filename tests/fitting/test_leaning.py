@@ -158,7 +158,7 @@ def test_the_least_sufficient_lean_is_chosen(
 
     def borne(robot: RobotDescription, *_: object) -> JointLoads:
         return JointLoads(
-            0.5, "hip", shares[LEAN_CANDIDATES.index(robot.lean)], "hip"
+            0.5, "hip", shares[LEAN_CANDIDATES.index(robot.lean)]
         )
 
     monkeypatch.setattr(leaning, "step_loads", borne)

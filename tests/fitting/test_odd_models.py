@@ -8,11 +8,11 @@ import numpy as np
 import pytest
 
 import vendor_humanoid as stranger
-from stepaside.fitting import com_height as stature
-from stepaside.fitting.com_height import choose_com_height
+from stepaside.fitting import derivation as stature
 from stepaside.fitting.derivation import (
     GREATEST_BY_HEIGHT,
     LEAST_SPACING,
+    choose_com_height,
     derive,
 )
 from stepaside.fitting.gait_scaling import RobotSize

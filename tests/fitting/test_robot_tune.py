@@ -18,12 +18,17 @@ from stepaside.fitting.description_writer import (
     rewrite_description,
     write_description,
 )
-from stepaside.fitting.gait_candidates import Candidate
-from stepaside.fitting.gait_search import GaitSearch
-from stepaside.fitting.joint_strain import JointStrain
-from stepaside.fitting.requirements import check_requirements
-from stepaside.fitting.robot_verification import check_robot
-from stepaside.fitting.walk_trials import PATHS, WalkTrial, WalkTrialResult
+from stepaside.fitting.gait_search import Candidate, GaitSearch
+from stepaside.fitting.robot_verification import (
+    check_requirements,
+    check_robot,
+)
+from stepaside.fitting.walk_trials import (
+    PATHS,
+    JointStrain,
+    WalkTrial,
+    WalkTrialResult,
+)
 from stepaside.games.robot_settings import settings_from_description
 from stepaside.robots.description import (
     FILE,

@@ -8,7 +8,8 @@ from pathlib import Path
 import mujoco
 import numpy as np
 
-from ..core.errors import ModelError
+from ..core.errors import ModelError, ReachError
+from ..games.robot_settings import settings_from_description
 from ..planning import GaitSettings
 from ..robots.description import RobotDescription
 from ..robots.description_types import (
@@ -17,12 +18,14 @@ from ..robots.description_types import (
     ServoGains,
     SoleFrame,
 )
+from ..robots.leg_kinematics import BodyReference, LegKinematics
 from ..robots.model_reader import read_model
-from .com_height import choose_com_height, reachable_heights, with_gait
 from .gait_feasibility import (
     GREATEST_LOAD,
+    TICK,
     JointLoads,
     choose_zmp_offset,
+    feasible_lengths,
     step_loads,
 )
 from .gait_scaling import RobotSize, gait_of, game_of_size, stabiliser_of
@@ -30,7 +33,6 @@ from .model_analysis import ModelAnalysis, analyse_model
 from .motor_data import (
     DEFAULT_SPEED,
     WEAK_LOAD,
-    followers_of,
     gains_of,
     plausible_torques,
     published_speeds,
@@ -40,6 +42,10 @@ from .motor_data import (
 from .sole_detection import check_size
 from .standing_posture import knee_limits, reach_of, standing_of, stiff_joints
 
+# CoM heights that are tried, as fractions of the greatest one in reach: the
+# lower, the farther a knee is from straight at the end of a step.
+HEIGHT_FRACTIONS = (0.96, 0.94, 0.92, 0.9)
+LEAST_GAIN = 0.05  # in step length, which justifies a lower CoM
 LEAN_CANDIDATES = (0.06, 0.12, 0.18, 0.24)  # in [rad]
 LEAN_GAIN = 0.97  # load ratio below which a greater lean is preferred
 # Greatest foot spacing: by the distance between the hips, and by the CoM
@@ -48,16 +54,7 @@ GREATEST_BY_HIPS = 1.4
 GREATEST_BY_HEIGHT = 0.38
 LEAST_SPACING = 1.25  # foot spacing by twice the inner edge of the sole
 # Names of files and folders that do not name a robot.
-GENERIC_NAMES = (
-    "model",
-    "models",
-    "robot",
-    "robots",
-    "scene",
-    "urdf",
-    "mjcf",
-    "xml",
-)
+GENERIC_NAMES = "model models robot robots scene urdf mjcf xml".split()
 # Torque limits of a model are those at the joint, and its joints apply the
 # gains that they are sent; the lower values of NAO's hardware body are
 # assumptions about its motors and servos.
@@ -73,11 +70,6 @@ def least_lean(
     """Return the least lean at which a step stays within the torque limits.
 
     For a robot whose joints are overloaded with a level torso.
-
-    Args:
-        description: Robot description with a level torso.
-        gait: Gait of the step.
-        torques: Torque limit of each joint, in [N m].
 
     Returns:
         Lean, in [rad], and the loads with it. If no candidate is enough,
@@ -158,7 +150,11 @@ def derive(
     mesh_folders = meshes or [model.parent, model.parent.parent / "meshes"]
     mesh_folders = [path for path in mesh_folders if path.is_dir()]
     analysis = analyse_model(model, mesh_folders)
-    _check_legs(analysis)
+    left, right = (len(leg.joints) for leg in analysis.legs)
+    if left != right:
+        raise ModelError(
+            f"legs must have equally many joints, got {left} and {right}"
+        )
     published = read_model(model)
     torques = plausible_torques(
         published_torques(published), analysis.mass, analysis.length
@@ -225,24 +221,87 @@ def _reachable_sizes(
     """Return the least CoM height in reach, and the size at the greatest."""
     stiff = stiff_joints(analysis)
     spacing = spacing_of(analysis, sole[3])
-    lowest, highest = reachable_heights(description, spacing, sole, stiff)
+    lowest, highest = _reachable_heights(description, spacing, sole, stiff)
     greatest = max(GREATEST_BY_HEIGHT * highest, LEAST_SPACING * 2.0 * sole[3])
     if spacing > greatest:
         # A narrower stance lifts the CoM; one iteration is enough.
         spacing = greatest
-        lowest, highest = reachable_heights(description, spacing, sole, stiff)
+        lowest, highest = _reachable_heights(description, spacing, sole, stiff)
     reach = description.place.reach
     return lowest, RobotSize(highest, analysis.mass, spacing, sole, reach)
 
 
-def _check_legs(analysis: ModelAnalysis) -> None:
-    """Refuse legs with different numbers of joints."""
-    left, right = analysis.legs
-    if len(left.joints) != len(right.joints):
-        raise ModelError(
-            f"legs must have equally many joints, got {len(left.joints)} and "
-            f"{len(right.joints)}"
-        )
+def choose_com_height(
+    description: RobotDescription, size: RobotSize, lowest: float
+) -> tuple[RobotSize, float]:
+    """Choose the CoM height at which the joints are fast enough.
+
+    Knee speed grows without bound as a knee gets straight, so that lower
+    heights are tried if the speed limits are exceeded.
+
+    Args:
+        description: Robot description.
+        size: Size of the robot at the greatest height in reach.
+        lowest: Least height in reach, in [m].
+
+    Returns:
+        Size at the chosen height, and the feasible fraction of the nominal
+        stride and step height.
+    """
+    best: tuple[RobotSize, float] | None = None
+    for fraction in HEIGHT_FRACTIONS:
+        height = fraction * size.com_height
+        if best is not None and height < lowest:
+            break
+        candidate = replace(size, com_height=height)
+        lengths = feasible_lengths(*with_gait(description, gait_of(candidate)))
+        if best is None or lengths > best[1] + LEAST_GAIN:
+            best = candidate, lengths
+        if lengths == 1.0:
+            break
+    assert best is not None
+    return best
+
+
+def with_gait(
+    description: RobotDescription, gait: dict[str, float]
+) -> tuple[RobotDescription, GaitSettings]:
+    """Return the description with gait entries, and the gait settings."""
+    changed = replace(description, gait=dict(gait))
+    return changed, settings_from_description(changed).gait
+
+
+def _reachable_heights(
+    description: RobotDescription,
+    spacing: float,
+    sole: tuple[float, float, float, float],
+    stiff: list[str],
+) -> tuple[float, float]:
+    """Return least and greatest CoM height with the feet abreast, in [m].
+
+    Raises:
+        ModelError: If no height is reached; names the stiff joints.
+    """
+    forward = 0.45 * (sole[0] + sole[1])
+    half = 0.5 * spacing
+    stance = BodyReference(
+        (forward, 0.0, 1.0), (0.0, half, 0.0, 0.0), (0.0, -half, 0.0, 0.0)
+    )
+    kinematics = LegKinematics(description, tick=TICK)
+    lowest, highest = kinematics.com_heights(stance)
+    if highest == 0.0:
+        try:
+            kinematics.stand(stance)
+        except ReachError as error:
+            reason = str(error)
+            if stiff:
+                reason = f"see the ranges of {', '.join(stiff)}, which do "
+                reason += "not allow bent knees"
+            raise ModelError(
+                f"{description.name} can stand at no height with its feet "
+                f"{spacing:.3f} m apart: {reason}"
+            ) from error
+    return lowest, highest
 
 
 def shared_sole(analysis: ModelAnalysis) -> tuple[float, float, float, float]:
@@ -276,11 +335,8 @@ def spacing_of(analysis: ModelAnalysis, inner: float) -> float:
     """Return the foot spacing, in [m].
 
     That of the ankles in the zero posture, but not wider than the hips
-    justify (legs may be spread there), nor so narrow that soles meet.
-
-    Args:
-        analysis: Analysis of the model.
-        inner: Inner edge of the sole, in [m].
+    justify (legs may be spread there), nor so narrow that soles, whose inner
+    edge is given in [m], meet.
     """
     left, right = analysis.legs
     ankles = float(left.ankle[1] - right.ankle[1])
@@ -355,8 +411,3 @@ def name_of(analysis: ModelAnalysis) -> str:
 def _relative_path(folder: Path, path: Path) -> str:
     """Return a path relative to the folder of a description."""
     return Path(os.path.relpath(path.resolve(), folder.resolve())).as_posix()
-
-
-def coupled_of(analysis: ModelAnalysis) -> set[str]:
-    """Return the joints that follow others."""
-    return followers_of(analysis.model)

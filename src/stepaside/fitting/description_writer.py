@@ -10,8 +10,8 @@ from typing import Any
 
 from ..robots.description import RobotDescription
 from ..robots.description_types import NO_OVERLAY, ServoGains
-from .derivation import DerivedDescription, coupled_of
-from .motor_data import SATURATION_ANGLE
+from .derivation import DerivedDescription
+from .motor_data import SATURATION_ANGLE, followers_of
 
 COMMENTS = Path(__file__).with_name("description_comments.toml")
 ASK = "ASK: not in the model;"
@@ -100,7 +100,7 @@ def _words(derived: DerivedDescription) -> dict[str, str]:
     return {
         "robot": own.name,
         "meshes": missing,
-        "coupled": ", ".join(sorted(coupled_of(analysis))) or "none",
+        "coupled": ", ".join(sorted(followers_of(analysis.model))) or "none",
         "speeds": speeds,
         "sole": sole,
         "lengths": times if derived.lengths < 1.0 else "",

@@ -37,16 +37,18 @@ LIFTED = 1e-3  # height above which a foot is lifted, in [m]
 def speed_ratio(description: RobotDescription, gait: GaitSettings) -> float:
     """Return the greatest joint speed of straight walking by its limit.
 
-    Args:
-        description: Robot description with the speed limits of the joints.
-        gait: Gait settings.
-
     Raises:
         ReachError: If the legs cannot reach the reference.
     """
-    return max(
-        _speed_ratio(description, gait, direction) for direction in Direction
-    )
+    greatest = 0.0
+    for direction in Direction:
+        scheme = _scheme(description, gait, direction)
+        motors = scheme.kinematics.legs.tree.motors
+        limits = [description.speed_limits[name] for name in motors]
+        path = np.array([scheme.joint_targets, *_walk(scheme, gait)])
+        speeds = np.abs(np.diff(path, axis=0)) / TICK
+        greatest = max(greatest, float((speeds / limits).max()))
+    return greatest
 
 
 class JointLoads(NamedTuple):
@@ -57,13 +59,11 @@ class JointLoads(NamedTuple):
         joint: Joint with this load.
         most: Load that is exceeded in a tenth of the time; above 1 the
             robot cannot walk so.
-        most_joint: Joint with this load.
     """
 
     usual: float
     joint: str
     most: float
-    most_joint: str
 
 
 def step_loads(
@@ -75,7 +75,7 @@ def step_loads(
 
     Args:
         description: Robot description.
-        gait: Gait settings.
+        gait: Gait of the step.
         torques: Torque limit of each joint, in [N m].
 
     Raises:
@@ -98,16 +98,14 @@ def step_loads(
             by_swing_foot[left].append(required)
     names = legs.legs.tree.motors
     limits = np.array([torques.get(name, inf) for name in names])
-    results: list[float | str] = []
-    for quantile in QUANTILES:
-        steps = [
-            np.quantile(each, quantile, axis=0)
-            for each in by_swing_foot.values()
-        ]
-        loads = np.max(steps, axis=0) / limits
-        joint = int(loads.argmax())
-        results += [float(loads[joint]), names[joint]]
-    return JointLoads(*results)  # type: ignore[arg-type]
+    usual, most = (
+        np.max([np.quantile(f, q, axis=0) for f in by_swing_foot.values()], 0)
+        / limits
+        for q in QUANTILES
+    )
+    return JointLoads(
+        float(usual.max()), names[int(usual.argmax())], float(most.max())
+    )
 
 
 def choose_zmp_offset(
@@ -119,11 +117,6 @@ def choose_zmp_offset(
 
     The torque of an ankle grows with this offset; no other gait parameter
     has as much influence on any torque.
-
-    Args:
-        description: Robot description.
-        gait: Gait settings.
-        torques: Torque limit of each joint, in [N m].
 
     Returns:
         Fraction of the nominal offset, and the loads with it: the greatest
@@ -151,45 +144,22 @@ def feasible_lengths(
     in the wrong position. Shorter steps of the same duration need less speed
     of every joint.
 
-    Args:
-        description: Robot description with the speed limits of the joints.
-        gait: Gait settings.
-
     Returns:
         Fraction in [0.35, 1]; 1 if the joints are fast enough.
     """
     fraction = 1.0
     for _ in range(ITERATIONS):
-        ratio = speed_ratio(description, with_lengths(gait, fraction))
+        shorter = replace(
+            gait,
+            speed=fraction * gait.speed,
+            stride=fraction * gait.stride,
+            step_height=fraction * gait.step_height,
+        )
+        ratio = speed_ratio(description, shorter)
         if ratio <= 1.0:
             break
         fraction = max(LEAST_LENGTHS, fraction * SPEED_MARGIN / ratio)
     return fraction
-
-
-def with_lengths(gait: GaitSettings, fraction: float) -> GaitSettings:
-    """Return a gait with scaled lengths and the same step duration."""
-    return replace(
-        gait,
-        speed=fraction * gait.speed,
-        stride=fraction * gait.stride,
-        step_height=fraction * gait.step_height,
-    )
-
-
-def _speed_ratio(
-    description: RobotDescription, gait: GaitSettings, direction: Direction
-) -> float:
-    """Return the greatest joint speed by its limit, in one direction."""
-    scheme = _scheme(description, gait, direction)
-    motors = scheme.kinematics.legs.tree.motors
-    limits = np.array([description.speed_limits[name] for name in motors])
-    last, greatest = scheme.joint_targets, 0.0
-    for targets in _walk(scheme, gait):
-        speeds = np.abs(targets - last) / TICK
-        greatest = max(greatest, float((speeds / limits).max()))
-        last = targets
-    return greatest
 
 
 def _scheme(

@@ -7,20 +7,22 @@ first, until its first fall or until it cannot beat the best one.
 """
 
 import json
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures import Executor
-from dataclasses import asdict, replace
+from dataclasses import asdict, dataclass, replace
 from functools import partial
 from hashlib import sha256
+from math import hypot, log
 from pathlib import Path
 from typing import Any, NamedTuple
 
-from ..robots.description import RobotDescription
+from ..games.robot_settings import settings_from_description
+from ..robots.description import LEAN_LIMIT, RobotDescription
 from ..robots.tree_cache import digest_of
-from ..studies.study import Study, StudyProgress, run_study
+from ..studies.study import Study, run_study
 from ..studies.tabulation import Record
-from .gait_candidates import Candidate
-from .walk_trials import FALLEN, PATHS, WalkTrialResult, walk_trial
+from .derivation import LEAST_SPACING
+from .walk_trials import FALLEN, PATHS, WalkTrial, control_with, walk_trial
 
 ROUNDS = 6
 GOOD = 0.2  # unsteadiness at which the search stops
@@ -29,6 +31,137 @@ BATCH = 4  # candidates at a time, independent of the number of workers
 ONE_PATH_MORE = 0.9 / len(PATHS)  # score of one more path before a fall
 STEADY = 1.0  # unsteadiness below which a robot walks
 INFEASIBLE = FALLEN + 2.0  # unsteadiness of changes that are not feasible
+
+# Values of each change beside its neutral one. The order is that of how often
+# a change helped published robots.
+CHOICES: dict[str, tuple[float, ...]] = {
+    "times": (0.8, 0.65, 1.25),
+    "spacing": (0.85, 0.7, 1.12),
+    "lean": (0.06, 0.12),
+    "feedback": (0.0, 1.0),
+    "zmp": (-0.1, 0.1, -0.2),
+    "stride": (0.75, 0.5),
+    "stiffness": (1.6, 0.6, 2.5),
+    "height": (0.98, 0.95),
+    "even": (0.0, 1.0),
+}
+NEUTRAL_ZERO = ("feedback", "zmp", "lean", "even")  # others are factors
+# Greatest distance of the ZMP reference from the middle of the sole, by its
+# length.
+GREATEST_ZMP_SHIFT = 0.35
+
+
+@dataclass(frozen=True, slots=True)
+class Candidate:
+    """Changes to a robot description.
+
+    Attributes:
+        feedback: 1 with feedback, 0 without.
+        stiffness: Factor on the gains of all servos.
+        times: Factor on single and double support durations.
+        stride: Factor on stride and speed.
+        spacing: Factor on the distance between the feet.
+        zmp: Forward shift of the ZMP reference, by the length of the sole.
+        height: Factor on the CoM height.
+        lean: Additional lean of the torso over the stance foot, in [rad].
+        even: 1 for swing feet with constant speed, which twist the stance
+            foot less; 0 for the smoothest swing profile.
+    """
+
+    feedback: float
+    stiffness: float = 1.0
+    times: float = 1.0
+    stride: float = 1.0
+    spacing: float = 1.0
+    zmp: float = 0.0
+    height: float = 1.0
+    lean: float = 0.0
+    even: float = 0.0
+
+    @property
+    def cost(self) -> float:
+        """Penalty of the distance from the description; small."""
+        factors = (self.stiffness, self.times, self.spacing, self.height)
+        distance = hypot(
+            *(log(factor) for factor in factors), self.zmp, self.lean
+        )
+        return 0.02 * distance + 0.2 * max(0.0, 1.0 - self.stride)
+
+    def neighbours(self) -> Iterator["Candidate"]:
+        """Yield the candidates that differ in one change."""
+        for name, values in CHOICES.items():
+            present = getattr(self, name)
+            neutral = 0.0 if name in NEUTRAL_ZERO else 1.0
+            others = (*values, neutral) if neutral not in values else values
+            for value in [each for each in others if each != present]:
+                yield replace(self, **{name: value})
+
+    def applied(self, own: RobotDescription) -> RobotDescription | None:
+        """Return the changed description; None if it is not feasible.
+
+        Args:
+            own: Description without the changes.
+        """
+        settings = settings_from_description(own)
+        gait, sole = settings.gait, settings.gait.sole
+        length = sole.front - sole.back
+        spacing = self.spacing * gait.foot_spacing
+        zmp_forward = gait.zmp_forward + self.zmp * length
+        middle = 0.5 * (sole.front + sole.back)
+        if spacing < 2.0 * LEAST_SPACING * sole.inner and self.spacing < 1.0:
+            return None
+        if abs(zmp_forward - middle) > GREATEST_ZMP_SHIFT * length:
+            return None
+        if own.lean + self.lean > LEAN_LIMIT:
+            return None
+        values = {
+            "speed": self.stride * gait.speed,
+            "stride": self.stride * gait.stride,
+            "foot_spacing": spacing,
+            "single_support": self.times * gait.single_support,
+            "double_support": self.times * gait.double_support,
+            "com_height": self.height * gait.com_height,
+            "zmp_forward": zmp_forward,
+        }
+        changed: dict[str, float | str] = {
+            name: float(f"{v:.4g}") for name, v in values.items()
+        }
+        if self.even:
+            changed["swing_profile"] = "even"
+        control = control_with(settings.control, bool(self.feedback))
+        servos = {
+            name: replace(
+                gains,
+                stiffness=float(f"{self.stiffness * gains.stiffness:.3g}"),
+                damping=float(f"{self.stiffness * gains.damping:.3g}"),
+            )
+            for name, gains in own.overlay.servos.items()
+        }
+        return replace(
+            own,
+            lean=own.lean + self.lean,
+            gait=own.gait | changed,
+            control=own.control
+            | {"method": control.method, "feedback": control.feedback},
+            overlay=replace(own.overlay, servos=servos)
+            if servos
+            else own.overlay,
+        )
+
+    def trials(self, own: RobotDescription) -> tuple[WalkTrial, ...]:
+        """Return its walk trials, the hardest first; none if not feasible."""
+        changed = self.applied(own)
+        if changed is None:
+            return ()
+        settings = settings_from_description(changed)
+        return tuple(
+            WalkTrial(changed, settings.gait, settings.control, path)
+            for path in reversed(PATHS)
+        )
+
+    def to_json(self) -> dict[str, float]:
+        """Return the changes by name."""
+        return asdict(self)
 
 
 class RatedCandidate(NamedTuple):
@@ -73,14 +206,15 @@ class GaitSearch:
         description: RobotDescription,
         executor: Executor | None,
         file: Path | None,
-        report: Callable[[int, int, float], None] | None = None,
+        report: Callable[[int, int, float], None] = lambda *_: None,
     ) -> None:
-        """Load the results of an earlier search for the same robot.
+        """Prepare a search.
 
         Args:
             description: Robot description.
             executor: Executor of the walks.
-            file: SQLite file of the ratings; None to store nothing.
+            file: SQLite file of the ratings, those of an earlier search
+                included; None to store nothing.
             report: Called with the number of candidates that are rated, the
                 number by the end of the round, and the least unsteadiness so
                 far.
@@ -145,29 +279,23 @@ class GaitSearch:
             self._key,
         )
         run = run_study(
-            study, self._file, executor=self._executor, report=_say_nothing
+            study, self._file, executor=self._executor, report=lambda _: None
         )
         for candidate, record in run.items():
-            self._add(candidate, record["walks"])
+            walks = record["walks"]
+            self._rated[candidate] = RatedCandidate(
+                candidate, _unsteadiness(walks), tuple(walks)
+            )
+            least = min(r.unsteadiness for r in self._rated.values())
+            number = len(self._rated)
+            self._report(number, max(number, self._expected), least)
         if run.failure is not None:
             raise run.failure
         if run.interrupted:
             raise KeyboardInterrupt
 
-    def _add(self, candidate: Candidate, walks: list[dict[str, Any]]) -> None:
-        rated = RatedCandidate(candidate, _unsteadiness(walks), tuple(walks))
-        self._rated[candidate] = rated
-        if self._report is not None:
-            least = min(r.unsteadiness for r in self._rated.values())
-            number = len(self._rated)
-            self._report(number, max(number, self._expected), least)
-
     def _key(self, candidate: Candidate) -> str:
         return json.dumps([self._digest, candidate.to_json()], sort_keys=True)
-
-
-def _say_nothing(progress: StudyProgress) -> None:
-    """Leave the progress to the search."""
 
 
 def _walk_all(
@@ -177,7 +305,7 @@ def _walk_all(
     walks: list[dict[str, Any]] = []
     for trial in candidate.trials(own):
         result = walk_trial(trial)
-        walks.append(_record(result))
+        walks.append(result.to_json())
         score = result.unsteadiness + candidate.cost
         if not result.completed or score > bound:
             break
@@ -193,13 +321,6 @@ def _unsteadiness(walks: list[dict[str, Any]]) -> float:
         return float(max(walk["unsteadiness"] for walk in walks))
     fraction = (len(walks) - 1 + float(last["lasted"])) / len(PATHS)
     return FALLEN + 1.0 - fraction
-
-
-def _record(result: WalkTrialResult) -> dict[str, Any]:
-    record = result._asdict()
-    strain = result.strain
-    record["strain"] = None if strain is None else strain._asdict()
-    return record | {"unsteadiness": result.unsteadiness}
 
 
 def _digest_of(description: RobotDescription) -> str:

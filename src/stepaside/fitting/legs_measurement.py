@@ -1,9 +1,9 @@
 """Measurement of learned legs: what velocities commands lead to."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures import Executor
 from dataclasses import dataclass, replace
-from math import hypot, isfinite
+from math import hypot, isfinite, nan
 from typing import NamedTuple
 
 import mujoco
@@ -19,7 +19,6 @@ from ..locomotion.policy.legs_loader import load_policy
 from ..locomotion.policy.legs_settings import LegsSettings
 from ..locomotion.policy.policy_legs import PolicyLegs
 from ..locomotion.policy.velocity_response import (
-    AXES,
     AxisResponse,
     VelocityResponse,
 )
@@ -51,16 +50,15 @@ COMBINED = (
 )
 
 
-@dataclass(frozen=True, slots=True)
-class LegsTrial:
-    """One walk at a constant command.
+class LegsTrial(NamedTuple):
+    """One walk of a robot on a policy.
 
     Attributes:
         description: Description of the robot.
         legs: Walking policy.
         body: Deviations of the body from an ideal one.
-        command: Command of the policy.
-        seed: Seed of sensor errors.
+        command: Command of the policy, where it is constant.
+        seed: Seed of sensor errors and of random commands.
         response: Response by which velocities are commanded; None for
             commands as they are.
     """
@@ -103,7 +101,6 @@ def run_trial(trial: LegsTrial) -> LegsTrialResult:
         PolicyError: If the network cannot run on the robot.
     """
     walk = _LegsWalk(trial)
-    tick = walk.world.physics.tick
     ends = STANDING + SETTLING + STEADY
     poses, estimates = [], []
     while walk.world.time < ends + HALTING:
@@ -112,21 +109,34 @@ def run_trial(trial: LegsTrial) -> LegsTrialResult:
         poses.append((*place, walk.truth.heading_in_world))
         estimates.append(walk.legs.pose)
         if not walk.advance(trial.command if walks else STILL):
-            nothing = BodyVelocity(*[float("nan")] * 3)
-            fell_at = walk.world.time
+            nothing = BodyVelocity(nan, nan, nan)
             return LegsTrialResult(
-                trial.command, nothing, nothing[0], nothing[0], fell_at
+                trial.command, nothing, nan, nan, walk.world.time
             )
+    tick = walk.world.physics.tick
     result = _evaluate(trial.command, np.array(poses), tick)
     estimated = _evaluate(trial.command, np.array(estimates), tick)
     return result._replace(odometry=estimated.delivered[:2])
+
+
+def _random_commands(
+    seed: int, name: str, ranges: Sequence[tuple[float, float]]
+) -> Iterator[tuple[BodyVelocity, float]]:
+    """Yield random commands, and the times until which they hold, in [s]."""
+    generator, until = named_generator(seed, name), STANDING
+    yield STILL, until
+    low, high = np.array(ranges).T
+    while True:
+        command = BodyVelocity(*generator.uniform(low, high).tolist())
+        until += float(generator.uniform(*HOLDS))
+        yield command, until
 
 
 def run_random_walk(trial: LegsTrial) -> float | None:
     """Walk for a minute at commands that change at random.
 
     Each command is drawn from the ranges of the contract, and holds for 1 to
-    4 s. The seed of the trial decides; its command does not matter.
+    4 s.
 
     Returns:
         Time of a fall, in [s]; None without one.
@@ -135,13 +145,12 @@ def run_random_walk(trial: LegsTrial) -> float | None:
         PolicyError: If the network cannot run on the robot.
     """
     walk = _LegsWalk(trial)
-    generator = named_generator(trial.seed, "random walk")
-    low, high = np.array(walk.legs.contract.command_ranges).T
-    command, until = STILL, STANDING
+    ranges = walk.legs.contract.command_ranges
+    commands = _random_commands(trial.seed, "random walk", ranges)
+    command, until = next(commands)
     while walk.world.time < RANDOM_WALK:
         if walk.world.time + 1e-9 >= until:
-            command = BodyVelocity(*generator.uniform(low, high).tolist())
-            until += float(generator.uniform(*HOLDS))
+            command, until = next(commands)
         if not walk.advance(command):
             return walk.world.time
     return None
@@ -162,21 +171,19 @@ def run_tracking_walk(trial: LegsTrial) -> float:
     """
     assert trial.response is not None
     walk, legs = _LegsWalk(trial), trial.response.velocities
-    generator = named_generator(trial.seed, "tracking walk")
-    low, high = np.array(legs[:3]).T
-    wanted, until, tick = STILL, STANDING, walk.world.physics.tick
-    lag = max(legs.lags[:2])
+    commands = _random_commands(trial.seed, "tracking walk", legs[:3])
+    wanted, until = next(commands)
+    lag, tick = max(legs.lags[:2]), walk.world.physics.tick
     template = TemplatePoint(walk.truth.position_reference_in_world)
     tube = 0.0
     while walk.world.time < TRACKING_WALK:
         if walk.world.time + 1e-9 >= until:
-            drawn = BodyVelocity(*generator.uniform(low, high).tolist())
+            drawn, until = next(commands)
             wanted = legs.nearest(drawn)
-            until += float(generator.uniform(*HOLDS))
         theta = walk.truth.heading_in_world
         u, v, _ = Pose(0.0, 0.0, theta).compose(Pose(*wanted[:2], 0.0))
         if not walk.advance(wanted):
-            return float("nan")
+            return nan
         body = walk.truth.position_reference_in_world
         template = template.advance((u, v), body, lag, tick)
         x, y = template.position
@@ -185,13 +192,7 @@ def run_tracking_walk(trial: LegsTrial) -> float:
 
 
 class _LegsWalk:
-    """Robot on a policy in a world of its own.
-
-    Attributes:
-        world: World with the robot.
-        legs: Learned legs.
-        truth: True state of the robot.
-    """
+    """Robot on a policy in a world of its own."""
 
     def __init__(self, trial: LegsTrial) -> None:
         """Stand in the default posture of the policy."""
@@ -238,33 +239,16 @@ class _LegsWalk:
 def _evaluate(
     command: BodyVelocity, poses: Array, tick: float
 ) -> LegsTrialResult:
-    """Evaluate the poses of a walk without a fall.
-
-    Args:
-        command: Command of the policy.
-        poses: Pose (x, y, heading) at each tick. Shape (n, 3).
-        tick: Time between poses, in [s].
-    """
+    """Evaluate the poses of a walk without a fall, a row for each tick."""
     x, y, heading = poses.T
     heading = np.unwrap(heading)
     middle = 0.5 * (heading[1:] + heading[:-1])
     dx, dy = np.diff(x), np.diff(y)
-    moved = np.stack(
-        [
-            np.cos(middle) * dx + np.sin(middle) * dy,
-            np.cos(middle) * dy - np.sin(middle) * dx,
-            np.diff(heading),
-        ],
-        axis=1,
-    )
-    begins, steady, ends = (
-        round(time / tick)
-        for time in (
-            STANDING,
-            STANDING + SETTLING,
-            STANDING + SETTLING + STEADY,
-        )
-    )
+    ahead = np.cos(middle) * dx + np.sin(middle) * dy
+    aside = np.cos(middle) * dy - np.sin(middle) * dx
+    moved = np.stack([ahead, aside, np.diff(heading)], axis=1)
+    times = np.cumsum([STANDING, SETTLING, STEADY])
+    begins, steady, ends = (round(time / tick) for time in times)
     velocity = moved[steady:ends].sum(axis=0) / STEADY
     axis = int(np.argmax(np.abs(command)))
     final = float(velocity[axis])
@@ -278,23 +262,22 @@ def _evaluate(
 
 
 def trial_commands(ranges: CommandRanges) -> list[BodyVelocity]:
-    """Return the commands of a measurement: each axis, then combinations.
-
-    Args:
-        ranges: Ranges of the commands.
-    """
+    """Return the commands of a measurement: each axis, then combinations."""
+    singles = [
+        tuple(share if axis == i else 0.0 for i in range(3))
+        for axis in range(3)
+        for share in SHARES
+    ]
     commands = [STILL]
-    for name, (low, high) in zip(AXES, ranges, strict=True):
-        values = (share * (high if share > 0 else -low) for share in SHARES)
-        commands += [
-            STILL._replace(**{name: value}) for value in values if value
-        ]
-    for shares in COMBINED:
-        values = (
-            share * (high if share > 0 else -low)
-            for share, (low, high) in zip(shares, ranges, strict=True)
+    for shares in (*singles, *COMBINED):
+        command = BodyVelocity(
+            *(
+                share * (high if share > 0 else -low)
+                for share, (low, high) in zip(shares, ranges, strict=True)
+            )
         )
-        commands.append(BodyVelocity(*values))
+        if any(command):
+            commands.append(command)
     return commands
 
 
@@ -365,58 +348,48 @@ def measure_legs(
             while it is to stand, or an axis does not follow its command.
     """
     contract, _ = load_policy(legs, description)
+    base = LegsTrial(description, legs, body, STILL, seed)
     commands = trial_commands(contract.command_ranges)
-    trials = [
-        LegsTrial(description, legs, body, command, seed)
-        for command in commands
-    ]
+    walks = len(commands) + random_walks
     results = []
-    for result in executor.map(run_trial, trials):
+    for result in executor.map(
+        run_trial, [base._replace(command=command) for command in commands]
+    ):
         results.append(result)
-        report(len(results), len(trials) + random_walks)
+        report(len(results), walks)
     if results[0].fell_at is not None:
         raise PolicyError(
             f"legs: the robot fell at {results[0].fell_at:.2f} s while it "
             "was to stand: the contract does not fit the network"
         )
-    random = [
-        LegsTrial(description, legs, body, STILL, seed + i)
-        for i in range(random_walks)
-    ]
-    singles = results[: -len(COMBINED)]
-    axes = [_axis(i, singles) for i in range(3)]
-    ratio = _odometry_ratio(results)
+    singles, combined = results[: -len(COMBINED)], results[-len(COMBINED) :]
     response = VelocityResponse(
-        axes[0], axes[1], axes[2], odometry_ratio=ratio
+        _axis(0, singles),
+        _axis(1, singles),
+        _axis(2, singles),
+        odometry_ratio=_odometry_ratio(results),
     )
-    tracking = [
-        LegsTrial(description, legs, body, STILL, seed + i, response)
-        for i in range(TRACKING_WALKS)
-    ]
-    tubes = list(executor.map(run_tracking_walk, tracking))
-    kept = [tube for tube in tubes if isfinite(tube)]
-    response = replace(response, tube=max(kept, default=0.0))
+    tracking = base._replace(response=response)
+    tubes = executor.map(
+        run_tracking_walk,
+        [tracking._replace(seed=seed + i) for i in range(TRACKING_WALKS)],
+    )
+    tube = max((each for each in tubes if isfinite(each)), default=0.0)
+    response = replace(response, tube=tube)
     falls = []
-    for fall in executor.map(run_random_walk, random):
+    for fall in executor.map(
+        run_random_walk,
+        [base._replace(seed=seed + i) for i in range(random_walks)],
+    ):
         falls.append(fall)
-        report(len(trials) + len(falls), len(trials) + random_walks)
-    return LegsMeasurement(
-        tuple(results),
-        response,
-        _combined_error(response, results[-len(COMBINED) :]),
-        tuple(falls),
-    )
+        report(len(results) + len(falls), walks)
+    error = _combined_error(response, combined)
+    return LegsMeasurement(tuple(results), response, error, tuple(falls))
 
 
 def _axis(axis: int, results: list[LegsTrialResult]) -> AxisResponse:
     """Return the response along one axis, as far as it ascends."""
-    own = [
-        result
-        for result in results
-        if all(
-            value == 0.0 for k, value in enumerate(result.command) if k != axis
-        )
-    ]
+    own = [r for r in results if not any(np.delete(r.command, axis))]
     own.sort(key=lambda result: result.command[axis])
     rest = next(i for i, r in enumerate(own) if r.command == STILL)
     kept = [own[rest]]

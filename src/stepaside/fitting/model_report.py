@@ -4,9 +4,10 @@ from typing import Any
 
 import numpy as np
 
-from .derivation import DerivedDescription, coupled_of
+from .derivation import DerivedDescription
 from .leg_detection import ALIGNED, JOINT_TYPES
 from .model_analysis import ModelAnalysis
+from .motor_data import followers_of
 
 GREATEST_HEAD = 0.2  # mass of a head, by that of the robot
 MIDDLE = 0.05  # distance from the sagittal plane, by the length of a leg
@@ -65,7 +66,7 @@ def report_of(derived: DerivedDescription) -> dict[str, Any]:
         "lean_rad": own.lean,
         "torque_share": round(derived.loads.usual, 3),
         "game": dict(own.game),
-        "coupled": sorted(coupled_of(analysis)),
+        "coupled": sorted(followers_of(analysis.model)),
         "head": head_of(analysis),
         "omitted_meshes": len(analysis.missing),
         "missing_values": {

@@ -1,18 +1,49 @@
 """Verification of a robot: static requirements and walk trials."""
 
-from collections.abc import Callable, Iterable
+import re
+from collections.abc import Callable, Iterator
 from concurrent.futures import Executor
 from typing import Any, NamedTuple
 
-from ..robots.description import RobotDescription
-from .joint_strain import JointStrain
-from .requirements import RequirementCheck, check_requirements
+import mujoco
+import numpy as np
+
+from ..core.errors import StepAsideError
+from ..core.poses import Pose
+from ..games.robot_settings import settings_from_description
+from ..locomotion.zmp.reference_table import standing_reference
+from ..robots.description import FILE, REMEDY, RobotDescription
+from ..robots.forward_kinematics import ForwardKinematics
+from ..robots.leg_kinematics import LegKinematics
+from ..robots.tree_compiler import compile_tree
+from .gait_feasibility import TICK, step_loads
 from .walk_trials import WalkTrialResult, trials_of, walk_trial
 
+GREATEST_FOOT_DIFFERENCE = 0.05  # from mirroring each other, by the CoM height
+GREATEST_COM_OFFSET = 0.05  # lateral, by the CoM height
+LEAST_REACH_MARGIN = 0.01  # of the CoM height, by the greatest in reach
+GREATEST_STEP_LOAD = 0.95  # of a torque limit in a step
+GREATEST_LOAD = 0.9  # of a torque limit in a simulated walk
 GREATEST_SAG = 0.02  # of the CoM while standing, in [m]
 # Unsteadiness up to which the circle is within 5 % of theory.
 ACCURATE = 0.35
-GREATEST_LOAD = 0.9  # of a torque limit
+TUNE = "`stepaside robot tune` searches for a"
+
+
+class RequirementCheck(NamedTuple):
+    """Result of one check.
+
+    Attributes:
+        name: Name of the requirement.
+        verdict: "pass", "warn" or "fail".
+        value: Measured value as text.
+        hint: Remedy; empty if it passed.
+    """
+
+    name: str
+    verdict: str
+    value: str
+    hint: str = ""
 
 
 class VerificationReport(NamedTuple):
@@ -45,17 +76,7 @@ class VerificationReport(NamedTuple):
             "passes": self.passes,
             "feedback": self.feedback,
             "findings": [finding._asdict() for finding in self.findings],
-            "walks": [
-                walk._asdict()
-                | {
-                    "steady": walk.is_steady,
-                    "unsteadiness": walk.unsteadiness,
-                    "strain": None
-                    if walk.strain is None
-                    else walk.strain._asdict(),
-                }
-                for walk in self.walks
-            ],
+            "walks": [walk.to_json() for walk in self.walks],
         }
 
 
@@ -82,81 +103,248 @@ def check_robot(
         if report is not None:
             report(len(walks), len(trials))
     feedback = bool(description.control.get("feedback", False))
-    found += _strains([w for w in walks if w.feedback == feedback])
-    found += _walks(walks, feedback)
+    described = [walk for walk in walks if walk.feedback == feedback]
+    others = [walk for walk in walks if walk.feedback != feedback]
+    found += _strains(described)
+    found += [_steadiness(described), _steadiness(others, described=False)]
     return VerificationReport(tuple(found), tuple(walks), feedback)
 
 
-def _strains(walks: Iterable[WalkTrialResult]) -> list[RequirementCheck]:
+def check_requirements(
+    description: RobotDescription,
+) -> list[RequirementCheck]:
+    """Check all requirements that need no walking.
+
+    An invalid description ends the list with a failure that gives the
+    reason.
+    """
+    results: list[RequirementCheck] = []
+    for name, (check, hint) in CHECKS.items():
+        try:
+            results += check(description)
+        except StepAsideError as error:
+            results.append(RequirementCheck(name, "fail", str(error), hint))
+            break
+    return results
+
+
+def _judge(
+    name: str, value: str, verdict: str | None = None, hint: str = ""
+) -> RequirementCheck:
+    """Return a check that passes if there is no other verdict."""
+    if verdict is None:
+        return RequirementCheck(name, "pass", value)
+    return RequirementCheck(name, verdict, value, hint)
+
+
+def _kinematics(description: RobotDescription) -> Iterator[RequirementCheck]:
+    tree = compile_tree(description)
+    description.check(tree.bodies, tree.sites, tree.joints, tree.motors)
+    yield _judge("free joint", f"at {description.torso}")
+    legs = len(description.legs)
+    yield _judge("joints", f"{len(tree.joints)}, of which {legs} in the legs")
+
+
+def _estimates(description: RobotDescription) -> Iterator[RequirementCheck]:
+    """Name the tables that ``robot init`` marked as estimates."""
+    text = (description.folder / FILE).read_text(encoding="utf-8-sig")
+    tables = re.findall(r"ASK:.*?\n\[([\w.]+)\]", text, re.DOTALL)
+    yield _judge(
+        "estimates",
+        ", ".join(tables) or "none",
+        "warn" if tables else None,
+        "replace values marked by ASK by measured ones",
+    )
+
+
+def _masses(description: RobotDescription) -> Iterator[RequirementCheck]:
+    model = description.compile()
+    empty = [
+        model.body(b).name
+        for b in range(1, model.nbody)
+        if model.body_jntnum[b] and model.body_subtreemass[b] <= 0.0
+    ]
+    total = f"{float(model.body_mass.sum()):.2f} kg"
+    yield _judge(
+        "masses",
+        total + (f", none for {empty[0]}" if empty else ""),
+        "fail" if empty else None,
+        "give links an inertial",
+    )
+    forward = ForwardKinematics(description)
+    standing = description.standing
+    posture = forward.posture(
+        np.array([standing.get(name, 0.0) for name in forward.tree.motors])
+    )
+    left, right = feet = posture.positions_feet_in_torso
+    offset = posture.position_com_in_torso - feet.mean(axis=0)
+    aside, high = abs(float(offset[1])), float(offset[2])
+    apart = float(np.abs(left * (1.0, -1.0, 1.0) - right).max())
+    mirrored = (
+        aside < GREATEST_COM_OFFSET * high
+        and apart < GREATEST_FOOT_DIFFERENCE * high
+    )
+    yield _judge(
+        "mirror symmetry",
+        f"CoM {1e3 * aside:.1f} mm off the middle of the feet, which are "
+        f"{1e3 * apart:.1f} mm from mirroring each other",
+        None if mirrored else "warn",
+        "see standing: angles of both sides must mirror",
+    )
+
+
+def _sensors(description: RobotDescription) -> Iterator[RequirementCheck]:
+    model = description.compile()
+    names = {model.sensor(i).name for i in range(model.nsensor)}
+    own = description.sensors
+    required = (own.gyro, own.accelerometer, *own.feet)
+    missing = [name for name in required if name not in names]
+    yield _judge(
+        "sensors",
+        f"no {', '.join(missing)}" if missing else "IMU, 4 under each foot",
+        "fail" if missing else None,
+        f"name them in [sensors]; {REMEDY}",
+    )
+
+
+def _actuators(description: RobotDescription) -> Iterator[RequirementCheck]:
+    model = description.compile()
+    limits = _torque_limits(model)
+    kinds = dict(zip(limits, model.actuator_biastype, strict=True))
+    affine = mujoco.mjtBias.mjBIAS_AFFINE
+    faults = {
+        "no actuator for": [
+            name
+            for name in description.legs
+            if name in description.speed_limits and name not in limits
+        ],
+        "no force range for": [n for n, high in limits.items() if high <= 0.0],
+        "no position servo for": [n for n, k in kinds.items() if k != affine],
+    }
+    messages = [
+        f"{text} {names[0]}" for text, names in faults.items() if names
+    ]
+    yield _judge(
+        "actuators",
+        "; ".join(messages) or f"{model.nu} servos with a force range",
+        "fail" if messages else None,
+        REMEDY,
+    )
+
+
+def _torque_limits(model: mujoco.MjModel) -> dict[str, float]:
+    """Return the torque limit of each actuated joint, in [N m]."""
+    return {
+        model.joint(joint).name: float(high)
+        for joint, high in zip(
+            model.actuator_trnid[:, 0],
+            model.actuator_forcerange[:, 1],
+            strict=True,
+        )
+    }
+
+
+def _reach(description: RobotDescription) -> Iterator[RequirementCheck]:
+    gait = settings_from_description(description).gait
+    half = 0.5 * gait.foot_spacing
+    feet = Pose(0.0, half, 0.0), Pose(0.0, -half, 0.0)
+    stance = standing_reference(*feet, gait)
+    legs = LegKinematics(description, tick=TICK)
+    legs.stand(stance)
+    _, highest = legs.com_heights(stance)
+    near = highest - gait.com_height < LEAST_REACH_MARGIN * highest
+    yield _judge(
+        "reach",
+        f"CoM at {gait.com_height:.3f} of {highest:.3f} m",
+        "warn" if near else None,
+        "lower gait.com_height: the knees get straight",
+    )
+
+
+def _strength(description: RobotDescription) -> Iterator[RequirementCheck]:
+    gait = settings_from_description(description).gait
+    torques = _torque_limits(description.compile())
+    loads = step_loads(description, gait, torques)
+    yield _judge(
+        "torque of a step",
+        f"{100.0 * loads.usual:.0f} % of the limit of {loads.joint}",
+        "warn" if loads.usual > GREATEST_STEP_LOAD else None,
+        f"see the torque limit of {loads.joint}: a step leaves no margin for "
+        "feedback",
+    )
+
+
+CHECKS: dict[
+    str, tuple[Callable[[RobotDescription], Iterator[RequirementCheck]], str]
+] = {
+    "kinematics": (_kinematics, REMEDY),
+    "estimates": (_estimates, ""),
+    "masses": (_masses, "give links an inertial"),
+    "sensors": (_sensors, REMEDY),
+    "actuators": (_actuators, REMEDY),
+    "reach": (
+        _reach,
+        "change gait.com_height, foot_spacing or the standing angles",
+    ),
+    "torque": (_strength, "see [overlay.servos]"),
+}
+"""Checks without walking, with remedies for what they cannot compute."""
+
+
+def _strains(walks: list[WalkTrialResult]) -> Iterator[RequirementCheck]:
     """Check torques while standing and walking, and the sag of the CoM."""
     strains = [walk.strain for walk in walks if walk.strain is not None]
     if not strains:
-        return []
+        return
     standing = max(strains, key=lambda s: s.standing)
     walking = max(strains, key=lambda s: s.walking)
-    return [
-        _torque(
-            "torque, standing", standing.standing, standing.standing_joint
-        ),
-        _torque("torque, walking", walking.walking, walking.walking_joint),
-        _sag(standing),
-    ]
-
-
-def _torque(name: str, load: float, joint: str) -> RequirementCheck:
-    high = load > GREATEST_LOAD
-    return RequirementCheck(
-        name,
-        "warn" if high else "pass",
-        f"{100.0 * load:.0f} % of the limit of {joint}",
-        f"see the torque limit of {joint}, or reduce gait.stride and "
-        "gait.speed"
-        if high
-        else "",
-    )
-
-
-def _sag(strain: JointStrain) -> RequirementCheck:
-    high = strain.sag > GREATEST_SAG
-    return RequirementCheck(
+    for name, load, joint in (
+        ("standing", standing.standing, standing.standing_joint),
+        ("walking", walking.walking, walking.walking_joint),
+    ):
+        yield _judge(
+            f"torque, {name}",
+            f"{100.0 * load:.0f} % of the limit of {joint}",
+            "warn" if load > GREATEST_LOAD else None,
+            f"see the torque limit of {joint}, or reduce gait.stride and "
+            "gait.speed",
+        )
+    yield _judge(
         "sag",
-        "warn" if high else "pass",
-        f"{1e3 * strain.sag:.1f} mm",
-        "raise the stiffness of the leg servos" if high else "",
+        f"{1e3 * standing.sag:.1f} mm",
+        "warn" if standing.sag > GREATEST_SAG else None,
+        "raise the stiffness of the leg servos",
     )
 
 
-def _walks(
-    walks: Iterable[WalkTrialResult], feedback: bool
-) -> list[RequirementCheck]:
-    """Check the walks with and without feedback, the described ones first."""
-    results = []
-    for with_feedback in (feedback, not feedback):
-        described = with_feedback is feedback
-        own = [walk for walk in walks if walk.feedback is with_feedback]
-        failed = [walk for walk in own if not walk.is_steady]
-        name = "walks with feedback" if with_feedback else "walks open loop"
-        if not failed:
-            worst = max(own, key=lambda walk: walk.unsteadiness)
-            text = f"all steady, at worst {worst.unsteadiness:.2f} of 1"
-            inaccurate = described and worst.unsteadiness > ACCURATE
-            hint = "`stepaside robot tune` searches for a more accurate gait"
-            verdict = "warn" if inaccurate else "pass"
-            results.append(
-                RequirementCheck(
-                    name, verdict, text, hint if inaccurate else ""
-                )
-            )
-            continue
-        worst = max(failed, key=lambda walk: walk.unsteadiness)
-        verdict = "fail" if described else "warn"
-        hint = "`stepaside robot tune` searches for a gait that walks"
-        if not described:
-            hint = "the description does not use it"
-        text = f"{len(failed)} of {len(own)} unsteady, worst {worst.way}: "
-        if worst.completed:
-            text += f"{worst.unsteadiness:.2f} of 1"
-        else:
-            text += worst.message
-        results.append(RequirementCheck(name, verdict, text, hint))
-    return results
+def _steadiness(
+    walks: list[WalkTrialResult], *, described: bool = True
+) -> RequirementCheck:
+    """Check the walks with or without feedback.
+
+    Args:
+        walks: Walks along all paths.
+        described: Whether the robot is described to walk so.
+    """
+    name = "walks with feedback" if walks[0].feedback else "walks open loop"
+    failed = [walk for walk in walks if not walk.is_steady]
+    worst = max(failed or walks, key=lambda walk: walk.unsteadiness)
+    if not failed:
+        inaccurate = described and worst.unsteadiness > ACCURATE
+        return _judge(
+            name,
+            f"all steady, at worst {worst.unsteadiness:.2f} of 1",
+            "warn" if inaccurate else None,
+            f"{TUNE} more accurate gait",
+        )
+    reason = worst.message
+    if worst.completed:
+        reason = f"{worst.unsteadiness:.2f} of 1"
+    return _judge(
+        name,
+        f"{len(failed)} of {len(walks)} unsteady, worst {worst.way}: {reason}",
+        "fail" if described else "warn",
+        f"{TUNE} gait that walks"
+        if described
+        else "the description does not use it",
+    )

@@ -1,4 +1,13 @@
-"""Standing posture of a robot: knees slightly bent, arms hanging."""
+r"""Standing posture of a robot: knees slightly bent, arms hanging.
+
+Hip, knee and ankle pitch have parallel lateral axes, so that a leg is a
+planar two-link chain. The knee bends by :math:`\kappa` from the straight leg,
+the hip puts the ankle under itself, and the ankle levels the foot. In the
+zero posture of most models the leg is straight and the foot level; if not,
+their angles are taken into account.
+"""
+
+from math import atan2, cos, sin
 
 import mujoco
 import numpy as np
@@ -6,8 +15,10 @@ import numpy as np
 from ..robots.geom_points import geom_points_in_world
 from .leg_detection import ALIGNED, JOINT_TYPES, DetectedLeg
 from .model_analysis import ModelAnalysis
-from .standing_angles import STRAIGHT_MARGIN, bend_of, straight_of
 
+BENT = (-0.3, 0.6, -0.3)  # hip, knee and ankle of a straight leg, in [rad]
+STRAIGHT_MARGIN = 0.05  # least bend of a knee, in [rad]
+STRAIGHT_TOLERANCE = 0.25  # smaller knee angles count as straight, in [rad]
 RANGE_MARGIN = 0.02  # from the ends of a joint range, in [rad]
 # Drop of the CoM of an arm, by the length of a leg, from which it is lowered.
 LEAST_DROP = 0.1
@@ -80,22 +91,24 @@ def reach_of(
         forward: Sagittal coordinate of the reference point in the torso
             frame, in [m].
     """
-    model, data = found.model, mujoco.MjData(found.model)
-    data.qpos[:] = found.data.qpos
-    for name, angle in standing.items():
-        data.joint(name).qpos[0] = angle
+    model, data = found.model, _posture(found, standing)
     mujoco.mj_kinematics(model, data)
-    middle = np.array([forward, 0.0])
-    farthest = 0.0
-    for geom in range(model.ngeom):
-        points = geom_points_in_world(model, data, geom)
-        if len(points):
-            away = np.linalg.norm(points[:, :2] - middle, axis=1).max()
-            farthest = max(farthest, float(away))
-    for body in range(2, model.nbody):  # for bodies without geoms
-        away = np.linalg.norm(data.xpos[body, :2] - middle)
-        farthest = max(farthest, float(away))
-    return round(REACH_MARGIN * farthest, 3)
+    points = [
+        geom_points_in_world(model, data, geom) for geom in range(model.ngeom)
+    ]
+    points.append(data.xpos[2:])  # for bodies without geoms
+    away = np.concatenate([each[:, :2] for each in points if len(each)])
+    farthest = np.linalg.norm(away - (forward, 0.0), axis=1).max(initial=0.0)
+    return round(REACH_MARGIN * float(farthest), 3)
+
+
+def _posture(found: ModelAnalysis, angles: dict[str, float]) -> mujoco.MjData:
+    """Return the zero posture with other angles of some joints."""
+    data = mujoco.MjData(found.model)
+    data.qpos[:] = found.data.qpos
+    for name, angle in angles.items():
+        data.joint(name).qpos[0] = angle
+    return data
 
 
 def _inside(model: mujoco.MjModel, name: str, angle: float) -> float:
@@ -131,12 +144,9 @@ def _hanging(
     found: ModelAnalysis, name: str, known: dict[str, float]
 ) -> float:
     """Return the shoulder angle of a hanging arm, clear of the body."""
-    model, data = found.model, mujoco.MjData(found.model)
+    model, data = found.model, _posture(found, known)
     joint = model.joint(name)
     body = int(joint.bodyid[0])
-    data.qpos[:] = found.data.qpos
-    for other, angle in known.items():
-        data.joint(other).qpos[0] = angle
     low, high = joint.range.tolist()
     if not model.jnt_limited[joint.id]:
         low, high = -np.pi / 2, np.pi / 2
@@ -159,3 +169,43 @@ def _hanging(
     if abs(found.data.xaxis[joint.id, 0]) > ALIGNED:
         best += ARM_CLEARANCE * outward
     return _inside(model, name, best)
+
+
+def bend_of(leg: DetectedLeg, knee_range: tuple[float, float]) -> list[float]:
+    """Return the standing angles of hip, knee and ankle, in [rad].
+
+    They are signed by the joint axes of the model.
+    """
+    hip, knee, ankle = BENT
+    straight = straight_of(leg)
+    x, _, z = leg.axes[:, 0]
+    tilt = atan2(-z, x) if z else 0.0  # of the sole, about the left axis
+    if straight or tilt:
+        low, high = sorted(leg.signs[1] * end for end in knee_range)
+        forward = min(straight + knee, high) - straight
+        backward = straight - max(straight - knee, low)
+        knee = straight + (knee if forward >= backward else -knee)
+        upper, lower = _rods(leg)
+        x = upper[0] + lower[0] * cos(knee) + lower[1] * sin(knee)
+        z = upper[1] - lower[0] * sin(knee) + lower[1] * cos(knee)
+        hip = atan2(x, -z)
+        ankle = -tilt - hip - knee
+    angles = (hip, knee, ankle)
+    return [s * angle for s, angle in zip(leg.signs, angles, strict=True)]
+
+
+def straight_of(leg: DetectedLeg) -> float:
+    """Return the knee angle of the straight leg, about the left axis.
+
+    In [rad]; 0 if the leg is about straight in the zero posture.
+    """
+    upper, lower = (atan2(x, -z) for x, z in _rods(leg))
+    straight = lower - upper
+    return straight if abs(straight) > STRAIGHT_TOLERANCE else 0.0
+
+
+def _rods(leg: DetectedLeg) -> list[tuple[float, float]]:
+    """Return thigh and shank vectors (forward, up), in [m]."""
+    hip, knee, ankle = leg.pivots
+    spans = (knee - hip, ankle - knee)
+    return [(float(span[0]), float(span[2])) for span in spans]

@@ -1,20 +1,23 @@
 """Walk trials: short walks in simulation that rate steadiness."""
 
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from math import degrees, radians
-from typing import NamedTuple
+from typing import Any, NamedTuple
+
+import numpy as np
 
 from ..core.errors import StepAsideError
-from ..games.game import play
+from ..core.poses import Array
+from ..games.game import GameInPlay, GameObserver, play
 from ..games.outcome import Outcome
+from ..games.physics_world import PhysicsWorld
 from ..games.recorded_game import RecordedGame
 from ..games.robot_settings import settings_from_description
 from ..games.walk_settings import WalkSettings
-from ..games.walk_summary import WalkSummary
+from ..games.walker import SimulatedPlayer
 from ..locomotion.zmp.control_settings import ControlSettings
 from ..planning import GaitSettings
 from ..robots.description import RobotDescription
-from .joint_strain import JointStrain, StrainGauge
 
 CYCLES = 8  # gait cycles of a walk after its first step
 START_TIME = 2.5  # time for standing and start-up transients, in [s]
@@ -22,6 +25,78 @@ GREATEST_TILT = 8.0  # of the torso in a steady walk, in [deg]
 GREATEST_COM_ERROR = 0.06  # rms in a steady walk, by the CoM height
 GREATEST_DEVIATION = 0.15  # relative, of speed and turning from the plan
 FALLEN = 10.0  # unsteadiness of a walk that ends in a fall
+STANDING_FROM = 0.3  # time at which transients have settled, in [s]
+STANDING_UNTIL = 0.6  # time before which no robot starts walking, in [s]
+
+
+class JointStrain(NamedTuple):
+    """Joint loads of a robot in a walk.
+
+    Attributes:
+        standing: Greatest fraction of a torque limit while standing.
+        standing_joint: Joint with this load.
+        walking: Greatest fraction of a torque limit while walking.
+        walking_joint: Joint with this load.
+        saturated: Fraction of ticks with a joint at its torque limit.
+        sag: Mean deficit of the CoM height while standing, in [m].
+    """
+
+    standing: float
+    standing_joint: str
+    walking: float
+    walking_joint: str
+    saturated: float
+    sag: float
+
+
+class StrainGauge(GameObserver):
+    """Observer that measures the joint strain of the only player."""
+
+    def __init__(self) -> None:
+        """Begin without data."""
+        self._loads: list[Array] = []
+        self._sags: list[float] = []
+        self._names: list[str] = []
+        self._standing = 0  # ticks
+
+    def acted(self, game: GameInPlay) -> None:
+        """Record the actuator forces of this tick."""
+        world = game.world
+        assert isinstance(world, PhysicsWorld)
+        model, data, now = world.model, world.data, world.time
+        if now < STANDING_FROM:
+            return
+        if not self._names:
+            self._names = [
+                model.joint(joint).name.split("/", 1)[1]
+                for joint in model.actuator_trnid[:, 0]
+            ]
+            limits = model.actuator_forcerange[:, 1]
+            self._limits = np.where(limits > 0.0, limits, np.inf)
+        self._loads.append(np.abs(data.actuator_force) / self._limits)
+        if now < STANDING_UNTIL:
+            self._standing += 1
+            (walker,) = world.players
+            assert isinstance(walker, SimulatedPlayer)
+            height = walker.scheme.state.reference.com[2]
+            actual = float(walker.truth.position_com_in_world[2])
+            self._sags.append(height - actual)
+
+    def strain(self) -> JointStrain:
+        """Return the strain so far."""
+        if not self._loads:
+            return JointStrain(0.0, "", 0.0, "", 0.0, 0.0)
+        loads = np.array(self._loads)
+        standing = loads[: self._standing].max(axis=0, initial=0.0)
+        walking = loads.max(axis=0)
+        return JointStrain(
+            float(standing.max()),
+            self._names[int(standing.argmax())],
+            float(walking.max()),
+            self._names[int(walking.argmax())],
+            float((loads > 0.999).any(axis=1).mean()),
+            float(np.mean(self._sags)) if self._sags else 0.0,
+        )
 
 
 class TrialPath(NamedTuple):
@@ -47,16 +122,8 @@ PATHS = (
 )
 
 
-@dataclass(frozen=True, slots=True)
-class WalkTrial:
-    """Definition of a walk trial.
-
-    Attributes:
-        description: Robot description.
-        gait: Gait settings.
-        control: Control settings.
-        path: Path of the walk.
-    """
+class WalkTrial(NamedTuple):
+    """Walk of a robot along a path, with its own or other settings."""
 
     description: RobotDescription
     gait: GaitSettings
@@ -84,14 +151,23 @@ class WalkTrialResult(NamedTuple):
     way: str
     feedback: bool
     message: str
-    completed: bool
-    lasted: float
-    tilt: float | None
-    strays: float | None
-    speed: float | None
-    turning: float | None
-    strain: JointStrain | None
+    completed: bool = False
+    lasted: float = 0.0
+    tilt: float | None = None
+    strays: float | None = None
+    speed: float | None = None
+    turning: float | None = None
+    strain: JointStrain | None = None
     lean: float = 0.0
+
+    def to_json(self) -> dict[str, Any]:
+        """Return the result as values for JSON."""
+        strain = self.strain
+        return self._asdict() | {
+            "steady": self.is_steady,
+            "unsteadiness": self.unsteadiness,
+            "strain": None if strain is None else strain._asdict(),
+        }
 
     @property
     def is_steady(self) -> bool:
@@ -114,12 +190,7 @@ class WalkTrialResult(NamedTuple):
 
 
 def control_with(control: ControlSettings, feedback: bool) -> ControlSettings:
-    """Return control settings with or without feedback.
-
-    Args:
-        control: Control settings to change.
-        feedback: Whether to use feedback.
-    """
+    """Return control settings with or without feedback."""
     method = control.method if feedback else "closed-form"
     if feedback and not control.feedback:
         method = "measured"
@@ -130,10 +201,6 @@ def trials_of(
     description: RobotDescription, *, feedback: bool
 ) -> tuple[WalkTrial, ...]:
     """Return the walk trials of a robot along all paths.
-
-    Args:
-        description: Robot description.
-        feedback: Whether to use feedback.
 
     Raises:
         StepAsideError: If its settings are invalid.
@@ -164,21 +231,13 @@ def walk_trial(trial: WalkTrial) -> WalkTrialResult:
     try:
         game = RecordedGame(settings, (gauge,), description=trial.description)
     except StepAsideError as error:
-        return WalkTrialResult(
-            path.name,
-            feedback,
-            str(error),
-            completed=False,
-            lasted=0.0,
-            tilt=None,
-            strays=None,
-            speed=None,
-            turning=None,
-            strain=None,
-        )
+        return WalkTrialResult(path.name, feedback, str(error))
     play(game)
     run = game.run()
-    summary = run.summary
+    summary, tracking = run.summary, run.summary.tracking
+    errors = [
+        axis.rms for axis in (tracking.com_x_m, tracking.com_y_m) if axis
+    ]
     return WalkTrialResult(
         path.name,
         feedback,
@@ -186,17 +245,9 @@ def walk_trial(trial: WalkTrial) -> WalkTrialResult:
         run.outcome is Outcome.COMPLETED,
         run.duration / duration,
         summary.tilt_max_deg,
-        _com_error(summary, gait),
+        max(errors) / gait.com_height if len(errors) == 2 else None,
         summary.speed_ratio,
         summary.yaw_ratio if path.bearing else None,
         gauge.strain(),
         degrees(trial.description.lean),
     )
-
-
-def _com_error(summary: WalkSummary, gait: GaitSettings) -> float | None:
-    """Return the rms CoM error by its height, the greater of both axes."""
-    sagittal, coronal = summary.tracking.com_x_m, summary.tracking.com_y_m
-    if sagittal is None or coronal is None:
-        return None
-    return max(sagittal.rms, coronal.rms) / gait.com_height
