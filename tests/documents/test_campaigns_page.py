@@ -9,7 +9,7 @@ from click.testing import CliRunner
 
 from stepaside.cli.main import main
 from stepaside.strategies.table_cache import pursuit_bound
-from stepaside.studies import load_study, tournament_record
+from stepaside.studies import load_study, tournament
 
 PAGE = (Path(__file__).parents[2] / "docs" / "campaigns.md").read_text("utf-8")
 
@@ -26,7 +26,7 @@ def test_queries_of_a_tournament_run(
     pytest.importorskip("polars")
     monkeypatch.chdir(tmp_path)
     monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path))
-    monkeypatch.setattr(tournament_record, "CELLS", 16)
+    monkeypatch.setattr(tournament, "CELLS", 16)
     pursuit_bound.cache_clear()
     line = "study tournament --set seed=0:2 --set game.duration=4"
     words = [*line.split(), "--workers", "1", "--output", "games.sqlite"]

@@ -5,7 +5,7 @@ from math import inf, pi
 import numpy as np
 import pytest
 
-from stepaside.arena import NO_OBSTACLES, Room, RoomRecipe
+from stepaside.arena import NO_OBSTACLES, Room, RoomRecipe, generate_room
 from stepaside.core.poses import Pose
 from stepaside.games import play_strategies
 from stepaside.strategies import Pursuit, StepGame, Strategy
@@ -21,7 +21,6 @@ from stepaside.strategies.search.step_motion import (
     pair_of,
     pursue,
 )
-from stepaside.studies.tournament_settings import TournamentSettings
 
 STEP = StepRules(0.04, 0.08, 0.08 * pi)
 RULES = BeamRules(STEP, 0.35, 0.2, 60, 50)
@@ -104,7 +103,9 @@ def test_captured_and_touching_moves_do_not_survive() -> None:
 
 def test_alike_states_fill_the_places_that_are_left() -> None:
     """A start in a corner, where the best of each cell alone is captured."""
-    room, (pursuer, evader) = TournamentSettings(room=RoomRecipe()).arena(2018)
+    room = generate_room(RoomRecipe(), 2018)
+    assert room.starts is not None
+    pursuer, evader = room.starts
     rules = RULES._replace(width=200, horizon=100)
     path = beam_search(
         np.array([*evader, *pursuer]),

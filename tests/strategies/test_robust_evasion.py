@@ -7,7 +7,7 @@ from math import atan2, cos, hypot, inf, pi, sin
 import numpy as np
 import pytest
 
-from stepaside.arena import Disc, Room, RoomRecipe
+from stepaside.arena import Disc, Room
 from stepaside.core.poses import Pose, wrap_angle
 from stepaside.games import play_strategies
 from stepaside.strategies import (
@@ -36,12 +36,15 @@ from stepaside.strategies.search.step_motion import (
     pair_of,
     pursuer_turn,
 )
-from stepaside.studies.tournament_settings import TournamentSettings
+from stepaside.studies.tournament import PairingSettings
 
 STEPS = StepRules(0.04, 0.08, 0.08 * pi)
 RULES = BeamRules(STEPS, 0.35, 0.2, 1, 1)
 LIMITS = Limits(0.1, 0.2, 0.04, 0.4)
-ROOMS = TournamentSettings(room=RoomRecipe())
+
+
+def arena(seed: int) -> tuple[Room, tuple[Pose, Pose]]:
+    return PairingSettings(seed=seed).arena()
 
 
 @pytest.mark.parametrize("number", range(len(MODELS)))
@@ -221,7 +224,7 @@ def test_plan_is_searched_again_when_the_pursuer_departs_from_it() -> None:
 def survival(
     evader: Strategy, pursuer: Strategy, seed: int, duration: float
 ) -> float:
-    room, starts = ROOMS.arena(seed)
+    room, starts = arena(seed)
     game = StepGame(duration=duration)
     track = play_strategies(pursuer, evader, starts, room=room, game=game)
     return float(track.times[-1])
@@ -233,7 +236,7 @@ def test_herding_is_survived_in_a_room() -> None:
 
 def test_sharp_pursuer_needs_0_8_of_the_time_of_an_offline_search() -> None:
     """The search knows the pursuer; the evader has to find it out."""
-    room, (pursuer, evader) = ROOMS.arena(1000)
+    room, (pursuer, evader) = arena(1000)
     path = beam_search(
         np.array([*evader, *pursuer]),
         actions_of(STEPS.largest),
@@ -247,9 +250,9 @@ def test_sharp_pursuer_needs_0_8_of_the_time_of_an_offline_search() -> None:
 
 
 def test_faster_pursuer_of_the_paper_is_survived_on_an_open_floor() -> None:
-    settings = TournamentSettings(room=RoomRecipe(None, None))
+    settings = PairingSettings(floor="open", seed=1002)
     game = StepGame(pursuer_speed_ratio=1.1, duration=90.0)
-    _, starts = settings.arena(1002)
+    _, starts = settings.arena()
     track = play_strategies(Pursuit(), RobustEvasion(), starts, game=game)
     assert not track.captured
 
@@ -260,8 +263,8 @@ def test_same_knowledge_gives_the_same_game() -> None:
         play_strategies(
             noisy,
             RobustEvasion(width=20, horizon=20),
-            ROOMS.arena(1004)[1],
-            room=ROOMS.arena(1004)[0],
+            arena(1004)[1],
+            room=arena(1004)[0],
             game=StepGame(duration=12.0),
         )
         for _ in range(2)

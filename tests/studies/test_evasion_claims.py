@@ -11,7 +11,7 @@ from stepaside.games import Outcome, StrategyTrack
 from stepaside.studies import evasion_claims as read
 from stepaside.studies.claims import Claim, load_claims
 from stepaside.studies.evasion_claims import DURATION
-from stepaside.studies.tournament_strategies import ASIDE
+from stepaside.studies.tournament import ASIDE
 
 BEST = 1.0  # bound of all starts, in [m]
 Games = dict[tuple[str, str], tuple[StrategyTrack, ...]]

@@ -13,7 +13,7 @@ from stepaside.games.duel_settings import DuelSettings
 from stepaside.sim.body_settings import BODIES
 from stepaside.strategies import LookAhead
 from stepaside.strategies.table_cache import pursuit_bound
-from stepaside.studies import tournament_record
+from stepaside.studies import tournament
 from stepaside.studies.study_design import PRESETS
 from stepaside.studies.study_games import settings_of_study as settings_of
 
@@ -23,7 +23,7 @@ def coarse_table(tmp_path_factory: pytest.TempPathFactory) -> Iterator[None]:
     """The bound is solved on few cells."""
     with pytest.MonkeyPatch.context() as patch:
         patch.setenv("XDG_CACHE_HOME", str(tmp_path_factory.mktemp("cache")))
-        patch.setattr(tournament_record, "CELLS", 16)
+        patch.setattr(tournament, "CELLS", 16)
         pursuit_bound.cache_clear()
         yield
     pursuit_bound.cache_clear()

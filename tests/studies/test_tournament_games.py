@@ -14,16 +14,17 @@ from stepaside.core.poses import wrap_angles
 from stepaside.games.outcome import Outcome
 from stepaside.strategies import StepGame
 from stepaside.strategies import table_cache as tables
-from stepaside.studies import tournament_record as studied
-from stepaside.studies.study_games import circle_distance
-from stepaside.studies.tournament_record import play_record, play_track
-from stepaside.studies.tournament_settings import TournamentSettings
-
-ASIDE = "evasion(safety_radius=100)"
+from stepaside.studies import tournament as studied
+from stepaside.studies.tournament import (
+    ASIDE,
+    PairingSettings,
+    circle_distance,
+    play_pairing,
+    play_track,
+)
 
 SHORT = StepGame(duration=16.0)
-SETTINGS = TournamentSettings(room=RoomRecipe(discs=1), game=SHORT)
-PAIRINGS = [(ASIDE, "pursuit"), ("look-ahead", "pursuit")]
+SETTINGS = PairingSettings(room=RoomRecipe(discs=1), game=SHORT, seed=3)
 
 
 @pytest.fixture(scope="module", autouse=True)
@@ -39,8 +40,8 @@ def coarse_table(tmp_path_factory: pytest.TempPathFactory) -> Any:
 
 
 def test_a_record_is_what_the_game_was() -> None:
-    record = play_record(SETTINGS, PAIRINGS[1], 3)
-    room, track = play_track(SETTINGS, PAIRINGS[1], 3)
+    record, track = play_pairing(SETTINGS), play_track(SETTINGS)
+    room, _ = SETTINGS.arena()
     assert record["outcome"] == "completed"
     assert track.outcome is Outcome.COMPLETED
     assert record["closest_m"] == track.distances.min()
@@ -72,7 +73,7 @@ def test_the_figures_of_a_game_are_those_of_its_track(
         decision=1e-3,
         longest_decision=2e-3,
     )
-    monkeypatch.setattr(studied, "play_track", lambda *_: (None, track))
+    monkeypatch.setattr(studied, "play_track", lambda *_: track)
     asked: list[Any] = []
 
     def bound_of(*words: Any) -> int:
@@ -80,8 +81,8 @@ def test_the_figures_of_a_game_are_those_of_its_track(
         return 9
 
     monkeypatch.setattr(studied, "bound_of", bound_of)
-    settings = replace(SETTINGS, level=level)
-    record = play_record(settings, PAIRINGS[0], 3)
+    settings = replace(SETTINGS, level=level, evader=ASIDE)
+    record = play_pairing(settings)
     seconds = 12.0 * SHORT.period / decisions
     assert record["survived_s"] == pytest.approx(seconds)
     assert record["closest_m"] == 1.0 and record["clearance_m"] == 0.1
@@ -96,7 +97,7 @@ def test_the_figures_of_a_game_are_those_of_its_track(
     np.testing.assert_array_equal(asked[0][1], track.evader[0])
     assert (record["decision_s"], record["longest_decision_s"]) == (1e-3, 2e-3)
     track.clearances = np.full(13, np.inf)
-    assert play_record(settings, PAIRINGS[0], 3)["clearance_m"] is None
+    assert play_pairing(settings)["clearance_m"] is None
 
 
 def test_the_bound_is_that_of_the_start() -> None:
@@ -128,7 +129,7 @@ def test_sharp_and_herding_capture_a_survivor_of_the_papers_pursuer() -> None:
     settings = replace(SETTINGS, room=RoomRecipe(), game=StepGame())
     survived = {
         pursuer: [
-            play_track(settings, ("look-ahead", pursuer), seed)[1].outcome
+            play_track(replace(settings, pursuer=pursuer, seed=seed)).outcome
             for seed in range(1000, 1004)
         ].count(Outcome.COMPLETED)
         for pursuer in ("pursuit", "sharp", "herding")
@@ -139,14 +140,15 @@ def test_sharp_and_herding_capture_a_survivor_of_the_papers_pursuer() -> None:
 
 def test_humanoids_play_by_the_same_words() -> None:
     """A second of a duel: the figures are those that steps have as well."""
-    settings = replace(SETTINGS, level="physics", game=StepGame(duration=1.0))
-    found = play_record(settings, (ASIDE, "pursuit"), 3)
-    in_steps = play_record(SETTINGS, (ASIDE, "pursuit"), 3)
-    assert set(in_steps) - set(found) == {"clearance_m"}
+    in_steps = replace(SETTINGS, evader=ASIDE)
+    game = StepGame(duration=1.0)
+    settings = replace(in_steps, level="physics", game=game)
+    found, steps = play_pairing(settings), play_pairing(in_steps)
+    assert set(steps) - set(found) == {"clearance_m"}
     assert found["outcome"] == "completed" and found["touched"] == []
     assert found["survived_s"] == pytest.approx(1.0)
-    assert found["bound_m"] == pytest.approx(in_steps["bound_m"], abs=0.02)
-    pursuer, evader = settings.arena(3)[1]
+    assert found["bound_m"] == pytest.approx(steps["bound_m"], abs=0.02)
+    pursuer, evader = settings.arena()[1]
     apart = np.hypot(pursuer.x - evader.x, pursuer.y - evader.y)
     assert found["closest_m"] == pytest.approx(apart, abs=0.05)
     for player in ("pursuer", "evader"):
@@ -164,8 +166,12 @@ def test_a_duel_that_is_stopped_is_no_game(
         played.append(settings.seed)
         return ended
 
+<<<<<<< HEAD
     monkeypatch.setattr("stepaside.games.recorded_game.run_duel", cut_short)
+=======
+    monkeypatch.setattr(studied, "run_duel", cut_short)
+>>>>>>> c8e2becc (Describe a game of a tournament by one settings class)
     settings = replace(SETTINGS, level="physics", game=StepGame(duration=1.0))
     with pytest.raises(KeyboardInterrupt):
-        play_record(settings, (ASIDE, "pursuit"), 3)
+        play_pairing(settings)
     assert played == [3]

@@ -22,7 +22,7 @@ from stepaside.games import DuelSettings, run_duel
 from stepaside.games.run_archive import results_of
 from stepaside.sim.camera_settings import SceneSettings
 from stepaside.studies.result_files import header, read_result, write_result
-from stepaside.studies.tournament_physics import clearance
+from stepaside.studies.tournament import clearance
 
 RECIPE = RoomRecipe(discs=3)
 PLAYERS = ("pursuer", "evader")

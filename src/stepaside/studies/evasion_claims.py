@@ -1,6 +1,7 @@
 """Readings of games in rooms for the conclusion (Sec. V) and its sequel."""
 
 from collections.abc import Callable, Mapping
+from dataclasses import replace
 from math import inf
 
 import numpy as np
@@ -13,17 +14,22 @@ from ..games.recorded_game import run_duel
 from ..games.run import DuelRun
 from ..sim.camera_settings import SceneSettings
 from ..strategies.strategy_game import StepGame
-from .tournament_physics import clearance, outcome_of, players_touched
-from .tournament_record import bound_of, play_track
-from .tournament_settings import TournamentSettings
-from .tournament_strategies import ASIDE
+from .tournament import (
+    ASIDE,
+    PairingSettings,
+    bound_of,
+    clearance,
+    outcome_of,
+    play_track,
+    players_touched,
+)
 
 DURATION = 40.0  # of the duels in rooms, in [s]
 GAMES_PER_SEED = 5  # of each evader in each setting
 GAME = StepGame(duration=120.0)
-TOURNAMENTS = {
-    "open": TournamentSettings(room=RoomRecipe(None, None), game=GAME),
-    "room": TournamentSettings(room=RoomRecipe(discs=3), game=GAME),
+PAIRINGS = {
+    "open": PairingSettings(floor="open", game=GAME),
+    "room": PairingSettings(room=RoomRecipe(discs=3), game=GAME),
 }
 AHEAD = "look-ahead"
 
@@ -37,10 +43,10 @@ def measure_evading(seed: int) -> dict[str, float]:
     return read_evading(
         {
             (where, evader): tuple(
-                play_track(tournament, (evader, "pursuit"), each)[1]
+                play_track(replace(pairing, evader=evader, seed=each))
                 for each in seeds
             )
-            for where, tournament in TOURNAMENTS.items()
+            for where, pairing in PAIRINGS.items()
             for evader in (ASIDE, AHEAD)
         }
     )

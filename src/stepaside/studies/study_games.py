@@ -1,12 +1,9 @@
 """Games that a study can play: settings from entries, and flat records."""
 
 from collections.abc import Callable, Mapping
-from dataclasses import asdict, dataclass, field, fields, replace
-from math import pi
+from dataclasses import asdict, dataclass, fields, replace
 from typing import Any, NamedTuple, get_type_hints
 
-from ..arena import Room, RoomRecipe, draw_any_start, load_room
-from ..core.errors import ConfigurationError
 from ..core.player_identity import Role
 from ..games.duel_settings import DuelSettings
 from ..games.floor_games import play_unicycles
@@ -17,75 +14,13 @@ from ..games.recorded_game import run_game, run_walk
 from ..games.settings_reader import settings_of
 from ..games.unicycle_settings import UnicycleSettings
 from ..games.walk_settings import WalkSettings
-from ..strategies import load_strategy
 from ..strategies.registry import check_strategy_name
-from ..strategies.strategy_game import StepGame
 from ..theory.unicycle.adaptive_simulation import simulate
-from ..theory.unicycle.circles import find_circle
 from .duel_record import play_duel, play_duels
 from .person_encounters import Encounter, play_encounter, play_encounters
 from .push_limit import PushSettings, play_push
 from .tabulation import Record, flat
-from .tournament_record import play_record
-from .tournament_settings import TournamentSettings
-from .tournament_strategies import gain_of
-
-EARLIEST_CAPTURE = 0.02  # with any heading capture ends no game, in [m]
-FLOORS = ("room", "open", "any heading")
-
-
-@dataclass(frozen=True)
-class PairingSettings:
-    """Settings of one game of a tournament.
-
-    Attributes:
-        evader: Name of the evader.
-        pursuer: Name of the pursuer.
-        seed: Seed of the room and of the initial poses.
-        level: Level of simulation; see :class:`TournamentSettings`.
-        floor: "room"; "open" without walls, with the starts of duels; or
-            "any heading", open with any headings, where no game ends by
-            capture.
-        room: Recipe of the random room.
-        room_file: File of a room that all games share, instead.
-        game: Rules of the game.
-        map: Map of the humanoids.
-    """
-
-    evader: str = "look-ahead"
-    pursuer: str = "pursuit"
-    seed: int = 0
-    level: str = "steps"
-    floor: str = "room"
-    room: RoomRecipe = field(default_factory=RoomRecipe)
-    room_file: str = ""
-    game: StepGame = field(default_factory=StepGame)
-    map: str = "given"
-
-    def __post_init__(self) -> None:
-        """Validate the settings."""
-        if self.floor not in FLOORS:
-            raise ConfigurationError(
-                f"floor must be one of {', '.join(FLOORS)}, got "
-                f"{self.floor!r:.40}"
-            )
-        load_strategy(self.evader)
-        load_strategy(self.pursuer)
-        TournamentSettings(self.level, self.room, map=self.map)
-
-    @property
-    def tournament(self) -> TournamentSettings:
-        """Settings of the game, with its room."""
-        room: Room | RoomRecipe = self.room
-        game = self.game
-        if self.room_file:
-            room = load_room(self.room_file)
-        elif self.floor == "open":
-            room = replace(self.room, width=None, depth=None)
-        elif self.floor == "any heading":
-            room = Room(starts=draw_any_start(self.seed))
-            game = replace(game, capture=EARLIEST_CAPTURE)
-        return TournamentSettings(self.level, room, game, self.map)
+from .tournament import PairingSettings, play_pairing
 
 
 @dataclass(frozen=True)
@@ -193,51 +128,6 @@ def _play_walk(settings: WalkSettings) -> Record:
     }
 
 
-def _play_pairing(settings: PairingSettings) -> Record:
-    tournament = settings.tournament
-    pairing = settings.evader, settings.pursuer
-    record = play_record(tournament, pairing, settings.seed)
-    outcome, closest = record["outcome"], record["closest_m"]
-    reached = 0.0 if outcome == "touched" else closest
-    return record | {
-        "survived": outcome == "completed",
-        "captured": outcome == "captured",
-        "touched_obstacle": outcome == "touched",
-        "of_bound": closest / record["bound_m"],
-        "reached_m": reached,
-        "regret_m": record["bound_m"] - reached,
-        "circle_m": circle_distance(tournament.game, settings.pursuer),
-    }
-
-
-def circle_distance(game: StepGame, pursuer: str) -> float | None:
-    """Return the distance on the paper's circle for a pursuer.
-
-    The evader moves aside, with the gain of the game. If this distance is at
-    most the capture distance, it is captured.
-
-    Args:
-        game: Rules of the games.
-        pursuer: Name of the pursuer in a tournament.
-
-    Returns:
-        Distance, in [m]; None for a pursuer that does not steer by eq. (2),
-        or of another speed.
-    """
-    ratio = gain_of(pursuer)
-    if ratio is None or game.pursuer_speed_ratio != 1.0:
-        return None
-    circle = find_circle(
-        game.speed,
-        game.speed,
-        ratio * game.gain,
-        game.gain,
-        0.5 * pi,
-        "proportional",
-    )
-    return float(circle.distance_m) if circle.exists else None
-
-
 def _play_unicycles(settings: UnicycleSettings) -> Record:
     game, start, names = settings.game, settings.start, settings.strategies
     if names is not None:
@@ -326,7 +216,7 @@ GAMES: Mapping[str, StudyGame] = {
     ),
     "tournament": StudyGame(
         PairingSettings,
-        _play_pairing,
+        play_pairing,
         ("survived", "captured", "touched_obstacle", "closest_m"),
     ),
     "unicycles": StudyGame(
