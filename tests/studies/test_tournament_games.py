@@ -166,11 +166,7 @@ def test_a_duel_that_is_stopped_is_no_game(
         played.append(settings.seed)
         return ended
 
-<<<<<<< HEAD
-    monkeypatch.setattr("stepaside.games.recorded_game.run_duel", cut_short)
-=======
     monkeypatch.setattr(studied, "run_duel", cut_short)
->>>>>>> c8e2becc (Describe a game of a tournament by one settings class)
     settings = replace(SETTINGS, level="physics", game=StepGame(duration=1.0))
     with pytest.raises(KeyboardInterrupt):
         play_pairing(settings)
