@@ -21,7 +21,7 @@ from stepaside.drivers.ros2_dds import (  # noqa: E402
     vector,
 )
 from stepaside.drivers.ros2_server import (  # noqa: E402
-    EVERY,
+    REPORTS,
     OdometryCovariance,
     Ros2Server,
     WorldClock,
@@ -130,7 +130,7 @@ def test_time_frames_joints_and_sight_are_published(scene: Scene) -> None:
     assert list(joints.position) == [0.1, 0.2]
     assert list(joints.name) == ["LKneePitch", "RKneePitch"]
     clock = scene.read("/clock", "rosgraph_msgs/msg/Clock")
-    assert seconds(clock.clock) % (EVERY * TICK) == pytest.approx(0, abs=1e-9)
+    assert seconds(clock.clock) % REPORTS == pytest.approx(0, abs=1e-9)
     readers = [
         scene.other.reader(
             "/nao/ideal_sight", "geometry_msgs/msg/PointStamped"
@@ -225,7 +225,7 @@ def test_in_lock_step_each_report_waits_for_its_answer() -> None:
     until(scene.server.hear)
     scene.server.act()
     assert scene.walker.commanded.forward == 0.02
-    for _ in range(EVERY - 1):
+    for _ in range(round(REPORTS / TICK) - 1):
         scene.server.speak()
         assert scene.server.hear()
     reader.clear()

@@ -135,4 +135,5 @@ def test_the_wait_for_clients_is_limited(
 
 def test_a_duel_with_another_tick_is_not_served(tmp_path: Path) -> None:
     with pytest.raises(ConfigurationError, match="tick of 0.012"):
-        serve_duel(DuelSettings(), {})
+        endpoints = {"evader": LolaEndpoint(str(tmp_path / "e"))}
+        serve_duel(DuelSettings(), endpoints)

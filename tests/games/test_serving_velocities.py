@@ -2,6 +2,7 @@
 
 import os
 from dataclasses import replace
+from enum import Enum
 from threading import Event, Thread
 from typing import Any
 
@@ -98,7 +99,7 @@ def distance_without_a_wire() -> float:
 def client(
     namespace: str,
     strategy: Strategy,
-    states: list[DrivingState],
+    states: list[Enum],
     over: Event,
 ) -> None:
     """Play one player until the duel is over."""
@@ -116,9 +117,9 @@ def client(
 
 def served(
     endpoints: dict[str, RobotEndpoint],
-) -> tuple[float, list[DrivingState]]:
+) -> tuple[float, list[Enum]]:
     """Return the smallest distance of a served duel, and its plays."""
-    states: list[DrivingState] = []
+    states: list[Enum] = []
     over = Event()
     threads = [
         Thread(target=client, args=(f"/{name}", ROLES[name], states, over))

@@ -2,6 +2,7 @@
 
 from dataclasses import replace
 from math import atan2, hypot
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -12,6 +13,7 @@ from stepaside.core.rotations import rotation
 from stepaside.drivers.velocity_limits import REST
 from stepaside.games.duel_settings import DuelSettings, StartSettings
 from stepaside.games.velocity_walker import VelocityWalker
+from stepaside.locomotion.policy.legs_settings import LegsSettings
 from stepaside.locomotion.zmp.control_settings import STABILISED
 from stepaside.sim.body_settings import BODIES
 from stepaside.strategies.velocity_set import BodyVelocity
@@ -160,3 +162,29 @@ def test_a_served_sighting_is_relative_to_the_heading_of_its_time() -> None:
             robot.tick()
         world.step()
     assert checked > 50
+
+
+def test_a_robot_on_learned_legs_steps_sideways(tmp_path: Path) -> None:
+    pytest.importorskip("onnx")
+    pytest.importorskip("onnxruntime")
+    from imitated_walk import nao_on_imitated_walk
+
+    folder = nao_on_imitated_walk(tmp_path / "nao", lateral=0.05)
+    legs = LegsSettings(str(folder / "policy.onnx"))
+    settings = DuelSettings(
+        start=StartSettings(2.0, 0.0, 0.0), robot=str(folder), legs=legs
+    )
+    game, robots = commanded_robots(settings)
+    world = game.in_physics
+    robots[0].command(BodyVelocity(0.0, 0.03, 0.0))
+    robots[1].command(BodyVelocity(0.0, -9.0, 0.0))
+    for _ in range(round(6.0 / world.physics.tick)):
+        for robot in robots:
+            robot.tick()
+        world.step()
+    for robot, lateral in zip(robots, (0.03, -0.05), strict=True):
+        state = robot.state()
+        assert not robot.has_fallen
+        assert state.velocity == pytest.approx((0.0, lateral, 0.0))
+        assert 0.5 < state.pose.y / (6.0 * lateral) < 1.3
+        assert abs(state.pose.x) < 0.1 and abs(state.pose.theta) < 0.3

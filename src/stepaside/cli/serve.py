@@ -167,9 +167,14 @@ def _radius(player: dict[str, Any]) -> str:
 
 
 def _with_cycle(settings: DuelSettings) -> DuelSettings:
-    """Return settings whose bodies have the control period of LoLA."""
+    """Return settings whose bodies have the control period of LoLA.
+
+    Learned legs have a period of their own.
+    """
     from ..sim.body_settings import BODIES
 
+    if any(settings.robot_of(name).legs.walks for name in settings.robots):
+        return settings
     if settings.body == BODIES["ideal"]:
         settings = replace(settings, body=BODIES["delayed"])
     if settings.body.cycle == 0.0:

@@ -4,16 +4,18 @@ from math import pi
 
 from ..core.history import History
 from ..core.poses import Array, Pose
-from ..locomotion.locomotion import MotionRequest
-from ..locomotion.maneuver_walk import ManeuverWalk, velocity_limits
+from ..locomotion.locomotion import Locomotion, MotionRequest
+from ..locomotion.maneuver_walk import velocity_limits
 from ..locomotion.walk_snapshots import Phase
 from ..perception.measurement import RobotState
 from ..planning import Direction, Foot, GaitSettings
 from ..strategies.knowledge import STAND, Intent
+from ..strategies.velocity_set import BodyVelocity
 from .strategy_runner import MEMORY
 from .turn_calibration import TurnCalibration
 
 STILL = 1e-3  # speed [m/s] or turning rate [rad/s] that counts as zero
+REST = BodyVelocity()
 IN_PLACE = 1e-3  # speed factor of a turn on the spot
 
 
@@ -57,7 +59,9 @@ def request_at_velocity(
 class VelocityScheme:
     """Control of one robot whose steps follow a velocity command.
 
-    Turns are calibrated against the commanded ones.
+    Turns of a walk by maneuvers, which is a unicycle's, are calibrated
+    against the commanded ones; learned legs follow the command itself, also
+    sideways.
 
     Attributes:
         locomotion: Locomotion, from steps to joint targets.
@@ -65,25 +69,30 @@ class VelocityScheme:
         templates: Past poses of the template unicycle in odometry.
     """
 
-    def __init__(self, locomotion: ManeuverWalk, tick: float) -> None:
+    def __init__(self, locomotion: Locomotion, tick: float) -> None:
         """Begin standing, at a control period in [s]."""
         self.locomotion = locomotion
         self.headings: History[float] = History(MEMORY)
         self.headings.note(0.0, locomotion.torso_heading)
         self.templates: History[Pose] = History(MEMORY)
         self.templates.note(0.0, locomotion.pose)
-        self._commanded = (0.0, 0.0)
+        self._commanded = REST
+        self._plans = locomotion.state is not None
         self._turns = TurnCalibration(tick)
         self._walking_direction: Direction | None = None
 
     @property
-    def velocity(self) -> tuple[float, float]:
-        """Driving velocity [m/s] and turning rate [rad/s] that it follows."""
-        return limit_velocity(*self._commanded, self.locomotion.gait)
+    def velocity(self) -> BodyVelocity:
+        """Velocity that it follows."""
+        forward, _, turn = self._commanded
+        if not self._plans:
+            return self.locomotion.velocities.nearest(self._commanded)
+        forward, turn = limit_velocity(forward, turn, self.locomotion.gait)
+        return BodyVelocity(forward, 0.0, turn)
 
-    def command(self, forward: float, turn: float) -> None:
-        """Walk at a velocity, in [m/s] and [rad/s], from the next tick on."""
-        self._commanded = forward, turn
+    def command(self, velocity: BodyVelocity) -> None:
+        """Walk at a velocity from the next tick on."""
+        self._commanded = velocity
 
     def update(self, measurement: RobotState) -> Array:
         """Return the joint targets of one control tick, in [rad].
@@ -119,10 +128,14 @@ class VelocityScheme:
 
     def _request(self) -> MotionRequest:
         """Return the request of the present command."""
-        forward, turn = self.velocity
+        velocity = self.velocity
+        if not self._plans:
+            walks = velocity != REST
+            intent = Intent(velocity=velocity) if walks else STAND
+            return MotionRequest(intent, Direction.FORWARD, saturated=False)
         return request_at_velocity(
-            forward,
-            turn / self._turns.share,
+            velocity.forward,
+            velocity.turn / self._turns.share,
             self.locomotion.gait,
             under_way=self._walking_direction,
         )

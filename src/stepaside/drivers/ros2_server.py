@@ -28,7 +28,7 @@ from .ros2_dds import (
 from .velocity_limits import REST
 from .walking_robot import WalkerState, WalkingRobot
 
-EVERY = 4  # ticks from one report to the next: 48 ms
+REPORTS = 0.048  # from one report to the next, in [s]
 SILENCE = 0.5  # without a command before the robot stops, in [s]
 REPEAT = 400  # polls for an answer in lock step before a report is repeated
 HANDLES = 1 << 64  # CycloneDDS has handles as signed and unsigned numbers
@@ -188,6 +188,7 @@ class Ros2Server:
         """
         self._robot, self._namespace, self._clock = robot, namespace, clock
         self._names, self._tick = list(joint_names), tick
+        self._every = max(1, round(REPORTS / tick))
         self._lock_step = lock_step
 
         def writer(name: str, kind: str) -> Any:
@@ -244,7 +245,7 @@ class Ros2Server:
     def speak(self) -> None:
         """Publish a report, if one is due at this tick."""
         self.hear()
-        if self._ticks % EVERY == 0:
+        if self._ticks % self._every == 0:
             self._state = self._robot.state()
             self._publish(self._state)
             self.answered, self._polls = False, 0

@@ -1,4 +1,4 @@
-"""Clock of a served simulation: sensor frames and commands every 12 ms."""
+"""Clock of a served simulation: sensor frames and commands at each tick."""
 
 import select
 from collections.abc import Callable, Sequence
@@ -10,9 +10,9 @@ import numpy as np
 from ..core.errors import ConfigurationError
 from .game import GameInPlay, GameObserver
 
-TICK = 0.012  # of a served world, that of LoLA, in [s]
+TICK = 0.012  # of LoLA, in [s]
 LATE = 0.006  # delay from which a tick counts as late, in [s]
-ANSWER_TIME = 0.009  # for commands in a tick, in [s]; the rest is physics
+ANSWER_SHARE = 0.75  # of a tick, for commands; the rest is physics
 STALL = 0.1  # delay that is not caught up with, in [s]
 ANSWER_TIMEOUT = 5.0  # for a command in lock step, in [s]
 READY_TICKS = 10  # for which clients must hold their robots stiff
@@ -57,6 +57,7 @@ class ClientSynchroniser(GameObserver):
     """Match observer that synchronises a match with its clients.
 
     Attributes:
+        tick: Control period of the world, in [s].
         late: Ticks that began more than 6 ms late.
         lateness: Delay of the beginning of each tick, in [s].
         unanswered: Frames that were not answered in their tick.
@@ -79,6 +80,7 @@ class ClientSynchroniser(GameObserver):
             pause: Sleeps for a time, in [s].
         """
         self._servers, self._lock_step = servers, lock_step
+        self.tick = TICK
         self._clock, self._pause = clock, pause
         self._due = clock()
         self.lateness: list[float] = []
@@ -146,8 +148,8 @@ class ClientSynchroniser(GameObserver):
             self.lateness.append(late)
             # Frames after a stall must not outrun the clients' clocks.
             begun = now if late > STALL else self._due
-            self._due = begun + TICK
-            deadline = begun + ANSWER_TIME
+            self._due = begun + self.tick
+            deadline = begun + ANSWER_SHARE * self.tick
         else:
             deadline = now + ANSWER_TIMEOUT
         for server in self._servers:
@@ -163,7 +165,7 @@ class ClientSynchroniser(GameObserver):
             left = deadline - self._clock()
             if not missing:
                 if self._lock_step and not self._any_connected():
-                    self._pause(TICK)  # no client to wait for: do not spin
+                    self._pause(self.tick)  # no client: do not spin
                 return
             if left <= 0.0:
                 break

@@ -379,6 +379,7 @@ class PhysicsWorld(World):
             return place_velocity_walker(
                 self,
                 setup,
+                own.legs,
                 truth=truth,
                 sensing=sensing,
                 clearance=clearance,

@@ -151,6 +151,22 @@ def place_on_legs(
     )
 
 
+def velocity_guard(
+    legs: PolicyLegs, clearance: ClearanceSetup | None
+) -> tuple[Surroundings, VelocityGuard | None]:
+    """Return known obstacles, and a guard of learned legs against them.
+
+    Args:
+        legs: Learned legs of the robot.
+        clearance: Knowledge of the room and required clearance, if any.
+    """
+    if clearance is None:
+        return OpenFloor(), None
+    distance = clearance.outline.radius + clearance.margin
+    around = clearance.surroundings
+    return around, VelocityGuard(around, legs.velocities, distance)
+
+
 def place_policy_player(
     world: World,
     setup: WalkerSetup,
@@ -187,12 +203,7 @@ def place_policy_player(
         knows_pose=clearance is not None,
     )
     frame = setup.odometry_in_world
-    around: Surroundings = OpenFloor()
-    guard: VelocityGuard | None = None
-    if clearance is not None:
-        around = clearance.surroundings
-        distance = clearance.outline.radius + clearance.margin
-        guard = VelocityGuard(around, policy.velocities, distance)
+    around, guard = velocity_guard(policy, clearance)
     scheme = ControlScheme(
         StrategyRunner(
             with_body_radius(strategy, clearance, setup.gait),

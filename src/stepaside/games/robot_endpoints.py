@@ -2,7 +2,7 @@
 
 from typing import TYPE_CHECKING, NamedTuple, Protocol
 
-from .client_synchroniser import TICK, RobotServer
+from .client_synchroniser import RobotServer
 from .physics_world import RemoteControl
 from .player import Player
 from .served_player import ServedPlayer
@@ -94,7 +94,7 @@ class Ros2Endpoint(NamedTuple):
             player,
             player.robot.joint_names,
             self.clock,
-            tick=TICK,
+            tick=player.robot.world.physics.tick,
             lock_step=lock_step,
             urdf=urdf_of(player.description),
         )

@@ -52,8 +52,8 @@ def serve_duel(
     Robots without an endpoint are controlled by this process.
 
     Args:
-        settings: Settings of the duel; its control period must be that of
-            LoLA.
+        settings: Settings of the duel; a robot that is served over LoLA
+            needs its control period.
         endpoints: Protocol and address of each served robot, by player.
         lock_step: Whether the simulation waits for commands instead of for
             the clock.
@@ -64,11 +64,16 @@ def serve_duel(
         StepAsideError: If the settings cannot be met, a robot cannot be
             served, or a client does not connect.
     """
+    balances = {name: e.control.balances for name, e in endpoints.items()}
     for name in endpoints:
-        if name not in settings.robots or settings.robot_of(name).legs.walks:
+        if name not in settings.robots:
             raise ConfigurationError(
-                "a served player must be a robot that walks by maneuvers, "
-                f"got {name}"
+                f"a served player must be a robot, got {name}"
+            )
+        if settings.robot_of(name).legs.walks and not balances[name]:
+            raise ConfigurationError(
+                "a player that is served over LoLA must be a robot that "
+                f"walks by maneuvers, got {name}"
             )
     servers: list[RobotServer] = []
     exchange = ClientSynchroniser(servers, lock_step=lock_step)
@@ -78,11 +83,11 @@ def serve_duel(
         remote={name: each.control for name, each in endpoints.items()},
     )
     world = game.in_physics
-    if world.physics.tick != TICK:
+    exchange.tick = tick = world.physics.tick
+    if tick != TICK and not all(balances.values()):
         raise ConfigurationError(
-            f"a served duel needs a tick of {TICK:g} [s], "
-            f"got {world.physics.tick:g}; choose --body delayed or "
-            "hardware"
+            f"a duel over LoLA needs a tick of {TICK:g} [s], got {tick:g}; "
+            "choose --body delayed or hardware"
         )
     with ExitStack() as stack:
         for name, endpoint in endpoints.items():

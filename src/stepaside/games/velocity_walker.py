@@ -2,10 +2,15 @@
 
 import logging
 
+from ..control.clearance.surroundings import OpenFloor, Surroundings
 from ..control.scheme_builder import ClearanceSetup, build_walk
 from ..control.velocity_scheme import VelocityScheme
 from ..core.poses import Pose, wrap_angle
 from ..drivers.walking_robot import TorsoInFootprint, WalkerState
+from ..locomotion.maneuver_walk import ManeuverWalk
+from ..locomotion.policy.legs_loader import load_legs
+from ..locomotion.policy.legs_settings import LegsSettings
+from ..locomotion.policy.policy_walk import PolicyWalk
 from ..locomotion.walk_snapshots import Phase, StepStarted
 from ..perception.images import ColourImage
 from ..perception.measurement import RobotState, Sighting
@@ -17,7 +22,8 @@ from ..sim.ground_truth import TrueRobotState
 from ..sim.simulated_robot import SimulatedRobot
 from ..sim.world import World
 from ..strategies.velocity_set import BodyVelocity
-from .player import PhysicalPlayer, Snapshot, snapshot_of
+from .player import MotionLog, PhysicalPlayer, Snapshot, snapshot_of
+from .policy_player import place_on_legs, velocity_guard
 from .walker_factory import RobotSensing, WalkerSetup, place_robot
 from .walker_log import WalkerLog
 
@@ -39,6 +45,7 @@ class VelocityWalker(PhysicalPlayer):
         scheme: VelocityScheme,
         frame: Pose,
         description: RobotDescription,
+        surroundings: Surroundings,
     ) -> None:
         """Combine a robot and its controller.
 
@@ -47,8 +54,10 @@ class VelocityWalker(PhysicalPlayer):
             scheme: Controller.
             frame: Pose of its odometry in the world.
             description: Description of the robot.
+            surroundings: Known obstacles.
         """
         super().__init__(robot)
+        self._surroundings = surroundings
         self.description = description
         self._forward = ForwardKinematics(description)
         self.scheme, self.frame = scheme, frame
@@ -73,39 +82,45 @@ class VelocityWalker(PhysicalPlayer):
         return self.truth.has_fallen or detected
 
     def command(self, velocity: BodyVelocity) -> None:
-        """Walk at a velocity from the next tick on; it has no sidesteps."""
-        if velocity.lateral and not self._ignores_lateral:
+        """Walk at a velocity from the next tick on.
+
+        A walk by maneuvers has no sidesteps.
+        """
+        self.scheme.command(velocity)
+        ignores = velocity.lateral and not self.scheme.velocity.lateral
+        if ignores and not self._ignores_lateral:
             self._ignores_lateral = True
             log.warning(
                 "%s does not step sideways; its lateral velocity is ignored",
                 self.name,
             )
-        self.scheme.command(velocity.forward, velocity.turn)
 
     def tick(self) -> None:
         """Walk at the commanded velocity."""
-        self.robot.write(self.scheme.update(self._read()))
+        measured = self._read()
+        self._surroundings.note(measured, self.scheme.locomotion.pose)
+        self.robot.write(self.scheme.update(measured))
 
     def snapshot(self) -> Snapshot:
         """Return the state at this instant."""
         walk = self.scheme.locomotion.state
         return snapshot_of(self.robot, frame=self.frame, walk=walk)
 
-    def motion_log(self, *, closely: bool) -> WalkerLog:
+    def motion_log(self, *, closely: bool) -> MotionLog:
         """Return an empty log of its motion."""
-        return WalkerLog(
-            self.robot, self.scheme.locomotion, self.frame, closely=closely
-        )
+        walk = self.scheme.locomotion
+        if not isinstance(walk, ManeuverWalk):
+            return super().motion_log(closely=closely)
+        return WalkerLog(self.robot, walk, self.frame, closely=closely)
 
     def state(self) -> WalkerState:
         """Return the state that the robot reports to its client."""
         measurement = self._read()
         now, scheme = measurement.time, self.scheme
-        forward, turn = scheme.velocity
         return WalkerState(
             now,
             scheme.templates.at(now),
-            BodyVelocity(forward, 0.0, turn),
+            scheme.velocity,
             measurement.joint_positions.tolist(),
             self._sighting(measurement),
             self._image,
@@ -158,6 +173,7 @@ class VelocityWalker(PhysicalPlayer):
 def place_velocity_walker(
     world: World,
     setup: WalkerSetup,
+    legs: LegsSettings,
     *,
     truth: TrueRobotState,
     sensing: RobotSensing | None = None,
@@ -168,14 +184,34 @@ def place_velocity_walker(
     Args:
         world: World that contains the robot.
         setup: The robot.
+        legs: Its walking policy, if it has one.
         truth: True state of the robot.
         sensing: Senses that are reported to the client.
         clearance: Knowledge of the room and required clearance.
 
     Raises:
         ReachError: If the legs cannot reach the initial stance of the gait.
+        PolicyError: If the network cannot run on the robot.
     """
     tick = world.physics.tick
+    if legs.walks:
+        policy = load_legs(legs, setup.description, tick=tick)
+        around, guard = velocity_guard(policy, clearance)
+        world.measures_always = True
+        return VelocityWalker(
+            place_on_legs(
+                world,
+                setup,
+                policy,
+                sensing=sensing,
+                truth=truth,
+                knows_pose=clearance is not None,
+            ),
+            VelocityScheme(PolicyWalk(policy, setup.gait, guard), tick),
+            setup.odometry_in_world,
+            setup.description,
+            around,
+        )
     walk = build_walk(
         setup.description,
         setup.gait,
@@ -194,5 +230,9 @@ def place_velocity_walker(
     )
     scheme = VelocityScheme(walk, tick)
     return VelocityWalker(
-        robot, scheme, setup.odometry_in_world, setup.description
+        robot,
+        scheme,
+        setup.odometry_in_world,
+        setup.description,
+        OpenFloor(),  # the walk itself notes its surroundings
     )
