@@ -18,7 +18,7 @@ from stepaside.fitting.description_writer import (
     rewrite_description,
     write_description,
 )
-from stepaside.fitting.gait_search import Candidate, GaitSearch
+from stepaside.fitting.gait_search import Candidate, search_gait
 from stepaside.fitting.robot_verification import (
     check_requirements,
     check_robot,
@@ -121,7 +121,7 @@ def search(
         return walked(trial, off, falls=bool(trial.control.feedback))
 
     monkeypatch.setattr(tuning, "walk_trial", walk)
-    return GaitSearch(own, None, kept).run(), len(walks)
+    return search_gait(own, None, kept), len(walks)
 
 
 def test_a_search_combines_helpful_changes(
@@ -149,7 +149,7 @@ def test_a_search_escapes_from_falls(
         return walked(trial, 0.1, falls=falls)
 
     monkeypatch.setattr(tuning, "walk_trial", walk)
-    found = GaitSearch(own, None, None).run()
+    found = search_gait(own, None, None)
     assert found.before.unsteadiness > found.best.unsteadiness
     assert found.best.unsteadiness == pytest.approx(0.1)
     best = found.best.candidate

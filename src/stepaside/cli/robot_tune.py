@@ -75,7 +75,7 @@ def _search(
     executor: str,
 ) -> "SearchResult":
     """Search with a progress bar on standard error."""
-    from ..fitting.gait_search import GaitSearch
+    from ..fitting.gait_search import search_gait
     from ..studies.executors import open_executor
 
     with (
@@ -88,7 +88,7 @@ def _search(
             bar.set_postfix_str(f"unsteadiness {least:.2f}")
 
         try:
-            return GaitSearch(description, opened, records, report).run()
+            return search_gait(description, opened, records, report)
         except KeyboardInterrupt:
             exit_interrupted(resume_message(f"{bar.n} gaits", records))
 

@@ -97,11 +97,7 @@ class Candidate:
                 yield replace(self, **{name: value})
 
     def applied(self, own: RobotDescription) -> RobotDescription | None:
-        """Return the changed description; None if it is not feasible.
-
-        Args:
-            own: Description without the changes.
-        """
+        """Return the changed description; None if it is not feasible."""
         settings = settings_from_description(own)
         gait, sole = settings.gait, settings.gait.sole
         length = sole.front - sole.back
@@ -137,26 +133,13 @@ class Candidate:
             )
             for name, gains in own.overlay.servos.items()
         }
+        method = {"method": control.method, "feedback": control.feedback}
         return replace(
             own,
             lean=own.lean + self.lean,
             gait=own.gait | changed,
-            control=own.control
-            | {"method": control.method, "feedback": control.feedback},
-            overlay=replace(own.overlay, servos=servos)
-            if servos
-            else own.overlay,
-        )
-
-    def trials(self, own: RobotDescription) -> tuple[WalkTrial, ...]:
-        """Return its walk trials, the hardest first; none if not feasible."""
-        changed = self.applied(own)
-        if changed is None:
-            return ()
-        settings = settings_from_description(changed)
-        return tuple(
-            WalkTrial(changed, settings.gait, settings.control, path)
-            for path in reversed(PATHS)
+            control=own.control | method,
+            overlay=replace(own.overlay, servos=servos),
         )
 
     def to_json(self) -> dict[str, float]:
@@ -198,112 +181,97 @@ class SearchResult(NamedTuple):
     tried: int
 
 
-class GaitSearch:
-    """Search for one robot, with results stored on disk."""
+def search_gait(
+    own: RobotDescription,
+    executor: Executor | None,
+    file: Path | None,
+    report: Callable[[int, int, float], None] = lambda *_: None,
+) -> SearchResult:
+    """Search until no change improves the walk.
 
-    def __init__(
-        self,
-        description: RobotDescription,
-        executor: Executor | None,
-        file: Path | None,
-        report: Callable[[int, int, float], None] = lambda *_: None,
-    ) -> None:
-        """Prepare a search.
+    Args:
+        own: Robot description.
+        executor: Executor of the walks.
+        file: SQLite file of the ratings, those of an earlier search
+            included; None to store nothing.
+        report: Called with the number of candidates that are rated, the
+            number by the end of the round, and the least unsteadiness so
+            far.
 
-        Args:
-            description: Robot description.
-            executor: Executor of the walks.
-            file: SQLite file of the ratings, those of an earlier search
-                included; None to store nothing.
-            report: Called with the number of candidates that are rated, the
-                number by the end of the round, and the least unsteadiness so
-                far.
-        """
-        self._own, self._executor = description, executor
-        self._report = report
-        self._file = file
-        self._digest = _digest_of(description)
-        self._rated: dict[Candidate, RatedCandidate] = {}
-        self._expected = 1
+    Raises:
+        OutputError: If a rating cannot be stored.
+        KeyboardInterrupt: After Ctrl-C.
+    """
+    rated: dict[Candidate, RatedCandidate] = {}
+    digest = _digest_of(own)
 
-    def run(self) -> SearchResult:
-        """Search until no change improves the walk."""
-        feedback = float(bool(self._own.control.get("feedback", False)))
-        start = Candidate(feedback)
-        self._rate([start], INFEASIBLE)
-        before = best = self._rated[start]
-        for _ in range(ROUNDS):
-            if best.unsteadiness < GOOD:
-                break
-            neighbour = self._best_neighbour(best)
-            if neighbour.score > best.score - LEAST_IMPROVEMENT:
-                break
-            best = neighbour
-        return SearchResult(before, best, len(self._rated))
+    def key_of(candidate: Candidate) -> str:
+        return json.dumps([digest, candidate.to_json()], sort_keys=True)
 
-    def _best_neighbour(self, best: RatedCandidate) -> RatedCandidate:
-        """Return the best of a candidate and its neighbours.
-
-        If the candidate falls, the first batch with a neighbour that walks
-        one path more ends the round.
-        """
-        enough = 0.0
-        if best.unsteadiness >= STEADY:
-            enough = best.score - ONE_PATH_MORE
-        neighbours = [
-            each
-            for each in best.candidate.neighbours()
-            if each not in self._rated
-        ]
-        self._expected = len(self._rated) + len(neighbours)
-        for first in range(0, len(neighbours), BATCH):
-            batch = neighbours[first : first + BATCH]
-            self._rate(batch, best.score)
-            rated = [best, *(self._rated[each] for each in batch)]
-            best = min(rated, key=lambda each: each.score)
-            if best.score <= enough:
-                break
-        return best
-
-    def _rate(self, candidates: Sequence[Candidate], bound: float) -> None:
-        """Rate candidates, each until its score exceeds a bound.
-
-        Raises:
-            OutputError: If a rating cannot be stored.
-            KeyboardInterrupt: After Ctrl-C.
-        """
-        study = Study(
-            "tune",
-            candidates,
-            partial(_walk_all, self._own, bound),
-            self._key,
-        )
+    def rate(candidates: Sequence[Candidate], bound: float, of: int) -> None:
+        """Rate candidates, each until its score exceeds a bound."""
+        measure = partial(_walk_all, own, bound)
         run = run_study(
-            study, self._file, executor=self._executor, report=lambda _: None
+            Study("tune", candidates, measure, key_of),
+            file,
+            executor=executor,
+            report=lambda _: None,
         )
         for candidate, record in run.items():
-            walks = record["walks"]
-            self._rated[candidate] = RatedCandidate(
-                candidate, _unsteadiness(walks), tuple(walks)
+            walks = tuple(record["walks"])
+            rated[candidate] = RatedCandidate(
+                candidate, _unsteadiness(walks), walks
             )
-            least = min(r.unsteadiness for r in self._rated.values())
-            number = len(self._rated)
-            self._report(number, max(number, self._expected), least)
+            least = min(each.unsteadiness for each in rated.values())
+            report(len(rated), max(len(rated), of), least)
         if run.failure is not None:
             raise run.failure
         if run.interrupted:
             raise KeyboardInterrupt
 
-    def _key(self, candidate: Candidate) -> str:
-        return json.dumps([self._digest, candidate.to_json()], sort_keys=True)
+    start = Candidate(float(bool(own.control.get("feedback", False))))
+    rate([start], INFEASIBLE, 1)
+    before = best = rated[start]
+    for _ in range(ROUNDS):
+        if best.unsteadiness < GOOD:
+            break
+        # If the candidate falls, the first batch with a neighbour that walks
+        # one path more ends the round.
+        falls = best.unsteadiness >= STEADY
+        enough = best.score - ONE_PATH_MORE if falls else 0.0
+        found = best
+        neighbours = [n for n in best.candidate.neighbours() if n not in rated]
+        of = len(rated) + len(neighbours)
+        for first in range(0, len(neighbours), BATCH):
+            batch = neighbours[first : first + BATCH]
+            rate(batch, found.score, of)
+            found = min(
+                [found, *(rated[each] for each in batch)],
+                key=lambda each: each.score,
+            )
+            if found.score <= enough:
+                break
+        if found.score > best.score - LEAST_IMPROVEMENT:
+            break
+        best = found
+    return SearchResult(before, best, len(rated))
 
 
 def _walk_all(
     own: RobotDescription, bound: float, candidate: Candidate
 ) -> Record:
-    """Walk along all paths, until a fall or a score beyond a bound."""
+    """Walk along all paths, until a fall or a score beyond a bound.
+
+    The hardest path is the first; none is walked if the changes are not
+    feasible.
+    """
     walks: list[dict[str, Any]] = []
-    for trial in candidate.trials(own):
+    changed = candidate.applied(own)
+    if changed is None:
+        return {"walks": walks}
+    settings = settings_from_description(changed)
+    for path in reversed(PATHS):
+        trial = WalkTrial(changed, settings.gait, settings.control, path)
         result = walk_trial(trial)
         walks.append(result.to_json())
         score = result.unsteadiness + candidate.cost
@@ -312,7 +280,7 @@ def _walk_all(
     return {"walks": walks}
 
 
-def _unsteadiness(walks: list[dict[str, Any]]) -> float:
+def _unsteadiness(walks: Sequence[dict[str, Any]]) -> float:
     """Return that of the worst walk; after a fall, by the time walked."""
     if not walks:
         return INFEASIBLE

@@ -1,5 +1,6 @@
 """Detection of the legs in a published model."""
 
+from collections.abc import Iterator
 from pathlib import Path
 from typing import NamedTuple
 
@@ -70,7 +71,14 @@ def find_legs(
         NoLegsError: If there are not two legs.
         ModelError: If the legs lack joints; names them.
     """
-    ends = [_end(model, data, body) for body in _ends(model)]
+    ends = [
+        _End(
+            body,
+            float(foot_points(model, data, body)[:, 2].min()),
+            float(data.xpos[body, 1]),
+        )
+        for body in _ends(model)
+    ]
     feet = [
         min((e for e in ends if side * e.y > 0.0), key=lambda e: e.low)
         for side in (1.0, -1.0)
@@ -80,19 +88,26 @@ def find_legs(
         raise NoLegsError(
             f"{path} does not have two legs: {_sides(data, ends)}"
         )
-    chains = [_chain(model, end.body) for end in feet]
-    own = [
-        [j for j in chain if j not in chains[1 - side]]
-        for side, chain in enumerate(chains)
-    ]
+    near, far = (_chain(model, end.body) for end in feet)
+    shared = set(near) & set(far)
     left, right = (
-        _leg(model, data, end.body, chain, side)
-        for end, chain, side in zip(feet, own, ("left", "right"), strict=True)
+        _leg(model, data, end.body, [j for j in chain if j not in shared], at)
+        for end, chain, at in zip(
+            feet, (near, far), ("left", "right"), strict=True
+        )
     )
     return left, right
 
 
-def _sides(data: mujoco.MjData, ends: "list[_End]") -> str:
+class _End(NamedTuple):
+    """Body at the end of a chain, its lowest point and its side, in [m]."""
+
+    body: int
+    low: float
+    y: float
+
+
+def _sides(data: mujoco.MjData, ends: list[_End]) -> str:
     """Return the explanation of missing legs."""
     if not ends:
         return (
@@ -114,63 +129,40 @@ def _sides(data: mujoco.MjData, ends: "list[_End]") -> str:
     )
 
 
-class _End(NamedTuple):
-    body: int
-    low: float
-    y: float
+def _above(model: mujoco.MjModel, body: int) -> Iterator[int]:
+    """Yield the ancestors of a body."""
+    while body := int(model.body_parentid[body]):
+        yield body
 
 
 def _ends(model: mujoco.MjModel) -> list[int]:
     """Return the bodies with joints that have no jointed descendants."""
-    jointed = [
-        body
-        for body in range(2, model.nbody)
-        if any(
-            model.jnt_type[j] in JOINT_TYPES
-            for j in range(
-                model.body_jntadr[body],
-                model.body_jntadr[body] + model.body_jntnum[body],
-            )
-        )
-    ]
-    above: set[int] = set()
-    for body in jointed:
-        parent = int(model.body_parentid[body])
-        while parent:
-            above.add(parent)
-            parent = int(model.body_parentid[parent])
-    return [body for body in jointed if body not in above]
-
-
-def _end(model: mujoco.MjModel, data: mujoco.MjData, body: int) -> _End:
-    points = foot_points(model, data, body)
-    return _End(body, float(points[:, 2].min()), float(data.xpos[body, 1]))
+    moving = np.isin(model.jnt_type, JOINT_TYPES) & (model.jnt_bodyid > 1)
+    jointed = set(model.jnt_bodyid[moving].tolist())
+    return sorted(jointed - {b for own in jointed for b in _above(model, own)})
 
 
 def _chain(model: mujoco.MjModel, body: int) -> list[int]:
     """Return the joints from the torso to a body."""
-    chain: list[int] = []
-    while body:
-        first = int(model.body_jntadr[body])
-        own = range(first, first + int(model.body_jntnum[body]))
-        chain = [j for j in own if model.jnt_type[j] in JOINT_TYPES] + chain
-        body = int(model.body_parentid[body])
-    return chain
+    bodies = body, *_above(model, body)
+    moving = np.isin(model.jnt_type, JOINT_TYPES)
+    found: list[int] = np.flatnonzero(
+        moving & np.isin(model.jnt_bodyid, bodies)
+    ).tolist()
+    return found
 
 
 def _lacking(data: mujoco.MjData, chain: list[int], knee: int) -> list[str]:
     """Return the names of missing yaw and roll joints of a leg."""
-    upper = [j for j in chain if j < knee]
-    lower = [j for j in chain if j > knee]
-    required = (
-        ("hip yaw", upper, 2),
-        ("hip roll", upper, 0),
-        ("ankle roll", lower, 0),
-    )
+    at = chain.index(knee)
     return [
         name
-        for name, joints, axis in required
-        if not any(abs(data.xaxis[j, axis]) > INCLINED for j in joints)
+        for name, joints, axis in (
+            ("hip yaw", chain[:at], 2),
+            ("hip roll", chain[:at], 0),
+            ("ankle roll", chain[at + 1 :], 0),
+        )
+        if not (np.abs(data.xaxis[joints, axis]) > INCLINED).any()
     ]
 
 

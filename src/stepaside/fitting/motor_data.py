@@ -3,6 +3,7 @@
 import re
 from collections.abc import Mapping
 from pathlib import Path
+from typing import NamedTuple
 
 import mujoco
 import numpy as np
@@ -66,45 +67,34 @@ def published_values(spec: mujoco.MjSpec) -> dict[str, dict[str, float]]:
         and ``default_posture``, in [rad], of its keyframe of a standing
         robot, else of its first.
     """
-    joints = [joint for joint in spec.joints if joint.name]
-    passive = {x.name: float(np.ravel(x.damping)[0]) for x in joints}
-    stiffness, damping = {}, {}
+    passive = {x.name: float(np.ravel(x.damping)[0]) for x in spec.joints}
+    found: dict[str, dict[str, float]] = {
+        "stiffness": {},
+        "damping": {},
+        "default_posture": {},
+    }
     for actuator in spec.actuators:
         gain, bias = float(actuator.gainprm[0]), actuator.biasprm
         if gain > 0.0 and float(bias[1]) == -gain:
             name = actuator.target
-            stiffness[name] = gain
-            damping[name] = passive.get(name, 0.0) - float(bias[2])
-    posture, at = {}, 0
+            own = passive.get(name, 0.0) if name else 0.0
+            found["stiffness"][name] = round(gain, 6)
+            found["damping"][name] = round(own - float(bias[2]), 6)
     keys = {key.name: key.qpos for key in spec.keys if len(key.qpos)}
-    chosen = next((k for k in KEYS if k in keys), next(iter(keys), None))
-    kinds = mujoco.mjtJoint
+    chosen = next((k for k in (*KEYS, *keys) if k in keys), None)
+    kinds, at = mujoco.mjtJoint, 0
     for joint in spec.joints if chosen is not None else ():
         if joint.type in (kinds.mjJNT_HINGE, kinds.mjJNT_SLIDE):
-            posture[joint.name] = float(keys[chosen][at])
+            angle = round(float(keys[chosen][at]), 6)
+            found["default_posture"][joint.name] = angle
         at += {kinds.mjJNT_FREE: 7, kinds.mjJNT_BALL: 4}.get(joint.type, 1)
-    found = {
-        "stiffness": stiffness,
-        "damping": damping,
-        "default_posture": posture,
-    }
-    return {
-        name: {joint: round(value, 6) for joint, value in table.items()}
-        for name, table in found.items()
-        if table
-    }
+    return {name: table for name, table in found.items() if table}
 
 
 def plausible_torques(
     torques: Mapping[str, float], mass: float, length: float
 ) -> dict[str, float]:
-    """Return the torque limits without placeholders like 1e6.
-
-    Args:
-        torques: Published torque limits, in [N m].
-        mass: Mass of the robot, in [kg].
-        length: Length of its legs, in [m].
-    """
+    """Return the torque limits without placeholders like 1e6."""
     greatest = IMPLAUSIBLE_TORQUE * mass * GRAVITY * length
     return {name: high for name, high in torques.items() if high < greatest}
 
@@ -159,7 +149,7 @@ def gains_of(
         else:
             stiffness = ARM_STIFFNESS * load.torque + 400.0 * load.inertia
             inertia = 0.1 * load.inertia
-        passive = float(found.model.dof_damping[joint_of(found, name)])
+        passive = float(found.model.joint(name).damping[0])
         damping = max(DAMPING_TIME * time * stiffness, passive)
         own = float(found.model.joint(name).armature[0])
         if torque is None:
@@ -173,11 +163,6 @@ def gains_of(
     return gains
 
 
-def joint_of(found: ModelAnalysis, name: str) -> int:
-    """Return the index of the velocity of a joint."""
-    return int(found.model.joint(name).dofadr[0])
-
-
 def followers_of(model: mujoco.MjModel) -> set[str]:
     """Return the joints that an equality couples to a leader."""
     kind = int(mujoco.mjtEq.mjEQ_JOINT)
@@ -188,13 +173,12 @@ def followers_of(model: mujoco.MjModel) -> set[str]:
     }
 
 
-class _JointLoad:
-    """Load of a joint: greatest gravity torque [N m], inertia [kg m^2]."""
+class _JointLoad(NamedTuple):
+    """What a joint carries: mass [kg], greatest torque [N m], inertia."""
 
-    def __init__(self, mass: float, lever: float, inertia: float) -> None:
-        self.mass = mass
-        self.torque = mass * GRAVITY * lever
-        self.inertia = inertia + mass * lever**2
+    mass: float
+    torque: float
+    inertia: float
 
 
 def _load_of(found: ModelAnalysis, name: str) -> _JointLoad:
@@ -202,9 +186,11 @@ def _load_of(found: ModelAnalysis, name: str) -> _JointLoad:
     joint = model.joint(name)
     body = int(joint.bodyid[0])
     mass = float(model.body_subtreemass[body])
-    lever = np.linalg.norm(data.subtree_com[body] - data.xanchor[joint.id])
-    spread = float(model.body_inertia[body].max())
-    return _JointLoad(mass, float(lever), spread)
+    lever = float(
+        np.linalg.norm(data.subtree_com[body] - data.xanchor[joint.id])
+    )
+    inertia = float(model.body_inertia[body].max()) + mass * lever**2
+    return _JointLoad(mass, mass * GRAVITY * lever, inertia)
 
 
 def _round(value: float) -> float:

@@ -100,22 +100,14 @@ def foot_points(
         Positions, in [m]; that of the body if it has no geoms.
         Shape (n, 3).
     """
-    geoms = [
-        geom
-        for part in _rigid(model, body)
-        for geom in range(
-            model.body_geomadr[part],
-            model.body_geomadr[part] + model.body_geomnum[part],
-        )
-    ]
-    touching = [
-        geom
-        for geom in geoms
-        if model.geom_contype[geom] or model.geom_conaffinity[geom]
-    ]
-    found = [
-        geom_points_in_world(model, data, geom) for geom in touching or geoms
-    ]
+    parts = [body]
+    for other in range(body + 1, model.nbody):
+        if int(model.body_parentid[other]) in parts:
+            parts.append(other)
+    own = np.isin(model.geom_bodyid, parts)
+    touching = own & ((model.geom_contype | model.geom_conaffinity) != 0)
+    geoms = np.flatnonzero(touching if touching.any() else own)
+    found = [geom_points_in_world(model, data, int(geom)) for geom in geoms]
     found = [points for points in found if len(points)]
     if not found:
         return np.array([data.xpos[body]])
@@ -199,12 +191,3 @@ def _turned(
     mujoco.mju_mulQuat(turned.qpos[3:7], turn, data.qpos[3:7].copy())
     mujoco.mj_kinematics(model, turned)
     return turned
-
-
-def _rigid(model: mujoco.MjModel, body: int) -> list[int]:
-    """Return a body and its descendants."""
-    found = [body]
-    for other in range(body + 1, model.nbody):
-        if int(model.body_parentid[other]) in found:
-            found.append(other)
-    return found

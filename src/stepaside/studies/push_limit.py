@@ -1,6 +1,6 @@
 """Largest push that a walk survives, by bisection, and its bound."""
 
-from collections.abc import Mapping
+from collections.abc import Callable
 from dataclasses import dataclass, field, replace
 from functools import cache
 from math import radians
@@ -69,34 +69,33 @@ class PushSettings:
         )
 
 
-def limit_of(outcomes: Mapping[float, bool]) -> float:
-    """Return the largest strength survived with all smaller ones tried."""
-    failed = min((s for s, ok in outcomes.items() if not ok), default=None)
-    return max(
-        (
-            s
-            for s, ok in outcomes.items()
-            if ok and (failed is None or s < failed)
-        ),
-        default=0.0,
-    )
-
-
-def next_strength(outcomes: Mapping[float, bool]) -> float | None:
-    """Return the next strength to try, in [N s]; None once the limit is known.
+def find_limit(survives: Callable[[float], bool]) -> tuple[float, int]:
+    """Return the largest strength survived with all smaller ones tried.
 
     Pushes grow by a stride until one is not survived; then the interval
-    below it is bisected. Strengths above the first failure are not tried.
+    below it is bisected.
+
+    Args:
+        survives: Whether a push of a strength, in [N s], is survived.
+
+    Returns:
+        Strength, in [N s], and the number of pushes that were tried.
     """
-    limit = limit_of(outcomes)
-    failed = min((s for s, ok in outcomes.items() if not ok), default=None)
-    if failed is None:
-        larger = limit + STRIDE
-        return round(larger, 6) if larger <= LARGEST else None
-    parts = round((failed - limit) / RESOLUTION)
-    if parts <= 1:
-        return None
-    return round(limit + parts // 2 * RESOLUTION, 6)
+    limit, failed, tried = 0.0, None, 0
+    while failed is None and round(limit + STRIDE, 6) <= LARGEST:
+        strength, tried = round(limit + STRIDE, 6), tried + 1
+        if survives(strength):
+            limit = strength
+        else:
+            failed = strength
+    while failed and (parts := round((failed - limit) / RESOLUTION)) > 1:
+        strength = round(limit + parts // 2 * RESOLUTION, 6)
+        tried += 1
+        if survives(strength):
+            limit = strength
+        else:
+            failed = strength
+    return limit, tried
 
 
 def play_push(settings: PushSettings) -> Record:
@@ -106,14 +105,16 @@ def play_push(settings: PushSettings) -> Record:
         ``limit_n_s``, the bounds of a push and of an impulse on the linear
         inverted pendulum in [N s], their ratios, and the number of walks.
     """
-    outcomes: dict[float, bool] = {}
-    while (strength := next_strength(outcomes)) is not None:
+
+    def survives(strength: float) -> bool:
         run = run_walk(settings.pushed(strength))
         if run.outcome is Outcome.INTERRUPTED:
             raise KeyboardInterrupt
-        outcomes[strength] = run.outcome is Outcome.COMPLETED
+        return run.outcome is Outcome.COMPLETED
+
+    strength, tried = find_limit(survives)
     walk = settings.walk.resolved()
-    limit = limit_of(outcomes) * push_scale(walk.robot)
+    limit = strength * push_scale(walk.robot)
     bound, impulse = (
         push_bound_at(settings.direction, settings.phase, walk, impulse=each)
         for each in (False, True)
@@ -126,7 +127,7 @@ def play_push(settings: PushSettings) -> Record:
         "of_bound": limit / bound,
         "of_impulse_bound": limit / impulse,
         "above_bound": limit > bound,
-        "walks": len(outcomes),
+        "walks": tried,
     }
 
 

@@ -1,4 +1,4 @@
-"""Result files: measurements with their command, results version and settings.
+"""Result files: measurements with their command, version and settings.
 
 A result is one JSON object. Measuring programs write it; tables and figures
 are made from it.
@@ -7,7 +7,7 @@ are made from it.
 import json
 import shlex
 import sys
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from math import isfinite
 from pathlib import Path
 from typing import Any
@@ -16,8 +16,6 @@ from ..core.atomic_output import atomic_draft
 from ..core.errors import ConfigurationError
 from .results_version import RESULTS, library_versions
 
-# Entries of every result before the measured values.
-HEADER = ("command", "libraries", "settings")
 DIGITS = 6  # significant digits of numbers in a result
 
 
@@ -29,44 +27,19 @@ def header(
     Args:
         settings: Settings of the measurement: seeds, durations, numbers.
         command: Command that repeats it; that of this process by default.
-
-    Returns:
-        The entries of ``HEADER``, and the results version.
     """
     return {
-        "command": running_command() if command is None else command,
+        "command": command or shlex.join(["python", *map(_near, sys.argv)]),
         "results": RESULTS,
         "libraries": library_versions(),
         "settings": dict(settings),
     }
 
 
-def running_command(arguments: Sequence[str] | None = None) -> str:
-    """Return the command line of this process, for use in the repository.
-
-    Args:
-        arguments: Program and its arguments; those of this process by
-            default. Programs other than Python files are reduced to their
-            name, and absolute paths below the working folder are made
-            relative.
-    """
-    program, *rest = sys.argv if arguments is None else arguments
-    if Path(program).parts[-2:] == ("stepaside", "__main__.py"):
-        program = "stepaside"  # python -m stepaside
-    words = (
-        ["python", _relative(program)]
-        if program.endswith(".py")
-        else [Path(program).name]
-    )
-    return shlex.join([*words, *map(_relative, rest)])
-
-
 def write_result(
     file: Path, head: Mapping[str, Any], **found: Any
 ) -> dict[str, Any]:
-    """Write a result atomically.
-
-    Numbers are rounded to six significant digits.
+    """Write a result atomically, its numbers to six significant digits.
 
     Args:
         file: File to write; its folder is created.
@@ -77,16 +50,9 @@ def write_result(
         Content of the file.
 
     Raises:
-        ConfigurationError: If the header is incomplete, or a value is NaN
-            or inf.
+        ConfigurationError: If a value is NaN or inf.
         OutputError: If it cannot be written.
     """
-    missing = [name for name in HEADER if name not in head]
-    if missing:
-        raise ConfigurationError(
-            f"a result must name {', '.join(HEADER)}, "
-            f"{file.name} lacks {', '.join(missing)}"
-        )
     result: dict[str, Any] = _rounded({**head, **found}, file.name)
     text = json.dumps(result, indent=1, ensure_ascii=False)
     with atomic_draft(file) as draft:
@@ -102,28 +68,23 @@ def read_result(file: Path) -> dict[str, Any]:
         ConfigurationError: If it does not exist, or is not a result.
     """
     try:
-        result = json.loads(file.read_text(encoding="utf-8"))
+        return dict(json.loads(file.read_text(encoding="utf-8")))
     except FileNotFoundError:
         raise ConfigurationError(f"no result {file.name}") from None
     except ValueError as error:
         raise ConfigurationError(
             f"{file.name} is not a result: {error}"
         ) from error
-    missing = [name for name in HEADER if name not in result]
-    if missing:
-        raise ConfigurationError(
-            f"{file.name} is not a result, it lacks {', '.join(missing)}"
-        )
-    return dict(result)
 
 
-def _relative(word: str) -> str:
+def _near(word: str) -> str:
     """Make an absolute path below the working folder relative."""
     path = Path(word)
-    if not path.is_absolute():
-        return word
-    here = Path.cwd()
-    return str(path.relative_to(here)) if path.is_relative_to(here) else word
+    return str(
+        path.relative_to(Path.cwd())
+        if path.is_relative_to(Path.cwd())
+        else word
+    )
 
 
 def _rounded(value: Any, where: str) -> Any:
