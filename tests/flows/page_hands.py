@@ -30,6 +30,10 @@ def record(name: str) -> None:
             TEXTS.append(made)
         elif hasattr(made, "value"):
             CONTROLS[str(words[0])] = made
+            # The path of a setting stands before its meaning.
+            path, colon, _ = str(more.get("hint")).partition(": ")
+            if colon:
+                CONTROLS[path] = made
         return made
 
     setattr(viser.GuiApi, name, adds)

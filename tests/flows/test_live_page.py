@@ -75,7 +75,7 @@ class Page:
         sleep(0.5)
         return self.time == before
 
-    def save(self, group: str = "Duel") -> Any:
+    def save(self, group: str = "Game") -> Any:
         """Save the game so far, and read it."""
         before = set(self.folder.glob("runs/*"))
         self.press(group, "save")
@@ -105,7 +105,7 @@ def test_a_duel_starts_pauses_and_goes_on_step_by_step(fresh: Page) -> None:
     fresh.play(1.0)
     paused = fresh.save().times[-1]
     for _ in range(5):
-        fresh.press("Duel", "step")
+        fresh.press("Game", "step")
     until(lambda: fresh.time > paused + 0.4)
     run = fresh.save()
     assert run.times[-1] - paused == pytest.approx(0.5, abs=0.021)
@@ -172,9 +172,9 @@ def test_reset_begins_again_in_every_preset(preset: str, page: Page) -> None:
     page.press("Preset", preset)
     until(lambda: page.time == 0.0)
     page.play(0.1)
-    seed = int(page.value("Seed")) + 1
-    page.press("Seed", seed)
-    page.press("Duel", "reset")
+    seed = int(page.value("seed")) + 1
+    page.press("seed", seed)
+    page.press("Game", "reset")
     until(lambda: page.time == 0.0)
     page.play(0.1)
     run = page.save()
@@ -187,9 +187,9 @@ def test_angle_and_law_leave_another_evader_alone(page: Page) -> None:
     page.play(0.1)
     page.press("Preset", "room")
     until(lambda: page.time == 0.0)
-    page.press("Evasion angle [deg]", 70.0)
+    page.press("strategy.angle", 70.0)
     page.play(0.1)
-    page.press("Duel", "reset")
+    page.press("Game", "reset")
     until(lambda: page.time == 0.0)
     page.play(0.1)
     assert page.save().settings.evader_strategy == "look-ahead"
@@ -197,14 +197,14 @@ def test_angle_and_law_leave_another_evader_alone(page: Page) -> None:
 
 def test_a_preset_shows_its_seed_and_start(fresh: Page) -> None:
     """A reset after it plays the same duel."""
-    fresh.press("Seed", SEED + 5)
-    fresh.press("Duel", "reset")
+    fresh.press("seed", SEED + 5)
+    fresh.press("Game", "reset")
     until(lambda: fresh.time == 0.0)
     fresh.press("Preset", "duel")
     until(lambda: fresh.time == 0.0)
     fresh.play(0.1)
     first = fresh.save()
-    fresh.press("Duel", "reset")
+    fresh.press("Game", "reset")
     until(lambda: fresh.time == 0.0)
     fresh.play(0.1)
     again = fresh.save()

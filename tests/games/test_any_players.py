@@ -5,6 +5,7 @@ from functools import cache
 
 import numpy as np
 import pytest
+from stepaside.report.viewer.scene_layers import push_arrows
 
 from stepaside.core.poses import Array
 from stepaside.games.outcome import Outcome
@@ -13,7 +14,6 @@ from stepaside.games.run import Run
 from stepaside.games.run_captions import describe_state
 from stepaside.games.trajectory import Trajectory
 from stepaside.games.walk_settings import WalkSettings
-from stepaside.report.viewer.scene_layers import push_arrows
 
 NAMES = ("walker", "hare", "tortoise")
 PUSH = np.array([[0.1, 0.1, 0.3, -0.2, 0.0, 0.8]])

@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from stepaside.report.viewer.plot_history import PlotHistory
 
 from stepaside.core.poses import Array
 from stepaside.games.duel_settings import DuelSettings, StartSettings
@@ -11,7 +12,6 @@ from stepaside.locomotion.zmp.control_settings import ControlSettings
 from stepaside.planning import Foot
 from stepaside.report.landed_footsteps import footsteps_in
 from stepaside.report.scene import RunScene
-from stepaside.report.viewer.plot_history import PlotHistory
 from stepaside.sim.body_settings import BODIES
 
 # Without feedback, the odometry of a pursuer that turns drifts by centimetres.

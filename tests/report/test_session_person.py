@@ -7,6 +7,8 @@ from typing import Any
 
 import numpy as np
 import pytest
+from stepaside.report.viewer.live_drawing import draw_session
+from stepaside.report.viewer.scene_layers import SceneLayers
 
 from fake_page import Gui
 from stepaside.core.errors import ConfigurationError
@@ -15,9 +17,7 @@ from stepaside.games.floor_player import FloorPlayer
 from stepaside.games.walker import SimulatedPlayer
 from stepaside.locomotion.walk_snapshots import Phase
 from stepaside.report.viewer.drive_panel import DrivePanel, add_push
-from stepaside.report.viewer.live_drawing import draw_session
 from stepaside.report.viewer.live_session import LiveSession
-from stepaside.report.viewer.scene_layers import SceneLayers
 from stepaside.report.viewer.status_text import phases_of
 
 START = StartSettings(distance=2.0, pursuer_offset=0.3, evader_offset=0.0)

@@ -8,25 +8,8 @@ from typing import Any
 import mujoco
 import numpy as np
 import pytest
-
-from fake_page import Scene
-from stepaside.core.poses import Array, Pose
-from stepaside.games.duel_settings import DuelSettings, StartSettings
-from stepaside.games.initial_poses import initial_poses
-from stepaside.games.recorded_game import RecordedGame
-from stepaside.locomotion.walk_snapshots import Phase, WalkState
-from stepaside.planning import Foot, SoleRectangle
-from stepaside.planning.support_polygon import sole_corners
-from stepaside.report.figure_style import COLOURS, EVADER, THEORY
-from stepaside.report.palette import ON_BOTH_FLOORS
-from stepaside.report.viewer import live_drawing as drawing
 from stepaside.report.viewer.live_drawing import ZMP_COLOURS, draw_session
 from stepaside.report.viewer.plot_history import PlotHistory
-from stepaside.report.viewer.scene_bodies import (
-    SceneBodies,
-    join_meshes,
-    shape_of,
-)
 from stepaside.report.viewer.scene_layers import (
     HEIGHTS,
     LAYERS,
@@ -41,6 +24,23 @@ from stepaside.report.viewer.scene_layers import (
     support_outline,
 )
 from stepaside.report.viewer.true_odometry import true_odometry
+
+from fake_page import Scene
+from stepaside.core.poses import Array, Pose
+from stepaside.games.duel_settings import DuelSettings, StartSettings
+from stepaside.games.initial_poses import initial_poses
+from stepaside.games.recorded_game import RecordedGame
+from stepaside.locomotion.walk_snapshots import Phase, WalkState
+from stepaside.planning import Foot, SoleRectangle
+from stepaside.planning.support_polygon import sole_corners
+from stepaside.report.figure_style import COLOURS, EVADER, THEORY
+from stepaside.report.palette import ON_BOTH_FLOORS
+from stepaside.report.viewer import live_drawing as drawing
+from stepaside.report.viewer.scene_bodies import (
+    SceneBodies,
+    join_meshes,
+    shape_of,
+)
 from stepaside.report.visual_geoms import colour_of, visual_geoms_of
 
 SHAPES = """

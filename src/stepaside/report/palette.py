@@ -106,27 +106,33 @@ FLOORS = {
     "light": FloorColour("#f0efec", "#dad9d4", 0.30),
     "dark": FloorColour("#1b1e21", "#32373c", 0.55),
 }
-# Lines of a served page are shared by all viewers, so that each colour needs
-# enough contrast on both floors.
-ON_BOTH_FLOORS = {
-    "#1f5fbf": "#2c6fd6",
-    "#444444": "#767676",
-    "#2a9d55": "#23894a",
-    "#e8a598": "#d06a55",
-    "#9bb8e8": "#5b8ad8",
-    "#a3005f": "#cf2a86",
-    "#b92b19": "#d0402c",
-    "#0b6a5d": "#148273",
-    "#8f4f14": "#a8641f",
-    "#6a3d9a": "#8357b8",
-    "#6f5600": "#86700f",
-    "#a8236b": "#c23a84",
-}
+# Luminance of lines of a served page, which all viewers share: enough contrast
+# on both floors.
+ON_BOTH_FLOORS = 0.15, 0.24
 
 
 def on_both_floors(colour: str) -> str:
-    """Return a colour of figures as served pages draw it."""
-    return ON_BOTH_FLOORS.get(colour, colour)
+    """Return a colour, lighter or darker for contrast on both floors."""
+    low, high = ON_BOTH_FLOORS
+    end = 1.0 if _luminance(colour) < low else 0.0
+    red, green, blue = from_hex(colour)
+    mixed = (
+        to_hex(
+            (
+                red + m * (end - red),
+                green + m * (end - green),
+                blue + m * (end - blue),
+            )
+        )
+        for m in (0.02 * i for i in range(50))
+    )
+    return next(each for each in mixed if low <= _luminance(each) <= high)
+
+
+def rgb(colour: str) -> tuple[int, int, int]:
+    """Return red, green and blue, 0 to 255, of a colour ``#rrggbb``."""
+    red, green, blue = bytes.fromhex(colour[1:])
+    return red, green, blue
 
 
 def colours_in(

@@ -3,20 +3,24 @@
 from collections.abc import Callable
 from dataclasses import replace
 from math import radians
+from typing import Any
 
 import viser
 
 from ...core.errors import StepAsideError
-from ...games.duel_settings import PLAYERS, PURSUER, DuelSettings
-from ...games.recorded_game import RecordedGame
+from ...games.duel_settings import PLAYERS, PURSUER
 from ...games.walker import RobotPlayer
 from ...strategies import Strategy, Walk
-from .live_match import LiveSettings
 from .live_session import LiveSession
 
 DIRECTIONS = {"left": 90, "right": -90, "forward": 0, "backward": 180}  # [deg]
 TURN = radians(50.0)  # desired heading of a turn
 TURNS = {"left": 1.0, "straight": 0.0, "right": -1.0}
+KEYS: dict[str, Any] = {
+    "left": "arrowleft",
+    "right": "arrowright",
+    "straight": "arrowup",
+}
 
 
 def add_push(
@@ -54,15 +58,9 @@ def named(player: str) -> str:
     return f"the {player}" if player in PLAYERS else player
 
 
-def drivable(settings: LiveSettings) -> tuple[str, ...]:
-    """Return the players that can be driven.
-
-    They are the pursuer of a duel, the robots of a game that pursue, or all
-    its robots if none does.
-    """
-    if isinstance(settings, DuelSettings):
-        return (PURSUER,)
-    robots = [p for p in settings.players if p.body == "robot"]
+def drivable(session: LiveSession) -> tuple[str, ...]:
+    """Return the robots that pursue, or all robots if none does."""
+    robots = [p for p in session.played.players if p.body == "robot"]
     pursuers = [p for p in robots if p.role == PURSUER]
     return tuple(p.name for p in pursuers or robots)
 
@@ -71,7 +69,7 @@ class DrivePanel:
     """Teleoperation of one robot."""
 
     def __init__(self, gui: viser.GuiApi, session: LiveSession) -> None:
-        """Add the controls to a page, which needs a robot to drive.
+        """Add the controls to a page.
 
         Args:
             gui: Controls of the page.
@@ -80,55 +78,38 @@ class DrivePanel:
         self._session = session
         self._hand: Walk | None = None
         self._own: Strategy | None = None  # of the driven robot
-        names = drivable(session.settings)
-        duel = names == (PURSUER,)
-        with gui.add_folder("Drive the pursuer" if duel else "Drive a robot"):
+        with gui.add_folder("Drive"):
             gui.add_markdown(
-                f"{'Catch the evader' if duel else 'Walk'} with the buttons "
-                "or the keys: arrows left, right and up (straight), g (go), "
-                "h (halt)."
+                "Buttons or keys: arrows left, right and up (straight), g "
+                "(go), h (halt)."
             )
+            names = drivable(session) or session.names
             self._choice = gui.add_dropdown(
                 "Driven robot", names, visible=len(names) > 1
             )
             turn = gui.add_button_group("Turn", tuple(TURNS))
             walk = gui.add_button_group("Walk", ("go", "halt"))
             self._state = gui.add_markdown(self._state_text())
-            self._release_button = gui.add_button(
-                "Stop driving", disabled=True
+            self._stop = gui.add_button("Stop driving", disabled=True)
+        self._choice.on_update(lambda _: self._release())
+        turn.on_click(lambda _: self._drive(turn=TURNS[turn.value]))
+        walk.on_click(lambda _: self._drive(going=walk.value == "go"))
+        self._stop.on_click(lambda _: self._release())
+        for name, key in KEYS.items():
+            command: Any = gui.add_command(f"Drive {name}", hotkey=key)
+            command.on_trigger(
+                lambda _, turn=TURNS[name]: self._drive(turn=turn)
             )
-
-        @self._choice.on_update
-        def _(_: object) -> None:
-            if self._hand is not None:
-                self._release()
-            self._state.content = self._state_text()
-
-        @turn.on_click
-        def _(_: object) -> None:
-            self._drive(turn=TURNS[turn.value])
-
-        @walk.on_click
-        def _(_: object) -> None:
-            self._drive(going=walk.value == "go")
-
-        @self._release_button.on_click
-        def _(_: object) -> None:
-            self._release()
-
-        left = gui.add_command("Drive left", hotkey="arrowleft")
-        right = gui.add_command("Drive right", hotkey="arrowright")
-        straight = gui.add_command("Drive straight", hotkey="arrowup")
         go = gui.add_command("Drive: go", hotkey="G")
         halt = gui.add_command("Drive: halt", hotkey="H")
-        left.on_trigger(lambda _: self._drive(turn=1.0))
-        right.on_trigger(lambda _: self._drive(turn=-1.0))
-        straight.on_trigger(lambda _: self._drive(turn=0.0))
         go.on_trigger(lambda _: self._drive(going=True))
         halt.on_trigger(lambda _: self._drive(going=False))
 
     def reset(self) -> None:
         """End teleoperation, since another game has begun."""
+        names = drivable(self._session) or self._session.names
+        if tuple(self._choice.options) != names:
+            self._choice.options = names
         self._own = None
         self._set_hand(None)
 
@@ -144,9 +125,7 @@ class DrivePanel:
         name = self._choice.value
         if not self._is_robot(name):
             return
-        hand = self._hand
-        if hand is None:
-            hand = Walk()
+        hand = self._hand or Walk()
         if turn is not None:
             hand = replace(hand, bearing=turn * TURN)
         if going is not None:
@@ -160,8 +139,8 @@ class DrivePanel:
         """Return the robot to its own strategy."""
         name = self._session.driven
         self._set_hand(None)
-        self._session.record_command(released=True)
         if name:
+            self._session.record_command(released=True)
             self._adopt(name, None)
 
     def _set_hand(self, hand: Walk | None) -> None:
@@ -169,20 +148,17 @@ class DrivePanel:
         self._hand = hand
         self._session.driven = "" if hand is None else self._choice.value
         self._state.content = self._state_text()
-        self._release_button.disabled = hand is None
+        self._stop.disabled = hand is None
 
     def _is_robot(self, name: str) -> bool:
         """Return whether a player is a robot with its own strategy."""
-        return isinstance(
-            self._session.match.in_physics.player(name), RobotPlayer
-        )
+        return isinstance(self._session.world.player(name), RobotPlayer)
 
     def _state_text(self) -> str:
         """Return the state of teleoperation as text."""
         hand, who = self._hand, named(self._choice.value)
         if not self._is_robot(self._choice.value):
-            who = who[0].upper() + who[1:]
-            return f"{who} is a person and cannot be driven."
+            return f"{who[0].upper()}{who[1:]} cannot be driven."
         if hand is None:
             return f"Not driven: {who} follows its own strategy."
         direction = "straight ahead"
@@ -194,17 +170,13 @@ class DrivePanel:
     def _adopt(self, name: str, strategy: Strategy | None) -> None:
         """Set the strategy of a robot; None for its own again."""
 
-        def change(match: RecordedGame) -> None:
-            robot = match.in_physics.player(name)
+        def change() -> None:
+            robot = self._session.world.player(name)
             if not isinstance(robot, RobotPlayer):
                 return
             decisions = robot.scheme.decisions
-            if self._own is None:
-                self._own = decisions.strategy
-            if strategy is not None:
-                decisions.adopt(strategy)
-            else:
-                decisions.adopt(self._own)
-                self._own = None
+            own = self._own or decisions.strategy
+            decisions.adopt(strategy or own)
+            self._own = own if strategy else None
 
-        self._session.change(change)
+        self._session.call(change)

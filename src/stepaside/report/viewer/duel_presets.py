@@ -5,25 +5,27 @@ from importlib.util import find_spec
 
 from ...arena import RoomRecipe, generate_room
 from ...games.duel_settings import DuelSettings
-from ...locomotion.zmp.control_settings import ControlSettings
 from ...planning import PRESETS as GAITS
+from .live_session import LiveSettings
 
 AS_STARTED = "as started"
 ROOM_SEED = 3  # of the room that is offered
 PERSON_DISTANCE, PERSON_SPEED = 2.5, 0.3  # in [m], [m/s]
 
 
-def duel_presets(started: DuelSettings) -> dict[str, DuelSettings]:
-    """Return the duels that a page offers, by name.
+def presets_of(started: LiveSettings) -> dict[str, LiveSettings]:
+    """Return the games that a page offers, by name.
 
     Cameras are among them if the library that reads images is installed.
 
     Args:
         started: Settings with which the page was started, which come first.
     """
+    if not isinstance(started, DuelSettings):
+        return {AS_STARTED: started}
     duel = DuelSettings(seed=started.seed)
     room = generate_room(RoomRecipe(discs=3), ROOM_SEED)
-    found = {
+    found: dict[str, LiveSettings] = {
         AS_STARTED: started,
         "duel": duel,
         "room": replace(
@@ -37,8 +39,6 @@ def duel_presets(started: DuelSettings) -> dict[str, DuelSettings]:
             person=replace(duel.person, speed=PERSON_SPEED),
             start=replace(duel.start, distance=PERSON_DISTANCE),
             gait=GAITS["fast"],
-            control=ControlSettings(feedback=True),
-            strategy=replace(duel.strategy, trigger="time"),
         ),
     }
     if find_spec("cv2") is not None:

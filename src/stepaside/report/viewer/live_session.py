@@ -1,97 +1,64 @@
 """Live game in its own thread, paced by the wall clock."""
 
+import json
 import logging
 import threading
 from collections import deque
 from collections.abc import Callable
-from dataclasses import dataclass
-from math import nan
+from math import degrees, inf
 from pathlib import Path
 from time import perf_counter, sleep
-from typing import TYPE_CHECKING
 
-from ...core.errors import StepAsideError
+from ...core.atomic_output import atomic_draft
+from ...core.errors import ConfigurationError, StepAsideError
 from ...core.player_identity import Role
-from ...core.poses import Array
+from ...games.duel_circle import circle_of_theory
 from ...games.duel_settings import DuelSettings
-from ...games.game import GameObserver
+from ...games.game_settings import GameSettings
+from ...games.implied_settings import EVASION
 from ...games.outcome import Outcome
-from ...games.player import Snapshot
+from ...games.physics_world import PhysicsWorld
 from ...games.recorded_game import RecordedGame
-from ...locomotion.walk_snapshots import Phase
+from ...games.settings_as_game import as_game, complete
 from ...sim.push import Push
-from ...strategies.approach import Approach
-from ..figure_style import colours_of
-from .live_match import (
-    LiveSettings,
-    identities_of,
-    open_match,
-    predict,
-)
-from .plot_history import PlotHistory
-from .run_saving import LiveRecording, RunSaver
-from .status_text import phases_of
-
-if TYPE_CHECKING:
-    from ...perception.pipeline import FrameReport
+from ..palette import colours_in
+from ..run_folder import free_folder, write_run
+from ..settling_report import settling_time
+from .live_history import LiveHistory
 
 LOG = logging.getLogger(__name__)
 MAX_COMMANDS = 10_000  # of teleoperation that are recorded
 MAX_DELAY = 0.25  # beyond which lost time is not caught up, in [s]
-
-
-@dataclass(frozen=True, slots=True)
-class LiveSnapshot:
-    """State of a game at one instant, as the page shows it.
-
-    Attributes:
-        time: Simulated time, in [s].
-        positions: Of all bodies in the world, in [m]. Shape (bodies, 3).
-        quaternions: (w, x, y, z) of all bodies. Shape (bodies, 4).
-        players: Snapshot of each player.
-        phases: Phase of each player.
-        distance: Of the players, as the rules define it, in [m]; NaN if
-            they do not.
-        closest: Closest approach so far, in [m].
-        angle: Between the headings of a duel at the last sample, in [deg].
-        approach: Of the pursuer of a duel to the evader; None before it is
-            known.
-        message: Message of the game.
-    """
-
-    time: float
-    positions: Array
-    quaternions: Array
-    players: tuple[Snapshot, ...]
-    phases: tuple[Phase, ...]
-    distance: float
-    closest: float
-    angle: float
-    approach: Approach | None
-    message: str
+MAX_FOLDERS = 20  # that one page may write
+COMMAND_FILE = "hand.json"
+LiveSettings = DuelSettings | GameSettings
 
 
 class LiveSession:
     """Runs a game against the wall clock.
 
     The page never blocks it: requests go into a queue that the loop empties
-    between two ticks, and snapshots are copied under a lock that is held for
-    microseconds.
+    between two ticks, and the page copies the state under a lock that is
+    held for microseconds.
 
     Attributes:
         settings: Settings of the game, which a reset uses again.
-        match: The game that is played.
+        played: The same as a game of players, with nothing left open.
+        game: The game that is played; it has no end by time.
         running: Whether simulated time passes.
         speed: Simulated time per wall-clock time; inf for no limit.
         error: Message of an error in the loop; None if there was none.
-        trail: Recent history of the game.
+        history: Recent history of the game.
         colours: Colour of each player, by name.
         lock: Held while the game changes.
         commands: Recorded commands of teleoperation.
         driven: Name of the player that is teleoperated, or empty; theory
             does not apply then.
+        generation: Number of games that have begun.
         real_time_factor: Measured simulated time per wall-clock time; 0
             before the first measurement.
+        settling: Time constant of the approach to the circle of theory, in
+            [s]; None without a stable one.
     """
 
     def __init__(self, settings: LiveSettings) -> None:
@@ -108,26 +75,32 @@ class LiveSession:
         self.speed = 1.0
         self.real_time_factor = 0.0
         self.error: str | None = None
+        self.generation = self._saved = 0
         self._requests: deque[Callable[[], None]] = deque()
         self._closing = threading.Event()
         self._thread = threading.Thread(target=self._loop, daemon=True)
-        self.generation = 0
         self._open: RecordedGame | None = None
         self._thread.start()
         try:
-            self._in_loop(lambda: self._begin(settings))
+            self.call(lambda: self._begin(settings))
         except BaseException:
             self._closing.set()
             raise
 
-    def _in_loop(self, call: Callable[[], None]) -> None:
-        """Call a function in the loop's thread, which owns the graphics."""
+    def call(self, request: Callable[[], None]) -> None:
+        """Call a function between two ticks, and wait for it.
+
+        It runs in the loop's thread, which owns the graphics.
+
+        Raises:
+            Exception: What the function raises.
+        """
         done = threading.Event()
         failed: list[Exception] = []
 
         def run() -> None:
             try:
-                call()
+                request()
             except Exception as error:
                 failed.append(error)
             finally:
@@ -139,28 +112,47 @@ class LiveSession:
             raise failed[0]
 
     def _begin(self, settings: LiveSettings) -> None:
-        # A live game has no end, so that its history is bounded.
-        trail = PlotHistory()
-        recorders: tuple[GameObserver, ...] = trail, LiveRecording()
-        match = open_match(settings, recorders)
-        self._close_match()
-        self._open = match
-        self.match = match
-        self.trail = trail
+        if isinstance(settings, GameSettings) and settings.level != "physics":
+            raise ConfigurationError(
+                "level must be physics for a live page, got "
+                f"{settings.level!r}"
+            )
+        history = LiveHistory()
+        game = RecordedGame(
+            settings, [history], recorded=False, rendered=True, endless=True
+        )
+        self._close_game()
+        self._open = self.game = game
+        self.history = history
         self.driven = ""
-        self.adopt_settings(settings)
         self.commands: list[dict[str, float | str | bool]] = []
+        self.adopt_settings(settings)
         self.generation += 1
 
+    def adopt_settings(self, settings: LiveSettings) -> None:
+        """Take settings that changed during the game, with their theory."""
+        self.settings = settings
+        self.played = as_game(complete(settings))
+        self.colours = colours_in("light", self.names, self.played.identities)
+        self._circle = self.settling = None
+        if isinstance(settings, DuelSettings):
+            self._circle = circle_of_theory(settings)
+            self.settling = settling_time(settings)
+
     @property
-    def outcome(self) -> Outcome | None:
-        """Outcome of the game; None while it is played."""
-        return self.match.outcome
+    def world(self) -> PhysicsWorld:
+        """World of the game."""
+        return self.game.in_physics
+
+    @property
+    def names(self) -> tuple[str, ...]:
+        """Names of the players, in the order in which they act."""
+        return tuple(player.name for player in self.world.players)
 
     @property
     def opponents(self) -> tuple[tuple[str, str], ...]:
         """Names of all pairs of a pursuer and an evader."""
-        identities = identities_of(self.settings).items()
+        identities = self.played.identities.items()
         return tuple(
             (one, other)
             for one, own in identities
@@ -168,27 +160,33 @@ class LiveSession:
             if own.role is Role.PURSUER and own.opposes(theirs)
         )
 
-    def adopt_settings(self, settings: LiveSettings) -> None:
-        """Take settings that changed during the game, with their theory."""
-        self.settings = settings
-        self.colours = colours_of(self.names, identities_of(settings))
-        self._predicted = predict(settings)
-        self.settling = self._predicted.settling
+    @property
+    def theory(self) -> tuple[float, float, float] | None:
+        """Radius [m], distance [m] and angle [deg] of the circle of theory.
+
+        None without one, and while a player is driven by hand.
+        """
+        circle = self._circle
+        if self.driven or circle is None or not circle.exists:
+            return None
+        angle = degrees(circle.headings_apart_rad)
+        return circle.radius_evader_m, circle.distance_m, angle
 
     @property
-    def names(self) -> tuple[str, ...]:
-        """Names of the players, in the order in which they act."""
-        return tuple(player.name for player in self.match.in_physics.players)
+    def trigger_distance(self) -> float:
+        """Distance at which the evader of a duel begins to move, in [m].
 
-    @property
-    def theory(self) -> tuple[float, float] | None:
-        """Distance [m] and angle [deg] of the circle; None without one."""
-        return None if self.driven else self._predicted.circle
-
-    @property
-    def theory_radius(self) -> float | None:
-        """Radius of the evader's circle, in [m]; None without a circle."""
-        return None if self.driven else self._predicted.radius
+        Infinite for strategies that do not wait for a distance.
+        """
+        if not isinstance(self.settings, DuelSettings):
+            return inf
+        settings = self.settings.resolved()
+        if settings.evader_strategy != EVASION:
+            return inf
+        speed = settings.gait.stride / settings.gait.step_duration
+        if settings.pursuer == "person":
+            speed = settings.person.speed
+        return settings.strategy.begins_at(speed)
 
     def close(self) -> None:
         """Stop the loop and wait for it."""
@@ -207,16 +205,12 @@ class LiveSession:
                 continues then.
         """
         new_settings = self.settings if settings is None else settings
-        self._in_loop(lambda: self._begin(new_settings))
+        self.call(lambda: self._begin(new_settings))
         self.error = None
 
     def step(self, duration: float) -> None:
-        """Advance a paused game.
-
-        Args:
-            duration: Simulated time, in [s].
-        """
-        ticks = max(1, round(duration / self.match.in_physics.physics.tick))
+        """Advance a paused game by a simulated time, in [s]."""
+        ticks = max(1, round(duration / self.world.physics.tick))
         self._requests.append(lambda: self._advance(ticks))
 
     def push(self, player: str, impulse: float, direction: float) -> None:
@@ -231,82 +225,67 @@ class LiveSession:
             ConfigurationError: If the push is invalid or the player is not a
                 robot.
         """
-        match = self.match
-        push = Push(impulse, match.world.time, direction)
-        self._in_loop(lambda: match.in_physics.player(player).push(push))
+        push = Push(impulse, self.world.time, direction)
+        self.call(lambda: self.world.player(player).push(push))
 
-    def change(self, request: Callable[[RecordedGame], None]) -> None:
-        """Request a change of the game between two ticks.
+    def record_command(self, **command: float | str | bool) -> None:
+        """Record a command of teleoperation with the simulated time."""
+        if len(self.commands) < MAX_COMMANDS:
+            self.commands.append({"time_s": self.world.time, **command})
 
-        Args:
-            request: Called with the game in the loop's thread.
-        """
-        match = self.match
-        self._requests.append(lambda: request(match))
-
-    def save(self, saving: RunSaver) -> Path:
+    def save(self, parent: Path) -> Path:
         """Write the game so far, which pauses meanwhile.
 
         Args:
-            saving: Writer of run folders.
+            parent: Parent of the run folder.
 
         Returns:
             The run folder.
 
         Raises:
-            StepAsideError: If it cannot be written.
+            ConfigurationError: If nothing has been recorded yet, or
+                ``MAX_FOLDERS`` have been written.
+            OutputError: If it cannot be written.
         """
         with self.lock:
-            return saving.save(self.match, self.commands)
+            if self._saved >= MAX_FOLDERS:
+                raise ConfigurationError(
+                    f"saved runs must be at most {MAX_FOLDERS}; restart "
+                    "stepaside view to save more"
+                )
+            if len(self.game.recorder.times) < 3:
+                raise ConfigurationError(
+                    "nothing has been recorded yet: start the game first"
+                )
+            run = self.game.run()
+            name = f"live-seed{run.settings.seed}"
+            folder = write_run(free_folder(parent, name), run).parent
+            if self.commands:
+                with atomic_draft(folder / COMMAND_FILE) as draft:
+                    text = json.dumps(self.commands, indent=1)
+                    draft.write_text(text + "\n")
+            self._saved += 1
+        return folder
 
-    def record_command(self, **command: float | str | bool) -> None:
-        """Record a command of teleoperation with the simulated time.
-
-        Args:
-            command: Its values.
-        """
-        if len(self.commands) < MAX_COMMANDS:
-            time = self.match.world.time
-            self.commands.append({"time_s": time, **command})
-
-    def new_frames(self) -> "dict[str, FrameReport]":
-        """Return images that arrived since the last call, by camera."""
-        with self.lock:
-            frames = dict(self.trail.frames)
-            self.trail.frames.clear()
-        return frames
-
-    def snapshot(self) -> LiveSnapshot:
-        """Return a copy of the present state."""
-        with self.lock:  # no tick may change the state meanwhile
-            match, history = self.match, self.trail.history
-            world, distance = match.in_physics, match.distance
-            is_duel = isinstance(self.settings, DuelSettings)
-            return LiveSnapshot(
-                world.time,
-                world.data.xpos.copy(),
-                world.data.xquat.copy(),
-                tuple(player.snapshot() for player in world.players),
-                phases_of(world.players),
-                nan if distance is None else distance,
-                min(match.closest.values(), default=self.trail.closest),
-                history[-1][2] if history else 0.0 if is_duel else nan,
-                self.trail.approach(self.settings.cycle),
-                match.message,
-            )
+    @property
+    def outcome(self) -> Outcome | None:
+        """Outcome of the game; None while it is played."""
+        return self.game.outcome
 
     def _loop(self) -> None:
         due = perf_counter()
         measured, simulated = due, 0.0
         while not self._closing.is_set():
             try:
-                self._run_requests()
+                while self._requests:
+                    with self.lock:
+                        self._requests.popleft()()
                 if not self.running or self.outcome is not None:
                     sleep(0.01)
                     due = measured = perf_counter()
                     simulated = 0.0
                     continue
-                tick = self.match.in_physics.physics.tick
+                tick = self.world.physics.tick
                 self._advance(1)
                 simulated += tick
                 now = perf_counter()
@@ -323,9 +302,9 @@ class LiveSession:
             except Exception as error:
                 LOG.exception("the game stopped")
                 self._fail(f"{type(error).__name__}: {error}")
-        self._close_match()
+        self._close_game()
 
-    def _close_match(self) -> None:
+    def _close_game(self) -> None:
         """Close the game in the thread that owns its graphics."""
         if self._open is not None:
             self._open.world.close()
@@ -335,14 +314,9 @@ class LiveSession:
         LOG.error("%s", message)
         self.error, self.running = message, False
 
-    def _run_requests(self) -> None:
-        while self._requests:
-            with self.lock:
-                self._requests.popleft()()
-
     def _advance(self, ticks: int) -> None:
         for _ in range(ticks):
             if self.outcome is not None:
                 return
             with self.lock:
-                self.match.tick()
+                self.game.tick()

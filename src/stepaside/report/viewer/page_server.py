@@ -10,11 +10,14 @@ import viser
 import websockets.asyncio.server as sockets
 
 from ...core.errors import ConfigurationError
-from .page_layout import set_theme
+from ..palette import PALETTES, rgb
 
 HOST = "127.0.0.1"
 STARTING = threading.Lock()
 NOTICE_TIME = 8.0  # for which a message is shown, in [s]
+# viser brightens the colour of buttons in the light theme: this one becomes
+# the evader's blue, with enough contrast to white text.
+BUTTON_COLOURS = {"light": "#143d7b", "dark": PALETTES["light"].evader}
 # Invalid requests must not print tracebacks on the terminal.
 REQUEST_LOG = logging.getLogger(f"{__name__}.requests")
 REQUEST_LOG.addFilter(lambda record: record.msg != "opening handshake failed")
@@ -50,6 +53,21 @@ class Notices:
                     "stepaside", text, auto_close_seconds=NOTICE_TIME
                 )
                 self._open.append(notice)
+
+
+def set_theme(gui: viser.GuiApi, theme: str) -> None:
+    """Set the theme of a page, or of the page of one viewer.
+
+    Args:
+        gui: Controls of all viewers or of one.
+        theme: One of :data:`~stepaside.report.palette.THEMES`.
+    """
+    gui.configure_theme(
+        dark_mode=theme == "dark",
+        show_logo=False,
+        show_share_button=False,
+        brand_color=rgb(BUTTON_COLOURS[theme]),
+    )
 
 
 def open_server(port: int) -> viser.ViserServer:

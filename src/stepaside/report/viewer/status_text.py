@@ -1,12 +1,14 @@
 """Status texts of a live game: current state and outlook."""
 
-from collections.abc import Sequence
 from math import inf, isfinite, log
 
 from ...games.approach_forecast import LEAST, describe_motion
+from ...games.duel_settings import DuelSettings
 from ...games.player import Player
 from ...locomotion.walk_snapshots import Phase
 from ...strategies.approach import Approach
+from ..text_escaping import for_markdown
+from .live_session import LiveSession
 
 NEAR_DISTANCE = 0.05  # relative tolerance of the distance on the circle
 NEAR_ANGLE = 5.0  # tolerance of the angle on the circle, in [deg]
@@ -111,29 +113,74 @@ def outlook(
     return f"{text}, in about {settling * log(error / NEAR_DISTANCE):.0f} s."
 
 
-def players_text(names: Sequence[str], phases: Sequence[Phase]) -> str:
-    """Return the players of a game by their phases, as text.
-
-    Args:
-        names: Names of the players.
-        phases: Phase of each.
-    """
-    each = list(zip(names, phases, strict=True))
-    lines = []
-    for phase in dict.fromkeys(phases):
-        inside = ", ".join(name for name, now in each if now is phase)
-        lines.append(f"**{phase.value}**: {inside}")
-    return "\n\n".join(lines)
-
-
-def phases_of(players: Sequence[Player]) -> tuple[Phase, ...]:
-    """Return the phase of each player."""
-    return tuple(phase_of(player) for player in players)
-
-
 def phase_of(player: Player) -> Phase:
     """Return the phase of a player; a player without phases is walking."""
     if player.has_fallen:
         return Phase.FALLEN
     walk = player.snapshot().walk
     return Phase.WALKING if walk is None else walk.phase
+
+
+def page_text(session: LiveSession) -> str:
+    """Return state and outlook of a game, in Markdown.
+
+    Args:
+        session: The session; the caller holds its lock.
+    """
+    history, players = session.history.history, session.world.players
+    phases = [phase_of(player) for player in players]
+    distance = session.game.distance
+    _, _, angle = history[-1] if history else (0.0, 0.0, 0.0)
+    closest = session.history.closest
+    if isinstance(session.settings, DuelSettings):
+        assert distance is not None
+        approach = session.history.approach(session.settings.cycle)
+        theory, trigger = session.theory, session.trigger_distance
+        lines = [
+            status_text(
+                (phases[0], phases[1]),
+                distance,
+                angle,
+                trigger,
+                theory and theory[1:],
+                approach=approach,
+            ),
+            outlook(
+                distance,
+                phases[1],
+                safety=trigger,
+                approach=approach,
+                theory=theory and theory[1:],
+                settling=session.settling,
+            ),
+        ]
+    else:
+        lines = []
+        for phase in dict.fromkeys(phases):
+            inside = [
+                player.name
+                for player, now in zip(players, phases, strict=True)
+                if now is phase
+            ]
+            lines.append(f"**{phase.value}**: {', '.join(inside)}")
+    if session.driven:
+        lines[1:] = [
+            f"**{session.driven} driven by hand**: no theory applies."
+        ]
+    speed = ""
+    if session.running and session.real_time_factor > 0.0:
+        speed = f", {session.real_time_factor:.1f} x real time"
+    lines.append(f"{session.world.time:.1f} s simulated{speed}")
+    if distance is not None:
+        least = "least " if len(players) > 2 else ""
+        nearest = min(closest, distance)
+        lines.append(
+            f"{least}distance {distance:.2f} m, closest approach "
+            f"{nearest:.2f} m"
+        )
+    if session.outcome is not None:
+        lines.append(f"**over: {session.outcome.value}**; reset to restart")
+        lines.append(session.game.message)
+    if session.error is not None:
+        lines.append(f"**stopped: {for_markdown(session.error)}**")
+    return "\n\n".join(filter(None, lines))

@@ -9,10 +9,9 @@ import viser
 
 from ...arena import Room
 from ...core.poses import Array
-from ..palette import FLOORS
+from ..palette import FLOORS, rgb
 from ..scene import wall_corners
-from .page_layout import set_theme
-from .scene_layers import rgb
+from .page_server import set_theme
 
 CAMERAS = ("free", "follow", "top", "player's view")
 EVERYBODY = "All players"  # choice of the cameras' target

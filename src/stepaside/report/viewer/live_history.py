@@ -2,38 +2,52 @@
 
 from collections import deque
 from math import degrees, inf, nan
-from typing import TYPE_CHECKING
 
 import mujoco
 import numpy as np
 from numpy.typing import NDArray
 
-from ...core.poses import Pose
+from ...core.poses import Array, Pose
 from ...games.approach_forecast import estimate_approach
 from ...games.duel_circle import angle_between
 from ...games.duel_settings import PLAYERS
 from ...games.game import GameInPlay, GameObserver
 from ...games.physics_world import PhysicsWorld
-from ...games.player import Player, Snapshot
-from ...locomotion.walk_snapshots import StepStarted
+from ...games.player import PhysicalPlayer, Player, Snapshot
+from ...games.recorded_game import RecordedGame
+from ...perception.pipeline import FrameReport
 from ...planning import Foot
 from ...strategies.approach import Approach
-from .true_odometry import true_odometry
-
-if TYPE_CHECKING:
-    from ...perception.pipeline import FrameReport
 
 PERIOD = 0.1  # between samples, in [s]
+MAX_RECORDED = 600.0  # simulated time that is recorded, in [s]
 MAX_SAMPLES = 6000  # of the plots
 MAX_OFFSETS = 100  # samples of the offset
 MAX_TRACE = 1500  # points of a trace
-MAX_STEPS = 100  # of each player
+MAX_STEPS = 60  # footsteps of each player
 AXES = ("x [m]", "y [m]", "z [m]")
 HINGE = mujoco.mjtJoint.mjJNT_HINGE
-Footprint = tuple[Foot, Pose]  # and its landing pose in the world
 
 
-class PlotHistory(GameObserver):
+def true_odometry(player: Player) -> Pose | None:
+    """Return the pose of a robot's odometry in the world, as of now.
+
+    It is the pose in which the supporting sole of the plan is where it is in
+    simulation: plans drawn in it begin at the robot's foot, though its
+    odometry drifts. None for a player that does not plan.
+    """
+    if not isinstance(player, PhysicalPlayer):
+        return None
+    snapshot = player.snapshot()
+    if snapshot.walk is None:
+        return None
+    step = snapshot.walk.step(snapshot.time)
+    stance, foot = player.robot.stance, step.swing.other
+    sole = stance.left_sole if foot is Foot.LEFT else stance.right_sole
+    return sole.compose(step.support.inverse())
+
+
+class LiveHistory(GameObserver):
     """Observer of a game that keeps its recent history.
 
     Attributes:
@@ -41,12 +55,10 @@ class PlotHistory(GameObserver):
             as the rules define the distance, with the angle between the
             headings of a duel; NaN where there is none.
         closest: Smallest distance at the samples so far, in [m].
-        offsets: (time [s], x [m], y [m]) from the evader to the pursuer of a
-            duel, in the world, of the last gait cycles.
         traces: Recent positions of CoM and ZMP in the world, in [m], by
-            ``player/CoM`` and ``player/ZMP``.
+            layer and player.
         steps: Last footsteps of each player, by name; each where it was
-            going to land when it began.
+            going to land when it began: rows (side, x, y, heading).
         signals: Further quantities of every sample in ``history``, in the
             order of ``labels``. Each of shape (labels,).
         labels: Names of these quantities, with units; empty at first.
@@ -56,16 +68,12 @@ class PlotHistory(GameObserver):
 
     def __init__(self) -> None:
         """Start with an empty history."""
-        self.history: deque[tuple[float, float, float]] = deque(
-            maxlen=MAX_SAMPLES
-        )
+        self.history = deque[tuple[float, float, float]](maxlen=MAX_SAMPLES)
         self.closest = inf
-        self.offsets: deque[tuple[float, float, float]] = deque(
-            maxlen=MAX_OFFSETS
-        )
-        self.traces: dict[str, deque[tuple[float, float]]] = {}
-        self.steps: dict[str, deque[Footprint]] = {}
-        self.signals: deque[NDArray[np.float32]] = deque(maxlen=MAX_SAMPLES)
+        self._offsets = deque[tuple[float, float, float]](maxlen=MAX_OFFSETS)
+        self.traces: dict[tuple[str, str], deque[Array]] = {}
+        self.steps: dict[str, deque[Array]] = {}
+        self.signals = deque[NDArray[np.float32]](maxlen=MAX_SAMPLES)
         self.labels: tuple[str, ...] = ()
         self.frames: dict[str, FrameReport] = {}
 
@@ -73,6 +81,8 @@ class PlotHistory(GameObserver):
         """Record a sample when one is due."""
         world = game.world
         assert isinstance(world, PhysicsWorld)
+        if isinstance(game, RecordedGame) and world.time <= MAX_RECORDED:
+            game.recorder.before(game)
         every = max(1, round(PERIOD / world.physics.tick))
         if world.ticks == 0 or world.ticks % every:
             return
@@ -82,24 +92,20 @@ class PlotHistory(GameObserver):
             pursuer, evader = (np.array([s.place]) for s in snapshots)
             angle = degrees(float(angle_between(pursuer, evader)[0]))
             x, y = (pursuer - evader)[0, :2].tolist()
-            self.offsets.append((world.time, x, y))
-        if distance is not None:
-            self.closest = min(self.closest, distance)
+            self._offsets.append((world.time, x, y))
         apart = nan if distance is None else distance
+        self.closest = min(self.closest, inf if distance is None else apart)
         self.history.append((world.time, apart, angle))
         self._record_signals(world, snapshots)
         for snapshot in snapshots:
-            self._trace(f"{snapshot.name}/CoM", snapshot.com[:2])
+            self._trace("CoM trace", snapshot.name, snapshot.com[:2])
             # The ZMP is NaN while no foot is in contact.
             if snapshot.zmp is not None and np.isfinite(snapshot.zmp[0]):
-                self._trace(f"{snapshot.name}/ZMP", snapshot.zmp)
+                self._trace("ZMP trace", snapshot.name, snapshot.zmp)
 
-    def _note_step(self, player: Player, begun: StepStarted) -> None:
-        """Store where the footstep of a step will be."""
-        odometry = true_odometry(player)
-        if odometry is not None:
-            steps = self.steps.setdefault(player.name, deque(maxlen=MAX_STEPS))
-            steps.append((begun.foot, odometry.compose(begun.landing)))
+    def _trace(self, layer: str, name: str, point: tuple[float, ...]) -> None:
+        new = deque[Array](maxlen=MAX_TRACE)
+        self.traces.setdefault((layer, name), new).append(np.array(point))
 
     def _record_signals(
         self, world: PhysicsWorld, snapshots: list[Snapshot]
@@ -114,23 +120,34 @@ class PlotHistory(GameObserver):
         values += data.qpos[model.jnt_qposadr[joints]].tolist()
         self.signals.append(np.array(values, dtype=np.float32))
         if not self.labels:
-            names = [snapshot.name for snapshot in snapshots]
+            quantities = [f"CoM {axis}" for axis in AXES]
+            quantities += ["heading [rad]", *(f"ZMP {a}" for a in AXES[:2])]
             self.labels = (
-                *(label for name in names for label in _labels_of(name)),
+                *(
+                    f"{s.name}/{each}"
+                    for s in snapshots
+                    for each in quantities
+                ),
                 *(f"{model.joint(j).name} [rad]" for j in joints),
             )
 
     def acted(self, game: GameInPlay) -> None:
         """Store the steps that begin, and the images that arrived."""
         assert isinstance(game.world, PhysicsWorld)
+        if isinstance(game, RecordedGame) and game.world.time <= MAX_RECORDED:
+            game.recorder.acted(game)
         for player in game.world.players:
-            if player.begun is not None:
-                self._note_step(player, player.begun)
+            odometry = true_odometry(player) if player.begun else None
+            if player.begun is not None and odometry is not None:
+                pose = odometry.compose(player.begun.landing)
+                row = np.array([player.begun.foot.value, *pose])
+                new = deque[Array](maxlen=MAX_STEPS)
+                self.steps.setdefault(player.name, new).append(row)
             for report in player.reports:
                 self.frames[f"{player.name}, {report.camera}"] = report
 
     def approach(self, cycle: float) -> Approach | None:
-        """Return the approach of the pursuer over the last gait cycle.
+        """Return the approach of the pursuer of a duel over a gait cycle.
 
         Args:
             cycle: Duration of a gait cycle, in [s].
@@ -138,21 +155,10 @@ class PlotHistory(GameObserver):
         Returns:
             The approach; None before the first cycle has passed.
         """
-        if not self.offsets:
+        if not self._offsets:
             return None
-        now, x, y = self.offsets[-1]
-        for time, was_x, was_y in reversed(self.offsets):
+        now, x, y = self._offsets[-1]
+        for time, was_x, was_y in reversed(self._offsets):
             if now - time > cycle - 0.5 * PERIOD:
                 return estimate_approach((was_x, was_y), (x, y), now - time)
         return None
-
-    def _trace(self, name: str, position: tuple[float, float]) -> None:
-        trace = self.traces.setdefault(name, deque(maxlen=MAX_TRACE))
-        trace.append(position)
-
-
-def _labels_of(player: str) -> list[str]:
-    """Return the labels of the quantities of one player."""
-    com = [f"{player}/CoM {axis}" for axis in AXES]
-    zmp = [f"{player}/ZMP {axis}" for axis in AXES[:2]]
-    return [*com, f"{player}/heading [rad]", *zmp]
