@@ -5,7 +5,6 @@ from functools import cache
 
 import numpy as np
 import pytest
-from stepaside.report.viewer.scene_layers import push_arrows
 
 from stepaside.core.poses import Array
 from stepaside.games.outcome import Outcome
@@ -77,14 +76,3 @@ def test_a_run_has_its_players_and_the_least_distance(
         names = " and ".join(NAMES[:count])
         assert describe_state(run, 0) == f"{names} in motion"
         assert describe_state(run, 10) == f"{NAMES[count - 1]} is pushed"
-
-
-def test_an_arrow_ends_where_the_push_was_applied() -> None:
-    lines = push_arrows(PUSH, 0.5)
-    np.testing.assert_allclose(lines[0, 1, :2], (0.3, -0.2))
-    np.testing.assert_allclose(
-        lines[0, 1, :2] - lines[0, 0, :2], 0.25 * PUSH[0, 4:]
-    )
-    for time, shown in ((0.09, 0), (0.1, 3), (1.09, 3), (1.11, 0)):
-        assert len(push_arrows(PUSH, time)) == shown
-    assert push_arrows(None, 0.5).shape == (0, 2, 3)

@@ -2,14 +2,12 @@
 
 import numpy as np
 import pytest
-from stepaside.report.viewer.plot_history import PlotHistory
 
 from stepaside.core.poses import Array
 from stepaside.games.duel_settings import DuelSettings, StartSettings
-from stepaside.games.recorded_game import RecordedGame, run_duel
+from stepaside.games.recorded_game import run_duel
 from stepaside.games.run import DuelRun
 from stepaside.locomotion.zmp.control_settings import ControlSettings
-from stepaside.planning import Foot
 from stepaside.report.landed_footsteps import footsteps_in
 from stepaside.report.scene import RunScene
 from stepaside.sim.body_settings import BODIES
@@ -59,17 +57,3 @@ def test_footsteps_that_have_not_landed_are_left_out(run: DuelRun) -> None:
     assert planned is not None
     assert len(found) in (len(planned), len(planned) - 1)
     assert found[-1, 0] <= run.times[-1]
-
-
-def test_a_live_page_draws_footsteps_where_robots_step(run: DuelRun) -> None:
-    trail = PlotHistory()
-    duel = RecordedGame(SETTINGS, (trail,), endless=True)
-    while duel.world.time < run.times[-1]:
-        assert duel.tick() is None
-    wanted = footsteps_in(run)["pursuer"]
-    steps = list(trail.steps["pursuer"])[: len(wanted)]
-    sides = [1.0 if foot is Foot.LEFT else -1.0 for foot, _ in steps]
-    np.testing.assert_array_equal(sides, wanted[:, 1])
-    poses = np.array([tuple(pose) for _, pose in steps])
-    away = np.linalg.norm(poses[:, :2] - wanted[:, 2:4], axis=1)
-    assert away.max() < 0.015

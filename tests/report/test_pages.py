@@ -3,7 +3,7 @@
 import json
 import shutil
 import threading
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
@@ -90,14 +90,14 @@ def test_a_live_duel_can_be_watched_pushed_and_driven(browser: Any) -> None:
         if duel.world.time > 1.0:
             session.speed = SLOW
 
-    slowing = observe_ticks(session.match, slow_down)
-    pursuer = session.match.in_physics.players[0]
+    slowing = observe_ticks(session.game, slow_down)
+    pursuer = session.world.players[0]
     assert isinstance(pursuer, SimulatedPlayer)
     try:
         page = open_page(browser)
         page.goto(f"http://127.0.0.1:{live.server.get_port()}")
         page.get_by_text("standing").first.wait_for()
-        assert session.match.world.time == 0.0
+        assert session.world.time == 0.0
 
         press(page, "Start")
         page.get_by_text("the pursuer approaches").first.wait_for()
@@ -107,15 +107,15 @@ def test_a_live_duel_can_be_watched_pushed_and_driven(browser: Any) -> None:
         press(page, "Pause")
         until(page, lambda: not session.running)
         settle(page, session)
-        stopped = session.match.world.time
+        stopped = session.world.time
         assert 1.0 < stopped < 5.0
         settle(page, session)
-        assert session.match.world.time == stopped
+        assert session.world.time == stopped
 
         press(page, "Push")
         page.get_by_text("pushed the pursuer left").wait_for()
         until(page, lambda: pursuer.robot.pusher is not None)
-        stop_observing(session.match, slowing)
+        stop_observing(session.game, slowing)
         session.speed = 1.0
         press(page, "Start")
         pusher = pursuer.robot.pusher
@@ -133,7 +133,7 @@ def test_a_live_duel_can_be_watched_pushed_and_driven(browser: Any) -> None:
         press(page, "Pause")
         until(page, lambda: not session.running)
         tab = page.get_by_role("tab", name="Settings").first
-        field = page.get_by_label("Distance [m]").first
+        field = page.get_by_label("seed").first
 
         def opens() -> bool:
             """A click is lost while the page draws its panel anew."""
@@ -141,13 +141,13 @@ def test_a_live_duel_can_be_watched_pushed_and_driven(browser: Any) -> None:
             return bool(field.is_visible())
 
         until(page, opens)
-        field.fill("0.1")
+        field.fill("-1")
         field.press("Enter")
 
         def is_refused() -> bool:
             """A reset before the value arrives begins another duel."""
             press(page, "reset")
-            notice = page.get_by_text("distance must lie in").first
+            notice = page.get_by_text("seed must").first
             return bool(notice.is_visible())
 
         until(page, is_refused)
@@ -161,12 +161,10 @@ def settle(page: Any, session: LiveSession) -> None:
     """Wait until the loop behind the page begins a round."""
     for _ in range(3):
         served = threading.Event()
-        session.change(_setter(served))
+        threading.Thread(
+            target=lambda done=served: session.call(done.set), daemon=True
+        ).start()
         until(page, served.is_set)
-
-
-def _setter(event: threading.Event) -> Callable[[RecordedGame], None]:
-    return lambda duel: event.set()
 
 
 @pytest.fixture(scope="module")

@@ -67,7 +67,7 @@ def opened(browser: Any, link: str) -> Any:
 
 def show(served: Page, page: Any, time: float) -> None:
     """Advance the duel to a time in [s], and wait until the page shows it."""
-    passed = time - served.session.match.world.time
+    passed = time - served.session.world.time
     if passed > 0.0:
         served.session.step(passed)
     page.get_by_text(f"{time:.1f} s simulated").first.wait_for()

@@ -113,45 +113,64 @@ class ViewerClients:
             if name == CAMERAS[3]:
                 eye, target = _player_view(positions, heights)
             else:
-                eye, target = self._overview(camera, name == "top", positions)
+                eye, target = overview(
+                    camera.aspect,
+                    camera.fov,
+                    positions,
+                    self._walls,
+                    top=name == "top",
+                )
             if np.abs(np.array(camera.position) - eye).max() > MIN_MOVE:
                 with client.atomic():
                     camera.position, camera.look_at = eye, target
 
-    def _overview(
-        self, camera: Any, top: bool, positions: Sequence[Array]
-    ) -> tuple[Array, Array]:
-        """Return eye and target of a camera that shows all players.
 
-        On a phone the panel covers the lower part of the image, so that the
-        players, or the room in the top view, are shown above it.
-        """
-        points = np.array(positions)
-        low, high = points.min(axis=0), points.max(axis=0)
-        if top and len(self._walls):
-            low = np.minimum(low, self._walls.min(axis=0)) - ROOM_MARGIN
-            high = np.maximum(high, self._walls.max(axis=0)) + ROOM_MARGIN
-        elif top:
-            low, high = low - PLAYER_MARGIN, high + PLAYER_MARGIN
-        target = np.array([*(0.5 * (low + high)), TARGET_HEIGHT])
-        fraction = PHONE_IMAGE if camera.aspect < MAX_PHONE_ASPECT else 1.0
-        slope = tan(0.5 * camera.fov)
-        half = 0.5 * (high - low)
-        if top:
-            direction = np.array([0.0, -5e-4, 1.0])
-            distance = max(half[1] / fraction, half[0] / camera.aspect) / slope
-            distance += PLAYER_HEIGHT - TARGET_HEIGHT
-        else:
-            norm = float(np.linalg.norm(FOLLOW_DIRECTION))
-            direction = FOLLOW_DIRECTION / norm
-            distance = (1.3 + float(hypot(*(high - low)))) * norm
-            distance *= PHONE_DISTANCE if fraction < 1.0 else 1.0
-        # The image's upward direction in the world.
-        ahead = -direction / np.linalg.norm(direction)
-        right = np.cross(ahead, [0.0, 1.0, 0.0] if top else [0.0, 0.0, 1.0])
-        up = np.cross(right / np.linalg.norm(right), ahead)
-        target = target - (1.0 - fraction) * slope * distance * up
-        return target - distance * ahead, target
+def overview(
+    aspect: float,
+    fov: float,
+    positions: Sequence[Array],
+    walls: Array,
+    *,
+    top: bool,
+) -> tuple[Array, Array]:
+    """Return eye and target of a camera that shows all players, in [m].
+
+    On a phone the panel covers the lower part of the image, so that the
+    players, or the room in the top view, are shown above it.
+
+    Args:
+        aspect: Width over height of the image.
+        fov: Vertical field of view, in [rad].
+        positions: Of the players in the world, in [m]. Shape (2,) each.
+        walls: Corners of the walls, in [m]. Shape (n, 2).
+        top: Whether the view is from above.
+    """
+    points = np.array(positions)
+    low, high = points.min(axis=0), points.max(axis=0)
+    if top and len(walls):
+        low = np.minimum(low, walls.min(axis=0)) - ROOM_MARGIN
+        high = np.maximum(high, walls.max(axis=0)) + ROOM_MARGIN
+    elif top:
+        low, high = low - PLAYER_MARGIN, high + PLAYER_MARGIN
+    target = np.array([*(0.5 * (low + high)), TARGET_HEIGHT])
+    fraction = PHONE_IMAGE if aspect < MAX_PHONE_ASPECT else 1.0
+    slope = tan(0.5 * fov)
+    half = 0.5 * (high - low)
+    if top:
+        direction = np.array([0.0, -5e-4, 1.0])
+        distance = max(half[1] / fraction, half[0] / aspect) / slope
+        distance += PLAYER_HEIGHT - TARGET_HEIGHT
+    else:
+        norm = float(np.linalg.norm(FOLLOW_DIRECTION))
+        direction = FOLLOW_DIRECTION / norm
+        distance = (1.3 + float(hypot(*(high - low)))) * norm
+        distance *= PHONE_DISTANCE if fraction < 1.0 else 1.0
+    # The image's upward direction in the world.
+    ahead = -direction / np.linalg.norm(direction)
+    right = np.cross(ahead, [0.0, 1.0, 0.0] if top else [0.0, 0.0, 1.0])
+    up = np.cross(right / np.linalg.norm(right), ahead)
+    target = target - (1.0 - fraction) * slope * distance * up
+    return target - distance * ahead, target
 
 
 def order_in_view(
