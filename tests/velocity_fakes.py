@@ -7,10 +7,11 @@ from pathlib import Path
 from time import monotonic, sleep
 from typing import Any
 
+import numpy as np
+
 from stepaside.core.poses import Array, Pose
 from stepaside.drivers.play_log import METADATA, ROWS, columns_in
 from stepaside.drivers.velocity_limits import REST
-from stepaside.drivers.walking_robot import WalkerState
 from stepaside.perception.measurement import RobotState, Sighting
 from stepaside.strategies.velocity_set import BodyVelocity
 
@@ -96,15 +97,15 @@ class SimulatedUnicycle:
         """Store the command."""
         self.commanded = velocity
 
-    def state(self) -> WalkerState:
+    def state(self) -> RobotState:
         """Return the state now."""
-        return WalkerState(
-            self.time,
-            self.pose,
-            self.velocity,
-            [0.1, 0.2],
-            self.sighting,
+        joints = np.array([0.1, 0.2])
+        return RobotState(
+            self.time, joints, sighting=self.sighting, pose=self.pose
         )
+
+    def torso(self) -> None:
+        """Do not know where the torso is."""
 
     def move(self, velocity: BodyVelocity, passed: float) -> None:
         """Go on for some time, in [s]."""

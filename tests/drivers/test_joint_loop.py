@@ -385,7 +385,7 @@ def test_without_a_button_it_walks_when_ready_and_sees_its_opponent() -> None:
 def test_the_papers_walk_needs_foot_forces() -> None:
     game = Game(needs_forces=True)
     game.session.changes["foot_forces"] = np.full(8, nan)
-    with pytest.raises(SessionLost, match=r"foot_forces are needed .*--legs"):
+    with pytest.raises(SessionLost, match=r"foot_forces are needed .*legs"):
         game.play(1)
 
 

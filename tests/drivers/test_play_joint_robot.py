@@ -149,20 +149,6 @@ def until_commanded(folder: Path) -> None:
         sleep(0.02)
 
 
-@pytest.mark.parametrize("fate", [signal.SIGKILL, signal.SIGSTOP])
-def test_the_guardian_releases_the_joints(
-    fate: signal.Signals, play: "subprocess.Popen[str]", tmp_path: Path
-) -> None:
-    until_commanded(tmp_path)
-    play.send_signal(fate)
-    assert play.wait(LONGEST) == -signal.SIGKILL
-    deadline = monotonic() + LONGEST
-    while not calls(tmp_path)[-2].startswith("release"):
-        assert monotonic() < deadline
-        sleep(0.02)
-    assert calls(tmp_path)[-2] != f"release {play.pid}"
-
-
 def test_an_interrupt_rests_and_releases_the_joints(
     play: "subprocess.Popen[str]", tmp_path: Path
 ) -> None:

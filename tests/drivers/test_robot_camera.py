@@ -438,4 +438,5 @@ class Seer(SimulatedUnicycle):
 
     def state(self) -> Any:
         """Own state and sighting."""
-        return super().state()._replace(image=self.image)
+        images = () if self.image is None else (self.image,)
+        return super().state()._replace(percepts=images)

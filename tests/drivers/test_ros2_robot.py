@@ -4,7 +4,7 @@ import os
 from collections.abc import Callable, Iterator
 from math import atan2, cos, hypot, pi, sin
 from pathlib import Path
-from threading import Event, Thread
+from threading import Thread
 from typing import Any
 
 import pytest
@@ -485,33 +485,6 @@ def test_a_closed_participant_leaves_while_readers_are_held() -> None:
     dds.close()
     with pytest.raises(DDSException):
         writer.write(make("std_msgs/Bool", True))
-
-
-def test_no_two_topics_are_made_at_once(
-    monkeypatch: pytest.MonkeyPatch,
-) -> None:
-    """DDS failed for one of two threads, now and then."""
-    entered = [Event(), Event()]
-    overlapped = []
-    made = iter(entered)
-
-    class Slow:
-        def __init__(self, *given: object, **named: object) -> None:
-            next(made).set()
-            overlapped.append(entered[1].wait(0.05))
-
-    monkeypatch.setattr(ros2_dds, "Topic", Slow)
-    monkeypatch.setattr(ros2_dds, "DataReader", lambda *given, **named: None)
-    both = [DdsParticipant(DOMAIN), DdsParticipant(DOMAIN)]
-    words = "/odom", "nav_msgs/msg/Odometry"
-    threads = [Thread(target=dds.reader, args=words) for dds in both]
-    for thread in threads:
-        thread.start()
-    for thread in threads:
-        thread.join()
-    for dds in both:
-        dds.close()
-    assert overlapped[0] is False
 
 
 def test_a_domain_that_has_no_ports_is_refused(

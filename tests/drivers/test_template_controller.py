@@ -85,35 +85,6 @@ def test_the_pace_slows_speed_and_turn_alike() -> None:
     assert told == pytest.approx((0.5 * GAIT.speed, 0, 0.5 * GAIT.gain * 0.4))
 
 
-class Noting(FakeStrategy):
-    """Strategy that exposes its knowledge."""
-
-    def decide(self, knowledge: Any, memory: Any) -> Any:
-        """Note it."""
-        self.known = knowledge
-        return super().decide(knowledge, memory)
-
-
-@given(ANGLE, st.floats(-1.5, 1.5), st.integers(0, 12))
-def test_it_knows_since_when_and_from_where(
-    heading: float, rate: float, late: int
-) -> None:
-    strategy = Noting()
-    start, other = Pose(0.5, -0.2, heading), Pose(1.4, 0.3, 0.0)
-    mind = TemplateController(strategy, GAIT)
-    for i in range(40):
-        now, taken = PERIOD * i, PERIOD * max(0, i - late)
-        then = way(taken, start, rate)
-        x, y, _ = then.inverse().compose(other)
-        seen = Sighting(taken, wrap_angle(atan2(y, x)), hypot(x, y))
-        mind.decide(RobotState(now, pose=way(now, start, rate), sighting=seen))
-    known = strategy.known
-    assert known.age == pytest.approx(PERIOD * late)
-    assert known.pose_in_map == then
-    assert wrap_angle(known.bearing - seen.bearing) == pytest.approx(0.0)
-    assert known.velocity == pytest.approx((0.0, 0.0), abs=1e-6)
-
-
 def test_a_body_velocity_reaches_only_a_robot_that_walks_sideways() -> None:
     """A unicycle turns toward it instead."""
     velocities = VelocityLimits(0.5, 0.4, 1.0, lateral=0.3).velocities

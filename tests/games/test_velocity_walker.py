@@ -32,7 +32,7 @@ def walked() -> tuple[VelocityWalker, VelocityWalker, list[BodyVelocity]]:
     """Return two robots that walked for 5 s, then rested for 3 s."""
     game, players = commanded_robots(SETTINGS)
     world = game.in_physics
-    before = [player.state().velocity for player in players]
+    before = [player.velocity for player in players]
     players[0].command(BodyVelocity(0.06, 0.0, 0.1))
     players[1].command(BodyVelocity(-0.2, 0.0, 0.2))
     for tick in range(667):
@@ -57,7 +57,7 @@ def test_a_robot_walks_at_its_command_and_rests_on_command(
         way = hypot(state.pose.x, state.pose.y)
         assert way == pytest.approx(6 * STEP * abs(forward), rel=0.1)
         assert state.pose.x * forward > 0.0
-        assert state.velocity == REST
+        assert robot.velocity == REST
 
 
 def test_odometry_is_where_the_robot_is(
@@ -77,8 +77,7 @@ def test_the_torso_is_served_from_encoders_and_tilt(
     """To some millimetres: the floor gives way under the feet."""
     for robot in walked[:2]:
         state = robot.state()
-        assert state.torso is not None
-        (x, y, z), (roll, pitch, yaw) = state.torso
+        (x, y, z), (roll, pitch, yaw) = robot.torso()
         base = robot.frame.compose(state.pose).compose(Pose(x, y, yaw))
         body = f"{robot.name}/{robot.description.torso}"
         data = robot.robot.world.data.body(body)
@@ -185,6 +184,6 @@ def test_a_robot_on_learned_legs_steps_sideways(tmp_path: Path) -> None:
     for robot, lateral in zip(robots, (0.03, -0.05), strict=True):
         state = robot.state()
         assert not robot.has_fallen
-        assert state.velocity == pytest.approx((0.0, lateral, 0.0))
+        assert robot.velocity == pytest.approx((0.0, lateral, 0.0))
         assert 0.5 < state.pose.y / (6.0 * lateral) < 1.3
         assert abs(state.pose.x) < 0.1 and abs(state.pose.theta) < 0.3

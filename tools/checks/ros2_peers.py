@@ -44,10 +44,9 @@ from stepaside.drivers.ros2 import make_robot
 from stepaside.drivers.ros2_dds import DdsParticipant, take_messages
 from stepaside.drivers.ros2_images import pixels_of
 from stepaside.drivers.ros2_server import Ros2Server, WorldClock
-from stepaside.drivers.walking_robot import WalkerState
 from stepaside.perception.camera_model import CameraModel
 from stepaside.perception.images import ColourImage
-from stepaside.perception.measurement import Sighting
+from stepaside.perception.measurement import RobotState, Sighting
 from stepaside.strategies.velocity_set import BodyVelocity
 from stepaside.studies.result_files import header, write_result
 
@@ -275,19 +274,21 @@ class Walker:
     def look(self, angles: Any) -> None:
         """Nothing to turn."""
 
-    def state(self) -> WalkerState:
+    def torso(self) -> None:
+        """Do not know where the torso is."""
+
+    def state(self) -> RobotState:
         """Return the state of the robot."""
         shape = peer.HEIGHT, peer.WIDTH, 3
         pixels = np.frombuffer(peer.PIXELS, np.uint8).reshape(shape)
         x, y = peer.OTHER
         model = CameraModel(peer.WIDTH, peer.HEIGHT, peer.FOCAL, peer.FOCAL)
-        return WalkerState(
+        return RobotState(
             self.time,
-            Pose(*peer.START, 0.0),
-            self.velocity,
-            peer.ANGLES,
-            Sighting(self.time, atan2(y, x), hypot(x, y)),
-            image=ColourImage(self.time, model, pixels),
+            np.array(peer.ANGLES),
+            sighting=Sighting(self.time, atan2(y, x), hypot(x, y)),
+            percepts=(ColourImage(self.time, model, pixels),),
+            pose=Pose(*peer.START, 0.0),
         )
 
 

@@ -37,10 +37,6 @@ class HeldKey:
     ) -> None:
         """Read single keys, without echo.
 
-        Args:
-            terminal: Standard input.
-            clock: Time of this computer, in [s].
-
         Raises:
             ConfigurationError: If it is no terminal.
         """

@@ -52,15 +52,7 @@ class JointCheck(MethodCheck):
         note: Callable[[AdapterFinding], None],
         **options: Any,
     ) -> None:
-        """Begin without results; see :class:`MethodCheck`.
-
-        Args:
-            robot: The robot, not connected.
-            motors: Joints of its description, with gains that hold a
-                posture.
-            note: Function called with each result.
-            options: As of :class:`MethodCheck`.
-        """
+        """Begin without results; see :class:`MethodCheck`."""
         super().__init__(robot, note, **options)
         self._motors = motors
         self._reports: list[RobotState] = []
@@ -127,11 +119,6 @@ class JointCheck(MethodCheck):
         targets: Callable[[float], Array] | None = None,
     ) -> list[TimedReport]:
         """Collect new reports in the order of the motors.
-
-        Args:
-            duration: How long, in [s].
-            targets: Targets of all joints, in [rad], by the time since the
-                begin, in [s]; None to command nothing.
 
         Raises:
             SessionLost: If a robot that was commanded falls silent.
@@ -208,7 +195,7 @@ class JointCheck(MethodCheck):
 
     def _check_feet(self, report: RobotState) -> None:
         if np.isnan(report.foot_forces).all():
-            text = "not measured; the paper's walk needs them, --legs do not"
+            text = "not measured; only learned legs walk without them"
             self._add("foot forces", UNKNOWN, text)
             return
         load = float(np.sum(report.foot_forces))
@@ -251,15 +238,7 @@ class JointCheck(MethodCheck):
         number: int,
         size: float,
     ) -> str:
-        """Return why the motion of a joint is wrong; empty if it fits.
-
-        Args:
-            times: Times since its begin, in [s]. Shape (n,).
-            motion: Motion of all joints, in [rad]. Shape (n, joints).
-            turned: Integral of the joint's velocity, in [rad].
-            number: Index of the joint.
-            size: Commanded motion, in [rad].
-        """
+        """Return why the motion of a joint is wrong; empty if it fits."""
         moved = motion[times >= times[-1] - END].mean(axis=0)
         own = float(moved[number] / size)
         text = f"commanded {size:+.2f} rad, moved by {moved[number]:+.2f} rad"

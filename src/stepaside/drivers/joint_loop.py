@@ -389,7 +389,7 @@ class JointLoop:
         if self._needs_forces and np.isnan(report.foot_forces).all():
             return (
                 f"{name}: foot_forces are needed by the paper's walk; use "
-                "--legs"
+                "learned legs"
             )
         fault = joint_fault(report, self._motors)
         if not fault and self.report is not None:

@@ -212,11 +212,7 @@ class LolaRobot(JointRobot):
             self._sight.close()
 
     def _newest(self, patience: float) -> dict[str, Any] | None:
-        """Return the newest frame that has arrived, if it is undamaged.
-
-        Args:
-            patience: Longest time to wait for one, in [s].
-        """
+        """Return the newest frame that has arrived, if it is undamaged."""
         while len(self._buffer) < FRAME:
             if not select.select([self._socket], [], [], patience)[0]:
                 return None

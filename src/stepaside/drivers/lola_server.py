@@ -129,14 +129,6 @@ class LolaServer:
     ) -> None:
         """Listen for a client.
 
-        Args:
-            path: Path to listen on.
-            robot: The simulated robot.
-            joint_names: Its joints, in the order of its measurements; all
-                are joints of NAO.
-            lock_step: Whether the simulation waits for answers.
-            ideal_sight: Whether the true line of sight is offered.
-
         Raises:
             ConfigurationError: If the path cannot be listened on.
         """

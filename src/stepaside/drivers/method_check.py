@@ -71,16 +71,7 @@ class MethodCheck:
         clock: Callable[[], float] = monotonic,
         pause: Callable[[float], None] = sleep,
     ) -> None:
-        """Begin without results.
-
-        Args:
-            robot: The robot, not connected.
-            note: Function called with each result.
-            dry_run: Whether nothing is commanded.
-            guardian: Guardian that stops the robot if the check dies.
-            clock: Time of this computer, in [s].
-            pause: Function that waits for a time, in [s].
-        """
+        """Begin without results."""
         self.findings: list[AdapterFinding] = []
         self._methods = MethodThread(robot, clock=clock)
         self._robot, self._note, self._dry_run = robot, note, dry_run
@@ -150,13 +141,7 @@ class MethodCheck:
     def _collect(
         self, duration: float, command: Callable[[float], Any] | None = None
     ) -> list[TimedReport]:
-        """Collect new reports, with a command before each.
-
-        Args:
-            duration: How long, in [s].
-            command: Function that returns a call of command() by the time
-                since the begin, in [s]; None to command nothing.
-        """
+        """Collect new reports, with a command before each."""
         found: list[TimedReport] = []
         name, began = self._methods.name_of("listen"), self._clock()
         while (passed := self._clock() - began) < duration:
@@ -173,12 +158,7 @@ class MethodCheck:
         return found
 
     def _rest(self, arrived: float, *, commanded: bool) -> float:
-        """Return how long to wait after a report, in [s].
-
-        Args:
-            arrived: Time of its arrival, in [s].
-            commanded: Whether the robot is commanded.
-        """
+        """Return how long to wait after a report, in [s]."""
         raise NotImplementedError
 
     def _leave(self) -> None:
@@ -205,16 +185,7 @@ class MethodCheck:
     def _check_reports(
         self, reports: Sequence[TimedReport], over: float, longest: float
     ) -> bool:
-        """Check how often there is a new report, and their times.
-
-        Args:
-            reports: Reports of a robot that was not commanded.
-            over: Duration in which they came, in [s].
-            longest: Longest gap between two, in [s].
-
-        Returns:
-            Whether there are enough.
-        """
+        """Check how often there is a new report, and their times."""
         count = len(reports)
         if count < 2:
             self._add(

@@ -106,13 +106,7 @@ class NaoqiRobot(VelocityRobot):
     head = HeadLimits(yaw=2.0, up=0.6, down=0.5)
 
     def __init__(self, url: str, camera: CameraModel, latency: float) -> None:
-        """Make a robot.
-
-        Args:
-            url: Address like tcp://HOST:PORT.
-            camera: Optics and requested size of the top camera.
-            latency: Time from exposure to arrival of an image, in [s].
-        """
+        """Make a robot."""
         self._url, self._camera, self._latency = url, camera, latency
         self._steps_up: deque[Callable[[], Call]] = deque()
         self._rising: Call | None = None

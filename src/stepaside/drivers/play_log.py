@@ -73,11 +73,6 @@ class PlayLog:
     ) -> None:
         """Check the folder, which is created with the first tick.
 
-        Args:
-            folder: Folder that does not exist yet, or is empty.
-            about: Entries of ``play.json``.
-            beside: Contents of further files, by name.
-
         Raises:
             ConfigurationError: If the folder cannot be written.
         """

@@ -75,15 +75,7 @@ class LeagueRobot(JointRobot):
         team: str,
         standing: Mapping[str, float],
     ) -> None:
-        """Make a robot that joins the game later.
-
-        Args:
-            address: Host and port of the simulator.
-            model: Name of its model.
-            team: Name of its team.
-            standing: Posture in which it lands, in [rad], by joint; other
-                joints are at zero.
-        """
+        """Make a robot that joins the game later."""
         self._address, self._model, self._team = address, model, team
         motors, self._camera = MODELS[model]
         self.joints, self._motors = tuple(motors), tuple(motors.values())

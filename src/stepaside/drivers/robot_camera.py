@@ -230,11 +230,6 @@ class VideoCamera:
     ) -> None:
         """Open the camera.
 
-        Args:
-            path: Device like ``/dev/video0``, or a video file.
-            model: Optics and requested size; scaled to another size.
-            latency: Time from exposure to arrival, in [s].
-
         Raises:
             SessionLost: If there is no camera.
         """
@@ -284,14 +279,7 @@ class PosedSight:
         *,
         turns_head: bool,
     ) -> None:
-        """Begin without an image.
-
-        Args:
-            session: Session with the robot.
-            camera: Its camera; closed with this object.
-            perception: Perception that detects the opponent.
-            turns_head: Whether the head follows the opponent.
-        """
+        """Begin without an image."""
         self._session, self._camera = session, camera
         self._perception, self._turns_head = perception, turns_head
         self._mount: CameraMount | None = None  # at the newest image

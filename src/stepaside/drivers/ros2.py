@@ -375,14 +375,7 @@ class Ros2Robot(VelocityRobot):
     def _note(
         self, row: PeopleTopic, message: Any, fixed: str, base: str
     ) -> None:
-        """Convert the nearest person of a message to a sighting.
-
-        Args:
-            row: Topic of the message.
-            message: The message.
-            fixed: Frame of the odometry.
-            base: Frame of the robot.
-        """
+        """Convert the nearest person of a message to a sighting."""
         if row.name == IDEAL and IDEAL not in self._warned:
             self._warned.add(IDEAL)
             log.warning("uses the ideal line of sight of %s",
@@ -440,13 +433,7 @@ class TopicSwitch:
         topic: str,
         clock: Callable[[], float] = monotonic,
     ) -> None:
-        """Subscribe to a topic.
-
-        Args:
-            dds: DDS participant; closed with the switch.
-            topic: Topic like ``/operator/hold``.
-            clock: Time of this computer, in [s].
-        """
+        """Subscribe to a topic."""
         self._dds, self._topic, self._clock = dds, topic, clock
         self._reader = dds.reader(topic, "std_msgs/msg/Bool")
         self._held_until = -1.0

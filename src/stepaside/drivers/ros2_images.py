@@ -124,15 +124,7 @@ class TopicCamera:
         *,
         latency: float,
     ) -> None:
-        """Subscribe to a topic.
-
-        Args:
-            dds: DDS participant; closed with the camera.
-            topic: Topic like ``/camera/image_raw``; one that ends in
-                ``/compressed`` has compressed images.
-            model: Optics without ``camera_info``, for the whole image.
-            latency: Time from exposure to arrival, in [s].
-        """
+        """Subscribe to a topic."""
         self._dds, self._model, self._latency = dds, model, latency
         self._topic = topic
         # As ROS has it, beside the images.

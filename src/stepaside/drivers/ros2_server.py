@@ -8,12 +8,12 @@ prefix.
 import logging
 from collections.abc import Sequence
 from math import cos, hypot, isfinite, sin
-from typing import Any
+from typing import Any, Protocol
 
 from ..core.poses import Pose, wrap_angle
 from ..core.rotations import quaternion_of
 from ..perception.images import ColourImage
-from ..perception.measurement import Sighting
+from ..perception.measurement import RobotState, Sighting
 from ..strategies.velocity_set import BodyVelocity
 from .ros2 import COMMAND, IDEAL, KINDS, ODOMETRY
 from .ros2_dds import (
@@ -26,7 +26,6 @@ from .ros2_dds import (
     vector,
 )
 from .velocity_limits import REST
-from .walking_robot import WalkerState, WalkingRobot
 
 REPORTS = 0.048  # from one report to the next, in [s]
 SILENCE = 0.5  # without a command before the robot stops, in [s]
@@ -42,7 +41,26 @@ SPEEDS = 0.03, 0.13, 0.09
 # Height, roll and pitch of the footprint are zero by definition (REP 120); a
 # variance of zero would mean an unknown one to some programs.
 EXACT = 1e-9
+# Position, in [m]; roll, pitch and yaw, in [rad].
+BodyPlace = tuple[tuple[float, float, float], tuple[float, float, float]]
 log = logging.getLogger(__name__)
+
+
+class WalkingRobot(Protocol):
+    """Simulated robot that follows velocity commands."""
+
+    @property
+    def velocity(self) -> BodyVelocity:
+        """Velocity that it follows."""
+
+    def state(self) -> RobotState:
+        """Return pose in odometry, joints, sighting and newest image."""
+
+    def torso(self) -> BodyPlace | None:
+        """Return the pose of the torso from the robot's pose on the floor."""
+
+    def command(self, velocity: BodyVelocity) -> None:
+        """Walk at a velocity from now on."""
 
 
 class WorldClock:
@@ -174,18 +192,7 @@ class Ros2Server:
         lock_step: bool = False,
         urdf: str = "",
     ) -> None:
-        """Create the topics.
-
-        Args:
-            dds: DDS participant; the caller closes it.
-            namespace: Namespace of the robot, with a leading slash; or empty.
-            robot: The simulated robot.
-            joint_names: Names of its joints.
-            clock: Publisher of simulated time.
-            tick: Time between two calls of :meth:`speak`, in [s].
-            lock_step: Whether the simulation waits for answers.
-            urdf: URDF of the robot; empty for none.
-        """
+        """Create the topics."""
         self._robot, self._namespace, self._clock = robot, namespace, clock
         self._names, self._tick = list(joint_names), tick
         self._every = max(1, round(REPORTS / tick))
@@ -220,7 +227,7 @@ class Ros2Server:
         self._image: ColourImage | None = None  # likewise
         self._ticks = self._silent = self._polls = 0
         self._velocity, self._closed = REST, False
-        self._state: WalkerState | None = None
+        self._state: RobotState | None = None
         self.refused, self.answered = 0, True
 
     @property
@@ -320,23 +327,25 @@ class Ros2Server:
     def _frame(self, name: str) -> str:
         return f"{self._namespace}/{name}".lstrip("/")
 
-    def _publish(self, state: WalkerState) -> None:
+    def _publish(self, state: RobotState) -> None:
         """Publish the state; odometry last, as clients wait for it."""
-        time, pose, velocity = state.time, state.pose, state.velocity
+        time, pose, velocity = state.time, state.pose, self._robot.velocity
         self._clock.publish(time)
-        self._publish_image(state.image)
+        for image in state.percepts:
+            if isinstance(image, ColourImage):
+                self._publish_image(image)
         own = self._frame("base_footprint")
         fixed = header(time, self._frame(ODOMETRY))
         self._publish_sight(state.sighting, own)
-        angles = list(state.joints)
+        angles = state.joint_positions.tolist()
         self._joints.write(
             make("sensor_msgs/JointState", header(time, ""), self._names,
                  angles, [], [])
         )  # fmt: skip
         turn = rotation_message(0.0, 0.0, pose.theta)
         links = [(fixed, own, vector(pose.x, pose.y), turn)]
-        if state.torso is not None:
-            position, tilt = state.torso
+        if (torso := self._robot.torso()) is not None:
+            position, tilt = torso
             base = self._frame("base_link")
             links.append(
                 (header(time, own), base, vector(*position),
@@ -387,12 +396,12 @@ class Ros2Server:
         head = header(sighting.time, own)
         self._sight.write(make("geometry_msgs/PointStamped", head, point))
 
-    def _publish_image(self, image: ColourImage | None) -> None:
+    def _publish_image(self, image: ColourImage) -> None:
         """Publish an image that is new, on topics with a subscriber.
 
         Its frame is an optical one: x to the right, y down, z ahead.
         """
-        if image is None or image is self._image:
+        if image is self._image:
             return
         # Imported here, as only images need OpenCV.
         from .ros2_images import (

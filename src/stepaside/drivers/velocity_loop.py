@@ -53,15 +53,7 @@ class TemplateController:
         gait: GaitSettings,
         velocities: VelocitySet | None = None,
     ) -> None:
-        """Start without a sighting.
-
-        Args:
-            strategy: Function from knowledge to intent.
-            gait: Gives speed and gain of the template, and the time over
-                which rates are measured.
-            velocities: Velocities of a robot that walks sideways; None for
-                a unicycle. Strategies may then choose body velocities.
-        """
+        """Start without a sighting."""
         self._decisions = StrategyRunner(strategy, gait, velocities=velocities)
         self._gait = gait
         self.moving = False
@@ -109,19 +101,7 @@ class VelocityLoop:
         clock: Callable[[], float] = monotonic,
         pause: Callable[[float], None] = sleep,
     ) -> None:
-        """Start the loop; the robot stands.
-
-        Args:
-            session: Session with the robot; closed with the loop.
-            make_controller: Factory of controllers.
-            limits: Limits of the commands.
-            paced: Whether the robot's clock runs in real time.
-            source: What its reports are, for messages.
-            eyes: Camera that replaces the sightings of reports, if used;
-                closed with the loop.
-            clock: Time of this computer, in [s].
-            pause: Function that sleeps for a time, in [s].
-        """
+        """Start the loop; the robot stands."""
         self._session, self._eyes = session, eyes
         self._make_controller = make_controller
         self._controller = make_controller()

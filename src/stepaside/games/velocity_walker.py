@@ -1,12 +1,12 @@
 """Simulated robots with their own walk, commanded by velocities."""
 
 import logging
+from typing import TYPE_CHECKING
 
 from ..control.clearance.surroundings import OpenFloor, Surroundings
 from ..control.scheme_builder import ClearanceSetup, build_walk
 from ..control.velocity_scheme import VelocityScheme
 from ..core.poses import Pose, wrap_angle
-from ..drivers.walking_robot import TorsoInFootprint, WalkerState
 from ..locomotion.maneuver_walk import ManeuverWalk
 from ..locomotion.policy.legs_loader import load_legs
 from ..locomotion.policy.legs_settings import LegsSettings
@@ -26,6 +26,9 @@ from .player import MotionLog, PhysicalPlayer, Snapshot, snapshot_of
 from .policy_player import place_on_legs, velocity_guard
 from .walker_factory import RobotSensing, WalkerSetup, place_robot
 from .walker_log import WalkerLog
+
+if TYPE_CHECKING:
+    from ..drivers.ros2_server import BodyPlace
 
 log = logging.getLogger(__name__)
 
@@ -113,22 +116,25 @@ class VelocityWalker(PhysicalPlayer):
             return super().motion_log(closely=closely)
         return WalkerLog(self.robot, walk, self.frame, closely=closely)
 
-    def state(self) -> WalkerState:
+    @property
+    def velocity(self) -> BodyVelocity:
+        """Velocity that it follows."""
+        return self.scheme.velocity
+
+    def state(self) -> RobotState:
         """Return the state that the robot reports to its client."""
         measurement = self._read()
-        now, scheme = measurement.time, self.scheme
-        return WalkerState(
-            now,
-            scheme.templates.at(now),
-            scheme.velocity,
-            measurement.joint_positions.tolist(),
-            self._sighting(measurement),
-            self._image,
-            self._torso(measurement),
+        return RobotState(
+            measurement.time,
+            measurement.joint_positions,
+            sighting=self._sighting(measurement),
+            percepts=() if self._image is None else (self._image,),
+            pose=self.scheme.templates.at(measurement.time),
         )
 
-    def _torso(self, measurement: RobotState) -> TorsoInFootprint:
+    def torso(self) -> "BodyPlace":
         """Return the pose of the torso by the stance foot and the tilt."""
+        measurement = self._read()
         scheme, now = self.scheme, measurement.time
         step = scheme.locomotion.step(now)
         tilt = scheme.locomotion.tilt or (0.0, 0.0)
@@ -143,9 +149,7 @@ class VelocityWalker(PhysicalPlayer):
         planar = template.inverse().compose(
             Pose(x, y, torso.heading_in_odometry)
         )
-        return TorsoInFootprint(
-            (planar.x, planar.y, z), (*tilt, wrap_angle(planar.theta))
-        )
+        return (planar.x, planar.y, z), (*tilt, wrap_angle(planar.theta))
 
     def _read(self) -> RobotState:
         """Return the measurement of this tick; noise is drawn once."""
