@@ -9,7 +9,7 @@ from ..locomotion.zmp.current_step import CurrentStep
 from ..perception.attitude import AttitudeFilter
 from ..perception.measurement import RobotState, Sighting
 from ..planning import Foot
-from ..strategies.opponent_choice import choose_opponent
+from ..strategies.decision_maker import choose_opponent
 
 if TYPE_CHECKING:
     from ..perception.lidar_perception import LidarPerception
@@ -90,7 +90,7 @@ class MeasuredSight(SightSource):
 class SightOfPlayers(SightSource):
     """Latest sightings of several players, one of which is the opponent.
 
-    See :func:`stepaside.strategies.opponent_choice.choose_opponent`.
+    See :func:`stepaside.strategies.decision_maker.choose_opponent`.
     """
 
     def __init__(self, identity: PlayerIdentity, target: str = "") -> None:

@@ -20,9 +20,8 @@ from ..perception.measurement import Sighting
 from ..planning import Direction, GaitSettings
 from ..sim.crowd_motion import CrowdMotion, Neighbour
 from ..sim.person_motion import PersonMotion
-from ..strategies.decision_maker import DecisionMaker
+from ..strategies.decision_maker import DecisionMaker, choose_opponent
 from ..strategies.knowledge import Intent, Knowledge, Limits, OtherPlayer
-from ..strategies.opponent_choice import choose_opponent
 from ..strategies.strategy import Strategy
 from ..strategies.velocity_set import STILL, respond
 from .game import GameInPlay, GameObserver

@@ -1,5 +1,6 @@
 """Execution of a strategy: its memory, and the knowledge it decides from."""
 
+from collections.abc import Mapping
 from math import cos, sin
 from typing import Any
 
@@ -12,6 +13,7 @@ from .opponent_track import OpponentTrack
 from .strategy import Strategy, evaluate_strategy
 
 ORIGIN = Pose(0.0, 0.0, 0.0)
+NEARER = 0.9  # relative distance from which another opponent is taken
 
 
 class DecisionMaker:
@@ -145,3 +147,33 @@ def turned(
         return None
     (u, v), c, s = velocity, cos(angle), sin(angle)
     return c * u - s * v, s * u + c * v
+
+
+def choose_opponent(
+    own: PlayerIdentity,
+    distances: Mapping[PlayerIdentity, float],
+    *,
+    target: str = "",
+    present: str = "",
+) -> str:
+    """Return the name of the player that a player plays against.
+
+    It is the assigned target. Without a target it is the nearest opponent,
+    and another one than at present only when that is nearer by a tenth; in a
+    game without opponents, the nearest player. The name is empty if no
+    player has been seen.
+    """
+    if target:
+        return target
+    candidates = {
+        other.name: distance
+        for other, distance in distances.items()
+        if own.opposes(other)
+    } or {other.name: distance for other, distance in distances.items()}
+    if not candidates:
+        return ""
+    nearest = min(candidates, key=lambda name: candidates[name])
+    now = candidates.get(present)
+    if now is not None and candidates[nearest] > NEARER * now:
+        return present
+    return nearest

@@ -41,55 +41,39 @@ def validate_strategy(candidate: Any, name: str) -> None:
             text = " ".join(str(got).split())
             raise ConfigurationError(f"strategy {name}: {rule}, got {text}")
 
-    def attempt(rule: str, call: Callable[[], Any]) -> Any:
+    def attempt(rule: str, call: Callable[..., Any], *given: Any) -> Any:
         try:
-            return call()
+            return call(*given)
         except FAILURES as error:
             require(False, rule, f"{type(error).__name__}: {error}")
 
     kind = type(candidate).__name__
     for method in ("begin", "decide"):
-        require(
-            callable(getattr(candidate, method, None)),
-            f"must have a method {method}",
-            f"a {kind} without",
-        )
-    direction, saturated = attempt(
-        "must have direction and saturated",
-        lambda: [
-            getattr(candidate, each, None)
-            for each in ("direction", "saturated")
-        ],
-    )
-    require(
-        isinstance(direction, Direction),
-        "direction must be a Direction",
-        repr(direction),
-    )
-    require(
-        isinstance(saturated, bool),
-        "saturated must be true or false",
-        repr(saturated),
-    )
+        has = callable(getattr(candidate, method, None))
+        require(has, f"must have a method {method}", f"a {kind} without")
+    for key, wanted, rule in (
+        ("direction", Direction, "direction must be a Direction"),
+        ("saturated", bool, "saturated must be true or false"),
+    ):
+        value = attempt(f"must have {key}", getattr, candidate, key, None)
+        require(isinstance(value, wanted), rule, repr(value))
     memory = attempt("begin() must return a memory", candidate.begin)
+    rule = "decide(knowledge, memory) must return (Intent, memory)"
     for knowledge in trial_knowledge():
-        found = [
-            attempt(
-                "decide(knowledge, memory) must return (Intent, memory)",
-                lambda: candidate.decide(knowledge, memory),  # noqa: B023
-            )
+        one, other = (
+            attempt(rule, candidate.decide, knowledge, memory)
             for _ in range(2)
-        ]
-        for each in found:
-            fits = isinstance(each, tuple) and len(each) == 2
+        )
+        for each in (one, other):
+            pair = isinstance(each, tuple) and len(each) == 2
             require(
-                fits and isinstance(each[0], Intent),
+                pair and isinstance(each[0], Intent),
                 "decide must return (Intent, memory)",
                 repr(each),
             )
         require(
-            found[0][0] == found[1][0],
+            one[0] == other[0],
             "the same knowledge and memory must give the same intent",
-            f"{found[0][0]} and then {found[1][0]}",
+            f"{one[0]} and then {other[0]}",
         )
-        memory = found[0][1]
+        memory = one[1]
