@@ -10,9 +10,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from fake_robot import FIRST, GAIT, STEP, TICK, FakeStrategy, Run, walk_of
-from stepaside.arena import Disc, Room
+from stepaside.arena import Disc
 from stepaside.arena.obstacles import ObstacleSet
-from stepaside.control.clearance.surroundings import KnownRoom
 from stepaside.control.strategy_runner import StrategyRunner
 from stepaside.core.poses import Array, Pose, wrap_angle
 from stepaside.locomotion.zmp.feedback_loop import OpenLoop
@@ -25,9 +24,6 @@ from stepaside.planning import (
     Foot,
 )
 from stepaside.strategies import Knowledge
-from synthetic_state import (
-    MEASUREMENT,
-)
 
 ANGLE = st.floats(-pi, pi)
 METRES = st.floats(-3.0, 3.0)
@@ -125,21 +121,6 @@ def test_knowledge_has_poses_in_the_room_and_velocities_in_its_frame(
         (-0.1, 0.2), abs=1e-6
     )
     assert heading == pytest.approx(0.7)
-
-
-@FEW
-@given(MOVED, MOVED, MOVED)
-def test_a_measured_pose_aligns_odometry_with_the_body(
-    start: Pose, planned: Pose, place: Pose
-) -> None:
-    """The planned pose in odometry maps to the measured pose in the room."""
-    around = KnownRoom(Room(None, None, (Disc(9.0, 9.0, 0.2),)), start)
-    around.note(MEASUREMENT, planned)
-    assert around.pose_odometry_in_map == start
-    around.note(MEASUREMENT._replace(pose_in_room=place), planned)
-    found = around.pose_odometry_in_map.compose(planned)
-    assert found[:2] == pytest.approx(place[:2], abs=1e-9)
-    assert wrap_angle(found.theta - place.theta) == pytest.approx(0, abs=1e-9)
 
 
 class Noted(OpenLoop):

@@ -2,7 +2,6 @@
 
 from typing import Any
 
-import numpy as np
 import pytest
 
 from fake_robot import GAIT
@@ -12,10 +11,8 @@ from stepaside.control.clearance.guard import (
     Guard,
     ManeuverClearance,
 )
-from stepaside.control.clearance.surroundings import MappedRoom
 from stepaside.core.poses import Pose
 from stepaside.locomotion.maneuver_selection import GuardDecision
-from stepaside.perception.floor_map import FloorMap
 from stepaside.planning import (
     Direction,
     Foot,
@@ -55,10 +52,6 @@ def beside(gap: float, around: Any, *, out: bool) -> GuardDecision | None:
     return guard.choose(Intent(0.6), plan_for, SUPPORT, standing=True)
 
 
-def seen() -> MappedRoom:
-    return MappedRoom(FloorMap(), unknown_is_free=False)
-
-
 @pytest.mark.parametrize(
     ("clearance", "escapes"),
     [
@@ -79,27 +72,6 @@ def test_an_escape_ends_farther_and_hardly_approaches(
     assert clearance.escapes(MARGIN, 0.05) is escapes
     strict = escapes and clearance.least >= clearance.now
     assert clearance.escapes(MARGIN, 0.0) is strict
-
-
-def test_the_escape_with_the_largest_clearance_is_chosen(
-    monkeypatch: pytest.MonkeyPatch,
-) -> None:
-    random = np.random.default_rng(3)
-    told: dict[GuardDecision, ManeuverClearance] = {}
-
-    def clearance(_: Guard, plan: Any, support: Pose) -> ManeuverClearance:
-        return told.setdefault(
-            plan, ManeuverClearance(0.01, random.uniform(-0.03, 0.0), 0.02)
-        )
-
-    monkeypatch.setattr(Guard, "evaluate", clearance)
-    around: Any = seen()
-    around.solids = ObstacleSet((Box(0.0, 1.0, 1.0, 1.0),))
-    guard = Guard(around, NAO, PLANNER, margin=MARGIN)
-    same: Any = lambda choice: choice  # noqa: E731
-    chosen = guard.choose_escape(Intent(0.6), same, SUPPORT)
-    assert chosen is not None and len(told) > 3
-    assert told[chosen].least == max(p.least for p in told.values())
 
 
 def test_an_escape_gains_clearance_or_ends_at_the_margin() -> None:

@@ -7,7 +7,6 @@ from math import pi
 import numpy as np
 import pytest
 
-from fake_robot import FIRST, GAIT, STEP, FakeStrategy, Run
 from stepaside.control.strategy_runner import MAX_PACE_CHANGE, next_pace
 from stepaside.core.poses import Pose
 from stepaside.games.outcome import Outcome
@@ -23,7 +22,7 @@ from stepaside.planning import (
     TemplateDrive,
 )
 from stepaside.planning.steady_gait import landing_state
-from stepaside.strategies import Evasion, Intent, Knowledge, Limits, Walk
+from stepaside.strategies import Evasion, Knowledge, Limits, Walk
 from walkers import walker_of
 
 FAST = PRESETS["fast"]
@@ -84,29 +83,6 @@ def test_pace_changes_gradually_in_a_walk() -> None:
     assert next_pace(0.5, 1.0, standing=False) == 0.5 + MAX_PACE_CHANGE
     assert next_pace(0.6, 0.7, standing=False) == 0.7
     assert next_pace(1.0, 0.5, standing=True) == 0.5
-
-
-def test_steps_last_as_the_pace_requests() -> None:
-    class Calming(FakeStrategy):
-        def decide(
-            self, knowledge: Knowledge, memory: tuple[Knowledge, ...]
-        ) -> tuple[Intent, tuple[Knowledge, ...]]:
-            """Walk, and from the third second on calmly."""
-            return Intent(pace=1.0 if knowledge.time < 3.0 else 0.5), memory
-
-    run = Run(strategy=Calming())
-    run.until(FIRST + 12.0 * STEP)
-    lasted = [step.plan.gait.step_duration / STEP for step in run.steps]
-    assert lasted == sorted(lasted)
-    changes = dict.fromkeys(round(share, 6) for share in lasted)
-    assert list(changes) == pytest.approx([1.0, 4.0 / 3.0, 2.0], abs=1e-6)
-    # On the clock, too: one lands as long after another as its steps last.
-    landings = [time for time, *_ in run.landings]
-    double = GAIT.double_support
-    for i in range(1, len(lasted)):
-        apart = landings[i] - landings[i - 1]
-        wanted = double * lasted[i - 1] + GAIT.single_support * lasted[i]
-        assert apart == pytest.approx(wanted)
 
 
 @pytest.mark.parametrize("pace", [0.5, 0.75])

@@ -1,7 +1,5 @@
 """Test the control scheme of one robot with a fake body."""
 
-from typing import Any
-
 import numpy as np
 import pytest
 
@@ -13,10 +11,9 @@ from fake_robot import (
     FakeStrategy,
     Run,
     measure,
-    walk_of,
 )
 from stepaside.core.poses import Pose
-from stepaside.locomotion.maneuver_walk import RETRY_PERIOD, SETTLING
+from stepaside.locomotion.maneuver_walk import SETTLING
 from stepaside.locomotion.walk_snapshots import Phase
 from stepaside.perception.measurement import Sighting
 from stepaside.planning import Foot
@@ -142,32 +139,3 @@ def test_without_a_reason_it_brings_its_feet_abreast_and_rests() -> None:
     assert scheme.state.zmp_reference == scheme.state.reference.com[:2]
     assert not scheme.locomotion.step(ends).walking
     assert SETTLING == 1.0
-
-
-@pytest.mark.parametrize("foot", Foot)
-@pytest.mark.parametrize("blocked", [0, 1, 2])
-def test_a_blocked_start_is_retried_with_the_other_foot(
-    foot: Foot, blocked: int, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    """And if there is room for neither, both again, but not at once."""
-    run = Run(first_foot=foot)
-    asked: list[Foot] = []
-    planned = walk_of(run.scheme)._maneuvers.plan
-
-    def plan(*words: Any, standing: bool) -> Any:
-        asked.append(words[-1])
-        none = words[-1] in (foot, foot.other)[:blocked]
-        return None if none else planned(*words, standing=standing)
-
-    monkeypatch.setattr(walk_of(run.scheme)._maneuvers, "plan", plan)
-    run.until(TICK)
-    assert asked == [foot, foot.other][: 1 + min(blocked, 1)]
-    if blocked < 2:
-        assert run.phase() is Phase.WALKING
-        assert run.landings[0][1] is asked[-1]
-        return
-    assert run.phase() is Phase.STANDING and not run.steps
-    run.until(RETRY_PERIOD)
-    assert len(asked) == 2
-    run.until(RETRY_PERIOD + 2.0 * TICK)
-    assert asked == 2 * [foot, foot.other]

@@ -74,22 +74,3 @@ def test_the_zmp_never_leaves_the_feet_however_hard_it_is_used(
     assert least > EDGE - 1e-4  # the correction bends between two samples
     if kind != "start":
         assert least < EDGE + 1e-4 and lost == 1
-
-
-@pytest.mark.parametrize("off", [(0.0, 0.09), (0.2, 0.0), (-0.1, -0.3)])
-def test_a_zmp_that_no_foot_is_under_is_brought_back(
-    off: tuple[float, float],
-) -> None:
-    """Nothing satisfies the feet at once: said so, and still answered."""
-    plan = plan_of("walk")
-    mpc = IntrinsicallyStableMpc(GAIT, MpcSettings(), edge=EDGE)
-    leaving = plan.schedule.first_step_duration - 0.002
-    answer = mpc.solve(plan, leaving, np.zeros(2), np.array(off))
-    assert not answer.feasible
-    # At the end of the first sample it is under the foot that stands then.
-    then = leaving + mpc.interval
-    zmp = plan.sample([then]).zmp[0] + off
-    zmp += mpc.interval * np.array(answer.velocity)
-    [phase] = [p for p in plan.support() if p.start < then < p.end]
-    assert phase.single
-    assert (phase.offsets - phase.normals @ zmp).min() > EDGE - 1e-6

@@ -1,23 +1,17 @@
 """Test the stabiliser with a fake state estimator."""
 
-from dataclasses import replace
 from math import exp
 
 import numpy as np
 import pytest
 
-from stepaside.locomotion.zmp.current_step import zmp_box
-from stepaside.planning import Foot
 from synthetic_state import (
     BODY,
     COM,
     DCM,
     ETA,
-    GAINS,
-    GAIT,
     MEASUREMENT,
     ROW,
-    SUPPORT,
     TICK,
     ZERO,
     same,
@@ -124,25 +118,3 @@ def test_an_error_beyond_the_sole_moves_the_landing() -> None:
         x, y = step().to_support(*feedback.step_shift)
         place = (0.08, 0.12) if sign > 0 else (-0.08, 0.082)
         assert (0.04 + x, 0.1 + y) == pytest.approx(place)
-
-
-@pytest.mark.parametrize("rate", [0.0, 0.5])
-def test_an_error_that_joints_have_not_followed_is_stepped_out_too(
-    rate: float,
-) -> None:
-    """The part that the shift has not taken over yet, and the shift."""
-    gains = replace(
-        GAINS, yielding=rate / TICK, step_speed=100.0, reach_forward=1.0
-    )
-    feedback, fake = stabiliser(gains=gains)
-    fake.off_dcm = step().from_support(0.105, 0.0)
-    feedback.update(MEASUREMENT, ROW, step(landing=SUPPORT))
-    edge = zmp_box(Foot.LEFT, GAIT, GAINS.edge)[1][0]
-    zmp = min(4.0 * rate * 0.09, edge)
-    shift = zmp + exp(ETA * TICK) * (rate * 0.09 - zmp)
-    error = shift + (1.0 - rate) * 0.09
-    grow = exp(ETA * 0.2)
-    x, y = step().to_support(*feedback.step_shift)
-    landing = grow * error - (grow - 1.0) * edge
-    assert (x, y) == pytest.approx((landing, 0.0), abs=1e-9)
-    assert step().to_support(*feedback.dcm_shift)[0] == pytest.approx(shift)

@@ -10,7 +10,6 @@ from stepaside.perception.colour_detector import (
     RED,
     Appearance,
     ColourDetector,
-    Mask,
 )
 from stepaside.perception.images import ColourImage, Pixels
 
@@ -171,33 +170,3 @@ def test_faint_patches_away_from_the_ears_are_ignored(colour: str) -> None:
         behind[top:bottom, left:right] = pale(colour)
         image = ColourImage(0.0, CAMERA, behind)
         assert detector.detect_all(image, most=1) == plain
-
-
-@pytest.mark.parametrize(
-    ("width", "least"), [(80, 3), (160, 3), (320, 6), (480, 14)]
-)
-def test_small_specks_are_no_patches(
-    width: int, least: int, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    """Under three pixels, or 1.5 of an image of 160 columns."""
-    camera = CameraModel.of_field_of_view(width, 3 * width // 4, 1.063, 0.831)
-    detector, columns = ColourDetector(RED), round(least**0.5) + 1
-    tall = 10 * columns
-    for count in (least, least - 1):
-        mask = np.zeros((3 * width // 4, width), np.uint8)
-        for (x, y), _ in TRIM:
-            row = round(0.3 * width + (y - 0.5) * tall)
-            column = round(0.5 * width + x * tall)
-            for i in range(count):
-                at = row + i // columns, column + i % columns
-                mask[at] = 255
-
-        def marked(
-            hsv: Pixels, factor: float = 1.0, mask: Mask = mask
-        ) -> Mask:
-            return mask if factor == 1.0 else np.zeros(hsv.shape[:2], np.uint8)
-
-        monkeypatch.setattr(detector, "mask", marked)
-        empty = np.zeros((*mask.shape, 3), np.uint8)
-        image = ColourImage(0.0, camera, empty)
-        assert bool(detector.detect_all(image, most=1)) is (count == least)

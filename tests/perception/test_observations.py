@@ -11,8 +11,7 @@ from stepaside.core.rotations import rotation
 from stepaside.perception.camera_model import CameraModel
 from stepaside.perception.camera_pose import CameraPose
 from stepaside.perception.colour_detector import RED, ColourDetection
-from stepaside.perception.depth_detector import DetectedObstacle, Shadow
-from stepaside.perception.floor_map import FloorMap
+from stepaside.perception.depth_detector import Shadow
 from stepaside.perception.images import ColourImage, DepthImage
 from stepaside.perception.observations import (
     DEFAULT_DISTANCE,
@@ -22,7 +21,6 @@ from stepaside.perception.observations import (
     TRIM_FORWARD,
     TRIM_WIDTH,
     angle_of,
-    is_opponent,
     observe_shadow,
     observe_trim,
 )
@@ -167,30 +165,6 @@ def test_columns_to_the_right_have_positive_angles() -> None:
     assert angle_of(IMAGE, 320.0) == 0.0
     assert angle_of(IMAGE, 420.0) == pytest.approx(atan2(100.0, 550.0))
     assert angle_of(DEPTH, 220.0) == pytest.approx(-atan2(100.0, 550.0))
-
-
-def test_in_a_mapped_room_only_what_is_where_the_other_is_counts() -> None:
-    """The pieces of a wall that an edge cuts are not the other."""
-
-    def thing(x: float, y: float) -> DetectedObstacle:
-        bearing = atan2(y, x)
-        return DetectedObstacle(
-            x, y, hypot(x, y), bearing, 0.0, 0.3, 0.5, whole=False
-        )
-
-    things = [thing(1.0, 0.1), thing(1.0, 0.6)]
-    empty = FloorMap()
-
-    def told(other: tuple[float, float] | None) -> list[float]:
-        return [
-            each.y_in_odometry
-            for each in things
-            if is_opponent(each, empty, other)
-        ]
-
-    assert told((1.0, 0.0)) == [0.1]
-    assert told((1.0, 0.7)) == [0.6]
-    assert told(None) == []
 
 
 @pytest.mark.parametrize("behind", [False, True])

@@ -1,6 +1,6 @@
 """Test perception from images to sightings."""
 
-from math import atan2, cos, hypot, sin
+from math import atan2, hypot
 
 import numpy as np
 import pytest
@@ -143,23 +143,3 @@ def test_the_head_targets_are_those_of_the_gaze(eyes: Eyes) -> None:
     assert targets[names.index("HeadYaw")] == head.yaw != 0.0
     assert targets[names.index("HeadPitch")] == head.pitch
     assert (targets == 9.0).sum() == JOINTS - 2
-
-
-@pytest.mark.parametrize(
-    ("share", "missed"), [(0.848, True), (0.852, False), (2.0, False)]
-)
-@pytest.mark.parametrize("side", [1.0, -1.0])
-def test_a_visible_track_without_detection_counts_a_miss(
-    eyes: Eyes, share: float, missed: bool, side: float
-) -> None:
-    """Well within the view of the camera, to the edge of which it is 80."""
-    body = eyes.perception.body
-    assert body is not None
-    x, y, _ = (
-        body.position_head_in_odometry
-        + body.axes_head_in_odometry @ HEAD.top.position_in_body
-    )
-    angle = SUPPORT.theta + side * share * atan2(80.0, 140.0)
-    track = eyes.know(x + 2.0 * cos(angle), y + 2.0 * sin(angle))
-    eyes.see(TICK, colour(TICK))
-    assert track.frames == ((True, False) if missed else (True,))

@@ -1,23 +1,21 @@
 """Test obstacles, shadows, echoes and missed detections."""
 
 from dataclasses import replace
-from math import cos, degrees, radians, sin
+from math import degrees, radians
 from typing import Any
 
 import numpy as np
 import pytest
 
-from stepaside.core.poses import wrap_angle
 from stepaside.perception.depth_detector import Shadow
 from stepaside.perception.floor_map import FloorMap
 from stepaside.perception.images import SonarEcho
 from stepaside.perception.pipeline import (
     FloorMapping,
 )
-from stepaside.perception.sonar import HALF_CONE, MIN_AGE
+from stepaside.perception.sonar import HALF_CONE
 from synthetic_cameras import (
     HEAD,
-    SUPPORT,
     TICK,
     Eyes,
     axis_of,
@@ -76,25 +74,6 @@ def eyes() -> Eyes:
     return made
 
 
-@pytest.mark.parametrize("sonar", ["left", "right"])
-def test_an_echo_without_track_starts_one_nearby(
-    eyes: Eyes, sonar: str
-) -> None:
-    eyes.see(TICK, SonarEcho(TICK, sonar, None))
-    eyes.see(2 * TICK, SonarEcho(2 * TICK, sonar, 0.61))
-    assert not eyes.tracks
-    eyes.see(3 * TICK, SonarEcho(3 * TICK, sonar, 0.59))
-    (track,) = eyes.tracks
-    x, y, heading = eyes.torso
-    away = track.distance_from(x, y, 3 * TICK)
-    assert away == pytest.approx(0.69, abs=5e-4)
-    turned = track.bearing_from(x, y, 3 * TICK)
-    assert turned == pytest.approx(axis_of(eyes, sonar))
-    assert (turned > heading) == (sonar == "left")
-    assert track.identified_at == -np.inf and track.ranged_at == 3 * TICK
-    assert track.deviation_at(3 * TICK) == pytest.approx(0.25)
-
-
 def test_an_echo_counts_from_the_sonar() -> None:
     """On a deeper robot it is farther ahead of the axis."""
     distances = []
@@ -107,28 +86,6 @@ def test_an_echo_counts_from_the_sonar() -> None:
         (track,) = eyes.tracks
         distances.append(track.distance_from(*eyes.torso[:2], TICK))
     assert distances[1] - distances[0] == pytest.approx(0.2)
-
-
-def test_an_echo_updates_the_distance_of_a_track(eyes: Eyes) -> None:
-    """Only if its distance was not measured recently."""
-    for age, heard in ((MIN_AGE - 0.05, False), (MIN_AGE + 0.05, True)):
-        eyes.tracks.clear()
-        now = 1.0
-        track = eyes.know(
-            *eyes.beside(0.8, 0.1), time=now, identified=True, ranged=False
-        )
-        track.ranged_at = now - age
-        eyes.see(now, SonarEcho(now, "left", 0.5))
-        x, y, heading = eyes.torso
-        away = track.distance_from(x, y, now)
-        assert (away < 0.79) == heard
-        turned = wrap_angle(track.bearing_from(x, y, now) - heading)
-        assert turned == pytest.approx(0.1, abs=0.01)
-        if heard:
-            part = 0.02**2 / (0.02**2 + 0.06**2)
-            assert away == pytest.approx(0.8 - 0.2 * part, abs=2e-3)
-        assert len(eyes.tracks) == 1
-    assert MIN_AGE == 0.25
 
 
 @pytest.mark.parametrize(("sonar", "bearing", "heard"), HEARD)
@@ -144,37 +101,6 @@ def test_a_sonar_covers_its_own_side(
     assert (away < 0.79) == heard
     assert len(eyes.tracks) == 1
     assert degrees(HALF_CONE) == pytest.approx(50.0)
-
-
-@pytest.mark.parametrize("percept", [colour, depth])
-@pytest.mark.parametrize(
-    ("bearing", "missed"),
-    [(0.0, True), (23.0, True), (-23.0, True), (27.5, False), (-27.5, False)],
-)
-def test_a_frame_counts_a_miss_only_within_its_view(
-    eyes: Eyes,
-    monkeypatch: pytest.MonkeyPatch,
-    percept: Any,
-    bearing: float,
-    missed: bool,
-) -> None:
-    """Within 85 percent of its width: 25.3 of 29.7 degrees."""
-    body = eyes.perception.body
-    assert body is not None
-    show(monkeypatch)
-    angle = SUPPORT.theta + radians(bearing)
-    place = (
-        body.position_head_in_odometry
-        + body.axes_head_in_odometry @ HEAD.top.position_in_body
-    )
-    if percept is depth:
-        place = (
-            body.position_head_in_odometry
-            + body.axes_head_in_odometry @ HEAD.depth[0].position_in_body
-        )
-    track = eyes.know(place[0] + 1.5 * cos(angle), place[1] + 1.5 * sin(angle))
-    eyes.see(TICK, percept(TICK))
-    assert track.frames == ((True, False) if missed else (True,))
 
 
 def test_mapped_obstacles_start_no_track(

@@ -222,32 +222,6 @@ def test_a_delayed_frame_is_compared_at_its_time() -> None:
     assert track.mahalanobis_squared(look(now - 0.3, 2.0 - 0.3 * now)) > 1.0
 
 
-@pytest.mark.parametrize(
-    ("frames", "confirmed", "hopeless"),
-    [
-        ("", False, False),
-        ("+", False, False),
-        ("++", True, False),
-        ("--", False, False),
-        ("---", False, True),
-        ("-+-", False, False),
-        ("-+-+", True, False),
-        ("--+-", False, True),
-        ("--+-+", False, True),  # the first is forgotten by now
-        ("++-----", True, False),
-    ],
-)
-def test_three_of_five_frames_confirm_or_reject(
-    frames: str, confirmed: bool, hopeless: bool
-) -> None:
-    """The first frame counts."""
-    track = TargetTrack(look(0.0, 1.0))
-    for frame in frames:
-        track.record_frame(frame == "+")
-    assert track.confirmed is confirmed
-    assert track.is_rejected is hopeless
-
-
 def test_drift_forgets_an_earlier_speed() -> None:
     track = TargetTrack(look(0.0, 1.0, 0.0))
     for i in range(1, 200):

@@ -33,29 +33,6 @@ def test_egl_is_preferred_to_osmesa_and_rays(works: set[str]) -> None:
     assert choose_renderer() == "egl"
 
 
-@pytest.mark.parametrize(
-    ("asked", "renderer"),
-    [
-        ("osmesa", "osmesa"),
-        ("OSMesa", "osmesa"),
-        ("egl", "egl"),
-        ("glfw", "egl"),
-        ("glx", "egl"),
-        ("", "egl"),
-        ("disable", "raycast"),
-    ],
-)
-def test_the_environment_restricts_the_backends(
-    works: set[str],
-    monkeypatch: pytest.MonkeyPatch,
-    asked: str,
-    renderer: str,
-) -> None:
-    works |= {"egl", "osmesa", "disable", "glfw"}
-    monkeypatch.setenv("MUJOCO_GL", asked)
-    assert choose_renderer() == renderer
-
-
 def test_a_requested_renderer_is_used_or_refused(
     works: set[str], monkeypatch: pytest.MonkeyPatch
 ) -> None:

@@ -9,11 +9,8 @@ import pytest
 
 from stepaside.core.errors import ConfigurationError
 from stepaside.core.poses import Array, Pose
-from stepaside.games.duel_settings import DuelSettings, StartSettings
 from stepaside.games.floor_player import FloorPlayer
 from stepaside.games.floor_world import FloorPerson
-from stepaside.games.recorded_game import RecordedGame
-from stepaside.games.walker import SimulatedPlayer
 from stepaside.sim.pedestrian_appearance import FIGURES
 from stepaside.sim.person_body import (
     PARTS,
@@ -119,28 +116,3 @@ def test_a_person_cannot_be_pushed() -> None:
     player, _ = walker(world_of(model, data), motion, (4.0, 2.0))
     with pytest.raises(ConfigurationError, match="a robot .* got her"):
         player.push(Push(1.0, 0.0, 0.0))
-
-
-def test_a_person_starts_at_the_pursuer_pose() -> None:
-    """A straight walk looks once, at the middle or beside it."""
-    start = StartSettings(2.0, 0.5, -0.3)
-    for miss in (0.0, -0.5):
-        settings = DuelSettings(
-            pursuer="person",
-            start=start,
-            person=PersonSettings("straight", miss=miss),
-        )
-        duel = RecordedGame(settings)
-        person, evader = duel.in_physics.players
-        assert isinstance(person, FloorPlayer) and isinstance(
-            evader, SimulatedPlayer
-        )
-        assert (person.name, evader.name) == ("pursuer", "evader")
-        assert person.truth.position_torso_in_world == (0.0, 0.0)
-        aside = np.arctan2(miss, 2.0)
-        assert person.truth.heading_in_world == pytest.approx(aside, abs=1e-6)
-        sighting = evader.robot.read().sighting
-        assert sighting is not None  # and the evader knows the person
-        assert sighting.distance == pytest.approx(duel.distance)
-        assert duel.tick() is None
-        assert person.truth.position_torso_in_world[0] > 0.0

@@ -26,34 +26,6 @@ def furnished(
     return model, data
 
 
-def test_walls_enclose_the_room_at_their_distance() -> None:
-    model, data = furnished(SceneSettings(walls=3.0))
-    for x, y in ((1, 0), (-1, 0), (0, 1), (0, -1)):
-        wall = model.geom(f"wall {x} {y}")
-        np.testing.assert_allclose(wall.pos, (3.0 * x, 3.0 * y, 1.2))
-        thick = [0.05 if c else 3.0 for c in (x, y)]
-        np.testing.assert_allclose(wall.size, (*thick, 1.2))
-        assert (wall.contype[0], wall.conaffinity[0]) == (1, 0)
-        assert model.mat(wall.matid[0]).name == "wall"
-        away = mujoco.mj_ray(
-            model,
-            data,
-            np.zeros(3) + (0, 0, 1.0),
-            np.array([x, y, 0.0]),
-            None,
-            1,
-            -1,
-            np.zeros(1, dtype=np.int32),
-        )
-        assert away == pytest.approx(2.95)
-    material = model.mat("wall")
-    assert material.texrepeat.tolist() == [1.0, 1.0]
-    assert material.texuniform[0] == 1
-    role = mujoco.mjtTextureRole.mjTEXROLE_RGB
-    assert model.tex(material.texid[role]).name == "wall"
-    assert model.tex("wall").width[0] == 128 == model.tex("wall").height[0]
-
-
 def test_the_housing_is_massless_and_behind_the_lens() -> None:
     model, data = furnished(SceneSettings(0.0))
     head = model.body("me/head").id

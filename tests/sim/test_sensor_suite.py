@@ -198,24 +198,3 @@ def test_pixel_noise_has_the_set_deviation() -> None:
     assert grain.add_to(white).min() > 200
     still = ImageNoise(camera, 0.0, np.random.default_rng(2))
     np.testing.assert_array_equal(still.add_to(grey), grey)
-
-
-def test_rendering_uses_the_field_of_view_of_the_camera() -> None:
-    """MuJoCo takes the vertical angle, in degrees."""
-    drawn: list[str] = []
-
-    class FakeRenderer:
-        def draw(self, data: Any, number: int) -> np.ndarray:
-            """Draw a grey image."""
-            camera = data.model.camera(number)
-            assert camera.fovy[0] == pytest.approx(47.6)
-            assert data.model.camera("other").fovy[0] == 45.0
-            drawn.append(camera.name)
-            return np.full((60, 80, 3), 99, dtype=np.uint8)
-
-    eyes = eyes_of(depth=False, renderer=FakeRenderer())
-    for tick in range(30):
-        for percept in eyes.read(tick * TICK):
-            assert isinstance(percept, ColourImage)
-            assert (percept.pixels == 99).all()
-    assert drawn == 2 * ["me/head_camera"]

@@ -193,35 +193,3 @@ def test_stall_torque_scales_with_efficiency_and_stiffness() -> None:
     low, high = limits_at(-0.5, efficiency=0.6, torque_speed=True)
     np.testing.assert_allclose(low, -0.3)
     np.testing.assert_allclose(high, 0.6)
-
-
-@pytest.mark.parametrize("kind", ["ideal", "torque-speed", "flat"])
-@pytest.mark.parametrize("share", [0.0, 0.25, 1.0])
-def test_stiffness_of_one_joint_does_not_affect_others(
-    kind: str, share: float
-) -> None:
-    servos: IdealServos
-    if kind == "ideal":
-        servos, model, data = ideal()
-    else:
-        servos, model, data = realistic(
-            torque_speed=kind == "torque-speed", efficiency=0.5
-        )
-    full = STALL * (1.0 if kind == "ideal" else 0.5)
-    servos.soften(np.array([share, 1.0]))
-    servos.write(np.array([3.0, 3.0]))
-    data.ctrl[ACTUATORS] = 3.0
-    data.qvel[DOFS] = 0.0
-    np.testing.assert_allclose(torques(model, data), [share * full, full])
-    np.testing.assert_allclose(model.actuator_forcerange[0], [-9.0, 9.0])
-    if isinstance(servos, RealisticServos):
-        data.qvel[DOFS] = 0.5 * SPEEDS
-        servos.before_step(0.0)
-        data.ctrl[ACTUATORS] = 30.0
-        half = 0.5 if kind == "torque-speed" else 1.0
-        wanted = np.array([share, 1.0]) * full * half
-        np.testing.assert_allclose(torques(model, data), wanted)
-    servos.soften(np.ones(2))
-    data.ctrl[ACTUATORS] = 30.0
-    data.qvel[DOFS] = 0.0
-    np.testing.assert_allclose(torques(model, data), [full, full])
