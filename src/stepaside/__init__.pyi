@@ -1,4 +1,3 @@
-from .control import Body as Body
 from .control import ControlScheme as ControlScheme
 from .control.scheme_builder import build_scheme as build_scheme
 from .core.errors import StepAsideError as StepAsideError
@@ -63,7 +62,6 @@ __version__: str
 __all__ = [
     "__version__",
     "BODIES",
-    "Body",
     "BodySettings",
     "CameraImage",
     "CameraMount",

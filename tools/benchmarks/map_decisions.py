@@ -29,7 +29,7 @@ from stepaside.arena import (
     generate_room,
 )
 from stepaside.control.clearance.guard import Guard
-from stepaside.control.clearance.surroundings import HERE
+from stepaside.control.clearance.surroundings import Surroundings
 from stepaside.control.clearance.swept_outline import lateral_sway
 from stepaside.core.poses import Pose, wrap_angle
 from stepaside.locomotion.maneuver_selection import GuardDecision
@@ -65,24 +65,14 @@ RECIPES = (RoomRecipe(), RoomRecipe(discs=3), RoomRecipe(discs=6))
 WIDE = 2.0  # half side of a map, in [m]
 
 
-class Taken:
-    """Fixed surroundings from a map.
+class Taken(Surroundings):
+    """Fixed surroundings from a map."""
 
-    Attributes:
-        solids: Obstacles.
-        pose_odometry_in_map: Odometry itself.
-        map_error: Largest position error of the obstacles, in [m].
-    """
-
-    pose_odometry_in_map = HERE
     map_error = CELL
 
     def __init__(self, solids: ObstacleSet) -> None:
         """Store the obstacles."""
         self.solids = solids
-
-    def note(self, measurement: Any, body: Any) -> None:
-        """Ignore new measurements."""
 
 
 def seen(room: Room, fine: float) -> ObstacleSet:

@@ -1,7 +1,9 @@
 """The control scheme of one robot (paper, Fig. 4)."""
 
+from typing import TYPE_CHECKING
+
 from ..core.poses import Array, Pose
-from ..locomotion.locomotion import Locomotion, MotionRequest
+from ..locomotion.locomotion import MotionRequest
 from ..locomotion.maneuver_walk import ManeuverWalk
 from ..locomotion.walk_snapshots import Phase, StepStarted, WalkState
 from ..perception.measurement import RobotState, Sighting
@@ -9,6 +11,9 @@ from ..planning import Foot, GaitSettings
 from ..robots.leg_kinematics import LegKinematics
 from .sight_sources import SightSource
 from .strategy_runner import StrategyRunner
+
+if TYPE_CHECKING:
+    from ..locomotion.policy.policy_walk import PolicyWalk
 
 
 class ControlScheme:
@@ -27,7 +32,7 @@ class ControlScheme:
     def __init__(
         self,
         decisions: StrategyRunner,
-        locomotion: Locomotion,
+        locomotion: "ManeuverWalk | PolicyWalk",
         senses: SightSource,
     ) -> None:
         """Begin standing."""

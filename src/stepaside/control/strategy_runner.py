@@ -19,7 +19,7 @@ from ..strategies.knowledge import (
 from ..strategies.opponent_track import OpponentTrack
 from ..strategies.strategy import Strategy
 from ..strategies.velocity_set import VelocitySet
-from .clearance.surroundings import OpenFloor, Surroundings
+from .clearance.surroundings import Surroundings
 from .sight_sources import PlayersInSight
 from .turn_calibration import TurnCalibration
 
@@ -74,7 +74,7 @@ class StrategyRunner(DecisionMaker):
             views: Bearings at which the robot sees others.
         """
         super().__init__(strategy, limits_of(gait, velocities, views))
-        self._surroundings = surroundings or OpenFloor()
+        self._surroundings = surroundings or Surroundings()
         self.pace = 1.0
         self.headings: History[float] = History(MEMORY)
         self.templates: History[Pose] = History(MEMORY)

@@ -3,7 +3,7 @@
 from collections.abc import Sequence
 from dataclasses import replace
 
-from ..control.clearance.surroundings import OpenFloor, Surroundings
+from ..control.clearance.surroundings import Surroundings
 from ..control.clearance.velocity_guard import VelocityGuard
 from ..control.scheme import ControlScheme
 from ..control.scheme_builder import ClearanceSetup
@@ -161,7 +161,7 @@ def velocity_guard(
         clearance: Knowledge of the room and required clearance, if any.
     """
     if clearance is None:
-        return OpenFloor(), None
+        return Surroundings(), None
     distance = clearance.outline.radius + clearance.margin
     around = clearance.surroundings
     return around, VelocityGuard(around, legs.velocities, distance)

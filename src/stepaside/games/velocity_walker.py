@@ -3,7 +3,7 @@
 import logging
 from typing import TYPE_CHECKING
 
-from ..control.clearance.surroundings import OpenFloor, Surroundings
+from ..control.clearance.surroundings import Surroundings
 from ..control.scheme_builder import ClearanceSetup, build_walk
 from ..control.velocity_scheme import VelocityScheme
 from ..core.poses import Pose, wrap_angle
@@ -238,5 +238,5 @@ def place_velocity_walker(
         scheme,
         setup.odometry_in_world,
         setup.description,
-        OpenFloor(),  # the walk itself notes its surroundings
+        Surroundings(),  # the walk itself notes its surroundings
     )

@@ -29,7 +29,7 @@ class ManeuverWalk:
 
     All poses are in the robot's own odometry: the frame midway between its
     feet at the start. No history is stored: a recorder reads ``begun`` after
-    each tick. See :class:`.locomotion.Locomotion`.
+    each tick.
 
     Attributes:
         gait: Gait.
@@ -165,7 +165,15 @@ class ManeuverWalk:
         return self.plan is None or now >= self._plan_ends - 1e-9
 
     def coast(self, now: float) -> Array | None:
-        """Run a tick within a step; see :class:`.locomotion.Locomotion`."""
+        """Run a control tick that needs neither measurement nor decision.
+
+        Returns:
+            Joint targets, in [rad]; None if this tick needs one of both, and
+            then nothing has changed.
+
+        Raises:
+            ReachError: If the legs cannot follow the reference.
+        """
         if self.decides(now) or self._maneuvers.guard is not None:
             return None
         index = self._table.index(now)
@@ -178,7 +186,11 @@ class ManeuverWalk:
     def update(
         self, measurement: RobotState, decisions: IntentSource
     ) -> Array:
-        """Run one control tick; see :class:`.locomotion.Locomotion`."""
+        """Return the joint targets of a tick, in [rad]; decide if it is due.
+
+        Raises:
+            ReachError: If the legs cannot follow the reference.
+        """
         self.begun = None
         if self.phase is Phase.FALLEN:
             return self.joint_targets

@@ -1,7 +1,7 @@
 """True state of players, known to the simulator only."""
 
 from math import atan2, cos, hypot, radians, sin
-from typing import NamedTuple, Protocol
+from typing import NamedTuple
 
 import mujoco
 import numpy as np
@@ -11,41 +11,6 @@ from ..core.rotations import angles_of
 from ..robots.description_types import ReferencePoint
 
 FALLEN = cos(radians(45.0))  # upward component of the torso's axis
-
-
-class GroundTruth(Protocol):
-    """True state of a player: a robot, a person or a template."""
-
-    @property
-    def reach(self) -> float:
-        """Radius around the torso that contains the whole body, in [m]."""
-
-    @property
-    def position_com_in_world(self) -> Array:
-        """CoM, or an equivalent point, in [m]. Shape (3,)."""
-
-    @property
-    def position_torso_in_world(self) -> tuple[float, float]:
-        """Horizontal position of the torso, in [m]."""
-
-    @property
-    def position_reference_in_world(self) -> tuple[float, float]:
-        """Reference point of the player, in [m]."""
-
-    @property
-    def heading_in_world(self) -> float:
-        """Heading of the torso, in [rad]."""
-
-    @property
-    def has_fallen(self) -> bool:
-        """Whether the player has fallen."""
-
-
-def torsos_apart(one: GroundTruth, other: GroundTruth) -> float:
-    """Return the horizontal distance between two torsos, in [m]."""
-    (x, y) = one.position_torso_in_world
-    (u, v) = other.position_torso_in_world
-    return hypot(u - x, v - y)
 
 
 class FloorTruth:
@@ -169,6 +134,17 @@ class TrueRobotState:
             np.column_stack([reference, heading]),
             np.column_stack([torso, heading]),
         )
+
+
+GroundTruth = FloorTruth | TrueRobotState
+"""True state of a player: a robot, a person or a template."""
+
+
+def torsos_apart(one: GroundTruth, other: GroundTruth) -> float:
+    """Return the horizontal distance between two torsos, in [m]."""
+    (x, y) = one.position_torso_in_world
+    (u, v) = other.position_torso_in_world
+    return hypot(u - x, v - y)
 
 
 class TrueStance(NamedTuple):

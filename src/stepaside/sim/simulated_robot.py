@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Protocol
+from typing import TYPE_CHECKING
 
 import mujoco
 import numpy as np
@@ -32,6 +32,8 @@ from .world import World, transform_free_joint
 EMPTY = np.empty(0)
 
 if TYPE_CHECKING:
+    from ..locomotion.policy.policy_legs import InitialPosture
+    from ..robots.leg_kinematics import LegKinematics
     from .lidar import Lidar
     from .sensor_suite import SensorSuite
 
@@ -52,22 +54,6 @@ def motor_of(model: mujoco.MjModel, joint: int) -> int:
             f"{len(found)}"
         )
     return int(found[0])
-
-
-class JointPosture(Protocol):
-    """Joints of a robot, with the posture in which it begins."""
-
-    @property
-    def joint_targets(self) -> Array:
-        """Targets of the actuated joints, in [rad]. Shape (joints,)."""
-
-    @property
-    def posture(self) -> Array:
-        """Position and quaternion of the torso, then all joint angles."""
-
-    @property
-    def joint_names(self) -> tuple[str, ...]:
-        """Names of the actuated joints."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -111,7 +97,7 @@ class SimulatedRobot:
         world: World,
         name: str,
         description: RobotDescription,
-        kinematics: JointPosture,
+        kinematics: LegKinematics | InitialPosture,
         pose: Pose,
         body: BodySettings | None = None,
         sensors: SensorSetup | None = None,
@@ -220,7 +206,7 @@ class SimulatedRobot:
         return slice(int(found.adr[0]), int(found.adr[0] + found.dim[0]))
 
     def _place_in_world(
-        self, kinematics: JointPosture, pose: Pose, at: int
+        self, kinematics: LegKinematics | InitialPosture, pose: Pose, at: int
     ) -> None:
         posture = kinematics.posture
         qpos = self.world.data.qpos

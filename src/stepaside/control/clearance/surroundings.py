@@ -1,7 +1,5 @@
 """Obstacles known to a robot: none, a given room, or a map."""
 
-from typing import Protocol
-
 from ...arena import NO_OBSTACLES, ObstacleSet, Room
 from ...core.poses import Pose
 from ...perception.floor_map import CELL, FloorMap
@@ -12,8 +10,8 @@ AHEAD = 2.0  # horizon for moving obstacles: two steps, in [s]
 REFRESH_PERIOD = 0.25  # of obstacles that may change, in [s]
 
 
-class Surroundings(Protocol):
-    """Obstacles known to a robot.
+class Surroundings:
+    """Obstacles known to a robot: none, on an open floor.
 
     Attributes:
         solids: Known obstacles in the frame of the map.
@@ -22,46 +20,22 @@ class Surroundings(Protocol):
         map_error: Largest position error of the obstacles, in [m].
     """
 
-    map_error: float
-
-    @property
-    def solids(self) -> ObstacleSet:
-        """Known obstacles in the frame of the map."""
-
-    @property
-    def pose_odometry_in_map(self) -> Pose:
-        """Pose of the own odometry in the frame of the obstacles."""
-
-    def note(self, measurement: RobotState, pose: Pose) -> None:
-        """Update from a measurement; the pose of the CoM is in odometry."""
-
-
-class OpenFloor:
-    """No known obstacles."""
-
     solids = NO_OBSTACLES
     pose_odometry_in_map = HERE
     map_error = 0.0
 
     def note(self, measurement: RobotState, pose: Pose) -> None:
-        """Ignore the measurement."""
+        """Update from a measurement; the pose of the CoM is in odometry."""
 
 
-class KnownRoom:
+class KnownRoom(Surroundings):
     """A given room, with a sensor for the pose in it.
 
     Odometry that only counts steps drifts; the measured pose aligns the
     odometry frame with the room. The room also gives the motion of pushed
-    boxes, now and predicted.
-
-    Attributes:
-        solids: Obstacles in the room, and the floor there that moving
-            obstacles cover until a halt begun with the next step has ended.
-        pose_odometry_in_map: Pose of the own odometry in the room.
-        map_error: 0: a given room is exact.
+    boxes, which cover the floor until a halt begun with the next step has
+    ended.
     """
-
-    map_error = 0.0
 
     def __init__(self, room: Room, start: Pose) -> None:
         """Begin at time zero, with the pose of the odometry in the room."""
@@ -81,23 +55,17 @@ class KnownRoom:
             self.solids = ObstacleSet(self._room.solids_at(now, AHEAD))
 
 
-class MappedRoom:
+class MappedRoom(Surroundings):
     """Map from the own depth camera, in odometry.
 
-    Attributes:
-        solids: Occupied cells in odometry and, if unknown floor counts as
-            occupied, unknown cells.
-        pose_odometry_in_map: Odometry itself.
-        map_error: Size of a cell of the map, in [m].
+    Unknown cells are obstacles, too, if unknown floor counts as occupied.
     """
 
-    pose_odometry_in_map = HERE
     map_error = CELL
 
     def __init__(self, floor: FloorMap, *, unknown_is_free: bool) -> None:
         """Begin without obstacles; perception updates the map."""
         self._floor, self._unseen_is_free = floor, unknown_is_free
-        self.solids = NO_OBSTACLES
         self._read, self._next = 0, 0.0
 
     def note(self, measurement: RobotState, pose: Pose) -> None:

@@ -117,7 +117,7 @@ class PolicyWalk:
     def update(
         self, measurement: RobotState, decisions: IntentSource
     ) -> Array:
-        """Run one control tick; see :class:`.locomotion.Locomotion`."""
+        """Return the joint targets of a tick, in [rad]; decide if due."""
         now = measurement.time
         stands = self.phase is Phase.STANDING
         if self.decides(now) and (not stands or decisions.starts(now)):
