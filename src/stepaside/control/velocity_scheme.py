@@ -1,11 +1,12 @@
 """Control of a robot that walks at commanded velocities."""
 
 from math import pi
+from typing import TYPE_CHECKING
 
 from ..core.history import History
 from ..core.poses import Array, Pose
-from ..locomotion.locomotion import Locomotion, MotionRequest
-from ..locomotion.maneuver_walk import velocity_limits
+from ..locomotion.locomotion import MotionRequest
+from ..locomotion.maneuver_walk import ManeuverWalk, velocity_limits
 from ..locomotion.walk_snapshots import Phase
 from ..perception.measurement import RobotState
 from ..planning import Direction, Foot, GaitSettings
@@ -13,6 +14,9 @@ from ..strategies.knowledge import STAND, Intent
 from ..strategies.velocity_set import BodyVelocity
 from .strategy_runner import MEMORY
 from .turn_calibration import TurnCalibration
+
+if TYPE_CHECKING:
+    from ..locomotion.policy.policy_walk import PolicyWalk
 
 STILL = 1e-3  # speed [m/s] or turning rate [rad/s] that counts as zero
 REST = BodyVelocity()
@@ -69,7 +73,9 @@ class VelocityScheme:
         templates: Past poses of the template unicycle in odometry.
     """
 
-    def __init__(self, locomotion: Locomotion, tick: float) -> None:
+    def __init__(
+        self, locomotion: "ManeuverWalk | PolicyWalk", tick: float
+    ) -> None:
         """Begin standing, at a control period in [s]."""
         self.locomotion = locomotion
         self.headings: History[float] = History(MEMORY)
