@@ -183,6 +183,11 @@ class StudyRun(Generic[C]):
         return done
 
     @property
+    def progress(self) -> "StudyProgress":
+        """Number of cases with a record, of those reused, and of all."""
+        return StudyProgress(self.finished, self.reused, self.total)
+
+    @property
     def completed(self) -> bool:
         """Whether every case has a record."""
         return self.finished == self.total
@@ -487,7 +492,7 @@ class _Work(Generic[C]):
     ) -> None:
         """Run until no case is missing, or until the study is stopped."""
         run = self._run
-        report(StudyProgress(run.finished, run.reused, run.total))
+        report(run.progress)
         while not run.completed:
             try:
                 with open_executor(executor, workers) as opened:
@@ -506,23 +511,24 @@ class _Work(Generic[C]):
         self, executor: Executor, report: Callable[[StudyProgress], None]
     ) -> None:
         """Run on an executor until nothing is missing, or it breaks."""
-        run, workers = self._run, workers_of(executor)
+        workers = workers_of(executor)
         try:
             while self._submit(executor, workers) or self._flying:
                 done = wait(self._flying, return_when=FIRST_COMPLETED).done
                 for future in done:
                     self._take(future)
-                report(StudyProgress(run.finished, run.reused, run.total))
+                report(self._run.progress)
         except BrokenExecutor as error:
             self._lose(list(self._flying), error)
             raise
         except BaseException as error:
             cancel_pending(executor, self._flying)
-            for future, numbers in self._flying.items():
-                whole = future.done() and not future.cancelled()
-                if whole and not future.exception():
-                    if not isinstance(error, OutputError | CampaignError):
-                        run.add(numbers, future.result())
+            if not isinstance(error, OutputError | CampaignError):
+                for future, numbers in self._flying.items():
+                    if future.done() and not (
+                        future.cancelled() or future.exception()
+                    ):
+                        self._run.add(numbers, future.result())
             raise
 
     def _submit(self, executor: Executor, workers: int) -> bool:
@@ -533,14 +539,9 @@ class _Work(Generic[C]):
             if not numbers:
                 return False
             cases = [study.cases[number] for number in numbers]
+            task = study.measure, study.measure_together, study.together
             try:
-                future = executor.submit(
-                    measure_block,
-                    study.measure,
-                    study.measure_together,
-                    study.together,
-                    cases,
-                )
+                future = executor.submit(measure_block, *task, cases)
             except BrokenExecutor:
                 self._again.append(numbers)
                 raise

@@ -1,6 +1,7 @@
 """Studies from files, presets and Python: a grid or list of settings."""
 
 import json
+import re
 import tomllib
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from fnmatch import fnmatchcase
@@ -23,6 +24,7 @@ from .tabulation import Record
 PRESETS = Path(__file__).with_name("presets")
 SEED = "seed"
 SECTIONS = ("game", "settings", "grid", "variants", "cases", "by", "values")
+COMMA = re.compile(r",(?![^(\[{]*[)\]}])")  # not one within brackets
 SPACING = {"first", "last", "number"}  # of evenly spaced values
 SEEDS_OF_A_GAME = "0:20"  # of a game file
 TOGETHER = 16  # games on learned legs side by side; each takes about 10 MB
@@ -230,19 +232,13 @@ def study_entries(file: AnyPath, sets: Sequence[str] = ()) -> dict[str, Any]:
             "settings": entries,
             "grid": {SEED: SEEDS_OF_A_GAME},
         }
-    for name in entries:
-        if name not in SECTIONS:
-            raise ConfigurationError(
-                f"{file}: unknown entry {name}; there are "
-                f"{', '.join(SECTIONS)}"
-            )
-    entries = {
-        "game": "",
-        "settings": {},
-        "grid": {},
-        "variants": {},
-    } | entries
-    for name in ("settings", "grid", "variants"):
+    for name in set(entries) - set(SECTIONS):
+        raise ConfigurationError(
+            f"{file}: unknown entry {name}; there are {', '.join(SECTIONS)}"
+        )
+    tables = {name: {} for name in ("settings", "grid", "variants")}
+    entries = {"game": "", **tables, **entries}
+    for name in tables:
         if not isinstance(entries[name], dict):
             raise ConfigurationError(
                 f"{file}: {name} must be a table, got {entries[name]!r:.40}"
@@ -294,13 +290,7 @@ def _value(word: str) -> Any:
     try:
         return tomllib.loads(f"value = {word}")["value"]
     except tomllib.TOMLDecodeError:
-        parts, depth, start = list[str](), 0, 0
-        for i, letter in enumerate(word):
-            depth += (letter in "([{") - (letter in ")]}")
-            if letter == "," and not depth:
-                parts.append(word[start:i])
-                start = i + 1
-        parts.append(word[start:])
+        parts = COMMA.split(word)
         return [_value(p) for p in parts] if len(parts) > 1 else word
 
 
