@@ -17,7 +17,6 @@ from click.testing import CliRunner
 from stepaside.cli.main import main
 from stepaside.core.errors import ConfigurationError
 from stepaside.games import archive_reader as reading
-from stepaside.games.array_checks import ARRAY_SPECS
 from stepaside.games.duel_settings import DuelSettings
 from stepaside.games.recorded_game import run_duel
 from stepaside.games.run import DuelRun
@@ -28,7 +27,12 @@ from stepaside.games.run_archive import (
     load_run,
     write_run_files,
 )
-from stepaside.games.trajectory import Trajectory
+from stepaside.games.trajectory import (
+    FIELDS,
+    OF_EVENTS,
+    WIDTHS,
+    Trajectory,
+)
 from stepaside.report.scene import RunScene
 
 Damage = Callable[[Path], None]
@@ -39,8 +43,8 @@ def played() -> DuelRun:
     """Return a duel whose evader has every array."""
     run = run_duel(DuelSettings(duration=0.2))
     rows = {
-        key: np.zeros((len(run.times), kind.columns or 7))
-        for key, kind in ARRAY_SPECS.items()
+        key: np.zeros((len(run.times), WIDTHS.get(key, 7)))
+        for key in FIELDS
         if getattr(run.evader, key) is None and key != "sight"
     }
     return replace(
@@ -129,18 +133,6 @@ def empty_archive(folder: Path) -> None:
     (folder / TRAJECTORIES).write_bytes(buffer.getvalue())
 
 
-def twice(folder: Path) -> None:
-    with ZipFile(folder / TRAJECTORIES, "a") as archive:
-        with pytest.warns(UserWarning, match="Duplicate"):
-            archive.writestr("times_s.npy", header("(1,)", body=bytes(8)))
-
-
-def crowded(folder: Path) -> None:
-    with ZipFile(folder / TRAJECTORIES, "a") as archive:
-        for number in range(100):
-            archive.writestr(f"x{number}.npy", b"")
-
-
 def figure(key: str, value: Any) -> Damage:
     def damage(folder: Path) -> None:
         plain = json.loads((folder / SUMMARY).read_text())
@@ -151,83 +143,43 @@ def figure(key: str, value: Any) -> Damage:
 
 
 DEEP = 100_000
-WORDS = ("[]", "null", "", "{", "1", '"a"', "[" * DEEP, '{"a":' * DEEP)
 DAMAGES: dict[str, Damage] = {
-    **{f"summary {w[:8]!r}": text(SUMMARY, w) for w in WORDS},
+    "summary of null": text(SUMMARY, "null"),
+    "summary nested": text(SUMMARY, "[" * DEEP),
     "summary of bytes": text(SUMMARY, b"\xff\xfe"),
     "summary without end": text(SUMMARY, " " * 2**21 + "{}"),
-    "summary with many digits": text(SUMMARY, '{"seed": ' + "9" * 5000 + "}"),
-    "summary infinite": figure("distance_m", float("inf")),
     "summary NaN": figure("distance_m", float("nan")),
     "summary far": text(SUMMARY, '{"format": 2, "distance_m": 1e999}'),
-    "summary true": figure("distance_m", True),
     "summary player": figure("pursuer", None),
-    "summary players": figure("pursuer", [1]),
-    "summary message": figure("message", 7),
     "game of nobody": figure("game", "chess"),
-    "game of another kind": figure("game", ["duel"]),
     "a duel that was a walk": figure("game", "walk"),
-    "no players": figure("players", []),
-    "a player": figure("players", "pursuer"),
     "players twice": figure("players", ["pursuer", "pursuer"]),
     "players with a way": figure("players", ["../pursuer", "evader"]),
-    "players of lists": figure("players", [["pursuer"], "evader"]),
-    "many players": figure("players", list("abcdefg")),
-    "other players": figure("players", ["hare", "evader"]),
-    "configuration empty key": text(CONFIGURATION, "= 1"),
     "configuration nested": text(CONFIGURATION, "a = " + "[" * 5000),
-    "configuration digits": text(CONFIGURATION, "seed = " + "9" * 5000),
-    "configuration bytes": text(CONFIGURATION, b"\xff"),
     "configuration long": text(CONFIGURATION, "#" * (2**20 + 1)),
     "no archive": text(TRAJECTORIES, "nothing"),
-    "empty file": text(TRAJECTORIES, ""),
-    "only a start": text(TRAJECTORIES, "PK\x05\x06"),
     "empty archive": empty_archive,
-    "array twice": twice,
-    "crowded": crowded,
     "terabytes": member("times_s", header("(1000000000000,)")),
-    "terabytes wide": member("pursuer_com", header("(10, 10**12)")),
-    "overflow": member("times_s", header("(4294967296, 4294967296)")),
     "negative": member("times_s", header("(-1,)")),
     "objects": member("times_s", header("(1,)", "'|O'", b"\x80\x04N.")),
     "whole numbers": member("times_s", header("(1,)", "'<i8'", bytes(8))),
-    "words": member("times_s", header("(1,)", "'<U2'", bytes(8))),
-    "fields": member("times_s", header("(1,)", "[('a', '<f8')]", bytes(8))),
-    "complex": member("times_s", header("(1,)", "'<c16'", bytes(16))),
     "too short": member("times_s", header("(2,)", body=bytes(8))),
-    "too long": member("times_s", header("(1,)", body=bytes(16))),
-    "no header": member("times_s", b"\x93NUMPY\x01\x00\xff\xff"),
-    "no magic": member("times_s", b"1,2,3"),
-    "nothing in it": member("times_s", b""),
     "header that runs": member("times_s", header("__import__('os')")),
     "deep header": member("times_s", header("(" * 9000)),
     "times backwards": arrays(lambda a: a.update(times_s=-a["times_s"])),
-    "times still": arrays(lambda a: a.update(times_s=0.0 * a["times_s"])),
-    "times none": arrays(lambda a: a.update(times_s=np.zeros(0))),
-    "times wide": arrays(lambda a: a.update(times_s=np.zeros((3, 3)))),
     "times NaN": put("times_s", 2, np.nan),
     "times short": arrays(lambda a: a.update(times_s=a["times_s"][:-1])),
-    "times far": put("times_s", -1, 1e300),
-    **{f"{n} is a link": linked(n) for n in (SUMMARY, TRAJECTORIES)},
-    **{f"{n} is a pipe": piped(n) for n in (SUMMARY, CONFIGURATION)},
-    "configuration is a link": linked(CONFIGURATION),
+    "trajectories are a link": linked(TRAJECTORIES),
+    "configuration is a pipe": piped(CONFIGURATION),
 }
-for key, kind in ARRAY_SPECS.items():
+for key in FIELDS:
     if key == "sight":
         continue
     name = f"evader_{key}"
     DAMAGES[f"{name} flat"] = each(name, lambda v: v.ravel())
-    DAMAGES[f"{name} narrow"] = each(
-        name, lambda v: v[:, : min(1, v.shape[1] - 1)]
-    )
-    DAMAGES[f"{name} deep"] = each(name, lambda v: v[:, :, None])
-    DAMAGES[f"{name} without kind"] = each(name, lambda v: np.array(None))
-    if kind.per_sample:
+    if key not in OF_EVENTS:
         DAMAGES[f"{name} short"] = each(name, lambda v: v[1:])
         DAMAGES[f"{name} infinite"] = put(name, (2, 0), np.inf)
-        DAMAGES[f"{name} far"] = put(name, (2, 0), 1e30)
-        if not kind.may_lack:
-            DAMAGES[f"{name} NaN"] = put(name, (2, 0), np.nan)
 
 
 @pytest.mark.parametrize("kind", DAMAGES)
@@ -238,7 +190,9 @@ def test_a_damaged_folder_is_refused(folder: Path, kind: str) -> None:
     assert "\n" not in str(refused.value) and len(str(refused.value)) < 600
 
 
-@pytest.mark.parametrize("kind", ["terabytes", "summary 'null'", "no archive"])
+@pytest.mark.parametrize(
+    "kind", ["terabytes", "summary of null", "no archive"]
+)
 @pytest.mark.parametrize("command", ["show -o x.html", "show -o x.png"])
 def test_commands_refuse_a_damaged_folder_in_one_line(
     folder: Path, kind: str, command: str
@@ -249,10 +203,6 @@ def test_commands_refuse_a_damaged_folder_in_one_line(
     result = CliRunner().invoke(main, words)
     assert result.exit_code == 2 and result.output.count("\n") == 1
     assert list(folder.parent.iterdir()) == [folder]
-
-
-def test_every_array_of_a_trajectory_is_checked() -> None:
-    assert set(ARRAY_SPECS) == set(Trajectory.__dataclass_fields__)
 
 
 def test_arrays_of_unknown_players_are_refused_by_name(folder: Path) -> None:

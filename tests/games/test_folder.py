@@ -1,6 +1,7 @@
 """Test that run folders are read as written."""
 
 import json
+import shutil
 from collections.abc import Callable
 from dataclasses import fields, replace
 from pathlib import Path
@@ -11,8 +12,12 @@ import pytest
 
 from stepaside.core.errors import ConfigurationError
 from stepaside.core.poses import Array
+from stepaside.games.configuration_file import load_configuration
 from stepaside.games.duel_settings import DuelSettings, StartSettings
 from stepaside.games.outcome import Outcome
+from stepaside.games.recorded_game import run_duel
+from stepaside.games.replayed_signals import repeat_game
+from stepaside.games.robot_settings import with_robot
 from stepaside.games.run import DuelRun, Run
 from stepaside.games.run_archive import (
     SUMMARY,
@@ -21,6 +26,9 @@ from stepaside.games.run_archive import (
     write_run_files,
 )
 from stepaside.games.trajectory import Trajectory
+from stepaside.report.run_folder import write_run
+from stepaside.report.scene import RunScene
+from stepaside.robots.description import load_robot
 from synthetic_run import run_of
 
 ROWS = 6
@@ -194,3 +202,20 @@ def test_a_changed_byte_is_refused_or_harmless(
         except ConfigurationError:
             refused += 1
     assert refused > 100
+
+
+def test_a_run_of_an_own_robot_opens_where_it_is_carried(
+    tmp_path: Path,
+) -> None:
+    """Its description is in the folder; the original may be gone."""
+    own = tmp_path / "mine"
+    shutil.copytree(load_robot("nao").folder, own)
+    run = run_duel(with_robot(DuelSettings(duration=0.2), str(own)))
+    folder = write_run(tmp_path / "run", run, drawn=False).parent
+    shutil.rmtree(own)
+    carried = load_run(folder.rename(tmp_path / "elsewhere"))
+    assert Path(carried.settings.robot).is_relative_to(tmp_path / "elsewhere")
+    RunScene(carried)
+    assert set(repeat_game(carried).robots) == {"pursuer", "evader"}
+    path = tmp_path / "elsewhere" / "configuration.toml"
+    assert load_configuration(path) == carried.settings

@@ -15,7 +15,6 @@ from typing import Any, cast, get_args, get_origin
 import click
 
 from ..arena import RoomRecipe
-from ..core.entries import load_entries
 from ..core.setting import (
     NONE,
     REQUIRED,
@@ -23,6 +22,7 @@ from ..core.setting import (
     entries_of,
     similar_paths,
 )
+from ..games.configuration_file import load_settings
 from ..games.settings_reader import RECIPE, nested, settings_of
 from ..strategies.registry import OF_EVASION
 from .settings_text import commented
@@ -249,7 +249,7 @@ def _read(
     aside: Collection[str],
 ) -> dict[str, Any]:
     """Return the settings of each class from options and file."""
-    file = {} if config is None else load_entries(config)
+    file = {} if config is None else load_settings(config)
     left_open = {e for path in changes for e in IMPLY.get(path, ())}
     entries = nested(changes, _without(file, left_open))
     source = "" if config is None or changes else str(config)

@@ -1,7 +1,8 @@
 """Configuration files: settings read from and written to TOML."""
 
-from collections.abc import Collection, Mapping
+from collections.abc import Callable, Collection, Mapping
 from math import isfinite
+from pathlib import Path
 from typing import Any, TypeVar
 
 import tomli_w
@@ -18,6 +19,7 @@ from .duel_settings import DuelSettings
 from .game_settings import GameSettings, PlayerSettings
 from .walk_settings import WalkSettings
 
+ROBOTS = "robots"  # folder of descriptions and networks in a run folder
 S = TypeVar("S")  # a frozen dataclass of settings
 READERS = {Room: room_from_entries}
 WRITERS = {Room: room_to_entries}
@@ -46,6 +48,42 @@ def read_settings(
     )
 
 
+def load_settings(path: AnyPath) -> dict[str, Any]:
+    """Read the entries of a file of settings, with the files beside it.
+
+    Raises:
+        ConfigurationError: If the file is not TOML.
+    """
+    file = as_path(path, "path")
+    entries = load_entries(file)
+    find_files(entries, file.parent)
+    return entries
+
+
+def find_files(entries: Any, folder: Path) -> None:
+    """Find robots and networks that a run folder holds."""
+
+    def found(value: str) -> str:
+        inside = value.startswith(f"{ROBOTS}/") and ".." not in value
+        there = folder.resolve() / value
+        return str(there) if inside and there.exists() else value
+
+    replace_files(entries, found)
+
+
+def replace_files(entries: Any, change: Callable[[str], str]) -> None:
+    """Replace the names of robots and networks in nested entries."""
+    if isinstance(entries, list):
+        for each in entries:
+            replace_files(each, change)
+    elif isinstance(entries, dict):
+        for key, value in entries.items():
+            if key in ("robot", "network") and isinstance(value, str):
+                entries[key] = change(value)
+            else:
+                replace_files(value, change)
+
+
 def load_configuration(path: AnyPath) -> DuelSettings:
     """Read the configuration of a duel from a TOML file.
 
@@ -53,8 +91,7 @@ def load_configuration(path: AnyPath) -> DuelSettings:
         ConfigurationError: If the file is not TOML, or entries are unknown,
             of the wrong type or out of their range.
     """
-    file = as_path(path, "path")
-    return parse_settings(DuelSettings, load_entries(file), str(file))
+    return parse_settings(DuelSettings, load_settings(path), str(path))
 
 
 def dump_configuration(settings: Any) -> str:

@@ -10,7 +10,6 @@ from ..core.constants import CAPTURE_DISTANCE
 from ..core.errors import ConfigurationError
 from ..core.poses import Array
 from ..theory.unicycle.circle_fit import fit_circle
-from .array_checks import check_times, check_tracks
 from .bag_poses import PoseSeries, read_poses
 from .duel_circle import angle_between, distance_between
 from .experiment_settings import ExperimentSettings
@@ -18,7 +17,7 @@ from .experiment_summary import ExperimentPlayer, ExperimentSummary
 from .outcome import Outcome
 from .player_names import MOST_PLAYERS, PLAYER_NAME
 from .run import ExperimentRun
-from .trajectory import Trajectory
+from .trajectory import Trajectory, check_record
 
 NOTED_GAP = 0.5  # without a pose, from which on a note says so, in [s]
 
@@ -87,8 +86,7 @@ def import_experiment(bag: Path, words: tuple[str, ...]) -> ExperimentRun:
         )
     tracks = {p: _sampled(one, times) for p, one in series.items()}
     elapsed = times - times[0]
-    check_times(elapsed, bag.name)
-    check_tracks(tracks, len(elapsed), bag.name)
+    check_record(elapsed, tracks, bag.name)
     gaps = {
         player: _longest_gap(one.times, begin, end)
         for player, one in series.items()

@@ -3,10 +3,9 @@
 from dataclasses import replace
 from typing import Any
 
-from ..core.entries import load_entries
 from ..core.errors import AnyPath, ConfigurationError, as_path, shown
 from ..robots.description import load_robot
-from .configuration_file import parse_settings
+from .configuration_file import load_settings, parse_settings
 from .game_settings import GameSettings, PlayerSettings
 from .player_names import MOST_PLAYERS
 from .robot_settings import (
@@ -47,7 +46,7 @@ def load_game(path: AnyPath, **changes: Any) -> GameSettings:
             invalid, or a robot does not exist.
     """
     file = as_path(path, "path")
-    entries = nested(changes, load_entries(file))
+    entries = nested(changes, load_settings(file))
     return parse_game(entries, str(file))
 
 

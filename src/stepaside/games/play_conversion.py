@@ -10,7 +10,6 @@ from ..drivers.safety import SafetyState
 from ..drivers.velocity_loop import DrivingState
 from ..robots.description import load_robot
 from ..theory.unicycle.circle_fit import fit_circle
-from .array_checks import check_times, check_tracks
 from .duel_circle import cycle_mean, distance_between
 from .duel_settings import PLAYERS
 from .outcome import Outcome
@@ -19,7 +18,7 @@ from .play_rows import PlayedRows, read_played
 from .play_settings import PlaySettings
 from .play_summary import PlayStateChange, PlaySummary
 from .run import PlayRun
-from .trajectory import Trajectory
+from .trajectory import Trajectory, check_record
 
 MAX_CHANGES = 2000  # of state, in a summary
 MIN_TURN = 0.5  # of a path to which a circle can be fitted, in [rad]
@@ -60,8 +59,7 @@ def run_of_play(
     if other is not None:
         both = tracks | {settings.other: other}
         tracks = {player: both[player] for player in PLAYERS}
-    check_times(times, name)
-    check_tracks(tracks, len(times), name)
+    check_record(times, tracks, name)
     return PlayRun(
         name=name,
         settings=settings,

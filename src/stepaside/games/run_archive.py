@@ -6,15 +6,19 @@ from collections.abc import Collection
 from dataclasses import asdict, dataclass
 from hashlib import sha256
 from pathlib import Path
-from typing import Any, Literal, NamedTuple, overload
+from shutil import copy, copytree
+from typing import Any, Literal, overload
 from zipfile import BadZipFile
 from zlib import error as DeflateError
 
 import numpy as np
+import tomli_w
 
 from ..core.atomic_output import atomic_draft
+from ..core.entries import parse_entries
 from ..core.errors import AnyPath, ConfigurationError, as_path
 from ..core.poses import Array
+from ..robots.description import known_robots
 from .archive_reader import (
     MAX_ARRAY_BYTES,
     check_object,
@@ -24,8 +28,14 @@ from .archive_reader import (
     read_json,
     read_text,
 )
-from .array_checks import check_times, check_tracks
-from .configuration_file import dump_configuration, read_settings
+from .configuration_file import (
+    ROBOTS,
+    find_files,
+    parse_settings,
+    read_settings,
+    replace_files,
+    settings_entries,
+)
 from .duel_settings import DuelSettings
 from .duel_summary import DuelSummary
 from .experiment_settings import ExperimentSettings
@@ -37,7 +47,7 @@ from .play_settings import PlaySettings
 from .play_summary import PlaySummary
 from .player_names import MOST_PLAYERS, PLAYER_NAME
 from .run import DuelRun, GameRun, MatchRun, PlayRun, Run, WalkRun
-from .trajectory import FIELDS, tracks_in
+from .trajectory import FIELDS, check_record, tracks_in
 from .walk_settings import WalkSettings
 from .walk_summary import WalkSummary
 
@@ -60,25 +70,14 @@ READ_ERRORS = (  # raised for damaged files
 )
 
 
-class GameKind(NamedTuple):
-    """Types of one game.
-
-    Attributes:
-        settings: Type of its settings.
-        summary: Type of its summary.
-    """
-
-    settings: type[Any]
-    summary: type[Any]
-
-
-GAMES = {
-    "duel": GameKind(DuelSettings, DuelSummary),
-    "game": GameKind(GameSettings, GameSummary),
-    "walk": GameKind(WalkSettings, WalkSummary),
-    "play": GameKind(PlaySettings, PlaySummary),
-    "experiment": GameKind(ExperimentSettings, ExperimentSummary),
+KINDS: dict[str, tuple[type[Any], type[Any]]] = {
+    "duel": (DuelSettings, DuelSummary),
+    "game": (GameSettings, GameSummary),
+    "walk": (WalkSettings, WalkSummary),
+    "play": (PlaySettings, PlaySummary),
+    "experiment": (ExperimentSettings, ExperimentSummary),
 }
+"""Types of settings and summary, by kind of game."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -119,21 +118,46 @@ def results_of(run: Run) -> dict[str, Any]:
 def write_run_files(folder: Path, run: Run) -> None:
     """Write configuration, summary and trajectories into a folder.
 
+    Descriptions and networks of robots that are not part of stepaside are
+    copied into it, so that it opens on any computer.
+
     Args:
         folder: Existing folder. Each file appears when it is complete.
         run: The run.
     """
-    configuration = dump_configuration(run.settings)
+    entries = settings_entries(run.settings)
+    _keep_robots(entries, folder)
     header = {"format": FORMAT, "game": run.game, "players": run.players}
     summary = json.dumps(header | results_of(run), indent=2, allow_nan=False)
     for name, text in (
-        (CONFIGURATION, configuration),
+        (CONFIGURATION, tomli_w.dumps(entries)),
         (SUMMARY, summary + "\n"),
     ):
         with atomic_draft(folder / name) as draft:
             draft.write_text(text, encoding="utf-8")
     with atomic_draft(folder / TRAJECTORIES) as draft:
         np.savez_compressed(draft, allow_pickle=False, **run.arrays())
+
+
+def _keep_robots(entries: Any, folder: Path) -> None:
+    """Copy robots and networks that entries name, and name the copies."""
+    kept: dict[Path, str] = {}
+
+    def keep(value: str) -> str:
+        source = Path(value).resolve()
+        if value in ("", *known_robots()) or not source.exists():
+            return value
+        if source not in kept:
+            kept[source] = f"{ROBOTS}/{len(kept) + 1}-{source.name}"
+            target = folder / kept[source]
+            target.parent.mkdir(exist_ok=True)
+            if source.is_dir():
+                copytree(source, target, symlinks=False)
+            else:
+                copy(source, target)
+        return kept[source]
+
+    replace_files(entries, keep)
 
 
 def complete_play(
@@ -203,7 +227,8 @@ def load_run(folder: AnyPath, game: str | None = None) -> GameRun[Any, Any]:
         raise
     except READ_ERRORS as error:
         raise ConfigurationError(
-            f"run {folder} cannot be read: {error or type(error).__name__}"
+            f"run {folder} cannot be read: "
+            + (str(error).partition("\n")[0] or type(error).__name__)
         ) from error
 
 
@@ -218,14 +243,14 @@ def _load_complete_run(folder: Path, game: str | None) -> Run:
     name = folder.resolve().name
     check_checksums(folder, files)
     plain = read_json(folder / SUMMARY)
-    text = read_text(folder / CONFIGURATION)
     header = read_header(plain, name)
     known = {f"{n}_{key}" for n in header.players for key in FIELDS}
-    known.add("times_s")
-    arrays = read_arrays(folder / TRAJECTORIES, frozenset(known))
+    arrays = read_arrays(folder / TRAJECTORIES, frozenset({*known, "times_s"}))
     _check_game(header.game, folder, game)
     source = str(folder / CONFIGURATION)
-    settings = read_settings(GAMES[header.game].settings, text, source)
+    entries = parse_entries(read_text(folder / CONFIGURATION), source)
+    find_files(entries, folder)
+    settings = parse_settings(KINDS[header.game][0], entries, source)
     return read_record(name, settings, plain, arrays)
 
 
@@ -259,10 +284,9 @@ def read_record(
             f"{TRAJECTORIES} of run {name} has no array {error}; arrays are "
             f"times_s and, of each player, {', '.join(FIELDS)}"
         ) from error
-    check_times(times, name)
-    check_tracks(tracks, len(times), name)
+    check_record(times, tracks, name)
     summary = parse_object(
-        GAMES[header.game].summary, plain, f"{SUMMARY} of run {name}"
+        KINDS[header.game][1], plain, f"{SUMMARY} of run {name}"
     )
     return GameRun(
         name=name,
@@ -291,7 +315,7 @@ def read_header(plain: Any, run: str) -> RunHeader:
     outcomes = [outcome.value for outcome in Outcome]
     for key, known in (
         ("format", [FORMAT]),
-        ("game", [*GAMES]),
+        ("game", [*KINDS]),
         ("outcome", outcomes),
     ):
         value = entries.get(key)
@@ -321,7 +345,7 @@ def _are_player_names(players: Any) -> bool:
 
 
 def write_checksums(folder: Path) -> None:
-    """Write the SHA-256 checksums of all files of a folder.
+    """Write the SHA-256 checksums of the files of a folder.
 
     The file has the format of ``sha256sum --check``.
 
@@ -331,7 +355,7 @@ def write_checksums(folder: Path) -> None:
     lines = [
         f"{sha256(file.read_bytes()).hexdigest()}  {file.name}\n"
         for file in sorted(folder.iterdir())
-        if file.name != CHECKSUMS
+        if file.is_file() and file.name != CHECKSUMS
     ]
     (folder / CHECKSUMS).write_text("".join(lines), encoding="utf-8")
 

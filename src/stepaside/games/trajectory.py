@@ -1,10 +1,12 @@
 """Recorded motion of one player."""
 
+from collections.abc import Mapping
 from dataclasses import dataclass, fields
 
 import numpy as np
 
 from ..core.brief_repr import brief_repr
+from ..core.errors import ConfigurationError
 from ..core.poses import Array
 from ..planning import ManeuverPlan
 
@@ -123,6 +125,20 @@ def margin_of(plans: list[ManeuverPlan]) -> float | None:
     )
 
 
+WIDTHS: Mapping[str, int] = {
+    **dict.fromkeys(("com", "torso", "place", "sole"), 3),
+    **dict.fromkeys(("com_reference", "zmp_reference", "zmp"), 2),
+    **dict.fromkeys(("velocity", "tilt"), 2),
+    **dict.fromkeys(("landings", "support"), 5),
+    **dict.fromkeys(("sight", "pushes", "command"), 6),
+    **{"heading_reference": 1, "estimate": 8},
+}
+"""Columns of each array of a trajectory; qpos has at least seven."""
+OF_EVENTS = ("landings", "sight", "pushes")  # not of samples
+MAY_LACK = ("zmp", "sight", "estimate")  # values may be NaN
+MAX_VALUE = 1e6  # of any number in a run, in [m], [rad] or [s]
+
+
 def tracks_in(
     arrays: dict[str, Array], names: tuple[str, ...]
 ) -> dict[str, Trajectory]:
@@ -142,3 +158,51 @@ def tracks_in(
         )
         for name in names
     }
+
+
+def check_record(
+    times: Array, tracks: Mapping[str, Trajectory], run: str
+) -> None:
+    """Check times, and shapes and values of trajectories.
+
+    Raises:
+        ConfigurationError: If times do not increase, an array has another
+            shape, or a value is not finite or too large.
+    """
+    if times.ndim != 1 or len(times) == 0:
+        raise ConfigurationError(
+            f"times_s of run {run} must be a row of at least one time [s], "
+            f"got shape {times.shape}"
+        )
+    _check_values(times, "times_s", run)
+    if times[0] < 0.0 or not np.all(np.diff(times) > 0.0):
+        raise ConfigurationError(
+            f"times_s of run {run} must be >= 0 and increase [s]"
+        )
+    for player, track in tracks.items():
+        for key in FIELDS:
+            array = getattr(track, key)
+            if array is None:
+                continue
+            shape = array.shape if array.ndim == 2 else (-1, 0)
+            rows = shape[0] if key in OF_EVENTS else len(times)
+            width = WIDTHS.get(key, max(7, shape[1]))
+            if shape != (rows, width):
+                raise ConfigurationError(
+                    f"{player}_{key} of run {run} must have shape "
+                    f"({rows}, {width}), got {array.shape}"
+                )
+            _check_values(array, f"{player}_{key}", run, key in MAY_LACK)
+
+
+def _check_values(
+    array: Array, name: str, run: str, may_lack: bool = False
+) -> None:
+    valid = np.abs(array) <= MAX_VALUE
+    if may_lack:
+        valid |= np.isnan(array)
+    if not valid.all():
+        raise ConfigurationError(
+            f"{name} of run {run} must hold finite numbers of at most "
+            f"{MAX_VALUE:g}"
+        )
