@@ -213,7 +213,7 @@ def test_a_run_of_an_own_robot_opens_where_it_is_carried(
     run = run_duel(with_robot(DuelSettings(duration=0.2), str(own)))
     folder = write_run(tmp_path / "run", run, drawn=False).parent
     shutil.rmtree(own)
-    carried = load_run(folder.rename(tmp_path / "elsewhere"))
+    carried = load_run(folder.rename(tmp_path / "elsewhere"), "duel")
     assert Path(carried.settings.robot).is_relative_to(tmp_path / "elsewhere")
     RunScene(carried)
     assert set(repeat_game(carried).robots) == {"pursuer", "evader"}
