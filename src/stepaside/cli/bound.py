@@ -25,7 +25,6 @@ if TYPE_CHECKING:
 
 AGAINST = ("pursuit", "any", "person")
 OF_CARS = ("pursuer_gain", "evader_turn", "horizon", "games")
-SHOWN = 12  # barrier points in the result
 IN_METERS = ("closest", "mean_error", "most", "below", "above")
 NAMED = {
     "--against": "against",
@@ -263,16 +262,13 @@ def _analytic(
     import numpy as np
 
     from ..theory.value.checks import barrier_offsets
-    from ..theory.value.closed_forms import PIECES, barrier_poses
+    from ..theory.value.closed_forms import barrier_poses
 
-    poses, pieces = barrier_poses(capture / game.unit)
+    poses, _ = barrier_poses(capture / game.unit)
     poses = poses * [game.unit, game.unit, 1.0]
-    inside = np.hypot(poses[:, 0], poses[:, 1]) <= table.grid.edge
-    poses, pieces = poses[inside], np.abs(pieces[inside])
-    found = table.value(poses)
-    values = np.abs(found - capture)
+    poses = poses[np.hypot(poses[:, 0], poses[:, 1]) <= table.grid.edge]
+    values = np.abs(table.value(poses) - capture)
     apart = np.abs(barrier_offsets(table, poses, capture))
-    picks = np.linspace(0, len(values) - 1, min(SHOWN, len(values)))
     return {
         "points": len(values),
         "value_error_mean_m": float(values.mean()),
@@ -281,19 +277,6 @@ def _analytic(
         "distance_error_mean_m": float(apart.mean()),
         "distance_error_median_m": float(np.median(apart)),
         "distance_error_worst_m": float(apart.max()),
-        "by_piece": {
-            name: float(values[pieces == n].mean())
-            for n, name in PIECES.items()
-            if (pieces == n).any()
-        },
-        "barrier": [
-            {
-                "pose": poses[i].tolist(),
-                "analytic_m": capture,
-                "table_m": float(found[i]),
-            }
-            for i in picks.astype(int)
-        ],
     }
 
 

@@ -1,12 +1,11 @@
 """``stepaside robot legs inspect``: a policy's contract."""
 
-from math import isfinite
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import click
 
-from .options import json_option
+from .options import file_argument, json_option
 from .tables import print_table
 from .terminal import echo, print_json
 
@@ -15,9 +14,7 @@ if TYPE_CHECKING:
 
 
 @click.command("inspect")
-@click.argument(
-    "network", type=click.Path(exists=True, dir_okay=False, path_type=Path)
-)
+@file_argument("network")
 @click.option(
     "--robot", help="Robot that walks: a name, or folder of a description."
 )
@@ -54,6 +51,8 @@ def inspect(
 
 def _facts(reading: "ContractReading") -> dict[str, Any]:
     """Return contract and network as JSON values."""
+    from ..games.configuration_file import json_settings
+
     used, network = reading.convention, reading.network
     return {
         "network": str(network.path),
@@ -62,24 +61,10 @@ def _facts(reading: "ContractReading") -> dict[str, Any]:
         "recurrent": [str(given) for given, _ in network.states],
         "convention": None if used is None else used.name,
         "source": None if used is None else used.source,
-        "contract": {k: _plain(v) for k, v in reading.values.items()},
+        "contract": json_settings(reading.values),
         "sources": reading.sources,
         "findings": [each._asdict() for each in reading.findings],
     }
-
-
-def _plain(value: Any) -> Any:
-    """Convert a value of a contract to JSON; infinity becomes None."""
-    if isinstance(value, float):
-        return value if isfinite(value) else None
-    if hasattr(value, "_asdict"):
-        return {k: _plain(v) for k, v in value._asdict().items()}
-    if hasattr(value, "__dataclass_fields__"):
-        names = value.__dataclass_fields__
-        return {name: _plain(getattr(value, name)) for name in names}
-    if isinstance(value, tuple | list):
-        return [_plain(each) for each in value]
-    return value
 
 
 def _print(reading: "ContractReading") -> None:

@@ -15,7 +15,12 @@ from .options import (
     seed_option,
     workers_option,
 )
-from .tables import print_table
+from .tables import (
+    format_value,
+    print_columns,
+    print_table,
+    result_rows,
+)
 from .terminal import echo, print_json
 
 if TYPE_CHECKING:
@@ -106,11 +111,8 @@ def measure(
     with atomic_draft(file) as draft:
         entries = response_entries(result.response, Path(network))
         draft.write_text(tomli_w.dumps(entries), encoding="utf-8")
-    if as_json:
-        print_json(measurement_facts(result) | {"file": str(file)})
-    else:
-        _print(result)
-        echo(f"\nwrote {file}")
+    facts = measurement_facts(result) | {"file": str(file)}
+    print_json(facts) if as_json else _print(facts)
     if figure is not None:
         from ..report.study_figures import draw_response
 
@@ -190,56 +192,23 @@ def measurement_facts(result: "LegsMeasurement") -> dict[str, Any]:
     }
 
 
-def _print(result: "LegsMeasurement") -> None:
-    """Print the trials, then a summary by axis."""
-    echo("     command                  delivered")
-    echo("  vx     vy     wz       vx     vy     wz   [m/s, m/s, rad/s]")
-    for trial in result.trials:
-        asked = " ".join(f"{value:6.2f}" for value in trial.command)
-        got = " ".join(f"{value:6.3f}" for value in trial.delivered)
-        fell = trial.fell_at
-        echo(f"{asked}   {got if fell is None else f'fell at {fell:.1f} s'}")
-    gains, rows = result.gains(), []
-    units = (("m/s", "m"), ("m/s", "m"), ("rad/s", "rad"))
-    velocities = result.response.velocities
-    for i, (name, (low, high)) in enumerate(velocities.bounds.items()):
-        axis, (speed, length) = result.response.axes[i], units[i]
-        cross = ", ".join(
-            f"{gains[k, i]:+.3f} {other}"
-            for k, other in enumerate(("vx", "vy", "wz"))
-            if k != i
-        )
-        rows.append(
+def _print(facts: dict[str, Any]) -> None:
+    """Print the trials, then the response by axis."""
+    print_columns(
+        ("command", "delivered [m/s, m/s, rad/s]", "fell at"),
+        [
             (
-                name,
-                f"{low:.2f} to {high:.2f} {speed}, gain {gains[i, i]:.3f}, "
-                f"cross {cross}, lag {axis.lag:.2f} s, halts in "
-                f"{axis.halting:.2f} {length}",
+                _numbers(trial["command"]),
+                _numbers(trial["delivered"]),
+                format_value("fell_at_s", trial["fell_at_s"], 3),
             )
-        )
-    rows.append(("falls", str(result.falls)))
-    if result.random_walks:
-        falls = [f"{t:.1f} s" for t in result.random_walks if t is not None]
-        rows.append(
-            (
-                "random commands",
-                f"{len(falls)} falls in {len(result.random_walks)} walks"
-                + "".join(f", at {fall}" for fall in falls),
-            )
-        )
-    rows += [
-        (
-            "leg odometry",
-            "true motion is {:.3f} of it ahead, {:.3f} to the side".format(
-                *result.response.odometry_ratio
-            ),
-        ),
-        (
-            "combined commands",
-            f"differ from the sum of the axes by up to "
-            f"{result.combined_error[0]:.3f} m/s, "
-            f"{result.combined_error[1]:.3f} rad/s",
-        ),
-    ]
+            for trial in facts["trials"]
+        ],
+        left=(),
+    )
     echo("")
-    print_table(rows)
+    print_table(result_rows(facts))
+
+
+def _numbers(values: list[float | None]) -> str:
+    return " ".join("-" if x is None else f"{x:7.3f}" for x in values)

@@ -1,14 +1,13 @@
 """``stepaside robot init``: description of a new robot from its model."""
 
 from pathlib import Path
-from typing import Any
 
 import click
 
 from ..core.atomic_output import atomic_draft, check_file, check_folder
 from ..core.errors import StepAsideError
 from .options import folder_option, json_option
-from .tables import print_table
+from .tables import print_table, result_rows
 from .terminal import echo, print_json
 
 
@@ -68,52 +67,8 @@ def init(
     if as_json:
         print_json(facts)
     else:
-        _print(facts)
+        print_table(result_rows(facts))
     if failed is not None:
         raise failed
     if not as_json:
         echo(f"\nwrote {file}; next: stepaside robot check {folder}")
-
-
-def _print(facts: dict[str, Any]) -> None:
-    low, high = facts["com_heights_m"]
-    rows = [
-        ("robot", f"{facts['name']}, {facts['mass_kg']:.1f} kg"),
-        ("legs", f"{facts['leg_length_m']:.3f} m from hip to sole"),
-        ("leg joints", ", ".join(facts["legs"][0])),
-        (
-            "CoM height",
-            f"{facts['com_height_m']:.3f} m (range {low} to {high} m)",
-        ),
-        ("foot spacing", f"{facts['foot_spacing_m']:.3f} m"),
-        (
-            "sole",
-            ", ".join(f"{k} {v:g}" for k, v in facts["sole_m"].items()) + " m",
-        ),
-        ("stride", f"{facts['gait']['stride']:g} m"),
-        (
-            "support durations",
-            f"{facts['gait']['single_support']:g} s single, "
-            f"{facts['gait']['double_support']:g} s double",
-        ),
-        ("safety radius", f"{facts['game']['safety_radius']:g} m"),
-        ("head", _head_text(facts["head"])),
-        ("omitted meshes", str(facts["omitted_meshes"])),
-        ("missing values", _missing_text(facts["missing_values"])),
-    ]
-    print_table(rows)
-
-
-def _head_text(head: dict[str, Any]) -> str:
-    joints = [name for name in (head["yaw"], head["pitch"]) if name]
-    cameras = ", ".join(head["cameras"]) or "none"
-    return f"joints {', '.join(joints) or 'none'}, cameras {cameras}"
-
-
-def _missing_text(missing: dict[str, Any]) -> str:
-    names = ["sole"] if missing["sole"] else []
-    if missing["torques"]:
-        names.append(f"torques of {len(missing['torques'])} joints")
-    if missing["speed_limits"]:
-        names.append(f"speed limits of {len(missing['speed_limits'])} joints")
-    return ", ".join(names) or "none"

@@ -5,7 +5,7 @@ from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
 from tempfile import mkdtemp
-from typing import TYPE_CHECKING, Any, cast
+from typing import TYPE_CHECKING, Any
 
 import click
 
@@ -16,12 +16,18 @@ from ..report.film_settings import FilmSettings
 from ..report.text_escaping import visible
 from .options import browser_option, figure_width, json_option
 from .settings import GIVEN, refuse_settings, takes_settings
-from .tables import print_columns, print_table
+from .tables import (
+    format_value,
+    label_of,
+    print_columns,
+    print_table,
+    result_rows,
+)
 from .terminal import NOTHING_SAVED, echo, exit_interrupted, print_json
 
 if TYPE_CHECKING:
     from ..games.game import Progress
-    from ..games.run import ExperimentRun, Run
+    from ..games.run import Run
     from ..report.export.recording import Recording
 
 PAGES, FILMS = (".html", ".htm"), (".mp4", ".gif")
@@ -37,39 +43,20 @@ NAMED = {
     f"--{name}": name
     for name in ("width", "height", "rate", "speed", "duration", "camera")
 }
-# Columns by game: header, entry of the summary, and format.
 COLUMNS = {
     "duel": (
-        ("distance", "distance_m", "{:.3f} m"),
-        ("angle", "relative_orientation_deg", "{:.1f}\u00b0"),
-        ("closest", "min_distance_m", "{:.3f} m"),
-        ("settled", "converged_at_s", "{:.1f} s"),
+        *("distance_m", "relative_orientation_deg"),
+        *("min_distance_m", "converged_at_s"),
     ),
     "experiment": (
-        ("distance", "distance_m", "{:.3f} m"),
-        ("angle", "relative_orientation_deg", "{:.1f}\u00b0"),
-        ("closest", "min_distance_m", "{:.3f} m"),
-        ("rate", "rate_hz", "{:.1f} Hz"),
+        *("distance_m", "relative_orientation_deg"),
+        *("min_distance_m", "rate_hz"),
     ),
-    "game": (
-        ("players", "players", "{}"),
-        ("closest", "closest_m", "{:.3f} m"),
-        ("captured", "captured_at_s", "{:.1f} s"),
-        ("path", "mean_path_m", "{:.2f} m"),
-    ),
-    "play": (
-        ("distance", "distance_m", "{:.3f} m"),
-        ("radius", "radius_m", "{:.3f} m"),
-        ("closest", "closest_m", "{:.3f} m"),
-        ("walked", "walking_s", "{:.1f} s"),
-    ),
-    "walk": (
-        ("speed", "speed_m_s", "{:.4f} m/s"),
-        ("planned", "speed_ratio", "x {:.3f}"),
-        ("turned", "yaw_ratio", "x {:.3f}"),
-        ("tilt", "tilt_max_deg", "{:.1f}\u00b0"),
-    ),
+    "game": ("players", "closest_m", "captured_at_s", "mean_path_m"),
+    "play": ("distance_m", "radius_m", "closest_m", "walking_s"),
+    "walk": ("speed_m_s", "speed_ratio", "yaw_ratio", "tilt_max_deg"),
 }
+"""Entries of the summary that a comparison shows, by game."""
 
 
 @click.command("show")
@@ -171,7 +158,7 @@ def show(
         }
         print_json(bag | {"files": written, "runs": results})
     else:
-        _print(loaded, written, is_bag=is_bag)
+        _print(loaded, written, bag)
     if failed:
         raise failed[0]
 
@@ -342,22 +329,22 @@ def _recording(run: Path, *, repeats: bool) -> "Recording":
 
 
 def _print(
-    runs: "list[Run]", written: dict[str, Any], *, is_bag: bool
+    runs: "list[Run]", written: dict[str, Any], bag: dict[str, Any]
 ) -> None:
     """Print values of a bag or of several runs, and what was written."""
-    if is_bag:
-        _print_measured(cast("ExperimentRun", runs[0]))
+    if bag:
+        print_table(result_rows(bag))
     elif len(runs) > 1:
         columns = COLUMNS[runs[0].game]
         print_columns(
-            ("run", "outcome", *(head for head, _, _ in columns)),
+            ("run", "outcome", *map(label_of, columns)),
             [
                 (
                     visible(run.name),
                     run.outcome.value,
                     *(
-                        _number(getattr(run.summary, name), text)
-                        for _, name, text in columns
+                        format_value(name, getattr(run.summary, name), 4)
+                        for name in columns
                     ),
                 )
                 for run in runs
@@ -366,39 +353,3 @@ def _print(
         )
     for path, entry in written.items():
         echo(f"{visible(path)} ({entry['bytes'] / 1e6:.2f} MB)")
-
-
-def _number(value: float | None, text: str) -> str:
-    return "-" if value is None else text.format(value)
-
-
-def _print_measured(run: "ExperimentRun") -> None:
-    """Print what was measured of the motion in a bag."""
-    summary = run.summary
-    rows: list[tuple[str, Any]] = [
-        (
-            "recording",
-            f"{summary.source}: {run.duration:.2f} s, "
-            f"{summary.rate_hz:.1f} samples per second",
-        ),
-        ("start distance", f"{summary.start_distance_m:.3f} m"),
-    ]
-    for name, player in summary.measured.items():
-        radius = player.radius_m
-        text = "-" if radius is None else f"{radius:.3f} m"
-        rows.append((f"{name} radius", text))
-        rows.append((f"{name} mean speed", f"{player.mean_speed_m_s:.3f} m/s"))
-    rows += [
-        ("distance", f"{summary.distance_m:.3f} m"),
-        (
-            "angle between headings",
-            f"{summary.relative_orientation_deg:.3f} deg",
-        ),
-        (
-            "closest approach",
-            f"{summary.min_distance_m:.3f} m at "
-            f"{summary.min_distance_at_s:.2f} s",
-        ),
-    ]
-    rows += [("note", note) for note in summary.notes]
-    print_table(rows)

@@ -15,6 +15,7 @@ UNITS = {
     "_m_s": "m/s",
     "_rad": "deg",
     "_deg": "deg",
+    "_hz": "Hz",
     "_share": "%",
     "_m2": "m^2",
     "_kg": "kg",
@@ -128,6 +129,28 @@ def scalar_rows(
     """Return labels and values of the entries without entries of their own."""
     names = (n for n, v in result.items() if not isinstance(v, dict | list))
     return table_rows(result, names, digits)
+
+
+def result_rows(
+    result: Mapping[str, Any], digits: int = 4
+) -> list[tuple[str, str]]:
+    """Return labels and values of all entries, of inner ones as well.
+
+    Tables in lists are left out.
+    """
+    rows = []
+    for name, value in result.items():
+        if isinstance(value, Mapping):
+            inner = result_rows(value, digits)
+            rows += [
+                (f"{label_of(name)}: {each}", text) for each, text in inner
+            ]
+        elif not isinstance(value, list | tuple):
+            rows.append((label_of(name), format_value(name, value, digits)))
+        elif not any(isinstance(each, Mapping | list) for each in value):
+            texts = (format_value(name, each, digits) for each in value)
+            rows.append((label_of(name), ", ".join(texts) or "none"))
+    return rows
 
 
 def finite(value: float) -> float | None:

@@ -1,7 +1,6 @@
 """``stepaside run walk``: the walk of one humanoid, with pushes."""
 
 from pathlib import Path
-from typing import Any
 
 import click
 
@@ -9,7 +8,7 @@ from ..games.walk_settings import WalkSettings
 from .options import folder_option, json_option
 from .run_output import finish_run, play_with_bar, run_folder
 from .settings import takes_settings
-from .tables import print_table
+from .tables import print_table, table_rows
 
 NAMED = {
     "--seed": "seed",
@@ -20,6 +19,13 @@ NAMED = {
     "--bearing": "bearing",
     "--push": "pushes",
 }
+
+
+SHOWN = (
+    *("outcome", "message", "duration_s", "steps", "adapted_steps"),
+    *("speed_m_s", "speed_ratio", "yaw_ratio", "slip_per_step_m"),
+    *("tilt_max_deg", "min_zmp_margin_m", "real_time_factor"),
+)
 
 
 @click.command("walk")
@@ -37,53 +43,9 @@ def walk(settings: WalkSettings, output: Path | None, as_json: bool) -> None:
 
     folder = run_folder(output, as_json, None)
     run = play_with_bar(settings, run_walk)
-    finish_run(run, folder, as_json, lambda: _print(results_of(run)))
-
-
-def _print(summary: dict[str, Any]) -> None:
-    def number(value: float | None, text: str, scale: float = 1.0) -> str:
-        return "-" if value is None else text.format(scale * value)
-
-    def rms(group: str, name: str, text: str, scale: float) -> str:
-        error = summary[group][name]
-        return "-" if error is None else text.format(scale * error["rms"])
-
-    print_table(
-        [
-            (
-                "outcome",
-                f"{summary['outcome']} after {summary['duration_s']:.2f} s",
-            ),
-            (
-                "steps",
-                f"{summary['steps']}, {summary['adapted_steps']} adapted by "
-                "feedback",
-            ),
-            ("speed", number(summary["speed_m_s"], "{:.4f} m/s")),
-            ("speed / planned", number(summary["speed_ratio"], "{:.3f}")),
-            ("turning / planned", number(summary["yaw_ratio"], "{:.3f}")),
-            (
-                "slip per step",
-                number(summary["slip_per_step_m"], "{:.2f} mm", 1e3),
-            ),
-            (
-                "CoM error",
-                rms("tracking", "com_x_m", "{:.2f}", 1e3)
-                + rms("tracking", "com_y_m", " / {:.2f} mm rms", 1e3),
-            ),
-            (
-                "estimation error",
-                rms("estimation", "com_x_m", "{:.2f}", 1e3)
-                + rms("estimation", "com_y_m", " / {:.2f} mm rms", 1e3),
-            ),
-            ("maximum tilt", number(summary["tilt_max_deg"], "{:.2f} deg")),
-            (
-                "ZMP margin",
-                number(summary["min_zmp_margin_m"], "{:.1f} mm", 1e3),
-            ),
-            (
-                "simulation speed",
-                f"{summary['real_time_factor']:.1f} x real time",
-            ),
-        ]
+    finish_run(
+        run,
+        folder,
+        as_json,
+        lambda: print_table(table_rows(results_of(run), SHOWN, 4)),
     )
