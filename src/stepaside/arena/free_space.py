@@ -29,11 +29,13 @@ def path_exists(
     The search runs on a grid: a path through a gap that is wider than the
     disc by less than about a cell, 2 cm, may be missed.
     """
-    if _straight(room, start, end, radius):
+    ends, solids = np.array([start, end]), room.solid_set
+    keep = np.full(len(solids), radius)
+    if solids.segments_keep_clear(keep, ends[:1], ends[1:])[0]:
         return True
     from scipy.ndimage import label
 
-    low, high = _extent(room, np.array([start, end]), radius)
+    low, high = _extent(room, ends, radius)
     cell = max(CELL, float(np.sqrt(np.prod(high - low) / MOST_CELLS)))
     counts = [ceil(side / cell) + 1 for side in (high - low).tolist()]
     x = low[0] + cell * np.arange(counts[0])
@@ -48,21 +50,6 @@ def path_exists(
     free[first] = free[last] = True
     areas, _ = label(free)
     return bool(areas[first] == areas[last])
-
-
-def _straight(
-    room: Room,
-    start: tuple[float, float],
-    end: tuple[float, float],
-    radius: float,
-) -> bool:
-    """Return whether the straight line between both is certainly free."""
-    along = np.subtract(end, start)
-    count = ceil(float(np.hypot(*along)) / CELL) + 1
-    fraction = np.linspace(0.0, 1.0, count)[:, None]
-    clearance = room.clearance(np.array(start) + fraction * along)
-    # Clearance is 1-Lipschitz: between samples it falls by half a cell.
-    return bool(clearance.min() >= radius + 0.5 * CELL)
 
 
 def _extent(room: Room, points: Array, radius: float) -> tuple[Array, Array]:

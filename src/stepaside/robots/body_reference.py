@@ -2,7 +2,7 @@
 
 from collections.abc import Sequence
 from math import cos, remainder, sin, tau
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 from ..core.compilation import inlined
 from ..core.poses import Array
@@ -45,14 +45,8 @@ class BodyReference(NamedTuple):
     @classmethod
     def from_row(cls, row: Sequence[float]) -> "BodyReference":
         """Return the reference of a row; see :meth:`row`."""
-        x, y, z, a, b, c, d, e, f, g, h, *tilts = row
-        return cls(
-            (x, y, z),
-            (a, b, c, d),
-            (e, f, g, h),
-            (tilts[0], tilts[1]),
-            (tilts[2], tilts[3]),
-        )
+        own: Any = tuple(row)
+        return cls(own[:3], own[3:7], own[7:11], own[11:13], own[13:])
 
     @property
     def heading(self) -> float:

@@ -259,28 +259,23 @@ class RobotDescription:
 
         Motors are the actuated joints.
         """
-        self._require("torso", [self.torso], "body", bodies)
-        feet = [self.left_foot, self.right_foot]
-        self._require("foot", feet, "site", sites)
-        self._require("legs", self.legs, "joint", joints)
-        self._require("standing", self.standing, "joint", joints)
-        self._require("working_limits", self.working_limits, "joint", joints)
-        self._require("speed_limits", self.speed_limits, "actuator", motors)
-        self._require("actuator", motors, "speed limit", self.speed_limits)
-
-    def _require(
-        self,
-        key: str,
-        required: Iterable[str],
-        kind: str,
-        existing: Collection[str],
-    ) -> None:
-        for name in required:
-            if name not in existing:
-                raise ModelError(
-                    f"{key} of {self.name}: there is no {kind} {name!r}; "
-                    f"there are {', '.join(sorted(existing))}"
-                )
+        feet, limits = [self.left_foot, self.right_foot], self.speed_limits
+        required: list[tuple[str, Iterable[str], str, Collection[str]]] = [
+            ("torso", [self.torso], "body", bodies),
+            ("foot", feet, "site", sites),
+            ("legs", self.legs, "joint", joints),
+            ("standing", self.standing, "joint", joints),
+            ("working_limits", self.working_limits, "joint", joints),
+            ("speed_limits", limits, "actuator", motors),
+            ("actuator", motors, "speed limit", limits),
+        ]
+        for key, names, kind, existing in required:
+            for name in names:
+                if name not in existing:
+                    raise ModelError(
+                        f"{key} of {self.name}: there is no {kind} {name!r}; "
+                        f"there are {', '.join(sorted(existing))}"
+                    )
 
 
 def known_robots() -> list[str]:

@@ -4,7 +4,6 @@ from math import remainder, tau
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
 from ..core.compilation import bound
 from ..core.errors import ModelError, ReachError
@@ -83,14 +82,7 @@ class LegKinematics:
         self.joint_names = tree.motors
         self.legs = legs = LegJoints.of(description, tree)
         motors = [tree.joints.index(name) for name in tree.motors]
-        self._fixed_targets = legs.fixed[motors]
-        columns = legs.columns[motors]
-        (moved,) = np.nonzero(columns >= 0)
-        self._leg_motors: slice | NDArray[np.int64] = moved
-        self._leg_columns = columns[moved]
-        first, last = moved[[0, -1]].tolist()
-        if last - first + 1 == len(moved):
-            self._leg_motors = slice(first, last + 1)  # much faster
+        self._fixed, self._columns = legs.fixed[motors], legs.columns[motors]
         speeds = legs.limits[:, 2:]
         self._limits = np.hstack([legs.limits, speeds * tick])
         self._stand_limits = self._limits.copy()
@@ -128,9 +120,12 @@ class LegKinematics:
     @property
     def joint_targets(self) -> Array:
         """Angles of the actuated joints, in [rad]. Shape (joints,)."""
-        targets = self._fixed_targets.copy()
-        targets[self._leg_motors] = self.state[self._leg_columns]
-        return targets
+        return self._targets(self.state)
+
+    def _targets(self, states: Array) -> Array:
+        """Return the joint targets of states. Shape (..., joints)."""
+        moved = states[..., self._columns]
+        return np.where(self._columns < 0, self._fixed, moved)
 
     @property
     def posture(self) -> Array:
@@ -268,8 +263,7 @@ class LegKinematics:
         )
         if count == 0:
             self._refuse()
-        targets = np.tile(self._fixed_targets, (count, 1))
-        targets[:, self._leg_motors] = rows[1 : count + 1, self._leg_columns]
+        targets = self._targets(rows[1 : count + 1])
         self._states = LegStates(rows[: count + 1], targets)
         self.rewind(count)
         return self._states
