@@ -189,3 +189,19 @@ def test_settings_load_no_heavy_library() -> None:
 def test_an_unknown_public_name_is_an_attribute_error() -> None:
     with pytest.raises(AttributeError, match="stepaside.games.*'walk_home'"):
         getattr(import_module("stepaside.games"), "walk_home")  # noqa: B009
+
+
+def test_games_have_one_loop_one_judge_and_one_arc() -> None:
+    """Only the game reads its rules, and ends; poses follow one arc."""
+    doors = {
+        "games/game.py": "-> Ended | None:",
+        "core/poses.py": "def along_arc(",
+    }
+    texts = {
+        file.relative_to(ROOT).as_posix(): file.read_text(encoding="utf-8")
+        for file in MODULES
+    }
+    for wanted, text in doors.items():
+        assert [f for f, read in texts.items() if text in read] == [wanted]
+    played = [f for f, read in texts.items() if "DeferredInterrupt()" in read]
+    assert played == ["games/game.py"]

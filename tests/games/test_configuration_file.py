@@ -113,7 +113,7 @@ def test_integers_are_converted_to_floats_but_not_conversely() -> None:
         ),
         (
             {"physics": {"tock": 1.0}},
-            "unknown entry physics.tock; did you mean tick",
+            "unknown entry physics.tock; did you mean physics.tick",
         ),
         (
             {"physics": {"tick": "x"}},

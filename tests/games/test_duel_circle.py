@@ -1,7 +1,7 @@
 """Test the circle of theory and the convergence of a duel to it."""
 
 from dataclasses import replace
-from math import pi
+from math import pi, radians
 
 import numpy as np
 import pytest
@@ -222,3 +222,11 @@ def test_nothing_converges_without_a_circle_or_a_record() -> None:
     assert since(Record(), back) is None
     assert since(Record(times=TIMES[:2])) is None
     assert since(Record(times=TIMES[:200])) is None
+
+
+def test_the_circle_is_that_of_the_arguments_of_evasion() -> None:
+    told = DuelSettings(strategy=Evasion(angle=radians(45.0)))
+    named = DuelSettings(evader_strategy="evasion(angle=45deg)")
+    wanted, found = circle_of_theory(told), circle_of_theory(named)
+    assert found.exists and found.distance_m == wanted.distance_m
+    assert named.resolved() == told.resolved()

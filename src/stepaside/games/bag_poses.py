@@ -145,11 +145,7 @@ class TransformTree:
     """
 
     def __init__(self, wanted: Mapping[str, str]) -> None:
-        """Begin without transforms.
-
-        Args:
-            wanted: Frame by player.
-        """
+        """Begin without transforms."""
         self._wanted = {p: f.removeprefix("/") for p, f in wanted.items()}
         self._above: dict[str, tuple[str, Array]] = {}
         self.frames: dict[str, None] = {}
@@ -220,12 +216,7 @@ def _row(stamp: float, time: float, pose: Array) -> tuple[float, ...]:
 def _series(
     player: str, worlds: set[str], rows: list[tuple[float, ...]]
 ) -> PoseSeries:
-    """Return the poses of one player, in the order of their times.
-
-    Raises:
-        ConfigurationError: If there are fewer than two valid poses, their
-            frame changes, or the clock goes back.
-    """
+    """Return the poses of one player, in the order of their times."""
     if len(worlds) > 1:
         raise ConfigurationError(
             f"poses of {player} must all be in one frame, got "

@@ -110,11 +110,7 @@ class CameraSenses:
         return self._settings.maps_room or own.role == "evader"
 
     def _fixed_views(self, own: PlayerSettings) -> tuple[Sector, ...]:
-        """Return the bearings that cameras on the torso of a robot show.
-
-        Raises:
-            ModelError: If it should have some, and has none.
-        """
+        """Return the bearings that cameras on the torso of a robot show."""
         if not self._has_depth(own):
             return ()
         cameras, found = self._settings.cameras, []
@@ -196,13 +192,7 @@ class SightObserver(GameObserver):
         *,
         every: int,
     ) -> None:
-        """Observe a match.
-
-        Args:
-            evaluators: Evaluators, by name of the robot.
-            renderer: Name of the renderer of the colour images.
-            every: Control ticks between samples of the sightings.
-        """
+        """Observe a match."""
         self.evaluators = dict(evaluators)
         self._renderer, self._every = renderer, every
         self._ticks = 0

@@ -19,6 +19,7 @@ def circle_of_theory(settings: DuelSettings) -> Circle:
     The circle does not exist where the game differs from that of the paper;
     :func:`missing_circle_reason` gives the reason.
     """
+    settings = settings.resolved()
     if _differs(settings) is not None:
         return Circle(exists=False)
     circle = _circle_of(settings)
@@ -28,12 +29,8 @@ def circle_of_theory(settings: DuelSettings) -> Circle:
 
 
 def missing_circle_reason(settings: DuelSettings) -> str:
-    """Return the reason why the unicycles of a duel reach no circle.
-
-    Args:
-        settings: Settings for which :func:`circle_of_theory` returns a
-            circle that does not exist.
-    """
+    """Return the reason why the unicycles of a duel reach no circle."""
+    settings = settings.resolved()
     differs = _differs(settings)
     if differs is not None:
         return f"no circle: {differs}"
@@ -53,7 +50,7 @@ def _differs(settings: DuelSettings) -> str | None:
         return "the paper has no rooms"
     if not settings.is_of_the_paper:
         return "the strategies are not the paper's"
-    if settings.resolved().strategy.trigger == "time":
+    if settings.strategy.trigger == "time":
         return "evasion begins and ends by the time to contact"
     if settings.pursuer == "person":
         if person.path != "steer" or isfinite(person.halt_after):

@@ -155,9 +155,6 @@ def _player(
 def template_closest_approach(settings: DuelSettings) -> float | None:
     """Compute the closest approach of a person to the evader's template.
 
-    Args:
-        settings: Settings of the duel, with the initial poses filled in.
-
     Returns:
         Distance, in [m]; None where the template is no model of the game.
     """

@@ -286,11 +286,7 @@ class DuelSettings:
         check_pushes(self.pushes, self.robots)
 
     def robot_of(self, player: str) -> RobotSettings:
-        """Return robot, gait and control of a player.
-
-        Args:
-            player: "pursuer" or "evader".
-        """
+        """Return robot, gait and control of a player."""
         own = self.pursuer_robot if player == PURSUER else self.evader_robot
         return own or RobotSettings(
             self.robot, self.gait, self.control, self.legs
@@ -298,21 +294,27 @@ class DuelSettings:
 
     def resolved(self) -> "DuelSettings":
         """Return the settings of the same duel with nothing left open."""
-        strategy = self.strategy
+        strategy, evader = self.strategy, self.resolved_evader
+        if isinstance(evader, str) and evader.startswith(f"{EVASION}("):
+            made = load_strategy(evader, strategy)
+            if type(made) is Evasion:  # of the paper, by other arguments
+                return replace(
+                    self, strategy=made, evader_strategy=EVASION
+                ).resolved()
         if self.uses_evasion:
             strategy = implied_trigger(
                 strategy,
                 self.robot_of(EVADER).gait,
                 person=self.pursuer == "person",
             )
-        pursuer, evader = self.pursuer_robot, self.evader_robot
+        pursuer, evading = self.pursuer_robot, self.evader_robot
         return replace(
             self,
             strategy=strategy,
-            evader_strategy=self.resolved_evader,
+            evader_strategy=evader,
             control=implied_control(self.control, self.gait, self.body),
             pursuer_robot=pursuer and pursuer.resolved(self.body),
-            evader_robot=evader and evader.resolved(self.body),
+            evader_robot=evading and evading.resolved(self.body),
         )
 
     @property

@@ -39,14 +39,7 @@ class ExperimentSettings:
         return GaitSettings()
 
     def robot_of(self, player: str) -> RobotSettings:
-        """Raise an error: the robots of an experiment are not described.
-
-        Args:
-            player: Name of the player.
-
-        Raises:
-            ConfigurationError: Always.
-        """
+        """Raise an error: the robots of an experiment are not described."""
         raise ConfigurationError(
             f"robot of {player} must be described, but an experiment has "
             "poses only"

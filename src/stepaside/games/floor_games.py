@@ -192,14 +192,7 @@ def floor_of_two(
     starts: tuple[Pose, Pose],
     room: Room = OPEN_FLOOR,
 ) -> FloorWorld:
-    """Return the world of a game of pursuer and evader.
-
-    Args:
-        game: Rules.
-        strategies: Strategies of pursuer and evader.
-        starts: Their initial poses in the room.
-        room: The room.
-    """
+    """Return the world of a game of pursuer and evader."""
     solids = room.solid_set
     # A pursuer that obstacles do not stop plans no detours.
     stops = solids if game.solid_pursuer else NO_OBSTACLES
@@ -235,9 +228,6 @@ def floor_of(settings: GameSettings) -> FloorWorld:
     """Return the world of a game at level "unicycle" or "steps".
 
     Obstacles stop pursuers; any other robot that touches one ends the game.
-
-    Args:
-        settings: Settings with the initial poses filled in.
 
     Raises:
         StepAsideError: If a strategy is invalid or a recorded run is
@@ -291,12 +281,7 @@ def _motion(settings: GameSettings, own: PlayerSettings) -> FloorMotion:
 def bodies_of(
     settings: GameSettings, own: PlayerSettings
 ) -> dict[str, FloorBulk]:
-    """Return the bodies of all players, by name, as a person sees them.
-
-    Args:
-        settings: Settings of the game.
-        own: Settings of the person.
-    """
+    """Return the bodies of all players, by name, as a person sees them."""
     people = settings.people_around(own)
     return {
         p.name: FloorBulk(
@@ -307,12 +292,7 @@ def bodies_of(
 
 
 def agent_of(settings: GameSettings, own: PlayerSettings) -> FloorAgent:
-    """Return the strategy of a template, which knows the room.
-
-    Args:
-        settings: Settings of the game.
-        own: Settings of the player.
-    """
+    """Return the strategy of a template, which knows the room."""
     gait, room = own.gait, settings.room
     return FloorAgent(
         strategy_of(own, Pose(0.0, 0.0, 0.0)),
@@ -328,10 +308,6 @@ def agent_of(settings: GameSettings, own: PlayerSettings) -> FloorAgent:
 
 def walk_on_path(settings: GameSettings, own: PlayerSettings) -> PersonMotion:
     """Return the walk of a person without a goal, at its begin.
-
-    Args:
-        settings: Settings with the initial poses filled in.
-        own: Settings of the person.
 
     Raises:
         ConfigurationError: If there is no other player.

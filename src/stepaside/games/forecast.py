@@ -56,9 +56,6 @@ def forecast(settings: DuelSettings) -> Forecast | None:
     at which bodies cannot overlap: below it, contact depends on their
     headings.
 
-    Args:
-        settings: Settings of the duel, with the initial poses filled in.
-
     Returns:
         The forecast; None with a person, a room or another strategy, for
         which the templates are no model.

@@ -33,14 +33,6 @@ def load_game(path: AnyPath, **changes: Any) -> GameSettings:
     Gait, control and legs of each player are those of its robot, changed by
     the entries of the file.
 
-    Args:
-        path: TOML file.
-        changes: Settings that replace those of the file, by name with dots
-            like ``physics.friction``.
-
-    Returns:
-        The settings.
-
     Raises:
         StepAsideError: If the file is not TOML, an entry is unknown or
             invalid, or a robot does not exist.
@@ -52,10 +44,6 @@ def load_game(path: AnyPath, **changes: Any) -> GameSettings:
 
 def parse_game(entries: dict[str, Any], source: str) -> GameSettings:
     """Turn the nested entries of a game file into settings.
-
-    Args:
-        entries: Sections and values.
-        source: Where they come from, for messages.
 
     Raises:
         StepAsideError: As :func:`load_game`.

@@ -71,12 +71,7 @@ class Scenery(NamedTuple):
     def movers_in(
         self, model: mujoco.MjModel, data: mujoco.MjData
     ) -> list[Mover]:
-        """Return the functions of the time [s] that move bodies of a world.
-
-        Args:
-            model: Model with the scenery.
-            data: Its state.
-        """
+        """Return the functions of the time [s] that move bodies of a world."""
         return [make(model, data) for make in self.make_movers]
 
 

@@ -300,11 +300,7 @@ class GameSettings:
         return tuple(p.name for p in self.players if p.body == "robot")
 
     def robot_of(self, player: str) -> RobotSettings:
-        """Return robot, gait, control and legs of a player.
-
-        Args:
-            player: Name of the player.
-        """
+        """Return robot, gait, control and legs of a player."""
         own = self.player(player)
         return RobotSettings(own.robot, own.gait, own.control, own.legs)
 

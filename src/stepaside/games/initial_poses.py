@@ -70,11 +70,7 @@ def start_of(starts: tuple[Pose, Pose]) -> StartSettings:
 
 
 def initial_poses(settings: DuelSettings) -> tuple[Pose, Pose]:
-    """Return the initial poses of pursuer and evader in the world.
-
-    Args:
-        settings: Settings of the duel, with the start filled in.
-    """
+    """Return the initial poses of pursuer and evader in the world."""
     plan, start = settings.room.plan, settings.start
     if plan is not None and plan.starts is not None:
         return plan.starts

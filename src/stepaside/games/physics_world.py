@@ -116,10 +116,6 @@ class PhysicsWorld(World):
                 name of the player.
             descriptions: Descriptions that replace those of the settings,
                 likewise.
-
-        Raises:
-            StepAsideError: If the settings contradict each other or cannot
-                be met by the robots.
         """
         self._settings, self._remote = settings, remote
         self._setups = _setups_of(settings, descriptions)
@@ -470,12 +466,7 @@ class PhysicsWorld(World):
     def sight_observer(
         self, things: Sequence[RoomObject] = (), *, every: int
     ) -> "SightObserver | None":
-        """Return the evaluation of perception, if robots sense by cameras.
-
-        Args:
-            things: Objects in view of the cameras.
-            every: Control ticks between samples of the sightings.
-        """
+        """Return the evaluation of perception, if robots sense by cameras."""
         if self._senses is None:
             return None
         from .camera_senses import SightObserver

@@ -39,12 +39,6 @@ def run_of_play(
 ) -> PlayRun:
     """Convert the rows of a player into a run.
 
-    Args:
-        folder: Folder of the rows.
-        settings: Settings of the player.
-        outcome: How the play ended.
-        message: Reason for the end, as text.
-
     Raises:
         ConfigurationError: If there are no valid rows.
         ValueError: If a file is too long, or not a regular file.

@@ -60,10 +60,6 @@ class OdometryPath:
     def track(self, gait: GaitSettings, sight: Array) -> Trajectory:
         """Return the trajectory at the samples of the run.
 
-        Args:
-            gait: Gait of the robot.
-            sight: Sightings, as in :class:`Trajectory`.
-
         Returns:
             Trajectory in the odometry of the first controller.
         """
@@ -216,9 +212,6 @@ class OdometryPath:
 
 def estimate_tilts(rows: PlayedRows) -> Array:
     """Estimate roll and pitch of the torso from the recorded IMU.
-
-    Args:
-        rows: Rows of a player that commanded joints.
 
     Returns:
         Roll and pitch in each row, in [rad]. Shape (rows, 2).

@@ -104,9 +104,6 @@ class PlayedRows:
 def read_played(folder: Path) -> PlayedRows:
     """Read the rows of a player, which may still be running.
 
-    Args:
-        folder: Folder of the rows.
-
     Raises:
         ConfigurationError: If there are no valid rows.
         ValueError: If a file is too long, or not a regular file.

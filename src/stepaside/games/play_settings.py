@@ -51,11 +51,7 @@ class PlaySettings:
         return PURSUER if self.role == EVADER else EVADER
 
     def robot_of(self, player: str) -> RobotSettings:
-        """Return robot, gait and control; the same is assumed of both.
-
-        Args:
-            player: Name of the player.
-        """
+        """Return robot, gait and control; the same is assumed of both."""
         return RobotSettings(self.robot, self.gait, self.control)
 
     @property

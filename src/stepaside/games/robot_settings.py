@@ -67,9 +67,6 @@ class RobotGameSettings:
 def settings_of_robot(robot: str) -> RobotSettings:
     """Return gait and control of a robot, from its description.
 
-    Args:
-        robot: Name of the robot, or folder of its description.
-
     Raises:
         StepAsideError: If the description is invalid.
     """
@@ -122,12 +119,7 @@ def body_of_robot(robot: str | Path, name: str) -> BodySettings:
 
 
 def with_legs(settings: S, network: str) -> S:
-    """Return settings for a walking policy and its usual game.
-
-    Args:
-        settings: Settings of a game with a gait and legs.
-        network: ONNX file of the policy.
-    """
+    """Return settings for a walking policy and its usual game."""
     changed: S = replace(
         settings,  # type: ignore[type-var]
         gait=replace(settings.gait, **LEGS_GAIT),  # type: ignore[attr-defined]
@@ -150,10 +142,6 @@ def with_robot(settings: S, robot: str) -> S:
     """Return settings for another robot, from its description.
 
     Gait and control are replaced, and in a duel also the distances.
-
-    Args:
-        settings: Settings of a walk, a duel or another game with a robot.
-        robot: Name of a robot, or folder of its description.
 
     Raises:
         StepAsideError: If there is no such robot, or its description is
@@ -179,10 +167,6 @@ def with_players(
     """Return settings of a duel whose players are different robots.
 
     Of each distance the greater of both robots is used.
-
-    Args:
-        settings: Settings of the duel.
-        robots: Robots that differ from that of the settings, by player.
     """
     for player, robot in robots.items():
         own = settings_of_robot(robot)

@@ -102,11 +102,7 @@ class RunHeader:
 
 
 def results_of(run: Run) -> dict[str, Any]:
-    """Return outcome and summary as plain values, as ``--json`` prints them.
-
-    Args:
-        run: The run.
-    """
+    """Return outcome and summary as ``--json`` prints them."""
     return {
         "outcome": run.outcome.value,
         "message": run.message,
@@ -120,10 +116,6 @@ def write_run_files(folder: Path, run: Run) -> None:
 
     Descriptions and networks of robots that are not part of stepaside are
     copied into it, so that it opens on any computer.
-
-    Args:
-        folder: Existing folder. Each file appears when it is complete.
-        run: The run.
     """
     entries = settings_entries(run.settings)
     _keep_robots(entries, folder)
@@ -168,12 +160,6 @@ def complete_play(
     Summary, trajectories and checksums are added. No figure is drawn, as the
     computer of a robot need not have matplotlib.
 
-    Args:
-        folder: Folder of the rows and the configuration.
-        settings: Settings of the player.
-        outcome: How the play ended.
-        message: Reason for the end, as text.
-
     Raises:
         ConfigurationError: If there are no valid rows.
         OSError: If the folder cannot be written.
@@ -204,9 +190,6 @@ def load_run(folder: AnyPath, game: str | None = None) -> GameRun[Any, Any]:
         folder: The run folder.
         game: Required game, "duel", "game", "walk" or "play"; by default
             any.
-
-    Returns:
-        The run.
 
     Raises:
         ConfigurationError: If the folder is not a valid run folder, of
@@ -266,12 +249,6 @@ def read_record(
 ) -> Run:
     """Build a run from the content of a run folder.
 
-    Args:
-        name: Name of the run.
-        settings: Settings of the game.
-        plain: Summary, as JSON.
-        arrays: Arrays of the trajectories, by name.
-
     Raises:
         ConfigurationError: If the content is invalid, or of another format.
     """
@@ -302,10 +279,6 @@ def read_record(
 
 def read_header(plain: Any, run: str) -> RunHeader:
     """Parse the entries that the summary of every game has.
-
-    Args:
-        plain: Summary, as JSON.
-        run: Name of the run, for messages.
 
     Raises:
         ConfigurationError: If an entry is missing or invalid.
@@ -348,9 +321,6 @@ def write_checksums(folder: Path) -> None:
     """Write the SHA-256 checksums of the files of a folder.
 
     The file has the format of ``sha256sum --check``.
-
-    Args:
-        folder: Run folder whose other files are complete.
     """
     lines = [
         f"{sha256(file.read_bytes()).hexdigest()}  {file.name}\n"
@@ -364,10 +334,6 @@ def check_checksums(folder: Path, names: Collection[str]) -> None:
     """Check the files of a run folder against its checksums.
 
     A folder without checksums was edited by hand and is not checked.
-
-    Args:
-        folder: Run folder.
-        names: Names of the files that will be read.
 
     Raises:
         ConfigurationError: If a file has another checksum, or none.

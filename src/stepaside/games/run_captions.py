@@ -18,12 +18,7 @@ from .run import (
 
 
 def describe_state(run: Run, index: int) -> str:
-    """Describe the state of a game at a sample.
-
-    Args:
-        run: The run.
-        index: Index of the sample.
-    """
+    """Describe the state of a game at a sample."""
     if run.has_ended_at(index):
         return run.message
     if is_play(run):

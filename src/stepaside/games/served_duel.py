@@ -59,10 +59,6 @@ def serve_duel(
             the clock.
         patience: Longest time to wait for clients, in [s].
         report: Called about five times a second with the progress.
-
-    Raises:
-        StepAsideError: If the settings cannot be met, a robot cannot be
-            served, or a client does not connect.
     """
     balances = {name: e.control.balances for name, e in endpoints.items()}
     for name in endpoints:

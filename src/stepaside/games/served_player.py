@@ -27,13 +27,7 @@ class ServedPlayer(PhysicalPlayer):
     def __init__(
         self, robot: SimulatedRobot, head: Sequence[int] = ()
     ) -> None:
-        """Take a robot that stands in its world.
-
-        Args:
-            robot: The robot.
-            head: Indices of the head joints, whose motion does not count as
-                moving.
-        """
+        """Take a robot that stands in its world."""
         super().__init__(robot)
         self._moves = False
         self._head = list(head)

@@ -34,11 +34,7 @@ def complete(settings: PlayableSettings) -> PlayableSettings:
 
 
 def as_game(settings: PlayableSettings) -> GameSettings:
-    """Return the game of players that a duel or a walk is.
-
-    Args:
-        settings: Complete settings.
-    """
+    """Return the game of players that a duel or a walk is."""
     if isinstance(settings, GameSettings):
         return settings
     if isinstance(settings, WalkSettings):
@@ -112,11 +108,7 @@ def strategies_of(settings: PlayableSettings) -> dict[str, Strategy]:
 
 
 def scenery_of(settings: PlayableSettings) -> Scenery:
-    """Return everything but robots in the world of a game.
-
-    Args:
-        settings: Complete settings.
-    """
+    """Return everything but robots in the world of a game."""
     if isinstance(settings, DuelSettings):
         game, walls = as_game(settings), _wall_distance(settings)
         return scenery_of_game(game, settings.room, walls)

@@ -33,10 +33,6 @@ def nested(
 
     A preset, like ``body = "hardware"``, below changes of its entries
     becomes the entry with an empty name among them.
-
-    Args:
-        changes: Values by name, like ``physics.friction``.
-        below: Nested entries that they change.
     """
     found = dict(below or {})
     for name, value in changes.items():
@@ -62,12 +58,6 @@ def settings_of(
     ``robot`` and ``legs.network`` bring the gait, control and distances of
     the robot; ``gait`` and ``body`` may be names of presets, and
     ``room.plan`` a room file or the seed of a room by ``recipe``.
-
-    Args:
-        kind: Class of the settings.
-        entries: Sections and values.
-        source: Where they come from, for messages.
-        aside: Entries that are ignored, as they belong to something else.
 
     Raises:
         StepAsideError: If an entry is unknown or out of its range, or if

@@ -32,11 +32,6 @@ def resolve_strategies(
     An object that was given as ``strategy``, like a subclass of
     :class:`~stepaside.strategies.Evasion`, becomes the evader's strategy.
 
-    Args:
-        strategy: Settings of the evasion of the paper, or a strategy object.
-        evader: Strategy of the evader: a name or an object.
-        pursuer: Strategy of a pursuing robot, likewise.
-
     Raises:
         ConfigurationError: If a value is not a strategy, or values
             contradict each other.

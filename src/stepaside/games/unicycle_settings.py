@@ -19,12 +19,7 @@ WHY = "outside this range squares and ratios overflow a double"
 
 
 def positive(unit: str, *also: float | None) -> Range:
-    """Return the common range of positive numbers.
-
-    Args:
-        unit: Unit of the numbers.
-        also: Further permitted values.
-    """
+    """Return the common range of positive numbers."""
     return Range(1e-9, 1e9, unit, WHY, also=also)
 
 

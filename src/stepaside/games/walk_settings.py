@@ -85,11 +85,7 @@ class WalkSettings:
         return replace(self, control=control)
 
     def robot_of(self, player: str) -> RobotSettings:
-        """Return robot, gait and control of the walker.
-
-        Args:
-            player: Name of the player.
-        """
+        """Return robot, gait and control of the walker."""
         return RobotSettings(self.robot, self.gait, self.control)
 
     @property
