@@ -13,7 +13,7 @@ pytest.importorskip("qi")
 import qi  # noqa: E402
 
 from flows.running import Running, until  # noqa: E402
-from naoqi_peer import BUTTON, FALLEN, SIGHT, NaoqiPeer  # noqa: E402
+from naoqi_peer import BUTTON, FALLEN, SIGHT, Services, serve  # noqa: E402
 from stepaside import Outcome, load_run  # noqa: E402
 
 pytestmark = pytest.mark.xdist_group("naoqi")
@@ -26,15 +26,15 @@ def application() -> object:
 
 
 @pytest.fixture
-def robot() -> Iterator[NaoqiPeer]:
-    peer = NaoqiPeer()
-    peer.memory.values[SIGHT] = [0.0, 0.5, 2.0]
-    yield peer
-    peer.motion.silent = False
-    peer.session.close()
+def robot() -> Iterator[Services]:
+    session, services = serve()
+    services.values[SIGHT] = [0.0, 0.5, 2.0]
+    yield services
+    services.silent = False
+    session.close()
 
 
-def play(robot: NaoqiPeer, *words: str) -> subprocess.Popen[str]:
+def play(robot: Services, *words: str) -> subprocess.Popen[str]:
     """Play the pursuer on the robot, in a process of its own."""
     command = [sys.executable, "-m", "stepaside", "play", "--role", "pursuer"]
     return subprocess.Popen(
@@ -51,61 +51,61 @@ def ended(player: subprocess.Popen[str]) -> str:
 
 
 def test_a_pursuer_turns_to_the_opponent_and_rests_at_the_end(
-    robot: NaoqiPeer, tmp_path: Path
+    robot: Services, tmp_path: Path
 ) -> None:
     folder = tmp_path / "record"
     player = play(robot, "--duration", "1.5", "--record", str(folder))
     said = ended(player)
     assert player.returncode == 0, said
-    assert robot.motion.calls[0] == "wakeUp"
-    assert robot.motion.calls[-2:] == ["stopMove", "rest"]
+    assert robot.calls[0] == "wakeUp"
+    assert robot.calls[-2:] == ["stopMove", "rest"]
     # v, and k times the bearing, law (1).
-    assert max(robot.motion.moves) == pytest.approx((0.1, 0.0, 0.2 * 0.5))
+    assert max(robot.moves) == pytest.approx((0.1, 0.0, 0.2 * 0.5))
     run = load_run(folder, "play")
     assert run.outcome is Outcome.COMPLETED
     assert run.summary.language == "naoqi"
 
 
 def test_a_robot_whose_controller_is_killed_is_stopped(
-    robot: NaoqiPeer,
+    robot: Services,
 ) -> None:
     player = play(robot)
-    until(lambda: robot.motion.moves)
+    until(lambda: robot.moves)
     os.kill(player.pid, signal.SIGKILL)
     player.wait()
-    until(lambda: not any(robot.motion.velocity))
-    assert robot.motion.calls[-1] == "stopMove"
+    until(lambda: not any(robot.velocity))
+    assert robot.calls[-1] == "stopMove"
 
 
 @pytest.mark.parametrize(("name", "value"), [(FALLEN, 1), (BUTTON, 1.0)])
 def test_a_fall_and_the_chest_button_stop_the_robot(
-    robot: NaoqiPeer, name: str, value: float
+    robot: Services, name: str, value: float
 ) -> None:
     player = play(robot)
-    until(lambda: robot.motion.moves)
-    robot.memory.values[name] = value
-    until(lambda: robot.motion.velocity == (0.0, 0.0, 0.0))
+    until(lambda: robot.moves)
+    robot.values[name] = value
+    until(lambda: robot.velocity == (0.0, 0.0, 0.0))
     player.send_signal(signal.SIGINT)
     ended(player)
-    assert robot.motion.calls[-1] == "rest"
+    assert robot.calls[-1] == "rest"
 
 
-def test_a_silent_robot_is_stopped_and_named(robot: NaoqiPeer) -> None:
+def test_a_silent_robot_is_stopped_and_named(robot: Services) -> None:
     player = Running(play(robot))
-    until(lambda: any(robot.motion.velocity))
+    until(lambda: any(robot.velocity))
     assert "no odometry" not in player.said
-    robot.motion.silent = True
-    until(lambda: not any(robot.motion.velocity))
+    robot.silent = True
+    until(lambda: not any(robot.velocity))
     player.until_said("no odometry")
-    robot.motion.silent = False
-    until(lambda: any(robot.motion.velocity))  # and on again
+    robot.silent = False
+    until(lambda: any(robot.velocity))  # and on again
     assert player.interrupt() == 0
 
 
-def test_a_dry_run_commands_nothing(robot: NaoqiPeer) -> None:
+def test_a_dry_run_commands_nothing(robot: Services) -> None:
     player = play(robot, "--dry-run", "--duration", "0.5")
     assert player.wait(60.0) == 0
-    assert not robot.motion.moves and not robot.motion.calls
+    assert not robot.moves and not robot.calls
 
 
 def test_nobody_at_an_address_is_said() -> None:
@@ -137,9 +137,9 @@ robot.close()
 
 @pytest.mark.parametrize("frozen", [False, True])
 def test_images_of_the_camera_are_rgb_and_new(
-    robot: NaoqiPeer, frozen: bool
+    robot: Services, frozen: bool
 ) -> None:
-    robot.video.frozen = frozen
+    robot.frozen = frozen
     done = subprocess.run(
         [sys.executable, "-c", LOOK, robot.url],
         capture_output=True,
@@ -152,4 +152,4 @@ def test_images_of_the_camera_are_rgb_and_new(
         "[[[255, 0, 0], [0, 0, 255]]] (0.05, 0.0, 0.5, 0.2, 0.1, 0.0) 1.5"
     )
     assert repeated == str(frozen)
-    assert not done.stderr and not robot.video.watched
+    assert not done.stderr and not robot.watched
