@@ -2,7 +2,7 @@
 
 A stand-in for any simulator::
 
-    stepaside play mujoco_robot.py:MujocoRobot --duration 20
+    stepaside play mujoco_robot.py:MujocoRobot --set delay_ticks=0
 """
 
 from math import asin, atan2, cos, hypot, sin

@@ -321,7 +321,7 @@ def test_a_robot_without_camera_is_refused(
 
 
 MODEL = CameraModel(320, 240, 272.0, 272.0)
-TAG = f"stepaside-images-{os.getpid()}"
+DOMAIN = 20 + os.getpid() % 200
 HALVES = np.zeros((120, 160, 3), np.uint8)  # left red, right blue
 HALVES[:, :80, 0] = HALVES[:, 80:, 2] = 200
 
@@ -376,13 +376,13 @@ def test_a_ros2_robot_publishes_its_camera_images(squeezed: bool) -> None:
     from stepaside.drivers.ros2_images import TopicCamera
     from stepaside.drivers.ros2_server import Ros2Server, WorldClock
 
-    dds, walker = DdsParticipant(0, tag=TAG), Seer()
+    dds, walker = DdsParticipant(DOMAIN), Seer()
     clock = WorldClock(dds)
     server = Ros2Server(dds, "/n", walker, ["a", "b"], clock, tick=0.012)
     name = "camera/image_raw" + ("/compressed" if squeezed else "")
     guess = CameraModel(320, 240, 99.0, 99.0)  # camera_info says better
     camera = TopicCamera(
-        DdsParticipant(0, tag=TAG), f"/n/{name}", guess, latency=0.1
+        DdsParticipant(DOMAIN), f"/n/{name}", guess, latency=0.1
     )
 
     def look() -> Any:

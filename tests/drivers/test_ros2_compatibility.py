@@ -73,6 +73,4 @@ def test_a_participant_begins_with_it(
         "</Interfaces></General></Domain></CycloneDDS>"
     )
     monkeypatch.setenv("CYCLONEDDS_URI", loopback)
-    DdsParticipant(
-        73, beyond=beyond, tag="" if beyond else f"{os.getpid()}"
-    ).close()
+    DdsParticipant(73, beyond=beyond).close()

@@ -438,7 +438,7 @@ def test_a_robot_that_is_not_found_is_explained_once(
     [message] = [r.getMessage() for r in caplog.records]
     assert message.startswith("nothing publishes /nobody/odom; searched")
     assert "ROS_AUTOMATIC_DISCOVERY_RANGE=LOCALHOST" in message
-    assert "--network" in message
+    assert "network=true" in message
 
 
 @pytest.mark.parametrize(

@@ -146,7 +146,7 @@ class VelocityRobot(Robot):
             second connection for the guardian.
         head: Range of the head, with which :meth:`look` follows the
             opponent with ``--sensing cameras``; None for a fixed camera.
-        camera: Pose of a fixed camera that ``--images`` reads; None if
+        camera: Pose of a fixed camera that ``images`` names; None if
             :meth:`image` returns the images.
     """
 
@@ -184,7 +184,7 @@ class VelocityRobot(Robot):
 class JointRobot(Robot):
     """Robot whose joints take targets and gains.
 
-    Its ``--description`` gives ranges, speeds, soles and masses of the
+    Its description (``--robot``) gives ranges, speeds, soles and masses of the
     joints. Its reports have joint angles and velocities, gyro, accelerometer
     and tilt. :meth:`listen` returns within about one tick.
 

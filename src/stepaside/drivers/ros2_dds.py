@@ -42,8 +42,8 @@ MAX_DOMAIN = 232  # last domain number for which ports exist
 BATCH = 64  # messages or announcements taken per call
 LOCAL = (
     "ROS 2 topics are announced on this machine only: start its ROS 2 "
-    "programs with ROS_AUTOMATIC_DISCOVERY_RANGE=LOCALHOST; --network "
-    "reaches others. CycloneDDS opens its UDP ports on all interfaces all "
+    "programs with ROS_AUTOMATIC_DISCOVERY_RANGE=LOCALHOST; "
+    "network=true reaches others. CycloneDDS opens its UDP ports on all interfaces all "
     "the same: close them by a firewall on a network that others use"
 )
 # Fast DDS, vendor 1.15: version 3, of ROS 2 Kilted, describes types in a form
@@ -65,7 +65,6 @@ LOCALHOST = """
     <AllowMulticast>false</AllowMulticast>
   </General>
   <Discovery>
-    <Tag>{tag}</Tag>
     <Peers><Peer address="127.0.0.1"/></Peers>
     <ParticipantIndex>auto</ParticipantIndex>
     <MaxAutoParticipantIndex>63</MaxAutoParticipantIndex>
@@ -194,7 +193,6 @@ class DdsParticipant:
         domain: int | None = None,
         *,
         beyond: bool = False,
-        tag: str = "",
     ) -> None:
         """Join a domain.
 
@@ -202,8 +200,6 @@ class DdsParticipant:
             domain: Domain number; ``ROS_DOMAIN_ID``, or 0, by default.
             beyond: Whether other machines are discovered, as configured by
                 CycloneDDS's defaults or ``CYCLONEDDS_URI``.
-            tag: Discovery tag: participants with another one are ignored.
-                Separates concurrent tests.
 
         Raises:
             ConfigurationError: If the number is out of range or DDS fails.
@@ -213,9 +209,7 @@ class DdsParticipant:
             raise ConfigurationError(
                 f"domain must lie in [0, {MAX_DOMAIN}], got {number}"
             )
-        base = LOCALHOST.format(tag=tag)
-        if beyond:
-            base = os.environ.get(SETTING, "")
+        base = os.environ.get(SETTING, "") if beyond else LOCALHOST
         with CREATION, _configured(base, COMPATIBLE):
             try:
                 self.participant = DomainParticipant(number)
@@ -246,7 +240,7 @@ class DdsParticipant:
             f"here must have ROS_DOMAIN_ID={number} and "
             "ROS_AUTOMATIC_DISCOVERY_RANGE=LOCALHOST (Humble: "
             "ROS_LOCALHOST_ONLY=1), and those of other machines need "
-            "--network"
+            "network=true"
         )
 
     def writer(
