@@ -42,9 +42,10 @@ MAX_DOMAIN = 232  # last domain number for which ports exist
 BATCH = 64  # messages or announcements taken per call
 LOCAL = (
     "ROS 2 topics are announced on this machine only: start its ROS 2 "
-    "programs with ROS_AUTOMATIC_DISCOVERY_RANGE=LOCALHOST; "
-    "network=true reaches others. CycloneDDS opens its UDP ports on all interfaces all "
-    "the same: close them by a firewall on a network that others use"
+    "programs with ROS_AUTOMATIC_DISCOVERY_RANGE=LOCALHOST; --network "
+    "of serve, or network=true of play, reaches others. CycloneDDS opens its "
+    "UDP ports on all interfaces all the same: close them by a firewall on a "
+    "network that others use"
 )
 # Fast DDS, vendor 1.15: version 3, of ROS 2 Kilted, describes types in a form
 # that CycloneDDS takes for invalid, and then no endpoint of them is matched.
