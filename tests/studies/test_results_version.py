@@ -32,7 +32,8 @@ GAMES: dict[str, tuple[str, str, list[float]]] = {
     ),
     "unicycles": (
         "distance_m",
-        "duration = 20.0",
+        "duration = 20.0\nspeed = 0.1\ngain = 0.2\ndistance = 1.0\n"
+        "bearing = 0.0",
         [0.777901202, 0.834319326, 1.16095572],
     ),
 }

@@ -11,24 +11,28 @@ from math import pi, sqrt
 
 from ..core.constants import GRAVITY
 
-# Lengths by the CoM height.
+# Lengths by the CoM height, times and rates by the time constant of the
+# pendulum, speeds by its speed sqrt(g z).
 STRIDE = 0.15
 STEP_HEIGHT = 0.075
-DEAD_ZONE = 0.056
-EDGE = 0.0075
-GAP = 0.045
-OUTWARD = 0.075
-# Times by the time constant of the pendulum.
-SINGLE = 2.0
-DOUBLE = 0.58
-START = 4.8
 PATH = 2.42  # path time of a stride
 TURNING = 0.033  # steering gain times the time constant
-YIELDING = 0.83
-JOINT_GAIN = 1.65
-JOINT_LEAK = 0.165
+SUPPORTS = {
+    "single_support": 2.0,
+    "double_support": 0.58,
+    "start_support": 4.8,
+}
+STABILISER_LENGTHS = {
+    "dead_zone": 0.056,
+    "edge": 0.0075,
+    "reach_forward": 2.0 * STRIDE,
+    "reach_backward": 2.0 * STRIDE,
+    "reach_outward": 0.075,
+    "stride_bound": 0.056,
+}
+STABILISER_RATES = {"yielding": 0.83, "joint_gain": 1.65, "joint_leak": 0.165}
+GAP = 0.045
 ANKLE_RATE = 0.18
-# Speeds by the speed sqrt(g z) of the pendulum.
 STEP_SPEED = 0.92
 PUSH = 0.12
 INVERSE_NAO_MASS = 0.1885  # in [1/kg]
@@ -87,9 +91,7 @@ def gait_of(size: RobotSize, lengths: float = 1.0) -> dict[str, float]:
         "stride": stride,
         "foot_spacing": _round(size.foot_spacing, 4),
         "step_height": _round(lengths * STEP_HEIGHT * z),
-        "single_support": _round(SINGLE * time),
-        "double_support": _round(DOUBLE * time),
-        "start_support": _round(START * time),
+        **{name: _round(part * time) for name, part in SUPPORTS.items()},
         "com_height": round(z, 4),
         "zmp_forward": round(0.45 * (front + back), 4),
     }
@@ -98,21 +100,16 @@ def gait_of(size: RobotSize, lengths: float = 1.0) -> dict[str, float]:
 def stabiliser_of(size: RobotSize) -> dict[str, float]:
     """Return the stabiliser entries of a description, in SI units."""
     z, time = size.com_height, size.time
-    stride = STRIDE * z
+    lengths = {k: _round(v * z) for k, v in STABILISER_LENGTHS.items()}
+    rates = {k: _round(v / time) for k, v in STABILISER_RATES.items()}
+    gap = size.foot_spacing - 2.0 * size.sole[3]  # of soles abreast
     return {
-        "dead_zone": _round(DEAD_ZONE * z),
-        "yielding": _round(YIELDING / time),
+        **lengths,
+        **rates,
         "ankle_rate": _round(ANKLE_RATE * time),
-        "edge": _round(EDGE * z),
-        "reach_forward": _round(2.0 * stride),
-        "reach_backward": _round(2.0 * stride),
-        "reach_outward": _round(OUTWARD * z),
-        "gap": _round(min(GAP * z, 0.5 * sole_gap(size))),
+        "gap": _round(min(GAP * z, 0.5 * gap)),
         "step_speed": _round(STEP_SPEED * size.speed),
         "stride_gain": 0.0,
-        "stride_bound": _round(DEAD_ZONE * z),
-        "joint_gain": _round(JOINT_GAIN / time),
-        "joint_leak": _round(JOINT_LEAK / time),
         "load_share": 1.0,
     }
 
@@ -130,11 +127,6 @@ def game_of_size(size: RobotSize, gait: dict[str, float]) -> dict[str, float]:
         "force_unit": _round(INVERSE_NAO_MASS * size.mass),
         "length_unit": _round(INVERSE_NAO_HEIGHT * size.com_height),
     }
-
-
-def sole_gap(size: RobotSize) -> float:
-    """Return the gap between soles that stand abreast, in [m]."""
-    return size.foot_spacing - 2.0 * size.sole[3]
 
 
 def _round(value: float, digits: int = 3) -> float:

@@ -4,14 +4,12 @@ import tomllib
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cache, partial
-from hashlib import sha256
 from math import isfinite, nan
 from pathlib import Path
 from typing import Any, NamedTuple
 
 import numpy as np
 
-from ..games.configuration_file import dump_configuration
 from ..locomotion.policy.response_file import digest_of
 from . import evasion_claims as evading
 from . import physics_claims as physics
@@ -169,23 +167,14 @@ def claim_study(seeds: Sequence[int], legs: str = "") -> Study[ClaimTrial]:
         trials += [
             ClaimTrial(job, seed, legs if job == LEGS else "") for job in jobs
         ]
-    return Study("claims", trials, run_trial, partial(_key, legs_key(legs)))
+    network = ""
+    if legs:
+        network = digest_of(Path(physics.legs_settings(legs, 0).legs.network))
+    return Study("claims", trials, run_trial, partial(_key, network))
 
 
-def legs_key(legs: str) -> str:
-    """Return a hash of the settings and the network of learned legs."""
-    if not legs:
-        return ""
-    settings = physics.legs_settings(legs, 0)
-    words = (
-        dump_configuration(settings),
-        digest_of(Path(settings.legs.network)),
-    )
-    return sha256(repr(words).encode()).hexdigest()[:12]
-
-
-def _key(legs: str, trial: ClaimTrial) -> str:
-    own = f"/{legs}" if trial.legs else ""
+def _key(network: str, trial: ClaimTrial) -> str:
+    own = f"/{network}" if trial.legs else ""
     return f"{trial.job}/{trial.seed}{own}"
 
 
