@@ -293,20 +293,16 @@ def _counter(bar: Any) -> Callable[[int, int], None]:
 
 def _export(run: Path, folder: Path, *, repeat: bool) -> list[str]:
     """Write a run for other programs; return what is absent."""
-    from ..report.export.export_formats import (
-        FORMATS,
-        check_format,
-        export_recording,
-    )
+    from ..report.export.export_formats import check_format, export_recording
 
     name = folder.suffix[1:]
     check_format(name)
-    repeats = repeat and FORMATS[name].repeats
-    recording = _recording(run.resolve(), repeats=repeats)
+    has_signals = name != "urdf"
+    recording = _recording(run.resolve(), repeats=repeat and has_signals)
     with show_progress("export", unit="samples") as bar:
         export_recording(folder, name, recording, _counter(bar))
     absent = recording.absent
-    if not FORMATS[name].repeats:  # it has no signals at all
+    if not has_signals:
         players = tuple(f"{name}:" for name in recording.run.players)
         absent = tuple(each for each in absent if each.startswith(players))
     for sentence in absent:

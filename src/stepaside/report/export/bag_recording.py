@@ -97,8 +97,7 @@ def write_bag(
     for file in bag.iterdir():
         file.rename(folder / file.name)
     bag.rmdir()
-    for name, model in recording.models.items():
-        (folder / f"{name}.urdf").write_text(model.urdf, encoding="utf-8")
+    recording.write_urdf(folder)
 
 
 def _quality(*, stays: bool) -> Any:

@@ -101,6 +101,11 @@ class Recording:
     signals: Mapping[str, RobotSignals]
     absent: tuple[str, ...]
 
+    def write_urdf(self, folder: Path) -> None:
+        """Write the URDF of each robot into a folder."""
+        for name, model in self.models.items():
+            (folder / f"{name}.urdf").write_text(model.urdf, encoding="utf-8")
+
 
 def load_recording(
     folder: Path,
