@@ -60,9 +60,7 @@ def plain_figures() -> Iterator[None]:
     """Draw small figures without layout; their content is the same."""
     from stepaside.report.figure_style import plt
 
-    with plt.rc_context(
-        {"savefig.dpi": 30, "figure.constrained_layout.use": False}
-    ):
+    with plt.rc_context({"savefig.dpi": 30}):
         yield
 
 

@@ -19,6 +19,4 @@ for name in stepaside.__all__:
     getattr(stepaside, name)
 
 # Small figures without layout, as everywhere in the tests.
-plt.rcParams.update(
-    {"savefig.dpi": 30, "figure.constrained_layout.use": False}
-)
+plt.rcParams.update({"savefig.dpi": 30})

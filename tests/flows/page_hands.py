@@ -58,9 +58,7 @@ for each in dir(viser.GuiApi):
     if each.startswith("add_"):
         record(each)
 # Small figures without layout, as everywhere in the tests.
-plt.rcParams.update(
-    {"savefig.dpi": 30, "figure.constrained_layout.use": False}
-)
+plt.rcParams.update({"savefig.dpi": 30})
 ANSWERS = sys.stdout
 sys.stdout = sys.stderr
 Thread(target=serve_hands, daemon=True).start()

@@ -38,7 +38,6 @@ WAIT = 200_000  # in [ms]
 DRAWN = """() => new Promise((told) => requestAnimationFrame(
   () => requestAnimationFrame(told)))"""
 SEEN_AT = 12.0  # moment of the live page with cameras, in [s]
-PLAYED = 50.0  # of the page that plays, in [s]
 FILMED, PUSHED = (6.0, 16.0), 10.0  # in [s]
 EACH, RATE = 0.2, 8  # time between pictures in [s]; pictures a second
 
@@ -51,7 +50,7 @@ def live(browser: Any, settings: DuelSettings) -> Iterator[tuple[Page, Any]]:
     try:
         page = opened(browser, f"http://127.0.0.1:{served.server.get_port()}")
         page.get_by_text("Light").first.wait_for()
-        page.get_by_role("button", name="Close").first.click()
+        page.locator(".mantine-Notification-closeButton").first.click()
         yield served, page
     finally:
         served.close()
