@@ -143,9 +143,6 @@ class PlayLog:
         Works even if the original folder was removed: the open file can
         still be read.
 
-        Args:
-            folder: Folder that does not exist yet.
-
         Raises:
             OSError: If that folder cannot be written either.
         """
@@ -246,10 +243,6 @@ def joint_row(
 
 def columns_in(data: bytes, columns: Mapping[str, int]) -> dict[str, Array]:
     """Split row data into columns; an incomplete last row is dropped.
-
-    Args:
-        data: Contents of ``rows.f64``.
-        columns: Width of each column, in order.
 
     Returns:
         Arrays by column name. Shapes (rows,) or (rows, width).

@@ -209,9 +209,6 @@ class LeagueRobot(JointRobot):
 def parse_expressions(text: bytes) -> list[Any]:
     """Parse a sequence of S-expressions to nested lists of words.
 
-    Args:
-        text: For example ``(time (now 0.02))(GYR (n torso) (rt 0 0 0))``.
-
     Raises:
         ConnectionError: If parentheses do not match.
     """
@@ -235,10 +232,6 @@ def nearest_opponent(detections: list[Any], team: str) -> Any:
     """Return the nearest player of another team; None without one.
 
     Its head is used, else the mean of its other parts.
-
-    Args:
-        detections: Entries of a message's vision.
-        team: Own team.
 
     Returns:
         Position in the frame of the camera, in [m]. Shape (3,).

@@ -60,10 +60,6 @@ class RobotRequest(NamedTuple):
 def find_robot(name: str, request: RobotRequest) -> Callable[[], Any] | None:
     """Return a function that makes the robot of a protocol.
 
-    Args:
-        name: Name of the protocol, such as lola.
-        request: The robot.
-
     Returns:
         Function that makes a JointRobot or a VelocityRobot without
         connecting to it; None if there is no such protocol.
@@ -83,9 +79,6 @@ def find_robot(name: str, request: RobotRequest) -> Callable[[], Any] | None:
 
 def load_robot_class(name: str) -> RobotClass:
     """Load a robot of a user's file.
-
-    Args:
-        name: FILE.py:CLASS. The file is executed.
 
     Returns:
         The class, which makes a robot without connecting to it.
@@ -130,10 +123,6 @@ def _is_robot(kind: Any) -> bool:
 
 def check_robot_class(kind: Any, where: str) -> None:
     """Check methods, flags and values of a robot's class.
-
-    Args:
-        kind: The class.
-        where: Its name, for messages.
 
     Raises:
         ConfigurationError: If one is invalid.

@@ -31,11 +31,6 @@ DRIFT = 0.02  # relative difference of two clocks' rates at most
 def plain_report(got: Any, robot: Any, name: str) -> RobotState:
     """Return a report of plain numbers.
 
-    Args:
-        got: Result of listen().
-        robot: The robot.
-        name: Name of the method, for messages.
-
     Raises:
         SessionLost: If it is no report of such a robot.
     """
@@ -124,12 +119,7 @@ def in_order(report: RobotState, order: NDArray[np.intp]) -> RobotState:
 
 
 def joint_fault(report: RobotState, motors: Motors) -> str:
-    """Return why a report is implausible; empty if it is plausible.
-
-    Args:
-        report: The report, in the order of the motors.
-        motors: Motors of the robot.
-    """
+    """Return why a report in the order of the motors is implausible, if so."""
     for name in (
         *("joint_positions", "joint_velocities", "gyro", "accelerometer"),
         "tilt",
@@ -160,13 +150,7 @@ def joint_fault(report: RobotState, motors: Motors) -> str:
 
 
 def joint_jump(report: RobotState, last: RobotState, motors: Motors) -> str:
-    """Return which joint has jumped since the last valid report, if any.
-
-    Args:
-        report: The report, in the order of the motors.
-        last: The valid one before it.
-        motors: Motors of the robot.
-    """
+    """Return which joint has jumped since the last valid report, if any."""
     passed = max(report.time - last.time, MIN_PASSED)
     fastest = np.minimum(PLAUSIBLE * motors.speed, FASTEST_JOINT)
     moved = np.abs(report.joint_positions - last.joint_positions)

@@ -193,9 +193,6 @@ class RobotSession:
     def close(self, *, halts: bool = True) -> None:
         """Halt the robot, by the guardian if need be, and disconnect.
 
-        Args:
-            halts: Whether a robot is halted that is halted already.
-
         Raises:
             SessionLost: If it did not halt, and there is no guardian, nor
                 another error.

@@ -93,9 +93,6 @@ class PeopleTopic(NamedTuple):
 def read_people(files: Sequence[str]) -> list[PeopleTopic]:
     """Read tables of topics with people.
 
-    Args:
-        files: Files of a user, after the project's own.
-
     Raises:
         ConfigurationError: If one is invalid.
     """
@@ -115,10 +112,6 @@ def read_people(files: Sequence[str]) -> list[PeopleTopic]:
 
 def parse_remapping(rules: Sequence[str], names: set[str]) -> dict[str, str]:
     """Parse rules like ``cmd_vel:=/nav/cmd_vel``.
-
-    Args:
-        rules: The rules.
-        names: Names that can be given another topic.
 
     Returns:
         Topics with a leading slash, by name.

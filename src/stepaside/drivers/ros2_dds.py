@@ -89,9 +89,6 @@ PLAIN = {
 def define(messages: Mapping[str, str]) -> None:
     """Define messages that ROS 2 itself does not have.
 
-    Args:
-        messages: Definitions in ROS 2's form, by type.
-
     Raises:
         ConfigurationError: If one is invalid.
     """

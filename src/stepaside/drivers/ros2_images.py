@@ -46,12 +46,7 @@ def compressed_message(head: Any, pixels: Pixels) -> Any:
 
 
 def camera_info_message(head: Any, camera: CameraModel) -> Any:
-    """Return the calibration of a camera without distortion.
-
-    Args:
-        head: Header of its image.
-        camera: The camera.
-    """
+    """Return the calibration of a camera without distortion."""
     matrix = camera.calibration_matrix
     projection = np.column_stack([matrix, np.zeros(3)])
     arrays = [m.ravel().tolist() for m in (matrix, np.eye(3), projection)]
@@ -89,9 +84,6 @@ def pixels_of(message: Any) -> Pixels | None:
 
 def unpacked(message: Any) -> Pixels | None:
     """Decode a compressed image; None if it is invalid.
-
-    Args:
-        message: Image as JPEG or PNG.
 
     Returns:
         Red, green and blue. Shape (height, width, 3).

@@ -80,9 +80,6 @@ class VelocityLimits:
         All components are scaled by the same factor, so that the path keeps
         its curvature, and with it the circle its radius. A robot that does
         not walk sideways is commanded no lateral velocity.
-
-        Args:
-            wanted: Finite velocity.
         """
         speed, rate = abs(wanted.forward), abs(wanted.turn)
         top = self.forward if wanted.forward > 0.0 else self.backward
