@@ -88,28 +88,29 @@ class LazyGroup(click.Group):
     def main(self, *args: Any, **extra: Any) -> NoReturn:
         """Run a command; report each expected error in one line, status 2."""
         extra["standalone_mode"] = False
-        try:
-            with interruptible():
+        with interruptible():  # it knows the signal until it ends
+            try:
                 status = super().main(*args, **extra)
-        except click.ClickException as error:
-            _refuse(error.format_message())
-        except StepAsideError as error:
-            _refuse(str(error))
-        except ModuleNotFoundError as error:
-            _refuse(install_hint(error))
-        except _errors_of_executors():
-            _refuse(
-                "a worker process was killed, possibly out of memory; "
-                "finished results are saved"
-            )
-        except OSError as error:
-            file = f"{error.filename}: " if error.filename else ""
-            _refuse(f"{file}{(error.strerror or str(error)).lower()}")
-        except (click.Abort, KeyboardInterrupt):
-            click.echo(
-                "stepaside: interrupted; partial output discarded", err=True
-            )
-            sys.exit(interrupted_status())
+            except click.ClickException as error:
+                _refuse(error.format_message())
+            except StepAsideError as error:
+                _refuse(str(error))
+            except ModuleNotFoundError as error:
+                _refuse(install_hint(error))
+            except _errors_of_executors():
+                _refuse(
+                    "a worker process was killed, possibly out of memory; "
+                    "finished results are saved"
+                )
+            except OSError as error:
+                file = f"{error.filename}: " if error.filename else ""
+                _refuse(f"{file}{(error.strerror or str(error)).lower()}")
+            except (click.Abort, KeyboardInterrupt):
+                click.echo(
+                    "stepaside: interrupted; partial output discarded",
+                    err=True,
+                )
+                sys.exit(interrupted_status())
         sys.exit(status if isinstance(status, int) else 0)
 
 
