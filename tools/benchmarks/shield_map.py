@@ -4,7 +4,7 @@ For each robot 1,000 starts of a standing robot from which the shield excludes
 contact, and 1,000 from which it does not, at template level, against people
 who steer at the robot, feint, or turn at random within their bounds. The
 robot's own strategy stands still or walks at random. A robot and a network,
-measured by ``legs measure``, add a robot on learned legs::
+measured by ``robot legs measure``, add a robot on learned legs::
 
     python tools/benchmarks/shield_map.py --robot runs/g1 --network g1.onnx
 

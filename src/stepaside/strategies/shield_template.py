@@ -4,7 +4,7 @@ A body that follows commands with a lag comes to rest at its position plus the
 lag times its velocity. The template point moves with the commanded velocity,
 and towards that place of rest by no more than a loss per period. So what legs
 do otherwise than told displaces the point slowly, and the distance of the body
-from it is bounded: the tube that ``legs measure`` finds.
+from it is bounded: the tube that ``robot legs measure`` finds.
 """
 
 from math import exp, hypot
