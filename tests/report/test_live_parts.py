@@ -210,3 +210,23 @@ def test_an_invalid_reset_leaves_the_game_alone(session: LiveSession) -> None:
     assert session.game is game and session.settings is settings
     session.reset()
     assert session.world.time == 0.0 and session.generation == 2
+
+
+def test_a_game_of_players_is_pushed_reset_and_saved(tmp_path: Path) -> None:
+    session = LiveSession(GAME)
+    try:
+        passed(session, 0.5)
+        session.push("blue", 0.3, 0.0)
+        passed(session, 0.5)
+        layers = {own.layer for own in live_overlays(session)}
+        assert {"footsteps", "line of sight", "pushes"} <= layers
+        run = load_run(session.save(tmp_path))
+        assert run.tracks["ruby"].pushes is None
+        pushes = run.tracks["blue"].pushes
+        assert pushes is not None and len(pushes) == 1
+        values = {"seed": 5, "players.0.gait.stride": 0.02}
+        session.reset(with_values(GAME, values))
+        assert session.world.time == 0.0
+        assert session.played.players[0].gait.stride == 0.02
+    finally:
+        session.close()
