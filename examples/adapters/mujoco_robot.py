@@ -32,7 +32,7 @@ class MujocoRobot(sa.JointRobot):
     joints = sa.load_tree(NAO).motors
     gains = dict.fromkeys(joints, (200.0, 10.0))
 
-    def open(self):
+    def open(self) -> None:
         """Compile the model, and stand on the floor."""
         spec = NAO.spec()
         spec.option.timestep = 0.002
@@ -53,7 +53,7 @@ class MujocoRobot(sa.JointRobot):
         data.qpos[2] -= min(soles)
         self.person = np.array(PERSON)
 
-    def listen(self):
+    def listen(self) -> sa.RobotState:
         """Go on by one tick, and return the new state."""
         data, steps = self.data, round(self.tick / self.model.opt.timestep)
         mujoco.mj_step(self.model, data, steps)
@@ -69,7 +69,7 @@ class MujocoRobot(sa.JointRobot):
             data.qpos[self.qpos],
             data.sensor("gyro").data,
             data.sensor("accelerometer").data,
-            [data.sensor(foot).data[0] for foot in FEET],
+            np.array([data.sensor(foot).data[0] for foot in FEET]),
             sa.Sighting.of_position(data.time, ahead, left),
             joint_velocities=data.qvel[self.qvel],
             tilt=(
@@ -78,15 +78,16 @@ class MujocoRobot(sa.JointRobot):
             ),
         )
 
-    def walk_person(self, robot):
+    def walk_person(self, robot: np.ndarray) -> np.ndarray:
         """Walk the person by one tick; return its place from the robot."""
         way = robot - self.person
         distance = hypot(*way)
         if distance > NEAREST:
             self.person += self.tick * SPEED * way / distance
-        return self.person - robot
+        place: np.ndarray = self.person - robot
+        return place
 
-    def command(self, targets):
+    def command(self, targets: sa.JointTargets) -> None:
         """Set targets and gains of all joints."""
         model, at = self.model, self.actuators
         self.data.ctrl[at] = targets.angles
@@ -94,7 +95,7 @@ class MujocoRobot(sa.JointRobot):
         model.actuator_biasprm[at, 1] = -targets.stiffness
         model.actuator_biasprm[at, 2] = -targets.damping
 
-    def release(self):
+    def release(self) -> None:
         """Damp the joints."""
         none = np.zeros(len(self.joints))
         self.command(sa.JointTargets(none, none, none + 1.0))
