@@ -243,11 +243,6 @@ def test_a_run_opens_from_another_folder(
     assert len(refused.err.splitlines()) == 1 and "renamed" in refused.err
 
 
-@pytest.mark.xfail(
-    strict=True,
-    reason="a run of an own humanoid opens only from the folder in which it "
-    "was played",
-)
 def test_a_run_of_an_own_humanoid_opens_from_another_folder(
     tmp_path: Path,
 ) -> None:
