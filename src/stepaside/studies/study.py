@@ -539,9 +539,14 @@ class _Work(Generic[C]):
             if not numbers:
                 return False
             cases = [study.cases[number] for number in numbers]
-            task = study.measure, study.measure_together, study.together
             try:
-                future = executor.submit(measure_block, *task, cases)
+                future = executor.submit(
+                    measure_block,
+                    study.measure,
+                    study.measure_together,
+                    study.together,
+                    cases,
+                )
             except BrokenExecutor:
                 self._again.append(numbers)
                 raise

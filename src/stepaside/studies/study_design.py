@@ -236,7 +236,9 @@ def study_entries(file: AnyPath, sets: Sequence[str] = ()) -> dict[str, Any]:
         raise ConfigurationError(
             f"{file}: unknown entry {name}; there are {', '.join(SECTIONS)}"
         )
-    tables = {name: {} for name in ("settings", "grid", "variants")}
+    tables: dict[str, Any] = {
+        name: {} for name in ("settings", "grid", "variants")
+    }
     entries = {"game": "", **tables, **entries}
     for name in tables:
         if not isinstance(entries[name], dict):
