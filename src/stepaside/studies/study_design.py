@@ -236,9 +236,7 @@ def study_entries(file: AnyPath, sets: Sequence[str] = ()) -> dict[str, Any]:
         raise ConfigurationError(
             f"{file}: unknown entry {name}; there are {', '.join(SECTIONS)}"
         )
-    tables: dict[str, Any] = {
-        name: {} for name in ("settings", "grid", "variants")
-    }
+    tables: dict[str, Any] = {"settings": {}, "grid": {}, "variants": {}}
     entries = {"game": "", **tables, **entries}
     for name in tables:
         if not isinstance(entries[name], dict):
