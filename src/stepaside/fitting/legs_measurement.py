@@ -120,10 +120,10 @@ def run_trial(trial: LegsTrial) -> LegsTrialResult:
 
 
 def _random_commands(
-    seed: int, name: str, ranges: Sequence[tuple[float, float]]
+    generator: np.random.Generator, ranges: Sequence[tuple[float, float]]
 ) -> Iterator[tuple[BodyVelocity, float]]:
     """Yield random commands, and the times until which they hold, in [s]."""
-    generator, until = named_generator(seed, name), STANDING
+    until = STANDING
     yield STILL, until
     low, high = np.array(ranges).T
     while True:
@@ -146,7 +146,9 @@ def run_random_walk(trial: LegsTrial) -> float | None:
     """
     walk = _LegsWalk(trial)
     ranges = walk.legs.contract.command_ranges
-    commands = _random_commands(trial.seed, "random walk", ranges)
+    commands = _random_commands(
+        named_generator(trial.seed, "random walk"), ranges
+    )
     command, until = next(commands)
     while walk.world.time < RANDOM_WALK:
         if walk.world.time + 1e-9 >= until:
@@ -171,7 +173,9 @@ def run_tracking_walk(trial: LegsTrial) -> float:
     """
     assert trial.response is not None
     walk, legs = _LegsWalk(trial), trial.response.velocities
-    commands = _random_commands(trial.seed, "tracking walk", legs[:3])
+    commands = _random_commands(
+        named_generator(trial.seed, "tracking walk"), legs[:3]
+    )
     wanted, until = next(commands)
     lag, tick = max(legs.lags[:2]), walk.world.physics.tick
     template = TemplatePoint(walk.truth.position_reference_in_world)
