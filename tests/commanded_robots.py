@@ -1,13 +1,9 @@
 """Simulated robots of a duel that are commanded by velocities."""
 
-from collections.abc import Callable, Mapping
-
 from stepaside.games.duel_settings import PLAYERS, DuelSettings
-from stepaside.games.game import GameInPlay, GameObserver
 from stepaside.games.physics_world import RemoteControl
 from stepaside.games.recorded_game import RecordedGame
 from stepaside.games.velocity_walker import VelocityWalker
-from stepaside.strategies.velocity_set import BodyVelocity
 
 
 def commanded_robots(
@@ -21,17 +17,3 @@ def commanded_robots(
     ]
     assert len(robots) == 2
     return game, robots
-
-
-class VelocityCommands(GameObserver):
-    """Match observer that commands a velocity to each robot at each tick."""
-
-    def __init__(
-        self, sources: Mapping[VelocityWalker, Callable[[], BodyVelocity]]
-    ) -> None:
-        self._sources = sources
-
-    def before(self, game: GameInPlay) -> None:
-        """Command all robots."""
-        for robot, source in self._sources.items():
-            robot.command(source())

@@ -14,8 +14,6 @@ from stepaside.games import game as loop
 from stepaside.games.game import GameInPlay, GameObserver, GameRules
 from stepaside.games.outcome import Outcome
 from stepaside.games.player import Snapshot
-from stepaside.locomotion.walk_snapshots import StepStarted
-from stepaside.planning import Foot
 
 TICK = 0.004
 
@@ -48,21 +46,18 @@ class FakeLog:
 class FakePlayer:
     """Stands where it is told, and does what it is told at a tick."""
 
-    begun: StepStarted | None = None
+    begun = None
 
     def __init__(self, world: "FakeWorld", name: str, x: float) -> None:
         self.world, self.name, self.x = world, name, x
         self.does: dict[int, Callable[[], None]] = {}
-        self.seen: dict[str, Any] = {}
 
     def snapshot(self) -> Snapshot:
-        """Requested sighting, by default of a position."""
-        values: dict[str, Any] = {
-            "place": Pose(self.x, 0.0, 0.0),
-            "torso": Pose(self.x, 0.0, 0.0),
-            "com": (self.x, 0.0, 0.3),
-        } | self.seen
-        return Snapshot(self.name, self.world.time, **values)
+        """Return where it stands."""
+        pose, com = Pose(self.x, 0.0, 0.0), (self.x, 0.0, 0.3)
+        return Snapshot(
+            self.name, self.world.time, place=pose, torso=pose, com=com
+        )
 
     def motion_log(self, *, closely: bool) -> FakeLog:
         """Return an empty log."""
@@ -170,24 +165,6 @@ def raising(error: BaseException) -> Callable[[], None]:
         raise error
 
     return act
-
-
-def begun(**changes: Any) -> StepStarted:
-    """A step whose plan has a margin of 2 cm in the part that is walked."""
-    plan: Any = SimpleNamespace(
-        schedule=SimpleNamespace(first_step_duration=0.5),
-        margin=lambda duration: 0.04 * duration,
-    )
-    values: dict[str, Any] = {
-        "plan": plan,
-        "started": 0.6,
-        "landing_time": 1.0,
-        "foot": Foot.LEFT,
-        "landing": Pose(0.3, 0.1, 0.2),
-        "planning_time": 2e-4,
-        "velocity_jump": 0.0,
-    } | changes
-    return StepStarted(**values)
 
 
 def clock(monkeypatch: pytest.MonkeyPatch, step: float) -> None:

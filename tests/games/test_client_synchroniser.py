@@ -6,10 +6,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from stepaside.core.errors import ConfigurationError
 from stepaside.games.client_synchroniser import (
-    PRESSED_TICKS,
-    READY_TICKS,
     TICK,
     ClientSynchroniser,
 )
@@ -106,25 +103,6 @@ def test_a_stall_is_not_caught_up_with() -> None:
     for _ in range(10):
         exchange.before(None)  # type: ignore[arg-type]
     assert clock.now - resumed == pytest.approx(10 * TICK)
-
-
-def test_buttons_are_pressed_when_all_are_ready_and_then_released() -> None:
-    first, second = FakeServer(), FakeServer()
-    exchange, _ = exchange_of(first, second)
-    exchange.gather(60.0)
-    words = first.log
-    assert words.index("press") == 2 * READY_TICKS
-    assert words[-1] == "release"
-    assert words[words.index("press") :].count("speak") == PRESSED_TICKS
-    assert first.log == second.log
-
-
-def test_a_client_that_is_not_ready_in_time_ends_the_wait() -> None:
-    exchange, clock = exchange_of(FakeServer(), FakeServer(ready=False))
-    began = clock.now
-    with pytest.raises(ConfigurationError, match="1 of 2 robots .* within 2"):
-        exchange.gather(2.0)
-    assert clock.now - began < 2.1
 
 
 def test_in_lock_step_a_silent_client_is_dropped_and_the_game_goes_on(

@@ -25,17 +25,6 @@ from stepaside.sim.physics_settings import PhysicsSettings
 from stepaside.strategies import Evasion
 
 
-@pytest.mark.parametrize(
-    ("time_step", "tick", "steps"),
-    [(0.002, 0.002, 1), (0.002, 0.012, 6), (0.001, 0.1, 100), (3e-5, 9e-5, 3)],
-)
-def test_a_tick_has_a_whole_number_of_time_steps(
-    time_step: float, tick: float, steps: int
-) -> None:
-    physics = PhysicsSettings(time_step=time_step, tick=tick)
-    assert physics.steps_per_tick == steps
-
-
 @pytest.mark.parametrize("tick", [0.001, 0.0008, 0.0031, 0.00400001])
 def test_a_tick_that_is_no_multiple_of_the_time_step_is_refused(
     tick: float,

@@ -7,15 +7,12 @@ import mujoco
 import numpy as np
 import pytest
 
-from fake_players import clock
 from stepaside.games.duel_settings import DuelSettings, StartSettings
-from stepaside.games.game import Progress
 from stepaside.games.outcome import Outcome
 from stepaside.games.recorded_game import RecordedGame, run_duel
 from stepaside.games.walker import SimulatedPlayer
 from stepaside.sim.camera_settings import RoomObject, SceneSettings
 from stepaside.sim.ground_truth import torsos_apart
-from stepaside.sim.simulated_robot import SimulatedRobot
 from stepaside.sim.world import World
 
 START = StartSettings(1.3, 0.4, -0.2)
@@ -121,88 +118,3 @@ def test_contact_is_checked_where_it_is_possible(
         Outcome.CONTACT,
         words,
     )
-
-
-def test_without_contact_a_near_duel_goes_on() -> None:
-    duel = begun(start=StartSettings(0.6, 0.0, 0.0))
-    assert duel.tick() is None
-
-
-def test_the_first_motion_of_each_player_is_noted(
-    monkeypatch: pytest.MonkeyPatch,
-) -> None:
-    duel = begun()
-    world = duel.in_physics
-    pursuer, evader = walkers(duel)
-    moves = {pursuer: 0, evader: 3}
-    monkeypatch.setattr(
-        SimulatedPlayer,
-        "is_moving",
-        property(lambda walker: world.ticks >= moves[walker]),
-    )
-    monkeypatch.setattr(SimulatedPlayer, "tick", lambda walker: None)
-    for _ in range(4):
-        duel.tick()
-    times = {name: time for name, (time, _) in world.first_moves.items()}
-    assert times == pytest.approx({"pursuer": 0.004, "evader": 0.012})
-    _, poses = world.first_moves["evader"]
-    assert poses["evader"].x - poses["pursuer"].x == pytest.approx(
-        1.3, abs=0.01
-    )
-
-
-def test_a_duel_begins_when_all_players_are_ready(
-    monkeypatch: pytest.MonkeyPatch,
-) -> None:
-    """Earlier motion does not count."""
-    duel = begun()
-    world = duel.in_physics
-    monkeypatch.setattr(
-        SimulatedPlayer, "is_ready", property(lambda _: world.ticks >= 2)
-    )
-    monkeypatch.setattr(SimulatedPlayer, "is_moving", True)
-    for _ in range(2):
-        duel.tick()
-        assert world.started_at is None and world.first_moves == {}
-    duel.tick()
-    assert world.started_at == pytest.approx(0.008)
-    assert world.first_moves["evader"][0] == pytest.approx(0.012)
-
-
-def test_a_duel_lasts_its_duration() -> None:
-    ticks = 11
-    result = run_duel(DuelSettings(start=START, duration=0.0401))
-    assert result.outcome is Outcome.COMPLETED
-    assert result.duration == pytest.approx(0.004 * ticks)
-    assert result.message == f"played {0.004 * ticks:.2f} s"
-    samples = [*0.02 * np.arange((ticks - 1) // 5 + 1), 0.004 * ticks]
-    np.testing.assert_allclose(result.times, samples)
-    # The pursuer plans at once; its first ZMP is midway between its feet.
-    summary = result.summary
-    assert summary.replans == 1 and summary.plan_time_us.median is not None
-    assert summary.plan_time_us.median == summary.plan_time_us.p99
-    assert summary.max_com_velocity_jump_m_s == 0.0
-    assert summary.sight is None and summary.evader.sight is None
-    assert result.stills == {}
-    assert result.evader.sight is None
-    assert summary.min_distance_m == pytest.approx(1.3, abs=0.03)
-    assert result.outcome is Outcome.COMPLETED
-
-
-def test_an_interrupted_duel_is_recorded_and_its_robots_closed(
-    monkeypatch: pytest.MonkeyPatch,
-) -> None:
-    closed: list[str] = []
-    monkeypatch.setattr(
-        SimulatedRobot, "close", lambda robot: closed.append(robot.name)
-    )
-    clock(monkeypatch, 0.05)
-
-    def interrupt(progress: Progress) -> None:
-        raise KeyboardInterrupt
-
-    result = run_duel(DuelSettings(start=START, duration=5.0), interrupt)
-    assert result.outcome is Outcome.INTERRUPTED
-    assert result.message == "interrupted at 0.02 s"
-    assert result.duration == pytest.approx(0.02)
-    assert closed == ["pursuer", "evader"]

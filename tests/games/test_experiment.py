@@ -16,7 +16,7 @@ from stepaside.core.poses import Array, Pose
 from stepaside.games.duel_settings import DuelSettings, StartSettings
 from stepaside.games.experiment import import_experiment
 from stepaside.games.recorded_game import run_duel
-from stepaside.games.run_archive import load_run, write_run_files
+from stepaside.games.run_archive import write_run_files
 
 pytest.importorskip("rosbags", reason="rosbags is not installed")
 
@@ -184,28 +184,6 @@ def test_a_duel_that_is_exported_and_imported_has_the_same_circle(
         file, ("pursuer=/pursuer/pose", "evader=/evader/pose")
     )
     np.testing.assert_allclose(again.distance, run.distance, atol=1e-12)
-
-
-def test_a_bag_becomes_a_run_folder_a_figure_and_a_page(
-    circling: Path, tmp_path: Path
-) -> None:
-    output = tmp_path / "run"
-    outputs = ["-o", str(output), "-o", f"{tmp_path}/f.png"]
-    outputs += ["-o", f"{tmp_path}/page.html"]
-    result = replay(
-        circling, "--frame=pursuer=a", "--frame=evader=b", *outputs
-    )
-    assert result.exit_code == 0, result.output
-    assert "0.8 m" in result.output
-    run = load_run(output)
-    assert run.game == "experiment" and run.players == ("pursuer", "evader")
-    assert run.summary.notes == []  # type: ignore[union-attr]
-    assert (tmp_path / "f.png").is_file()
-    assert "circling" in (tmp_path / "page.html").read_text()
-    both = ["show", str(output), str(output)]
-    words = [*both, "-o", str(tmp_path / "both.png")]
-    compared = CliRunner().invoke(main, words)
-    assert compared.exit_code == 0 and "90 deg" in compared.output
 
 
 def test_a_gap_is_noted(circling: Path, tmp_path: Path) -> None:

@@ -3,7 +3,7 @@
 import json
 import shutil
 from collections.abc import Callable
-from dataclasses import fields, replace
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -18,7 +18,7 @@ from stepaside.games.outcome import Outcome
 from stepaside.games.recorded_game import run_duel
 from stepaside.games.replayed_signals import repeat_game
 from stepaside.games.robot_settings import with_robot
-from stepaside.games.run import DuelRun, Run
+from stepaside.games.run import DuelRun
 from stepaside.games.run_archive import (
     SUMMARY,
     TRAJECTORIES,
@@ -29,7 +29,7 @@ from stepaside.games.trajectory import Trajectory
 from stepaside.report.run_folder import write_run
 from stepaside.report.scene import RunScene
 from stepaside.robots.description import load_robot
-from synthetic_run import run_of
+from synthetic_run import check_same, run_of
 
 ROWS = 6
 TIMES: Array = 0.02 * np.arange(float(ROWS))
@@ -101,24 +101,6 @@ def damage(folder: Path, change: Callable[[dict[str, Any]], Any]) -> None:
     (folder / SUMMARY).write_text(json.dumps(plain))
 
 
-def check_same(found: Run, run: Run) -> None:
-    for name in ("name", "settings", "outcome", "message", "summary"):
-        assert getattr(found, name) == getattr(run, name), name
-    assert found.duration == pytest.approx(run.duration)
-    np.testing.assert_array_equal(found.times, run.times)
-    assert list(found.tracks) == list(run.tracks)
-    for name, track in run.tracks.items():
-        for field in fields(Trajectory):
-            value = getattr(track, field.name)
-            again = getattr(found.tracks[name], field.name)
-            if value is None:
-                assert again is None, (name, field.name)
-            else:
-                np.testing.assert_array_equal(again, value)
-                assert again.dtype == value.dtype
-                assert not again.flags.writeable
-
-
 @by_run
 def test_a_run_is_read_as_written(tmp_path: Path, run: DuelRun) -> None:
     check_same(load_run(folder_of(tmp_path, run)), run)
@@ -141,47 +123,6 @@ def test_an_unknown_format_is_refused_by_its_number(
     message = str(refused.value)
     assert f"format of run run must be 4, got {number!r}" in message
     assert "\n" not in message
-
-
-@pytest.mark.parametrize(
-    ("entry", "value"),
-    [("message", 3), ("duration_s", "long"), ("duration_s", None)],
-)
-def test_an_invalid_entry_of_the_header_is_named(
-    tmp_path: Path, entry: str, value: Any
-) -> None:
-    folder = folder_of(tmp_path, RUNS["robots"])
-    damage(folder, lambda plain: plain.update({entry: value}))
-    with pytest.raises(ConfigurationError, match=f"run run: .*{entry}"):
-        load_run(folder)
-
-
-def test_an_array_of_nan_is_read_as_written(tmp_path: Path) -> None:
-    """A robot that never pressed the floor."""
-    flying = replace(robot(1.0), zmp=np.full((ROWS, 2), np.nan))
-    run = duel(flying)
-    folder = folder_of(tmp_path, run)
-    check_same(load_run(folder), run)
-
-
-def test_a_damaged_summary_is_refused_by_its_file(tmp_path: Path) -> None:
-    folder = folder_of(tmp_path, RUNS["robots"])
-    damage(folder, lambda plain: plain.update(distance_m="far"))
-    with pytest.raises(ConfigurationError, match="summary.json.*distance_m"):
-        load_run(folder)
-
-
-@pytest.mark.parametrize("share", [0.0, 0.3, 0.9, 0.999])
-def test_truncated_trajectories_are_refused(
-    tmp_path: Path, share: float
-) -> None:
-    """As after an incomplete copy."""
-    folder = folder_of(tmp_path, RUNS["robots"])
-    whole = (folder / TRAJECTORIES).read_bytes()
-    cut = whole[: int(share * len(whole))]
-    (folder / TRAJECTORIES).write_bytes(cut)
-    with pytest.raises(ConfigurationError, match="cannot be read"):
-        load_run(folder)
 
 
 def test_a_changed_byte_is_refused_or_harmless(

@@ -77,3 +77,9 @@ def test_changes_replace_settings_before_they_are_checked(
 )
 def test_the_example_games_are_valid(name: Path) -> None:
     assert load_game(name).players
+
+
+def test_cameras_look_for_a_player_of_a_colour() -> None:
+    watcher = HUNTER | {"senses": "cameras", "target": "grey"}
+    with pytest.raises(ConfigurationError, match="target must be a pursuer"):
+        game(watcher, {"name": "grey"})

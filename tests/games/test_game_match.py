@@ -1,6 +1,5 @@
 """Test games of several players: levels, bodies, rules and summary."""
 
-from dataclasses import replace
 from functools import cache
 from math import cos, pi, sin
 from pathlib import Path
@@ -13,7 +12,7 @@ from stepaside.core.errors import ConfigurationError
 from stepaside.core.player_identity import Role
 from stepaside.core.poses import Array
 from stepaside.games.game import play
-from stepaside.games.game_file import load_game, parse_game
+from stepaside.games.game_file import parse_game
 from stepaside.games.game_settings import GameSettings
 from stepaside.games.outcome import Outcome
 from stepaside.games.recorded_game import RecordedGame, run_game
@@ -21,8 +20,6 @@ from stepaside.games.run import MatchRun
 from stepaside.games.run_archive import load_run
 from stepaside.games.walker import SimulatedPlayer
 from stepaside.report.run_folder import write_run
-
-EXAMPLES = Path(__file__).parents[2] / "examples"
 
 
 def game(*players: dict[str, Any], **entries: Any) -> GameSettings:
@@ -129,23 +126,6 @@ def test_a_recorded_player_repeats_its_motion(tmp_path: Path) -> None:
         run_game(game(ghost | {"run_player": "nobody"}, THREE[2]))
 
 
-def test_a_robot_in_a_game_sees_its_opponent_with_cameras() -> None:
-    """Others, like a bystander, may be there; it turns towards the evader."""
-    pytest.importorskip("cv2")
-    run = run_game(
-        game(
-            robot("red", "pursuer", 0.0, 0.0, 0.4, senses="cameras"),
-            robot("blue", "evader", 1.5, 0.0, pi, strategy="stand"),
-            GUEST | {"start": [-3.0, 2.0, 0.0], "goal": [3.0, 2.0]},
-            duration=4.0,
-            cameras={"colour": {"renderer": "raycast"}},
-        )
-    )
-    assert run.outcome is Outcome.COMPLETED
-    heading = run.tracks["red"].torso[:, 2]
-    assert heading[0] == pytest.approx(0.4, abs=1e-3) and heading[-1] < 0.3
-
-
 @pytest.mark.parametrize(
     ("places", "seen"),
     [
@@ -200,27 +180,6 @@ def test_a_lidar_shows_people_to_a_robot_of_a_game() -> None:
         )
     )
     assert run.summary.results[0].moved_at_s is not None  # seen the person
-
-
-def test_a_person_begins_on_its_path() -> None:
-    """Whatever the heading of its start, it does not turn in a tick."""
-    person = {
-        "name": "guest",
-        "body": "person",
-        "target": "blue",
-        "start": [-2.0, 0.0, 2.0],
-        "person": {"path": "straight", "speed": 0.5},
-    }
-    run = run_game(game(THREE[0], THREE[2], person, duration=0.5))
-    headings = run.tracks["guest"].torso[:, 2]
-    np.testing.assert_allclose(headings, 0.0, atol=1e-9)
-
-
-def test_equal_settings_give_equal_games() -> None:
-    settings = game(*THREE, duration=0.5)
-    first, second = run_game(settings), run_game(settings)
-    for name, values in first.arrays().items():
-        np.testing.assert_array_equal(values, second.arrays()[name])
 
 
 def test_a_fall_ends_the_game_and_is_counted_for_its_player() -> None:
@@ -283,27 +242,6 @@ def test_a_player_walks_to_its_goal_around_a_person(level: str) -> None:
     )
 
 
-def test_in_steps_robots_end_on_the_polygon_of_cyclic_pursuit() -> None:
-    """R = n v / (pi k) of the continuous law, within the sampling."""
-    settings = replace(
-        load_game(EXAMPLES / "cyclic-pursuit.toml"), level="steps"
-    )
-    run = run_game(settings)
-    radius = 3 * 0.1 / (pi * 0.2)
-    tail = run.times > 80.0
-    centre = np.mean(
-        [t.torso[tail, :2].mean(axis=0) for t in run.tracks.values()], axis=0
-    )
-    for track in run.tracks.values():
-        away = np.hypot(*(track.torso[tail, :2] - centre).T)
-        assert away.mean() == pytest.approx(radius, rel=0.01)
-    for pair in run.summary.pairs:
-        assert pair.distance_m == pytest.approx(
-            2 * radius * sin(pi / 3), rel=0.01
-        )
-        assert pair.angle_deg == pytest.approx(120.0, abs=0.5)
-
-
 def poses_of(run: MatchRun, name: str) -> Array:
     """Return the poses of a player on the floor. Shape (n, 3)."""
     poses = run.tracks[name].place
@@ -364,64 +302,3 @@ def test_a_person_walks_backward_from_its_start(path: str) -> None:
     np.testing.assert_allclose(theta, 0.0, atol=1e-6)  # it looks away
     np.testing.assert_allclose(x, 2.0 - 0.5 * run.times, atol=1e-6)
     np.testing.assert_allclose(y, 0.0, atol=1e-6)
-
-
-def test_a_recorded_path_of_a_person_begins_at_its_first_point(
-    tmp_path: Path,
-) -> None:
-    file = tmp_path / "path.csv"
-    file.write_text("time,x,y\n0,1.5,1\n4,1.5,3\n")
-    run = run_game(
-        game(
-            {"name": "robot", "start": [0.0, 0.0, 0.0]},
-            {
-                "name": "guest",
-                "body": "person",
-                "person": {"path": str(file)},
-            },
-            duration=0.1,
-        )
-    )
-    poses = poses_of(run, "guest")
-    np.testing.assert_allclose(poses[0], [1.5, 1.0, pi / 2])
-    assert np.ptp(poses[:, :2], axis=0).max() < 0.1
-
-
-@pytest.mark.parametrize("single_support", [0.425, 0.413, 0.40])
-def test_in_steps_a_robot_walks_a_stride_in_the_duration_of_a_step(
-    single_support: float,
-) -> None:
-    """Also if the duration is no multiple of the period of the samples."""
-    goal = {"goal": [9.0, 0.0], "gait": {"single_support": single_support}}
-    walk = game(
-        robot("blue", "bystander", 0.0, 0.0, 0.0, strategy="goal", **goal),
-        robot("ruby", "bystander", 0.0, 5.0, 0.0),
-        level="steps",
-        duration=40.0,
-    )
-    track = poses_of(run_game(walk), "blue")
-    speed = (track[-1, 0] - track[500, 0]) / (40.0 - 10.0)
-    assert speed == pytest.approx(0.04 / (single_support + 0.122), rel=1e-6)
-
-
-def test_a_bystander_sees_its_target_with_cameras() -> None:
-    """It looks for the colour of the target, whatever its own role."""
-    pytest.importorskip("cv2")
-    watcher = robot("grey", "bystander", 0.0, 1.2, -0.5, senses="cameras")
-    run = run_game(
-        game(
-            watcher | {"target": "red", "strategy": "pursuit"},
-            robot("red", "pursuer", 1.2, 1.2, pi, strategy="stand"),
-            robot("blue", "evader", 5.0, 0.0, pi, strategy="stand"),
-            duration=4.0,
-            cameras={"colour": {"renderer": "raycast"}},
-        )
-    )
-    heading = run.tracks["grey"].torso[:, 2]
-    assert heading[-1] > heading[0] + 0.1
-    with pytest.raises(ConfigurationError, match="target must be a pursuer"):
-        game(
-            robot("red", "pursuer", 0.0, 0.0, 0.0, senses="cameras")
-            | {"target": "grey"},
-            robot("grey", "bystander", 1.0, 0.0, 0.0),
-        )

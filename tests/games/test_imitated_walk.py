@@ -12,41 +12,18 @@ pytest.importorskip("onnx")
 from imitated_walk import nao_on_imitated_walk
 from stepaside.control.sight_sources import CameraSight
 from stepaside.core.poses import Pose
-from stepaside.fitting.legs_measurement import LegsTrial, run_trial
 from stepaside.games.duel_settings import DuelSettings
 from stepaside.games.outcome import Outcome
 from stepaside.games.policy_player import PolicyPlayer
 from stepaside.games.recorded_game import RecordedGame, run_duel
 from stepaside.games.robot_settings import with_robot
-from stepaside.locomotion.policy.legs_settings import LegsSettings
-from stepaside.robots.description import load_robot
-from stepaside.sim.body_settings import BodySettings
 from stepaside.sim.camera_settings import CameraSettings, ColourSettings
 from stepaside.sim.person_settings import PersonSettings
-from stepaside.strategies.velocity_set import BodyVelocity
 
 
 @pytest.fixture(scope="module")
 def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
     return nao_on_imitated_walk(tmp_path_factory.mktemp("imitated") / "nao")
-
-
-@pytest.mark.parametrize("command", [(-0.07, 0.0, 0.0), (0.0, 0.0, 0.2)])
-def test_a_policy_walks_as_it_is_commanded(
-    command: tuple[float, float, float], folder: Path
-) -> None:
-    trial = LegsTrial(
-        load_robot(folder),
-        LegsSettings(str(folder / "policy.onnx")),
-        BodySettings(),
-        BodyVelocity(*command),
-        1,
-    )
-    result = run_trial(trial)
-    assert result.fell_at is None
-    np.testing.assert_allclose(result.delivered, command, atol=0.02)
-    # The leg odometry has seen the same motion.
-    assert result.odometry == pytest.approx(result.delivered[:2], abs=0.005)
 
 
 def test_two_robots_pursue_and_evade_on_policies(folder: Path) -> None:

@@ -142,16 +142,3 @@ def test_progress_tells_the_distance_of_opponents_or_of_all(
     game, _ = fake_game(*places, duration=2 * TICK, roles=roles)
     play(game, report=told.append)
     assert told == [Progress(TICK, distance, TICK)]
-
-
-def test_a_progress_report_may_interrupt(
-    monkeypatch: pytest.MonkeyPatch,
-) -> None:
-    clock(monkeypatch, 1.0)
-    game, world = fake_game(0.0, 1.3)
-
-    def interrupt(progress: Progress) -> None:
-        raise KeyboardInterrupt
-
-    play(game, report=interrupt)
-    assert game.outcome is Outcome.INTERRUPTED and world.closed == 1

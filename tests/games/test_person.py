@@ -2,18 +2,14 @@
 
 from dataclasses import replace
 from math import pi
-from pathlib import Path
 
-import numpy as np
 import pytest
 
-from stepaside.core.errors import ConfigurationError
 from stepaside.core.poses import Pose
 from stepaside.games.duel_settings import DuelSettings, StartSettings
 from stepaside.games.recorded_game import RecordedGame, run_duel
 from stepaside.sim.person_motion import (
     PersonMotion,
-    read_path,
     template_approach,
 )
 from stepaside.sim.person_settings import PersonSettings
@@ -28,59 +24,6 @@ def duel_with(person: PersonSettings, duration: float) -> DuelSettings:
     return DuelSettings(
         duration=duration, start=START, pursuer="person", person=person
     )
-
-
-def walk(person: PersonSettings, start: Pose, evader: Pose) -> PersonMotion:
-    return PersonMotion(person, start, evader[:2])
-
-
-def test_a_straight_walk_passes_at_its_miss_distance() -> None:
-    person = PersonSettings("straight", 0.5, miss=0.7)
-    motion = walk(person, Pose(0.0, 0.0, 0.0), Pose(3.0, 0.0, pi))
-    nearest = 10.0
-    for k in range(1200):
-        motion.advance(0.01 * (k + 1), 0.01, (3.0, 0.0))
-        x, y, _ = motion.pose
-        nearest = min(nearest, float(np.hypot(x - 3.0, y)))
-    assert nearest == pytest.approx(0.7 * 3.0 / np.hypot(3.0, 0.7), abs=1e-3)
-    assert motion.pose.y > 0.0
-
-
-def test_steering_turns_by_the_pursuers_law() -> None:
-    person = PersonSettings("steer", 0.1, 0.5)
-    motion = walk(person, Pose(0.0, 0.0, 1.0), Pose(100.0, 0.0, pi))
-    for k in range(1000):
-        motion.advance(0.002 * (k + 1), 0.002, (100.0, 0.0))
-    assert motion.pose.theta == pytest.approx(np.exp(-1.0), abs=3e-3)
-
-
-def test_a_recorded_path_is_walked(tmp_path: Path) -> None:
-    file = tmp_path / "walk.csv"
-    file.write_text("time,x,y\n0,0,0\n10,1,0\n20,1,1\n", encoding="utf-8")
-    person = PersonSettings(str(file))
-    motion = walk(person, Pose(5.0, 5.0, 0.0), Pose(3.0, 0.0, pi))
-    motion.advance(5.0, 0.01, (3.0, 0.0))
-    assert motion.pose == pytest.approx((0.5, 0.0, 0.0))
-    motion.advance(15.0, 0.01, (3.0, 0.0))
-    assert motion.pose == pytest.approx((1.0, 0.5, pi / 2))
-
-
-@pytest.mark.parametrize(
-    ("text", "message"),
-    [
-        ("x,y\n0,0\n", "first line"),
-        ("time,x,y\n0,0,a\n1,1,1\n", "could not convert"),
-        ("time,x,y\n0,0,0\n", "two rows"),
-        ("time,x,y\n1,0,0\n0,1,0\n", "increase"),
-    ],
-)
-def test_invalid_paths_are_refused(
-    tmp_path: Path, text: str, message: str
-) -> None:
-    file = tmp_path / "walk.csv"
-    file.write_text(text, encoding="utf-8")
-    with pytest.raises(ConfigurationError, match=message):
-        read_path(file)
 
 
 def test_a_person_that_passes_outside_triggers_nothing() -> None:

@@ -1,19 +1,13 @@
 """Test the fast gait against a person at walking speed."""
 
-from dataclasses import replace
-from math import atan2, pi, radians, sin
-from typing import Any
+from math import atan2, pi, sin
 
 import pytest
 
 from stepaside.core.poses import Pose
-from stepaside.games.duel_settings import DuelSettings, StartSettings
-from stepaside.games.game import play
+from stepaside.games.duel_settings import DuelSettings
 from stepaside.games.initial_poses import draw_start
-from stepaside.games.outcome import Outcome
-from stepaside.games.recorded_game import RecordedGame
 from stepaside.games.template_game import play_template
-from stepaside.locomotion.zmp.control_settings import ControlSettings
 from stepaside.planning import PRESETS
 from stepaside.sim.person_motion import PersonMotion
 from stepaside.sim.person_settings import PersonSettings
@@ -38,33 +32,6 @@ def met(
         FAST,
         duration=(far + 2.0) / speed,
     ).closest_distance
-
-
-def duel(**changes: Any) -> DuelSettings:
-    """Return a duel with a person at 1 m/s, 20 deg off the evader's front."""
-    return DuelSettings(
-        duration=7.0,
-        gait=FAST,
-        control=ControlSettings("closed-form", True),
-        pursuer="person",
-        person=PersonSettings("straight", 1.0, **changes),
-        strategy=TIMED,
-        start=StartSettings(5.5, 0.0, radians(20.0)),
-    )
-
-
-def test_a_person_at_one_metre_a_second_is_evaded() -> None:
-    """Afterwards the robot stands again."""
-    game = RecordedGame(replace(duel(), duration=9.0))
-    play(game)
-    assert game.outcome is Outcome.COMPLETED
-    assert not game.in_physics.players[1].is_moving
-    summary = game.run().summary
-    begun = summary.triggered_at_distance_m
-    assert begun == pytest.approx(0.7 + 3.5 * 1.0, abs=0.1)
-    theory = summary.theory.closest_approach_m
-    assert summary.min_distance_m > 0.7
-    assert summary.min_distance_m == pytest.approx(theory, abs=0.15)
 
 
 @pytest.mark.parametrize("bearing", [0.0, 1.5, -3.0])

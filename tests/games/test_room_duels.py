@@ -14,7 +14,6 @@ from stepaside.arena import (
     Polygon,
     Room,
     generate_room,
-    room_from_entries,
 )
 from stepaside.arena.room_generation import RoomRecipe
 from stepaside.cli.settings_text import commented
@@ -26,9 +25,7 @@ from stepaside.games.configuration_file import (
     read_settings,
 )
 from stepaside.games.duel_settings import DuelSettings, StartSettings
-from stepaside.games.outcome import Outcome
-from stepaside.games.recorded_game import RecordedGame, run_duel
-from stepaside.games.run_archive import results_of
+from stepaside.games.recorded_game import RecordedGame
 from stepaside.sim.camera_settings import SceneSettings
 from stepaside.sim.obstacle_geoms import HEIGHT, add_solids
 
@@ -61,34 +58,6 @@ def test_obstacles_in_the_world_are_those_of_the_room() -> None:
         if abs(away) > 1e-4:
             wanted = 2.0 - HEIGHT if away < 0.0 else -1.0
             assert down == pytest.approx(wanted, abs=1e-6)
-
-
-def test_a_box_has_the_size_and_heading_of_its_file() -> None:
-    """To the bit; walls too."""
-    spec = mujoco.MjSpec()
-    file = {
-        "boxes": [{"x": 0.4, "y": -0.7, "width": 0.3, "depth": 0.2}],
-        "walls": [{"start": [0.0, 0.0], "end": [0.0, 1.0]}],
-        "polygons": [{"corners": [[1, 1], [1.2, 1], [1.2, 1.3], [1, 1.3]]}],
-    }
-    file["boxes"][0]["heading"] = 0.5  # type: ignore[index]
-    room = room_from_entries(file)
-    add_solids(spec, room)
-    model = spec.compile()
-    for name, place, sides, heading in (
-        ("box 1", (0.4, -0.7), (0.3, 0.2), 0.5),
-        ("box 2", (0.0, 0.5), (1.0, 0.1), pi / 2),
-    ):
-        body = model.body(name)
-        (geom,) = body.geomadr
-        assert model.geom_type[geom] == mujoco.mjtGeom.mjGEOM_BOX
-        assert tuple(body.pos[:2]) == place
-        assert tuple(2.0 * model.geom_size[geom, :2]) == sides
-        turn = model.geom_quat[geom]
-        assert 2.0 * np.arctan2(turn[3], turn[0]) == pytest.approx(heading)
-    # What is given by its corners is a prism, whatever their angles.
-    (geom,) = model.body("polygon 1").geomadr
-    assert model.geom_type[geom] == mujoco.mjtGeom.mjGEOM_MESH
 
 
 def test_players_begin_at_the_starts_of_the_room() -> None:
@@ -131,22 +100,3 @@ def test_a_configuration_keeps_the_room() -> None:
         for one, other in zip(read.room.plan.solids, room.solids, strict=True):
             np.testing.assert_allclose(one.centre, other.centre, atol=1e-12)
         assert read.room.plan.starts == room.starts
-
-
-def test_contact_with_an_obstacle_ends_a_duel_and_names_it() -> None:
-    """An evader without a map walks backward into a pillar."""
-    starts = (Pose(1.1, 0.0, pi), Pose(0.5, 0.0, 0.0))
-    settings = placed(
-        Room(3.0, 3.0, (Disc(0.2, 0.0, 0.08),), starts=starts),
-        evader_strategy="evasion",
-        duration=6.0,
-    )
-    blind = replace(
-        settings,
-        map=replace(settings.map, source="none"),
-        strategy=replace(settings.strategy, angle=0.0),
-    )
-    run = run_duel(blind)
-    assert run.outcome is Outcome.CONTACT
-    assert run.message.startswith("disc 1 and evader touched at")
-    assert results_of(run)["touched"] == ["disc 1", "evader"]

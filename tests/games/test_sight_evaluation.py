@@ -1,7 +1,6 @@
 """Test the evaluation of perception on detections of known truth."""
 
-from dataclasses import astuple
-from math import atan2, cos, hypot, nan, pi, radians, sin
+from math import atan2, cos, pi, radians, sin
 from types import SimpleNamespace
 from typing import Any
 
@@ -12,7 +11,7 @@ import pytest
 from stepaside.core.rotations import rotation
 from stepaside.games.sight_evaluation import FrameCounts, SightEvaluator
 from stepaside.perception.camera_model import CameraModel
-from stepaside.perception.images import ColourImage, DepthImage, SonarEcho
+from stepaside.perception.images import ColourImage, DepthImage
 from stepaside.perception.measurement import Sighting
 from stepaside.perception.pipeline import FrameReport
 from stepaside.robots.head import Mount
@@ -129,44 +128,6 @@ def test_time_with_a_large_bearing_error_is_misled_time() -> None:
     assert summary.lost_s == pytest.approx(1 * PERIOD)
 
 
-def test_bearing_errors_are_wrapped() -> None:
-    scene = Scene()
-    scene.own.heading_in_world = radians(-175.0) + atan2(0.2, 1.2)
-    for i, belief in enumerate((172.0, 178.0, -178.0)):
-        scene.believe(radians(belief))
-        scene.sample(i * PERIOD)
-    true = scene.evaluator.array()[:, 3]
-    np.testing.assert_allclose(true, radians(175.0))
-    summary = scene.evaluator.summary()
-    assert summary.bearing_error_deg.median == pytest.approx(3.0)
-    assert summary.misled_s == 0.0
-
-
-def test_a_searching_robot_is_lost_even_with_a_sighting() -> None:
-    scene = Scene()
-    scene.believe(0.0)
-    for i in range(5):
-        scene.mind.searching = i < 2
-        scene.sample(i * PERIOD)
-    assert scene.evaluator.summary().lost_s == pytest.approx(2 * PERIOD)
-
-
-def test_samples_hold_sightings_and_the_truth() -> None:
-    scene = Scene()
-    scene.own.heading_in_world = 0.5
-    scene.sample(1.0)
-    scene.believe(-0.1, 1.4)
-    scene.sample(1.1)
-    bearing, distance = atan2(0.2, 1.2) - 0.5, hypot(0.2, 1.2)
-    np.testing.assert_allclose(
-        scene.evaluator.array(),
-        [
-            [1.0, nan, nan, bearing, distance, 1.0],
-            [1.1, -0.1, 1.4, bearing, distance, 0.0],
-        ],
-    )
-
-
 def test_a_sighting_is_compared_with_the_truth_at_its_time() -> None:
     """Perception runs when an image arrives; others move meanwhile."""
     scene = Scene()
@@ -179,23 +140,6 @@ def test_a_sighting_is_compared_with_the_truth_at_its_time() -> None:
     scene.believe(0.5)
     scene.sample(0.2)
     assert scene.evaluator.array()[2, 3] == pytest.approx(0.5 * pi)
-
-
-def test_errors_exclude_samples_without_a_sighting() -> None:
-    scene = Scene()
-    true = hypot(0.2, 1.2)
-    rows(scene, [None, None])
-    for i in range(101):
-        scene.believe(atan2(0.2, 1.2) + radians(0.1 * i), true - 0.01 * i)
-        scene.sample((i + 2) * PERIOD)
-    summary = scene.evaluator.summary()
-    assert astuple(summary.bearing_error_deg) == pytest.approx((5.0, 9.5))
-    assert astuple(summary.distance_error_m) == pytest.approx((0.5, 0.95))
-
-
-def test_rates_are_fractions_of_the_frames_with_the_opponent_in_view() -> None:
-    assert FrameCounts().rate is None
-    assert FrameCounts(in_view=8, detected=2).rate == 0.25
 
 
 @pytest.mark.parametrize("yaw", [0.0, 2.0, -1.0])
@@ -225,20 +169,6 @@ def test_frames_count_as_shown_found_and_false(
     assert summary.depth_detection_rate is None
 
 
-def test_both_cameras_count_separately_and_false_ones_together() -> None:
-    scene = Scene()
-    scene.stand(DEPTH, 0.0, 1.2)
-    show(scene, colour(), 0.0, 25.0)
-    show(scene, depth(), 0.0, -25.0, 25.0)
-    show(scene, depth())
-    assert scene.evaluator.colour == FrameCounts(1, 1, 1)
-    assert scene.evaluator.depth == FrameCounts(2, 1, 2)
-    summary = scene.evaluator.summary()
-    assert summary.false_detections == 3
-    assert summary.detection_rate == 1.0
-    assert summary.depth_detection_rate == 0.5
-
-
 @pytest.mark.parametrize(
     ("away", "shown"), [(0.94, 0), (0.96, 1), (3.48, 1), (3.52, 0)]
 )
@@ -265,54 +195,6 @@ def test_the_center_of_the_opponent_must_be_in_view() -> None:
         show(scene, colour())
         assert scene.evaluator.colour.in_view - before == shown
         scene.other.position_com_in_world = level
-
-
-def test_objects_are_no_false_detections_of_the_depth_camera() -> None:
-    """For a colour camera they are."""
-    eye = np.array([0.3, -0.2]) + DEPTH.position_in_body[:2]
-    scene = Scene(0.0, [(9.0, 9.0), (eye[0] + 2.0, eye[1] - 1.0)])
-    scene.stand(DEPTH, 0.3, 1.5)
-    # How far the thing is aside, seen from the tilted camera.
-    down = scene.place[2] + DEPTH.position_in_body[2] - 0.2
-    ahead = 2.0 * cos(radians(9.0)) + down * sin(radians(9.0))
-    there = np.degrees(atan2(-1.0, ahead))
-    show(scene, depth(), there, there - 19.5, there + 19.5)
-    assert scene.evaluator.depth.false == 0
-    show(scene, depth(), there - 20.5)
-    assert scene.evaluator.depth.false == 1
-    show(scene, colour(), there)
-    assert scene.evaluator.colour.false == 1
-
-
-def test_each_noted_image_is_evaluated_once() -> None:
-    scene = Scene()
-    image = colour()
-    scene.evaluator.evaluate(FrameReport(image, (1.0,)))
-    assert scene.evaluator.colour == FrameCounts()
-    scene.stand(TOP, 0.0, 1.0)
-    show(scene, image, 0.0)
-    scene.evaluator.evaluate(FrameReport(image, (0.0,)))
-    assert scene.evaluator.colour == FrameCounts(1, 1, 0)
-    scene.evaluator.record_truth(SonarEcho(0.0, "left", 0.5))
-
-
-def test_each_tick_notes_exposed_images_and_evaluates_reports() -> None:
-    """Also if both happen in one tick."""
-    scene = Scene()
-    scene.stand(TOP, 0.0, 1.0)
-    one, late = colour(), colour(0.1)
-    scene.eyes.exposed = [one, late, SonarEcho(0.0, "left", 0.5)]
-    scene.mind.reports = [FrameReport(one, (0.0,))]
-    scene.evaluator.evaluate_tick()
-    assert scene.evaluator.colour == FrameCounts(1, 1, 0)
-    scene.stand(TOP, radians(50.0), 1.0)  # the truth counts of then
-    scene.eyes.exposed = []
-    scene.mind.reports = [FrameReport(late, (0.0,))]
-    scene.evaluator.evaluate_tick()
-    assert scene.evaluator.colour == FrameCounts(2, 2, 0)
-    scene.eyes.exposed, scene.mind.reports = [], []
-    scene.evaluator.evaluate_tick()
-    assert scene.evaluator.colour == FrameCounts(2, 2, 0)
 
 
 def test_a_person_counts_only_in_depth_images() -> None:

@@ -3,7 +3,6 @@
 import re
 from collections.abc import Iterator
 from dataclasses import replace
-from pathlib import Path
 
 import numpy as np
 import pytest
@@ -12,22 +11,17 @@ from stepaside.games.duel_settings import PLAYERS, DuelSettings, StartSettings
 from stepaside.games.outcome import Outcome
 from stepaside.games.recorded_game import run_duel
 from stepaside.games.run import DuelRun
-from stepaside.games.run_archive import load_run
 from stepaside.games.run_captions import describe_state
 from stepaside.planning import GaitSettings
-from stepaside.report.replay_page import write_page
-from stepaside.report.run_folder import write_run
 from stepaside.report.viewer.live_session import LiveSession
 from stepaside.robots import leg_kinematics as kinematics
 from stepaside.strategies import Evasion
-from synthetic_run import check_same
 
 pytestmark = pytest.mark.usefixtures("blank_figures")
 
 # Four times the paper's stride: it can be stood, and begun.
 FAR = GaitSettings(stride=0.16)
 WORDS = r"lost its footing at 1\.\d\d s: NAO cannot follow: (\w+ foot|CoM)"
-LONG = 60.0  # [s]; no event of a loop that runs comes as late as this
 
 
 def settings_of(pursuer: str) -> DuelSettings:
@@ -79,17 +73,6 @@ def test_an_unreachable_reference_ends_the_duel(run: DuelRun) -> None:
         == run.message
         != describe_state(run, last - 1)
     )
-
-
-def test_its_run_folder_is_complete(run: DuelRun, tmp_path: Path) -> None:
-    folder = tmp_path / "lost"
-    figure = write_run(folder, run)
-    assert figure.is_file()
-    loaded = load_run(folder)
-    check_same(loaded, run)
-    page = tmp_path / "lost.html"
-    write_page(loaded, page)
-    assert run.message in page.read_text(encoding="utf-8")
 
 
 def test_a_live_duel_ends_and_can_be_restarted() -> None:

@@ -75,19 +75,6 @@ def test_errors_are_evaluated_after_the_warm_up(
             assert figures(arrays)[other_group][other]["max"] == 0.0
 
 
-def test_missing_measurements_are_excluded() -> None:
-    arrays = record()
-    arrays["zmp_x"][100:110] = np.nan
-    arrays["zmp_x"][120:] = 0.3
-    assert figures(arrays)["tracking"]["zmp_x_m"]["max"] == 0.3
-    arrays["estimated_roll"][:] = np.nan
-    assert figures(arrays)["estimation"]["roll_rad"] is None
-    early = {name: values[:20] for name, values in record().items()}
-    found = figures(early)
-    assert found["tracking"]["com_x_m"] is None
-    assert found["tilt_max_deg"] is None and found["slip_per_step_m"] is None
-
-
 def walked(ratio: float = 1.0, turned: float = 1.0) -> dict[str, Array]:
     """Return a circle of 1 m at 0.05 m/s, with sway in each cycle."""
     arrays = record()
@@ -124,20 +111,6 @@ def test_speed_and_turning_are_over_whole_cycles() -> None:
     assert found["yaw_rate_deg_s"] == pytest.approx(-degrees(0.05))
 
 
-def test_the_part_of_a_cycle_at_the_end_does_not_count() -> None:
-    arrays = walked()
-    extra = PER_CYCLE - 1
-    later = {
-        name: np.concatenate([values, np.full(extra, values[-1] + 5.0)])
-        for name, values in arrays.items()
-    }
-    later["time"] = np.concatenate(
-        [TIMES, TIMES[-1] + STEP * np.arange(1, extra + 1)]
-    )
-    assert figures(later)["speed_ratio"] == pytest.approx(1.0, rel=1e-6)
-    assert figures(later)["yaw_ratio"] == pytest.approx(1.0, rel=1e-6)
-
-
 def test_without_path_or_turn_there_is_no_ratio() -> None:
     arrays = record()
     arrays["com_in_world_x"] = 0.1 * TIMES
@@ -151,16 +124,6 @@ def test_without_path_or_turn_there_is_no_ratio() -> None:
     for turn, exists in ((0.051, True), (0.049, False), (-0.051, True)):
         arrays["heading_reference"] = turn / lasted * TIMES
         assert (figures(arrays)["yaw_ratio"] is not None) is exists
-
-
-def test_less_than_two_cycles_give_no_speed() -> None:
-    steady = np.flatnonzero(TIMES >= 3.0)[0]
-    for extra, exists in ((-1, False), (2, True)):
-        count = 2 * PER_CYCLE + extra
-        cut = {n: v[: steady + count] for n, v in walked().items()}
-        assert (figures(cut)["speed_m_s"] is not None) is exists
-    none = {n: v[: steady + 2] for n, v in walked().items()}
-    assert figures(none)["speed_ratio"] is None
 
 
 def supports(slips: list[float], length: int, land: float) -> Array:
@@ -188,14 +151,6 @@ def test_slip_is_the_displacement_of_the_support_foot() -> None:
     slip = figures(arrays)["slip_per_step_m"]
     # The first sample and the last are left out.
     assert slip == pytest.approx(0.002, rel=1e-9)
-
-
-def test_a_fixed_support_foot_has_no_slip() -> None:
-    single, x = supports([0.0, 0.0, 0.0], 20, 0.05)
-    times: Array = 2.5 + STEP * np.arange(len(x), dtype=float)
-    arrays = record(times)
-    arrays["single"], arrays["foot_in_world_x"] = single, x
-    assert figures(arrays)["slip_per_step_m"] == pytest.approx(0.0, abs=1e-12)
 
 
 @pytest.mark.parametrize(("length", "exists"), [(7, True), (6, False)])

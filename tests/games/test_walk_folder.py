@@ -17,7 +17,6 @@ from stepaside.games.recorded_game import run_duel, run_walk
 from stepaside.games.run import WalkRun
 from stepaside.games.run_archive import load_run, write_run_files
 from stepaside.games.walk_settings import WalkSettings
-from stepaside.report.compare_figure import mean_speed
 from stepaside.report.run_folder import write_run
 from stepaside.report.scene import RunScene
 from stepaside.sim.push import Push
@@ -105,13 +104,3 @@ def test_a_walk_can_be_stored_compared_and_replayed(tmp_path: Path) -> None:
     assert not (tmp_path / "d.png").exists()
     taken = call(*walk, one)
     assert taken.exit_code == 2 and "new or an empty folder" in taken.output
-
-
-def test_speed_is_over_a_cycle_and_none_at_the_ends() -> None:
-    times = 0.02 * np.arange(200, dtype=float)
-    sway = 0.03 * np.sin(2.0 * pi * times)
-    places = np.column_stack([0.1 * times, 0.2 + sway])
-    speed = mean_speed(places, times, 1.0)
-    assert np.isnan(speed[:25]).all() and np.isnan(speed[-25:]).all()
-    np.testing.assert_allclose(speed[25:-25], 0.1, atol=1e-9)
-    assert np.isnan(mean_speed(places[:1], times[:1], 1.0)).all()

@@ -6,9 +6,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-from click.testing import CliRunner
 
-from stepaside.cli.main import main
 from stepaside.games.outcome import Outcome
 from stepaside.games.recorded_game import run_walk
 from stepaside.games.run import WalkRun
@@ -175,8 +173,3 @@ def test_a_walk_is_repeated_to_the_bit_only_with_its_seed() -> None:
     for name, values in first.arrays().items():
         np.testing.assert_array_equal(values, again[name])
     assert (other.walker.com != first.walker.com).any()
-
-
-def run(*arguments: str) -> tuple[int, str, str]:
-    result = CliRunner().invoke(main, ["run", "walk", *arguments])
-    return result.exit_code, result.stdout, result.stderr

@@ -1,27 +1,15 @@
 """Test how a walk begins, is evaluated and ends."""
 
-from math import inf, pi
-from typing import Any
+from math import pi
 
-import mujoco
 import numpy as np
 import pytest
 
-from fake_players import clock
-from fake_robot import walk_of
-from stepaside.core.errors import ReachError
-from stepaside.games.game import Ended, Progress
 from stepaside.games.outcome import Outcome
 from stepaside.games.recorded_game import RecordedGame, run_walk
 from stepaside.games.support_foot_columns import upright_samples
 from stepaside.games.walk_settings import WalkSettings
-from stepaside.locomotion.walk_snapshots import Phase
-from stepaside.locomotion.zmp.control_settings import STABILISED
-from stepaside.locomotion.zmp.mpc import MpcResult
-from stepaside.planning import Direction
-from stepaside.sim.body_settings import BODIES
 from stepaside.sim.push import Push
-from stepaside.strategies import Walk
 from walkers import walker_of
 
 
@@ -43,71 +31,6 @@ def test_a_robot_walks_where_its_bearing_points() -> None:
     assert left[1] > 0.01 and right[1] < -0.01
     assert left[0] == pytest.approx(right[0], abs=0.02)
     assert way(0.0, backward=True)[0] < -0.1
-
-
-def test_the_settings_decide_the_direction() -> None:
-    for backward in (False, True):
-        settings = WalkSettings(bearing=0.3, backward=backward)
-        walker = walker_of(RecordedGame(settings))
-        strategy: Any = walker.scheme.decisions.strategy
-        wanted = Direction.BACKWARD if backward else Direction.FORWARD
-        assert strategy == Walk(0.3, wanted)
-    walking = RecordedGame(WalkSettings())
-    assert abs(walker_of(walking).truth.heading_in_world) < 1e-9
-    walking.tick()
-    sighting = walker_of(walking).scheme.sighting
-    assert sighting is not None and sighting.distance == inf
-    assert walker_of(walking).is_moving
-    hardware = RecordedGame(WalkSettings(body=BODIES["hardware"], seed=3))
-    assert hardware.in_physics.physics.tick == 0.012
-    other = RecordedGame(WalkSettings(body=BODIES["hardware"], seed=4))
-    masses = [w.in_physics.model.body_mass for w in (hardware, other)]
-    assert np.abs(masses[0] - masses[1]).max() > 1e-4
-
-
-def test_a_fall_is_detected_by_truth_reach_or_the_robot_itself() -> None:
-    walking = RecordedGame(WalkSettings())
-    assert walking.tick() is None
-    scheme: Any = walker_of(walking).scheme
-    walk_of(scheme).phase = Phase.FALLEN
-    scheme.update = lambda measured: scheme.joint_targets
-    assert walking.tick() is Outcome.FALL
-    assert walking.message == "walker fell at 0.01 s"
-    walk_of(scheme).phase, walking.ended = Phase.WALKING, None
-    assert walking.tick() is None
-    data = walking.in_physics.data
-    data.qpos[2:7] = (1.0, 0.5**0.5, 0.5**0.5, 0.0, 0.0)
-    mujoco.mj_forward(walking.in_physics.model, data)
-    assert walking.tick() is Outcome.FALL
-
-    def out_of_reach(measured: object) -> Any:
-        raise ReachError("too far")
-
-    other = RecordedGame(WalkSettings())
-    scheme = walker_of(other).scheme
-    scheme.update = out_of_reach
-    assert other.tick() is Outcome.UNREACHABLE and other.in_physics.ticks == 0
-    assert other.message == "walker lost its footing at 0.00 s: too far"
-
-
-def test_a_walk_that_falls_ends_there(monkeypatch: pytest.MonkeyPatch) -> None:
-    tick = RecordedGame.advance
-
-    def clumsy(walking: RecordedGame) -> None:
-        tick(walking)
-        if walking.in_physics.ticks >= 40:
-            walking.ended = Ended(Outcome.FALL, "")
-
-    monkeypatch.setattr(RecordedGame, "advance", clumsy)
-    result = run_walk(WalkSettings(duration=3.0))
-    assert result.outcome is Outcome.FALL
-    assert result.duration == pytest.approx(0.16)
-    # Of a robot that lies there is one sample, which counts for nothing.
-    np.testing.assert_allclose(
-        result.times, [*(0.02 * np.arange(8)), 0.16], atol=1e-12
-    )
-    even = upright_samples(result.times, result.outcome)
-    assert even.tolist() == 8 * [True] + [False]
 
 
 @pytest.mark.parametrize(
@@ -150,42 +73,3 @@ def test_steps_and_pushes_of_a_walk_are_counted() -> None:
         at = result.walker.torso[result.index_at(time)]
         np.testing.assert_allclose((x, y), at[:2], atol=2e-3)
     assert result.settings == settings.resolved()
-
-
-def solved(iterations: int) -> MpcResult:
-    """Return the result of a solver after some iterations."""
-    values: dict[str, Any] = dict.fromkeys(MpcResult._fields)
-    values |= {"time": 1e-4, "feasible": True, "excess": (0.0, 0.0)}
-    return MpcResult(**(values | {"iterations": iterations}))
-
-
-def test_feedback_is_summarised(monkeypatch: pytest.MonkeyPatch) -> None:
-    tick = RecordedGame.advance
-
-    def adapted(walking: RecordedGame) -> None:
-        balance: Any = walk_of(walker_of(walking).scheme).balance
-        balance.stabiliser.adapted = 7
-        answer = solved(walking.in_physics.ticks)
-        balance.stabiliser.zmp_feedback.solved = answer
-        tick(walking)
-
-    monkeypatch.setattr(RecordedGame, "advance", adapted)
-    result = run_walk(WalkSettings(duration=0.012, control=STABILISED))
-    assert result.summary.adapted_steps == 7
-    assert result.summary.qp is not None and result.summary.qp.solves == 3
-    assert result.summary.qp.iterations == pytest.approx(1.0)
-
-
-def test_an_interrupted_walk_is_recorded(
-    monkeypatch: pytest.MonkeyPatch,
-) -> None:
-    clock(monkeypatch, 0.05)
-
-    def interrupt(progress: Progress) -> None:
-        raise KeyboardInterrupt
-
-    result = run_walk(WalkSettings(duration=3.0), interrupt)
-    assert result.outcome is Outcome.INTERRUPTED
-    assert result.message == "interrupted at 0.02 s"
-    assert result.duration == pytest.approx(0.02)
-    np.testing.assert_allclose(result.times, [0.0, 0.02], atol=1e-12)
