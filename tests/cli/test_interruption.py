@@ -33,7 +33,7 @@ def test_reproduce_interrupted_while_drawing_reports_saved_runs(
 
 
 def test_interruption_anywhere_else_is_one_line() -> None:
-    group = LazyGroup()
+    group = LazyGroup(lazy={})
     group.get_command = lambda *_: click.Command(  # type: ignore[method-assign]
         "x", callback=lambda: (_ for _ in ()).throw(KeyboardInterrupt)
     )

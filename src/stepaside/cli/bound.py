@@ -9,10 +9,10 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from ..core.progress import show_progress
 from ..core.ranges import Range
 from ..core.setting import check_settings, setting
 from ..games.unicycle_settings import positive
+from .bound_grids import solve_grids
 from .options import figure_option, figure_width, json_option, output_file
 from .settings import refuse_settings, takes_settings
 from .tables import print_table, scalar_rows, table_rows
@@ -192,7 +192,10 @@ def bound(
             f"capture must be below {far:g} [m], the edge of the grid, got "
             f"{capture}"
         )
-    tables = _solve(game, far, settings, quiet=as_json)
+    from ..theory.value import solve_cars
+
+    solve = partial(solve_cars, game, far, horizon=settings.horizon)
+    tables = list(solve_grids(settings, 3, solve, quiet=as_json).values())
     table = tables[-1]
     result = _describe(game, table, capture) | _describe_refinement(tables)
     if settings.games:
@@ -205,33 +208,6 @@ def bound(
         from ..report.value_figures import draw_bound
 
         draw_bound(game, table, capture, str(figure))
-
-
-def _solve(
-    game: "CarGame", far: float, settings: BoundSettings, *, quiet: bool
-) -> "list[ValueTable]":
-    """Return tables of a game, each with twice the cells of that before."""
-    from ..theory.value import solve_cars
-
-    counts = [settings.grid // 2**n for n in range(settings.refine, -1, -1)]
-    work = sum(count**3 for count in counts)
-    look = "{l_bar}{bar}| {elapsed}<{remaining}"
-    with show_progress("bound", 1.0, bar_format=look, quiet=quiet) as bar:
-        return [
-            solve_cars(
-                game,
-                far,
-                count,
-                horizon=settings.horizon,
-                progress=partial(_add, bar, count**3 / work),
-            )
-            for count in counts
-        ]
-
-
-def _add(bar: Any, share: float, part: float) -> None:
-    """Add a part of one table, which is a share of the work."""
-    bar.update(share * part)
 
 
 def _describe(

@@ -5,7 +5,7 @@ from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from ..core.progress import show_progress
+from .bound_grids import solve_grids
 from .tables import print_table, scalar_rows
 from .terminal import print_json
 
@@ -40,18 +40,9 @@ def bound_person(settings: Any, figure: Path | None, *, as_json: bool) -> None:
     )
     capture, response = settings.capture or CONTACT, settings.response
     response = RESPONSE if response is None else response
-    counts = [settings.grid // 2**n for n in range(settings.refine, -1, -1)]
-    work = sum(count**2 for count in counts)
-    tables = []
-    with show_progress("bound", 1.0, quiet=as_json) as bar:
-        for count in counts:
-            table = solve_chauffeur(
-                game,
-                count,
-                farthest=settings.farthest,
-                progress=partial(_add, bar, count**2 / work),
-            )
-            tables.append((count, table))
+    solve = partial(solve_chauffeur, game, farthest=settings.farthest)
+    tables = solve_grids(settings, 2, solve, quiet=as_json)
+    table = tables[settings.grid]
     standing = standing_table(table, game, response)
     result = _values(game, capture, tables) | {
         "response_s": response,
@@ -70,28 +61,23 @@ def bound_person(settings: Any, figure: Path | None, *, as_json: bool) -> None:
         draw_chauffeur(game, table, standing, capture, str(figure))
 
 
-def _add(bar: Any, share: float, part: float) -> None:
-    bar.update(share * part)
-
-
 def _values(
-    game: "ChauffeurGame",
-    capture: float,
-    tables: "list[tuple[int, ValueTable]]",
+    game: "ChauffeurGame", capture: float, tables: "dict[int, ValueTable]"
 ) -> dict[str, Any]:
     """Return what the tables say, coarsest first, as values for JSON."""
-    table = tables[-1][1]
-    closed = game.guaranteed_distance
+    *coarse, table = tables.values()
     found = table.rules.outside
-    coarse = [each.rules.outside for _, each in tables[:-1]]
+    error = abs(found - coarse[-1].rules.outside) if coarse else None
     result: dict[str, Any] = {
         "game": asdict(game),
         "period_s": game.period,
         "seconds": table.seconds,
         "guaranteed_m": found,
-        "guaranteed_by_cells": {n: t.rules.outside for n, t in tables},
-        "grid_error_m": abs(found - coarse[-1]) if coarse else None,
-        "closed_form_m": closed,
+        "guaranteed_by_cells": {
+            n: each.rules.outside for n, each in tables.items()
+        },
+        "grid_error_m": error,
+        "closed_form_m": game.guaranteed_distance,
         "capture_m": capture,
         "avoidable": capture < found,
         "barrier_reach_m": _reach(table, capture),

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from ..core.atomic_output import atomic_draft
-from ..core.progress import show_progress
+from ..core.progress import counter, show_progress
 from .options import (
     figure_option,
     json_option,
@@ -142,17 +142,12 @@ def _measure(
         worker_pool(workers) as executor,
         show_progress("measure", unit="walks") as bar,
     ):
-
-        def report(done: int, of: int) -> None:
-            bar.total, bar.n = of, done
-            bar.refresh()
-
         return measure_legs(
             description,
             legs,
             body,
             executor,
-            report,
+            counter(bar),
             seed=draws[0],
             random_walks=draws[1],
         )

@@ -35,7 +35,7 @@ class LazyGroup(click.Group):
     def __init__(
         self,
         *args: Any,
-        lazy: Mapping[str, str] | None = None,
+        lazy: Mapping[str, str],
         module: str = "{}",
         default: str = "",
         **values: Any,
@@ -50,7 +50,7 @@ class LazyGroup(click.Group):
             values: As for :class:`click.Group`.
         """
         super().__init__(*args, **values)
-        self._lazy, self._module = lazy or {}, module
+        self._lazy, self._module = lazy, module
         self._default = default
 
     def parse_args(self, ctx: click.Context, args: list[str]) -> list[str]:

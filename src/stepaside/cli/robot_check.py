@@ -5,7 +5,7 @@ from typing import TYPE_CHECKING
 
 import click
 
-from ..core.progress import show_progress
+from ..core.progress import counter, show_progress
 from .options import figure_option, json_option, workers_option
 from .tables import print_table
 from .terminal import echo, print_json
@@ -56,12 +56,7 @@ def _check(
         worker_pool(workers) as executor,
         show_progress("check", unit="walks") as bar,
     ):
-
-        def report(done: int, of: int) -> None:
-            bar.total, bar.n = of, done
-            bar.refresh()
-
-        return check_robot(description, executor, report)
+        return check_robot(description, executor, counter(bar))
 
 
 def _print(report: "VerificationReport") -> None:

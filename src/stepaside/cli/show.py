@@ -1,7 +1,6 @@
 """``stepaside show``: runs as pages, films, figures, tables and bags."""
 
 import webbrowser
-from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
 from tempfile import mkdtemp
@@ -11,7 +10,7 @@ import click
 
 from ..core.atomic_output import FIGURES, check_file, check_folder, reason_of
 from ..core.errors import ConfigurationError, OutputError
-from ..core.progress import show_progress
+from ..core.progress import counter, show_progress
 from ..report.film_settings import FilmSettings
 from ..report.text_escaping import visible
 from .options import browser_option, figure_width, json_option
@@ -278,17 +277,7 @@ def _render(run: Path, file: Path, film: FilmSettings) -> int:
     from ..report.film import write_film
 
     with show_progress("film", unit="frames") as bar:
-        return write_film(run, file, film, _counter(bar))
-
-
-def _counter(bar: Any) -> Callable[[int, int], None]:
-    """Return a function that shows what is done of a number."""
-
-    def report(done: int, number: int) -> None:
-        bar.total, bar.n = number, done
-        bar.refresh()
-
-    return report
+        return write_film(run, file, film, counter(bar))
 
 
 def _export(run: Path, folder: Path, *, repeat: bool) -> list[str]:
@@ -300,7 +289,7 @@ def _export(run: Path, folder: Path, *, repeat: bool) -> list[str]:
     has_signals = name != "urdf"
     recording = _recording(run.resolve(), repeats=repeat and has_signals)
     with show_progress("export", unit="samples") as bar:
-        export_recording(folder, name, recording, _counter(bar))
+        export_recording(folder, name, recording, counter(bar))
     absent = recording.absent
     if not has_signals:
         players = tuple(f"{name}:" for name in recording.run.players)

@@ -98,7 +98,7 @@ def write_result(text: str) -> None:
         echo(text, nl=False)
 
 
-def exit_interrupted(message: str = NOTHING_SAVED) -> NoReturn:
+def exit_interrupted(message: str) -> NoReturn:
     """Report what is saved, and exit with the status of its signal.
 
     Args:

@@ -1,6 +1,7 @@
 """Progress of long work, on standard error."""
 
 import sys
+from collections.abc import Callable
 from time import monotonic
 from typing import Any
 
@@ -33,6 +34,16 @@ def show_progress(
     from tqdm import tqdm
 
     return tqdm(desc=name, total=total, unit=unit, bar_format=bar_format)
+
+
+def counter(bar: Any) -> Callable[[int, int], None]:
+    """Return a function that shows on a bar what is done of a number."""
+
+    def report(done: int, number: int) -> None:
+        bar.total, bar.n = number, done
+        bar.refresh()
+
+    return report
 
 
 class PlainProgress:
