@@ -189,8 +189,7 @@ def test_the_label_of_a_person_is_above_its_head(
     )
     mujoco.mj_kinematics(model, data)
     scene: Any = Scene()
-    bodies = SceneBodies(scene, model)
-    bodies.add_labels(model, ("pursuer", "evader"))
+    bodies = SceneBodies(scene, model, ("pursuer", "evader"))
     bodies.move(data.xpos, data.xquat)
     x, y, z = scene.items["/names/pursuer"].position
     assert np.hypot(x - place[0], y - place[1]) < 0.3

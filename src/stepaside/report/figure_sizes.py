@@ -5,8 +5,6 @@ from contextlib import contextmanager
 from contextvars import ContextVar
 from typing import NamedTuple
 
-from ..core.errors import ConfigurationError
-
 
 class FigureSheet(NamedTuple):
     """Width and typography of figures.
@@ -42,21 +40,14 @@ def sheet() -> FigureSheet:
 
 
 @contextmanager
-def figures_on(name: str) -> Iterator[FigureSheet]:
+def figures_on(name: str) -> Iterator[None]:
     """Draw figures on one of ``SHEETS`` inside a ``with`` block.
 
     Args:
         name: "screen", "page" or "column".
-
-    Raises:
-        ConfigurationError: If there is no such sheet.
     """
-    if name not in SHEETS:
-        raise ConfigurationError(
-            f"figure width must be one of {', '.join(SHEETS)}, got {name!r}"
-        )
     token = _chosen.set(SHEETS[name])
     try:
-        yield SHEETS[name]
+        yield
     finally:
         _chosen.reset(token)

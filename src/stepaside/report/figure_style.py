@@ -255,23 +255,4 @@ def save(figure: Any, file: AnyPath) -> None:
         draft.write_bytes(buffer.getvalue())
 
 
-__all__ = [
-    "COLOURS",
-    "EVADER",
-    "LEFT",
-    "LIGHT",
-    "LINES",
-    "MEAN",
-    "PURSUER",
-    "PUSHED",
-    "RIGHT",
-    "SWAY",
-    "THEORY",
-    "colours_of",
-    "legend_above",
-    "legend_below",
-    "mark_level",
-    "panels",
-    "plt",
-    "save",
-]
+__all__ = ["plt"]  # others draw with the same backend and style

@@ -173,15 +173,12 @@ def draw_chunk(
     return [_renderers[key].picture(time) for time in times]
 
 
-def render_images(
-    folder: Path, settings: FilmSettings, *, workers: int | None = None
-) -> Iterator[Pixels]:
+def render_images(folder: Path, settings: FilmSettings) -> Iterator[Pixels]:
     """Render the images of a film in order, on all cores.
 
     Args:
         folder: Run folder.
         settings: Settings of the film.
-        workers: Number of processes; by default one per core.
 
     Yields:
         Images. Shape (height, width, 3).
@@ -203,7 +200,7 @@ def render_images(
         )
     chunks = [times[i : i + CHUNK] for i in range(0, len(times), CHUNK)]
     draw = partial(draw_chunk, folder, settings, backend)
-    count = workers or os.cpu_count() or 1
+    count = os.cpu_count() or 1
     with worker_pool(count) as pool:
         # Only a few chunks are submitted ahead, to bound the memory used.
         ahead = [pool.submit(draw, c) for c in chunks[: 2 * count]]

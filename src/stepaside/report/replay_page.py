@@ -22,7 +22,7 @@ from .overlays import LAYERS, overlays_of
 from .palette import PALETTES, colours_in
 from .scene import RunScene, wall_corners
 from .text_escaping import fill_page, visible
-from .visual_geoms import BodyHeights, visual_geoms_of
+from .visual_geoms import LABEL_GAP, BodyHeights, visual_geoms_of
 
 ARCHIVE = "templates/viewer.zip"  # of trimesh
 TEMPLATE = "viewer.html.template"
@@ -30,7 +30,6 @@ BEGIN = "/**\n * @license\n * Copyright 2010-"  # notice of three.js
 END = 'Object.defineProperty(t,"__esModule",{value:!0})}));'
 RATE = 20.0  # samples per second of the run
 SCRIPTS = ("scene.js", "stage.js", "plots.js", "page.js")
-LABEL_GAP = 0.04  # between a player's highest point and its label, in [m]
 TOP_MARGIN = 0.4  # around the players in the top view, in [m]
 
 

@@ -11,6 +11,8 @@ from scipy.spatial import ConvexHull, QhullError
 from ..core.poses import Array, Pose
 from ..games.robot_settings import settings_from_description
 from ..locomotion.zmp.reference_table import standing_reference
+from ..planning import Foot
+from ..planning.support_polygon import sole_corners
 from ..robots.description import RobotDescription
 from ..robots.geom_points import geom_points_in_world
 from ..robots.leg_kinematics import LegKinematics
@@ -59,13 +61,14 @@ def draw_robot(description: RobotDescription, file: Path) -> None:
         shown.values(), VIEWS, strict=True
     ):
         _draw_links(axes, model, data, across)
-        for side, name in enumerate(
-            (description.left_foot, description.right_foot)
+        for foot, name in (
+            (Foot.LEFT, description.left_foot),
+            (Foot.RIGHT, description.right_foot),
         ):
             site = data.site(name)
             frame = site.xmat.reshape(3, 3)
-            corners = _corners(description, left=side == 0)
-            edge = site.xpos + corners @ frame.T
+            corners = sole_corners(np.zeros(3), foot, gait.sole)
+            edge = site.xpos + corners[[0, 1, 2, 3, 0]] @ frame[:, :2].T
             axes.plot(edge[:, across], edge[:, 2], color=SOLE, lw=3)
             _draw_frame(axes, site.xpos, frame, across, size)
         torso = data.body(description.torso)
@@ -110,13 +113,3 @@ def _draw_frame(
             color=colour,
             lw=1.6,
         )
-
-
-def _corners(description: RobotDescription, *, left: bool) -> Array:
-    """Return the outline of a sole in its frame, in [m]. Shape (5, 3)."""
-    sole = settings_from_description(description).gait.sole
-    outer, inner = (sole.outer, -sole.inner)
-    high, low = (outer, inner) if left else (-inner, -outer)
-    x = [sole.back, sole.front, sole.front, sole.back, sole.back]
-    y = [low, low, high, high, low]
-    return np.array([x, y, [0.0] * 5]).T

@@ -209,15 +209,12 @@ def simulate_circle(game: Game) -> FittedCircle | None:
     return None if played.captured else measure(played)
 
 
-def draw_ratios(game: Game, path: AnyPath) -> RatioMap:
+def draw_ratios(game: Game, path: AnyPath) -> None:
     """Draw the ratios at which a stable reversed circle exists.
 
     Args:
         game: Game with the evasion angle; its ratios are marked.
         path: File to write; its suffix gives the format.
-
-    Returns:
-        The map under the game's own law.
     """
     speeds = np.geomspace(*_SPEEDS, _COUNT)
     gains = np.geomspace(*_GAINS, _COUNT)
@@ -255,7 +252,6 @@ def draw_ratios(game: Game, path: AnyPath) -> RatioMap:
     figure.colorbar(image, ax=list(axes.values()), label=label)
     legend_below(figure, axes.values(), ncols=4)
     save(figure, path)
-    return maps[game.law]
 
 
 def _draw_law(ax: Any, found: RatioMap, high: float) -> Any:

@@ -13,6 +13,7 @@ from .mesh_simplification import TriangleMesh, mesh_of
 
 MAX_VISIBLE_GROUP = 2  # geoms of higher groups are collision shapes
 WALL_HEIGHT = 1.5  # of a fixed box from which on it counts as a wall, in [m]
+LABEL_GAP = 0.04  # between a player's highest point and its label, in [m]
 FOOTPRINT = 0.003  # height of a wall's outline over the floor, in [m]
 _TYPES = mujoco.mjtGeom
 KINDS = {

@@ -48,10 +48,6 @@ class MessageFactory:
         """Return a vector."""
         return self.make("geometry_msgs/msg/Vector3", x, y, z)
 
-    def point(self, x: float, y: float, z: float = 0.0) -> Any:
-        """Return a point."""
-        return self.make("geometry_msgs/msg/Point", x, y, z)
-
     def rotation(self, wxyz: Sequence[float]) -> Any:
         """Return a quaternion; its order in memory is (w, x, y, z)."""
         w, x, y, z = wxyz
@@ -64,9 +60,9 @@ class MessageFactory:
 
     def pose(self, position: Sequence[float], rotation: Any) -> Any:
         """Return a pose."""
-        return self.make(
-            "geometry_msgs/msg/Pose", self.point(*position), rotation
-        )
+        x, y, *z = position  # on the floor without z
+        point = self.make("geometry_msgs/msg/Point", x, y, *(z or (0.0,)))
+        return self.make("geometry_msgs/msg/Pose", point, rotation)
 
     def transform(
         self,
@@ -143,25 +139,6 @@ class MessageFactory:
             self.vector(*torque.tolist()),
         )
         return self.make("geometry_msgs/msg/WrenchStamped", header, both)
-
-    def odometry(self, header: Any, child: str, pose: Any, twist: Any) -> Any:
-        """Return an odometry message without covariances."""
-        unknown = np.zeros(36)
-        return self.make(
-            "nav_msgs/msg/Odometry",
-            header,
-            child,
-            self.make("geometry_msgs/msg/PoseWithCovariance", pose, unknown),
-            self.make("geometry_msgs/msg/TwistWithCovariance", twist, unknown),
-        )
-
-    def twist(self, linear: Sequence[float], angular: Sequence[float]) -> Any:
-        """Return linear and angular velocity."""
-        return self.make(
-            "geometry_msgs/msg/Twist",
-            self.vector(*linear),
-            self.vector(*angular),
-        )
 
     def number(self, value: float) -> Any:
         """Return a plain number."""

@@ -348,8 +348,8 @@ class PlayerTopics:
         yield make.transform(
             make.header(time, self._frame("base_footprint")),
             self._frame("base_link"),
-            self._base.positions[index].tolist(),
-            make.rotation(self._base.quaternions[index].tolist()),
+            self._base[0][index].tolist(),
+            make.rotation(self._base[1][index].tolist()),
         )
         for joint, positions, quaternions in self._joints:
             yield make.transform(

@@ -2,8 +2,8 @@
 
 from typing import NamedTuple
 
-import mujoco
 import numpy as np
+from scipy.spatial.transform import Rotation
 
 from ...core.poses import Array
 from ...robots.urdf_elements import UrdfJoint
@@ -38,85 +38,37 @@ def joint_poses(model: RobotModel, qpos: Array) -> list[JointPoses]:
             continue
         values = qpos[:, column[joint.name]].astype(np.float64)
         positions = np.tile(joint.position, (len(values), 1))
-        quaternions = np.tile(quaternion_of(joint.axes), (len(values), 1))
         if joint.kind == "prismatic":
             positions = positions + np.outer(values, joint.axes @ joint.axis)
-        else:
-            half = 0.5 * values
-            turned = np.column_stack(
-                [np.cos(half), np.outer(np.sin(half), joint.axis)]
-            )
-            quaternions = multiply(quaternions, turned)
+            values = np.zeros(len(values))
+        turned = Rotation.from_rotvec(np.outer(values, joint.axis))
+        turned = Rotation.from_matrix(joint.axes) * turned
+        quaternions = turned.as_quat(scalar_first=True)
         found.append(JointPoses(joint, positions, quaternions))
     return found
 
 
 def quaternion_of(axes: Array) -> Array:
     """Return the unit quaternion (w, x, y, z) of axes as columns."""
-    quaternion = np.zeros(4)
-    mujoco.mju_mat2Quat(quaternion, np.ascontiguousarray(axes).reshape(9))
-    return quaternion
+    found: Array = Rotation.from_matrix(axes).as_quat(scalar_first=True)
+    return found
 
 
-def multiply(first: Array, second: Array) -> Array:
-    """Multiply quaternions (w, x, y, z) row by row. Shapes (n, 4)."""
-    a, b, c, d = first.T
-    w, x, y, z = second.T
-    return np.column_stack(
-        [
-            a * w - b * x - c * y - d * z,
-            a * x + b * w + c * z - d * y,
-            a * y - b * z + c * w + d * x,
-            a * z + b * y - c * x + d * w,
-        ]
-    )
-
-
-def rotate(quaternions: Array, vectors: Array) -> Array:
-    """Rotate vectors by quaternions (w, x, y, z). Shapes (n, 4), (n, 3)."""
-    w, axis = quaternions[:, :1], quaternions[:, 1:]
-    across = 2.0 * np.cross(axis, vectors)
-    rotated: Array = vectors + w * across + np.cross(axis, across)
-    return rotated
-
-
-def conjugate(quaternions: Array) -> Array:
-    """Return the inverse of unit quaternions (w, x, y, z). Shape (n, 4)."""
-    return quaternions * [1.0, -1.0, -1.0, -1.0]
-
-
-def footprint_quaternions(poses: Array) -> Array:
-    """Return rotations about the vertical of planar poses. Shape (n, 4).
-
-    Args:
-        poses: Rows (x, y, heading). Shape (n, 3).
-    """
-    half, none = 0.5 * poses[:, 2], np.zeros(len(poses))
-    return np.column_stack([np.cos(half), none, none, np.sin(half)])
-
-
-class BasePoses(NamedTuple):
-    """Poses of ``base_link`` in ``base_footprint`` over time.
-
-    Attributes:
-        positions: Positions, in [m]. Shape (n, 3).
-        quaternions: Rotations (w, x, y, z). Shape (n, 4).
-    """
-
-    positions: Array
-    quaternions: Array
-
-
-def base_poses(qpos: Array, footprints: Array) -> BasePoses:
-    """Return the poses of a torso in its footprint.
+def base_poses(qpos: Array, footprints: Array) -> tuple[Array, Array]:
+    """Return the poses of a torso, ``base_link``, in its footprint.
 
     Args:
         qpos: Free joint and joint positions. Shape (n, 7 + joints).
         footprints: Poses of the reference point in the world: rows (x, y,
             heading). Shape (n, 3).
+
+    Returns:
+        Positions, in [m], of shape (n, 3), and rotations (w, x, y, z), of
+        shape (n, 4).
     """
     free = qpos[:, :7].astype(np.float64)
-    upright = conjugate(footprint_quaternions(footprints))
+    level = Rotation.from_euler("z", -footprints[:, 2:])
     offset = free[:, :3].copy()
     offset[:, :2] -= footprints[:, :2]
-    return BasePoses(rotate(upright, offset), multiply(upright, free[:, 3:]))
+    torso = level * Rotation.from_quat(free[:, 3:], scalar_first=True)
+    return level.apply(offset), torso.as_quat(scalar_first=True)

@@ -2,7 +2,6 @@
 
 from collections.abc import Iterator
 from pathlib import Path
-from typing import NamedTuple
 
 import numpy as np
 
@@ -68,68 +67,25 @@ JOINT_SIGNALS = {
 }
 
 
-class Series(NamedTuple):
-    """Values at the samples of a run.
-
-    Attributes:
-        name: Name with the player before it, like ``pursuer/com``.
-        columns: Names of the columns, with units.
-        values: Values. Shape (n, columns).
-    """
-
-    name: str
-    columns: tuple[str, ...]
-    values: Array
+Rows = tuple[str, tuple[str, ...], Array]
+"""Name, names of the columns with units, and values of shape (n, columns)."""
 
 
-class EventTable(NamedTuple):
-    """Rows that are not at the samples of a run.
-
-    Attributes:
-        name: Name with the player, like ``pursuer-footsteps-planned``.
-        columns: Names of the columns; the first is the time.
-        rows: Rows. Shape (m, columns).
-    """
-
-    name: str
-    columns: tuple[str, ...]
-    rows: Array
-
-
-def all_series(recording: Recording) -> list[Series]:
-    """Return all series of all players, then those of pairs."""
-    found: list[Series] = []
-    for name in recording.run.players:
-        found += series_of(recording, name)
-    run = recording.run
-    if run.pair is not None:
-        found.append(Series("distance", ("m",), run.distance[:, None]))
-    if run.has_orientation:
-        angle = np.radians(run.orientation)[:, None]
-        found.append(Series("angle_between_headings", ("rad",), angle))
-    return found
-
-
-def series_of(recording: Recording, player: str) -> Iterator[Series]:
-    """Yield the series of one player.
-
-    Args:
-        recording: The recording.
-        player: Name of the player.
-    """
+def _series_of(recording: Recording, player: str) -> Iterator[Rows]:
+    """Yield the values of one player at the samples of the run."""
     track = recording.run.tracks[player]
     for key, columns in TRACK_COLUMNS.items():
         values = getattr(track, key)
         if values is not None:
-            yield Series(f"{player}/{key}", columns, values)
+            yield f"{player}/{key}", columns, values
     model = recording.models.get(player)
     joints = () if model is None else model.joints
     if track.qpos is not None and model is not None:
         qpos = track.qpos.astype(np.float64)
         pose = ("x_m", "y_m", "z_m", "qw", "qx", "qy", "qz")
-        yield Series(f"{player}/base_link", pose, qpos[:, :7])
+        yield f"{player}/base_link", pose, qpos[:, :7]
         names = tuple(f"{joint}_rad" for joint in joints)
-        yield Series(f"{player}/joint_position", names, qpos[:, 7:])
+        yield f"{player}/joint_position", names, qpos[:, 7:]
     signals = recording.signals.get(player)
     if signals is not None:
         yield from _signal_series(player, joints, signals)
@@ -137,47 +93,37 @@ def series_of(recording: Recording, player: str) -> Iterator[Series]:
 
 def _signal_series(
     player: str, joints: tuple[str, ...], signals: RobotSignals
-) -> Iterator[Series]:
+) -> Iterator[Rows]:
     for key, unit in JOINT_SIGNALS.items():
         values = getattr(signals, key)
         if values is not None:
             names = tuple(f"{joint}_{unit}" for joint in joints)
-            yield Series(f"{player}/{key}", names, values)
+            yield f"{player}/{key}", names, values
     if signals.joint_targets is not None:
         names = tuple(f"{joint}_rad" for joint in signals.target_names)
-        yield Series(f"{player}/joint_target", names, signals.joint_targets)
+        yield f"{player}/joint_target", names, signals.joint_targets
     for key, columns in SIGNAL_COLUMNS.items():
         values = getattr(signals, key)
         if values is not None:
-            yield Series(f"{player}/{key}", columns, values)
+            yield f"{player}/{key}", columns, values
     if signals.strategy:
-        yield Series(
-            f"{player}/strategy",
-            tuple(signals.strategy),
-            np.column_stack(list(signals.strategy.values())),
-        )
+        values = np.column_stack(list(signals.strategy.values()))
+        yield f"{player}/strategy", tuple(signals.strategy), values
 
 
-def all_events(recording: Recording) -> list[EventTable]:
-    """Return the tables of footsteps, sightings and pushes."""
-    found: list[EventTable] = []
-    for name in recording.run.players:
-        found += _events_of(recording, name)
-    return found
-
-
-def _events_of(recording: Recording, player: str) -> Iterator[EventTable]:
+def _events_of(recording: Recording, player: str) -> Iterator[Rows]:
+    """Yield the rows of one player that are not at the samples of the run."""
     track = recording.run.tracks[player]
     step = ("time_s", "side", "x_m", "y_m", "heading_rad")
     if track.landings is not None:
         landings = f"{player}-footsteps-planned"
-        yield EventTable(landings, step, track.landings)
+        yield landings, step, track.landings
         model = recording.models.get(player)
         if model is not None and track.qpos is not None:
             landed = landed_footsteps(
                 model.description, recording.run.times, track
             )
-            yield EventTable(f"{player}-footsteps-landed", step, landed)
+            yield f"{player}-footsteps-landed", step, landed
     signals = recording.signals.get(player)
     if signals is not None and signals.plans:
         rows = [
@@ -186,7 +132,7 @@ def _events_of(recording: Recording, player: str) -> Iterator[EventTable]:
             for number, footstep in enumerate(plan.footsteps.tolist())
         ]
         columns = ("time_s", "number", *step[1:])
-        yield EventTable(f"{player}-plans", columns, np.array(rows))
+        yield f"{player}-plans", columns, np.array(rows)
     if track.sight is not None:
         columns = (
             "time_s",
@@ -196,7 +142,7 @@ def _events_of(recording: Recording, player: str) -> Iterator[EventTable]:
             "true_distance_m",
             "is_lost",
         )
-        yield EventTable(f"{player}-sightings", columns, track.sight)
+        yield f"{player}-sightings", columns, track.sight
     if track.pushes is not None:
         columns = (
             "time_s",
@@ -206,7 +152,7 @@ def _events_of(recording: Recording, player: str) -> Iterator[EventTable]:
             "impulse_x_n_s",
             "impulse_y_n_s",
         )
-        yield EventTable(f"{player}-pushes", columns, track.pushes)
+        yield f"{player}-pushes", columns, track.pushes
 
 
 def write_csv(folder: Path, recording: Recording) -> None:
@@ -246,14 +192,20 @@ def tables_of(recording: Recording) -> dict[str, dict[str, Array]]:
 
     The table ``samples`` has a row per sample. NaN stands for missing values.
     """
-    columns = {"time_s": recording.run.times}
-    for series in all_series(recording):
-        for column, values in zip(
-            series.columns, series.values.T, strict=True
-        ):
-            columns[f"{series.name}/{column}"] = values.astype(np.float64)
-    tables = {"samples": columns}
-    for table in all_events(recording):
-        rows = table.rows.astype(np.float64)
-        tables[table.name] = dict(zip(table.columns, rows.T, strict=True))
+    run = recording.run
+    series = [s for name in run.players for s in _series_of(recording, name)]
+    if run.pair is not None:
+        series.append(("distance", ("m",), run.distance[:, None]))
+    if run.has_orientation:
+        angle = np.radians(run.orientation)[:, None]
+        series.append(("angle_between_headings", ("rad",), angle))
+    samples = {"time_s": run.times}
+    for name, columns, rows in series:
+        for column, values in zip(columns, rows.T, strict=True):
+            samples[f"{name}/{column}"] = values.astype(np.float64)
+    tables = {"samples": samples}
+    for player in run.players:
+        for name, columns, rows in _events_of(recording, player):
+            values = rows.astype(np.float64).T
+            tables[name] = dict(zip(columns, values, strict=True))
     return tables

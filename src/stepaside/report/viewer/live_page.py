@@ -116,9 +116,8 @@ class Page:
 
     def _add_bodies(self) -> None:
         """Add the bodies of the game."""
-        model = self.session.world.model
-        self._bodies = SceneBodies(self.server.scene, model)
-        self._bodies.add_labels(model, self.session.names)
+        model, names = self.session.world.model, self.session.names
+        self._bodies = SceneBodies(self.server.scene, model, names)
         self._shown = self._stage()
 
     def _stage(self) -> tuple[Any, ...]:
@@ -236,7 +235,7 @@ class Page:
 
     def refresh(self) -> None:
         """Show the present state of the session."""
-        session, world = self.session, self.session.world
+        session = self.session
         with session.lock:  # another game may begin meanwhile
             world = session.world
             if session.generation != self._generation:

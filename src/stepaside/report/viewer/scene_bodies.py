@@ -11,10 +11,14 @@ import viser
 from numpy.typing import NDArray
 
 from ...core.poses import Array
-from ..visual_geoms import BodyHeights, VisualGeom, visual_geoms_of
+from ..visual_geoms import (
+    LABEL_GAP,
+    BodyHeights,
+    VisualGeom,
+    visual_geoms_of,
+)
 
 SECTIONS = 20  # of a round shape
-LABEL_GAP = 0.04  # between a player's highest point and its label, in [m]
 
 
 def shape_of(part: VisualGeom) -> trimesh.Trimesh:
@@ -60,8 +64,19 @@ def join_meshes(
 class SceneBodies:
     """Bodies of one model; each is a frame with one mesh per colour."""
 
-    def __init__(self, scene: viser.SceneApi, model: mujoco.MjModel) -> None:
-        """Add all visible bodies to a scene, except walls."""
+    def __init__(
+        self,
+        scene: viser.SceneApi,
+        model: mujoco.MjModel,
+        players: Iterable[str],
+    ) -> None:
+        """Add all visible bodies but walls, and a label above each player.
+
+        Args:
+            scene: Scene to add to.
+            model: Model of the bodies, whose names begin with the player's.
+            players: Names of the players.
+        """
         looks = defaultdict[
             int, defaultdict[tuple[Any, ...], list[trimesh.Trimesh]]
         ](lambda: defaultdict(list))
@@ -88,20 +103,13 @@ class SceneBodies:
                     cast_shadow=casts_shadow,
                     receive_shadow=False,
                 )
-        self._scene = scene
-
-    def add_labels(
-        self, model: mujoco.MjModel, players: Iterable[str]
-    ) -> None:
-        """Add a label above each player, which moves with it.
-
-        Args:
-            model: Model of the bodies, whose names begin with the player's.
-            players: Names of the players.
-        """
         for player in players:
-            bodies = tuple(self._bodies_of(model, player))
-            self._labels[bodies] = self._scene.add_label(
+            bodies = tuple(
+                body
+                for body in self._frames
+                if model.body(body).name.startswith(f"{player}/")
+            )
+            self._labels[bodies] = scene.add_label(
                 f"/names/{player}",
                 player,
                 anchor="bottom-center",
@@ -114,14 +122,6 @@ class SceneBodies:
             frame.remove()
         for label in self._labels.values():
             label.remove()
-
-    def _bodies_of(self, model: mujoco.MjModel, player: str) -> list[int]:
-        """Return the numbers of a player's visible bodies."""
-        return [
-            body
-            for body in self._frames
-            if model.body(body).name.startswith(f"{player}/")
-        ]
 
     def move(self, positions: Array, quaternions: Array) -> None:
         """Move all bodies and labels.

@@ -146,9 +146,8 @@ class SettingsPanel:
         """
         self._gui, self._session, self._notify = gui, session, notify
         self._presets = presets
-        self._several = len(presets) > 1
         self.preset = gui.add_dropdown(
-            "Preset", tuple(presets), visible=self._several
+            "Preset", tuple(presets), visible=len(presets) > 1
         )
         gui.add_markdown(
             "Settings act at the next reset; those of the paper's evasion, "
@@ -197,17 +196,17 @@ class SettingsPanel:
                     getattr(own, "name", name), expand_by_default=False
                 )
             players = isinstance(parent, tuple)
-            descriptions = {} if players else settings_of(type(parent))
-            if name in descriptions and descriptions[name].presets:
+            described = {} if players else settings_of(type(parent))
+            presets = described[name].presets if name in described else None
+            if presets:
                 with folders[path]:
-                    self._add_presets(path, descriptions[name].presets, own)
+                    self._add_presets(path, presets, own)
         return folders[path]
 
     def _add_presets(
-        self, path: str, presets: Mapping[str, Any] | None, own: Any
+        self, path: str, presets: Mapping[str, Any], own: Any
     ) -> None:
         """Add a choice that fills in the values of a section."""
-        presets = presets or {}
         chosen = [name for name, each in presets.items() if each == own]
         choice = self._gui.add_dropdown(
             f"{path} preset",
