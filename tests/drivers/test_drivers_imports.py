@@ -41,13 +41,3 @@ def test_each_protocol_loads_without_the_libraries_of_others(
         f"sys.modules.update(dict.fromkeys({others!r}));"
         f"import stepaside.cli.play, {DRIVERS}.{VENDORS[library][0]}"
     )
-
-
-def test_help_of_play_loads_no_simulator() -> None:
-    """The defaults of gait and control need no physics."""
-    loads(
-        "from stepaside.cli.main import main\n"
-        "try: main(['play', '--help'])\n"
-        "except SystemExit as e: assert not e.code\n"
-        "assert 'stepaside.sim.world' not in sys.modules"
-    )

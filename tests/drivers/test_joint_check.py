@@ -1,15 +1,12 @@
 """Test that the check of a joint-driven robot finds each mistake."""
 
-import json
 from collections.abc import Callable
 from math import degrees, inf, nan
-from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
 
-from stepaside.cli.main import main
 from stepaside.drivers import method_check
 from stepaside.drivers.joint_check import JointCheck
 from stepaside.drivers.method_check import AdapterFinding
@@ -140,13 +137,6 @@ def test_a_correct_robot_passes_each_check() -> None:
     assert robot.calls[-1] == "release"
 
 
-def test_a_dry_run_only_listens() -> None:
-    robot = HangingRobot()
-    found = checked(robot, dry_run=True)
-    assert robot.calls == []
-    assert "tilt" in found and "joints" not in found
-
-
 def scaled(field: str, factor: float) -> Change:
     """Change of unit or sign."""
 
@@ -251,38 +241,3 @@ def test_whether_the_robot_keeps_its_targets_is_compared() -> None:
     cautious.timeout = 0.5
     finding = checked(cautious)["without commands"]
     assert finding.verdict == "pass" and "may be False" in finding.text
-
-
-FILE = """
-import stepaside as sa
-
-class Robot(sa.JointRobot):
-    tick = 0.012
-    joints = sa.load_tree(sa.load_robot("nao")).joints
-    gains = dict.fromkeys(joints, (100.0, 5.0))
-
-    def listen(self):
-        return 3.0
-
-    def command(self, targets):
-        raise AssertionError
-
-    def release(self):
-        raise AssertionError
-"""
-
-
-def test_the_command_prints_verdicts_and_exits_with_1(
-    tmp_path: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
-    file = tmp_path / "robot.py"
-    file.write_text(FILE, encoding="utf-8")
-    words = ["play", f"{file}:Robot", "--check", "--json"]
-    with pytest.raises(SystemExit) as left:
-        main(words)
-    assert left.value.code == 1
-    out, err = capsys.readouterr()
-    found: Any = json.loads(out)
-    assert [f["verdict"] for f in found["findings"]] == ["pass", "fail"]
-    assert "listen() of Robot must return" in found["findings"][1]["text"]
-    assert "each joint of the robot will move" in err

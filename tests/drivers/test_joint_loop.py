@@ -1,9 +1,6 @@
 """Test the joint loop: states, limits, refusals and its log."""
 
-import io
-import json
 from math import degrees, inf, nan
-from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -29,16 +26,13 @@ from stepaside.drivers.joint_motion import (
 )
 from stepaside.drivers.method_thread import SessionLost
 from stepaside.drivers.motors import motors_of
-from stepaside.drivers.play_log import PlayLog
 from stepaside.drivers.safety import SafetyState
-from stepaside.drivers.status_line import StatusLine
 from stepaside.locomotion.walk_snapshots import Phase
 from stepaside.perception.images import SonarEcho
 from stepaside.perception.measurement import Sighting
 from stepaside.robots.description import load_robot
 from stepaside.robots.tree_cache import load_tree
 from stepaside.strategies import StandStill
-from velocity_fakes import read_log
 
 
 def test_a_robot_stands_up_slowly_and_walks_by_its_button() -> None:
@@ -389,12 +383,6 @@ def test_the_papers_walk_needs_foot_forces() -> None:
         game.play(1)
 
 
-def test_a_dry_run_thinks_and_moves_nothing() -> None:
-    game = Game(dry_run=True)
-    game.play(50)
-    assert len(game.schemes[0].read) > 40
-
-
 def test_a_robot_without_a_button_is_given_up_once_it_is_limp() -> None:
     game = walking()
     game.schemes[0].fails = ReachError("why not")
@@ -415,71 +403,6 @@ def test_leaving_ends_with_a_limp_robot() -> None:
         if game.loop.ended:
             break
     assert game.loop.ended and game.state is SafetyState.LIMP
-
-
-def note_walk(game: Game, observer: Any) -> None:
-    """Note 62 ticks, at the last of which the robot walks."""
-    for i in range(62):
-        game.session.changes["status"] = status(pressed=i == 60)
-        observer.note(game.loop.tick())
-
-
-def test_the_log_keeps_every_tick_and_why_states_changed(
-    tmp_path: Path,
-) -> None:
-    log = PlayLog(tmp_path / "log", {"role": "pursuer"})
-    note_walk(Game(), log)
-    log.close()
-    arrays = read_log(tmp_path / "log")
-    assert arrays["joint_positions"].shape == (62, 3)
-    assert arrays["sighting"].shape == (62, 3)
-    words = json.loads((tmp_path / "log" / "play.json").read_text())
-    changes = [change["state"] for change in words["changes"]]
-    assert changes == ["limp", "reaching", "ready", "walking"]
-    assert words["changes"][-1]["reason"] == "chest button"
-    assert words["states"][int(arrays["state"][-1])] == "walking"
-    assert words["role"] == "pursuer"
-    with pytest.raises(ConfigurationError, match="a new or an empty folder"):
-        PlayLog(tmp_path / "log", {})
-
-
-class Terminal(io.StringIO):
-    """A terminal, which may have hung up."""
-
-    gone = False
-
-    def isatty(self) -> bool:
-        """Be one."""
-        return True
-
-    def write(self, text: str) -> int:
-        """Fail as the system does, if it has hung up."""
-        if self.gone:
-            raise OSError("Input/output error")
-        return super().write(text)
-
-
-@pytest.mark.parametrize("stream", [io.StringIO(), Terminal()])
-def test_the_line_says_each_change_and_on_terminals_five_times_a_second(
-    stream: io.StringIO,
-) -> None:
-    game = Game()
-    line = StatusLine(stream, clock=lambda: game.session.now)
-    note_walk(game, line)
-    line.close()
-    said = stream.getvalue()
-    for word in ("limp", "reaching", "ready", "walking (chest button)"):
-        assert word in said
-    assert said.count("\n") == (5 if stream.isatty() else 4)
-    wanted = (8, 14) if stream.isatty() else (4, 4)
-    assert wanted[0] <= said.count(" s  ") <= wanted[1]
-
-
-def test_a_terminal_that_hung_up_does_not_end_the_walk() -> None:
-    game, stream = Game(), Terminal()
-    stream.gone = True
-    note_walk(game, StatusLine(stream, clock=lambda: game.session.now))
-    assert game.state is SafetyState.WALKING
 
 
 class Described(FakeRobot):

@@ -5,7 +5,7 @@ import signal
 import socket
 import subprocess
 import sys
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from contextlib import suppress
 from pathlib import Path
 from threading import Thread
@@ -24,10 +24,10 @@ from flows.lola_peer import (  # noqa: E402
     frame_of,
     listening,
 )
+from flows.running import until  # noqa: E402
 from stepaside.cli.main import main  # noqa: E402
 from stepaside.core.errors import ConfigurationError  # noqa: E402
 from stepaside.core.poses import Array  # noqa: E402
-from stepaside.drivers import lola  # noqa: E402
 from stepaside.drivers.lola import STALL_CURRENT, LolaRobot  # noqa: E402
 from stepaside.drivers.lola_server import LolaServer  # noqa: E402
 from stepaside.drivers.robot import JointTargets  # noqa: E402
@@ -134,14 +134,6 @@ def test_a_frame_is_a_state_in_our_conventions(daemon: Daemon) -> None:
     assert status.charge == pytest.approx(0.4) and status.heat[24] == 3
 
 
-def test_stall_currents_follow_from_torque_and_speed() -> None:
-    """3.2 A in the knees; nothing is known of the hands."""
-    at = dict(zip(JOINTS, STALL_CURRENT, strict=True))
-    assert at["LKneePitch"] == pytest.approx(3.2, abs=0.01)
-    assert at["HeadYaw"] == pytest.approx(2.149 * 7.457 * 25.2 / 21.6**2)
-    assert at["LWristYaw"] < 0.5 and at["RHand"] == np.inf
-
-
 def test_commands_are_targets_and_stiffness_with_lights(
     daemon: Daemon,
 ) -> None:
@@ -153,8 +145,6 @@ def test_commands_are_targets_and_stiffness_with_lights(
     np.testing.assert_allclose(told["Position"], angles, atol=1e-7)
     assert told["Stiffness"] == [0.5] * 25
     assert told["Chest"] == [0.0, 1.0, 0.0] and told["LEye"] == [1.0] * 24
-    colours = set(map(tuple, lola.CHEST_COLOURS.values()))
-    assert len(colours) == len(SafetyState)
 
 
 def test_a_frame_without_a_command_is_answered_by_lights(
@@ -282,40 +272,6 @@ def world(tmp_path: Path) -> Iterator[World]:
     made.server.close()
 
 
-def test_a_served_robot_speaks_our_protocol(
-    world: World, tmp_path: Path
-) -> None:
-    """What it sends is what our own robot reads, and the other way round."""
-    robot = LolaRobot(str(tmp_path / "s"))
-    opening = Thread(target=robot.open)
-    opening.start()
-    while opening.is_alive():
-        world.tick()
-    assert not robot.paced
-    world.robot.sighting = Sighting(world.robot.time - 0.05, 0.4, 0.7)
-    world.tick()
-    state = robot.listen()
-    assert state is not None and state.sighting is not None
-    assert state.sighting[1:3] == (0.4, 0.7)
-    assert state.time - state.sighting.time == pytest.approx(0.05, abs=0.02)
-    np.testing.assert_allclose(
-        state.joint_positions[:23], world.robot.angles, atol=1e-7
-    )
-    wanted = np.full(25, 0.3)
-    robot.command(JointTargets(wanted, np.full(25, 0.7), np.zeros(25)))
-    world.tick()
-    np.testing.assert_allclose(world.robot.angles, 0.3, atol=1e-7)
-    np.testing.assert_allclose(world.robot.stiffness, 0.7, atol=1e-7)
-    world.server.press(True)
-    world.tick()
-    pressed = robot.listen()
-    assert pressed is not None and pressed.status is not None
-    assert pressed.status.pressed
-    robot.close()
-    world.tick()
-    assert not world.server.connected
-
-
 def test_stiffness_decays_when_the_client_falls_silent(
     world: World, tmp_path: Path
 ) -> None:
@@ -331,19 +287,6 @@ def test_stiffness_decays_when_the_client_falls_silent(
         shares.append(float(world.server.stiffness[KNEE]))
     assert shares == sorted(shares, reverse=True) and shares[-1] == 0.0
     assert shares[20] == pytest.approx(0.5, abs=0.05)
-    client.close()
-
-
-def test_a_robot_is_ready_when_its_legs_are_held(
-    world: World, tmp_path: Path
-) -> None:
-    client = LolaClient(tmp_path / "s")
-    world.tick()
-    assert world.server.connected and not world.server.ready
-    for _ in range(45):  # at half of the stiffness, for half a second
-        client.write([0.1] * 25, 0.5)
-        world.tick()
-    assert world.server.ready
     client.close()
 
 
@@ -406,35 +349,11 @@ def test_a_robot_that_is_not_there_is_said_in_one_line(
     assert 0.3 < monotonic() - began < 20.0
 
 
-def test_lola_takes_no_gains(
-    tmp_path: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
-    words = ["play", f"lola:{tmp_path}/x", "--set", "legs.network=x.onnx"]
-    assert "requires a robot that takes gains" in refused(capsys, *words)
-
-
-@pytest.mark.parametrize(
-    "served", [["referee=R"], ["evader"], ["evader=E", "evader=F"]]
-)
-def test_an_invalid_player_is_not_served(
-    served: list[str], capsys: pytest.CaptureFixture[str]
-) -> None:
-    words = [word for entry in served for word in ("--lola", entry)]
-    assert "pursuer or evader=PATH" in refused(capsys, "serve", *words)
-
-
 def played(path: Path, *words: str) -> "subprocess.Popen[str]":
     command = [sys.executable, "-m", "stepaside", "play"]
     return subprocess.Popen(
         [*command, f"lola:{path}", *words], stderr=subprocess.PIPE, text=True
     )
-
-
-def until(done: Callable[[], Any]) -> None:
-    end = monotonic() + 60.0
-    while not done():
-        assert monotonic() < end
-        sleep(0.01)
 
 
 class TimedDaemon(Thread):

@@ -102,23 +102,6 @@ def test_a_silent_robot_is_stopped_and_named(robot: Services) -> None:
     assert player.interrupt() == 0
 
 
-def test_a_dry_run_commands_nothing(robot: Services) -> None:
-    player = play(robot, "--dry-run", "--duration", "0.5")
-    assert player.wait(60.0) == 0
-    assert not robot.moves and not robot.calls
-
-
-def test_nobody_at_an_address_is_said() -> None:
-    command = [sys.executable, "-m", "stepaside", "play", "--role", "evader"]
-    done = subprocess.run(
-        [*command, "naoqi:tcp://127.0.0.1:9", "--set=wait=0.1"],
-        capture_output=True,
-        text=True,
-    )
-    assert done.returncode == 2
-    assert all("no robot answers" in row for row in done.stderr.splitlines())
-
-
 LOOK = """
 import sys, time
 from stepaside.drivers.naoqi import make_robot

@@ -4,7 +4,6 @@ import os
 import signal
 import subprocess
 import sys
-from collections.abc import Iterator
 from pathlib import Path
 from time import monotonic, sleep
 
@@ -55,31 +54,23 @@ class Echo(sa.JointRobot):
         with open(os.environ["ECHO_LOG"], "a") as log:
             print(word, file=log)
 
-class Simulated(Echo):
-    """The same with a clock of its own, which waits for the program."""
+class Seeing(Echo):
+    """The same with a camera, which shows an opponent 1 m ahead.
+
+    Its clock waits for each image: a busy computer makes none late.
+    """
 
     paced = False
-    now = 0.0
+    now = next_image = 0.0
+    renders = False
 
     def clock(self):
         return self.now
 
     def listen(self):
-        self.now += self.tick
-        return super().listen()
-
-class Seeing(Simulated):
-    """The same with a camera, which shows an opponent 1 m ahead.
-
-    The clock waits for each image: a busy computer makes none late.
-    """
-
-    next_image = 0.0
-    renders = False
-
-    def listen(self):
         while self.renders:
             sleep(0.001)
+        self.now += self.tick
         return super().listen()._replace(sighting=None)
 
     def image(self):
@@ -127,15 +118,6 @@ def started(folder: Path, kind: str, *options: str) -> "subprocess.Popen[str]":
     )
 
 
-@pytest.fixture
-def play(tmp_path: Path) -> Iterator["subprocess.Popen[str]"]:
-    """A play of the robot, which logs its calls."""
-    process = started(tmp_path, "Echo")
-    yield process
-    process.kill()
-    process.communicate()
-
-
 def calls(folder: Path) -> list[str]:
     """The calls so far."""
     log = folder / "log"
@@ -149,9 +131,8 @@ def until_commanded(folder: Path) -> None:
         sleep(0.02)
 
 
-def test_an_interrupt_rests_and_releases_the_joints(
-    play: "subprocess.Popen[str]", tmp_path: Path
-) -> None:
+def test_an_interrupt_rests_and_releases_the_joints(tmp_path: Path) -> None:
+    play = started(tmp_path, "Echo")
     until_commanded(tmp_path)
     play.send_signal(signal.SIGINT)
     said = play.communicate(timeout=LONGEST)[1]
@@ -176,17 +157,3 @@ def test_a_joint_robot_finds_its_opponent_by_its_camera(
     _, bearing, distance = np.median(seen[-20:], axis=0)
     assert bearing == pytest.approx(0.0, abs=0.1)
     assert distance == pytest.approx(1.0, abs=0.15)
-
-
-def test_the_clock_of_a_simulated_joint_robot_may_be_said_to_pause(
-    tmp_path: Path,
-) -> None:
-    """Its class says so; then the option says the same."""
-    words = "--duration", "0.5", "--set", "sim_time=true", "--set", "wait=0"
-    real = started(tmp_path, "Echo", *words)
-    said = real.communicate(timeout=LONGEST)[1]
-    assert real.returncode == 2
-    assert "JointRobot with paced = False" in said
-    simulated = started(tmp_path, "Simulated", *words)
-    said = simulated.communicate(timeout=LONGEST)[1]
-    assert simulated.returncode == 0 and "walking" in said

@@ -14,9 +14,7 @@ from typing import Any
 import pytest
 
 from stepaside import load_run
-from stepaside.cli.main import main
 from stepaside.drivers import watchdog
-from stepaside.drivers.dead_man_switch import FIRST
 from stepaside.drivers.robot_camera import (
     SILENCE as CAMERA,
 )
@@ -137,50 +135,6 @@ def test_the_example_walks_and_is_recorded(
     assert 0.2 < run.summary.path_length_m < 1.0
 
 
-def test_a_dry_run_does_not_move_it(start: Callable[..., Any]) -> None:
-    walker = start()
-    play = start("--dry-run", "--duration", "1", of=walker)
-    while play.poll() is None:
-        assert not walker.moves()
-        sleep(0.01)
-    assert "walking" in play.stderr.read()
-
-
-@pytest.mark.parametrize("fate", ["killed", "frozen"])
-def test_the_guardian_stops_it_when_control_fails(
-    fate: str, start: Callable[..., Any]
-) -> None:
-    walker = start()
-    play = start(of=walker)
-    until(walker.moves)
-    play.send_signal(signal.SIGKILL if fate == "killed" else signal.SIGSTOP)
-    assert until(lambda: not walker.moves()) < 0.5 + SLACK
-    assert play.wait(LONGEST) == -signal.SIGKILL
-
-
-def test_it_walks_only_while_a_key_is_held(start: Callable[..., Any]) -> None:
-    pty = pytest.importorskip("pty")
-    near, far = pty.openpty()
-    walker = start()
-    play = start("--dead-man", "key", "--duration", "60", of=walker, keys=far)
-    while "hold any key to walk" not in play.stderr.readline():
-        assert play.poll() is None
-    assert not walker.moves()
-
-    def held() -> bool:
-        os.write(near, b" ")
-        sleep(0.05)
-        return bool(walker.moves())
-
-    until(held)
-    assert all(held() for _ in range(20))
-    assert until(lambda: not walker.moves()) < FIRST + SLACK
-    play.kill()
-    play.wait(LONGEST)
-    os.close(near)
-    os.close(far)
-
-
 @pytest.mark.parametrize("lost", ["states", "both"])
 def test_it_stops_when_its_network_fails_and_walks_on_afterwards(
     lost: str, start: Callable[..., Any]
@@ -214,31 +168,3 @@ def test_a_robot_with_a_camera_walks_while_it_sees_its_opponent(
     play.send_signal(signal.SIGINT)
     said = play.communicate(timeout=LONGEST)[1]
     assert play.returncode == 0 and "image() returned no new image" in said
-
-
-def test_a_robot_that_is_not_there_is_reported(
-    capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
-) -> None:
-    monkeypatch.setenv("WALKER_PORT", "1")
-    with pytest.raises(SystemExit) as left:
-        main(["play", ROBOT, *TEMPLATE, "--set", "wait=0"])
-    assert left.value.code == 2
-    said = capsys.readouterr().err.strip().splitlines()[-1]
-    assert "open() of WalkerRobot failed: ConnectionError" in said
-
-
-@pytest.mark.parametrize(
-    ("robot", "said"),
-    [
-        ("nowhere.py:Robot", "there is no file nowhere.py"),
-        (f"{ADAPTERS / 'walker_robot.py'}:Robot", "the file has WalkerRobot"),
-        (f"{ADAPTERS / 'walker_robot.py'}", "or be FILE.py:CLASS"),
-    ],
-)
-def test_a_wrong_name_is_refused_in_one_line(
-    robot: str, said: str, capsys: pytest.CaptureFixture[str]
-) -> None:
-    with pytest.raises(SystemExit) as left:
-        main(["play", robot, *TEMPLATE])
-    assert left.value.code == 2
-    assert said in capsys.readouterr().err.strip().splitlines()[-1]

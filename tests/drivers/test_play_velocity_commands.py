@@ -1,14 +1,13 @@
 """Test ``serve`` and ``play`` of robots that walk by themselves, in words."""
 
-import subprocess
-import sys
+from pathlib import Path
 
 import pytest
 
 from stepaside.cli.main import main
 
-PLAY = "from stepaside.cli.main import main; main()"
-TICK = 0.012
+ADAPTERS = Path(__file__).parents[2] / "examples" / "adapters"
+WALKER = f"{ADAPTERS / 'walker_robot.py'}:WalkerRobot"
 
 
 def refused(capsys: pytest.CaptureFixture[str], *words: str) -> str:
@@ -35,8 +34,21 @@ def refused(capsys: pytest.CaptureFixture[str], *words: str) -> str:
             "play naoqi:tcp://127.0.0.1:1 --set max_lateral=0.3",
             "requires a robot at ros2:",
         ),
+        (
+            f"play {WALKER} --sensing cameras --set wait=0",
+            "requires the method image() of WalkerRobot, or images",
+        ),
+        ("play lola:x --set legs.network=x.onnx", "a robot that takes gains"),
         ("serve", "--lola PLAYER=PATH or --ros2"),
         ("serve --lola referee=E", "each player once"),
+        ("serve --lola evader=E --lola evader=F", "each player once"),
+        ("play nowhere.py:Robot", "there is no file nowhere.py"),
+        ("play ros2:/x --check", "--check requires the address FILE.py"),
+        ("play ros2:/x --json", "--json requires --check"),
+        (
+            "play x.py:X --check --record run",
+            "record requires a play without --check",
+        ),
         (
             "serve --ros2 evader",
             "pursuer or evader=/NAMESPACE",
@@ -50,31 +62,3 @@ def test_errors_are_reported_in_one_line(
 ) -> None:
     pytest.importorskip("cyclonedds")
     assert said in refused(capsys, *words.split())
-
-
-LOCALHOST = "ROS_AUTOMATIC_DISCOVERY_RANGE=LOCALHOST"
-
-
-@pytest.mark.parametrize(
-    "words",
-    [
-        "serve --ros2 evader=/alone",
-        "play ros2:/alone --role evader",
-        "play ros2:/alone --role evader --dry-run",
-    ],
-)
-def test_local_topics_name_the_setting_that_ros_needs(words: str) -> None:
-    pytest.importorskip("cyclonedds")
-    process = subprocess.Popen(
-        [sys.executable, "-c", PLAY, *words.split(), "--domain", "73"],
-        stdout=subprocess.DEVNULL,
-        stderr=subprocess.PIPE,
-        text=True,
-    )
-    try:
-        assert process.stderr is not None
-        said = next(line for line in process.stderr if LOCALHOST in line)
-        assert "opens its UDP ports on all interfaces" in said
-    finally:
-        process.kill()
-        process.communicate(timeout=20.0)

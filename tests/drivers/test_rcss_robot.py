@@ -97,13 +97,6 @@ class FakeLeague:
                 agent.sendall(len(answer).to_bytes(4, "big") + answer)
 
 
-def test_expressions_are_nested_lists() -> None:
-    assert parse_expressions(b"(a (b 1)(c))(d)") == [
-        ["a", ["b", "1"], ["c"]],
-        ["d"],
-    ]
-
-
 @pytest.mark.parametrize("text", [b"(a", b"(a))", b")"])
 def test_unbalanced_messages_are_refused(text: bytes) -> None:
     with pytest.raises(ConnectionError):

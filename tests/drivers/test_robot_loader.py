@@ -78,12 +78,6 @@ def test_an_invalid_class_is_refused_by_the_name_of_what_is_wrong(
         load_robot_class(robot_file(tmp_path, text))
 
 
-@pytest.mark.parametrize("name", ["robot.py", "robot.py:", "robot.py:a b"])
-def test_a_robot_needs_file_and_class(name: str) -> None:
-    with pytest.raises(ConfigurationError, match=r"FILE\.py:CLASS"):
-        load_robot_class(name)
-
-
 @pytest.mark.parametrize(
     ("changes", "said"),
     [

@@ -13,13 +13,13 @@ import pytest
 
 from stepaside.core.errors import ConfigurationError
 from stepaside.core.poses import Pose
-from stepaside.drivers.guardian_process import Guardian, join_halter
+from stepaside.drivers.guardian_process import Guardian
 from stepaside.drivers.method_thread import BLOCKED, SessionLost
 from stepaside.drivers.robot import JointRobot, VelocityRobot
 from stepaside.drivers.robot_reports import plain_report
 from stepaside.drivers.robot_session import UNHALTED, RobotSession
 from stepaside.drivers.velocity_limits import VelocityLimits
-from stepaside.perception.measurement import RobotState, Sighting
+from stepaside.perception.measurement import RobotState
 
 SLACK = 1.0  # of a busy machine, in [s]
 WALK = (-0.2, 0.1, 0.4)
@@ -285,43 +285,3 @@ def test_a_robot_that_does_not_answer_is_tried_again() -> None:
         RobotSession(Absent())
     with pytest.raises(ConfigurationError, match=r"open\(\) of Wrong failed"):
         RobotSession(Wrong())
-
-
-def test_the_guardian_connects_in_advance_and_only_halts() -> None:
-    robot = ScriptedRobot()
-    halt = join_halter(lambda: robot)
-    assert robot.calls == ["open"]
-    halt()
-    assert robot.calls == ["open", "stop"]
-
-
-class Released:
-    """Switch that nobody holds."""
-
-    closed = False
-
-    def released(self) -> str:
-        """Say so."""
-        return "hold it"
-
-    def close(self) -> None:
-        """Note it."""
-        self.closed = True
-
-
-def test_a_switch_belongs_to_the_session() -> None:
-    switch = Released()
-    session = RobotSession(ScriptedRobot(), switch=switch)
-    assert session.released() == "hold it"
-    session.close()
-    assert switch.closed
-
-
-def test_a_sighting_is_of_plain_numbers() -> None:
-    robot = ScriptedRobot()
-    seen = Sighting.of_position(3.0, 1.0, 1.0)
-    robot.hears = lambda: robot.state()._replace(sighting=seen)
-    session = RobotSession(robot)
-    report = session.listen(1.0)
-    session.close()
-    assert report is not None and report.sighting == seen

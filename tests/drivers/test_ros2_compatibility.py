@@ -60,17 +60,3 @@ def test_beyond_this_machine_the_own_configuration_counts(
 ) -> None:
     assert told(before, beyond=True).startswith(f"{before},")
     assert before not in told(before)
-
-
-@pytest.mark.parametrize("beyond", [False, True])
-def test_a_participant_begins_with_it(
-    beyond: bool, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    """CycloneDDS refuses a configuration that it does not know."""
-    loopback = (
-        "<CycloneDDS><Domain><General><Interfaces>"
-        '<NetworkInterface name="lo" multicast="false"/>'
-        "</Interfaces></General></Domain></CycloneDDS>"
-    )
-    monkeypatch.setenv("CYCLONEDDS_URI", loopback)
-    DdsParticipant(73, beyond=beyond).close()

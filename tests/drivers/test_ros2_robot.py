@@ -2,7 +2,7 @@
 
 import os
 from collections.abc import Callable, Iterator
-from math import atan2, cos, hypot, pi, sin
+from math import atan2, cos, hypot, nan, pi, sin
 from pathlib import Path
 from threading import Thread
 from typing import Any
@@ -11,21 +11,25 @@ import pytest
 
 pytest.importorskip("cyclonedds")
 
+from stepaside.cli.connection_settings import (  # noqa: E402
+    ConnectionSettings,
+)
+from stepaside.cli.robot_connections import open_loop  # noqa: E402
 from stepaside.core.errors import ConfigurationError  # noqa: E402
 from stepaside.core.poses import Pose  # noqa: E402
-from stepaside.drivers import ros2, ros2_dds  # noqa: E402
+from stepaside.drivers import ros2  # noqa: E402
 from stepaside.drivers.robot_loader import RobotRequest  # noqa: E402
 from stepaside.drivers.ros2 import Ros2Robot, make_robot  # noqa: E402
 from stepaside.drivers.ros2_dds import (  # noqa: E402
     DdsParticipant,
     header,
     make,
-    message_type,
     parse_namespace,
     seconds,
     take_messages,
     vector,
 )
+from stepaside.games.duel_settings import DuelSettings  # noqa: E402
 from stepaside.perception.measurement import RobotState  # noqa: E402
 
 from velocity_fakes import until  # isort: skip  # noqa: E402
@@ -54,6 +58,7 @@ class Peer:
         self.odometry = self.dds.writer("/it/odom", "nav_msgs/msg/Odometry")
         self.commands = {kind: self.subscribe(kind) for kind in kinds}
         self.time, self.pose = 50.0, Pose(0.0, 0.0, 0.0)
+        self.rotation: tuple[float, ...] | None = None  # another quaternion
         self.tells: Callable[[], None] = lambda: None
 
     def subscribe(self, kind: str) -> Any:
@@ -65,13 +70,15 @@ class Peer:
         self.time += 0.05
         self.tells()
         still = make("geometry_msgs/Twist", vector(), vector())
+        here = pose(*self.pose)
+        if self.rotation is not None:
+            here.orientation = make("geometry_msgs/Quaternion", *self.rotation)
         self.odometry.write(
             make(
                 "nav_msgs/Odometry",
                 header(self.time, "odom"),
                 "base",
-                make("geometry_msgs/PoseWithCovariance", pose(*self.pose),
-                     UNKNOWN),
+                make("geometry_msgs/PoseWithCovariance", here, UNKNOWN),
                 make("geometry_msgs/TwistWithCovariance", still, UNKNOWN),
             )
         )  # fmt: skip
@@ -136,10 +143,74 @@ def test_odometry_becomes_a_pose(peer: Peer, robot: Ros2Robot) -> None:
 def test_a_message_without_stamp_or_heading_is_named(
     peer: Peer, robot: Ros2Robot
 ) -> None:
+    for part in (0.0, nan):
+        peer.rotation = part, 0.0, 0.0, 0.0
+        assert heard(peer, robot).hindrance == (
+            "/it/odom has no heading: pose.orientation is zero or not finite"
+        )
     peer.time = -0.05
     assert heard(peer, robot).hindrance == (
         "/it/odom has no stamp: header.stamp is 0"
     )
+
+
+def test_a_quaternion_of_any_length_is_its_rotation(
+    peer: Peer, robot: Ros2Robot
+) -> None:
+    peer.rotation = 0.0, 0.0, 0.3, 0.3  # to the left
+    assert heard(peer, robot).pose.theta == pytest.approx(0.5 * pi)
+
+
+SIDEWAYS = """
+import stepaside as sa
+from stepaside.strategies.velocity_set import BodyVelocity
+
+class Sideways:
+    direction, saturated = sa.Direction.FORWARD, False
+
+    def begin(self):
+        pass
+
+    def decide(self, knowledge, memory):
+        return sa.Intent(velocity=BodyVelocity(0.1, -0.5, 0.0)), None
+"""
+
+
+def test_a_robot_that_steps_sideways_is_commanded_so(
+    peer: Peer, tmp_path: Path
+) -> None:
+    """The direction is kept within the limits, as ``play`` has them."""
+    file = tmp_path / "sideways.py"
+    file.write_text(SIDEWAYS)
+    settings = DuelSettings(pursuer_strategy=f"{file}:Sideways")
+    connection = ConnectionSettings(
+        *("ros2:/it", "pursuer"),
+        sim_time=True,
+        max_lateral=0.2,
+        max_speed=0.4,
+        max_turn=0.8,
+        domain=DOMAIN,
+    )
+    loop = open_loop(settings, connection, connection.robot_maker(settings))
+    peer.publish(
+        "/it/other",
+        "geometry_msgs/msg/PointStamped",
+        lambda: make(
+            "geometry_msgs/PointStamped",
+            *(header(peer.time, "base"), point(1.0, 0.0)),
+        ),
+    )
+
+    def commanded() -> Any:
+        peer.tell()
+        loop.tick()
+        found = take_messages(peer.commands[TWIST])
+        return found and found[-1].linear.y < -0.1999 and found[-1]
+
+    twist = until(commanded)
+    loop.close()
+    assert twist.linear.y == pytest.approx(-0.2)
+    assert (twist.linear.x, twist.angular.z) == pytest.approx((0.04, 0.0))
 
 
 @pytest.mark.parametrize("frame", ["base", "odom", "map", "camera", ""])
@@ -257,9 +328,7 @@ def test_the_nearest_detection_of_a_class_is_the_opponent(
     robot.close()
 
 
-def test_people_and_tracked_persons_are_opponents(
-    peer: Peer, robot: Ros2Robot
-) -> None:
+def test_people_are_opponents(peer: Peer, robot: Ros2Robot) -> None:
     def person(x: float, y: float) -> Any:
         still = point(0.0, 0.0)
         return make("people_msgs/Person", "", point(x, y), still, 1.0, [], [])
@@ -270,22 +339,6 @@ def test_people_and_tracked_persons_are_opponents(
 
     peer.publish("/it/people", "people_msgs/msg/People", people)
     assert sighted(peer, robot) == pytest.approx((0.5 * pi, 1.5))
-
-    def tracks() -> Any:
-        still = make("geometry_msgs/Twist", vector(), vector())
-        age = make("builtin_interfaces/Duration", 1, 0)
-        where = make("geometry_msgs/PoseWithCovariance", pose(2, 0), UNKNOWN)
-        speed = make("geometry_msgs/TwistWithCovariance", still, UNKNOWN)
-        track = make("spencer_tracking_msgs/TrackedPerson", 7, False, True, 3,
-                     age, where, speed)  # fmt: skip
-        head = header(peer.time, "base")
-        return make("spencer_tracking_msgs/TrackedPersons", head, [track])
-
-    peer.publish(
-        "/it/tracked_persons", "spencer_tracking_msgs/msg/TrackedPersons",
-        tracks,
-    )  # fmt: skip
-    until(lambda: sighted(peer, robot)[1] == pytest.approx(2.0))
 
 
 TABLE = """
@@ -449,42 +502,10 @@ def test_an_invalid_remapping_is_refused(rules: list[str]) -> None:
         make_robot(RobotRequest("/it", remap=tuple(rules)))
 
 
-@pytest.mark.parametrize(
-    ("text", "namespace"),
-    [("ros2:/nao", "/nao"), ("nao", "/nao"), ("ros2:", ""), ("/a/b/", "/a/b")],
-)
-def test_namespaces_are_read(text: str, namespace: str) -> None:
-    assert parse_namespace(text) == namespace
-
-
 @pytest.mark.parametrize("text", ["ros2:/na o", "/3", "//a", "/a//b", "ä"])
 def test_an_invalid_namespace_is_refused(text: str) -> None:
     with pytest.raises(ConfigurationError, match="namespace must be"):
         parse_namespace(text)
-
-
-def test_types_are_those_of_ros() -> None:
-    """Names and fields determine whether others understand a message."""
-    odometry = message_type("nav_msgs/msg/Odometry")
-    name = odometry.__idl__.idl_transformed_typename
-    assert name == "nav_msgs::msg::dds_::Odometry_"
-    assert ros2_dds.ros_type(name) == "nav_msgs/Odometry"
-    assert list(odometry.__annotations__) == [
-        *("header", "child_frame_id", "pose", "twist")
-    ]
-    assert ros2_dds.ros_type("idl::Other") == "idl::Other"
-
-
-def test_a_closed_participant_leaves_while_readers_are_held() -> None:
-    """Otherwise later participants would use its configuration."""
-    from cyclonedds.core import DDSException
-
-    dds = DdsParticipant(DOMAIN)
-    writer = dds.writer("/flag", "std_msgs/msg/Bool")
-    writer.write(make("std_msgs/Bool", True))
-    dds.close()
-    with pytest.raises(DDSException):
-        writer.write(make("std_msgs/Bool", True))
 
 
 def test_a_domain_that_has_no_ports_is_refused(

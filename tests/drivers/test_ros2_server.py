@@ -28,7 +28,6 @@ from stepaside.drivers.ros2_server import (  # noqa: E402
     rotation_message,
 )
 from stepaside.drivers.velocity_limits import REST  # noqa: E402
-from stepaside.perception.measurement import Sighting  # noqa: E402
 from stepaside.report.export.recorded_transforms import rotate  # noqa: E402
 from stepaside.strategies.velocity_set import BodyVelocity  # noqa: E402
 
@@ -117,7 +116,7 @@ def test_a_served_robot_follows_either_type_sideways_too(
     until(lambda: scene.round() == REST and not scene.server.connected)
 
 
-def test_time_frames_joints_and_sight_are_published(scene: Scene) -> None:
+def test_time_frames_and_joints_are_published(scene: Scene) -> None:
     scene.walker.pose = Pose(1.0, -2.0, 2.5)
     tf = scene.read("/tf", "tf2_msgs/msg/TFMessage")
     (transform,) = tf.transforms
@@ -131,22 +130,6 @@ def test_time_frames_joints_and_sight_are_published(scene: Scene) -> None:
     assert list(joints.name) == ["LKneePitch", "RKneePitch"]
     clock = scene.read("/clock", "rosgraph_msgs/msg/Clock")
     assert seconds(clock.clock) % REPORTS == pytest.approx(0, abs=1e-9)
-    readers = [
-        scene.other.reader(
-            "/nao/ideal_sight", "geometry_msgs/msg/PointStamped"
-        )
-    ]
-
-    def seen() -> Any:
-        now = scene.walker.time
-        scene.walker.sighting = Sighting(now, 0.5 * np.pi, 0.75)
-        scene.round()
-        return take_messages(readers[0])
-
-    sight = until(seen)[-1]
-    assert sight.header.frame_id == "nao/base_footprint"
-    assert (sight.point.x, sight.point.y) == pytest.approx((0.0, 0.75))
-    readers.clear()
 
 
 def test_a_late_reader_receives_the_description() -> None:

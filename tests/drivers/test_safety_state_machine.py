@@ -1,5 +1,6 @@
 """Test the safety state machine: states, transitions, reasons."""
 
+from collections.abc import Callable
 from typing import Any
 
 import pytest
@@ -13,8 +14,6 @@ from stepaside.drivers.safety import (
     SafetyInputs,
     SafetyState,
 )
-
-MOVING = [s for s in SafetyState if s is not SafetyState.LIMP]
 
 
 def seen(time: float = 0.0, **changes: Any) -> SafetyInputs:
@@ -54,21 +53,11 @@ def at(state: SafetyState) -> Safety:
     return machine
 
 
-@pytest.mark.parametrize("state", SafetyState)
-def test_every_state_can_be_reached(state: SafetyState) -> None:
-    assert at(state).state is state
-
-
 def test_the_first_frames_cause_no_motion() -> None:
     machine = Safety()
     for _ in range(WARM_UP - 1):
         assert machine.frame(seen(reached=True)) is SafetyState.LIMP
     assert machine.frame(seen()) is SafetyState.REACHING
-
-
-def test_only_walking_and_stopping_are_moved_by_control() -> None:
-    movers = {state for state in SafetyState if state.moves_by_control}
-    assert movers == {SafetyState.WALKING, SafetyState.STOPPING}
 
 
 def test_the_button_acts_once_when_released() -> None:
@@ -79,125 +68,6 @@ def test_the_button_acts_once_when_released() -> None:
     for _ in range(5):
         assert machine.frame(seen()) is SafetyState.WALKING
     assert machine.reason == "chest button"
-
-
-@pytest.mark.parametrize(
-    ("state", "after"),
-    [
-        (SafetyState.LIMP, SafetyState.REACHING),
-        (SafetyState.REACHING, SafetyState.RESTING),
-        (SafetyState.READY, SafetyState.WALKING),
-        (SafetyState.WALKING, SafetyState.STOPPING),
-        (SafetyState.STOPPING, SafetyState.RESTING),
-        (SafetyState.RESTING, SafetyState.RESTING),
-    ],
-)
-def test_the_button_starts_stops_and_wakes(
-    state: SafetyState, after: SafetyState
-) -> None:
-    assert press(at(state)) is after
-
-
-@pytest.mark.parametrize("state", MOVING)
-def test_a_robot_that_falls_goes_limp(state: SafetyState) -> None:
-    machine = at(state)
-    assert machine.frame(seen(tilt=0.99 * FALL)) is state
-    assert machine.frame(seen(tilt=1.01 * FALL)) is SafetyState.LIMP
-    assert "falls" in machine.reason
-
-
-def test_a_robot_that_lies_does_not_get_up_by_the_button() -> None:
-    machine = at(SafetyState.LIMP)
-    machine.frame(seen(tilt=1.5, chest_pressed=True))
-    assert machine.frame(seen(tilt=1.5)) is SafetyState.LIMP
-    assert "falls" in machine.reason
-    assert press(machine) is SafetyState.REACHING
-
-
-@pytest.mark.parametrize("hot", [{"status": 2}, {"temperature": 81.0}])
-@pytest.mark.parametrize(
-    ("state", "after"),
-    [
-        (SafetyState.WALKING, SafetyState.STOPPING),
-        (SafetyState.READY, SafetyState.RESTING),
-        (SafetyState.REACHING, SafetyState.RESTING),
-        (SafetyState.RESTING, SafetyState.RESTING),
-        (SafetyState.LIMP, SafetyState.LIMP),
-    ],
-)
-def test_a_hot_robot_comes_to_rest(
-    state: SafetyState, after: SafetyState, hot: dict[str, Any]
-) -> None:
-    machine = at(state)
-    assert machine.frame(seen(**hot)) is after
-    assert machine.frame(seen(**hot)) is after
-
-
-def test_a_hot_robot_that_has_rested_goes_limp_and_stays_so() -> None:
-    machine = at(SafetyState.RESTING)
-    assert machine.frame(seen(status=2, reached=True)) is SafetyState.LIMP
-    assert (
-        machine.frame(seen(status=2, chest_pressed=True)) is SafetyState.LIMP
-    )
-    assert machine.frame(seen(status=2)) is SafetyState.LIMP
-
-
-@pytest.mark.parametrize("state", MOVING)
-def test_critical_heat_goes_limp(state: SafetyState) -> None:
-    assert at(state).frame(seen(status=3)) is SafetyState.LIMP
-
-
-def test_a_little_heat_is_borne() -> None:
-    machine = at(SafetyState.WALKING)
-    assert (
-        machine.frame(seen(status=1, temperature=79.0)) is SafetyState.WALKING
-    )
-
-
-@pytest.mark.parametrize("state", [SafetyState.REACHING, SafetyState.RESTING])
-def test_a_posture_that_is_not_reached_in_time_is_given_up(
-    state: SafetyState,
-) -> None:
-    machine = at(state)
-    assert machine.frame(seen(LONGEST_REACH)) is state
-    assert machine.frame(seen(LONGEST_REACH + 0.1)) is SafetyState.LIMP
-    assert "took too long" in machine.reason
-
-
-def test_control_that_does_not_stop_is_stopped() -> None:
-    machine = at(SafetyState.STOPPING)
-    assert machine.frame(seen(LONGEST_STOP)) is SafetyState.STOPPING
-    assert machine.frame(seen(LONGEST_STOP + 0.1)) is SafetyState.RESTING
-
-
-def test_halting_matters_only_to_a_robot_that_stops() -> None:
-    for state in SafetyState:
-        machine = at(state)
-        machine.halted(0.0)
-        stops = state is SafetyState.STOPPING
-        assert machine.state is (SafetyState.RESTING if stops else state)
-
-
-@pytest.mark.parametrize("state", MOVING)
-def test_a_failure_makes_the_robot_limp_with_a_reason(
-    state: SafetyState,
-) -> None:
-    machine = at(state)
-    machine.fail("no valid frame for 0.1 s", 0.0)
-    assert machine.state is SafetyState.LIMP
-    assert machine.reason == "no valid frame for 0.1 s"
-
-
-def test_rest_stops_a_walking_and_lowers_a_standing_robot() -> None:
-    for state, after in (
-        (SafetyState.WALKING, SafetyState.STOPPING),
-        (SafetyState.READY, SafetyState.RESTING),
-        (SafetyState.REACHING, SafetyState.RESTING),
-        (SafetyState.LIMP, SafetyState.LIMP),
-    ):
-        machine = at(state)
-        machine.rest("asked to", 0.0)
-        assert machine.state is after
 
 
 def lasting(
@@ -229,28 +99,114 @@ TO_STAND: dict[str, tuple[dict[str, Any], str]] = {
 LASTING = 0.75  # longer than any condition has to last, in [s]
 
 
-@pytest.mark.parametrize(("changes", "word"), TO_REST.values(), ids=TO_REST)
+# What happens, and the states after it: of one that was limp, reaching,
+# ready, walking, stopping and resting.
+EVENTS: dict[str, tuple[Callable[[Safety], object], str]] = (
+    {
+        "nothing": (
+            lambda m: m.frame(
+                seen(status=1, temperature=79, tilt=0.99 * FALL)
+            ),
+            "limp reaching ready walking stopping resting",
+        ),
+        "button": (press, "reaching resting walking stopping resting resting"),
+        "fall": (
+            lambda m: m.frame(seen(tilt=1.01 * FALL)),
+            "limp limp limp limp limp limp",
+        ),
+        "hot": (
+            lambda m: [m.frame(seen(status=2)) for _ in range(2)],
+            "limp resting resting stopping stopping resting",
+        ),
+        "hot by degrees": (
+            lambda m: m.frame(seen(temperature=81.0)),
+            "limp resting resting stopping stopping resting",
+        ),
+        "critical heat": (
+            lambda m: m.frame(seen(status=3)),
+            "limp limp limp limp limp limp",
+        ),
+        "failure": (
+            lambda m: m.fail("no valid frame for 0.1 s", 0.0),
+            "limp limp limp limp limp limp",
+        ),
+        "rest": (
+            lambda m: m.rest("asked to", 0.0),
+            "limp resting resting stopping stopping resting",
+        ),
+        "halted": (
+            lambda m: m.halted(0.0),
+            "limp reaching ready walking resting resting",
+        ),
+        "too late": (
+            lambda m: m.frame(seen(0.1 + max(LONGEST_REACH, LONGEST_STOP))),
+            "limp limp ready walking resting limp",
+        ),
+    }
+    | {
+        name: (
+            lambda m, changes=changes: lasting(m, LASTING, **changes),
+            "limp resting resting stopping stopping resting",
+        )
+        for name, (changes, _) in TO_REST.items()
+    }
+    | {
+        name: (
+            lambda m, changes=changes: lasting(m, LASTING, **changes),
+            "limp reaching ready stopping stopping resting",
+        )
+        for name, (changes, _) in TO_STAND.items()
+    }
+)
+
+
+@pytest.mark.parametrize("event", EVENTS)
+def test_each_event_leads_from_each_state_to_a_safe_one(event: str) -> None:
+    happens, after = EVENTS[event]
+    for state, then in zip(SafetyState, after.split(), strict=True):
+        machine = at(state)
+        happens(machine)
+        assert machine.state.value == then, state
+
+
+def test_a_robot_that_lies_does_not_get_up_by_the_button() -> None:
+    machine = at(SafetyState.LIMP)
+    machine.frame(seen(tilt=1.5, chest_pressed=True))
+    assert machine.frame(seen(tilt=1.5)) is SafetyState.LIMP
+    assert "falls" in machine.reason
+    assert press(machine) is SafetyState.REACHING
+
+
+def test_a_hot_robot_that_has_rested_goes_limp_and_stays_so() -> None:
+    machine = at(SafetyState.RESTING)
+    for changes in ({"reached": True}, {"chest_pressed": True}, {}):
+        assert machine.frame(seen(status=2, **changes)) is SafetyState.LIMP
+
+
 @pytest.mark.parametrize(
-    ("state", "after"),
+    ("state", "longest", "after"),
     [
-        (SafetyState.WALKING, SafetyState.STOPPING),
-        (SafetyState.STOPPING, SafetyState.STOPPING),
-        (SafetyState.READY, SafetyState.RESTING),
-        (SafetyState.REACHING, SafetyState.RESTING),
-        (SafetyState.RESTING, SafetyState.RESTING),
-        (SafetyState.LIMP, SafetyState.LIMP),
+        (SafetyState.REACHING, LONGEST_REACH, SafetyState.LIMP),
+        (SafetyState.RESTING, LONGEST_REACH, SafetyState.LIMP),
+        (SafetyState.STOPPING, LONGEST_STOP, SafetyState.RESTING),
     ],
 )
-def test_a_robot_that_must_not_go_on_stops_and_rests(
-    state: SafetyState, after: SafetyState, changes: dict[str, Any], word: str
+def test_what_takes_too_long_is_given_up(
+    state: SafetyState, longest: float, after: SafetyState
 ) -> None:
     machine = at(state)
-    assert lasting(machine, LASTING, **changes) is after
-    if state not in (SafetyState.STOPPING, SafetyState.RESTING):
-        assert word in machine.reason
+    assert machine.frame(seen(longest)) is state
+    assert machine.frame(seen(longest + 0.1)) is after
+
+
+@pytest.mark.parametrize("name", TO_REST)
+def test_a_robot_that_must_not_go_on_says_why_and_rests(name: str) -> None:
+    changes, word = TO_REST[name]
+    machine = at(SafetyState.WALKING)
+    lasting(machine, LASTING, **changes)
+    assert word in machine.reason
     machine.halted(2.0)
-    rests = (SafetyState.WALKING, SafetyState.STOPPING)
-    assert machine.state is (SafetyState.RESTING if state in rests else after)
+    assert machine.state is SafetyState.RESTING
 
 
 @pytest.mark.parametrize(("changes", "word"), TO_STAND.values(), ids=TO_STAND)
@@ -268,16 +224,6 @@ def test_a_robot_that_may_stand_but_not_walk_stops_and_stands(
     assert word in machine.reason
     assert lasting(machine, LASTING, 3.0) is SafetyState.READY
     assert press(machine, 5.0) is SafetyState.WALKING
-
-
-@pytest.mark.parametrize(
-    "state", [SafetyState.REACHING, SafetyState.READY, SafetyState.LIMP]
-)
-@pytest.mark.parametrize(("changes", "word"), TO_STAND.values(), ids=TO_STAND)
-def test_a_robot_that_may_not_walk_may_take_its_stance(
-    changes: dict[str, Any], word: str, state: SafetyState
-) -> None:
-    assert lasting(at(state), LASTING, **changes) is state
 
 
 @pytest.mark.parametrize("name", [*TO_REST, *TO_STAND])

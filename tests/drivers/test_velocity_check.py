@@ -268,23 +268,3 @@ def test_the_command_prints_verdicts_and_exits_with_1(
     found = json.loads(printed("--json"))
     assert found["passes"] is False
     assert [f["verdict"] for f in found["findings"]] == ["pass", "fail"]
-
-
-@pytest.mark.parametrize(
-    ("words", "said"),
-    [
-        ("play ros2:/x --check", "--check requires the address FILE.py"),
-        ("play ros2:/x --json", "--json requires --check"),
-        (
-            "play x.py:X --check --record run",
-            "record requires a play without --check",
-        ),
-    ],
-)
-def test_options_of_the_check_are_refused_without_it(
-    words: str, said: str, capsys: pytest.CaptureFixture[str]
-) -> None:
-    with pytest.raises(SystemExit) as left:
-        main(words.split())
-    assert left.value.code == 2
-    assert said in capsys.readouterr().err

@@ -39,18 +39,6 @@ def test_a_robot_that_walks_sideways_keeps_its_direction() -> None:
     assert Ramp(TIGHT).toward(wanted, 0.1).lateral == 0.0
 
 
-def test_velocities_are_those_within_the_limits() -> None:
-    assert TIGHT.velocities is None
-    found = replace(TIGHT, lateral=0.1).within(0.15, 9.0).velocities
-    assert found is not None
-    assert found[:3] == ((-0.1, 0.15), (-0.1, 0.1), (-0.5, 0.5))
-
-
-def test_without_limits_nothing_is_cut() -> None:
-    wanted = BodyVelocity(3.0, 0.0, -7.0)
-    assert VelocityLimits().scale(wanted) == wanted
-
-
 def test_the_ramp_climbs_at_its_accelerations_and_arrives() -> None:
     ramp, wanted = Ramp(TIGHT), BodyVelocity(0.2, 0.0, -0.3)
     speeds = [ramp.toward(wanted, 0.1) for _ in range(8)]
