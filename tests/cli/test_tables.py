@@ -8,9 +8,10 @@ import pytest
 from click.testing import CliRunner, Result
 
 from stepaside.cli.main import COMMANDS, main
-from stepaside.cli.tables import format_value, label_of, unit_of
+from stepaside.cli.tables import format_value
 from stepaside.core import progress
 from stepaside.games import game
+from stepaside.report.result_labels import label_of, unit_of
 
 pytestmark = pytest.mark.usefixtures("blank_figures", "inline_workers")
 

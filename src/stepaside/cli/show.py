@@ -12,12 +12,12 @@ from ..core.atomic_output import FIGURES, check_file, check_folder, reason_of
 from ..core.errors import ConfigurationError, OutputError
 from ..core.progress import counter, show_progress
 from ..report.film_settings import FilmSettings
+from ..report.result_labels import label_of
 from ..report.text_escaping import visible
 from .options import browser_option, figure_width, json_option
 from .settings import GIVEN, refuse_settings, takes_settings
 from .tables import (
     format_value,
-    label_of,
     print_columns,
     print_table,
     result_rows,

@@ -6,6 +6,7 @@ from typing import Any
 import click
 
 from ..core.atomic_output import check_file
+from ..report.result_labels import in_unit, label_of
 from .options import (
     TextType,
     executor_option,
@@ -15,7 +16,7 @@ from .options import (
     workers_option,
 )
 from .study_output import finish_study, run_with_bar
-from .tables import label_of, print_columns
+from .tables import print_columns
 from .terminal import print_json, write_result
 
 SUFFIX = ".sqlite"
@@ -126,7 +127,7 @@ def _print(
         [
             *(_text(row[name]) for name in by),
             str(row["number"]),
-            *(_cell(row[name]) for name in values),
+            *(_cell(name, row[name]) for name in values),
         ]
         for row in rows
     ]
@@ -144,13 +145,13 @@ def _text(value: Any) -> str:
     return f"{value:g}" if isinstance(value, float) else str(value)
 
 
-def _cell(found: Any) -> str:
-    """Return the statistics of a value as text."""
+def _cell(name: str, found: Any) -> str:
+    """Return the statistics of a value as text, in the unit of its name."""
     if found is None:
         return "-"
     if "mean" in found:
-        half = f" ±{found['half']:.2g}" if found["half"] else ""
-        return f"{found['mean']:.4g}{half}"
+        mean, half = (in_unit(name, found[key]) for key in ("mean", "half"))
+        return f"{mean:.4g}" + (f" ±{half:.2g}" if half else "")
     if "share" in found:
         low, high = 100 * found["low"], 100 * found["high"]
         return f"{100 * found['share']:.0f} % ({low:.0f}-{high:.0f})"

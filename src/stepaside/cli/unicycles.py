@@ -9,13 +9,13 @@ import click
 from ..core.entries import to_entries
 from ..core.errors import PlanError
 from ..games.unicycle_settings import UnicycleSettings
+from ..report.result_labels import label_of
 from .circle import describe_circle
 from .options import figure_option, figure_width, json_option
 from .settings import refuse_settings, takes_settings
 from .tables import (
     finite,
     format_value,
-    label_of,
     print_table,
     table_rows,
 )

@@ -9,13 +9,16 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from ..games.duel_settings import DuelSettings
-from .duel import NAMED
+from .duel import NAMED as NAMED_OF_DUEL
 from .options import browser_option, file_argument
 from .settings import refuse_settings, takes_settings
 from .terminal import echo
 
 if TYPE_CHECKING:
     from ..games.game_settings import GameSettings
+
+# A live game has no end by time.
+NAMED = {k: v for k, v in NAMED_OF_DUEL.items() if v != "duration"}
 
 
 @click.command("view")

@@ -79,7 +79,7 @@ def _draw_paths(
 ) -> None:
     """Draw the paths of the torsos, in the players' colours or the run's."""
     markers = markers_of(run.tracks) if len(run.players) > 2 else {}
-    for name, colour in colours_of(run.players, run.identities).items():
+    for name, colour in colours_of(run).items():
         own = look | {"color": colour} if coloured else look
         track = run.tracks[name]
         axes.plot(

@@ -3,7 +3,6 @@
 import os
 import sys
 from collections.abc import Iterable, Mapping, Sequence
-from functools import partial
 from io import BytesIO
 from typing import Any
 
@@ -18,6 +17,7 @@ from cycler import cycler  # noqa: E402
 
 from ..core.atomic_output import atomic_draft  # noqa: E402
 from ..core.errors import AnyPath, as_path  # noqa: E402
+from ..games.run import Run  # noqa: E402
 from .figure_sizes import sheet  # noqa: E402
 from .palette import PALETTES, colours_in  # noqa: E402
 
@@ -27,7 +27,6 @@ LEFT, RIGHT = LIGHT.others[:2]
 MEAN, SWAY, PUSHED = LIGHT.mean, LIGHT.sway, LIGHT.pushed
 COLOURS = {"pursuer": PURSUER, "evader": EVADER}
 LINES = ("-", "--", ":", "-.")
-colours_of = partial(colours_in, "light")
 MARGIN = 0.75  # left of the panels, for ticks and label, in [inch]
 AXIS = 0.42  # below a row of panels, for ticks and label, in [inch]
 LEGEND_LINE = 0.19  # height of a line of a legend, in [inch]
@@ -158,6 +157,11 @@ def _set_fonts() -> None:
     look: dict[Any, Any] = {"font.family": list(family)}
     look |= {f"{name}size": font + more for name, more in sizes.items()}
     plt.rcParams.update(look | {f"{name}width": line for name in widths})
+
+
+def colours_of(run: Run) -> dict[str, str]:
+    """Return the colours of the players of a run in figures, by name."""
+    return colours_in("light", run.players, run.identities)
 
 
 def legend_below(

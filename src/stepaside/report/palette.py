@@ -8,7 +8,6 @@ from ..core.player_colours import from_hex, shades_of, to_hex
 from ..core.player_identity import PlayerIdentity, Role
 
 THEMES = ("light", "dark")
-NO_IDENTITIES: Mapping[str, PlayerIdentity] = {}
 
 
 class Palette(NamedTuple):
@@ -138,7 +137,7 @@ def rgb(colour: str) -> tuple[int, int, int]:
 def colours_in(
     theme: str,
     players: Iterable[str],
-    identities: Mapping[str, PlayerIdentity] = NO_IDENTITIES,
+    identities: Mapping[str, PlayerIdentity],
 ) -> dict[str, str]:
     """Return the colour of each player: its role's, or the next free one.
 

@@ -119,7 +119,7 @@ def draw_snapshots(shown: Iterable[Any], run: Run, times: Array) -> None:
     for axes, time in zip(shown, times.tolist(), strict=True):
         index = run.index_at(time)
         draw_solids(axes, run.plan, time)
-        for name, colour in colours_of(run.players, run.identities).items():
+        for name, colour in colours_of(run).items():
             track = run.tracks[name]
             axes.plot(*track.com[: index + 1, :2].T, color=colour, lw=1.0)
             draw_heading(axes, track.torso[index], colour, size)
@@ -158,7 +158,7 @@ def draw_paths(axes: Any, run: Run) -> None:
     extent = float(np.ptp(every, axis=0).max())
     # As large as a robot, larger for long paths.
     size = min(max(0.2, 0.04 * extent), 0.1 * extent + 0.02)
-    colours = colours_of(run.players, run.identities)
+    colours = colours_of(run)
     many = len(colours) > 2
     markers = markers_of(run.tracks) if many else {}
     for overlay in overlays_of(run):

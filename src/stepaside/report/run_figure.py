@@ -145,7 +145,7 @@ def _draw_measure(run: Run, axes: Any, *, angle: bool) -> None:
     for name, radius in areas:
         # The label of the higher line is above it, the other below.
         va = "bottom" if level is not None and level <= radius else "top"
-        colour = colours_of(run.players, run.identities)[name]
+        colour = colours_of(run)[name]
         text = f"safety radius\n{radius:.3g} m"
         mark_level(axes, radius, text, colour, ":", va=va)
     if level is not None:
@@ -197,7 +197,7 @@ def _draw_balance(
     heading = float(track.torso[show][:, 2].mean())
     c, s = np.cos(heading), np.sin(heading)
     axis = np.array([c, s] if forward else [-s, c])
-    colour = colours_of(run.players, run.identities)[name]
+    colour = colours_of(run)[name]
     com: Array = track.com[:, :2]
     way: Any = np.zeros(int(show.sum()))
     if forward and show.sum() > 1:
@@ -272,7 +272,7 @@ def clearance_of(room: Room, places: Array, times: Array) -> Array:
 def _draw_clearance(run: Run, room: Room, axes: Any) -> None:
     """Draw each player's clearance over time."""
     every = slice(None, None, max(1, len(run.times) // MAX_SAMPLES))
-    for name, colour in colours_of(run.players, run.identities).items():
+    for name, colour in colours_of(run).items():
         places = run.tracks[name].unicycle[every, :2]
         clearance = clearance_of(room, places, run.times[every])
         axes.plot(run.times[every], clearance, color=colour, label=name)
@@ -286,7 +286,7 @@ def _draw_clearance(run: Run, room: Room, axes: Any) -> None:
 
 def _draw_distances(run: Run, axes: Any) -> None:
     """Draw the distance of each pair, or of each player to the nearest."""
-    colours = colours_of(run.players, run.identities)
+    colours = colours_of(run)
     markers = markers_of(run.tracks)
     for number, (label, name, other, values) in enumerate(_curves_of(run)):
         axes.plot(
@@ -355,7 +355,7 @@ def _draw_command(run: Run, name: str, axes: Any) -> None:
     """Draw the desired velocity and the command that was sent."""
     command = run.tracks[name].command
     assert command is not None
-    colour = colours_of(run.players, run.identities)[name]
+    colour = colours_of(run)[name]
     turns = axes.twinx()
     for part, label, look in ((0, "desired", ":"), (3, "command", "-")):
         speed, turn = command[:, part], command[:, part + 1]

@@ -61,7 +61,7 @@ def draw_sight(run: Run, path: AnyPath) -> None:
 
 def _draw_errors(upper: Any, lower: Any, run: Run) -> None:
     """Draw the errors of bearing and distance over time."""
-    for name, colour in colours_of(run.players, run.identities).items():
+    for name, colour in colours_of(run).items():
         rows = run.tracks[name].sight
         if rows is not None:
             bearing = np.degrees(wrap_angles(rows[:, 1] - rows[:, 3]))

@@ -18,16 +18,8 @@ from .figure_style import (
     panels,
     save,
 )
+from .result_labels import in_unit, label_of
 
-UNITS = {  # by the end of a name
-    "_rad_s": "rad/s",
-    "_n_s": "N s",
-    "_m_s": "m/s",
-    "_deg": "deg",
-    "_m2": "m^2",
-    "_m": "m",
-    "_s": "s",
-}
 LETTERS = "abcdefghijklmnopqrstuvwxyz"
 MARKERS = "osD^vPX"
 Rows = Sequence[Mapping[str, Any]]
@@ -124,30 +116,24 @@ def draw_study(rows: Rows, by: Sequence[str], path: AnyPath) -> None:
     lines: dict[str, list[tuple[Any, float, float, float]]] = {}
     for row in rows:
         name = ", ".join(str(row[n]) for n in by if n != axis)
-        if (point := _point(row[value])) is not None:
-            at = row[axis] if numeric else str(row[axis])
+        if (point := _point(value, row[value])) is not None:
+            at = in_unit(axis, row[axis]) if numeric else str(row[axis])
             lines.setdefault(name, []).append((at, *point))
     look = {} if numeric else {"ls": "none"}
     curves = [Curve(name, points, look) for name, points in lines.items()]
     shares = any(row[value] and "mean" not in row[value] for row in rows)
-    y = f"{value} [%]" if shares else _label(value)
-    draw_curves({"": curves}, _label(axis), y, path, size=(5.4, 3.0))
+    y = f"{label_of(value)} [%]" if shares else label_of(value, unit=True)
+    x = label_of(axis, unit=True)
+    draw_curves({"": curves}, x, y, path, size=(5.4, 3.0))
 
 
-def _label(name: str) -> str:
-    """Return a name with its unit, which its end tells."""
-    for end, unit in UNITS.items():
-        if name.endswith(end):
-            return f"{name.removesuffix(end).replace('_', ' ')} [{unit}]"
-    return name.replace("_", " ")
-
-
-def _point(found: Any) -> tuple[float, float, float] | None:
+def _point(name: str, found: Any) -> tuple[float, float, float] | None:
     """Return the middle and both ends of the interval of a value."""
     if found is None:
         return None
     if "mean" in found:
-        return found["mean"], found["half"], found["half"]
+        mean, half = (in_unit(name, found[key]) for key in ("mean", "half"))
+        return mean, half, half
     if "share" not in found:  # of a text: the share of its first value
         found = next(iter(found.values()))
     share, low, high = (100.0 * found[n] for n in ("share", "low", "high"))

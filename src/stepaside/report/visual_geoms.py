@@ -164,10 +164,18 @@ def inside_of_wall(model: mujoco.MjModel, geom: int) -> TriangleMesh:
 
 def colour_of(model: mujoco.MjModel, geom: int) -> tuple[int, int, int]:
     """Return the colour of a geom: red, green, blue, 0 to 255."""
-    material = model.geom_matid[geom]
-    rgba = model.geom_rgba[geom] if material < 0 else model.mat_rgba[material]
-    red, green, blue = (np.clip(rgba[:3], 0.0, 1.0) * 255).astype(int)
+    rgba = np.clip(rgba_of(model, geom), 0.0, 1.0)
+    red, green, blue = (rgba[:3] * 255).astype(int)
     return int(red), int(green), int(blue)
+
+
+def rgba_of(model: mujoco.MjModel, geom: int) -> Array:
+    """Return the colour of a geom, or of its material, 0 to 1. Shape (4,)."""
+    material = model.geom_matid[geom]
+    rgba: Array = (
+        model.geom_rgba[geom] if material < 0 else model.mat_rgba[material]
+    )
+    return rgba
 
 
 class BodyHeights:

@@ -10,7 +10,7 @@ import numpy as np
 from ...core.poses import Array
 from ...games.run import Run
 from ..scene import RunScene
-from ..visual_geoms import MAX_VISIBLE_GROUP
+from ..visual_geoms import MAX_VISIBLE_GROUP, rgba_of
 from .recorded_transforms import quaternion_of
 
 PERIOD = 0.1  # between poses of shapes that move, in [s]
@@ -125,14 +125,10 @@ def _shapes_of(model: mujoco.MjModel, run: Run) -> Iterator[RoomShape]:
             continue
         if model.geom_group[geom] > MAX_VISIBLE_GROUP:
             continue
-        material = model.geom_matid[geom]
-        rgba = (
-            model.geom_rgba[geom] if material < 0 else model.mat_rgba[material]
-        )
-        if rgba[3] <= 0.0:
-            continue
-        red, green, blue, _ = rgba.tolist()
-        yield RoomShape(geom, _urdf_shape(model, geom), (red, green, blue, 1))
+        red, green, blue, opacity = rgba_of(model, geom).tolist()
+        if opacity > 0.0:
+            rgba = red, green, blue, 1.0
+            yield RoomShape(geom, _urdf_shape(model, geom), rgba)
 
 
 def _urdf_shape(

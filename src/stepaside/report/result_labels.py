@@ -1,0 +1,84 @@
+"""Labels and units of result entries, by their names."""
+
+from math import degrees
+
+# Units by suffix of a name; the longest match counts. Angles are shown in
+# degrees.
+UNITS = {
+    "_per_s": "1/s",
+    "_rad_s": "rad/s",
+    "_n_s": "N s",
+    "_m_s": "m/s",
+    "_rad": "deg",
+    "_deg": "deg",
+    "_hz": "Hz",
+    "_share": "%",
+    "_m2": "m^2",
+    "_kg": "kg",
+    "_m": "m",
+    "_s": "s",
+}
+# Labels of names that are not clear by themselves.
+LABELS = {
+    "bearing_rad": "bearing of the pursuer",
+    "body_radius_m": "radius of a body",
+    "capture_m": "capture distance",
+    "captured_share": "games captured",
+    "closed": "closed walls",
+    "closest_distance_m": "closest approach",
+    "coupled": "coupled joints",
+    "end_time_s": "final time",
+    "eigenvalues_per_s": "eigenvalues",
+    "evader_error_rad": "heading error of the evader",
+    "exists": "circle exists",
+    "falling_m": "decrease of a value in the last period, at most",
+    "floor_m2": "floor area",
+    "floor_used_evader_m": "maximum distance of the evader from its start",
+    "free_for_body_m2": "floor area free for the centre of a body",
+    "free_m2": "floor area without obstacles",
+    "headings_apart_rad": "angle between headings",
+    "mean_closest_distance_m": "mean closest approach",
+    "min_distance_m": "closest approach",
+    "min_zmp_margin_m": "minimum ZMP margin",
+    "motions_apart_rad": "angle between motions",
+    "pursuer_error_rad": "heading error of the pursuer",
+    "radius_evader_m": "evader's radius",
+    "radius_pursuer_m": "pursuer's radius",
+    "relative_orientation_deg": "angle between headings",
+    "settled_share": "games settled",
+    "settled_time_largest_s": "maximum settling time",
+    "settled_time_median_s": "median settling time",
+    "seconds_s": "solver time",
+    "sliding": "evader slides at zero error",
+    "unsettled_share": "games not settled",
+}
+
+
+def unit_of(name: str) -> str:
+    """Return the unit of a name by its suffix; empty if it has none."""
+    return UNITS.get(_unit_suffix(name), "")
+
+
+def _unit_suffix(name: str) -> str:
+    suffixes = (suffix for suffix in UNITS if name.endswith(suffix))
+    return max(suffixes, key=len, default="")
+
+
+def label_of(name: str, *, unit: bool = False) -> str:
+    """Return the label of a result entry.
+
+    Args:
+        name: Name like ``closest_distance_m``.
+        unit: Whether to append the unit in brackets.
+    """
+    label = LABELS.get(name) or name.removesuffix(_unit_suffix(name))
+    label = label.replace("_", " ")
+    symbol = unit_of(name)
+    return f"{label} [{symbol}]" if unit and symbol else label
+
+
+def in_unit(name: str, value: float) -> float:
+    """Return a value in the unit of its name: angles in [deg], shares in %."""
+    if name.endswith("_rad"):
+        return degrees(value)
+    return 100.0 * value if unit_of(name) == "%" else value
