@@ -269,7 +269,7 @@ def test_films_have_their_pictures_and_their_rate(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, kind: str
 ) -> None:
     monkeypatch.setattr(film, "load_run", lambda folder: run())
-    monkeypatch.setattr(film, "render_images", lambda folder, shot: shades(6))
+    monkeypatch.setattr(film, "render_images", lambda *_: shades(6))
     told: list[tuple[int, int]] = []
     file = tmp_path / f"run.{kind}"
     shot = FilmSettings(64, 48, rate=5.0, duration=1.0)
@@ -298,12 +298,17 @@ def test_a_film_that_fails_leaves_nothing_behind(
 ) -> None:
     pytest.importorskip("av")
 
-    def failing(folder: Path, shot: FilmSettings) -> Iterator[Any]:
+    def failing(*_: object) -> Iterator[Any]:
         yield from shades(2)
         raise RuntimeError("the light went out")
 
     monkeypatch.setattr(film, "load_run", lambda folder: run())
     monkeypatch.setattr(film, "render_images", failing)
     with pytest.raises(RuntimeError, match="light"):
-        film.write_film(tmp_path, tmp_path / "run.mp4", FilmSettings(64, 48))
+        film.write_film(
+            tmp_path,
+            tmp_path / "run.mp4",
+            FilmSettings(64, 48),
+            lambda *_: None,
+        )
     assert list(tmp_path.iterdir()) == []

@@ -83,7 +83,7 @@ def print_columns(
     heads: Sequence[str],
     rows: Iterable[Sequence[str]],
     *,
-    left: Container[int] = (0,),
+    left: Container[int],
     indent: str = "",
 ) -> None:
     """Print one line per row, below a header, in aligned columns.

@@ -173,12 +173,15 @@ def draw_chunk(
     return [_renderers[key].picture(time) for time in times]
 
 
-def render_images(folder: Path, settings: FilmSettings) -> Iterator[Pixels]:
+def render_images(
+    folder: Path, settings: FilmSettings, times: list[float]
+) -> Iterator[Pixels]:
     """Render the images of a film in order, on all cores.
 
     Args:
         folder: Run folder.
         settings: Settings of the film.
+        times: Times of the run at which it has images, in [s].
 
     Yields:
         Images. Shape (height, width, 3).
@@ -193,7 +196,6 @@ def render_images(folder: Path, settings: FilmSettings) -> Iterator[Pixels]:
             "films need EGL or OSMesa, and neither works here: install "
             "libegl1 or libosmesa6"
         )
-    times = settings.frame_times(float(load_run(folder).times[-1]))
     if not times:
         raise ConfigurationError(
             f"film must begin before the run's end, got {settings.begin:g} [s]"
@@ -217,7 +219,7 @@ def write_film(
     folder: Path,
     file: Path,
     settings: FilmSettings,
-    report: Callable[[int, int], None] | None = None,
+    report: Callable[[int, int], None],
 ) -> int:
     """Write a film: H.264, which browsers can play, or a GIF by its suffix.
 
@@ -234,20 +236,17 @@ def write_film(
         ConfigurationError: As in :func:`render_images`.
         OutputError: If the file cannot be written.
     """
-    number = len(settings.frame_times(float(load_run(folder).times[-1])))
-    done = 0
+    times = settings.frame_times(float(load_run(folder).times[-1]))
 
     def images() -> Iterator[Pixels]:
-        nonlocal done
-        for picture in render_images(folder, settings):
+        pictures = render_images(folder, settings, times)
+        for done, picture in enumerate(pictures, 1):
             yield picture
-            done += 1
-            if report is not None:
-                report(done, number)
+            report(done, len(times))
 
     write = _write_gif if file.suffix == ".gif" else _write_video
     write(file, settings, images())
-    return done
+    return len(times)
 
 
 def _write_video(

@@ -20,6 +20,7 @@ from .figure_style import (
 )
 from .result_labels import in_unit, label_of
 
+MOST_COLUMNS = 4  # of panels in a row
 LETTERS = "abcdefghijklmnopqrstuvwxyz"
 MARKERS = "osD^vPX"
 Rows = Sequence[Mapping[str, Any]]
@@ -46,7 +47,6 @@ def draw_curves(
     y: str,
     file: AnyPath,
     *,
-    columns: int = 4,
     size: tuple[float, float] = (2.9, 1.9),
 ) -> None:
     """Draw a panel of curves for each title, with one scale of y.
@@ -56,11 +56,10 @@ def draw_curves(
         x: Label of the axes to the right, or of each.
         y: Label of the axes upward.
         file: Figure to write.
-        columns: Greatest number of panels in a row.
         size: Width and height of a panel, in [inch].
     """
     count = len(shown)
-    columns = min(columns, count)
+    columns = min(MOST_COLUMNS, count)
     letters = LETTERS[:count].ljust(-(-count // columns) * columns, ".")
     rows = [letters[i : i + columns] for i in range(0, len(letters), columns)]
     names = list(dict.fromkeys(c.label for cs in shown.values() for c in cs))

@@ -63,7 +63,7 @@ class TopicMessage(NamedTuple):
 def write_bag(
     folder: Path,
     recording: Recording,
-    report: Callable[[int, int], None] | None = None,
+    report: Callable[[int, int], None],
 ) -> None:
     """Write a ROS 2 bag in MCAP with URDF files.
 
@@ -128,7 +128,7 @@ def _quality(*, stays: bool) -> Any:
 def messages_of(
     recording: Recording,
     factory: MessageFactory,
-    report: Callable[[int, int], None] | None = None,
+    report: Callable[[int, int], None],
 ) -> Iterator[TopicMessage]:
     """Yield all messages of a recording, in the order of their times.
 
@@ -163,7 +163,7 @@ def messages_of(
         for player in players:
             yield from player.sample(index, time)
         yield from _pair_numbers(recording, factory, index, time)
-        if report is not None and index % 50 == 0:
+        if index % 50 == 0:
             report(index, len(times))
 
 

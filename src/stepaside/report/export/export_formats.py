@@ -26,7 +26,7 @@ def export_recording(
     folder: Path,
     name: str,
     recording: Recording,
-    report: Callable[[int, int], None] | None = None,
+    report: Callable[[int, int], None],
 ) -> None:
     """Write a recording; the folder appears when it is complete.
 

@@ -108,10 +108,7 @@ class Recording:
 
 
 def load_recording(
-    folder: Path,
-    *,
-    repeats: bool,
-    report: Callable[[Progress], None] | None = None,
+    folder: Path, *, repeats: bool, report: Callable[[Progress], None]
 ) -> Recording:
     """Read a run folder, and play its game again for what it lacks.
 

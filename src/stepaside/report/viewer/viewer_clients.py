@@ -33,9 +33,7 @@ class ViewerClients:
         cameras: Camera of each viewer, by client number; "free" if missing.
     """
 
-    def __init__(
-        self, server: viser.ViserServer, room: Room | None = None
-    ) -> None:
+    def __init__(self, server: viser.ViserServer, room: Room | None) -> None:
         """Serve viewers that connect from now on.
 
         Args:
