@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from ..arena import OPEN_FLOOR
 from ..core.errors import ConfigurationError, StrategyError
 from ..games.duel_settings import PLAYERS
-from ..games.floor_games import PAIR, floor_of_two, rules_of_two
+from ..games.floor_games import floor_of_two, rules_of_two
 from ..games.game import GameInPlay
 from ..games.recorded_game import RecordedGame
 from ..strategies.constant_walk import StandStill
@@ -105,7 +105,6 @@ class DuelParallelEnv(ParallelGames):
             RecordedGame(duel, recorded=False, endless=True),
             held,
             duel.room.plan or OPEN_FLOOR,
-            PAIR,
             settings.duration,
         )
         if not game.wait(LONGEST_WAIT):

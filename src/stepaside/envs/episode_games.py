@@ -2,10 +2,9 @@
 
 from abc import ABC, abstractmethod
 from collections.abc import Mapping
-from math import hypot, inf
+from math import inf
 
 from ..arena import Room
-from ..core.player_identity import PlayerIdentity
 from ..core.poses import Pose
 from ..games.floor_world import FloorWalk, FloorWorld
 from ..games.game import GameInPlay
@@ -28,14 +27,16 @@ class EpisodeGame(ABC):
             limit does not end it.
     """
 
-    def __init__(
-        self,
-        room: Room,
-        identities: Mapping[str, PlayerIdentity],
-        duration: float,
-    ) -> None:
-        """Note who approaches whom."""
-        self.room, self.identities = room, identities
+    def __init__(self, game: GameInPlay, room: Room, duration: float) -> None:
+        """Note who approaches whom.
+
+        Args:
+            game: The game.
+            room: Its room.
+            duration: Time limit, in [s].
+        """
+        self._game, self.room = game, room
+        self.identities = identities = game.rules.identities
         self.duration, self.ended = duration, ""
         self._others = {
             name: [n for n, who in identities.items() if own.opposes(who)]
@@ -44,16 +45,17 @@ class EpisodeGame(ABC):
             if own.role == "evader"
         }
         self.closest = dict.fromkeys(self._others, inf)
+        self._note()
 
     @property
-    @abstractmethod
     def time(self) -> float:
         """Time, in [s]."""
+        return self._game.world.time
 
     @property
-    @abstractmethod
     def poses(self) -> Mapping[str, Pose]:
         """Pose of each player in the room, by name."""
+        return self._game.world.states()
 
     @abstractmethod
     def knowledge(self, name: str) -> Knowledge | None:
@@ -86,18 +88,15 @@ class EpisodeGame(ABC):
 
         Without pursuers, from the nearest of all other players.
         """
+        apart = self._game.world.apart
         return {
-            name: min((self._apart(name, n) for n in others), default=inf)
+            name: min((apart(name, n) for n in others), default=inf)
             for name, others in self._others.items()
         }
 
-    def close(self) -> None:  # noqa: B027
+    def close(self) -> None:
         """Release its resources."""
-
-    def _apart(self, one: str, other: str) -> float:
-        """Return the distance between two players, in [m]."""
-        (x, y, _), (u, v, _) = self.poses[one], self.poses[other]
-        return hypot(u - x, v - y)
+        self._game.world.close()
 
     def _note(self) -> None:
         """Update the closest approaches."""
@@ -119,21 +118,10 @@ class FloorGame(EpisodeGame):
             period: Duration of a step, in [s]; that of one decision by
                 default.
         """
-        super().__init__(room, game.rules.identities, game.rules.duration)
+        super().__init__(game, room, game.rules.duration)
         assert isinstance(game.world, FloorWorld)
-        self._game, self._world = game, game.world
+        self._world = game.world
         self._period, self._until = period, 0.0
-        self._note()
-
-    @property
-    def time(self) -> float:
-        """Time, in [s]."""
-        return self._world.time
-
-    @property
-    def poses(self) -> Mapping[str, Pose]:
-        """Pose of each player in the room, by name."""
-        return self._world.states()
 
     def knowledge(self, name: str) -> Knowledge | None:
         """Return what a controlled player knows."""
@@ -221,11 +209,10 @@ class PhysicsGame(EpisodeGame):
         match: RecordedGame,
         held: Mapping[str, HeldIntent],
         room: Room,
-        identities: Mapping[str, PlayerIdentity],
         duration: float,
         *,
         period: float | None = None,
-        capture: float = 0.0,
+        captures: bool = False,
     ) -> None:
         """Begin a game.
 
@@ -234,20 +221,17 @@ class PhysicsGame(EpisodeGame):
             held: Strategy of each controlled player, by name; the last one
                 leads.
             room: The room.
-            identities: Identity of each player, by name.
             duration: Time limit, in [s].
             period: Duration of a step, in [s]; to the next decision of the
                 leader by default.
-            capture: Distance at which an evader is captured, in [m]; 0 if
-                that does not end the game.
+            captures: Whether the first capture ends the game.
         """
-        super().__init__(room, identities, duration)
-        self._match, self._held, self._capture = match, held, capture
+        super().__init__(match, room, duration)
+        self._match, self._held, self._captures = match, held, captures
         self._period = period
         self._leader = [*held.values()][-1]
         for own in held.values():
             own.reset()  # decisions of its validation
-        self._note()
 
     def wait(self, patience: float) -> bool:
         """Play until all controlled players see the others, standing.
@@ -265,16 +249,6 @@ class PhysicsGame(EpisodeGame):
             self._tick()
         self._until = self.time
         return True
-
-    @property
-    def time(self) -> float:
-        """Simulated time, in [s]."""
-        return self._match.world.time
-
-    @property
-    def poses(self) -> Mapping[str, Pose]:
-        """Pose of each player in the room, by name."""
-        return self._match.world.states()
 
     def knowledge(self, name: str) -> Knowledge | None:
         """Return what a controlled player knew at its last decision."""
@@ -302,14 +276,6 @@ class PhysicsGame(EpisodeGame):
             if self.time >= until + leader.known.limits.step_duration:
                 return  # it is held up: it starts, halts or has lost sight
 
-    def close(self) -> None:
-        """Release the robots."""
-        self._match.world.close()
-
-    def _apart(self, one: str, other: str) -> float:
-        """Return the distance between the torsos of two players, in [m]."""
-        return self._match.world.apart(one, other)
-
     def _tick(self) -> None:
         """Advance by one control tick."""
         outcome = self._match.tick()
@@ -318,7 +284,7 @@ class PhysicsGame(EpisodeGame):
             self.ended = str(outcome)
             lost = self.closest.keys() & self._failures()
             self.closest |= dict.fromkeys(lost, 0.0)
-        elif min(self.distances.values(), default=inf) <= self._capture:
+        elif self._captures and self._match.captured_at:
             self.ended = str(Outcome.CAPTURED)
 
     def _failures(self) -> set[str]:

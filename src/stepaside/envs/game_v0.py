@@ -9,7 +9,6 @@ from gymnasium.spaces import Box
 from numpy.typing import NDArray
 
 from ..arena import OPEN_FLOOR
-from ..core.constants import CAPTURE_DISTANCE
 from ..core.errors import AnyPath, ConfigurationError, check_within
 from ..games.floor_games import floor_of, rules_of
 from ..games.game import GameInPlay
@@ -112,10 +111,9 @@ class GameParallelEnv(ParallelGames):
             RecordedGame(settings, recorded=False, endless=True),
             held,
             room,
-            settings.identities,
             settings.duration,
             period=self.period,
-            capture=CAPTURE_DISTANCE,
+            captures=True,
         )
         game.wait(LONGEST_WAIT)
         return game
