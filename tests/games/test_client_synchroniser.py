@@ -29,9 +29,8 @@ class Clock:
 class FakeServer:
     """Server whose client answers at once, or never."""
 
-    def __init__(self, *, answers: bool = True, ready: bool = True) -> None:
+    def __init__(self, *, answers: bool = True) -> None:
         self.answers, self.connected = answers, True
-        self.ready = ready
         self.pair = socket.socketpair()
         self.log: list[str] = []
 
@@ -51,31 +50,27 @@ class FakeServer:
         """Note it."""
         self.log.append("act")
 
-    def press(self, pressed: bool) -> None:
-        """Note it."""
-        self.log.append("press" if pressed else "release")
-
     def drop(self, why: str) -> None:
         """Disconnect the client."""
         self.connected = False
         self.log.append(why)
 
 
-def exchange_of(
-    *servers: FakeServer, **changes: Any
-) -> tuple[ClientSynchroniser, Clock]:
+@pytest.fixture
+def clock(monkeypatch: pytest.MonkeyPatch) -> Clock:
     clock = Clock()
-    exchange = ClientSynchroniser(
-        servers,  # type: ignore[arg-type]
-        clock=clock,
-        pause=clock.pause,
-        **changes,
-    )
-    return exchange, clock
+    module = "stepaside.games.client_synchroniser"
+    monkeypatch.setattr(f"{module}.monotonic", clock)
+    monkeypatch.setattr(f"{module}.sleep", clock.pause)
+    return clock
 
 
-def test_ticks_are_12_ms_apart_for_any_computing_time() -> None:
-    exchange, clock = exchange_of(FakeServer())
+def exchange_of(*servers: Any, **changes: Any) -> ClientSynchroniser:
+    return ClientSynchroniser(servers, **changes)
+
+
+def test_ticks_are_12_ms_apart_for_any_computing_time(clock: Clock) -> None:
+    exchange = exchange_of(FakeServer())
     began = clock.now
     for _ in range(50):
         exchange.before(None)  # type: ignore[arg-type]
@@ -84,8 +79,8 @@ def test_ticks_are_12_ms_apart_for_any_computing_time() -> None:
     assert exchange.late == 0
 
 
-def test_a_tick_more_than_6_ms_late_is_counted() -> None:
-    exchange, clock = exchange_of(FakeServer())
+def test_a_tick_more_than_6_ms_late_is_counted(clock: Clock) -> None:
+    exchange = exchange_of(FakeServer())
     for lag in (0.0, TICK + 0.0055, TICK + 0.001, 3 * TICK, 0.0):
         clock.now += lag
         exchange.before(None)  # type: ignore[arg-type]
@@ -94,8 +89,8 @@ def test_a_tick_more_than_6_ms_late_is_counted() -> None:
     assert exchange.late == 3 and exchange.histogram()["< 6"] == 1
 
 
-def test_a_stall_is_not_caught_up_with() -> None:
-    exchange, clock = exchange_of(FakeServer())
+def test_a_stall_is_not_caught_up_with(clock: Clock) -> None:
+    exchange = exchange_of(FakeServer())
     exchange.before(None)  # type: ignore[arg-type]
     clock.now += 1.0
     exchange.before(None)  # type: ignore[arg-type]
@@ -106,10 +101,10 @@ def test_a_stall_is_not_caught_up_with() -> None:
 
 
 def test_in_lock_step_a_silent_client_is_dropped_and_the_game_goes_on(
-    monkeypatch: pytest.MonkeyPatch,
+    clock: Clock, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     silent = FakeServer(answers=False)
-    exchange, clock = exchange_of(FakeServer(), silent, lock_step=True)
+    exchange = exchange_of(FakeServer(), silent, lock_step=True)
 
     def select(waiting: Any, *_: Any) -> None:
         assert waiting == [silent]

@@ -1,13 +1,11 @@
 """Test walks as runs: stored, drawn, replayed and compared."""
 
-import json
 from math import pi
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 import pytest
-from click.testing import CliRunner
+from click.testing import CliRunner, Result
 
 from stepaside.cli.main import main
 from stepaside.core.errors import ConfigurationError
@@ -65,42 +63,20 @@ def test_a_folder_of_another_game_is_refused(
         load_run(tmp_path, "walk")
 
 
-def test_a_walk_can_be_stored_compared_and_replayed(tmp_path: Path) -> None:
-    def call(*words: str) -> Any:
-        return CliRunner().invoke(main, list(words))
+def test_a_walk_is_compared_with_walks_alone(
+    folder: Path, tmp_path: Path
+) -> None:
+    figure = tmp_path / "c.png"
 
-    one, other = str(tmp_path / "one"), str(tmp_path / "other")
-    walk = (
-        "run",
-        "walk",
-        "--duration",
-        "0.3",
-        "--push",
-        "0.3@0.1:0",
-        "--output",
-    )
-    told = call(*walk, one, "--json")
-    assert told.exit_code == 0, told.output
-    assert json.loads(told.stdout)["run_folder"] == one
-    said = call(*walk, other).stdout
-    assert f"{other}/walk.png" in said and f"run folder: {other}" in said
-    again = call(
-        "run", "walk", "--config", f"{one}/configuration.toml", "--json"
-    )
-    wanted = json.loads(told.stdout)["push_impulse_n_s"]
-    assert json.loads(again.stdout)["push_impulse_n_s"] == wanted
-    page = str(tmp_path / "walk.html")
-    assert call("show", one, "-o", page).exit_code == 0
-    text = Path(page).read_text(encoding="utf-8")
-    assert '"distance":null' in text and '"pushed"' in text
-    compared = call("show", one, other, "-o", f"{tmp_path}/c.png")
-    assert compared.exit_code == 0 and "speed" in compared.stdout
+    def compare(other: Path) -> Result:
+        words = ["show", str(folder), str(other), "-o", str(figure)]
+        return CliRunner().invoke(main, words)
+
     duel = tmp_path / "duel"
     duel.mkdir()
     write_run_files(duel, run_duel(DuelSettings(duration=0.04)))
-    mixed = call("show", one, str(duel), "-o", f"{tmp_path}/d.png")
+    mixed = compare(duel)
     assert mixed.exit_code == 2 and mixed.output.count("\n") == 1
     assert "must be of the same game, got duel and walk" in mixed.output
-    assert not (tmp_path / "d.png").exists()
-    taken = call(*walk, one)
-    assert taken.exit_code == 2 and "new or an empty folder" in taken.output
+    assert not figure.exists()
+    assert "speed" in compare(folder).stdout and figure.exists()

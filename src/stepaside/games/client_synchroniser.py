@@ -1,7 +1,7 @@
 """Clock of a served simulation: sensor frames and commands at each tick."""
 
 import select
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from time import monotonic, sleep
 from typing import Protocol
 
@@ -64,25 +64,17 @@ class ClientSynchroniser(GameObserver):
     """
 
     def __init__(
-        self,
-        servers: Sequence[RobotServer],
-        *,
-        lock_step: bool = False,
-        clock: Callable[[], float] = monotonic,
-        pause: Callable[[float], None] = sleep,
+        self, servers: Sequence[RobotServer], *, lock_step: bool = False
     ) -> None:
         """Synchronise a match with servers.
 
         Args:
             servers: Servers of the robots that other processes control.
             lock_step: Wait for every answer instead of for the clock.
-            clock: Returns the time of this computer, in [s].
-            pause: Sleeps for a time, in [s].
         """
         self._servers, self._lock_step = servers, lock_step
         self.tick = TICK
-        self._clock, self._pause = clock, pause
-        self._due = clock()
+        self._due = monotonic()
         self.lateness: list[float] = []
         self.unanswered = 0
 
@@ -112,10 +104,10 @@ class ClientSynchroniser(GameObserver):
             ConfigurationError: If a client does not connect or is not ready
                 in time.
         """
-        until = self._clock() + longest
+        until = monotonic() + longest
         ready_ticks = 0
         while ready_ticks < READY_TICKS:
-            if self._clock() > until:
+            if monotonic() > until:
                 idle = sum(not s.ready for s in self._servers)
                 raise ConfigurationError(
                     f"{idle} of {len(self._servers)} robots had no client "
@@ -139,11 +131,11 @@ class ClientSynchroniser(GameObserver):
 
     def _exchange(self) -> None:
         """Exchange measurements and commands of one tick."""
-        now = self._clock()
+        now = monotonic()
         if not self._lock_step:
             if now < self._due:
-                self._pause(self._due - now)
-                now = self._clock()
+                sleep(self._due - now)
+                now = monotonic()
             late = max(0.0, now - self._due)
             self.lateness.append(late)
             # Frames after a stall must not outrun the clients' clocks.
@@ -162,10 +154,10 @@ class ClientSynchroniser(GameObserver):
         """Receive commands until all have arrived or time is up."""
         while True:
             missing = [s for s in self._servers if not s.hear()]
-            left = deadline - self._clock()
+            left = deadline - monotonic()
             if not missing:
                 if self._lock_step and not self._any_connected():
-                    self._pause(self.tick)  # no client: do not spin
+                    sleep(self.tick)  # no client: do not spin
                 return
             if left <= 0.0:
                 break

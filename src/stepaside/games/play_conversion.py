@@ -94,7 +94,7 @@ def _summary(
     passed = np.diff(rows.times, prepend=0.0)
     walked = float(passed[walking].sum())
     seen = ~np.isnan(rows.columns["sighting"][:, 0])
-    late = _last_third(rows, walking)[rows.sampled]
+    late = _last_third(walking)[rows.sampled]
     own = tracks[settings.role]
     distance = None
     if len(tracks) > 1:
@@ -134,7 +134,7 @@ def _radius(path: Array, headings: Array) -> float | None:
     return fit_circle(path)[1]
 
 
-def _last_third(rows: PlayedRows, walking: Array) -> Array:
+def _last_third(walking: Array) -> Array:
     """Return a mask of the rows in the last third of walking."""
     at = np.flatnonzero(walking)
     late = np.zeros(len(walking), dtype=bool)
