@@ -50,11 +50,10 @@ python:
 # Another Python, as in make other PYTHON=python3.13: the wheel with nothing
 # optional, and tests that need no more and take milliseconds.
 OTHER := cli/test_main cli/test_options core/test_errors core/test_signal_handling \
-	core/test_ranges games/test_configuration_file games/test_record \
+	core/test_ranges games/test_configuration_file games/test_match \
 	planning/test_footsteps planning/test_path planning/test_plan \
 	planning/test_swing planning/test_zmp robots/test_description \
-	robots/test_kinematics robots/test_scalar_algebra \
-	studies/test_result_store theory/test_laws
+	robots/test_kinematics theory/test_laws
 other: other-setup other-test
 
 other-setup:

@@ -49,7 +49,7 @@ COMPILED = {
 }
 # Begin first, so that no worker is left alone with one at the end.
 LONG = (
-    *("browser", "bound", "unicycle", "steps", "beam", "duel 11"),
+    *("browser", "bound", "unicycle", "steps", "beam"),
     *("test_duel", "test_walk_game", "test_seeing", "test_robot_init"),
 )
 BLANK = b"\x89PNG" + bytes(10_000) + b"IEND...."  # a figure

@@ -121,18 +121,3 @@ def test_errors_in_a_configuration_are_named(
 ) -> None:
     with pytest.raises(ConfigurationError, match=message):
         parse_settings(DuelSettings, entries, "here")
-
-
-def test_invalid_configuration_files_are_refused(tmp_path: Path) -> None:
-    broken = tmp_path / "broken.toml"
-    with pytest.raises(ConfigurationError, match=r"broken\.toml"):
-        load_configuration(broken)
-    broken.write_text("seed = = 1", encoding="utf-8")
-    with pytest.raises(ConfigurationError, match=r"broken\.toml"):
-        load_configuration(broken)
-    broken.write_bytes(b"\xff\xfe")
-    with pytest.raises(ConfigurationError, match=r"broken\.toml"):
-        load_configuration(broken)
-    broken.write_text("weather = 1", encoding="utf-8")
-    with pytest.raises(ConfigurationError, match=r"broken\.toml: unknown"):
-        load_configuration(broken)

@@ -8,7 +8,6 @@ import pytest
 from stepaside.games import DuelSettings, Outcome, run_duel
 from stepaside.games.duel_settings import StartSettings
 from stepaside.locomotion.zmp.control_settings import STABILISED
-from stepaside.planning import GaitSettings
 from stepaside.sim.body_settings import BODIES
 from stepaside.strategies import Evasion
 
@@ -38,18 +37,6 @@ def test_released_evader_comes_to_rest() -> None:
     assert landings[-1, 0] < times[-1] - 3.0
     rest = result.evader.com[times > times[-1] - 1.0, :2]
     assert np.ptp(rest, axis=0).max() < 0.005
-
-
-def test_falls_are_detected_and_end_the_duel() -> None:
-    """Strides of 10 cm in 0.25 s are not stable without feedback."""
-    gait = GaitSettings(
-        single_support=0.24, double_support=0.04, stride=0.1, speed=0.25
-    )
-    settings = DuelSettings(duration=20.0, gait=gait)
-    result = run_duel(settings)
-    assert result.outcome is Outcome.FALL
-    assert "fell" in result.message
-    assert result.duration < 20.0
 
 
 def test_contact_that_is_forecast_leaves_no_circle() -> None:

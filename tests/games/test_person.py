@@ -53,12 +53,6 @@ def test_a_slow_person_is_evaded_close_to_theory() -> None:
     )
 
 
-def test_touching_a_person_ends_the_duel() -> None:
-    result = run_duel(duel_with(PersonSettings("straight", 0.6), 10.0))
-    assert result.outcome.value == "contact"
-    assert result.message.startswith("evader and pursuer touched at ")
-
-
 def test_a_person_without_a_solid_body_walks_through_a_robot() -> None:
     person = PersonSettings("straight", 0.6, solid=False)
     standing = replace(duel_with(person, 5.0), evader_strategy="stand")

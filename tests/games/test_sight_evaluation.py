@@ -40,14 +40,7 @@ def thoughtless() -> Any:
 class Scene:
     """Evaluator of a robot whose head a test moves."""
 
-    def __init__(
-        self,
-        yaw: float = 0.0,
-        things: list[tuple[float, float]] | None = None,
-        still_times: tuple[float, ...] = (),
-        *,
-        wears_trim: bool = True,
-    ) -> None:
+    def __init__(self, yaw: float = 0.0, *, wears_trim: bool = True) -> None:
         quaternion = f"{cos(0.5 * yaw)} 0 0 {sin(0.5 * yaw)}"
         model = mujoco.MjModel.from_xml_string(
             "<mujoco><worldbody>"
@@ -66,11 +59,10 @@ class Scene:
         own: Any = SimpleNamespace(
             world=world, name="me", truth=self.own, eyes=self.eyes
         )
-        self.robot = own
         other: Any = self.other
         head: Any = HEAD
         self.evaluator = SightEvaluator(
-            *(own, other, self.mind, head, things or [], still_times),
+            *(own, other, self.mind, head, []),
             wears_trim=wears_trim,
         )
 

@@ -1,6 +1,5 @@
 """Test games of people and the template of an evader."""
 
-from dataclasses import replace
 from math import atan2, cos, pi, sin
 
 import pytest
@@ -92,12 +91,3 @@ def test_velocities_are_known_in_the_frame_of_the_template() -> None:
         walks = Pose(0.3 * cos(way), 0.3 * sin(way), 0.0)
         back = Pose(0.0, 0.0, pi - 0.2).inverse().compose(walks)
         assert known.velocity == pytest.approx(back[:2], abs=1e-6)
-
-
-def test_a_slower_person_comes_no_closer() -> None:
-    near = [
-        round(met(Pose(0.0, 0.0, 0.0), speed), 9) for speed in (0.3, 0.6, 1.2)
-    ]
-    assert near == sorted(near, reverse=True)
-    calm = replace(EVADER, calmest=0.5)
-    assert met(Pose(0, 0, 0), 0.5, calm) <= met(Pose(0, 0, 0)) + 1e-6
