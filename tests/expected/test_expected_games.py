@@ -324,7 +324,7 @@ def test_values_from_before_the_circle_are_marked(
     capsys: pytest.CaptureFixture[str],
 ) -> None:
     summary = replace(circled.summary, converged_at_s=since)
-    print_duel(replace(circled, summary=summary), "")
+    print_duel(replace(circled, summary=summary))
     rows = capsys.readouterr().out.splitlines()
     beside = [row for row in rows if "theory" in row and "closest" not in row]
     assert len(beside) == 4

@@ -45,17 +45,11 @@ def duel(settings: DuelSettings, output: Path | None, as_json: bool) -> None:
     and a figure.
     """
     from ..games.recorded_game import run_duel
-    from ..report.settling_report import explain_missing_circle
 
     folder = run_folder(output, as_json, f"duel-seed{settings.seed}")
     _warn_of_expected_end(settings)
     run = play_with_bar(settings, run_duel)
-    finish_run(
-        run,
-        folder,
-        as_json,
-        lambda: print_duel(run, explain_missing_circle(run)),
-    )
+    finish_run(run, folder, as_json, lambda: print_duel(run))
 
 
 def _warn_of_expected_end(settings: DuelSettings) -> None:
@@ -68,13 +62,10 @@ def _warn_of_expected_end(settings: DuelSettings) -> None:
         echo(f"stepaside: expected outcome: {end.words}", err=True)
 
 
-def print_duel(run: "DuelRun", unsettled: str) -> None:
-    """Print the summary of a duel beside theory.
+def print_duel(run: "DuelRun") -> None:
+    """Print the summary of a duel beside theory."""
+    from ..report.settling_report import explain_missing_circle
 
-    Args:
-        run: The duel.
-        unsettled: Why the players are not on a circle.
-    """
     summary = run.summary
     converged = summary.converged_at_s
     plans = summary.plan_time_us
@@ -86,7 +77,9 @@ def print_duel(run: "DuelRun", unsettled: str) -> None:
         ("captured", _capture_text(summary.captured_at_s)),
         (
             "on the circle",
-            unsettled if converged is None else f"since {converged:.1f} s",
+            explain_missing_circle(run)
+            if converged is None
+            else f"since {converged:.1f} s",
         ),
         ("maneuvers planned", str(summary.replans)),
         (

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from ..core.atomic_output import FIGURES, check_file, check_folder, reason_of
+from ..core.atomic_output import FIGURES, check_file, check_folder
 from ..core.errors import ConfigurationError, OutputError
 from ..core.progress import counter, show_progress
 from ..report.film_settings import FilmSettings
@@ -231,17 +231,8 @@ def _write(
         more["pictures"] = _render(folders[0], path, _even(film))
     else:
         more["absent"] = _export(folders[0], path, repeat=repeat)
-    try:
-        files = (
-            [file for file in path.rglob("*") if file.is_file()]
-            if path.is_dir()
-            else [path]
-        )
-        return {"bytes": sum(file.stat().st_size for file in files)} | more
-    except OSError as error:
-        raise OutputError(
-            f"{path} was removed after it was written: {reason_of(error)}"
-        ) from error
+    files = (file for file in (path, *path.rglob("*")) if file.is_file())
+    return {"bytes": sum(file.stat().st_size for file in files)} | more
 
 
 def _draw(runs: "list[Run]", file: Path) -> None:

@@ -1,4 +1,4 @@
-"""Cameras of films: fixed on all paths, following, from above, evader's view.
+"""Cameras of films: fixed on all paths, following, from above.
 
 A camera frames a set of points. The distance from which all of them are in
 the image has a closed form, since each point is in it from some distance on.

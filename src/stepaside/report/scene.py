@@ -14,7 +14,7 @@ from ..games.play_settings import PlaySettings
 from ..games.run import Run, is_duel, is_match
 from ..games.settings_as_game import scenery_of
 from ..robots.description import load_robot
-from ..sim.pedestrian_appearance import FIGURES
+from ..sim.pedestrian_appearance import FIGURES, PedestrianModel
 from ..sim.person_body import mocap_indices, set_person_pose
 from ..sim.physics_settings import PhysicsSettings
 from ..sim.room_furnishing import hide_walls
@@ -59,15 +59,7 @@ class RunScene:
         hide_walls(self.model)
         self.data = mujoco.MjData(self.model)
         self._movers = scenery.movers_in(self.model, self.data)
-        self._figures = dict.fromkeys(persons, FIGURES["adult"])
-        if is_duel(run):
-            figure = FIGURES[run.settings.person.figure]
-            self._figures = dict.fromkeys(persons, figure)
-        if is_match(run):
-            self._figures = {
-                name: FIGURES[run.settings.player(name).person.figure]
-                for name in persons
-            }
+        self._figures = {name: _figure_of(run, name) for name in persons}
         self._persons = {
             name: mocap_indices(self.model, name) for name in persons
         }
@@ -117,6 +109,14 @@ class RunScene:
             pose_template(self.model, self.data, name, pose)
         mujoco.mj_kinematics(self.model, self.data)
         mujoco.mj_camlight(self.model, self.data)
+
+
+def _figure_of(run: Run, name: str) -> PedestrianModel:
+    """Return the figure of a person in a duel or a game."""
+    if is_match(run):
+        return FIGURES[run.settings.player(name).person.figure]
+    assert is_duel(run)
+    return FIGURES[run.settings.person.figure]
 
 
 def wall_corners(room: Room | None) -> Array:

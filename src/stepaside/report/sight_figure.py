@@ -1,5 +1,6 @@
 """Film strip of the robots' camera images, with sighting errors."""
 
+from string import ascii_letters as LETTERS
 from typing import Any
 
 import numpy as np
@@ -11,7 +12,6 @@ from .camera_pictures import camera_picture
 from .figure_style import THEORY, colours_of, legend_above, panels, save
 from .plan_view import draw_snapshots
 
-LETTERS = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ"
 IMAGES = 6  # in a row
 
 

@@ -1,6 +1,7 @@
 """Figures of studies: values over what varies, and their distributions."""
 
 from collections.abc import Iterable, Mapping, Sequence
+from string import ascii_letters as LETTERS
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -21,7 +22,6 @@ from .figure_style import (
 from .result_labels import in_unit, label_of
 
 MOST_COLUMNS = 4  # of panels in a row
-LETTERS = "abcdefghijklmnopqrstuvwxyz"
 MARKERS = "osD^vPX"
 Rows = Sequence[Mapping[str, Any]]
 

@@ -2,6 +2,7 @@
 
 from collections.abc import Callable
 from dataclasses import replace
+from string import ascii_letters as LETTERS
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -322,9 +323,8 @@ def draw_map(
         look = {"cmap": ListedColormap(_COLOURS[: len(circles)]), "vmin": -0.5}
         look["vmax"] = len(circles) - 0.5
         drawn.append((numbers, "circle, distance [m]", look))
-    letters = "abcdefghijkl"
     wide = len(picks)
-    rows = [letters[wide * i : wide * (i + 1)] for i in range(len(drawn))]
+    rows = [LETTERS[wide * i : wide * (i + 1)] for i in range(len(drawn))]
     figure, axes = panels(
         rows,
         2.7 * wide + 1.4,

@@ -162,7 +162,7 @@ def messages_of(
         yield TopicMessage(time, "/tf", TF, factory.make(TF, moved))
         for player in players:
             yield from player.sample(index, time)
-        yield from _pair_numbers(recording, factory, index, time)
+        yield from _pair_numbers(run, factory, index, time)
         if index % 50 == 0:
             report(index, len(times))
 
@@ -250,10 +250,9 @@ class RoomTopics:
 
 
 def _pair_numbers(
-    recording: Recording, factory: MessageFactory, index: int, time: float
+    run: Run, factory: MessageFactory, index: int, time: float
 ) -> Iterator[TopicMessage]:
     """Yield distance and angle between the first two players."""
-    run = recording.run
     if run.pair is not None:
         value = float(run.distance[index])
         message = factory.number(value)
