@@ -114,7 +114,8 @@ def _write_page(
     from ..studies.unicycle_claims import FIG_2, play
 
     seed, runs = given
-    figures = draw_figures(output, seed if runs else None)
+    run = play(FIG_2)
+    figures = draw_figures(output, run, seed if runs else None)
     made = {
         "seed": seed,
         "runs": runs,
@@ -124,7 +125,6 @@ def _write_page(
     with atomic_draft(output / "claims.json") as draft:
         text = json.dumps(made | {"rows": rows}, indent=1, allow_nan=False)
         draft.write_text(text + "\n", encoding="utf-8")
-    run = play(FIG_2)
     end = time_shown(run)
     pursuer, _ = run.poses([0.0, end])
     turns = abs(float(pursuer[1, 2] - pursuer[0, 2])) / tau
@@ -132,11 +132,14 @@ def _write_page(
     return write_page(output, rows, beside, figures, made)
 
 
-def draw_figures(folder: Path, seed: int | None) -> list[tuple[str, str]]:
+def draw_figures(
+    folder: Path, game: Any, seed: int | None
+) -> list[tuple[str, str]]:
     """Draw counterparts of Fig. 2 and Fig. 5, and a sweep over strategies.
 
     Args:
         folder: Folder of the figures.
+        game: The game of Fig. 2.
         seed: Seed of the duel; None to leave it out.
 
     Returns:
@@ -145,10 +148,9 @@ def draw_figures(folder: Path, seed: int | None) -> list[tuple[str, str]]:
     from ..games import DuelSettings, Outcome, run_duel
     from ..report.run_figure import draw_run
     from ..report.unicycle_figures import draw_game, draw_sweep
-    from ..studies.unicycle_claims import FIG_2, play
 
-    draw_game(play(FIG_2), folder / "fig2.png")
-    draw_sweep(FIG_2, folder / "sweep.png")
+    draw_game(game, folder / "fig2.png")
+    draw_sweep(game.game, folder / "sweep.png")
     drawn = [
         ("Unicycles under (1)-(4), in the manner of Fig. 2", "fig2.png"),
         (

@@ -16,7 +16,7 @@ from .options import (
     workers_option,
 )
 from .study_output import finish_study, run_with_bar
-from .tables import print_columns
+from .tables import print_columns, print_table
 from .terminal import print_json, write_result
 
 SUFFIX = ".sqlite"
@@ -136,9 +136,7 @@ def _print(
         print_columns(heads, lines, left=range(len(by)))
         return
     for line in lines:  # a single row reads better as a list
-        print_columns(
-            ("", ""), list(map(list, zip(heads, line, strict=True))), left=(0,)
-        )
+        print_table(list(zip(heads, line, strict=True)))
 
 
 def _text(value: Any) -> str:
