@@ -75,7 +75,6 @@ def start() -> Iterator[Callable[..., Any]]:
     def start_one(
         *options: str,
         of: Walker | None = None,
-        keys: int | None = None,
         robot: str = ROBOT,
     ) -> Any:
         if of is None:
@@ -86,7 +85,6 @@ def start() -> Iterator[Callable[..., Any]]:
                 [sys.executable, "-c", PLAY, "play", robot]
                 + [*TEMPLATE, *options],
                 env=os.environ | {"WALKER_PORT": str(of.port)},
-                stdin=keys,
                 stderr=subprocess.PIPE,
                 text=True,
             )

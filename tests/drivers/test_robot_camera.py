@@ -1,14 +1,14 @@
 """Test cameras of robots in Python: images, their faults, and sightings."""
 
-import json
 import logging
 import os
 import re
 from collections.abc import Callable
+from contextlib import suppress
 from functools import partial
 from math import atan2, degrees, hypot, inf, nan
 from pathlib import Path
-from threading import Event
+from threading import Event, Thread
 from time import monotonic, sleep
 from typing import Any
 
@@ -21,8 +21,6 @@ from stepaside.drivers.method_thread import SessionLost
 from stepaside.drivers.robot import (
     CameraImage,
     CameraMount,
-    HeadLimits,
-    VelocityRobot,
 )
 from stepaside.drivers.robot_camera import (
     OLDEST,
@@ -31,11 +29,9 @@ from stepaside.drivers.robot_camera import (
     colour_image,
 )
 from stepaside.drivers.robot_session import RobotSession
-from stepaside.drivers.velocity_limits import VelocityLimits
 from stepaside.drivers.velocity_loop import PERIOD
 from stepaside.perception.camera_model import CameraModel
 from stepaside.perception.images import ColourImage
-from stepaside.perception.measurement import RobotState
 from velocity_fakes import SimulatedUnicycle, until
 
 MOUNT = CameraMount(0.1, 0.0, 1.2)
@@ -181,60 +177,32 @@ def test_a_camera_apart_from_the_robot_is_mounted_on_it() -> None:
         sleep(0.002)
 
 
-class SeeingWalker(VelocityRobot):
-    """Simulated walker in this process, with a head."""
-
-    limits = VelocityLimits(0.5, 0.4, 1.0, lateral=0.3)
-    head = HeadLimits(1.5, 0.3, 0.8)
-
-    def __init__(self) -> None:
-        self.walker = SimulatedWalker(0, inf)
-        self.walker.time = monotonic()
-
-    def listen(self) -> RobotState:
-        """Move on, and report."""
-        now = monotonic()
-        self.walker.move(now - self.walker.time)
-        self.walker.time = now
-        x, y, heading = self.walker.pose
-        return RobotState(now, pose=Pose(x, y, wrap_angle(heading)))
-
-    def image(self) -> CameraImage:
-        """The present image."""
-        sleep(0.03)
-        entries, _, pixels = self.walker.image().partition(b"\n")
-        values = json.loads(entries)
-        shape = values["height"], values["width"], 3
-        yaw, pitch = values["head"]
-        focal = values["focal"]
-        return CameraImage(
-            values["time"],
-            np.frombuffer(pixels, np.uint8).reshape(shape),
-            focal,
-            focal,
-            CameraMount(0.0, 0.0, values["up"], yaw, pitch),
-        )
-
-    def look(self, yaw: float, pitch: float) -> None:
-        """Turn the head at once."""
-        self.walker.head = [yaw, pitch]
-
-    def command(self, forward: float, lateral: float, turn: float) -> None:
-        """Walk."""
-        self.walker.velocity = [forward, lateral, turn]
-
-    def close(self) -> None:
-        """Free the port."""
-        self.walker.socket.close()
-
-
-def test_the_head_follows_the_opponent_and_sightings_are_true() -> None:
-    """Of a robot that turns away from a person."""
+def test_the_head_follows_the_opponent_and_sightings_are_true(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    """Of the documented robot, which turns away from a person here."""
     pytest.importorskip("cv2")
+    import walker_robot
+    from seeing_robot import SeeingRobot
+
     from stepaside.drivers.robot_camera import PosedSight
     from stepaside.drivers.scheme_factory import posed_perception
 
-    robot = SeeingWalker()
+    class Slow(SeeingRobot):
+        def image(self) -> CameraImage | None:
+            sleep(0.03)
+            return super().image()
+
+    walker = SimulatedWalker(0, inf)
+
+    def run() -> None:
+        with suppress(OSError):  # its socket is closed at the end
+            walker.run()
+
+    thread = Thread(target=run, daemon=True)
+    thread.start()
+    monkeypatch.setattr(walker_robot, "PORT", walker.socket.getsockname()[1])
+    robot = Slow()
     perception = posed_perception("evader", robot.head, PERIOD)
     session = RobotSession(robot)
     camera = RobotCamera(robot, needs_mount=True)
@@ -248,13 +216,17 @@ def test_the_head_follows_the_opponent_and_sightings_are_true() -> None:
             report = sight.see(new)
             hindered.add(report.hindrance.partition(" for ")[0])
         session.command(partial(robot.command, -0.1, 0.0, 0.3))
+    (x, y, heading), (px, py) = walker.pose, walker.person
+    yaw = walker.head[0]
     session.close()
+    camera.close()
+    walker.socket.close()
+    thread.join(SLACK)
     assert report is not None and report.sighting is not None
-    x, y, heading = robot.walker.pose
-    dx, dy = robot.walker.person[0] - x, robot.walker.person[1] - y
+    dx, dy = px - x, py - y
     bearing = wrap_angle(atan2(dy, dx) - heading)
     assert bearing < -0.6  # it has turned away, and looks back
-    assert robot.walker.head[0] == pytest.approx(bearing, abs=0.15)
+    assert yaw == pytest.approx(bearing, abs=0.15)
     assert report.sighting.bearing == pytest.approx(bearing, abs=0.1)
     assert report.sighting.distance == pytest.approx(hypot(dx, dy), abs=0.15)
     assert hindered <= {"", "image() returned no new image"}

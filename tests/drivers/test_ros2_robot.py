@@ -24,7 +24,6 @@ from stepaside.drivers.ros2_dds import (  # noqa: E402
     DdsParticipant,
     header,
     make,
-    parse_namespace,
     seconds,
     take_messages,
     vector,
@@ -138,6 +137,8 @@ def test_odometry_becomes_a_pose(peer: Peer, robot: Ros2Robot) -> None:
     report = heard(peer, robot)
     assert report.pose == pytest.approx(peer.pose)
     assert report.time == pytest.approx(peer.time) and report.sighting is None
+    peer.rotation = 0.0, 0.0, 0.3, 0.3  # of any length: to the left
+    assert heard(peer, robot).pose.theta == pytest.approx(0.5 * pi)
 
 
 def test_a_message_without_stamp_or_heading_is_named(
@@ -152,13 +153,6 @@ def test_a_message_without_stamp_or_heading_is_named(
     assert heard(peer, robot).hindrance == (
         "/it/odom has no stamp: header.stamp is 0"
     )
-
-
-def test_a_quaternion_of_any_length_is_its_rotation(
-    peer: Peer, robot: Ros2Robot
-) -> None:
-    peer.rotation = 0.0, 0.0, 0.3, 0.3  # to the left
-    assert heard(peer, robot).pose.theta == pytest.approx(0.5 * pi)
 
 
 SIDEWAYS = """
@@ -500,12 +494,6 @@ def test_a_robot_that_is_not_found_is_explained_once(
 def test_an_invalid_remapping_is_refused(rules: list[str]) -> None:
     with pytest.raises(ConfigurationError, match="remap"):
         make_robot(RobotRequest("/it", remap=tuple(rules)))
-
-
-@pytest.mark.parametrize("text", ["ros2:/na o", "/3", "//a", "/a//b", "ä"])
-def test_an_invalid_namespace_is_refused(text: str) -> None:
-    with pytest.raises(ConfigurationError, match="namespace must be"):
-        parse_namespace(text)
 
 
 def test_a_domain_that_has_no_ports_is_refused(

@@ -23,7 +23,6 @@ from stepaside.drivers.ros2_dds import (  # noqa: E402
 )
 from stepaside.drivers.ros2_server import (  # noqa: E402
     REPORTS,
-    OdometryCovariance,
     Ros2Server,
     WorldClock,
     rotation_message,
@@ -231,20 +230,3 @@ def test_a_rotation_is_that_of_its_angles(
         rotation(roll, pitch, heading),
         atol=1e-12,
     )
-
-
-def test_the_covariance_of_odometry_grows_with_the_path() -> None:
-    covariance = OdometryCovariance()
-
-    def deviations(pose: Pose) -> Any:
-        matrix = np.array(covariance.note(pose)).reshape(6, 6)
-        np.linalg.cholesky(matrix)  # it is positive definite
-        return np.sqrt(matrix.diagonal()[[0, 1, 5]])
-
-    begin = deviations(Pose(0.0, 0.0, 3.1))
-    turned = deviations(Pose(0.0, 0.0, -3.1))  # by 0.08 rad
-    assert (begin[:2] == turned[:2]).all() and turned[2] > begin[2]
-    assert turned[2] < 0.011
-    walked = deviations(Pose(2.0, 0.0, -3.1))
-    assert walked[0] == pytest.approx(0.075, abs=0.002)
-    assert (deviations(Pose(0.0, 0.0, -3.1)) > walked).all()

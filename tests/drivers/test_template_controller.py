@@ -9,35 +9,14 @@ from hypothesis import strategies as st
 
 from fake_robot import FakeStrategy
 from stepaside.core.poses import Pose, wrap_angle
-from stepaside.drivers.velocity_limits import VelocityLimits
 from stepaside.drivers.velocity_loop import TemplateController
 from stepaside.perception.measurement import RobotState, Sighting
 from stepaside.planning import Direction, GaitSettings
-from stepaside.strategies import Intent, Knowledge
-from stepaside.strategies.velocity_set import BodyVelocity
+from stepaside.strategies import Intent
 
 GAIT = GaitSettings()
 ANGLE = st.floats(-pi, pi)
 PERIOD = 0.05
-
-
-class SidestepStrategy:
-    """Strategy that wants one body velocity."""
-
-    direction = Direction.FORWARD
-    saturated = False
-
-    def __init__(self, velocity: BodyVelocity) -> None:
-        self.velocity = velocity
-
-    def begin(self) -> None:
-        """Return no memory."""
-
-    def decide(
-        self, knowledge: Knowledge, memory: None
-    ) -> tuple[Intent, None]:
-        """Want the velocity."""
-        return Intent(velocity=self.velocity), None
 
 
 def way(time: float, start: Pose, rate: float) -> Pose:
@@ -83,17 +62,3 @@ def test_the_pace_slows_speed_and_turn_alike() -> None:
         RobotState(0.0, pose=Pose(0.0, 0.0, 0.0), sighting=ahead)
     )
     assert told == pytest.approx((0.5 * GAIT.speed, 0, 0.5 * GAIT.gain * 0.4))
-
-
-def test_a_body_velocity_reaches_only_a_robot_that_walks_sideways() -> None:
-    """A unicycle turns toward it instead."""
-    velocities = VelocityLimits(0.5, 0.4, 1.0, lateral=0.3).velocities
-    seen = RobotState(
-        0.0, pose=Pose(0.0, 0.0, 0.0), sighting=Sighting(0.0, 0.4, 1.0)
-    )
-    wanted = BodyVelocity(0.1, -0.2, 0.3)
-    strategy = SidestepStrategy(wanted)
-    told = TemplateController(strategy, GAIT, velocities).decide(seen)
-    assert told == wanted
-    told = TemplateController(strategy, GAIT).decide(seen)
-    assert told.lateral == 0.0 and told.turn < 0.0

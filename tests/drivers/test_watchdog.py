@@ -152,9 +152,3 @@ def test_only_a_fresh_true_sighting_is_one_to_act_upon(
     dog = settled()
     told = dog.check(report(STAMP + 0.25, sighting=seen), 0.25)
     assert (said in told) if said else not told
-
-
-def test_hindrances_of_the_robot_are_returned() -> None:
-    dog = settled()
-    sick = report(STAMP + 0.25, hindrance="another commands")
-    assert dog.check(sick, 0.25) == "another commands"
