@@ -25,7 +25,6 @@ from flows.lola_peer import (  # noqa: E402
     listening,
 )
 from flows.running import until  # noqa: E402
-from stepaside.cli.main import main  # noqa: E402
 from stepaside.core.errors import ConfigurationError  # noqa: E402
 from stepaside.core.poses import Array  # noqa: E402
 from stepaside.drivers.lola import STALL_CURRENT, LolaRobot  # noqa: E402
@@ -328,25 +327,6 @@ def test_stale_sockets(world: World, tmp_path: Path) -> None:
     assert not (tmp_path / "old").exists()
     with pytest.raises(ConfigurationError, match="has at most"):
         World(tmp_path / ("x" * 200))
-
-
-def refused(capsys: pytest.CaptureFixture[str], *words: str) -> str:
-    """Return the message for invalid arguments."""
-    with pytest.raises(SystemExit) as left:
-        main(list(words))
-    assert left.value.code == 2
-    said = capsys.readouterr().err.strip().splitlines()
-    assert all(line.startswith("stepaside: ") for line in said)
-    return said[-1]
-
-
-def test_a_robot_that_is_not_there_is_said_in_one_line(
-    tmp_path: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
-    words = ["play", f"lola:{tmp_path}/none", "--set", "wait=0.3"]
-    began = monotonic()
-    assert "no robot listens at" in refused(capsys, *words)
-    assert 0.3 < monotonic() - began < 20.0
 
 
 def played(path: Path, *words: str) -> "subprocess.Popen[str]":

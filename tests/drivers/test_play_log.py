@@ -1,4 +1,4 @@
-"""Test that each column of a record has its own values."""
+"""Test where the opponent of a recorded play was."""
 
 import numpy as np
 import pytest

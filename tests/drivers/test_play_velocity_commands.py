@@ -38,6 +38,7 @@ def refused(capsys: pytest.CaptureFixture[str], *words: str) -> str:
             f"play {WALKER} --sensing cameras --set wait=0",
             "requires the method image() of WalkerRobot, or images",
         ),
+        ("play lola:none --set wait=0.3", "no robot listens at"),
         ("play lola:x --set legs.network=x.onnx", "a robot that takes gains"),
         ("serve", "--lola PLAYER=PATH or --ros2"),
         ("serve --lola referee=E", "each player once"),

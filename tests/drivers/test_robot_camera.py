@@ -218,8 +218,8 @@ def test_the_head_follows_the_opponent_and_sightings_are_true(
         session.command(partial(robot.command, -0.1, 0.0, 0.3))
     (x, y, heading), (px, py) = walker.pose, walker.person
     yaw = walker.head[0]
-    session.close()
     camera.close()
+    session.close()
     walker.socket.close()
     thread.join(SLACK)
     assert report is not None and report.sighting is not None

@@ -17,7 +17,6 @@ from stepaside.cli.connection_settings import (  # noqa: E402
 from stepaside.cli.robot_connections import open_loop  # noqa: E402
 from stepaside.core.errors import ConfigurationError  # noqa: E402
 from stepaside.core.poses import Pose  # noqa: E402
-from stepaside.drivers import ros2  # noqa: E402
 from stepaside.drivers.robot_loader import RobotRequest  # noqa: E402
 from stepaside.drivers.ros2 import Ros2Robot, make_robot  # noqa: E402
 from stepaside.drivers.ros2_dds import (  # noqa: E402
@@ -471,21 +470,6 @@ def test_a_guardian_commands_nothing_until_it_acts(
     assert {m.linear.x for m in told} == {0.0}
     acting.join()
     guardian.close()
-
-
-def test_a_robot_that_is_not_found_is_explained_once(
-    monkeypatch: pytest.MonkeyPatch, caplog: pytest.LogCaptureFixture
-) -> None:
-    monkeypatch.setattr(ros2, "HINT_AFTER", 0.05)
-    robot = make_robot(RobotRequest("/nobody", domain=DOMAIN))()
-    robot.open()
-    for _ in range(3):
-        assert robot.listen() is None
-    robot.close()
-    [message] = [r.getMessage() for r in caplog.records]
-    assert message.startswith("nothing publishes /nobody/odom; searched")
-    assert "ROS_AUTOMATIC_DISCOVERY_RANGE=LOCALHOST" in message
-    assert "network=true" in message
 
 
 @pytest.mark.parametrize(

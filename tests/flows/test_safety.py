@@ -180,7 +180,9 @@ def test_joints_stop_when_the_operator_lets_go(
     assert "walking" not in play.said
     until(held)
     play.until_said("stopping: dead-man switch: hold any key to walk")
-    play.close()
+    assert play.interrupt() == 0
+    last = log.read_text().splitlines()[-1]
+    assert last.split() == ["release", str(play.process.pid)]
     os.close(near)
     os.close(far)
 
