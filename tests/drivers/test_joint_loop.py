@@ -376,13 +376,6 @@ def test_without_a_button_it_walks_when_ready_and_sees_its_opponent() -> None:
     assert game.reason == "the sighting of the opponent is 0.62 s old"
 
 
-def test_the_papers_walk_needs_foot_forces() -> None:
-    game = Game(needs_forces=True)
-    game.session.changes["foot_forces"] = np.full(8, nan)
-    with pytest.raises(SessionLost, match=r"foot_forces are needed .*legs"):
-        game.play(1)
-
-
 def test_a_robot_without_a_button_is_given_up_once_it_is_limp() -> None:
     game = walking()
     game.schemes[0].fails = ReachError("why not")

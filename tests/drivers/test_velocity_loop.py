@@ -1,13 +1,16 @@
-"""Test the velocity loop with a fake robot."""
+"""Test the template controller, and its loop with a fake robot."""
 
 import io
-from math import pi
+from math import atan2, hypot, pi
 from typing import Any
 
 import numpy as np
 import pytest
+from hypothesis import given
+from hypothesis import strategies as st
 
-from stepaside.core.poses import Pose
+from fake_robot import FakeStrategy
+from stepaside.core.poses import Pose, wrap_angle
 from stepaside.drivers.method_thread import SessionLost
 from stepaside.drivers.play_log import PlayTick
 from stepaside.drivers.status_line import StatusLine
@@ -18,8 +21,8 @@ from stepaside.drivers.velocity_loop import (
     VelocityLoop,
 )
 from stepaside.perception.measurement import RobotState, Sighting
-from stepaside.planning import GaitSettings
-from stepaside.strategies import Evasion, Pursuit, Strategy
+from stepaside.planning import Direction, GaitSettings
+from stepaside.strategies import Evasion, Intent, Pursuit, Strategy
 from stepaside.strategies.velocity_set import BodyVelocity
 
 from velocity_fakes import PERIOD, FakeWalker, report  # isort: skip
@@ -72,6 +75,50 @@ def test_without_a_sighting_the_command_is_zero() -> None:
     mind = TemplateController(Pursuit(), GAIT)
     mind.decide(REPORTS[0])
     assert mind.decide(report(0.1, sighting=None)) == REST and not mind.moving
+
+
+def way(time: float, start: Pose, rate: float) -> Pose:
+    """Pose of a robot that walks on an arc."""
+    return start.compose(Pose(0.3 * time, -0.1 * time, rate * time))
+
+
+@given(
+    st.floats(-pi, pi), st.floats(-1.5, 1.5), st.integers(0, 12), st.booleans()
+)
+def test_an_old_sighting_is_of_where_the_robot_was_then(
+    heading: float, rate: float, late: int, saturated: bool
+) -> None:
+    """Latency does not move an opponent that stands still."""
+    strategy = FakeStrategy(
+        heading=0.4, direction=Direction.BACKWARD, saturated=saturated
+    )
+    start, other = Pose(0.5, -0.2, heading), Pose(1.4, 0.3, 0.0)
+    mind = TemplateController(strategy, GAIT)
+    for i in range(40):
+        now, taken = PERIOD * i, PERIOD * max(0, i - late)
+        then = way(taken, start, rate)
+        x, y, _ = then.inverse().compose(other)
+        seen = Sighting(taken, wrap_angle(atan2(y, x)), hypot(x, y))
+        told = mind.decide(
+            RobotState(now, pose=way(now, start, rate), sighting=seen)
+        )
+    assert told.forward == pytest.approx(-GAIT.speed)
+    turn = GAIT.gain * (1.0 if saturated else 0.4)
+    assert told.turn == pytest.approx(turn)
+
+
+class SlowStrategy(FakeStrategy):
+    """Strategy that walks at half the pace."""
+
+    def decide(self, knowledge: Any, memory: Any) -> Any:
+        """Want a heading at half the pace."""
+        return Intent(0.4, pace=0.5), None
+
+
+def test_the_pace_slows_speed_and_turn_alike() -> None:
+    mind = TemplateController(SlowStrategy(), GAIT)
+    told = mind.decide(REPORTS[0])
+    assert told == pytest.approx((0.5 * GAIT.speed, 0, 0.5 * GAIT.gain * 0.4))
 
 
 def test_the_robot_is_led_to_the_template_by_the_ramp() -> None:
