@@ -2,6 +2,7 @@
 
 import json
 from collections.abc import Callable
+from functools import partial
 from math import cos, degrees, inf, nan, sin
 from pathlib import Path
 from threading import Event
@@ -106,8 +107,8 @@ class IgnoresStop(KinematicRobot):
 def checked(robot: Any, *, dry_run: bool = False) -> dict[str, AdapterFinding]:
     """Check a robot, and return the findings by name."""
     joints = isinstance(robot, JointRobot)
-    check = (JointCheck if joints else VelocityCheck)(
-        *((robot, MOTORS) if joints else (robot,)),
+    make: Any = partial(JointCheck, robot, MOTORS)
+    check = (make if joints else partial(VelocityCheck, robot))(
         lambda finding: None,
         dry_run=dry_run,
         clock=robot.clock,

@@ -34,7 +34,6 @@ from stepaside.drivers.safety import SafetyState  # noqa: E402
 from stepaside.perception.images import SonarEcho  # noqa: E402
 from stepaside.perception.measurement import (  # noqa: E402
     RobotState,
-    Sighting,
 )
 
 import msgpack  # isort: skip  # noqa: E402
@@ -229,7 +228,6 @@ class MadeUpRobot:
 
     def __init__(self) -> None:
         self.time, self.angles = 0.0, np.linspace(-0.1, 0.1, 23)
-        self.sighting: Sighting | None = None
         self.stiffness: Array = np.full(23, np.nan)
 
     def sensors(self) -> RobotState:
@@ -240,7 +238,6 @@ class MadeUpRobot:
             np.zeros(3),
             np.array([0.0, 0.0, 9.81]),
             np.full(8, 6.5),
-            self.sighting,
         )
 
     def command(self, targets: Array, stiffness: Array) -> None:

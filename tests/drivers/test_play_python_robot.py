@@ -13,13 +13,10 @@ from typing import Any
 
 import pytest
 
-from stepaside import load_run
 from stepaside.drivers import watchdog
 from stepaside.drivers.robot_camera import (
     SILENCE as CAMERA,
 )
-from stepaside.games.play_settings import PlaySettings
-from stepaside.games.play_summary import PlaySummary
 
 ADAPTERS = Path(__file__).parents[2] / "examples" / "adapters"
 ROBOT = f"{ADAPTERS / 'walker_robot.py'}:WalkerRobot"
@@ -113,24 +110,6 @@ def until(done: Callable[[], bool]) -> float:
         assert monotonic() - began < LONGEST
         sleep(0.01)
     return monotonic() - began
-
-
-def test_the_example_walks_and_is_recorded(
-    start: Callable[..., Any], tmp_path: Path
-) -> None:
-    walker = start()
-    folder = tmp_path / "run"
-    play = start("--duration", "3", "--record", str(folder), of=walker)
-    until(walker.moves)
-    said = play.communicate(timeout=LONGEST)[1]
-    assert play.returncode == 0, said
-    assert not walker.moves()
-    run = load_run(folder)
-    assert isinstance(run.settings, PlaySettings)
-    assert isinstance(run.summary, PlaySummary)
-    assert run.settings.language == "python"
-    assert run.summary.walking_s == pytest.approx(3.0, abs=0.2)
-    assert 0.2 < run.summary.path_length_m < 1.0
 
 
 @pytest.mark.parametrize("lost", ["states", "both"])

@@ -4,7 +4,6 @@ import os
 from collections.abc import Callable, Iterator
 from math import atan2, cos, hypot, nan, pi, sin
 from pathlib import Path
-from threading import Thread
 from typing import Any
 
 import pytest
@@ -442,34 +441,6 @@ def test_one_that_only_reads_offers_no_commands(peer: Peer) -> None:
         assert heard(peer, robot).hindrance == ""
     assert not peer.commands[TWIST].get_matched_publications()
     robot.close()
-
-
-def test_closing_commands_zero_several_times(peer: Peer) -> None:
-    robot = robot_of()
-    taken_by(peer, robot, TWIST)
-    take_messages(peer.commands[TWIST])
-    robot.stop()
-    robot.close()
-    told = [
-        m.linear.x for m in until(lambda: take_messages(peer.commands[TWIST]))
-    ]
-    assert set(told) == {0.0}
-
-
-def test_a_guardian_commands_nothing_until_it_acts(
-    peer: Peer, robot: Ros2Robot
-) -> None:
-    """Its stop is written without a stamp, for a while."""
-    guardian = robot_of(prepared=False)
-    assert all(heard(peer, robot).hindrance == "" for _ in range(10))
-    acting = Thread(target=guardian.stop)
-    acting.start()
-    said = "1 others command this robot"
-    until(lambda: heard(peer, robot).hindrance == said)
-    told = until(lambda: take_messages(peer.commands[TWIST]))
-    assert {m.linear.x for m in told} == {0.0}
-    acting.join()
-    guardian.close()
 
 
 @pytest.mark.parametrize(
