@@ -13,6 +13,7 @@ from ..core.progress import show_progress
 from ..core.ranges import SEEDS, Range
 from ..core.setting import setting
 from ..games.unicycle_settings import UnicycleGameSettings, positive
+from ..report.result_labels import CIRCLES
 from ..theory.unicycle.unicycle_game import Game
 from .options import figure_option, figure_width, json_option
 from .settings import takes_settings
@@ -235,7 +236,7 @@ def print_circles(result: dict[str, Any]) -> None:
     rows = [
         each
         | {
-            "direction": "main" if each["direction"] > 0 else "reversed",
+            "direction": CIRCLES[each["direction"]],
             "starts_share": each["share"],
         }
         for each in result["circles"]

@@ -12,6 +12,7 @@ from ..core.progress import show_progress
 from ..core.ranges import Range
 from ..core.setting import setting
 from ..games.unicycle_settings import UnicycleGameSettings, positive
+from ..report.result_labels import CIRCLES
 from .options import figure_option, figure_width, json_option
 from .settings import takes_settings
 from .tables import finite, print_table, scalar_rows, table_rows
@@ -200,10 +201,9 @@ def _print(result: dict[str, Any]) -> None:
     """Print the values, the circles and the worst start."""
     rows = scalar_rows(result)
     for circle in result["circles"]:
-        direction = "main" if circle["direction"] > 0 else "reversed"
         percent = 100.0 * circle["share"]
         text = f"{percent:.6g} % at {circle['distance_m']:.6g} m"
-        rows.append((f"on the {direction} circle", text))
+        rows.append((f"on the {CIRCLES[circle['direction']]} circle", text))
     start = result["worst_start"]
     worst = table_rows(start, start)
     print_table([*rows, *((f"worst start: {k}", v) for k, v in worst)])

@@ -9,7 +9,7 @@ import click
 from ..core.entries import to_entries
 from ..core.errors import PlanError
 from ..games.unicycle_settings import UnicycleSettings
-from ..report.result_labels import label_of
+from ..report.result_labels import CIRCLES, label_of
 from .circle import describe_circle
 from .options import figure_option, figure_width, json_option
 from .settings import refuse_settings, takes_settings
@@ -223,8 +223,8 @@ def _print(result: dict[str, Any]) -> None:
         rows.append((label_of(name), f"{texts[0]:<16} {texts[1]}"))
     circle = result.get("circle")
     if circle is not None:
-        direction = "main" if circle["direction"] > 0 else "reversed"
-        rows.append(("ended on", f"the {direction} circle"))
+        name = CIRCLES[circle["direction"]]
+        rows.append(("ended on", f"the {name} circle"))
     certified = result["certified"]
     if certified is not None and certified["holds"]:
         text = f">= {certified['distance_m']:.6g} m"

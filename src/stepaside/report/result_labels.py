@@ -52,6 +52,8 @@ LABELS = {
     "sliding": "evader slides at zero error",
     "unsettled_share": "games not settled",
 }
+CIRCLES = {1: "main", -1: "reversed"}
+"""Names of the circles of a game of unicycles, by their direction."""
 
 
 def unit_of(name: str) -> str:

@@ -28,6 +28,7 @@ from .figure_style import (
     save,
 )
 from .plan_view import draw_heading
+from .result_labels import CIRCLES
 
 TICK = 0.5  # [m], as in Fig. 2
 _FRACTIONS = (0.0, 0.12, 0.4, 1.0)  # of the time shown
@@ -360,8 +361,9 @@ def draw_map(
             "bearing of the evader\nfrom the pursuer [deg]"
         )
     if len(circles) > 1:
-        names = {1: "main", -1: "reversed"}
-        texts = [f"{names[c.direction]}\n{c.distance_m:.3g}" for c in circles]
+        texts = [
+            f"{CIRCLES[c.direction]}\n{c.distance_m:.3g}" for c in circles
+        ]
         bar.ax.set_yticks(range(len(circles)), texts)
     for letter, i in zip(rows[0], picks, strict=True):
         title = f"initial distance {found.distances[i]:.2f} m"

@@ -1,7 +1,5 @@
 """Transforms of a recorded robot: joints and torso at all samples."""
 
-from typing import NamedTuple
-
 import numpy as np
 from scipy.spatial.transform import Rotation
 
@@ -10,26 +8,18 @@ from ...robots.urdf_elements import UrdfJoint
 from .recording import RobotModel
 
 
-class JointPoses(NamedTuple):
-    """Poses of the children of moving joints in their parents.
-
-    Attributes:
-        joint: The joint.
-        positions: Positions, in [m]. Shape (n, 3).
-        quaternions: Rotations (w, x, y, z). Shape (n, 4).
-    """
-
-    joint: UrdfJoint
-    positions: Array
-    quaternions: Array
-
-
-def joint_poses(model: RobotModel, qpos: Array) -> list[JointPoses]:
+def joint_poses(
+    model: RobotModel, qpos: Array
+) -> list[tuple[UrdfJoint, Array, Array]]:
     """Return the transforms of the moving joints of a robot.
 
     Args:
         model: The robot.
         qpos: Free joint and joint positions. Shape (n, 7 + joints).
+
+    Returns:
+        Each joint with the positions of its child in its parent, in [m], of
+        shape (n, 3), and the rotations (w, x, y, z), of shape (n, 4).
     """
     column = {name: 7 + i for i, name in enumerate(model.joints)}
     found = []
@@ -44,7 +34,7 @@ def joint_poses(model: RobotModel, qpos: Array) -> list[JointPoses]:
         turned = Rotation.from_rotvec(np.outer(values, joint.axis))
         turned = Rotation.from_matrix(joint.axes) * turned
         quaternions = turned.as_quat(scalar_first=True)
-        found.append(JointPoses(joint, positions, quaternions))
+        found.append((joint, positions, quaternions))
     return found
 
 
