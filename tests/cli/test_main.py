@@ -3,6 +3,7 @@
 import json
 import re
 import tomllib
+from math import inf
 from pathlib import Path
 from typing import Any
 
@@ -223,10 +224,10 @@ def test_interrupted_duel_reports_its_run(
 
     tick = RecordedGame.advance
 
-    def impatient(self: RecordedGame) -> Any:
+    def impatient(self: RecordedGame, until: float = inf) -> Any:
         if self.in_physics.ticks >= 300:
             raise KeyboardInterrupt
-        return tick(self)
+        return tick(self, until)
 
     monkeypatch.setattr(RecordedGame, "advance", impatient)
     folder = tmp_path / "run"

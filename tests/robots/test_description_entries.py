@@ -88,7 +88,11 @@ def told(folder: Path, name: str, value: Any) -> str:
         ("gait", 1, "gait must be a table"),
         ("sensors.feet", ["a"], "sensors.feet must have 8 entries, got 1"),
         ("place.reach", 0, "place.reach must lie in (0, 1e+06] [m], got 0"),
-        ("place.raech", 0, "unknown entry place.raech; did you mean reach?"),
+        (
+            "place.raech",
+            0,
+            "unknown entry place.raech; did you mean place.reach?",
+        ),
         ("overlay.servos.knee.stiffness", 0, "knee.stiffness must lie in (0"),
         ("overlay.servos.knee.torque", 0, "[N m], got 0"),
         ("overlay.servos.knee.damping", -1, "[N m s/rad], got -1"),
