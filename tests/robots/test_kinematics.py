@@ -76,39 +76,6 @@ def test_walk_is_tracked_within_a_tenth_of_a_millimeter() -> None:
     assert 1.0 < fastest < 6.5  # below the speed limit of the pitch joints
 
 
-@pytest.mark.parametrize(("damping", "gap"), [(1e-4, 2e-6), (1e-7, 1e-9)])
-def test_a_walk_is_that_of_a_damped_solve_on_mujoco_s_jacobians(
-    damping: float, gap: float, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    """But for the damping, which the step that nothing limits leaves out."""
-    import mujoco_inverse_kinematics as by_mujoco
-
-    from stepaside.core.poses import Pose
-    from stepaside.locomotion.zmp.reference_table import ReferenceTable
-
-    monkeypatch.setattr(by_mujoco, "DAMPING", damping)
-    plan = ManeuverPlanner(GaitSettings()).plan(
-        -0.5, Direction.FORWARD, first_foot=Foot.LEFT, standing=True, count=4
-    )
-    table = ReferenceTable(0.004)
-    duration = plan.schedule.duration - 1.0
-    table.load(plan, Pose(0.0, -0.05, 0.0), 0.0, duration)
-    theirs = by_mujoco.MujocoLegs(load_robot("nao"), tick=0.004)
-    ours = LegKinematics(load_robot("nao"), tick=0.004)
-    theirs.stand(table.at(0.0).body)
-    ours.stand(table.at(0.0).body)
-    worst = 0.0
-    for tick in range(round(duration / 0.004)):
-        reference = table.at(tick * 0.004).body
-        targets = theirs.track(reference)
-        off = np.abs(ours.track(reference) - targets)
-        worst = max(worst, float(off.max()))
-        assert ours.torso_heading == pytest.approx(
-            theirs.torso_heading, abs=gap
-        )
-    assert worst < gap
-
-
 def test_height_out_of_reach_is_refused_with_the_height_in_reach() -> None:
     """At 0.28 m the straight legs are too short."""
     kinematics = LegKinematics(load_robot("nao"), tick=0.004)
