@@ -144,6 +144,7 @@ def test_cameras_see_several_pursuers_but_do_not_name_them(
             robot("ruby", "pursuer", *places[1], pi, **standing),
             robot("blue", "evader", 0.0, 0.0, 0.0, senses="cameras"),
             cameras={"colour": {"renderer": "raycast"}},
+            duration=2.0,
         )
     )
     play(match)
