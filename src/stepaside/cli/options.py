@@ -12,7 +12,6 @@ import click
 from ..core.atomic_output import FIGURES, check_file
 from ..core.errors import StepAsideError
 from ..report.figure_sizes import SHEETS, figures_on
-from ..studies.executors import PROCESSES, SPECIFICATIONS, check_executor
 from .terminal import reserve_stdout
 
 
@@ -120,20 +119,6 @@ workers_option = click.option(
     "--workers",
     type=click.IntRange(1, 1024),  # more than any machine has cores
     help="Number of worker processes; one per core by default.",
-)
-
-
-def _executor(text: str) -> str:
-    check_executor(text)
-    return text
-
-
-executor_option = click.option(
-    "--executor",
-    type=TextType("EXECUTOR", _executor),
-    default=PROCESSES,
-    show_default=True,
-    help=f"Where cases run: {SPECIFICATIONS}; see docs/campaigns.md.",
 )
 
 

@@ -9,13 +9,12 @@ import click
 
 from ..core.atomic_output import atomic_draft, check_folder
 from .options import (
-    executor_option,
     json_option,
     seed_option,
     shard_option,
     workers_option,
 )
-from .study_output import finish_study, run_with_bar
+from .study_output import executor_option, finish_study, run_with_bar
 from .terminal import echo, exit_interrupted, print_json, resume_message
 
 RECORDS = "claims.sqlite"

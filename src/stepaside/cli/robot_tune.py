@@ -7,7 +7,8 @@ import click
 
 from ..core.atomic_output import atomic_draft
 from ..core.progress import show_progress
-from .options import executor_option, json_option, workers_option
+from .options import json_option, workers_option
+from .study_output import executor_option
 from .tables import print_table
 from .terminal import echo, exit_interrupted, print_json, resume_message
 

@@ -9,13 +9,12 @@ from ..core.atomic_output import check_file
 from ..report.result_labels import in_unit, label_of
 from .options import (
     TextType,
-    executor_option,
     figure_option,
     json_option,
     shard_option,
     workers_option,
 )
-from .study_output import finish_study, run_with_bar
+from .study_output import executor_option, finish_study, run_with_bar
 from .tables import print_columns, print_table
 from .terminal import print_json, write_result
 

@@ -3,14 +3,31 @@
 from pathlib import Path
 from typing import TYPE_CHECKING, TypeVar
 
+import click
+
 from ..core.progress import show_progress
-from ..studies.executors import PROCESSES
+from ..studies.executors import PROCESSES, SPECIFICATIONS, check_executor
+from .options import TextType
 from .terminal import echo, exit_interrupted, resume_message
 
 if TYPE_CHECKING:
     from ..studies.study import Study, StudyProgress, StudyRun
 
 C = TypeVar("C")
+
+
+def _executor(text: str) -> str:
+    check_executor(text)
+    return text
+
+
+executor_option = click.option(
+    "--executor",
+    type=TextType("EXECUTOR", _executor),
+    default=PROCESSES,
+    show_default=True,
+    help=f"Where cases run: {SPECIFICATIONS}; see docs/campaigns.md.",
+)
 
 
 def run_with_bar(

@@ -22,9 +22,15 @@ from .search.step_motion import (
     pair_of,
     step_both,
 )
-from .search.turn_search import DEEPEST, NO_VALUE, TurnSearch, look_ahead
+from .search.turn_search import (
+    DEEPEST,
+    NO_VALUE,
+    PursuitValues,
+    TurnSearch,
+    look_ahead,
+)
 from .strategy import BackwardStrategy
-from .table_cache import pursuit_table
+from .table_cache import pursuit_bound
 
 MARGIN = 0.005  # in addition to the required clearance, in [m]
 PENALTY = 60.0  # per metre of missing clearance: 1 cm costs 0.6 m
@@ -251,3 +257,14 @@ def even_turns(count: int, largest: float) -> Array:
     """Return evenly spaced turns, in [rad], the smallest first."""
     even = np.linspace(-largest, largest, count) if count > 1 else np.zeros(1)
     return np.array(sorted(even.tolist(), key=abs))
+
+
+@lru_cache(maxsize=8)
+def pursuit_table(cells: int, unit: float) -> PursuitValues:
+    """Return the table of :func:`pursuit_bound` for compiled loops.
+
+    The unit of length is speed over gain, in [m].
+    """
+    bound = pursuit_bound(cells)
+    values = bound.values.astype(np.float32)
+    return PursuitValues(values, bound.grid.left, bound.grid.spacing, unit)

@@ -12,7 +12,6 @@ import numpy as np
 from ..core.atomic_output import atomic_draft
 from ..core.compilation import cache_folder
 from ..core.poses import Array
-from .search.turn_search import PursuitValues
 
 if TYPE_CHECKING:  # the solver imports Numba
     from ..theory.value import CarGame, ValueTable
@@ -70,17 +69,6 @@ def unit_cars() -> "CarGame":
     from ..theory.value import CarGame
 
     return CarGame(1.0, 1.0, pursuer_turn=1.0)
-
-
-@lru_cache(maxsize=8)
-def pursuit_table(cells: int, unit: float) -> PursuitValues:
-    """Return the table of :func:`pursuit_bound` for compiled loops.
-
-    The unit of length is speed over gain, in [m].
-    """
-    bound = pursuit_bound(cells)
-    values = bound.values.astype(np.float32)
-    return PursuitValues(values, bound.grid.left, bound.grid.spacing, unit)
 
 
 def _load_or_solve(
