@@ -103,6 +103,7 @@ def test_a_session_calls_each_method_in_turn() -> None:
     session.command(partial(robot.command, *WALK))
     until(lambda: WALK in robot.calls)
     session.halt()
+    until(lambda: "stop" in robot.calls)
     session.close()
     assert robot.calls == ["open", WALK, "stop", "stop", "close"]
 
@@ -234,6 +235,19 @@ def test_a_method_that_blocks_halts_the_robot_beside_it(
     stopped = len(robot.calls)
     driven(session, robot, lambda: WALK in robot.calls[stopped + 1 :])
     session.close()
+
+
+def test_a_robot_is_halted_after_a_command_that_returns_late() -> None:
+    """Also one that closes at once after it was told to halt."""
+    robot = ScriptedRobot()
+    begun = Event()
+    robot.obeys = lambda: (begun.set(), sleep(0.5 * BLOCKED))
+    session = RobotSession(robot)
+    session.command(partial(robot.command, *WALK))
+    assert begun.wait(20.0)
+    session.halt()
+    session.close(halts=False)
+    assert robot.calls == ["open", WALK, "stop", "close"]
 
 
 def test_a_robot_that_cannot_be_halted_ends_the_session(stuck: Event) -> None:

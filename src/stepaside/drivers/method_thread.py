@@ -120,6 +120,8 @@ class MethodThread:
 
     def _work(self) -> None:
         while (entry := self._queue.get()) is not None:
+            if not entry[2].set_running_or_notify_cancel():
+                continue
             self._running = entry[0], self.clock()
             self._call(*entry)
             self._running = None

@@ -77,7 +77,6 @@ class RobotSession:
         self._commanding: Future[Any] | None = None
         self._beside: Future[Any] | None = None
         self._beside_began = 0.0
-        self._wanted: Callable[[], None] = lambda: None
         self._time: float | None = None  # of the newest report
         self._answers = 0  # of listen() since then
 
@@ -137,8 +136,8 @@ class RobotSession:
         """Begin a command that moves the robot, without waiting for it.
 
         Args:
-            call: Function that commands the robot. If the last one has not
-                returned yet, it waits for the next command.
+            call: Function that commands the robot. It replaces one that has
+                not begun yet.
 
         Raises:
             SessionLost: If the last command failed.
@@ -166,7 +165,7 @@ class RobotSession:
         if self._guardian is not None:
             self._guardian.leave()
         self.halted = True
-        self._begin(self._halting, getattr(self.robot, self._halting))
+        self._begin(self._halting)
         blocked = self._methods.blocked
         if blocked is None:
             self._beside = None
@@ -199,8 +198,9 @@ class RobotSession:
         """
         if self._switch is not None:
             self._switch.close()
-        failure = None
-        if not self._dry_run and (halts or not self.halted):
+        failure, last = None, self._commanding
+        waits = last is not None and not last.done()
+        if not self._dry_run and (halts or not self.halted or waits):
             failure = self._last_halt()
         if self._methods.blocked is None:
             try:
@@ -224,7 +224,7 @@ class RobotSession:
         methods, halting = self._methods, self._halting
         free = methods.blocked is None
         halted = (
-            methods.begin(halting)
+            self._begin(halting)
             if free
             else self._beside or methods.call_apart(halting)
         )
@@ -236,13 +236,14 @@ class RobotSession:
             return SessionLost(f"{self.name_of(halting)} did not return")
         return None
 
-    def _begin(self, method: str, call: Callable[[], None]) -> None:
-        """Begin a command, or let it replace the one that waits."""
-        self._wanted = call
-        if self._commanding is None or self._commanding.done():
-            self._commanding = self._methods.begin(
-                method, lambda: self._wanted()
-            )
+    def _begin(
+        self, method: str, call: Callable[[], None] | None = None
+    ) -> "Future[Any]":
+        """Begin a command, in place of one that has not begun yet."""
+        if self._commanding is not None:
+            self._commanding.cancel()
+        self._commanding = self._methods.begin(method, call)
+        return self._commanding
 
     def _halt_beside(self, method: str, waited: float) -> None:
         """Halt the robot while a method does not return."""
