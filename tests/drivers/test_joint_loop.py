@@ -240,6 +240,11 @@ def test_a_simulator_may_pause_for_seconds() -> None:
         ({"tilt": (0.0, degrees(0.1))}, "tilt .*degrees"),
         ({"accelerometer": (0.0, nan, 9.8)}, "accelerometer must be finite"),
         ({"foot_forces": [nan, *[1.0] * 7]}, "foot_forces must be finite"),
+        (
+            {"status": status(temperature=np.full(4, nan))},
+            "temperature must be finite",
+        ),
+        ({"status": status(heat=np.full(4, nan))}, "heat must be finite"),
         ({"sighting": Sighting(0.0, 28.0, 2.0)}, "bearing of the sighting"),
     ],
 )

@@ -237,17 +237,25 @@ def test_a_method_that_blocks_halts_the_robot_beside_it(
     session.close()
 
 
-def test_a_robot_is_halted_after_a_command_that_returns_late() -> None:
+@pytest.mark.parametrize("late", [0.5 * BLOCKED, 20.0])
+def test_a_robot_is_halted_after_a_command_that_returns_late(
+    late: float, stuck: Event
+) -> None:
     """Also one that closes at once after it was told to halt."""
-    robot = ScriptedRobot()
-    begun = Event()
-    robot.obeys = lambda: (begun.set(), sleep(0.5 * BLOCKED))
+    robot, begun = ScriptedRobot(), Event()
+
+    def obey() -> None:
+        begun.set()
+        stuck.wait(late)
+
+    robot.obeys = obey
     session = RobotSession(robot)
     session.command(partial(robot.command, *WALK))
     assert begun.wait(20.0)
     session.halt()
     session.close(halts=False)
-    assert robot.calls == ["open", WALK, "stop", "close"]
+    returned = [WALK, "stop", "close"] if late < BLOCKED else ["stop"]
+    assert robot.calls == ["open", *returned]
 
 
 def test_a_robot_that_cannot_be_halted_ends_the_session(stuck: Event) -> None:

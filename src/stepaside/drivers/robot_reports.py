@@ -15,6 +15,13 @@ from .motors import Motors
 from .robot import JointRobot
 
 FOOT_SENSORS = 8
+ALWAYS = (
+    "joint_positions",
+    "joint_velocities",
+    "gyro",
+    "accelerometer",
+    "tilt",
+)
 MAX_DISTANCE = 1e3  # far beyond the range of any sensor used, in [m]
 ROUNDING = 1e-6  # of a bearing in single precision, in [rad]
 BEYOND = 0.35  # a joint's angle may be outside its range by, in [rad]
@@ -120,11 +127,10 @@ def in_order(report: RobotState, order: NDArray[np.intp]) -> RobotState:
 
 def joint_fault(report: RobotState, motors: Motors) -> str:
     """Return why a report in the order of the motors is implausible, if so."""
-    for name in (
-        *("joint_positions", "joint_velocities", "gyro", "accelerometer"),
-        "tilt",
-    ):
-        values = getattr(report, name)
+    measured = {name: getattr(report, name) for name in ALWAYS}
+    if report.status is not None:
+        measured |= report.status._asdict()
+    for name, values in measured.items():
         if not np.all(np.isfinite(values)):
             return f"{name} must be finite, got {shown(values)}"
     forces = report.foot_forces

@@ -3,7 +3,7 @@
 import logging
 import sys
 from collections.abc import Callable
-from concurrent.futures import Future
+from concurrent.futures import Future, wait
 from time import monotonic, sleep
 from typing import Any
 
@@ -11,6 +11,7 @@ from ..perception.measurement import RobotState
 from .dead_man_switch import DeadManSwitch
 from .guardian_process import Guardian, halting_method
 from .method_thread import (
+    BLOCKED,
     CLOSE_TIMEOUT,
     OPEN_TIMEOUT,
     SIMULATOR_TIMEOUT,
@@ -222,14 +223,14 @@ class RobotSession:
     def _last_halt(self) -> SessionLost | None:
         """Halt the robot, and wait for it; return what failed."""
         methods, halting = self._methods, self._halting
-        free = methods.blocked is None
-        halted = (
-            self._begin(halting)
-            if free
-            else self._beside or methods.call_apart(halting)
-        )
+        halted, within = self._beside, UNHALTED
+        if methods.blocked is None:
+            halted, within = self._begin(halting), CLOSE_TIMEOUT
+            wait([halted], BLOCKED)
+            if halted.cancel():  # another method does not return
+                halted, within = None, UNHALTED
         try:
-            halted.result(CLOSE_TIMEOUT if free else UNHALTED)
+            (halted or methods.call_apart(halting)).result(within)
         except SessionLost as error:
             return error
         except TimeoutError:
