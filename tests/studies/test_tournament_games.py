@@ -12,6 +12,7 @@ from stepaside.arena import RoomRecipe
 from stepaside.core.convex import grown_hull_area
 from stepaside.core.poses import wrap_angles
 from stepaside.games.outcome import Outcome
+from stepaside.games.run import GameRun
 from stepaside.strategies import StepGame
 from stepaside.strategies import table_cache as tables
 from stepaside.studies import tournament as studied
@@ -159,7 +160,9 @@ def test_a_duel_that_is_stopped_is_no_game(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
     """Games in this process, without workers, are interrupted."""
-    ended = SimpleNamespace(outcome=Outcome.INTERRUPTED)
+    ended: GameRun[Any, Any] = GameRun(
+        "", None, Outcome.INTERRUPTED, "", 0.0, np.zeros(0), {}, None
+    )
     played: list[int] = []
 
     def cut_short(settings: Any) -> Any:

@@ -144,7 +144,7 @@ def draw_figures(
     Returns:
         Caption and file name of each figure.
     """
-    from ..games import DuelSettings, Outcome, run_duel
+    from ..games import DuelSettings, run_duel
     from ..report.run_figure import draw_run
     from ..report.unicycle_figures import draw_game, draw_sweep
 
@@ -160,9 +160,7 @@ def draw_figures(
     ]
     if seed is None:
         return drawn
-    run = run_duel(DuelSettings(seed=seed, duration=SHOWN))
-    if run.outcome is Outcome.INTERRUPTED:
-        raise KeyboardInterrupt  # do not draw a partial duel
+    run = run_duel(DuelSettings(seed=seed, duration=SHOWN)).uninterrupted()
     duel = f"duel-seed{seed}.png"
     draw_run(run, folder / duel)
     return [*drawn, ("Two NAOs in physics, in the manner of Fig. 5", duel)]

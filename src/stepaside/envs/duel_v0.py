@@ -106,8 +106,9 @@ class DuelParallelEnv(ParallelGames):
             held,
             duel.room.plan or OPEN_FLOOR,
             settings.duration,
+            patience=LONGEST_WAIT,
         )
-        if not game.wait(LONGEST_WAIT):
+        if not game.sees:
             game.close()
             raise StrategyError(
                 "a player must see its opponent within "

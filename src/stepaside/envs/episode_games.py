@@ -212,9 +212,10 @@ class PhysicsGame(EpisodeGame):
         duration: float,
         *,
         period: float | None = None,
+        patience: float,
         captures: bool = False,
     ) -> None:
-        """Begin a game.
+        """Play until all controlled players see the others, standing.
 
         Args:
             match: The game in physics.
@@ -224,6 +225,7 @@ class PhysicsGame(EpisodeGame):
             duration: Time limit, in [s].
             period: Duration of a step, in [s]; to the next decision of the
                 leader by default.
+            patience: Longest time until they see them, in [s].
             captures: Whether the first capture ends the game.
         """
         super().__init__(match, room, duration)
@@ -232,23 +234,14 @@ class PhysicsGame(EpisodeGame):
         self._leader = [*held.values()][-1]
         for own in held.values():
             own.reset()  # decisions of its validation
-
-    def wait(self, patience: float) -> bool:
-        """Play until all controlled players see the others, standing.
-
-        Args:
-            patience: Longest time, in [s].
-
-        Returns:
-            Whether they do.
-        """
-        while any(own.known is None for own in self._held.values()):
-            if self.ended or self.time > patience:
-                self._until = self.time
-                return False
+        while not (self.sees or self.ended or self.time > patience):
             self._tick()
-        self._until = self.time
-        return True
+        self._until = self.time  # end of the present step
+
+    @property
+    def sees(self) -> bool:
+        """Whether all controlled players have seen the others."""
+        return all(own.known is not None for own in self._held.values())
 
     def knowledge(self, name: str) -> Knowledge | None:
         """Return what a controlled player knew at its last decision."""

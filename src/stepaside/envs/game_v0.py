@@ -107,16 +107,15 @@ class GameParallelEnv(ParallelGames):
         if settings.level != "physics":
             played = GameInPlay(floor_of(settings), rules_of(settings))
             return FloorGame(played, room, self.period)
-        game = PhysicsGame(
+        return PhysicsGame(
             RecordedGame(settings, recorded=False, endless=True),
             held,
             room,
             settings.duration,
             period=self.period,
+            patience=LONGEST_WAIT,
             captures=True,
         )
-        game.wait(LONGEST_WAIT)
-        return game
 
     def observe(self, game: EpisodeGame, name: str) -> NDArray[np.float32]:
         """Return the observation of a player.

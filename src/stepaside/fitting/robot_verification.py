@@ -9,9 +9,8 @@ import mujoco
 import numpy as np
 
 from ..core.errors import StepAsideError
-from ..core.poses import Pose
 from ..games.robot_settings import settings_from_description
-from ..locomotion.zmp.reference_table import standing_reference
+from ..locomotion.zmp.reference_table import initial_stance
 from ..robots.description import FILE, REMEDY, RobotDescription
 from ..robots.forward_kinematics import ForwardKinematics
 from ..robots.leg_kinematics import LegKinematics
@@ -246,9 +245,7 @@ def _torque_limits(model: mujoco.MjModel) -> dict[str, float]:
 
 def _reach(description: RobotDescription) -> Iterator[RequirementCheck]:
     gait = settings_from_description(description).gait
-    half = 0.5 * gait.foot_spacing
-    feet = Pose(0.0, half, 0.0), Pose(0.0, -half, 0.0)
-    stance = standing_reference(*feet, gait)
+    stance = initial_stance(gait)
     legs = LegKinematics(description, tick=TICK)
     legs.stand(stance)
     _, highest = legs.com_heights(stance)

@@ -18,7 +18,7 @@ from ..core.errors import ConfigurationError
 from ..core.player_identity import Role
 from ..core.poses import Pose
 from ..core.random_streams import named_generator
-from ..locomotion.zmp.reference_table import standing_reference
+from ..locomotion.zmp.reference_table import initial_stance
 from ..perception.measurement import Sighting
 from ..robots.description import RobotDescription, load_robot
 from ..robots.head import load_head
@@ -275,17 +275,16 @@ class PhysicsWorld(World):
         """Return a player of the world."""
         if own.body == "robot":
             return self._robot(own)
-        body = self._bodies[own.name]
+        motion = self._floor_motion(own)
 
         def seen() -> Seen:
             poses = {
                 name: Pose(*truth.position_reference_in_world, 0.0)
                 for name, truth in self._truths.items()
             }
-            return poses | {own.name: player.motion.pose}
+            return poses | {own.name: motion.pose}
 
-        player = FloorPlayer(body, self._floor_motion(own), seen)
-        return player
+        return FloorPlayer(self._bodies[own.name], motion, seen)
 
     def _floor_motion(self, own: PlayerSettings) -> FloorMotion:
         """Return the motion of a player that moves without physics."""
@@ -380,11 +379,9 @@ class PhysicsWorld(World):
                 sensing=sensing,
                 clearance=clearance,
             )
-        description, gait = setup.description, setup.gait
+        description = setup.description
         kinematics = LegKinematics(description, tick=self.physics.tick)
-        half = 0.5 * gait.foot_spacing
-        left, right = Pose(0.0, half, 0.0), Pose(0.0, -half, 0.0)
-        kinematics.stand(standing_reference(left, right, gait))
+        kinematics.stand(initial_stance(setup.gait))
         robot = place_robot(
             self,
             setup,

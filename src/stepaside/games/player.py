@@ -8,6 +8,7 @@ from ..core.errors import ConfigurationError
 from ..core.poses import Array, Pose
 from ..core.row_table import RowTable
 from ..locomotion.walk_snapshots import StepStarted, WalkState
+from ..perception.measurement import RobotState
 from ..sim.ground_truth import GroundTruth
 from ..sim.push import Push, ScheduledPush
 
@@ -204,6 +205,14 @@ class PhysicalPlayer(Player):
         """Take a robot that stands in its world."""
         self.name, self.robot = robot.name, robot
         self.truth = robot.truth
+        self._measured: tuple[int, RobotState] | None = None
+
+    def measure(self) -> RobotState:
+        """Return the measurement of this tick; noise is drawn once."""
+        ticks = self.robot.world.ticks
+        if self._measured is None or self._measured[0] != ticks:
+            self._measured = ticks, self.robot.read()
+        return self._measured[1]
 
     @property
     def has_fallen(self) -> bool:

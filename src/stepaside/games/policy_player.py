@@ -10,7 +10,6 @@ from ..control.scheme_builder import ClearanceSetup
 from ..control.strategy_runner import StrategyRunner
 from ..core.errors import PolicyError
 from ..core.poses import Pose
-from ..core.random_streams import named_generator
 from ..locomotion.policy.legs_loader import load_legs, load_policy
 from ..locomotion.policy.legs_settings import LegsSettings
 from ..locomotion.policy.policy_legs import PolicyLegs
@@ -19,13 +18,14 @@ from ..robots.description import RobotDescription
 from ..sim.body_settings import BodySettings
 from ..sim.ground_truth import TrueRobotState
 from ..sim.physics_settings import PhysicsSettings
-from ..sim.simulated_robot import SensorSetup, SimulatedRobot
+from ..sim.simulated_robot import SimulatedRobot
 from ..sim.world import World
 from ..strategies import Strategy
 from .walker import RobotPlayer
 from .walker_factory import (
     RobotSensing,
     WalkerSetup,
+    place_robot,
     with_body_radius,
 )
 
@@ -118,7 +118,7 @@ def place_on_legs(
     *,
     sensing: RobotSensing | None = None,
     truth: TrueRobotState | None = None,
-    knows_pose: bool = False,
+    clearance: ClearanceSetup | None = None,
 ) -> SimulatedRobot:
     """Place a robot in a world, driven by the torques of its policy.
 
@@ -128,25 +128,17 @@ def place_on_legs(
         legs: Learned legs of the robot.
         sensing: Its senses; by default it senses no other player.
         truth: True state of the robot, if it exists already.
-        knows_pose: Whether its pose in the room is measured.
+        clearance: Knowledge of the room, if any.
     """
     contract = legs.contract
     gains = zip(contract.stiffness, contract.damping, strict=True)
-    return SimulatedRobot(
+    return place_robot(
         world,
-        setup.name,
-        setup.description,
+        setup,
         legs.standing,
-        setup.odometry_in_world,
-        setup.body,
-        SensorSetup(
-            generator=named_generator(setup.seed, f"sensors/{setup.name}"),
-            integrates_imu=True,
-            sights=() if sensing is None else sensing.sights,
-            eyes=None if sensing is None else sensing.eyes,
-            truth=truth,
-            knows_pose=knows_pose,
-        ),
+        sensing=sensing,
+        truth=truth,
+        clearance=clearance,
         gains=dict(zip(contract.joints, gains, strict=True)),
     )
 
@@ -200,7 +192,7 @@ def place_policy_player(
         policy,
         sensing=sensing,
         truth=truth,
-        knows_pose=clearance is not None,
+        clearance=clearance,
     )
     frame = setup.odometry_in_world
     around, guard = velocity_guard(policy, clearance)

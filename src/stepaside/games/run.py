@@ -8,6 +8,7 @@ from typing import (
     TYPE_CHECKING,
     Generic,
     NamedTuple,
+    Self,
     TypeAlias,
     TypeGuard,
     TypeVar,
@@ -130,6 +131,16 @@ class GameRun(Generic[SettingsT, SummaryT]):
             f"{self.game.capitalize()}Run({self.name!r}, {self.message!r}, "
             f"{len(self.times)} samples of {' and '.join(self.players)})"
         )
+
+    def uninterrupted(self) -> Self:
+        """Return the run.
+
+        Raises:
+            KeyboardInterrupt: If the user interrupted the game.
+        """
+        if self.outcome is Outcome.INTERRUPTED:
+            raise KeyboardInterrupt
+        return self
 
     @property
     def game(self) -> str:

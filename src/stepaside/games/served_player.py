@@ -21,7 +21,6 @@ class ServedPlayer(PhysicalPlayer):
 
     Its plans and detections are unknown to this process. Its server waits
     for the client before the match.
-
     """
 
     def __init__(
@@ -32,8 +31,6 @@ class ServedPlayer(PhysicalPlayer):
         self._moves = False
         self._head = list(head)
         self._waiting = True
-        self._measurement: RobotState | None = None
-        self._ticks = -1
         self._stance: Array | None = None
 
     @property
@@ -46,13 +43,9 @@ class ServedPlayer(PhysicalPlayer):
         self._waiting = False
 
     def sensors(self) -> RobotState:
-        """Return the measurement of this tick; noise is drawn once."""
-        ticks = self.robot.world.ticks
-        if self._measurement is None or ticks != self._ticks:
-            self._measurement, self._ticks = self.robot.read(), ticks
-        if self._waiting:
-            return self._at_rest(self._measurement)
-        return self._measurement
+        """Return the measurement of this tick, as the client gets it."""
+        measured = self.measure()
+        return self._at_rest(measured) if self._waiting else measured
 
     def _at_rest(self, measurement: RobotState) -> RobotState:
         """Add gravity and foot forces of a robot that stands.

@@ -64,9 +64,8 @@ class VelocityWalker(PhysicalPlayer):
         self.description = description
         self._forward = ForwardKinematics(description)
         self.scheme, self.frame = scheme, frame
-        self._measurement: RobotState | None = None
         self._image: ColourImage | None = None
-        self._ticks, self._ignores_lateral = -1, False
+        self._ignores_lateral = False
 
     @property
     def begun(self) -> StepStarted | None:
@@ -100,7 +99,7 @@ class VelocityWalker(PhysicalPlayer):
 
     def tick(self) -> None:
         """Walk at the commanded velocity."""
-        measured = self._read()
+        measured = self.measure()
         self._surroundings.note(measured, self.scheme.locomotion.pose)
         self.robot.write(self.scheme.update(measured))
 
@@ -123,7 +122,7 @@ class VelocityWalker(PhysicalPlayer):
 
     def state(self) -> RobotState:
         """Return the state that the robot reports to its client."""
-        measurement = self._read()
+        measurement = self.measure()
         return RobotState(
             measurement.time,
             measurement.joint_positions,
@@ -134,7 +133,7 @@ class VelocityWalker(PhysicalPlayer):
 
     def torso(self) -> "BodyPlace":
         """Return the pose of the torso by the stance foot and the tilt."""
-        measurement = self._read()
+        measurement = self.measure()
         scheme, now = self.scheme, measurement.time
         step = scheme.locomotion.step(now)
         tilt = scheme.locomotion.tilt or (0.0, 0.0)
@@ -151,15 +150,13 @@ class VelocityWalker(PhysicalPlayer):
         )
         return (planar.x, planar.y, z), (*tilt, wrap_angle(planar.theta))
 
-    def _read(self) -> RobotState:
-        """Return the measurement of this tick; noise is drawn once."""
-        ticks = self.robot.world.ticks
-        if self._measurement is None or ticks != self._ticks:
-            self._measurement, self._ticks = self.robot.read(), ticks
-            for percept in self._measurement.percepts:
-                if isinstance(percept, ColourImage):
-                    self._image = percept
-        return self._measurement
+    def measure(self) -> RobotState:
+        """Return the measurement of this tick, and keep its last image."""
+        measured = super().measure()
+        for percept in measured.percepts:
+            if isinstance(percept, ColourImage):
+                self._image = percept
+        return measured
 
     def _sighting(self, measurement: RobotState) -> Sighting | None:
         """Return the sighting with its bearing relative to the template."""
@@ -209,7 +206,7 @@ def place_velocity_walker(
                 policy,
                 sensing=sensing,
                 truth=truth,
-                knows_pose=clearance is not None,
+                clearance=clearance,
             ),
             VelocityScheme(PolicyWalk(policy, setup.gait, guard), tick),
             setup.odometry_in_world,

@@ -23,8 +23,6 @@ class RobotPlayer(PhysicalPlayer):
         frame: Pose of its odometry in the world.
     """
 
-    scheme: ControlScheme
-
     def __init__(
         self, robot: SimulatedRobot, scheme: ControlScheme, frame: Pose
     ) -> None:
@@ -80,13 +78,7 @@ class RobotPlayer(PhysicalPlayer):
 
 
 class SimulatedPlayer(RobotPlayer):
-    """Simulated robot that walks by maneuvers.
-
-    Attributes:
-        scheme: Controller.
-    """
-
-    scheme: ControlScheme
+    """Simulated robot that walks by maneuvers."""
 
     def __init__(
         self, robot: SimulatedRobot, scheme: ControlScheme, frame: Pose

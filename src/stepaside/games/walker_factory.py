@@ -23,12 +23,14 @@ from ..sim.body_settings import BodySettings
 from ..sim.ground_truth import TrueRobotState
 from ..sim.ideal_sensors import IdealLineOfSight
 from ..sim.outline_measurement import measure_outline
+from ..sim.servos import JointGains
 from ..sim.simulated_robot import SensorSetup, SimulatedRobot
 from ..sim.world import World
 from ..strategies import Strategy
 from .walker import SimulatedPlayer
 
 if TYPE_CHECKING:
+    from ..locomotion.policy.policy_legs import InitialPosture
     from ..perception.pipeline import Perception
     from ..sim.lidar import Lidar
     from ..sim.sensor_suite import SensorSuite
@@ -127,39 +129,42 @@ def place_walker(
 def place_robot(
     world: World,
     setup: WalkerSetup,
-    kinematics: LegKinematics,
+    standing: "LegKinematics | InitialPosture",
     *,
     sensing: RobotSensing | None = None,
     truth: TrueRobotState | None = None,
     clearance: ClearanceSetup | None = None,
+    gains: JointGains | None = None,
 ) -> SimulatedRobot:
     """Place one robot without a controller in a world.
 
     Args:
         world: World that contains the robot.
         setup: The robot.
-        kinematics: Kinematics in the standing posture.
+        standing: Kinematics in the standing posture, or the posture.
         sensing: Its senses; by default it senses no other player.
         truth: True state of the robot, if it exists already.
         clearance: Knowledge of the room; a robot that knows the room also
             knows its pose in it.
+        gains: Gains of a robot that is driven by joint torques.
     """
     return SimulatedRobot(
         world,
         setup.name,
         setup.description,
-        kinematics,
+        standing,
         setup.odometry_in_world,
         setup.body,
         SensorSetup(
             generator=named_generator(setup.seed, f"sensors/{setup.name}"),
-            integrates_imu=bool(setup.control.feedback),
+            integrates_imu=gains is not None or bool(setup.control.feedback),
             sights=() if sensing is None else sensing.sights,
             eyes=None if sensing is None else sensing.eyes,
             truth=truth or setup.true_state_in(world),
             knows_pose=clearance is not None
             and isinstance(clearance.surroundings, KnownRoom),
         ),
+        gains=gains,
     )
 
 

@@ -8,9 +8,9 @@ import numpy as np
 from matplotlib.patches import Polygon
 from scipy.spatial import ConvexHull, QhullError
 
-from ..core.poses import Array, Pose
+from ..core.poses import Array
 from ..games.robot_settings import settings_from_description
-from ..locomotion.zmp.reference_table import standing_reference
+from ..locomotion.zmp.reference_table import initial_stance
 from ..planning import Foot
 from ..planning.support_polygon import sole_corners
 from ..robots.description import RobotDescription
@@ -36,11 +36,8 @@ def draw_robot(description: RobotDescription, file: Path) -> None:
         OutputError: If the figure cannot be written.
     """
     gait = settings_from_description(description).gait
-    half = 0.5 * gait.foot_spacing
-    feet = Pose(0.0, half, 0.0), Pose(0.0, -half, 0.0)
-    stance = standing_reference(*feet, gait)
     legs = LegKinematics(description, tick=TICK)
-    legs.stand(stance)
+    legs.stand(initial_stance(gait))
     model = description.compile()
     data = mujoco.MjData(model)
     at = int(model.body(description.torso).jntadr[0])

@@ -5,8 +5,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..control.clearance.swept_outline import BodyOutline
-from ..core.poses import Array, Pose
-from ..locomotion.zmp.reference_table import standing_reference
+from ..core.poses import Array
+from ..locomotion.zmp.reference_table import initial_stance
 from ..planning import GaitSettings
 from ..robots.description import RobotDescription
 from ..robots.leg_kinematics import LegKinematics
@@ -32,10 +32,8 @@ def measure_outline(
     Raises:
         ReachError: If the robot cannot stand in this posture.
     """
-    half = 0.5 * gait.foot_spacing
-    left, right = Pose(0.0, half, 0.0), Pose(0.0, -half, 0.0)
     kinematics = LegKinematics(description, tick=1.0)
-    kinematics.stand(standing_reference(left, right, gait))
+    kinematics.stand(initial_stance(gait))
     model = description.compile()
     data = mujoco.MjData(model)
     data.qpos[:] = kinematics.posture

@@ -9,7 +9,6 @@ import numpy as np
 from ..core.errors import PlanError
 from ..core.poses import Pose
 from ..games.duel_settings import DuelSettings
-from ..games.outcome import Outcome
 from ..games.recorded_game import run_duels
 from ..games.run import DuelRun
 from ..theory.unicycle.certificate import certify
@@ -24,10 +23,8 @@ def play_duels(settings: list[DuelSettings]) -> list[Record]:
     """Play duels side by side and return their records."""
     began = perf_counter()
     runs = run_duels(settings)
-    if any(run.outcome is Outcome.INTERRUPTED for run in runs):
-        raise KeyboardInterrupt
     wall = (perf_counter() - began) / len(settings)
-    return [_record_of(run, wall) for run in runs]
+    return [_record_of(run.uninterrupted(), wall) for run in runs]
 
 
 def play_duel(settings: DuelSettings) -> Record:

@@ -93,9 +93,7 @@ def measure_room(seed: int) -> dict[str, float]:
             room=SceneSettings(plan=generate_room(RoomRecipe(discs=3), seed)),
         )
     )
-    if run.outcome is Outcome.INTERRUPTED:
-        raise KeyboardInterrupt
-    return read_room(run)
+    return read_room(run.uninterrupted())
 
 
 def read_room(

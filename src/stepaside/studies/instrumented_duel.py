@@ -8,7 +8,6 @@ import numpy as np
 from ..core.poses import Array
 from ..games.duel_settings import PLAYERS, DuelSettings
 from ..games.game import GameInPlay, GameObserver, play
-from ..games.outcome import Outcome
 from ..games.physics_world import PhysicsWorld
 from ..games.recorded_game import RecordedGame
 from ..games.run import DuelRun
@@ -59,9 +58,7 @@ def play_instrumented(settings: DuelSettings) -> InstrumentedDuel:
     observers = {name: _TickObserver(settings, name) for name in PLAYERS}
     duel = RecordedGame(settings, tuple(observers.values()))
     play(duel)
-    run, world = duel.run(), duel.in_physics
-    if run.outcome is Outcome.INTERRUPTED:
-        raise KeyboardInterrupt
+    run, world = duel.run().uninterrupted(), duel.in_physics
     found = InstrumentedDuel(
         run,
         world.physics.tick * np.arange(world.ticks, dtype=np.float64),

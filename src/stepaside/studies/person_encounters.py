@@ -153,9 +153,10 @@ def play_encounters(encounters: list[Encounter]) -> list[Record]:
     """Play encounters side by side and return their records."""
     people = [encounter.person for encounter in encounters]
     runs = run_duels([person.settings for person in people])
-    if any(run.outcome is Outcome.INTERRUPTED for run in runs):
-        raise KeyboardInterrupt
-    return [_record_of(*each) for each in zip(people, runs, strict=True)]
+    return [
+        _record_of(person, run.uninterrupted())
+        for person, run in zip(people, runs, strict=True)
+    ]
 
 
 def _record_of(person: Encounter, run: DuelRun) -> Record:

@@ -194,7 +194,4 @@ def legs_settings(robot: str, seed: int) -> DuelSettings:
 
 def measure_legs(robot: str, seed: int) -> dict[str, float]:
     """Play the duel of Fig. 5 on the learned legs of a robot."""
-    run = run_duel(legs_settings(robot, seed))
-    if run.outcome is Outcome.INTERRUPTED:
-        raise KeyboardInterrupt
-    return last_circle(run)
+    return last_circle(run_duel(legs_settings(robot, seed)).uninterrupted())

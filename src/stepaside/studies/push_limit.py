@@ -107,9 +107,7 @@ def play_push(settings: PushSettings) -> Record:
     """
 
     def survives(strength: float) -> bool:
-        run = run_walk(settings.pushed(strength))
-        if run.outcome is Outcome.INTERRUPTED:
-            raise KeyboardInterrupt
+        run = run_walk(settings.pushed(strength)).uninterrupted()
         return run.outcome is Outcome.COMPLETED
 
     strength, tried = find_limit(survives)

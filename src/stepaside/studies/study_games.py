@@ -116,9 +116,7 @@ def on_legs(settings: Any) -> bool:
 
 
 def _play_walk(settings: WalkSettings) -> Record:
-    run = run_walk(settings)
-    if run.outcome is Outcome.INTERRUPTED:
-        raise KeyboardInterrupt
+    run = run_walk(settings).uninterrupted()
     return {
         "outcome": run.outcome.value,
         "survived": run.outcome is Outcome.COMPLETED,
@@ -161,9 +159,7 @@ def _play_game(settings: TeamGame) -> Record:
     For robots among people the measures of crowd navigation have their name
     in front.
     """
-    run = run_game(settings.settings)
-    if run.outcome is Outcome.INTERRUPTED:
-        raise KeyboardInterrupt
+    run = run_game(settings.settings).uninterrupted()
     summary = run.summary
     opposed = {frozenset(pair) for pair in run.opponents}
     closest = min(

@@ -205,9 +205,7 @@ def _humanoid_values(settings: PairingSettings) -> Record:
             map=MapSettings(source=settings.map),
         )
     )
-    if run.outcome is Outcome.INTERRUPTED:
-        raise KeyboardInterrupt
-    summary = run.summary
+    summary = run.uninterrupted().summary
     pursuer, evader = (run.tracks[name].unicycle for name in PLAYERS)
     aims = pursuer[:, :2] - evader[:, :2]
     bearings = np.arctan2(aims[:, 1], aims[:, 0]) - evader[:, 2]

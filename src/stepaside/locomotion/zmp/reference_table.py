@@ -50,6 +50,14 @@ def standing_reference(
     return BodyReference(com, left, right)
 
 
+def initial_stance(settings: GaitSettings) -> BodyReference:
+    """Return the reference with the feet abreast, to both sides of (0, 0)."""
+    half = 0.5 * settings.foot_spacing
+    return standing_reference(
+        Pose(0.0, half, 0.0), Pose(0.0, -half, 0.0), settings
+    )
+
+
 def resting_sample(
     left_foot: Pose, right_foot: Pose, settings: GaitSettings
 ) -> ReferenceSample:
