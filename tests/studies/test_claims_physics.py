@@ -314,7 +314,7 @@ def test_recording_does_not_change_the_duel() -> None:
 
 
 def holding(job: str, found: Readings) -> set[str]:
-    assert set(found) >= set(claims(job))
+    assert set(found) == set(claims(job))
     return {k for k, c in claims(job).items() if c.holds([found[k]])}
 
 

@@ -2,10 +2,12 @@
 
 import os
 import sys
+from collections.abc import Collection
 from contextlib import suppress
 from math import tau
 from numbers import Integral, Real
 from pathlib import Path
+from typing import Any
 
 AnyPath = str | os.PathLike[str]
 
@@ -96,6 +98,14 @@ def check_within(
     if number is None or not low <= number <= high:
         told = f"{name} must {rule.format(low, high)} [{unit}]"
         raise error(f"{told}, got {shown(value)}")
+
+
+def check_choice(value: Any, names: Collection[str], what: str) -> None:
+    """Raise :class:`ConfigurationError` unless a value is a known name."""
+    if value not in names:
+        raise ConfigurationError(
+            f"{what} must be one of {', '.join(names)}, got {value!r:.40}"
+        )
 
 
 def check_finite(value: float, name: str, unit: str) -> None:

@@ -6,12 +6,12 @@ import gymnasium
 import numpy as np
 from numpy.typing import NDArray
 
-from ..core.errors import ConfigurationError, shown
+from ..core.errors import ConfigurationError, check_choice, shown
 from ..games.duel_settings import PLAYERS
 from ..strategies.registry import load_strategy
 from ..strategies.strategy import Strategy
 from .duel_v0 import DuelParallelEnv
-from .environment_settings import check_choice, direction_of
+from .environment_settings import direction_of
 from .parallel_games import SEEDS
 
 USUAL = {"evader": "pursuit", "pursuer": "evasion"}  # opponent of a role

@@ -1,11 +1,11 @@
 """Settings that all learning environments share."""
 
 from dataclasses import dataclass, field, replace
-from typing import Any
 
 from ..arena import Room, RoomRecipe
 from ..core.errors import (
     ConfigurationError,
+    check_choice,
     check_not_negative,
     check_within,
 )
@@ -153,11 +153,3 @@ def direction_of(role: str) -> Direction:
     """Return the direction in which a role drives, (1) or (3)."""
     check_choice(role, PLAYERS, "role")
     return Direction.FORWARD if role == "pursuer" else Direction.BACKWARD
-
-
-def check_choice(value: Any, names: tuple[str, ...], what: str) -> None:
-    """Raise an error unless a value is one of some names."""
-    if value not in names:
-        raise ConfigurationError(
-            f"{what} must be one of {', '.join(names)}, got {value!r:.40}"
-        )

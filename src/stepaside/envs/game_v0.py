@@ -27,6 +27,7 @@ from ..strategies.learned.observation_terms import (
 from .arena_pool import STRIDE
 from .environment_settings import EnvironmentSettings, direction_of
 from .episode_games import EpisodeGame, FloorGame, HeldIntent, PhysicsGame
+from .intent_actions import observation_space
 from .parallel_games import SEEDS, ParallelGames
 
 # Values that describe one other player: 1 if there is one, cosine and sine of
@@ -193,13 +194,10 @@ def _own_terms(settings: GameSettings) -> tuple[str, ...]:
 
 def _space_of(game: GameSettings) -> Box:
     """Return the space of observations of a player of a game."""
-    own = [SENSED_TERMS[name] for name in _own_terms(game)]
-    low = [t.low for t in own for _ in range(t.width)]
-    high = [t.high for t in own for _ in range(t.width)]
-    others = len(game.players) - 1
+    own, others = observation_space(_own_terms(game)), len(game.players) - 1
     return Box(
-        np.array([*low, *OTHER_LOW * others], np.float32),
-        np.array([*high, *OTHER_HIGH * others], np.float32),
+        np.array([*own.low, *OTHER_LOW * others], np.float32),
+        np.array([*own.high, *OTHER_HIGH * others], np.float32),
     )
 
 

@@ -9,10 +9,10 @@ from gymnasium.spaces import Box, Space
 from numpy.typing import NDArray
 from pettingzoo import ParallelEnv
 
-from ..core.errors import PlanError
+from ..core.errors import PlanError, check_choice
 from ..report.palette import colours_in
 from .distance_reward import evader_reward
-from .environment_settings import EnvironmentSettings, check_choice
+from .environment_settings import EnvironmentSettings
 from .episode_games import EpisodeGame
 from .intent_actions import IntentActions
 from .top_view import draw_top_view

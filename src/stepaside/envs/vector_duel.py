@@ -8,16 +8,13 @@ from gymnasium.vector import AutoresetMode, VectorEnv
 from gymnasium.vector.utils import batch_space
 from numpy.typing import NDArray
 
-from ..core.errors import ConfigurationError, PlanError
+from ..core.errors import ConfigurationError, PlanError, check_choice
 from ..games.duel_settings import PLAYERS
 from ..strategies.strategy import Strategy
 from .batched_duel import BatchedDuel
 from .distance_reward import evader_reward
 from .duel_env import load_opponent
-from .environment_settings import (
-    EnvironmentSettings,
-    check_choice,
-)
+from .environment_settings import EnvironmentSettings
 from .intent_actions import IntentActions, observation_space
 from .parallel_games import SEEDS
 from .step_batch import RUNNING

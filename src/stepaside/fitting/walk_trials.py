@@ -57,6 +57,7 @@ class StrainGauge(GameObserver):
         self._loads: list[Array] = []
         self._sags: list[float] = []
         self._names: list[str] = []
+        self._limits = np.zeros(0)
         self._standing = 0  # ticks
 
     def acted(self, game: GameInPlay) -> None:

@@ -1,7 +1,8 @@
 """Summary of a finished duel, compared with theory."""
 
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping
 from math import degrees, hypot, isfinite, pi
+from typing import Any
 
 import numpy as np
 
@@ -84,20 +85,8 @@ def summarise(
         relative_orientation_deg=degrees(float(angle_between(*last).mean())),
         min_distance_m=game.closest[pair],
         converged_at_s=converged,
-        replans=sum(len(p.times) for p in planning.values()),
-        max_com_velocity_jump_m_s=max(
-            p.velocity_jump for p in planning.values()
-        ),
-        min_zmp_margin_m=min(
-            (
-                p.zmp_margin
-                for p in planning.values()
-                if p.zmp_margin is not None
-            ),
-            default=None,
-        ),
+        **planning_values(planning.values()),
         theory=_theory(settings, converged),
-        plan_time_us=_plan_times(planning),
         real_time_factor=game.real_time_factor,
         pursuer=_player("pursuer", tracks, tail, seen),
         evader=_player("evader", tracks, tail, seen),
@@ -130,15 +119,24 @@ def _theory(settings: DuelSettings, converged: float | None) -> TheorySummary:
     )
 
 
-def _plan_times(planning: Mapping[str, PlanningTimes]) -> PlanTimes:
-    plans = 1e6 * np.concatenate([p.times for p in planning.values()])
-    if not len(plans):
-        return PlanTimes(None, None)
-    # np.median and np.quantile would import numpy.ma for it.
-    last, ranks = len(plans) - 1, np.arange(len(plans))
-    shares = np.array([0.5, 0.99])
-    median, late = np.interp(last * shares, ranks, np.sort(plans)).tolist()
-    return PlanTimes(_number(median), _number(late))
+def planning_values(players: Collection[PlanningTimes]) -> dict[str, Any]:
+    """Return the values of a summary that the planning of players gives."""
+    plans = 1e6 * np.concatenate([p.times for p in players])
+    times = PlanTimes(None, None)
+    if len(plans):
+        # np.median and np.quantile would import numpy.ma for it.
+        ranks, shares = np.arange(len(plans)), np.array([0.5, 0.99])
+        at = shares * ranks[-1]
+        times = PlanTimes(*np.interp(at, ranks, np.sort(plans)).tolist())
+    return {
+        "replans": len(plans),
+        "max_com_velocity_jump_m_s": max(p.velocity_jump for p in players),
+        "min_zmp_margin_m": min(
+            (p.zmp_margin for p in players if p.zmp_margin is not None),
+            default=None,
+        ),
+        "plan_time_us": times,
+    }
 
 
 def _player(

@@ -12,7 +12,7 @@ from ..core.poses import Array
 from ..sim.crowd_motion import RADIUS
 from ..theory.unicycle.circle_fit import fit_circle
 from .duel_circle import angle_between, cycle_mean, distance_between
-from .duel_summary import PlanTimes
+from .duel_evaluation import planning_values
 from .game import GameInPlay
 from .game_settings import GameSettings, PlayerSettings
 from .game_summary import CrowdResult, GameSummary, PairResult, PlayerResult
@@ -41,22 +41,14 @@ class GameRecord(NamedTuple):
     planning: Mapping[str, PlanningTimes]
 
 
-def summarise_game(
-    settings: GameSettings,
-    game: GameInPlay,
-    times: Array,
-    tracks: Mapping[str, Trajectory],
-    planning: Mapping[str, PlanningTimes],
-) -> GameSummary:
-    """Compute the summary of a game; see :class:`GameRecord`."""
-    record = GameRecord(settings, game, times, tracks, planning)
-    spent = planning.values()
+def summarise_game(record: GameRecord) -> GameSummary:
+    """Compute the summary of a game."""
+    settings = record.settings
     pairs = [
         _pair(record, one, other)
         for one, other in combinations(settings.names, 2)
     ]
     people = [p for p in settings.players if p.body == "person"]
-    plans = 1e6 * np.concatenate([p.times for p in spent])
     return GameSummary(
         seed=settings.seed,
         level=settings.level,
@@ -67,19 +59,10 @@ def summarise_game(
             for p in settings.players
             if p.decides and people
         ],
-        replans=len(plans),
-        max_com_velocity_jump_m_s=max(p.velocity_jump for p in spent),
-        min_zmp_margin_m=min(
-            (p.zmp_margin for p in spent if p.zmp_margin is not None),
-            default=None,
-        ),
-        plan_time_us=PlanTimes(
-            float(np.median(plans)) if len(plans) else None,
-            float(np.quantile(plans, 0.99)) if len(plans) else None,
-        ),
-        real_time_factor=game.real_time_factor,
-        touched=list(game.touched),
-        fallen=list(game.fallen),
+        **planning_values(record.planning.values()),
+        real_time_factor=record.game.real_time_factor,
+        touched=list(record.game.touched),
+        fallen=list(record.game.fallen),
     )
 
 

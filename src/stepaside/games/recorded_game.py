@@ -13,7 +13,7 @@ from .duel_settings import DuelSettings
 from .floor_games import floor_of, rules_of
 from .floor_world import PERIOD, FloorRecorder, FloorWorld
 from .game import GameInPlay, GameObserver, Progress, play
-from .game_evaluation import summarise_game
+from .game_evaluation import GameRecord, summarise_game
 from .game_settings import GameSettings
 from .outcome import Outcome
 from .physics_world import PhysicsWorld, RemoteControl
@@ -149,7 +149,7 @@ class RecordedGame(GameInPlay):
             moves = self.in_physics.first_moves
             return summarise(self.settings, *record, moves, seen)
         if isinstance(self.settings, GameSettings):
-            return summarise_game(self.settings, *record)
+            return summarise_game(GameRecord(self.settings, *record))
         walker = self.in_physics.player(WALKER)
         assert isinstance(walker, SimulatedPlayer)
         return summarise_walk(self.settings, *record, walker, self.solved)

@@ -5,12 +5,18 @@ import numpy as np
 from ..core.poses import Array, Pose
 from ..locomotion.walk_snapshots import StepStarted
 from ..planning import Foot, ManeuverPlan
+from ..sim.world import World
 from .game import GameInPlay, GameObserver
 from .physics_world import PhysicsWorld
 from .player import Player
 from .trajectory import PlanningTimes, Trajectory, margin_of
 
 PERIOD = 0.02  # between samples, in [s]
+
+
+def samples_every(world: World) -> int:
+    """Return the number of control ticks between samples."""
+    return max(1, round(PERIOD / world.physics.tick))
 
 
 class PlayerRecord:
@@ -77,7 +83,7 @@ class Recorder(GameObserver):
             closely: Whether to record foot states and estimates.
         """
         self._world = world
-        self.every = max(1, round(PERIOD / world.physics.tick))
+        self.every = samples_every(world)
         self._times: list[float] = []
         self._records = {
             player.name: PlayerRecord(player, closely=closely)

@@ -19,7 +19,7 @@ from .game import GameInPlay, GameObserver, Progress, play
 from .outcome import Outcome
 from .physics_world import PhysicsWorld
 from .recorded_game import RecordedGame
-from .recorder import PERIOD
+from .recorder import samples_every
 from .run import Run
 from .settings_as_game import PlayableSettings
 from .walker import RobotPlayer, SimulatedPlayer
@@ -223,8 +223,7 @@ class SignalRecorder(GameObserver):
                 for player in world.players
                 if isinstance(player, RobotPlayer)
             }
-            self._every = max(1, round(PERIOD / world.physics.tick))
-        if world.ticks % self._every == 0:
+        if world.ticks % samples_every(world) == 0:
             self._sample(world.time)
 
     def acted(self, game: GameInPlay) -> None:

@@ -5,7 +5,7 @@ from math import atan2, cos, pi, radians, sin
 
 import numpy as np
 
-from ..core.errors import ConfigurationError
+from ..core.errors import check_choice
 from ..core.poses import wrap_angle
 from ..core.random_streams import named_generator
 from ..games.duel_settings import DuelSettings, StartSettings
@@ -70,11 +70,7 @@ class Encounter:
 
     def __post_init__(self) -> None:
         """Validate the settings."""
-        if self.reaction not in LADDER:
-            raise ConfigurationError(
-                f"reaction must be one of {', '.join(LADDER)}, got "
-                f"{self.reaction!r:.40}"
-            )
+        check_choice(self.reaction, LADDER, "reaction")
 
     @property
     def person(self) -> "Encounter":

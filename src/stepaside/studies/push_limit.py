@@ -5,7 +5,7 @@ from dataclasses import dataclass, field, replace
 from functools import cache
 from math import radians
 
-from ..core.errors import ConfigurationError, check_within
+from ..core.errors import ConfigurationError, check_choice, check_within
 from ..games.outcome import Outcome
 from ..games.recorded_game import run_walk
 from ..games.robot_settings import game_settings_from_description
@@ -47,11 +47,7 @@ class PushSettings:
 
     def __post_init__(self) -> None:
         """Validate the settings."""
-        if self.direction not in DIRECTIONS:
-            raise ConfigurationError(
-                f"direction must be one of {', '.join(DIRECTIONS)}, got "
-                f"{self.direction!r:.40}"
-            )
+        check_choice(self.direction, DIRECTIONS, "direction")
         check_within(self.phase, 0.0, 1.0, "phase", "1", ConfigurationError)
 
     def pushed(self, strength: float) -> WalkSettings:

@@ -14,7 +14,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from ..core.entries import load_entries
-from ..core.errors import AnyPath, ConfigurationError, as_path
+from ..core.errors import AnyPath, ConfigurationError, as_path, check_choice
 from ..games.settings_reader import nested
 from ..strategies.registry import file_of
 from .study import MOST_CASES, Study
@@ -160,10 +160,7 @@ def make_study(
             by=varied,
             values=tuple(values),
         )
-    if game not in GAMES:
-        raise ConfigurationError(
-            f"game must be one of {', '.join(GAMES)}, got {game!r:.40}"
-        )
+    check_choice(game, GAMES, "game")
     design = _Design(game, shared, variants)
     _check(design, every)
     together = GAMES[game].play_together is not None and on_legs(

@@ -16,7 +16,7 @@ from ..arena import (
 )
 from ..control.clearance.map_settings import MapSettings
 from ..core.convex import grown_hull_area
-from ..core.errors import ConfigurationError
+from ..core.errors import ConfigurationError, check_choice
 from ..core.poses import Array, Pose, rotate, wrap_angles
 from ..games.duel_settings import PLAYERS, DuelSettings
 from ..games.floor_games import StrategyTrack, play_strategies
@@ -79,11 +79,7 @@ class PairingSettings:
     def __post_init__(self) -> None:
         """Validate the settings."""
         for name, known in CHOICES.items():
-            if getattr(self, name) not in known:
-                raise ConfigurationError(
-                    f"{name} must be one of {', '.join(known)}, got "
-                    f"{getattr(self, name)!r:.40}"
-                )
+            check_choice(getattr(self, name), known, name)
         load_strategy(self.evader)
         load_strategy(self.pursuer)
         if self.level == HUMANOIDS:
