@@ -23,6 +23,7 @@ CASES = {  # of each line: what the message names
     "duel --duration nan": ("duration", "nan"),
     "duel --config unknown.toml --output new": ("unknown.toml", "speeds"),
     "duel --config broken.toml --output new": ("broken.toml", "line 2|end"),
+    "view alone.toml --config run/configuration.toml": ("--config", "a duel"),
     "duel --config none.toml --output new": ("none.toml",),
     "duel --strategy mine.py:evader --output new": ("mine.py:evader",),
     "duel --strategy mine.py:nobody --output new": ("nobody",),

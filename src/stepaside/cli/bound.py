@@ -26,15 +26,10 @@ if TYPE_CHECKING:
 AGAINST = ("pursuit", "any", "person")
 OF_CARS = ("pursuer_gain", "evader_turn", "horizon", "games")
 IN_METERS = ("closest", "mean_error", "most", "below", "above")
-NAMED = {
-    "--against": "against",
-    "--pursuer-speed": "pursuer_speed",
-    "--evader-speed": "evader_speed",
-    "--pursuer-gain": "pursuer_gain",
-    "--capture": "capture",
-    "--grid": "grid",
-    "--games": "games",
-}
+NAMED = (
+    *("against", "pursuer_speed", "evader_speed", "pursuer_gain"),
+    *("capture", "grid", "games"),
+)
 
 
 @dataclass(frozen=True, slots=True)

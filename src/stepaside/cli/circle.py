@@ -26,13 +26,7 @@ from .tables import (
 )
 from .terminal import echo, print_json
 
-NAMED = {
-    "--speed": "speed",
-    "--gain": "gain",
-    "--angle": "angle",
-    "--law": "law",
-    "--starts": "starts",
-}
+NAMED = ("speed", "gain", "angle", "law", "starts")
 OF_CIRCLE = (
     "distance_m",
     "radius_pursuer_m",

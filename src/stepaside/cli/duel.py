@@ -18,18 +18,10 @@ if TYPE_CHECKING:
     from ..games.run import DuelRun
     from ..games.sight_summary import PerceptionSummary
 
-NAMED = {
-    "--seed": "seed",
-    "--duration": "duration",
-    "--robot": "robot",
-    "--gait": "gait",
-    "--body": "body",
-    "--sensing": "sensing",
-    "--room": "room.plan",
-    "--distance": "start.distance",
-    "--strategy": "evader_strategy",
-    "--pursuer": "pursuer",
-}
+NAMED = (
+    *("seed", "duration", "robot", "gait", "body"),
+    *("sensing", "room.plan", "start.distance", "evader_strategy", "pursuer"),
+)
 """Settings of a duel with an option of their own."""
 
 

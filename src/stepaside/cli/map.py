@@ -21,15 +21,7 @@ from .terminal import print_json
 if TYPE_CHECKING:
     from ..theory.unicycle.start_maps import StartBox, StartMap, WorstStart
 
-NAMED = {
-    "--speed": "speed",
-    "--gain": "gain",
-    "--angle": "angle",
-    "--law": "law",
-    "--nearest": "nearest",
-    "--farthest": "farthest",
-    "--grid": "grid",
-}
+NAMED = ("speed", "gain", "angle", "law", "nearest", "farthest", "grid")
 HALF_TURN = Range(0.0, pi, "rad", "half a turn")
 
 

@@ -80,14 +80,7 @@ ENTRIES_OF_GAMES = frozenset(
     for field in fields(kind)
 )
 
-NAMED = {
-    "--role": "role",
-    "--bearing": "bearing",
-    "--steps": "steps",
-    "--first-foot": "first_foot",
-    "--saturated": "saturated",
-    "--gait": "gait",
-}
+NAMED = ("role", "bearing", "steps", "first_foot", "saturated", "gait")
 
 
 @click.command("plan")

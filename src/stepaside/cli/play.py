@@ -29,18 +29,10 @@ TIME_IS_UP = "played long enough"
 INTERRUPTED = "interrupted"
 
 
-NAMED = {
-    "--role": "role",
-    "--robot": "robot",
-    "--strategy": "evader_strategy",
-    "--sensing": "sensing",
-    "--duration": "duration",
-    "--record": "record",
-    "--domain": "domain",
-    "--dead-man": "dead_man",
-    "--dry-run": "dry_run",
-    "--check": "check",
-}
+NAMED = (
+    *("role", "robot", "evader_strategy", "sensing", "duration"),
+    *("record", "domain", "dead_man", "dry_run", "check"),
+)
 SECTIONS = (
     *("evader_strategy", "pursuer_strategy", "strategy", "shield", "gait"),
     *("legs", "control", "sensing", "cameras"),

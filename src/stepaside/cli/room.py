@@ -17,10 +17,7 @@ from .settings import refuse_settings, takes_settings
 from .tables import print_table, scalar_rows
 from .terminal import print_json
 
-NAMED = {
-    f"--{name}": name
-    for name in ("width", "depth", "discs", "boxes", "polygons", "doors")
-}
+NAMED = ("width", "depth", "discs", "boxes", "polygons", "doors")
 
 
 @click.command("room")

@@ -19,12 +19,7 @@ from .tables import format_value, print_table, table_rows
 if TYPE_CHECKING:
     from ..games.robot_endpoints import RobotEndpoint
 
-NAMED = {
-    "--seed": "seed",
-    "--duration": "duration",
-    "--robot": "robot",
-    "--distance": "start.distance",
-}
+NAMED = ("seed", "duration", "robot", "start.distance")
 
 
 @click.command("serve")

@@ -5,9 +5,9 @@ such as ``--body``, single settings.
 """
 
 import tomllib
-from collections.abc import Callable, Collection, Iterator, Mapping
+from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
 from dataclasses import fields
-from functools import wraps
+from functools import partial, wraps
 from math import degrees
 from pathlib import Path
 from typing import Any, cast, get_args, get_origin
@@ -58,6 +58,12 @@ MEANINGS = {
     "pushes": "Push: 1.2@5:90deg is 1.2 N s at 5 s, to the left; repeatable",
 }
 """Short meanings of options, by path; --settings has the long ones."""
+FLAGS = {
+    "room.plan": "--room",
+    "evader_strategy": "--strategy",
+    "pushes": "--push",
+}
+"""Options that are not named like their setting, by its path."""
 CONTROL = ("control.method", "control.feedback")
 IMPLY: Mapping[str, tuple[str, ...]] = {
     "body": CONTROL,
@@ -65,11 +71,11 @@ IMPLY: Mapping[str, tuple[str, ...]] = {
     "pursuer": ("strategy.trigger",),
 }
 """Entries of a file that an option leaves open again, as it implies them."""
-GIVEN = "stepaside.given"  # of a context: paths of the given settings
+GIVEN = "stepaside.given"  # of a context: given settings, and --config
 
 
 def takes_settings(
-    named: Mapping[str, str],
+    named: Sequence[str],
     *,
     sections: tuple[str, ...] = (),
     aside: Collection[str] = (),
@@ -78,7 +84,7 @@ def takes_settings(
     """Add options of settings, ``--set``, ``--config`` and ``--settings``.
 
     Args:
-        named: Path of each setting with an option of its own, by option.
+        named: Paths of settings with an option of their own.
         sections: Sections of the first class that the command uses; all if
             empty.
         aside: Entries of a file that belong to other commands.
@@ -98,13 +104,15 @@ def takes_settings(
         def command(**values: Any) -> Any:
             texts = [
                 (path, text)
-                for flag, path in named.items()
-                for text in _texts(values.pop(_argument(flag)))
+                for path in named
+                for text in _texts(values.pop(_argument(path)))
             ]
             texts += [set_pair(text) for text in values.pop("sets")]
             changes = changes_of(texts, entries, *kinds.values())
-            click.get_current_context().meta[GIVEN] = frozenset(changes)
-            made = _read(kinds, changes, values.pop("config"), aside)
+            config = values.pop("config")
+            given = {*changes, *(["--config"] if config else [])}
+            click.get_current_context().meta[GIVEN] = given
+            made = _read(kinds, changes, config, aside)
             _refuse_unused(changes, entries, made)
             if values.pop("lists"):
                 first, *others = made.values()
@@ -117,32 +125,34 @@ def takes_settings(
         result: Callable[..., Any] = command
         for option in (lists_option, config_option, set_option):
             result = option(result)
-        for flag, path in reversed(list(named.items())):
-            result = _option(flag, path, entries[path])(result)
+        for path in reversed(named):
+            result = _option(path, entries[path])(result)
         return result
 
     return decorate
 
 
-def _option(flag: str, path: str, entry: Entry) -> Decorator:
+def flag_of(path: str) -> str:
+    """Return the option of a setting that has one of its own."""
+    name = path.rpartition(".")[2].replace("_", "-")
+    return FLAGS.get(path, f"--{name}")
+
+
+def _option(path: str, entry: Entry) -> Decorator:
     """Return the option of a setting; its value is a text."""
     described, default = entry.described, _default(entry)
     text = MEANINGS.get(path, described.text).rstrip(".") + "."
     if default:
         text += f"  [default: {default}]"
+    option = partial(click.option, flag_of(path), _argument(path), help=text)
     if entry.hint is bool:
-        return click.option(
-            flag, _argument(flag), is_flag=True, default=None, help=text
-        )
+        return option(is_flag=True, default=None)
     names = described.presets or described.names
     unit = described.range and described.range.unit
     metavar = "|".join(names) if names else "NUMBER" if unit else "TEXT"
-    return click.option(
-        flag,
-        _argument(flag),
+    return option(
         multiple=_is_list(entry),
         metavar="ANGLE" if unit == "rad" else metavar,
-        help=text,
     )
 
 
@@ -162,8 +172,8 @@ def _default(entry: Entry) -> str:
     return f"{value:g}" if isinstance(value, float) else str(value)
 
 
-def _argument(flag: str) -> str:
-    return f"option_{flag.lstrip('-').replace('-', '_')}"
+def _argument(path: str) -> str:
+    return f"option_{path.replace('.', '_')}"
 
 
 def _head(path: str) -> str:

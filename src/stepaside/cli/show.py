@@ -38,10 +38,7 @@ GIF: dict[str, Any] = {
     "rate": 10.0,
     "duration": 12.0,
 }
-NAMED = {
-    f"--{name}": name
-    for name in ("width", "height", "rate", "speed", "duration", "camera")
-}
+NAMED = ("width", "height", "rate", "speed", "duration", "camera")
 COLUMNS = {
     "duel": (
         *("distance_m", "relative_orientation_deg"),

@@ -25,17 +25,10 @@ if TYPE_CHECKING:
     from ..theory.unicycle.relative_coordinates import RelativeStart
     from ..theory.unicycle.unicycle_game import Game
 
-NAMED = {
-    "--speed": "speed",
-    "--gain": "gain",
-    "--angle": "angle",
-    "--law": "law",
-    "--distance": "distance",
-    "--aim": "aim",
-    "--bearing": "bearing",
-    "--duration": "duration",
-    "--strategy": "evader_strategy",
-}
+NAMED = (
+    *("speed", "gain", "angle", "law", "distance"),
+    *("aim", "bearing", "duration", "evader_strategy"),
+)
 COMPARED = (
     "radius_pursuer_m",
     "radius_evader_m",

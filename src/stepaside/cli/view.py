@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from ..games.game_settings import GameSettings
 
 # A live game has no end by time.
-NAMED = {k: v for k, v in NAMED_OF_DUEL.items() if v != "duration"}
+NAMED = tuple(name for name in NAMED_OF_DUEL if name != "duration")
 
 
 @click.command("view")

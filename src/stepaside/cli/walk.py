@@ -10,15 +10,7 @@ from .run_output import finish_run, play_with_bar, run_folder
 from .settings import takes_settings
 from .tables import print_table, table_rows
 
-NAMED = {
-    "--seed": "seed",
-    "--duration": "duration",
-    "--robot": "robot",
-    "--gait": "gait",
-    "--body": "body",
-    "--bearing": "bearing",
-    "--push": "pushes",
-}
+NAMED = ("seed", "duration", "robot", "gait", "body", "bearing", "pushes")
 
 
 SHOWN = (

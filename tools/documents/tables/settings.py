@@ -11,6 +11,7 @@ from stepaside.cli.circle import CircleSettings
 from stepaside.cli.connection_settings import ConnectionSettings
 from stepaside.cli.map import StartMapSettings
 from stepaside.cli.plan import PlanSettings
+from stepaside.cli.settings import flag_of
 from stepaside.core.setting import Setting as Description
 from stepaside.core.setting import settings_of
 from stepaside.games.duel_settings import DuelSettings
@@ -37,7 +38,7 @@ COMMANDS = {
     "theory bound": BoundSettings(),
     "show": FilmSettings(),
 }
-OPTIONS = {path: option for option, path in (walk.NAMED | duel.NAMED).items()}
+OPTIONS = {path: flag_of(path) for path in (*walk.NAMED, *duel.NAMED)}
 LISTS: Mapping[str, type[Any]] = {
     "players": PlayerSettings,
     "room.things": RoomObject,
