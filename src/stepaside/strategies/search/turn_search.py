@@ -207,27 +207,15 @@ def roll_out(
 
 
 @compiled
-def roll_to_end(
-    both: PlayerPair,
-    score: float,
-    turns: Any,
-    given: int,
-    spot: int,
-    worst: float,
-    problem: SearchProblem,
-) -> tuple[float, int]:
-    """Roll out to the horizon and the value there; return score and steps.
-
-    The arguments are those of :func:`roll_out`.
-    """
-    both, score, made = roll_out(
-        both, score, turns, given, spot, worst, problem
-    )
+def final_score(
+    both: PlayerPair, score: float, worst: float, problem: SearchProblem
+) -> float:
+    """Return the score with the value at the horizon, if it matters."""
     table = problem.table
     if score > worst and table.values.shape[0] > 0:
         value = value_at(table, both)
         score = min(score, min(value, problem.search.enough))
-    return score, made
+    return score
 
 
 @compiled
@@ -284,7 +272,8 @@ def descend(
             store(here, states[level])
             continue
         rest = work[at : first + search.horizon]
-        score, more = roll_to_end(here, score, rest, 0, 0, worst, problem)
+        here, score, more = roll_out(here, score, rest, 0, 0, worst, problem)
+        score = final_score(here, score, worst, problem)
         made += more
         if score > worst:
             best = score
@@ -368,17 +357,19 @@ def look_ahead(
     field = distance_field(packed, search.clearance, both.ex, both.ey, reach)
     problem = SearchProblem(search, model, rules, field, table)
     start, spot = search.enough, 0
-    best, made = roll_to_end(
+    here, best, made = roll_out(
         both, start, chosen[:horizon], 0, 0, -inf, problem
     )
+    best = final_score(here, best, -inf, problem)
     given = min(len(plan), horizon)
     if given > 0:
         copy_values(plan[:given], work)
         planned = min(planned, horizon)
         worst = best - search.gain  # a tie keeps the plan
-        score, more = roll_to_end(
+        here, score, more = roll_out(
             both, start, work[:horizon], given, planned, worst, problem
         )
+        score = final_score(here, score, worst, problem)
         made += more
         if score > worst:
             best, spot = score, planned
