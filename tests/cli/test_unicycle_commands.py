@@ -1,7 +1,6 @@
 """Test the commands circle, unicycles and map."""
 
 import json
-from functools import partial
 from math import pi
 from pathlib import Path
 from typing import Any
@@ -94,14 +93,9 @@ def test_sampled_simulation_reaches_the_closed_form() -> None:
         assert played[name] == pytest.approx(played["theory"][name], abs=1e-3)
 
 
-def test_figures_are_written(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    few = partial(unicycle_figures.draw_sweep, marks=1)
-    monkeypatch.setattr(unicycle_figures, "draw_sweep", few)
+def test_figures_are_written(tmp_path: Path) -> None:
     for command, words, name in [
         (unicycles, "--figure", "game.png"),
-        (circle, "--starts 0 --sweep", "sweep.svg"),
         (circle, "--starts 0 --figure", "ratios.png"),
         (map_command, f"{MAP} --figure", "map.png"),
     ]:

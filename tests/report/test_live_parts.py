@@ -8,6 +8,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from contrast_ratio import contrast
+
 pytest.importorskip("viser", reason="viser is not installed")
 
 from stepaside.arena import Room  # noqa: E402
@@ -29,7 +31,6 @@ from stepaside.report.landed_footsteps import footsteps_in  # noqa: E402
 from stepaside.report.palette import (  # noqa: E402
     FLOORS,
     PALETTES,
-    contrast,
     on_both_floors,
 )
 from stepaside.report.scene import wall_corners  # noqa: E402

@@ -23,10 +23,9 @@ def test_a_small_mesh_is_unchanged() -> None:
     assert simplify(small) is small
 
 
-@pytest.mark.parametrize("most", [100, MAX_TRIANGLES, 5000])
-def test_a_large_mesh_keeps_its_shape_with_few_triangles(most: int) -> None:
-    large = ball(5)
-    thin = simplify(large, most)
+def test_a_large_mesh_keeps_its_shape_with_few_triangles() -> None:
+    large, most = ball(5), MAX_TRIANGLES
+    thin = simplify(large)
     assert most / 5 < len(thin.faces) <= most < len(large.faces)
     mesh = trimesh.Trimesh(*thin, process=False)
     far = np.linalg.norm(thin.vertices, axis=1)

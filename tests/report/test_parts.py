@@ -8,11 +8,12 @@ import mujoco
 import numpy as np
 import pytest
 
+from contrast_ratio import contrast
 from stepaside.core.errors import ConfigurationError
 from stepaside.perception.images import ColourImage
 from stepaside.report import replay_page
 from stepaside.report.camera_pictures import FOUND, camera_picture
-from stepaside.report.palette import PALETTES, THEMES, contrast
+from stepaside.report.palette import PALETTES, THEMES
 from stepaside.report.visual_geoms import visual_geoms_of
 
 MODEL = """

@@ -44,21 +44,18 @@ def mesh_of(model: mujoco.MjModel, geom: int) -> TriangleMesh:
     return simplify(TriangleMesh(vertices, faces))
 
 
-def simplify(
-    mesh: TriangleMesh, max_triangles: int = MAX_TRIANGLES
-) -> TriangleMesh:
+def simplify(mesh: TriangleMesh) -> TriangleMesh:
     """Reduce a mesh by the finest vertex clustering that is small enough.
 
     Args:
         mesh: Mesh; it is returned unchanged if it is small enough.
-        max_triangles: Largest number of triangles.
 
     Returns:
         Mesh whose degenerate and duplicate triangles are removed.
     """
     cells = MAX_CELLS
     reduced = mesh
-    while len(reduced.faces) > max_triangles and cells >= MIN_CELLS:
+    while len(reduced.faces) > MAX_TRIANGLES and cells >= MIN_CELLS:
         reduced = _cluster_vertices(mesh, cells)
         cells = int(cells / 1.3)
     return reduced

@@ -113,7 +113,7 @@ ON_BOTH_FLOORS = 0.15, 0.24
 def on_both_floors(colour: str) -> str:
     """Return a colour, lighter or darker for contrast on both floors."""
     low, high = ON_BOTH_FLOORS
-    end = 1.0 if _luminance(colour) < low else 0.0
+    end = 1.0 if luminance(colour) < low else 0.0
     red, green, blue = from_hex(colour)
     mixed = (
         to_hex(
@@ -125,7 +125,7 @@ def on_both_floors(colour: str) -> str:
         )
         for m in (0.02 * i for i in range(50))
     )
-    return next(each for each in mixed if low <= _luminance(each) <= high)
+    return next(each for each in mixed if low <= luminance(each) <= high)
 
 
 def rgb(colour: str) -> tuple[int, int, int]:
@@ -164,21 +164,7 @@ def colours_in(
     }
 
 
-def contrast(first: str, second: str) -> float:
-    """Return the contrast ratio of two colours, from 1 to 21.
-
-    Args:
-        first: As ``#rrggbb``.
-        second: As ``#rrggbb``.
-
-    Returns:
-        Ratio of relative luminances, as WCAG 2.2 defines it.
-    """
-    darker, lighter = sorted((_luminance(first), _luminance(second)))
-    return (lighter + 0.05) / (darker + 0.05)
-
-
-def _luminance(colour: str) -> float:
+def luminance(colour: str) -> float:
     """Return the relative luminance, 0 to 1, as WCAG 2.2 defines it."""
     parts = [part / 255.0 for part in bytes.fromhex(colour[1:])]
     red, green, blue = (

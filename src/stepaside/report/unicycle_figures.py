@@ -141,13 +141,12 @@ _SWEEPS = (
 )
 
 
-def draw_sweep(game: Game, path: AnyPath, *, marks: int = 7) -> None:
+def draw_sweep(game: Game, path: AnyPath) -> None:
     """Write radius and distance over angle, gain ratio and speed ratio.
 
     Args:
         game: Game whose parameters are varied one at a time.
         path: File to write; its suffix gives the format.
-        marks: Number of simulated games along each line.
     """
     figure, axes = panels(
         ["abc", "def"],
@@ -168,7 +167,7 @@ def draw_sweep(game: Game, path: AnyPath, *, marks: int = 7) -> None:
             ]
             ends = [
                 (x, simulate_circle(replace(sweep.vary(game, x), law=law)))
-                for x in np.linspace(sweep.low, sweep.high, marks).tolist()
+                for x in np.linspace(sweep.low, sweep.high, 7).tolist()
             ]
             found = [(x, end) for x, end in ends if end is not None]
             for letter, name in (
