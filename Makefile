@@ -125,7 +125,7 @@ test-ament: setup .venv-colcon/.installed
 test-rcss: setup
 	$(BIN)/python $(INSTALL) --quiet --no-deps --upgrade \
 		--target .venv-rcss rcsssmj==0.2.1
-	PYTHONPATH=.venv-rcss $(BIN)/python -m pytest --numprocesses 2 \
+	PYTHONPATH=$(CURDIR)/.venv-rcss $(BIN)/python -m pytest --numprocesses 2 \
 		tests/drivers/test_rcss_robot.py
 
 # Exported runs, read back by large libraries that `make setup` leaves out.

@@ -65,7 +65,7 @@ class FakeRobot(JointRobot):
 def status(**changes: Any) -> RobotStatus:
     """Return the status of a healthy robot, with changes."""
     return RobotStatus(
-        stiffness=np.ones(4),
+        stiffness=np.zeros(4),
         temperature=np.full(4, 30.0),
         heat=np.zeros(4),
         current=np.zeros(4),

@@ -55,6 +55,19 @@ def test_a_robot_stands_up_slowly_and_walks_by_its_button() -> None:
     ]
 
 
+def test_a_robot_that_is_stiff_at_first_does_not_sag() -> None:
+    """Someone else held it."""
+    game = Game()
+    game.session.changes["status"] = status(stiffness=np.ones(4))
+    angles = game.session.angles.copy()
+    game.play(20)
+    shares = [t.stiffness[1] / 80.0 for t in game.session.sent if t]
+    assert min(shares) > 0.9
+    first = game.session.sent[0]
+    assert first is not None
+    np.testing.assert_array_equal(first.angles[[3, 1, 2]], angles[[3, 1, 2]])
+
+
 def test_control_moves_the_joints_only_while_it_walks() -> None:
     game = Game()
     wanted = STANCE + np.array([0.05, 0.05, 0.0])

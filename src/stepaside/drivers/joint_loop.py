@@ -254,12 +254,17 @@ class JointLoop:
         Time is zero at the report with which walking begins.
         """
         report, gap = self._listen()
-        if self.report is not None and gap > SILENCE and self._robot.paced:
+        is_first, share = self.report is None, 0.0
+        if report.status is not None:
+            legs = report.status.stiffness[self._motors.legs]
+            share = float(np.clip(np.nan_to_num(legs), 0.0, 1.0).max())
+        if is_first:
+            self._motion.share = share  # of who held the robot before
+        elif gap > SILENCE and self._robot.paced:
             self._safety.fail(f"no report was read for {gap:.2f} s",
                               self._time)  # fmt: skip
             if report.status is not None:
-                legs = report.status.stiffness[self._motors.legs]
-                self._motion.weaken(float(legs.max()))
+                self._motion.weaken(share)
         self.report = report
         was_walking = self.state.moves_by_control
         unseen = self._unseen(report)
