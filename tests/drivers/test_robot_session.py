@@ -290,6 +290,50 @@ def test_the_guardian_halts_a_robot_that_control_cannot_halt(
         os.waitpid(guardian.pid, os.WNOHANG)
 
 
+class NotedGuardian(Guardian):
+    """Guardian that only notes what it is told."""
+
+    def __init__(self) -> None:
+        self.told: list[str] = []
+
+    def hold(self) -> None:
+        """Note the call."""
+        self.told.append("hold")
+
+    def leave(self) -> None:
+        """Note the call."""
+        self.told.append("leave")
+
+    def dismiss(self) -> None:
+        """Note the call."""
+        self.told.append("dismiss")
+
+
+def test_the_guardian_watches_until_a_late_command_has_returned(
+    stuck: Event,
+) -> None:
+    """Else the robot would walk on if control died meanwhile."""
+    robot, guardian, begun = ScriptedRobot(), NotedGuardian(), Event()
+    session = RobotSession(robot, guardian=guardian)
+
+    def obey() -> None:
+        begun.set()
+        stuck.wait(20.0)
+
+    robot.obeys = obey
+    session.command(partial(robot.command, *WALK))
+    assert begun.wait(20.0)
+    session.halt()
+    session.halt()
+    assert guardian.told == ["hold"] * 3
+    stuck.set()
+    assert session.listen(20.0) is not None  # after the methods before
+    assert "stop" in robot.calls
+    session.halt()
+    session.close()
+    assert guardian.told == [*["hold"] * 3, "leave", "leave", "dismiss"]
+
+
 def test_a_robot_that_does_not_answer_is_tried_again() -> None:
     """Other errors of open() are those of the program."""
 

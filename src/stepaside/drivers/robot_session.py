@@ -163,7 +163,9 @@ class RobotSession:
         if self._dry_run:
             return
         self._raise_failure()
-        if self._guardian is not None:
+        if self._guardian is not None and self._waits:
+            self._guardian.hold()  # the command may still move the robot
+        elif self._guardian is not None:
             self._guardian.leave()
         self.halted = True
         self._begin(self._halting)
@@ -199,9 +201,9 @@ class RobotSession:
         """
         if self._switch is not None:
             self._switch.close()
-        failure, last = None, self._commanding
-        waits = last is not None and not last.done()
-        if not self._dry_run and (halts or not self.halted or waits):
+        failure = None
+        unsure = self._waits or not self.halted
+        if not self._dry_run and (halts or unsure):
             failure = self._last_halt()
         if self._methods.blocked is None:
             try:
@@ -220,10 +222,18 @@ class RobotSession:
         elif guardian is not None:
             guardian.dismiss()
 
+    @property
+    def _waits(self) -> bool:
+        """Whether the last command, or halt, has not returned yet."""
+        last = self._commanding
+        return last is not None and not last.done()
+
     def _last_halt(self) -> SessionLost | None:
         """Halt the robot, and wait for it; return what failed."""
         methods, halting = self._methods, self._halting
         halted, within = self._beside, UNHALTED
+        if self._guardian is not None and self.halted:
+            self._guardian.leave()  # it is told below if this fails
         if methods.blocked is None:
             halted, within = self._begin(halting), CLOSE_TIMEOUT
             wait([halted], BLOCKED)
