@@ -8,13 +8,18 @@ import numpy as np
 import pytest
 
 from stepaside.core.poses import Array
-from stepaside.games.support_foot_columns import COLUMNS
+from stepaside.games.support_foot_columns import express_in_support_foot
+from stepaside.games.trajectory import WIDTHS, Trajectory
 from stepaside.games.walk_evaluation import measured
 from stepaside.games.walk_settings import WalkSettings
 
 SETTINGS = WalkSettings(seed=4)
 CYCLE = 2.0 * SETTINGS.gait.step_duration
 STEP = 0.02
+RECORDED = [
+    *("com", "torso", "com_reference", "zmp_reference", "zmp", "velocity"),
+    *("tilt", "sole", "support", "heading_reference", "estimate"),
+]
 PER_CYCLE = round(CYCLE / STEP)
 PERIOD = PER_CYCLE * STEP  # a cycle, as far as samples tell
 # Whole cycles after the first three seconds, which are left out.
@@ -24,9 +29,9 @@ TIMES = 2.0 + STEP * TIMES
 
 def record(times: Array = TIMES) -> dict[str, Array]:
     """Return a robot that stands as planned, on one foot."""
-    arrays = {name: np.zeros(len(times)) for name in COLUMNS}
-    arrays["time"] = times
-    return arrays
+    rows = {name: np.zeros((len(times), WIDTHS[name])) for name in RECORDED}
+    arrays = express_in_support_foot(times, Trajectory(**rows))
+    return {name: values.copy() for name, values in arrays.items()}
 
 
 def figures(arrays: dict[str, Array]) -> dict[str, Any]:

@@ -57,23 +57,27 @@ class ClientSynchroniser(GameObserver):
     """Match observer that synchronises a match with its clients.
 
     Attributes:
-        tick: Control period of the world, in [s].
         late: Ticks that began more than 6 ms late.
         lateness: Delay of the beginning of each tick, in [s].
         unanswered: Frames that were not answered in their tick.
     """
 
     def __init__(
-        self, servers: Sequence[RobotServer], *, lock_step: bool = False
+        self,
+        servers: Sequence[RobotServer],
+        tick: float = TICK,
+        *,
+        lock_step: bool = False,
     ) -> None:
         """Synchronise a match with servers.
 
         Args:
             servers: Servers of the robots that other processes control.
+            tick: Control period of the world, in [s].
             lock_step: Wait for every answer instead of for the clock.
         """
-        self._servers, self._lock_step = servers, lock_step
-        self.tick = TICK
+        self._servers, self._tick = servers, tick
+        self._lock_step = lock_step
         self._due = monotonic()
         self.lateness: list[float] = []
         self.unanswered = 0
@@ -140,8 +144,8 @@ class ClientSynchroniser(GameObserver):
             self.lateness.append(late)
             # Frames after a stall must not outrun the clients' clocks.
             begun = now if late > STALL else self._due
-            self._due = begun + self.tick
-            deadline = begun + ANSWER_SHARE * self.tick
+            self._due = begun + self._tick
+            deadline = begun + ANSWER_SHARE * self._tick
         else:
             deadline = now + ANSWER_TIMEOUT
         for server in self._servers:
@@ -157,7 +161,7 @@ class ClientSynchroniser(GameObserver):
             left = deadline - monotonic()
             if not missing:
                 if self._lock_step and not self._any_connected():
-                    sleep(self.tick)  # no client: do not spin
+                    sleep(self._tick)  # no client: do not spin
                 return
             if left <= 0.0:
                 break

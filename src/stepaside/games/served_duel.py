@@ -71,15 +71,10 @@ def serve_duel(
                 "a player that is served over LoLA must be a robot that "
                 f"walks by maneuvers, got {name}"
             )
-    servers: list[RobotServer] = []
-    exchange = ClientSynchroniser(servers, lock_step=lock_step)
-    game = RecordedGame(
-        settings,
-        (exchange,),
-        remote={name: each.control for name, each in endpoints.items()},
-    )
-    world = game.in_physics
-    exchange.tick = tick = world.physics.tick
+    remote = {name: each.control for name, each in endpoints.items()}
+    game = RecordedGame(settings, remote=remote)
+    world, servers = game.in_physics, list[RobotServer]()
+    tick = world.physics.tick
     if tick != TICK and not all(balances.values()):
         raise ConfigurationError(
             f"a duel over LoLA needs a tick of {TICK:g} [s], got {tick:g}; "
@@ -90,6 +85,8 @@ def serve_duel(
             player = world.player(name)
             servers.append(endpoint.serve(player, lock_step=lock_step))
             stack.callback(servers[-1].close)
+        exchange = ClientSynchroniser(servers, tick, lock_step=lock_step)
+        game.observers += (exchange,)
         exchange.gather(patience)
         for player in world.players:
             if isinstance(player, ServedPlayer):

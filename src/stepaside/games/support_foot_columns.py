@@ -11,40 +11,6 @@ from ..core.poses import Array
 from .outcome import Outcome
 from .trajectory import Trajectory
 
-COLUMNS = (
-    "time",
-    "support",
-    "single",
-    "com_x",
-    "com_y",
-    "velocity_x",
-    "velocity_y",
-    "com_reference_x",
-    "com_reference_y",
-    "zmp_x",
-    "zmp_y",
-    "zmp_reference_x",
-    "zmp_reference_y",
-    "roll",
-    "pitch",
-    "estimated_com_x",
-    "estimated_com_y",
-    "estimated_velocity_x",
-    "estimated_velocity_y",
-    "estimated_zmp_x",
-    "estimated_zmp_y",
-    "estimated_roll",
-    "estimated_pitch",
-    "com_in_world_x",
-    "com_in_world_y",
-    "heading",
-    "com_reference_in_world_x",
-    "com_reference_in_world_y",
-    "heading_reference",
-    "foot_in_world_x",
-    "foot_in_world_y",
-)
-
 
 def express_in_support_foot(
     times: Array, track: Trajectory
@@ -60,7 +26,8 @@ def express_in_support_foot(
         track: Trajectory with foot states and estimates.
 
     Returns:
-        Columns by the names of ``COLUMNS``. Shape (n,) each.
+        Columns by name: ``time``, ``support``, ``single``, angles, and x and
+        y of each other quantity, like ``com_x``. Shape (n,) each.
 
     Raises:
         ValueError: If the trajectory has no foot states.
@@ -97,7 +64,7 @@ def express_in_support_foot(
     assert track.heading_reference is not None
     found["heading"] = track.torso[:, 2]
     found["heading_reference"] = track.heading_reference[:, 0]
-    return {name: found[name] for name in COLUMNS}
+    return found
 
 
 def upright_samples(

@@ -9,11 +9,7 @@ import numpy as np
 from ..core.poses import Array
 from ..locomotion.zmp.mpc import MpcResult
 from .game import GameInPlay
-from .support_foot_columns import (
-    COLUMNS,
-    express_in_support_foot,
-    upright_samples,
-)
+from .support_foot_columns import express_in_support_foot, upright_samples
 from .trajectory import PlanningTimes, Trajectory
 from .walk_settings import WALKER, WalkSettings
 from .walk_summary import (
@@ -69,17 +65,14 @@ def summarise_walk(
         settings: Settings of the walk.
         game: The game that was played.
         times: Times of the samples, in [s]. Shape (n,).
-        tracks: Trajectory with foot states and estimates; without samples if
-            the walk was not recorded.
+        tracks: Trajectory with foot states and estimates.
         planning: Planning times of the robot.
         walker: The robot.
         solved: Results of the solver of the MPC, if there is one.
     """
-    columns = {name: np.zeros(0) for name in COLUMNS}
-    if len(times):
-        mask = upright_samples(times, game.outcome)
-        in_foot = express_in_support_foot(times, tracks[WALKER])
-        columns = {name: values[mask] for name, values in in_foot.items()}
+    mask = upright_samples(times, game.outcome)
+    in_foot = express_in_support_foot(times, tracks[WALKER])
+    columns = {name: values[mask] for name, values in in_foot.items()}
     own, pusher = planning[WALKER], walker.robot.pusher
     return WalkSummary(
         seed=settings.seed,
@@ -99,7 +92,8 @@ def measured(columns: dict[str, Array], cycle: float) -> dict[str, Any]:
     """Return the values of a summary that columns of a walk give.
 
     Args:
-        columns: Evenly spaced samples, by the names of ``COLUMNS``.
+        columns: Evenly spaced samples; see
+            :func:`.express_in_support_foot`.
         cycle: Duration of a gait cycle, in [s].
     """
     steady = columns["time"] >= WARM_UP
