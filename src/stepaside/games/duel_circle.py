@@ -3,6 +3,7 @@
 from math import degrees, isfinite
 
 import numpy as np
+from numpy.typing import NDArray
 
 from ..core.poses import Array, wrap_angles
 from ..planning import GaitSettings
@@ -93,6 +94,12 @@ def _circle_of(settings: DuelSettings) -> Circle:
 def time_scale(gait: GaitSettings) -> float:
     """Return the path time that a gait walks per unit of real time."""
     return gait.path_interval / gait.step_duration
+
+
+def last_third(times: Array) -> NDArray[np.bool_]:
+    """Return the mask of the samples in the last third. Shape (n,)."""
+    tail: NDArray[np.bool_] = times >= times[-1] * 2.0 / 3.0
+    return tail
 
 
 def distance_between(first: Array, second: Array) -> Array:

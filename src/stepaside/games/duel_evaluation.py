@@ -17,6 +17,7 @@ from .duel_circle import (
     circle_of_theory,
     convergence_time,
     distance_between,
+    last_third,
     missing_circle_reason,
     time_scale,
 )
@@ -66,7 +67,7 @@ def summarise(
     pursuer, evader = (tracks[name].unicycle for name in PLAYERS)
     theory = circle_of_theory(settings)
     converged = convergence_time(times, pursuer, evader, settings, theory)
-    tail = times >= times[-1] * 2.0 / 3.0
+    tail = last_third(times)
     last = pursuer[tail], evader[tail]
     start, pair = settings.start, (EVADER, PURSUER)
     triggered_at, apart = None, None
@@ -88,8 +89,8 @@ def summarise(
         **planning_values(planning.values()),
         theory=_theory(settings, converged),
         real_time_factor=game.real_time_factor,
-        pursuer=_player("pursuer", tracks, tail, seen),
-        evader=_player("evader", tracks, tail, seen),
+        pursuer=_player(PURSUER, last[0], seen),
+        evader=_player(EVADER, last[1], seen),
         sight=None if seen is None else seen.together,
         touched=list(game.touched),
         notes=list(settings.notes),
@@ -140,12 +141,10 @@ def planning_values(players: Collection[PlanningTimes]) -> dict[str, Any]:
 
 
 def _player(
-    name: str,
-    tracks: Mapping[str, Trajectory],
-    tail: Array,
-    seen: SightReport | None,
+    name: str, poses: Array, seen: SightReport | None
 ) -> PlayerSummary:
-    radius = fit_circle(tracks[name].unicycle[tail, :2])[1]
+    """Summarise a player by its poses in the last third. Shape (n, 3)."""
+    radius = fit_circle(poses[:, :2])[1]
     sight = None if seen is None else seen.by_robot.get(name)
     return PlayerSummary(_number(radius), sight)
 

@@ -11,7 +11,7 @@ from ..core.errors import ConfigurationError
 from ..core.poses import Array
 from ..theory.unicycle.circle_fit import fit_circle
 from .bag_poses import PoseSeries, read_poses
-from .duel_circle import angle_between, distance_between
+from .duel_circle import angle_between, distance_between, last_third
 from .experiment_settings import ExperimentSettings
 from .experiment_summary import ExperimentPlayer, ExperimentSummary
 from .outcome import Outcome
@@ -133,8 +133,7 @@ def _summary(
     names = list(tracks)
     one, other = (tracks[name].unicycle for name in names[:2])
     distance = distance_between(one, other)
-    # As in duels: the last third of the game.
-    tail = times >= times[-1] * 2.0 / 3.0
+    tail = last_third(times)
     angle = angle_between(one, other)[tail]
     closest = int(distance.argmin())
     captured = np.flatnonzero(distance <= CAPTURE_DISTANCE)
@@ -149,7 +148,7 @@ def _summary(
         min_distance_at_s=float(times[closest]),
         captured_at_s=float(times[captured[0]]) if len(captured) else None,
         measured={
-            name: _measured(tracks[name].unicycle, times, tail, gaps[name])
+            name: _measured(tracks[name].unicycle, times, gaps[name])
             for name in names
         },
         notes=[
@@ -165,12 +164,11 @@ def _summary(
     )
 
 
-def _measured(
-    poses: Array, times: Array, tail: Array, gap: float
-) -> ExperimentPlayer:
+def _measured(poses: Array, times: Array, gap: float) -> ExperimentPlayer:
     steps = np.diff(poses[:, :2], axis=0)
     length = float(np.hypot(steps[:, 0], steps[:, 1]).sum())
-    radius = fit_circle(poses[tail, :2])[1] if tail.sum() > 2 else np.nan
+    tail = poses[last_third(times), :2]
+    radius = fit_circle(tail)[1] if len(tail) > 2 else np.nan
     return ExperimentPlayer(
         float(radius) if isfinite(radius) else None,
         length,

@@ -11,7 +11,12 @@ from ..core.constants import CAPTURE_DISTANCE
 from ..core.poses import Array
 from ..sim.crowd_motion import RADIUS
 from ..theory.unicycle.circle_fit import fit_circle
-from .duel_circle import angle_between, cycle_mean, distance_between
+from .duel_circle import (
+    angle_between,
+    cycle_mean,
+    distance_between,
+    last_third,
+)
 from .duel_evaluation import planning_values
 from .game import GameInPlay
 from .game_settings import GameSettings, PlayerSettings
@@ -66,12 +71,6 @@ def summarise_game(record: GameRecord) -> GameSummary:
     )
 
 
-def _tail(times: Array) -> Array:
-    """Return the mask of the samples of the last third. Shape (n,)."""
-    tail: Array = times >= times[-1] * 2.0 / 3.0
-    return tail
-
-
 def _pair(record: GameRecord, one: str, other: str) -> PairResult:
     """Summarise two players."""
     times, identities = record.times, record.settings.identities
@@ -80,7 +79,7 @@ def _pair(record: GameRecord, one: str, other: str) -> PairResult:
     closest = int(apart.argmin())
     caught = np.flatnonzero(apart <= CAPTURE_DISTANCE)
     opposed = identities[one].opposes(identities[other])
-    tail = _tail(times)
+    tail = last_third(times)
     last = first.unicycle[tail], second.unicycle[tail]
     return PairResult(
         players=[one, other],
@@ -106,7 +105,9 @@ def _player(
         cycle = 2.0 * own.gait.step_duration
         ways = [cycle_mean(way, times, cycle) for way in ways]
     steps = np.diff(ways, axis=1)
-    radius = fit_circle(poses[_tail(times), :2])[1] if first.size else np.nan
+    radius = (
+        fit_circle(poses[last_third(times), :2])[1] if first.size else np.nan
+    )
     return PlayerResult(
         name=own.name,
         role=own.role,

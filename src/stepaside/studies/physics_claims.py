@@ -11,6 +11,7 @@ from ..games.duel_circle import (
     circle_of_theory,
     convergence_time,
     distance_between,
+    last_third,
 )
 from ..games.duel_settings import PLAYERS, DuelSettings, StartSettings
 from ..games.outcome import Outcome
@@ -96,7 +97,7 @@ def last_circle(run: DuelRun) -> dict[str, float]:
     pursuer, evader = (run.tracks[name].unicycle for name in PLAYERS)
     theory = circle_of_theory(settings)
     since = convergence_time(times, pursuer, evader, settings, theory)
-    tail = times >= times[-1] * 2.0 / 3.0
+    tail = last_third(times)
     (centre, radius), (other_centre, other_radius) = (
         fit_circle(poses[tail, :2]) for poses in (pursuer, evader)
     )
