@@ -51,8 +51,6 @@ from stepaside.strategies.velocity_set import BodyVelocity
 from stepaside.studies.result_files import header, write_result
 
 RESULT = Path("docs/results/ros2-peers.json")
-MODULES = ("core/errors", "core/poses", "perception", "control", "drivers")
-LIBRARIES = ("cyclonedds", "numpy")
 DOMAIN = 60 + os.getpid() % 40  # separate ROS 2 domain
 LONGEST = 60.0  # timeout for messages, in [s]
 WALKED = 2.0  # duration of a walk of play, or of a served duel, in [s]
