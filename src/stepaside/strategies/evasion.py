@@ -32,6 +32,15 @@ class EvasionMemory(NamedTuple):
     safe: int = 0
 
 
+def check_release(begins: float, ends: float) -> None:
+    """Check that evasion ends at a larger distance than it begins, in [m]."""
+    if not ends > begins:
+        raise ConfigurationError(
+            f"release_distance must exceed safety_radius, {begins:g} [m], or "
+            f"evasion stops and starts, got {ends}"
+        )
+
+
 @dataclass(frozen=True, slots=True)
 class Evasion:
     """The paper's evader: walk backward at an angle to the line of sight.
@@ -115,12 +124,7 @@ class Evasion:
     def __post_init__(self) -> None:
         """Validate the settings."""
         check_settings(self)
-        if not self.release_distance > self.safety_radius:
-            raise ConfigurationError(
-                "release_distance must exceed safety_radius, "
-                f"{self.safety_radius:g} [m], or evasion stops and starts, "
-                f"got {self.release_distance}"
-            )
+        check_release(self.safety_radius, self.release_distance)
 
     @property
     def area(self) -> float:

@@ -182,14 +182,6 @@ def load_strategy(
     return strategy
 
 
-def absolute_name(name: str) -> str:
-    """Return the name with an absolute file path."""
-    file, found = file_of(name), _CALL.fullmatch(name)
-    if file is None or found is None:
-        return name
-    return f"{file.resolve()}{name[found.end('file') :]}"
-
-
 def file_of(name: str) -> Path | None:
     """Return the file that a name denotes; None for any other text."""
     found = _CALL.fullmatch(name)

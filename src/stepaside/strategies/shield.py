@@ -1,7 +1,7 @@
 """Shield: a least-restrictive filter around the strategy of a robot."""
 
 from dataclasses import dataclass, replace
-from math import cos, inf, pi, sin
+from math import inf, pi
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -237,10 +237,9 @@ def relative_poses(
     """
     rows = []
     for heading in course.headings(model.heading_error):
-        c, s = cos(heading), sin(heading)
-        u, v = own.x - seen.x, own.y - seen.y
-        turned = wrap_angle(own.theta - heading)
-        rows.append((c * u + s * v, c * v - s * u, turned))
+        opponent = Pose(seen.x, seen.y, heading)
+        x, y, turned = opponent.inverse().compose(own)
+        rows.append((x, y, wrap_angle(turned)))
     return np.array(rows)
 
 

@@ -7,8 +7,10 @@ do otherwise than told displaces the point slowly, and the distance of the body
 from it is bounded: the tube that ``robot legs measure`` finds.
 """
 
-from math import exp, hypot
+from math import hypot
 from typing import NamedTuple
+
+from .velocity_set import response_share
 
 LEGS_PERIOD = 0.48  # of the motions of legs: several cells of the grid, [s]
 # Per period, in [m]; with it a G1 with 29 joints has a tube of 0.28 m.
@@ -36,11 +38,8 @@ class TemplatePoint(NamedTuple):
 
         The velocity over the floor is commanded, and legs lag by ``lag``.
         """
-        rest = exp(-duration / lag) if lag > 0.0 else 0.0
-        drift = (
-            command[0] + rest * (self.drift[0] - command[0]),
-            command[1] + rest * (self.drift[1] - command[1]),
-        )
+        (u, v), share = self.drift, response_share(duration, lag)
+        drift = u + share * (command[0] - u), v + share * (command[1] - v)
         x = self.position[0] + duration * command[0]
         y = self.position[1] + duration * command[1]
         dx = body[0] + lag * drift[0] - x

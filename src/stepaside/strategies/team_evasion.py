@@ -8,11 +8,11 @@ from typing import Any
 import numpy as np
 
 from ..core.compilation import compiled
-from ..core.errors import ConfigurationError
 from ..core.poses import Array
 from ..core.ranges import Range
 from ..core.setting import check_settings, setting
 from ..theory import laws
+from .evasion import check_release
 from .knowledge import STAND, Intent, Knowledge
 from .look_ahead import PAPERS, step_rules
 from .search.step_motion import StepRules, pair_of, step_both
@@ -49,11 +49,7 @@ class TeamEvasion(BackwardStrategy):
     def __post_init__(self) -> None:
         """Validate the settings."""
         check_settings(self)
-        if not self.release_distance > self.safety_radius:
-            raise ConfigurationError(
-                "release_distance must exceed safety_radius, "
-                f"{self.safety_radius:g} [m], got {self.release_distance}"
-            )
+        check_release(self.safety_radius, self.release_distance)
 
     def begin(self) -> bool:
         """Return that it does not evade yet."""
