@@ -119,7 +119,7 @@ def play(
         def session() -> str:
             nonlocal wait
             now = replace(connection, wait=wait)
-            wait = 0.0  # later sessions wait by --reconnect
+            wait = 0.0  # later sessions wait by "reconnect"
             loop = open_loop(settings, now, make)
             with ExitStack() as opened:
                 opened.callback(loop.close)

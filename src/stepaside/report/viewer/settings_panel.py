@@ -146,6 +146,7 @@ class SettingsPanel:
         """
         self._gui, self._session, self._notify = gui, session, notify
         self._presets = presets
+        self._leaves: dict[str, Leaf] = {}
         self.preset = gui.add_dropdown(
             "Preset", tuple(presets), visible=len(presets) > 1
         )
@@ -162,8 +163,7 @@ class SettingsPanel:
     def _show(self, settings: LiveSettings) -> None:
         """Show the values of settings, with other controls where needed."""
         leaves = {leaf.path: leaf for leaf in leaves_of(settings)}
-        known = getattr(self, "_leaves", {})
-        self._leaves = leaves
+        known, self._leaves = self._leaves, leaves
         if known.keys() == leaves.keys():
             for path, leaf in leaves.items():
                 if self._controls[path].value != leaf.shown:
