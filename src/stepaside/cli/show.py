@@ -108,7 +108,7 @@ def show(
     """
     from ..games.run_archive import load_run, results_of
 
-    if not {".mp4", ".gif"} & {path.suffix for path in outputs}:
+    if not any(path.suffix in FILMS for path in outputs):
         refuse_settings(("",), "-o NAME.mp4 or NAME.gif")
     is_bag = runs[0].is_file() or (runs[0] / "metadata.yaml").is_file()
     if frames and not is_bag:
