@@ -339,6 +339,7 @@ def test_invalid_settings_are_refused_in_one_line(
         ),
         ("run walk --set control.mpc.steps=3", "requires control.method mpc"),
         ("duel --set map.source=none", "map.source requires room.plan"),
+        ("duel --set shield.speed=1", "speed requires shield.enabled"),
         (
             "duel --strategy look-ahead --set strategy.angle=1",
             "requires the strategy",

@@ -322,7 +322,10 @@ def _refuse_unused(
                 value: Any = settings
                 for name in path.split("."):
                     value = getattr(value, name)
-                if value is None if needed == "" else value != needed:
+                unmet = value is None or value is False
+                if needed:
+                    unmet = value != needed
+                if unmet and own != path:
                     raise click.UsageError(
                         f"{own} requires {path} {needed}".rstrip()
                         + (f", got {value}" if needed else "")

@@ -59,7 +59,7 @@ class Setting:
         default_text: What the help shows as default instead of the value.
         needs: Path and value of another setting without which this one, or
             this section, has no effect; an empty value stands for any but
-            None.
+            None and false.
         count: Least and greatest number of entries of an array.
     """
 
