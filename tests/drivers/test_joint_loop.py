@@ -68,6 +68,27 @@ def test_a_robot_that_is_stiff_at_first_does_not_sag() -> None:
     np.testing.assert_array_equal(first.angles[[3, 1, 2]], angles[[3, 1, 2]])
 
 
+def test_a_stiff_robot_keeps_its_posture_if_the_first_image_fails() -> None:
+    class Blind:
+        hindrance = ""
+
+        def take(self, now: float) -> None:
+            raise SessionLost("no camera")
+
+    game = Game(open_eyes=lambda robot: Blind())
+    session = game.session
+    session.changes["status"] = status(stiffness=np.ones(4))
+    session.angles = np.array([0.3, 0.5, 0.1, -0.2])
+    angles = session.angles.copy()
+    with pytest.raises(SessionLost, match="no camera"):
+        game.play(1)
+    sent = [each.angles for each in session.sent if each is not None]
+    assert len(sent) > 1  # stiffness falls slowly
+    np.testing.assert_array_equal(
+        np.array(sent)[:, 1:], [angles[1:]] * len(sent)
+    )
+
+
 def test_control_moves_the_joints_only_while_it_walks() -> None:
     game = Game()
     wanted = STANCE + np.array([0.05, 0.05, 0.0])

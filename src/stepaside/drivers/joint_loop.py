@@ -257,9 +257,10 @@ class JointLoop:
         is_first, share = self.report is None, 0.0
         if report.status is not None:
             legs = report.status.stiffness[self._motors.legs]
-            share = float(np.clip(np.nan_to_num(legs), 0.0, 1.0).max())
+            share = float(np.clip(legs, 0.0, 1.0).max())
         if is_first:
             self._motion.share = share  # of who held the robot before
+            self._motion.targets = report.joint_positions
         elif gap > SILENCE and self._robot.paced:
             self._safety.fail(f"no report was read for {gap:.2f} s",
                               self._time)  # fmt: skip

@@ -69,7 +69,6 @@ class JointMotion:
         self._up, self._down = (
             (1.0, 1.0) if at_once else (tick / RISE, tick / FADE)
         )
-        self._is_measured = False  # whether targets began at the angles
         self.share = 0.0
         self.targets: Array = np.zeros(len(motors.names))
 
@@ -109,9 +108,8 @@ class JointMotion:
             Targets, in [rad], and stiffness. Shapes (motors,).
         """
         limp = state is SafetyState.LIMP
-        if not self._is_measured or (limp and self.share == 0.0):
+        if limp and self.share == 0.0:
             # Stiffness rises at the measured angles, so that nothing jumps.
-            self._is_measured = True
             self.targets = report.joint_positions
         if state.moves_by_control:
             wanted = np.where(np.isfinite(wanted), wanted, self.targets)
