@@ -94,6 +94,15 @@ def test_settings_without_effect_have_no_control() -> None:
     paths = {leaf.path for leaf in leaves_of(DuelSettings())}
     person = {leaf.path for leaf in leaves_of(DuelSettings(pursuer="person"))}
     assert "person.speed" in person - paths
+    # What is needed may stand in another section, or in the section itself.
+    assert "strategy.safety_radius" in paths
+    assert "shield.enabled" in paths and "shield.speed" not in paths
+    shielded = with_values(DuelSettings(), {"shield.enabled": True})
+    assert "shield.speed" in {leaf.path for leaf in leaves_of(shielded)}
+    safe = with_values(GAME, {"players.1.shield.enabled": True})
+    shields = {leaf.path for leaf in leaves_of(safe) if "shield" in leaf.path}
+    assert "players.1.shield.speed" in shields
+    assert "players.0.shield.speed" not in shields
 
 
 def seen(eye: Array, target: Array, point: Array, aspect: float) -> Array:

@@ -3,6 +3,7 @@
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import is_dataclass, replace
 from math import degrees, isfinite, radians
+from operator import attrgetter
 from typing import Any, NamedTuple
 
 import viser
@@ -65,37 +66,53 @@ class Leaf(NamedTuple):
         return radians(shown) if self.turns else float(shown)
 
 
-def leaves_of(settings: Any, path: str = "") -> Iterator[Leaf]:
-    """Yield the values of settings that one control can show."""
+def leaves_of(
+    settings: Any, path: str = "", above: tuple[Any, ...] = ()
+) -> Iterator[Leaf]:
+    """Yield the values of settings that one control can show.
+
+    Args:
+        settings: The settings.
+        path: Their path from the root, with a dot at its end.
+        above: The settings that they are part of, from the root on.
+    """
     if isinstance(settings, tuple):
         for number, each in enumerate(settings):
-            yield from leaves_of(each, f"{path}{number}.")
+            yield from leaves_of(each, f"{path}{number}.", above)
         return
+    above = (*above, settings)
     for name, described in settings_of(type(settings)).items():
         value, own = getattr(settings, name), f"{path}{name}"
         if own in UNUSED or isinstance(value, Room):
             continue
-        if not _has_effect(settings, described):
+        if not _has_effect(above, name, described):
             continue
         if is_dataclass(value) or (
             isinstance(value, tuple) and all(map(is_dataclass, value))
         ):
-            yield from leaves_of(value, f"{own}.")
+            yield from leaves_of(value, f"{own}.", above)
         elif isinstance(value, bool | int | float | str) or (
             value is None and described.range is not None
         ):
             yield Leaf(own, described, value)
 
 
-def _has_effect(settings: Any, described: Setting) -> bool:
+def _has_effect(above: tuple[Any, ...], name: str, described: Setting) -> bool:
     """Return whether the other setting that this one needs has its value."""
     if described.needs is None:
         return True
     path, wanted = described.needs
-    value = settings
-    for name in path.split("."):
-        value = getattr(value, name, None)
-    return value not in (None, False) if wanted == "" else value == wanted
+    if path.partition(".")[0] == name:
+        return True  # a part of it decides
+    for owner in above[::-1]:
+        try:
+            value = attrgetter(path)(owner)
+        except AttributeError:
+            continue
+        if wanted == "":
+            return value is not None and value is not False
+        return value is None or bool(value == wanted)  # None is implied
+    return True
 
 
 def with_values(settings: Any, values: Mapping[str, Any]) -> Any:
