@@ -11,15 +11,18 @@ import numpy as np
 import pytest
 
 from fake_robot import FakeLegs, scheme_of
+from sampled_unicycles import play_sampled
 from stepaside.core.poses import Array, Pose, wrap_angle
 from stepaside.perception.measurement import RobotState, Sighting
 from stepaside.planning import Foot, GaitSettings
 from stepaside.strategies import Evasion, Pursuit
 from stepaside.theory.unicycle.circle_fit import fit_circle
 from stepaside.theory.unicycle.circles import Circle, find_circle
-from stepaside.theory.unicycle.relative_coordinates import RelativeStart
-from stepaside.theory.unicycle.sampled_game import simulate_sampled
-from stepaside.theory.unicycle.unicycle_game import Unicycle, make_game
+from stepaside.theory.unicycle.unicycle_game import (
+    RelativeStart,
+    Unicycle,
+    make_game,
+)
 
 TICK = 0.02
 GAIT = GaitSettings()
@@ -136,9 +139,9 @@ def test_the_sampled_template_is_in_balance_on_the_circle() -> None:
     game = make_game(*(body.speed, body.speed, body.gain, body.gain), 0.5 * pi)
     start = RelativeStart(circle.distance_m, -0.25 * pi, 0.25 * pi)
     for delay in (0.0, 0.34 * GAIT.path_interval):
-        run = simulate_sampled(
-            game, start, 200.0, GAIT.path_interval, delay=delay
+        states, _, _, evader = play_sampled(
+            game, start, 200.0, GAIT.path_interval, delay
         )
-        radius = fit_circle(run.evader[-250:, :2])[1]
+        radius = fit_circle(evader[-250:, :2])[1]
         assert radius == pytest.approx(circle.radius_evader_m, rel=1e-6)
-        assert run.states[-1, 0] == pytest.approx(circle.distance_m, rel=1e-6)
+        assert states[-1, 0] == pytest.approx(circle.distance_m, rel=1e-6)

@@ -23,7 +23,6 @@ from stepaside.planning.plan import PlanSamples
 from stepaside.studies import planner_claims, unicycle_claims
 from stepaside.studies.claims import ONCE, load_claims
 from stepaside.theory.unicycle.adaptive_simulation import PlayedGame
-from stepaside.theory.unicycle.sampled_game import simulate_sampled
 from stepaside.theory.unicycle.unicycle_game import Game
 
 Patch = Callable[[pytest.MonkeyPatch], None]
@@ -32,13 +31,13 @@ Pair = tuple[Array, Array]
 play = cache(
     unicycle_claims.play
 )  # each game is simulated once for all faults
-sampled = cache(simulate_sampled)
+sampled = cache(unicycle_claims.play_unicycles)
 
 
 @pytest.fixture(autouse=True)
 def games_once(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(unicycle_claims, "play", play)
-    monkeypatch.setattr(unicycle_claims, "simulate_sampled", sampled)
+    monkeypatch.setattr(unicycle_claims, "play_unicycles", sampled)
 
 
 def seen_as(change: Callable[[Game, Array, Array, Array], Pair]) -> Patch:
@@ -83,9 +82,9 @@ def sampled_as(change: Callable[[Array, Array], Pair]) -> Patch:
         def false(*args: Any) -> Any:
             run = sampled(*args)
             pursuer, evader = change(run.pursuer.copy(), run.evader.copy())
-            return replace(run, pursuer=pursuer, evader=evader)
+            return run._replace(pursuer=pursuer, evader=evader)
 
-        monkeypatch.setattr(unicycle_claims, "simulate_sampled", false)
+        monkeypatch.setattr(unicycle_claims, "play_unicycles", false)
 
     return patch
 

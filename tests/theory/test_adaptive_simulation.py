@@ -9,8 +9,11 @@ from stepaside.core.errors import PlanError
 from stepaside.core.poses import Pose
 from stepaside.theory.unicycle.adaptive_simulation import PlayedGame, simulate
 from stepaside.theory.unicycle.circles import circle_of
-from stepaside.theory.unicycle.relative_coordinates import RelativeStart
-from stepaside.theory.unicycle.unicycle_game import Game, make_game
+from stepaside.theory.unicycle.unicycle_game import (
+    Game,
+    RelativeStart,
+    make_game,
+)
 
 GAMES = [
     make_game(1.0, 1.0, 0.5, 0.5),

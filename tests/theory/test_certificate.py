@@ -13,8 +13,11 @@ from stepaside.theory.unicycle.certificate import (
     largest_change,
 )
 from stepaside.theory.unicycle.circles import circle_of
-from stepaside.theory.unicycle.relative_coordinates import RelativeStart
-from stepaside.theory.unicycle.unicycle_game import Game, make_game
+from stepaside.theory.unicycle.unicycle_game import (
+    Game,
+    RelativeStart,
+    make_game,
+)
 
 ASIDE = make_game(1.0, 1.0, 1.0, 1.0)
 LATCHED = make_game(1.0, 1.0, 1.0, 1.0, side_rule="latched")

@@ -12,8 +12,7 @@ from stepaside.theory.unicycle.circle_fit import (
     settling_time,
 )
 from stepaside.theory.unicycle.circles import circles_of
-from stepaside.theory.unicycle.relative_coordinates import RelativeStart
-from stepaside.theory.unicycle.unicycle_game import make_game
+from stepaside.theory.unicycle.unicycle_game import RelativeStart, make_game
 
 FAST = make_game(2.0, 1.0, 1.0, 4.0)
 NO_CIRCLE = make_game(1.0, 1.0, 0.5, 2.0, 0.0)

@@ -22,8 +22,12 @@ from stepaside.theory.unicycle.circles import (
     find_circle,
 )
 from stepaside.theory.unicycle.ratio_map import map_ratios
-from stepaside.theory.unicycle.relative_coordinates import RelativeStart
-from stepaside.theory.unicycle.unicycle_game import Game, TurningLaw, make_game
+from stepaside.theory.unicycle.unicycle_game import (
+    Game,
+    RelativeStart,
+    TurningLaw,
+    make_game,
+)
 
 SATURATED = TurningLaw.SATURATED
 FAST = make_game(2.0, 1.0, 1.0, 4.0)

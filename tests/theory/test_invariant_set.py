@@ -10,8 +10,11 @@ from stepaside.theory.unicycle.batch import play_games
 from stepaside.theory.unicycle.certificate import stays_unwrapped
 from stepaside.theory.unicycle.circle_fit import circle_at
 from stepaside.theory.unicycle.circles import circles_of
-from stepaside.theory.unicycle.relative_coordinates import RelativeStart
-from stepaside.theory.unicycle.unicycle_game import Game, make_game
+from stepaside.theory.unicycle.unicycle_game import (
+    Game,
+    RelativeStart,
+    make_game,
+)
 
 KEPT = make_game(1.0, 1.0, 1.0, 1.0, side_rule="latched")
 

@@ -9,13 +9,16 @@ import pytest
 
 from stepaside.theory.unicycle.adaptive_simulation import simulate
 from stepaside.theory.unicycle.batch import play_games
-from stepaside.theory.unicycle.relative_coordinates import RelativeStart
 from stepaside.theory.unicycle.start_maps import (
     StartBox,
     find_worst_start,
     map_starts,
 )
-from stepaside.theory.unicycle.unicycle_game import Game, make_game
+from stepaside.theory.unicycle.unicycle_game import (
+    Game,
+    RelativeStart,
+    make_game,
+)
 
 FACING = StartBox(0.8, 2.0, radians(30), radians(30.5))
 NAO = make_game(0.1, 0.1, 0.2, 0.2)

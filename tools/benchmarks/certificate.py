@@ -12,8 +12,7 @@ from benchmark_options import ask
 
 from stepaside.studies.result_files import header, write_result
 from stepaside.theory.unicycle.certificate import certify
-from stepaside.theory.unicycle.relative_coordinates import RelativeStart
-from stepaside.theory.unicycle.unicycle_game import make_game
+from stepaside.theory.unicycle.unicycle_game import RelativeStart, make_game
 
 BOXES = {
     "any headings, 0.15-2 m": (0.15, 2.0, pi, pi),

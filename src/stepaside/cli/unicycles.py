@@ -8,7 +8,7 @@ import click
 
 from ..core.entries import to_entries
 from ..core.errors import PlanError
-from ..games.unicycle_settings import UnicycleSettings
+from ..games.unicycle_settings import PAPER, UnicycleSettings
 from ..report.result_labels import CIRCLES, label_of
 from .circle import describe_circle
 from .options import figure_option, figure_width, json_option
@@ -22,8 +22,7 @@ from .tables import (
 from .terminal import echo, print_json
 
 if TYPE_CHECKING:
-    from ..theory.unicycle.relative_coordinates import RelativeStart
-    from ..theory.unicycle.unicycle_game import Game
+    from ..theory.unicycle.unicycle_game import Game, RelativeStart
 
 NAMED = (
     *("speed", "gain", "angle", "law", "distance"),
@@ -48,35 +47,32 @@ def unicycles(
     settings: UnicycleSettings, figure: Path | None, as_json: bool
 ) -> None:
     """Simulate one game of two unicycles and compare it with theory."""
-    game, start, named = settings.game, settings.start, settings.strategies
+    game, start, names = settings.game, settings.start, settings.strategies
     result: dict[str, Any] = {
         "start": asdict(start),
         "capture_distance_m": settings.capture,
         "sample_time_s": settings.sample_time,
-        "delay_s": settings.delay,
         "game": to_entries(game),
     }
-    if figure is not None and (named or settings.sample_time):
+    if figure is not None and names is not None:
         raise click.UsageError(
             "--figure requires the strategies of the paper, without "
             "sample_time"
         )
-    if named is not None:
-        refuse_settings(("delay",), "the strategies of the paper")
-        result |= _play_named(settings, named)
-        print_json(result) if as_json else _print_named(result)
-        return
     run: Any = None
-    if settings.sample_time > 0.0:
-        result |= _simulate_sampled(settings, start)
-    else:
+    if names is None:
         run, measured = _simulate(settings, start)
-        result |= measured
-    theory = describe_circle(game)
-    names = ("exists", "radius_m", *COMPARED, "time_constant_s")
-    result["theory"] = {name: theory[name] for name in names}
-    result["certified"] = _certify(game, start)
-    print_json(result) if as_json else _print(result)
+        result |= measured | {"certified": _certify(game, start)}
+    else:
+        result |= _play_named(settings, names)
+    if names is None or names == PAPER:
+        theory = describe_circle(game)
+        named = ("exists", "radius_m", *COMPARED, "time_constant_s")
+        result["theory"] = {name: theory[name] for name in named}
+    if as_json:
+        print_json(result)
+    else:
+        _print(result) if "theory" in result else _print_named(result)
     if figure is not None:
         from ..report.unicycle_figures import draw_game
 
@@ -129,53 +125,16 @@ def _certify(game: "Game", start: "RelativeStart") -> dict[str, Any] | None:
     return {"holds": found.holds, "distance_m": found.distance_m}
 
 
-def _simulate_sampled(
-    settings: UnicycleSettings, start: "RelativeStart"
-) -> dict[str, Any]:
-    """Simulate with sampled turning rates; measure the final circle."""
-    from math import pi
-
-    from ..core.poses import wrap_angle
-    from ..theory.unicycle.sampled_game import simulate_sampled
-
-    game = settings.game
-    run = simulate_sampled(
-        game,
-        start,
-        settings.time,
-        settings.sample_time,
-        delay=settings.delay,
-        capture_distance=settings.capture,
-    )
-    result: dict[str, Any] = {
-        "captured": run.captured,
-        "end_time_s": float(run.times[-1]),
-        "closest_distance_m": run.closest_distance,
-    }
-    if run.captured or not len(run.turning_rates):
-        return result
-    turn_p, turn_e = abs(run.turning_rates[-1]).tolist()
-    heading = float(run.pursuer[-1, 2] - run.evader[-1, 2])
-    radius = finite(game.pursuer.speed / max(turn_p, 1e-300))
-    return result | {
-        "radius_m": radius,
-        "radius_pursuer_m": radius,
-        "radius_evader_m": finite(game.evader.speed / max(turn_e, 1e-300)),
-        "distance_m": float(run.states[-1, 0]),
-        "turning_rate_rad_s": turn_p,
-        "headings_apart_rad": abs(wrap_angle(heading)),
-        "motions_apart_rad": abs(wrap_angle(heading + pi)),
-    }
-
-
 def _play_named(
     settings: UnicycleSettings, names: tuple[str, str]
 ) -> dict[str, Any]:
     """Simulate a game of any two strategies."""
     import numpy as np
 
+    from ..core.poses import wrap_angle
     from ..games.floor_games import play_unicycles
     from ..strategies.registry import OF_EVASION
+    from ..theory.unicycle.circle_fit import fit_circle
 
     if not set(names) & set(OF_EVASION):
         refuse_settings(
@@ -184,10 +143,10 @@ def _play_named(
         )
     times, capture = (settings.time, settings.period), settings.capture
     run = play_unicycles(settings.game, settings.start, names, times, capture)
-    floor = [
-        float(np.hypot(*(path - path[0])[:, :2].T).max())
-        for path in (run.pursuer, run.evader)
-    ]
+    paths = run.pursuer, run.evader
+    floor = [float(np.hypot(*(p - p[0])[:, :2].T).max()) for p in paths]
+    radii = [fit_circle(p[-len(p) // 5 :, :2])[1] for p in paths]
+    heading = float(run.pursuer[-1, 2] - run.evader[-1, 2])
     return {
         "pursuer_strategy": names[0],
         "evader_strategy": names[1],
@@ -195,6 +154,11 @@ def _play_named(
         "end_time_s": float(run.times[-1]),
         "closest_distance_m": run.closest_distance,
         "distance_m": float(run.distances[-1]),
+        "radius_m": radii[0],
+        "radius_pursuer_m": radii[0],
+        "radius_evader_m": radii[1],
+        "headings_apart_rad": abs(wrap_angle(heading)),
+        "motions_apart_rad": abs(wrap_angle(heading + np.pi)),
         "floor_used_pursuer_m": floor[0],
         "floor_used_evader_m": floor[1],
     }
@@ -218,7 +182,7 @@ def _print(result: dict[str, Any]) -> None:
     if circle is not None:
         name = CIRCLES[circle["direction"]]
         rows.append(("ended on", f"the {name} circle"))
-    certified = result["certified"]
+    certified = result.get("certified")
     if certified is not None and certified["holds"]:
         text = f">= {certified['distance_m']:.6g} m"
         rows.append(("certified distance", text))

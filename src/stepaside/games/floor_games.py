@@ -18,8 +18,7 @@ from ..strategies.knowledge import Limits
 from ..strategies.registry import load_strategy
 from ..strategies.strategy import Strategy
 from ..strategies.strategy_game import StepGame
-from ..theory.unicycle.relative_coordinates import RelativeStart
-from ..theory.unicycle.unicycle_game import Game
+from ..theory.unicycle.unicycle_game import Game, RelativeStart
 from .floor_world import (
     PARTS,
     FloorAgent,

@@ -6,14 +6,15 @@ from math import pi
 from ..core.errors import ConfigurationError, check_within
 from ..core.ranges import Range
 from ..core.setting import check_settings, setting
-from ..theory.unicycle.relative_coordinates import RelativeStart
 from ..theory.unicycle.unicycle_game import (
     Game,
+    RelativeStart,
     SideRule,
     TurningLaw,
     make_game,
 )
 
+PAPER = ("pursuit", "evasion")  # strategies of pursuer and evader
 SHORT = 0.01  # decision period without sampling, in [s]
 WHY = "outside this range squares and ratios overflow a double"
 
@@ -124,11 +125,6 @@ class UnicycleSettings(UnicycleGameSettings):
         "Sampling period; turning rates are constant in between",
         positive("s", 0.0),
     )
-    delay: float = setting(
-        0.0,
-        "Delay from sensing to turning {unit}, with a sampling period",
-        positive("s", 0.0),
-    )
     capture: float = setting(
         1e-6, "Capture distance, which ends the game", positive("m")
     )
@@ -138,12 +134,6 @@ class UnicycleSettings(UnicycleGameSettings):
     pursuer_strategy: str = setting(
         "", "Strategy of the pursuer", default_text="pursuit"
     )
-
-    def __post_init__(self) -> None:
-        """Validate ranges, names and combinations."""
-        UnicycleGameSettings.__post_init__(self)
-        if self.delay > 0.0 and self.sample_time == 0.0:
-            raise ConfigurationError("delay requires sample_time > 0 [s]")
 
     @property
     def start(self) -> RelativeStart:
@@ -161,13 +151,14 @@ class UnicycleSettings(UnicycleGameSettings):
 
     @property
     def strategies(self) -> tuple[str, str] | None:
-        """Strategies of pursuer and evader; None for those of the paper."""
-        if not (self.pursuer_strategy or self.evader_strategy):
+        """Strategies of pursuer and evader; None for the paper's ODE."""
+        named = self.pursuer_strategy, self.evader_strategy
+        if not any(named) and not self.sample_time:
             return None
-        return (
-            self.pursuer_strategy or "pursuit",
-            self.evader_strategy or "evasion",
+        pursuer, evader = (
+            own or paper for own, paper in zip(named, PAPER, strict=True)
         )
+        return pursuer, evader
 
     @property
     def period(self) -> float:

@@ -14,9 +14,13 @@ from ..theory.unicycle.adaptive_simulation import PlayedGame, simulate
 from ..theory.unicycle.circle_fit import FittedCircle, measure, settling_time
 from ..theory.unicycle.circles import Circle, circle_of
 from ..theory.unicycle.ratio_map import RatioMap, map_ratios
-from ..theory.unicycle.relative_coordinates import RelativeStart
 from ..theory.unicycle.start_maps import StartMap
-from ..theory.unicycle.unicycle_game import Game, SideRule, TurningLaw
+from ..theory.unicycle.unicycle_game import (
+    Game,
+    RelativeStart,
+    SideRule,
+    TurningLaw,
+)
 from .figure_style import (
     COLOURS,
     EVADER,

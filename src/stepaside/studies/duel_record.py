@@ -12,8 +12,7 @@ from ..games.duel_settings import DuelSettings
 from ..games.recorded_game import run_duels
 from ..games.run import DuelRun
 from ..theory.unicycle.certificate import certify
-from ..theory.unicycle.relative_coordinates import RelativeStart
-from ..theory.unicycle.unicycle_game import make_game
+from ..theory.unicycle.unicycle_game import RelativeStart, make_game
 from .tabulation import Record
 
 BEFORE = 2.0 / 3.0  # of a duel; means are taken over the rest

@@ -6,11 +6,16 @@ from math import nan, pi
 import numpy as np
 
 from ..core.poses import Array, wrap_angle
+from ..games.floor_games import play_unicycles
+from ..games.unicycle_settings import PAPER
 from ..theory.unicycle.adaptive_simulation import PlayedGame, simulate
 from ..theory.unicycle.circle_fit import fit_circle, measure, settling_time
-from ..theory.unicycle.relative_coordinates import RelativeStart
-from ..theory.unicycle.sampled_game import simulate_sampled
-from ..theory.unicycle.unicycle_game import Game, TurningLaw, Unicycle
+from ..theory.unicycle.unicycle_game import (
+    Game,
+    RelativeStart,
+    TurningLaw,
+    Unicycle,
+)
 
 FIG_2 = Game(Unicycle(1.0, 0.5), Unicycle(1.0, 0.5))
 START = RelativeStart(5.0, 0.4, -0.2)
@@ -99,7 +104,7 @@ def _deviation_from_sight(pursuer: Array, evader: Array) -> float:
 
 def read_sampled() -> dict[str, float]:
     """Measure the circle of Sec. IV with turning rates held between steps."""
-    run = simulate_sampled(NAO, NAO_START, 400.0, STEP)
+    run = play_unicycles(NAO, NAO_START, PAPER, (400.0, STEP), 1e-6)
     turns = np.diff(run.pursuer[-200:, 2])
     last = max(2, round(2.0 * pi / max(abs(float(turns[-1])), 1e-3)))
     difference = run.evader[-1] - run.pursuer[-1]

@@ -6,11 +6,10 @@ from .circles import Circle as Circle
 from .circles import circle_of as circle_of
 from .circles import circles_of as circles_of
 from .circles import find_circle as find_circle
-from .relative_coordinates import RelativeStart as RelativeStart
-from .sampled_game import simulate_sampled as simulate_sampled
 from .unicycle_game import MOVE_ASIDE as MOVE_ASIDE
 from .unicycle_game import MOVE_BACK as MOVE_BACK
 from .unicycle_game import Game as Game
+from .unicycle_game import RelativeStart as RelativeStart
 from .unicycle_game import SideRule as SideRule
 from .unicycle_game import TurningLaw as TurningLaw
 from .unicycle_game import make_game as make_game

@@ -16,7 +16,6 @@ from numpy.typing import ArrayLike, NDArray
 
 from ...core.brief_repr import brief_repr
 from ...core.errors import StepAsideError, check_positive
-from .relative_coordinates import RelativeStart
 from .relative_motion import (
     SLACK,
     Mode,
@@ -30,7 +29,7 @@ from .relative_motion import (
     rates_of,
     rules_of,
 )
-from .unicycle_game import Game, check_side
+from .unicycle_game import Game, RelativeStart, check_side
 
 Array = NDArray[np.float64]
 TOLERANCE = 1e-11  # relative, of a step

@@ -39,8 +39,7 @@ import numpy as np
 from ...core.errors import PlanError
 from ..laws import evasion_heading, side_behind
 from .circles import circle_of
-from .relative_coordinates import RelativeStart
-from .unicycle_game import Game, check_side
+from .unicycle_game import Game, RelativeStart, check_side
 
 _FACTOR = 0.98  # ratio of |d| at successive knots of the integration
 _STOPS = 2000  # points on the boundary of the disc that contains the game

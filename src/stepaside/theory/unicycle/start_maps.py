@@ -9,8 +9,7 @@ from numpy.typing import NDArray
 
 from ...core.errors import PlanError, check_positive, check_within
 from .batch import Outcomes, play_games
-from .relative_coordinates import RelativeStart
-from .unicycle_game import Game
+from .unicycle_game import Game, RelativeStart
 
 Array = NDArray[np.float64]
 _CANDIDATES = 4  # local minima of the grid that are refined
