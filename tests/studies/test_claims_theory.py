@@ -20,6 +20,7 @@ from stepaside.planning import (
 from stepaside.planning.footsteps import place_footsteps
 from stepaside.planning.path import UnicycleTrajectory
 from stepaside.planning.plan import PlanSamples
+from stepaside.games.floor_games import play_unicycles
 from stepaside.studies import planner_claims, unicycle_claims
 from stepaside.studies.claims import ONCE, load_claims
 from stepaside.theory.unicycle.adaptive_simulation import PlayedGame
@@ -31,7 +32,7 @@ Pair = tuple[Array, Array]
 play = cache(
     unicycle_claims.play
 )  # each game is simulated once for all faults
-sampled = cache(unicycle_claims.play_unicycles)
+sampled = cache(play_unicycles)
 
 
 @pytest.fixture(autouse=True)
