@@ -11,6 +11,7 @@ import numpy as np
 import pytest
 
 from stepaside.core.poses import Array
+from stepaside.games.floor_games import play_unicycles
 from stepaside.planning import (
     Direction,
     ManeuverPlan,
@@ -20,7 +21,6 @@ from stepaside.planning import (
 from stepaside.planning.footsteps import place_footsteps
 from stepaside.planning.path import UnicycleTrajectory
 from stepaside.planning.plan import PlanSamples
-from stepaside.games.floor_games import play_unicycles
 from stepaside.studies import planner_claims, unicycle_claims
 from stepaside.studies.claims import ONCE, load_claims
 from stepaside.theory.unicycle.adaptive_simulation import PlayedGame
