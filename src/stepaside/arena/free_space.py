@@ -26,8 +26,7 @@ def path_exists(
 ) -> bool:
     """Return whether a disc can move from one point to another, in [m].
 
-    The search runs on a grid: a path through a gap that is wider than the
-    disc by less than about a cell, 2 cm, may be missed.
+    A path through a gap that is at most 2 cm wider than it may be missed.
     """
     ends, solids = np.array([start, end]), room.solid_set
     keep = np.full(len(solids), radius)
@@ -97,12 +96,7 @@ def check_initial_poses(room: Room, starts: tuple[Pose, Pose]) -> None:
 
 
 def measure_room(room: Room) -> dict[str, Any]:
-    """Measure a room, as a JSON object.
-
-    Numbers of obstacles and doors, narrowest gap between solids [m], areas
-    [m^2] of the floor, of the free floor and of the positions of the
-    centre of a body, and the entries of the room's file.
-    """
+    """Measure a room, as a JSON object: obstacles, gaps, areas, entries."""
     result: dict[str, Any] = {
         "obstacles": len(room.obstacles),
         "doors": len(room.doors),

@@ -13,10 +13,7 @@ from .shapes import BEARING, COORDINATE, SIDE, Box, Point, Polygon, hull
 
 @dataclass(frozen=True, slots=True)
 class MovingBox:
-    """Box that moves to a point and back, periodically.
-
-    It moves along a straight line at constant speed and does not turn.
-    """
+    """Box that moves to a point and back at constant speed, not turning."""
 
     x: float = setting(REQUIRED, "Initial x of its centre", COORDINATE)
     y: float = setting(REQUIRED, "Initial y of its centre", COORDINATE)
@@ -33,7 +30,6 @@ class MovingBox:
     heading: float = setting(0.0, "Direction of its width", BEARING)
 
     def __post_init__(self) -> None:
-        """Validate the box, its speed and its path."""
         check_settings(self, prefix="moving box ")
         Box(self.x, self.y, self.width, self.depth, self.heading)
         if not self.length > 1e-3:

@@ -7,19 +7,16 @@ from ..core.compilation import compiled, inlined
 
 
 class PackedObstacles(NamedTuple):
-    """Discs and convex polygons as arrays, for compiled loops.
+    """Discs and convex polygons as arrays, for compiled loops."""
 
-    Attributes:
-        circles: Centre x, y and radius of a circle around each obstacle, in
-            [m]. Shape (obstacles, 3).
-        firsts: Index of the first edge of each obstacle, and the number of
-            edges. A disc has none: it is its circle. Shape (obstacles + 1,).
-        edges: Edges of all polygons, concatenated: outward unit normal,
-            offset [m], first corner x, y [m], length [m]. Shape (m, 6).
-    """
-
+    # centre x, y and radius of a circle around each obstacle [m], (obstacles,
+    # 3)
     circles: Any
+    # index of the first edge of each obstacle, and the number of edges. A disc
+    # has none: it is its circle, (obstacles + 1,)
     firsts: Any
+    # edges of all polygons, concatenated: outward unit normal, offset [m],
+    # first corner x, y [m], length [m], (m, 6)
     edges: Any
 
 
@@ -27,10 +24,7 @@ class PackedObstacles(NamedTuple):
 def hull_clearance(
     packed: PackedObstacles, k: int, x: float, y: float, nearest: float
 ) -> float:
-    """Return the clearance of a point from one hull, at most ``nearest``.
-
-    The point is in the frame of the obstacles, in [m].
-    """
+    """Return the clearance of a point from one hull, at most ``nearest``."""
     edges, firsts, circles = packed.edges, packed.firsts, packed.circles
     dx, dy = x - circles[k, 0], y - circles[k, 1]
     reach = nearest + circles[k, 2]
@@ -65,10 +59,7 @@ def hull_clearance(
 def clearance_at(
     packed: PackedObstacles, x: float, y: float, enough: float
 ) -> float:
-    """Return the clearance of a point, measured to every obstacle.
-
-    It is negative inside, and at most ``enough``, in [m].
-    """
+    """Return the clearance [m] of a point, at most ``enough``."""
     nearest = enough
     for k in range(packed.circles.shape[0]):
         nearest = hull_clearance(packed, k, x, y, nearest)

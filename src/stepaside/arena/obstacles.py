@@ -25,13 +25,9 @@ Flags = NDArray[np.bool_]
 
 @dataclass(frozen=True)
 class Obstacle(ABC):
-    """Convex shape on the floor: the hull of points, grown by a radius.
+    """Convex shape on the floor: the hull of points, grown by a radius."""
 
-    Attributes:
-        kind: "disc", "box" or "polygon".
-    """
-
-    kind: ClassVar[str]
+    kind: ClassVar[str]  # "disc", "box" or "polygon"
 
     @property
     @abstractmethod
@@ -76,23 +72,11 @@ class Obstacle(ABC):
 class ObstacleSet:
     """Obstacles in one frame, with vectorised distance queries.
 
-    Iteration yields the obstacles.
-
-    Attributes:
-        shapes: The obstacles.
-        radii: Radius by which each is rounded, in [m]. Shape (obstacles,).
-        firsts: Index of the first edge of each. Shape (obstacles,).
-        hull_of_edge: Index of the obstacle of each edge. Shape (edges,).
-        points: Start of each edge, in [m]. Shape (edges, 2).
-        edges: Vector to its end, in [m]. A single point has one edge of zero
-            length, whose half plane is empty. Shape (edges, 2).
-        normals: Outward unit normals of the edges. Shape (edges, 2).
-        offsets: Inside an obstacle is ``normals @ p <= offsets``, in [m].
-            Shape (edges,).
+    Edges are those of all hulls: ``normals @ p <= offsets`` inside, in [m]. A
+    single point has one edge of zero length, whose half plane is empty.
     """
 
     def __init__(self, shapes: Iterable[Obstacle] = ()) -> None:
-        """Concatenate the edges of the obstacles."""
         self.shapes = tuple(shapes)
         parts = [shape.points for shape in self.shapes]
         counts = np.array([len(points) for points in parts], dtype=np.int64)
@@ -114,23 +98,18 @@ class ObstacleSet:
         )
 
     def __len__(self) -> int:
-        """Return the number of obstacles."""
         return len(self.shapes)
 
     def __iter__(self) -> Iterator[Obstacle]:
-        """Iterate over the obstacles."""
         return iter(self.shapes)
 
     def __eq__(self, other: object) -> bool:
-        """Return whether both hold equal obstacles in the same order."""
         return isinstance(other, ObstacleSet) and self.shapes == other.shapes
 
     def __hash__(self) -> int:
-        """Return the hash of the obstacles."""
         return hash(self.shapes)
 
     def __repr__(self) -> str:
-        """Return the obstacles as text."""
         return f"ObstacleSet({self.shapes})"
 
     @cached_property
@@ -154,30 +133,23 @@ class ObstacleSet:
         return PackedObstacles(circles, np.cumsum([0, *sizes]), edges[sides])
 
     def clearances(self, points: ArrayLike) -> Array:
-        """Return the signed distances of points (n, 2) from each, in [m].
-
-        Negative inside. Shape (n, obstacles).
-        """
+        """Return signed distances [m] of points from each, (n, obstacles)."""
         queries = _rows(points)
         signed = np.empty((len(queries), len(self)))
         measure_points(self.packed, queries, signed)
         return signed
 
     def clearance(self, points: ArrayLike) -> Array:
-        """Return the signed distances of points from the nearest, in [m].
-
-        They are inf without obstacles. Shape (n,).
-        """
+        """Return signed distances [m] of points from the nearest, or inf."""
         queries = _rows(points)
         least = np.empty(len(queries))
         measure_nearest(self.packed, queries, least)
         return least
 
     def directions_out(self, points: ArrayLike) -> Array:
-        """Return the gradients of the signed distances from each obstacle.
+        """Return unit vectors away from each obstacle, (n, obstacles, 2).
 
-        They are unit vectors away from each; zero at the centre of a disc.
-        Shape (n, obstacles, 2).
+        They are zero at the centre of a disc.
         """
         queries = _rows(points)
         heights = queries @ self.normals.T - self.offsets
@@ -200,9 +172,9 @@ class ObstacleSet:
         return directions
 
     def segments_intersect(self, starts: ArrayLike, ends: ArrayLike) -> Flags:
-        """Return whether line segments touch each. Shape (n, obstacles).
+        """Return whether line segments touch each, (n, obstacles).
 
-        Starts may be one for all. Shapes (n, 2), or (1, 2), and (n, 2).
+        Starts (n, 2) may be one for all, (1, 2).
         """
         hit: Flags = self._from_segments(starts, ends, self.radii * 0.0) <= 0.0
         return hit
@@ -210,11 +182,7 @@ class ObstacleSet:
     def segments_keep_clear(
         self, allowed: Array, starts: ArrayLike, ends: ArrayLike
     ) -> Flags:
-        """Return whether line segments keep a distance from every obstacle.
-
-        The distance from each is in [m], shape (obstacles,); segments are
-        given as in :meth:`segments_intersect`. Shape (n,).
-        """
+        """Return whether segments keep a distance [m] from every obstacle."""
         clear: Flags = self._from_segments(starts, ends, allowed) >= allowed
         return np.asarray(clear.all(axis=1))
 
@@ -229,22 +197,12 @@ class ObstacleSet:
         return found
 
     def swept_clearances(self, corners: Array) -> Array:
-        """Return lower bounds of the clearance of a moving outline.
+        """Return lower bounds [m] of the clearance of a moving outline.
 
-        The separation of two convex sets along any direction is a lower bound
-        of their distance, and equals it along the best direction. So the
-        largest separation over a finite set of directions is conservative.
-
-        Args:
-            corners: Corners of the outline at successive instants, between
-                which they move along straight lines, in [m]. Shape
-                (instants, corners, 2).
-
-        Returns:
-            Lower bounds of the distance between the hull of two successive
-            outlines and the nearest hull of this set, in [m]; not positive
-            if they may touch, inf without hulls. Shape (instants - 1,), or
-            (1,) for one instant.
+        Corners (instants, corners, 2) move along straight lines. The
+        separation of two convex sets along any direction is a lower bound
+        of their distance, and equals it along the best direction. Shape
+        (instants - 1,), or (1,) for one instant.
         """
         if not len(self):
             return np.full(max(1, len(corners) - 1), inf)
@@ -258,10 +216,7 @@ class ObstacleSet:
 
     @cached_property
     def _separations(self) -> tuple[Array, Array]:
-        """Return directions, and the least coordinate of each hull along them.
-
-        Shapes (2, directions) and (hulls, directions), the latter in [m].
-        """
+        """Directions (2, n), and the least coordinate [m] of each hull."""
         angles = np.arange(DIRECTION_COUNT) * (tau / DIRECTION_COUNT)
         even = np.stack([np.cos(angles), np.sin(angles)], axis=-1)
         # The distance from a long wall is exact only along its own normals.

@@ -42,7 +42,6 @@ class Door:
     )
 
     def __post_init__(self) -> None:
-        """Validate side, position and width."""
         check_settings(self, prefix="door ")
 
 
@@ -55,7 +54,6 @@ class InitialPose:
     theta: float = setting(0.0, "Heading", BEARING)
 
     def __post_init__(self) -> None:
-        """Validate the ranges."""
         check_settings(self, prefix="start ")
 
     @property
@@ -93,7 +91,6 @@ class Room:
     )
 
     def __post_init__(self) -> None:
-        """Validate sizes, doors, obstacles and initial poses."""
         if (self.width is None) != (self.depth is None):
             raise ERROR("a room must have both width and depth, or neither")
         check_settings(self, prefix="room ")
@@ -175,10 +172,7 @@ class Room:
         return (*self.obstacles, *self.walls)
 
     def solids_at(self, time: float, ahead: float = 0.0) -> Solids:
-        """Return the solids and the floor that moving boxes cover for a time.
-
-        The interval begins at a time and lasts ``ahead``, in [s].
-        """
+        """Return the solids, and the floor that boxes cover for a time [s]."""
         end = time + ahead
         return (*self.solids, *(b.swept(time, end) for b in self.moving))
 
@@ -190,10 +184,9 @@ class Room:
         return inside
 
     def clearance(self, points: ArrayLike) -> Array:
-        """Return the signed distances of points to the nearest solid, in [m].
+        """Return signed distances [m] of points (n, 2) to the nearest solid.
 
-        They are negative inside a solid and beyond the walls of a closed room,
-        inf on an empty floor without walls. Shape (n,).
+        They are negative beyond the walls of a closed room, and may be inf.
         """
         queries = np.asarray(points, dtype=np.float64)
         shapes = self._obstacle_set if self.is_closed else self.solid_set

@@ -33,7 +33,6 @@ class RoomEntries:
     moving: tuple[MovingBox, ...] = setting((), "Moving boxes", count=COUNT)
 
     def __post_init__(self) -> None:
-        """Check that there are initial poses of both players, or none."""
         check_settings(self)
         if (self.pursuer is None) != (self.evader is None):
             missing = "evader" if self.evader is None else "pursuer"

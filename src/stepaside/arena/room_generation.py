@@ -58,7 +58,6 @@ class RoomRecipe:
     )
 
     def __post_init__(self) -> None:
-        """Validate sizes and numbers."""
         check_settings(self)
         Room(self.width, self.depth)
         least = self.smallest
@@ -73,12 +72,7 @@ class RoomRecipe:
 
 
 def generate_room(recipe: RoomRecipe, seed: int) -> Room:
-    """Draw a random room with initial poses.
-
-    Obstacles do not overlap. Initial distance and headings are drawn as in
-    a duel; the line of sight is free, and a path leads from one player to
-    the other.
-    """
+    """Draw a random room of obstacles that do not overlap, with poses."""
     random = named_generator(seed, "room")
     doors: list[Door] = []
     for _ in range(recipe.doors):
@@ -118,8 +112,7 @@ def draw_initial_poses(
 
     They are 0.6 m to 1.5 m apart, the pursuer within 90 degrees of facing
     the evader, the evader within 30 degrees of facing the pursuer, with a
-    free line of sight. Their clearance is at least 16 cm, the radius of
-    the tightest turn by (2), more than the radius of a body.
+    free line of sight, a path, and clearance for the tightest turn by (2).
     """
     random = named_generator(seed, "room starts")
     half = 0.5 * np.array([room.width or 0.0, room.depth or 0.0])
@@ -153,10 +146,7 @@ def draw_initial_poses(
 
 
 def draw_any_start(seed: int) -> tuple[Pose, Pose]:
-    """Draw initial poses on an open floor, 0.6 to 1.5 m apart.
-
-    The pursuer is at the origin; both have any headings.
-    """
+    """Draw poses of any headings on an open floor, 0.6 to 1.5 m apart."""
     random = named_generator(seed, "any start")
     apart = random.uniform(NEAREST, FARTHEST)
     chase, flight = random.uniform(-pi, pi, 2).tolist()

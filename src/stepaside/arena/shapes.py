@@ -37,7 +37,6 @@ class Disc(Obstacle):
     kind: ClassVar[str] = "disc"
 
     def __post_init__(self) -> None:
-        """Validate centre and radius."""
         check_settings(self, prefix="disc ")
 
     @cached_property
@@ -66,10 +65,7 @@ class Disc(Obstacle):
 
 @dataclass(frozen=True)
 class Polygon(Obstacle):
-    """Convex polygonal obstacle: a table.
-
-    Its corners are stored counter-clockwise.
-    """
+    """Convex obstacle, with corners stored counter-clockwise: a table."""
 
     corners: tuple[Point, ...] = setting(
         REQUIRED,
@@ -82,7 +78,6 @@ class Polygon(Obstacle):
     kind: ClassVar[str] = "polygon"
 
     def __post_init__(self) -> None:
-        """Validate that the polygon is simple, convex and not degenerate."""
         check_settings(self, prefix="polygon ")
         object.__setattr__(self, "corners", check_convex(self.corners))
 
@@ -110,7 +105,6 @@ class Box(Obstacle):
     kind: ClassVar[str] = "box"
 
     def __post_init__(self) -> None:
-        """Validate centre, sides, heading and corners."""
         check_settings(self, prefix="box ")
         for value in self.points.ravel().tolist():
             COORDINATE.check(value, "box corner")
@@ -143,7 +137,6 @@ class CentreLine:
     thickness: float = setting(WALL, "Thickness", SIDE)
 
     def __post_init__(self) -> None:
-        """Validate ends, thickness and length."""
         check_settings(self, prefix="wall ")
         SIDE.check(self.length, "wall length")
 

@@ -23,24 +23,11 @@ def first_waypoint(
 ) -> Point:
     """Return the first waypoint of the shortest path of a disc to a point.
 
-    Paths consist of straight edges between corners, which pass each solid at
-    a distance of the radius plus 1 cm and turn by at most 22.5 degrees.
-    The corners form a visibility graph, which is searched by A* with the
-    straight distance to the goal. Only edges that could shorten the path are
-    tested for obstacles.
-
-    Args:
-        solids: Obstacles and walls.
-        start: Position (x, y) of the disc, in [m].
-        end: Goal (x, y), in [m].
-        radius: Radius of the disc, in [m]; a solid nearer than that to start
-            or end may be passed at that smaller distance.
-        side: Preferred side of the line to the goal, left (1), right (-1) or
-            none (0); the other side is taken if it is 0.4 m shorter.
-
-    Returns:
-        The goal if the straight line is free, or if there is no path; else
-        the first corner of the shortest path.
+    Edges between corners pass each solid at the radius plus 1 cm, or nearer if
+    start or end is. Corners form a visibility graph, searched by A*; only
+    edges that could shorten the path are tested. Of both ways around, the side
+    (left 1, right -1) is taken unless the other is 0.4 m shorter. The result
+    is the goal if the straight line is free, or if there is no path.
     """
     ends = np.array([start, end])
     clear = solids.clearances(ends).min(axis=0)
@@ -89,11 +76,10 @@ def first_waypoint(
 
 @lru_cache(maxsize=16)
 def path_corners(solids: ObstacleSet, radius: float) -> Array:
-    """Return the corners of paths of a disc that keep clear of all solids.
+    """Return the corners (n, 2) of paths of a disc that keep clear of all.
 
     Each corner of a solid is passed along a polygonal chain around the arc
-    from the normal of one edge to that of the next, at a distance of the
-    radius plus 1 cm. Shape (n, 2).
+    from the normal of one edge to that of the next.
     """
     after = np.arctan2(solids.normals[:, 1], solids.normals[:, 0])
     before = np.arange(len(after)) - 1

@@ -24,9 +24,8 @@ def attitude_step(
 ) -> None:
     """Update direction, bias, rate and turn; see :class:`AttitudeFilter`.
 
-    ``acceleration`` is the known one along the heading and to the left;
-    ``gains`` are the time step, the gain of the correction, and that of the
-    bias.
+    The known acceleration is along the heading and to the left; ``gains`` are
+    the time step and the gains of direction and bias.
     """
     x, y, z = up[0], up[1], up[2]
     p, q = gyro[0] - bias[0], gyro[1] - bias[1]
@@ -61,19 +60,10 @@ class AttitudeFilter:
     The direction :math:`u` turns by the gyro, and towards the specific force
     :math:`f`, less a known acceleration, by :math:`k \, (f \times u) / g`.
     The cross product leaves out the component of the acceleration along
-    :math:`u`, so that vertical impacts that coincide with a swing of the torso
-    do not tilt the estimate. The bias of the gyro follows from the same error,
-    except about the axis near the vertical, where gravity shows none.
-
-    The heading turns by the rate of the yaw angle, not by that about the axis
-    of the torso: of a torso that rolls and pitches in step they differ in the
-    mean.
-
-    Attributes:
-        up: Upward unit vector in the torso frame. Shape (3,).
-        turning: Rate of the heading, in [rad/s]. Shape (1,).
-        gains: Gains of the corrections of direction, in [1/s], and of the
-            bias, in [1/s^2].
+    :math:`u`: vertical impacts in step with a swing of the torso do not tilt
+    the estimate. The bias follows from the same error, except near the
+    vertical. The heading turns by the rate of the yaw angle, which differs in
+    the mean from that about the axis of a torso that rolls and pitches.
     """
 
     def __init__(
@@ -83,13 +73,10 @@ class AttitudeFilter:
         *,
         calibration: float = CALIBRATION,
     ) -> None:
-        """Start uncalibrated, for a robot that stands still.
+        """Start uncalibrated, with gains of direction [1/s] and bias [1/s^2].
 
-        Args:
-            correction: Gain of the direction, in [1/s].
-            bias_correction: Gain of the bias, in [1/s^2].
-            calibration: Standing time to estimate the bias, in [s]; 0 for a
-                robot that starts upright and moves at once.
+        The robot stands still for the calibration [s]; one with 0 starts
+        upright and moves at once.
         """
         self._calibration = calibration
         self.gains = correction, bias_correction
@@ -150,16 +137,10 @@ class AttitudeFilter:
         acceleration: tuple[float, float],
         duration: float,
     ) -> None:
-        """Update the direction with one reading of the IMU.
+        """Update with a reading of the IMU.
 
-        Args:
-            gyro: Angular velocity in the torso frame, in [rad/s]; NaN about
-                the vertical from a gyro with two axes. Shape (3,).
-            specific_force: Accelerometer in the torso frame, in [m/s^2].
-                Shape (3,).
-            acceleration: Known acceleration of the torso along its heading
-                and to its left, in [m/s^2].
-            duration: Time since the last reading, in [s].
+        The rate about the vertical is NaN from a gyro with two axes; the
+        known acceleration [m/s^2] is along the heading and to its left.
         """
         if not self.ready:
             self._calibrate(gyro, specific_force, duration)

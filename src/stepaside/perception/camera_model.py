@@ -13,35 +13,18 @@ from ..core.poses import Array
 
 @dataclass(frozen=True, slots=True)
 class CameraModel:
-    """Pinhole camera whose frame has x forward, y left and z up.
+    """Pinhole camera whose frame has x forward, y left and z up."""
 
-    Attributes:
-        width: Image width, in [pixels].
-        height: Image height, in [pixels].
-        focal_x: Horizontal focal length, in [pixels].
-        focal_y: Vertical focal length, in [pixels].
-    """
-
-    width: int
-    height: int
-    focal_x: float
-    focal_y: float
+    width: int  # [pixels]
+    height: int  # [pixels]
+    focal_x: float  # horizontal focal length [pixels]
+    focal_y: float  # vertical focal length [pixels]
 
     @classmethod
     def of_field_of_view(
         cls, width: int, height: int, horizontal: float, vertical: float
     ) -> "CameraModel":
-        """Return the camera with a given field of view.
-
-        Args:
-            width: Image width, in [pixels].
-            height: Image height, in [pixels].
-            horizontal: Horizontal field of view, in [rad].
-            vertical: Vertical field of view, in [rad].
-
-        Raises:
-            ConfigurationError: If a value is out of range.
-        """
+        """Return the camera with a size [pixels] and fields of view [rad]."""
         error = ConfigurationError
         for name, size in (("width", width), ("height", height)):
             check_within(size, 8, 4096, name, "pixels", error)
@@ -62,7 +45,7 @@ class CameraModel:
         """Matrix from camera axes to pixels, as ROS and OpenCV have it.
 
         Axes are right, down and ahead; pixel centres are at whole numbers,
-        while those of this class are at halves. Shape (3, 3).
+        while those of this class are at halves.
         """
         return np.array(
             [
@@ -73,12 +56,7 @@ class CameraModel:
         )
 
     def ray(self, u: float, v: float) -> Array:
-        """Return the ray of a pixel in the camera frame, x = 1. Shape (3,).
-
-        Args:
-            u: Column from the left edge, in [pixels].
-            v: Row from the upper edge, in [pixels].
-        """
+        """Return the ray of a column and a row in the camera frame, x = 1."""
         return np.array(
             [
                 1.0,
@@ -92,14 +70,7 @@ class CameraModel:
         return _rays(self)
 
     def project(self, points: ArrayLike) -> Array:
-        """Project points to pixels; NaN for points behind the camera.
-
-        Args:
-            points: Points in the camera frame, in [m]. Shape (n, 3).
-
-        Returns:
-            Columns and rows, in [pixels]. Shape (n, 2).
-        """
+        """Return columns and rows of points; NaN for points behind it."""
         x, y, z = np.atleast_2d(np.asarray(points, dtype=float)).T
         x = np.where(x > 1e-9, x, np.nan)
         return np.column_stack(

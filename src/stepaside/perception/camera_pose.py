@@ -12,17 +12,11 @@ from .camera_model import CameraModel
 
 
 class CameraPose(NamedTuple):
-    """Pose of a camera, and position of the robot that carries it.
+    """Pose of a camera, and position of the robot that carries it."""
 
-    Attributes:
-        position_in_odometry: Position of the camera, in [m]. Shape (3,).
-        axes_in_odometry: Its axes (forward, left, up) as columns.
-            Shape (3, 3).
-        position_torso_in_odometry: Position (x, y) of the torso, in [m].
-    """
-
-    position_in_odometry: Array
-    axes_in_odometry: Array
+    position_in_odometry: Array  # position of the camera [m], (3,)
+    axes_in_odometry: Array  # its axes (forward, left, up) as columns, (3, 3)
+    # position (x, y) of the torso [m]
     position_torso_in_odometry: tuple[float, float]
 
     @property
@@ -36,18 +30,12 @@ class CameraPose(NamedTuple):
         return found
 
     def rays(self, camera: CameraModel) -> Array:
-        """Return rays of unit depth of all pixels in odometry.
-
-        Shape (height, width, 3).
-        """
+        """Return rays of unit depth of all pixels, (height, width, 3)."""
         found: Array = camera.rays() @ self.axes_in_odometry.T
         return found
 
     def distances(self, points_in_odometry: Array) -> Array:
-        """Return the horizontal distances of points from the torso, in [m].
-
-        Shape (..., 2 or 3) to (...).
-        """
+        """Return the horizontal distances [m] of points (..., 2 or 3)."""
         x, y = self.position_torso_in_odometry
         found: Array = np.hypot(
             points_in_odometry[..., 0] - x, points_in_odometry[..., 1] - y

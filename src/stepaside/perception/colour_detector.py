@@ -34,23 +34,14 @@ EAR_HEIGHT = 0.3
 
 @dataclass(frozen=True, slots=True)
 class Appearance:
-    """Colour and height of a robot's trim.
+    """Colour and height of a robot's trim."""
 
-    Attributes:
-        hue: Hue, 0 to 180 as in OpenCV.
-        width: Tolerance of the hue.
-        saturation: Minimum saturation, of 255.
-        value: Minimum brightness, of 255.
-        top: Height of the upper end of all trim, in [m].
-        bottom: Height of the lower end, in [m].
-    """
-
-    hue: int
-    width: int
-    saturation: int
-    value: int
-    top: float = 0.54
-    bottom: float = 0.06
+    hue: int  # hue, 0 to 180 as in OpenCV
+    width: int  # tolerance of the hue
+    saturation: int  # minimum saturation, of 255
+    value: int  # minimum brightness, of 255
+    top: float = 0.54  # height of the upper end of all trim [m]
+    bottom: float = 0.06  # height of the lower end [m]
 
 
 RED = Appearance(hue=0, width=9, saturation=110, value=45)
@@ -59,29 +50,17 @@ BLUE = Appearance(hue=108, width=8, saturation=125, value=45)
 
 @dataclass(frozen=True, slots=True)
 class ColourDetection:
-    """Robot in an image; columns and rows from the upper left corner.
+    """Robot in an image; columns and rows from the upper left corner."""
 
-    Attributes:
-        column: Column of its vertical axis.
-        top: Row of the upper end of its trim.
-        bottom: Row of the lower end.
-        left: Column of the left end.
-        right: Column of the right end.
-        confidence: Fraction of its usual number of patches, 0 to 1.
-        cut_above: Whether the upper image edge cuts it.
-        cut_below: Whether the lower image edge cuts it.
-        cut_aside: Whether the left or right image edge cuts it.
-    """
-
-    column: float
-    top: float
-    bottom: float
-    left: float
-    right: float
-    confidence: float
-    cut_above: bool
-    cut_below: bool
-    cut_aside: bool
+    column: float  # column of its vertical axis
+    top: float  # row of the upper end of its trim
+    bottom: float  # row of the lower end
+    left: float  # column of the left end
+    right: float  # column of the right end
+    confidence: float  # fraction of its usual number of patches, 0 to 1
+    cut_above: bool  # whether the upper image edge cuts it
+    cut_below: bool  # whether the lower image edge cuts it
+    cut_aside: bool  # whether the left or right image edge cuts it
 
 
 class ColourDetector:
@@ -93,7 +72,6 @@ class ColourDetector:
     """
 
     def __init__(self, appearance: Appearance) -> None:
-        """Set the appearance to detect."""
         self.appearance = appearance
 
     def detect_all(
@@ -114,10 +92,7 @@ class ColourDetector:
         return [self._with_ears(own, hsv, least) for own in fitting[:most]]
 
     def mask(self, hsv: Pixels, saturation_factor: float = 1.0) -> Mask:
-        """Return a mask of the pixels with the trim's colour: 255, else 0.
-
-        The image is of :func:`smoothed_hsv`.
-        """
+        """Return 255 where a `smoothed_hsv` image has the trim's colour."""
         appearance = self.appearance
         low = appearance.hue - appearance.width
         high = appearance.hue + appearance.width
@@ -132,10 +107,7 @@ class ColourDetector:
     def _with_ears(
         self, found: ColourDetection, hsv: Pixels, least: float
     ) -> ColourDetection:
-        """Extend a detection to ears, whose narrow patches are less saturated.
-
-        ``least`` is the minimum area of a patch, in [pixels].
-        """
+        """Extend a detection to ears: narrow, less saturated patches."""
         if found.cut_above:
             return found
         height = found.bottom - found.top

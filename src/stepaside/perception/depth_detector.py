@@ -26,9 +26,8 @@ def segment_depth(
 ) -> list[NDArray[np.bool_]]:
     """Segment pixels at steps of the depth; return masks of components.
 
-    A hole of up to two pixels without return does not split a component: it
-    is filled with the nearest depth beside it, so that it joins no component
-    to one behind.
+    A hole of up to two pixels is filled with the nearest depth beside it: it
+    splits no component, and joins none to one behind.
     """
     block = np.ones((3, 3), np.uint8)
     closed = cv2.morphologyEx(solid.astype(np.uint8), cv2.MORPH_CLOSE, block)
@@ -76,30 +75,18 @@ MIN_SLOPE = 0.15
 
 @dataclass(frozen=True, slots=True)
 class DetectedObstacle:
-    """Obstacle in a depth image, neither floor nor the robot itself.
+    """Obstacle in a depth image, neither floor nor the robot itself."""
 
-    Attributes:
-        x_in_odometry: Estimated x of its vertical axis, in [m].
-        y_in_odometry: Estimated y of its vertical axis, in [m].
-        nearest: Distance from the camera to its nearest part, in [m].
-        bearing: Direction of its middle from the camera, in odometry, in
-            [rad].
-        azimuth: The same from the camera axis, positive leftward, in [rad].
-        width: Width, in [m].
-        height: Height of its upper end above the floor, in [m].
-        whole: Whether the image edges cut neither side.
-        rises: Whether the upper image edge cuts it.
-    """
-
-    x_in_odometry: float
-    y_in_odometry: float
-    nearest: float
+    x_in_odometry: float  # estimated x of its vertical axis [m]
+    y_in_odometry: float  # estimated y of its vertical axis [m]
+    nearest: float  # distance from the camera to its nearest part [m]
+    # direction of its middle from the camera, in odometry [rad]
     bearing: float
-    azimuth: float
-    width: float
-    height: float
-    whole: bool
-    rises: bool = False
+    azimuth: float  # the same from the camera axis, positive leftward [rad]
+    width: float  # [m]
+    height: float  # height of its upper end above the floor [m]
+    whole: bool  # whether the image edges cut neither side
+    rises: bool = False  # whether the upper image edge cuts it
 
     @property
     def position(self) -> tuple[float, float]:
@@ -108,20 +95,14 @@ class DetectedObstacle:
 
 
 class Shadow(NamedTuple):
-    """Object too near to be measured, which hides the floor.
+    """Object too near to be measured, which hides the floor."""
 
-    Attributes:
-        low: Azimuth of its right end from the camera axis, in [rad].
-        high: Azimuth of its left end, in [rad].
-        nearest: Distance of the nearest part that was measured all the same,
-            in [m]; None if there is none.
-        whole: Whether the image edges cut neither side.
-    """
-
-    low: float
-    high: float
+    low: float  # azimuth of its right end from the camera axis [rad]
+    high: float  # azimuth of its left end [rad]
+    # distance of the nearest part that was measured all the same [m]; None if
+    # there is none
     nearest: float | None = None
-    whole: bool = True
+    whole: bool = True  # whether the image edges cut neither side
 
     @property
     def azimuth(self) -> float:
@@ -136,27 +117,16 @@ class Shadow(NamedTuple):
 
 @dataclass(frozen=True, slots=True)
 class DepthScene:
-    """Obstacles and shadows of one depth image.
+    """Obstacles and shadows of one depth image."""
 
-    Attributes:
-        obstacles: Obstacles, nearest first.
-        shadows: Shadows, widest first.
-    """
-
-    obstacles: tuple[DetectedObstacle, ...]
-    shadows: tuple[Shadow, ...]
+    obstacles: tuple[DetectedObstacle, ...]  # obstacles, nearest first
+    shadows: tuple[Shadow, ...]  # shadows, widest first
 
 
 def detect_obstacles(
     image: DepthImage, camera: CameraPose, size: BodySize = NAO_SIZE
 ) -> DepthScene:
-    """Detect obstacles: remove floor and own body, segment the rest.
-
-    Args:
-        image: Depth image.
-        camera: Pose of the camera at its exposure.
-        size: Measures of the own robot.
-    """
+    """Detect obstacles: remove floor and own body, segment the rest."""
     rays = camera.rays(image.camera)
     no_return = _shadows(image, camera, rays)
     whole: list[DetectedObstacle] = []
@@ -219,10 +189,7 @@ def _join_shadows(parts: list[Shadow]) -> tuple[Shadow, ...]:
 
 
 def join_legs(obstacles: list[DetectedObstacle]) -> list[DetectedObstacle]:
-    """Join two legs of a person whose hips are above the image.
-
-    They are narrow, close to each other, and cut by the upper image edge.
-    """
+    """Join two narrow legs of a person whose hips are above the image."""
     remaining, joined = list(obstacles), []
     while remaining:
         leg = remaining.pop(0)
@@ -266,10 +233,7 @@ def _person_between(
 def _measure(
     points: Array, part: NDArray[np.bool_], camera: CameraPose
 ) -> DetectedObstacle:
-    """Return the obstacle of a component, by its points and its pixels.
-
-    Shapes (n, 3) and (height, width).
-    """
+    """Return the obstacle of a component, by points (n, 3) and pixels."""
     eye, heading = camera.position_in_odometry, camera.heading_in_odometry
     dx, dy = points[:, 0] - eye[0], points[:, 1] - eye[1]
     azimuths = wrap_angles(np.arctan2(dy, dx) - heading)

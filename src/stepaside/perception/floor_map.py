@@ -49,21 +49,14 @@ class FloorMap:
     """Occupancy grid with occupied, free and unknown cells, in odometry.
 
     A ray of a depth image adds evidence to the cell where it hits an
-    obstacle, and subtracts evidence from cells that it passes, so that cells
-    which an obstacle has left become free when observed again. The opponent,
-    which keeps moving, is left out; hits on it before it was recognised are
-    erased. The floor around the start is free, so that the robot can turn.
-
-    Floor nearer than the range of the depth camera, or out of its view,
-    stays unknown until a ray passes over it: an obstacle also keeps the floor
-    in front of it unknown.
-
-    Attributes:
-        version: Number of changes.
+    obstacle, and subtracts evidence from cells that it passes: cells that an
+    obstacle has left become free when observed again. The opponent is left
+    out; hits on it before it was recognised are erased. The floor around the
+    start is free. Floor nearer than the range of the camera, or out of its
+    view, stays unknown until a ray passes over it.
     """
 
     def __init__(self) -> None:
-        """Start with all cells unknown."""
         self._evidence = np.zeros((SIDE, SIDE))
         self._known = np.zeros((SIDE, SIDE), dtype=np.bool_)
         self._recognised = False
@@ -76,15 +69,7 @@ class FloorMap:
         position_opponent_in_odometry: tuple[float, float] | None,
         size: BodySize = NAO_SIZE,
     ) -> None:
-        """Add a depth image.
-
-        Args:
-            image: The image.
-            camera: Pose of the camera at its exposure.
-            position_opponent_in_odometry: Position of the opponent, in [m];
-                None if it is not tracked.
-            size: Measures of the own robot.
-        """
+        """Add a depth image; the opponent is None if it is not tracked."""
         depths = image.depths.astype(np.float64)
         points = camera.position_in_odometry + depths[..., None] * (
             camera.rays(image.camera)
@@ -216,22 +201,14 @@ class FloorMap:
     def distance_in_cone(
         self, x: float, y: float, facing: float, half: float
     ) -> float:
-        """Return the distance to the nearest occupied cell in a cone.
-
-        The cone has an apex in odometry, a direction and half an opening
-        angle. The distance is infinite if there is none.
-        """
+        """Return the distance [m] to the nearest occupied cell in a cone."""
         distances = self.occupied_cells() - (x, y)
         aside = np.arctan2(distances[:, 1], distances[:, 0]) - facing
         inside = np.abs(wrap_angles(aside)) < half
         return float(np.hypot(*distances[inside].T).min(initial=inf))
 
     def unknown(self, position: tuple[float, float]) -> tuple[Polygon, ...]:
-        """Return the unknown floor near a position as polygons in odometry.
-
-        Args:
-            position: Own position in odometry, in [m].
-        """
+        """Return the unknown floor near a position as polygons in odometry."""
         first = self._cells(np.array([position]))[0] - WINDOW
         first = np.clip(first, 0, SIDE - 2 * WINDOW)
         window = tuple(slice(i, i + 2 * WINDOW) for i in first.tolist())

@@ -30,42 +30,23 @@ MAX_DURATION = 10.0  # of a scan, in [s]
 
 
 class GazeTarget(NamedTuple):
-    """Target of the gaze.
+    """Target of the gaze."""
 
-    Attributes:
-        bearing: Direction from the heading of the torso, in [rad].
-        distance: Distance from the torso, in [m].
-        height: Observed height, in [m].
-        camera_height: Height of the own camera, in [m].
-    """
-
-    bearing: float
-    distance: float
-    height: float
-    camera_height: float
+    bearing: float  # direction from the heading of the torso [rad]
+    distance: float  # distance from the torso [m]
+    height: float  # observed height [m]
+    camera_height: float  # height of the own camera [m]
 
 
 class Gaze:
-    """Head motion at a limited speed within the joint ranges.
-
-    Attributes:
-        yaw: Target of the head yaw, in [rad].
-        pitch: Target of the head pitch, in [rad].
-        searching: Whether the head scans.
-        scan_ends: Number of times that a scan has reached one of its ends.
-        reach: Greatest yaw to either side, in [rad].
-    """
+    """Head motion at a limited speed within the joint ranges."""
 
     def __init__(
         self, coupling: Array, tick: float, robot_height: float
     ) -> None:
         """Start straight ahead at the pitch of a scan.
 
-        Args:
-            coupling: Rows of yaw, minimum and maximum pitch, in [rad]. Shape
-                (3, n).
-            tick: Control period, in [s].
-            robot_height: Height of a robot that it looks at, in [m].
+        The coupling has rows of yaw, least and greatest pitch, [rad].
         """
         self._robot_height = robot_height
         self._yaws, self._low, self._high = coupling.tolist()
@@ -130,7 +111,6 @@ class Glances:
     """Periodic glances over alternate shoulders while following a target."""
 
     def __init__(self, tick: float, every: float = OFTEN) -> None:
-        """Start with a full interval, in [s], before the first glance."""
         self._interval = round(every / tick)
         self._glance_ticks = round(GLANCE_DURATION / tick)
         self._ticks, self._side = 0, 1.0
@@ -162,13 +142,9 @@ class RoomScan:
     side of the scan, and holds the head at the second end until the floor
     behind is visible or half of the time has passed. It then turns back to
     its first heading, from which the game begins.
-
-    Attributes:
-        turning: Requested turn on the spot: 1 left, -1 right, 0 none.
     """
 
     def __init__(self, *, behind: bool) -> None:
-        """Prepare a scan, also behind the body if asked."""
         self._behind = behind
         self.turning = 0.0
         self._start: tuple[float, float] | None = None
@@ -211,14 +187,7 @@ class HeadControl(Gaze):
     ) -> None:
         """Start as a :class:`Gaze`.
 
-        Args:
-            coupling: As of :class:`Gaze`.
-            tick: Likewise.
-            robot_height: Likewise.
-            glances: Glances aside of a target, if any.
-            scan: Scan of the room before the game, if any.
-            awaits_start: Whether a signal starts the game; otherwise it
-                begins with the end of the scan.
+        A signal starts the game if awaited; else the end of the scan does.
         """
         super().__init__(coupling, tick, robot_height)
         self._glances, self._scan = glances, scan
@@ -246,10 +215,7 @@ class HeadControl(Gaze):
     def move(
         self, now: float, heading: float, target: GazeTarget | None
     ) -> None:
-        """Move the head by one tick; without a target it searches.
-
-        ``heading`` is that of the torso in odometry, in [rad].
-        """
+        """Move the head by one tick; without a target it searches."""
         if self.scans and self._scan is not None:
             self._scan.look(self, now, heading)
         elif self.scans or target is None:

@@ -14,68 +14,43 @@ Depths = NDArray[np.float32]
 
 @dataclass(frozen=True, slots=True, eq=False)
 class ColourImage:
-    """Colour image.
+    """Colour image."""
 
-    Attributes:
-        time: Middle of its exposure, in [s].
-        camera: Camera that took it.
-        pixels: Red, green and blue. Shape (height, width, 3).
-    """
-
-    time: float
-    camera: CameraModel
-    pixels: Pixels
+    time: float  # middle of its exposure [s]
+    camera: CameraModel  # camera that took it
+    pixels: Pixels  # red, green and blue, (height, width, 3)
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class DepthImage:
-    """Depth image.
+    """Depth image."""
 
-    Attributes:
-        time: Middle of its exposure, in [s].
-        camera: Camera that took it.
-        depths: Depth along the camera axis, in [m]; 0 without return. Shape
-            (height, width).
-        near: Lower limit of the range, in [m].
-        far: Upper limit of the range, in [m].
-        number: Number of the camera among the depth cameras of the robot.
-    """
-
-    time: float
-    camera: CameraModel
+    time: float  # middle of its exposure [s]
+    camera: CameraModel  # camera that took it
+    # depth along the camera axis [m]; 0 without return, (height, width)
     depths: Depths
-    near: float
-    far: float
+    near: float  # lower limit of the range [m]
+    far: float  # upper limit of the range [m]
+    # number of the camera among the depth cameras of the robot
     number: int = 0
 
 
 @dataclass(frozen=True, slots=True)
 class SonarEcho:
-    """Sonar echo, or the absence of one.
+    """Sonar echo, or the absence of one."""
 
-    Attributes:
-        time: Time of the echo, in [s].
-        sonar: Name of the sonar.
-        distance: Distance of the nearest object in its cone, in [m]; None
-            without echo.
-    """
-
-    time: float
+    time: float  # time of the echo [s]
     sonar: str
+    # distance of the nearest object in its cone [m]; None without echo
     distance: float | None
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class LidarScan:
-    """Returns of one turn of a lidar.
+    """Returns of one turn of a lidar."""
 
-    Attributes:
-        time: Middle of the turn, in [s].
-        points_in_torso: Positions of the returns in the frame of the torso,
-            in [m]. Shape (n, 3).
-    """
-
-    time: float
+    time: float  # middle of the turn [s]
+    # positions of the returns in the frame of the torso [m], (n, 3)
     points_in_torso: Array
 
 

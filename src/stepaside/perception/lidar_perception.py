@@ -31,19 +31,9 @@ HIDES = 0.3  # by which a nearer object hides a track, in [m]
 
 
 class LidarPerception:
-    """Pipeline from scans to sightings of the nearest person who walks.
-
-    Attributes:
-        tracker: Tracks of all objects.
-    """
+    """Pipeline from scans to sightings of the nearest person who walks."""
 
     def __init__(self, description: RobotDescription, far: float) -> None:
-        """Begin without tracks.
-
-        Args:
-            description: Description of the robot that carries the lidar.
-            far: Greatest range of the lidar, in [m].
-        """
         self._kinematics = ForwardKinematics(description)
         self._far = far
         self._poses: History[SpatialTorsoPose] = History(POSE_MEMORY)
@@ -57,10 +47,7 @@ class LidarPerception:
         left_supports: bool,
         tilt: tuple[float, float],
     ) -> Sighting | None:
-        """Return the sighting of the person who will be nearest, if any.
-
-        Arguments are those of :meth:`.Perception.see`.
-        """
+        """Return the sighting of the person who will be nearest, if any."""
         now = measurement.time
         posture = self._kinematics.posture(measurement.joint_positions)
         foot = 0 if left_supports else 1
@@ -125,11 +112,7 @@ class LidarPerception:
 
 
 def standing_returns(points: Array) -> Array:
-    """Return the points that are neither of the floor nor of the ceiling.
-
-    Points are with respect to the lidar in the plane, with their heights, in
-    [m]. Shapes (n, 3) and (m, 2).
-    """
+    """Return (m, 2) points that belong to neither floor nor ceiling, [m]."""
     offsets, heights = points[:, :2], points[:, 2]
     floor = FLOOR + TILT * np.hypot(offsets[:, 0], offsets[:, 1])
     standing: Array = offsets[(heights > floor) & (heights < CEILING)]
@@ -137,10 +120,7 @@ def standing_returns(points: Array) -> Array:
 
 
 def nearest_ranges(offsets: Array) -> Array:
-    """Return the range of the nearest return in each bin of bearings, in [m].
-
-    It is infinite without a return. Shapes (n, 2) and (BINS,).
-    """
+    """Return the nearest range [m] in each bin of bearings, inf if none."""
     ranges: Array = np.full(BINS, np.inf)
     bearings = np.arctan2(offsets[:, 1], offsets[:, 0])
     bins = np.floor(bearings / (2.0 * pi / BINS)).astype(int) % BINS

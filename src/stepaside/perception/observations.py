@@ -45,17 +45,8 @@ def observe_trim(
 
     The distance follows from the height of the trim when all of it is in
     view, roughly from its width when the robot is too near for that, and
-    from the track otherwise.
-
-    Args:
-        image: The image.
-        found: Detection of the trim.
-        camera: Pose of the camera at its exposure.
-        appearance: Appearance of the robot.
-        tracks: All tracks.
-        near: Whether it may be so near that an image edge hides a part
-            without cutting a patch. The middle of the visible trim is then
-            not the axis, and sway would look like a change of distance.
+    from the track otherwise. So near that an image edge may hide a part
+    without cutting a patch, the middle of the visible trim is not the axis.
     """
     middle = 0.5 * (found.top + found.bottom)
     x, y, _ = camera.ray(image.camera, found.column, middle).tolist()
@@ -140,10 +131,7 @@ def is_opponent(
     floor: FloorMap,
     position_opponent_in_odometry: tuple[float, float] | None,
 ) -> bool:
-    """Return whether an obstacle may be the opponent, and is not on the map.
-
-    The position of the opponent is predicted; None if it is not tracked.
-    """
+    """Return whether an obstacle may be the opponent, not on the map."""
     if position_opponent_in_odometry is None:
         return False
     (x, y), (u, v) = position_opponent_in_odometry, obstacle.position
@@ -161,12 +149,6 @@ def observe_shadow(
     Unless a part of it was measured, its distance lies between the smallest
     possible one and the near limit. Only the bearing is measured, so the
     distance of the track is returned with a negligible weight.
-
-    Args:
-        image: The image.
-        shadow: Shadow in it.
-        camera: Pose of the camera at its exposure.
-        tracks: All tracks.
     """
     far = image.near + SHADOW_MARGIN
     bearing = camera.heading_in_odometry + shadow.azimuth
@@ -218,20 +200,10 @@ def _distance_of_track(
 def range_of_trim(
     upper: Array, lower: Array, camera_height: float, appearance: Appearance
 ) -> float | None:
-    """Return the distance of a robot from the two ends of its trim.
+    """Return the distance [m] of a robot from level rays to its trim's ends.
 
     It follows from the difference of their slopes; the height of the camera
-    has little influence.
-
-    Args:
-        upper: Ray to the upper end in a level frame. Shape (3,).
-        lower: Ray to the lower end in a level frame. Shape (3,).
-        camera_height: Height of the camera above the floor, in [m].
-        appearance: Appearance with the heights of the ends.
-
-    Returns:
-        Horizontal distance from the camera to the axis of the robot, in [m];
-        None if it is out of range.
+    has little influence. It is None if it is out of range.
     """
     rise = upper[2] / hypot(upper[0], upper[1])
     span = rise - lower[2] / hypot(lower[0], lower[1])
@@ -251,7 +223,7 @@ def range_of_trim(
 
 
 def range_of_width(angle: float) -> float:
-    """Return a rough distance of a robot from the width of its trim, in [m].
+    """Return a rough distance [m] of a robot from the width of its trim.
 
     Trim is as wide as the shoulders from the front and half as wide from the
     side, so the error is up to a third.

@@ -62,20 +62,15 @@ UPDATE_PERIOD = 0.1
 
 @dataclass(frozen=True, slots=True, eq=False)
 class FrameReport:
-    """Detections in one image.
-
-    Attributes:
-        image: The image.
-        azimuths: Directions of the detections from the camera axis, in
-            [rad], positive leftward.
-        colour: Detection in a colour image, if any; that of the tallest.
-        depth: Obstacles and shadows in a depth image.
-    """
+    """Detections in one image."""
 
     image: ColourImage | DepthImage
+    # directions of the detections from the camera axis [rad], positive
+    # leftward
     azimuths: tuple[float, ...]
+    # detection in a colour image, if any; that of the tallest
     colour: ColourDetection | None = None
-    depth: DepthScene | None = None
+    depth: DepthScene | None = None  # obstacles and shadows in a depth image
 
     @property
     def camera(self) -> str:
@@ -88,67 +83,51 @@ class FrameReport:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class FloorMapping:
-    """Parts of a robot that maps the floor.
-
-    Attributes:
-        floor: Map to fill.
-        scan: Scan of the room before the game, if any.
-        glances: Glances over the shoulders at the floor behind, if any.
-        awaits_start: Whether a signal starts the game; otherwise it begins
-            with the end of the scan.
-    """
+    """Parts of a robot that maps the floor."""
 
     floor: FloorMap = field(default_factory=FloorMap)
-    scan: RoomScan | None = None
+    scan: RoomScan | None = None  # scan of the room before the game, if any
+    # glances over the shoulders at the floor behind, if any
     glances: Glances | None = None
+    # whether a signal starts the game; otherwise it begins with the end of the
+    # scan
     awaits_start: bool = False
 
 
 @dataclass(slots=True, eq=False)
 class Perception:
-    """Perception of one robot: its parts, and what it knows.
+    """Perception of one robot: its parts, and what it knows."""
 
-    Attributes:
-        detector: Detector of the opponent in colour images.
-        selection: Selection of the opponent among the tracks.
-        head: Motion of the head.
-        top: Mount of the colour camera.
-        depth: Mounts of the depth cameras, by number.
-        sonars: Mounts of the sonars on the torso, by name.
-        size: Measures of the robot.
-        kinematics: Kinematics of the body; None for a robot that gives the
-            poses of its camera.
-        floor: Map of the floor; None on an open floor, where every object
-            may be an opponent.
-        people: Whether people may approach.
-        most: Greatest number of opponents in an image.
-        fixed_views: Bearings that cameras on the torso show.
-        poses: Functions that give the pose of the body, of the last second.
-        sighting: Estimate of the opponent at the last update; None if lost.
-        unnamed: Sightings of all recognised robots by their numbers, where
-            several wear one trim; else empty.
-        gaze_target: Target of the gaze; None while the head searches.
-        reports: Detections in the images that arrived at the last tick.
-    """
-
-    detector: ColourDetector
-    selection: TargetSelection
+    detector: ColourDetector  # detector of the opponent in colour images
+    selection: TargetSelection  # selection of the opponent among the tracks
     head: HeadControl
-    top: Mount
-    depth: Sequence[Mount]
+    top: Mount  # mount of the colour camera
+    depth: Sequence[Mount]  # mounts of the depth cameras, by number
+    # mounts of the sonars on the torso, by name
     sonars: Mapping[str, Mount] = field(default_factory=dict)
     size: BodySize = NAO_SIZE
+    # kinematics of the body; None for a robot that gives the poses of its
+    # camera
     kinematics: BodyKinematics | None = None
+    # map of the floor; None on an open floor, where every object may be an
+    # opponent
     floor: FloorMap | None = None
-    people: bool = False
-    most: int = 1
+    people: bool = False  # whether people may approach
+    most: int = 1  # greatest number of opponents in an image
+    # bearings that cameras on the torso show
     fixed_views: tuple[Sector, ...] = ()
+    # functions that give the pose of the body, of the last second
     poses: History[Callable[[], BodyPose]] = field(
         default_factory=lambda: History(POSE_MEMORY)
     )
+    # estimate of the opponent at the last update; None if lost
     sighting: Sighting | None = None
+    # sightings of all recognised robots by their numbers, where several wear
+    # one trim; else empty
     unnamed: tuple[Sighting, ...] = ()
+    # target of the gaze; None while the head searches
     gaze_target: GazeTarget | None = None
+    # detections in the images that arrived at the last tick
     reports: list[FrameReport] = field(default_factory=list)
     _next_update: float = 0.0
     _heading: float = 0.0
@@ -182,17 +161,7 @@ class Perception:
         left_supports: bool,
         tilt: tuple[float, float],
     ) -> Sighting | None:
-        """Process the measurement of one tick.
-
-        Args:
-            measurement: Values of the sensors.
-            pose_support_in_odometry: Pose of the support foot.
-            left_supports: Whether that is the left foot.
-            tilt: Roll and pitch of the torso, in [rad].
-
-        Returns:
-            Latest sighting of the opponent; None if it is lost.
-        """
+        """Return the latest sighting of the opponent after a tick, if any."""
         assert self.kinematics is not None
         place, time = self.kinematics.pose, measurement.time
         given = measurement.joint_positions, pose_support_in_odometry
@@ -393,10 +362,7 @@ def _on_mapped_floor(
 
 
 def _take_echo(echo: SonarEcho, body: BodyPose, state: Perception) -> None:
-    """Update the track of the opponent, where no camera gives a distance.
-
-    Walls and obstacles of a map give echoes, too.
-    """
+    """Update the track of the opponent, where no camera gives a distance."""
     if not is_valid_echo(echo):
         return
     mount, floor = state.sonars[echo.sonar], state.floor
@@ -420,13 +386,7 @@ def record_misses(
 ) -> None:
     """Count a miss for each track that a frame should show and does not.
 
-    Args:
-        tracker: Tracker.
-        updated: Tracks that the frame has updated.
-        image: The image.
-        camera: Pose of the camera at its exposure.
-        max_identity_age: Greatest age of the last recognition, in [s].
-        blind_distance: Up to which the frame shows nothing, in [m].
+    The frame shows nothing up to the blind distance [m].
     """
     half = USABLE_VIEW * abs(angle_of(image, 0.0))
     x, y = camera.position_in_odometry[:2].tolist()
@@ -458,16 +418,8 @@ def build_perception(
 ) -> Perception:
     """Build the perception of a robot, whose opponents are of its model.
 
-    Args:
-        description: Description of the robot.
-        head: Description of its head.
-        detector: Detector of the opponent in colour images.
-        tick: Control period, in [s].
-        mapping: Parts of a robot that maps the floor; None on an open floor.
-        people: Whether people, who wear no trim, may approach.
-        unnamed: Number of opponents if there are more robots than one
-            opponent, which all wear the trim and are not told apart; else 0.
-        fixed_views: Bearings that cameras on the torso show.
+    People, who wear no trim, may approach. Several opponents that all wear the
+    trim are unnamed; one of several robots has 0.
     """
     # Walls and obstacles of a map rest, so a robot's motion may be smooth.
     calm = (mapping is not None and not people) or unnamed > 0
@@ -509,14 +461,7 @@ def build_perception(
 def build_posed_perception(
     detector: ColourDetector, coupling: Array, *, tick: float
 ) -> Perception:
-    """Build the perception of a robot that gives the poses of its camera.
-
-    Args:
-        detector: Detector of the opponent in colour images.
-        coupling: Rows of yaw, minimum and maximum pitch of the head, in
-            [rad]. Shape (3, n).
-        tick: Period of the updates, in [s].
-    """
+    """Build the perception of a robot that gives the poses of its camera."""
     at_head = Mount(np.zeros(3), np.eye(3))
     gaze = HeadControl(coupling, tick, NAO_SIZE.height)
     selection = TargetSelection(Tracker(PERSON_MOTION))

@@ -16,19 +16,11 @@ Indices = NDArray[np.int64]
 def cover(
     centres: Array, cell: float, loose: float = LOOSE
 ) -> tuple[Polygon, ...]:
-    """Cover cells of a grid with convex polygons.
+    """Return convex polygons, in [m], whose union contains every cell.
 
     A set of cells that fills its hull poorly is split across its longer
     principal axis, at the widest gap if there is one: a corner of two walls
-    becomes two polygons.
-
-    Args:
-        centres: Centres of the cells, in [m]. Shape (n, 2).
-        cell: Side of a cell, along the axes, in [m].
-        loose: Largest ratio of the area of a polygon to that of its cells.
-
-    Returns:
-        Polygons whose union contains every cell.
+    becomes two polygons. ``loose`` is the largest ratio of the areas.
     """
     points = np.asarray(centres, dtype=np.float64)
     first = points.min(axis=0, initial=np.inf)
@@ -51,9 +43,6 @@ def _hull_of_cells(cells: Indices) -> list[Point]:
     """Return the hull of cells; cell (i, j) is the square from (i, j) on.
 
     Only the lowest and the highest cell of a column can have a corner.
-
-    Args:
-        cells: Column i and row j of each cell. Shape (n, 2).
     """
     columns, rows = cells.T
     begin = int(columns.min())

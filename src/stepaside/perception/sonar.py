@@ -28,14 +28,7 @@ def observe_echo(
     body: BodyPose,
     track: TargetTrack | None,
 ) -> Observation | None:
-    """Return the observation of an opponent from a valid echo, if it is one.
-
-    Args:
-        echo: The echo.
-        mount: Mount of the sonar on the torso.
-        body: Pose of the body at that time.
-        track: Main track, if any.
-    """
+    """Return the observation of an opponent from a valid echo, or None."""
     assert echo.distance is not None
     x, y, heading = body.pose_torso_in_odometry
     facing = _facing(mount, body)

@@ -31,30 +31,19 @@ NEAR = 0.7  # distance of a near person, in [m]
 
 
 class TargetSelection:
-    """Selection of tracks of a tracker as targets.
-
-    Arguments ``now``, ``x`` and ``y`` are the time, in [s], and the own
-    position in odometry, in [m].
-    """
+    """Selection of tracks as targets at an own position (x, y)."""
 
     def __init__(self, tracker: Tracker) -> None:
-        """Select among the tracks of a tracker."""
         self.tracker = tracker
 
     def main(self, now: float, x: float, y: float) -> TargetTrack | None:
-        """Return the main track, that of the opponent, if any, after pruning.
-
-        It is the one recognised recently, else the nearest.
-        """
+        """Return the main track: one recognised recently, else the nearest."""
         return self.tracker.main(now, x, y)
 
     def look(
         self, main: TargetTrack | None, now: float, x: float, y: float
     ) -> TargetTrack | None:
-        """Return the track to look at, given the main one; None to scan.
-
-        It is a recognised track, else one that is near or moves.
-        """
+        """Return a recognised, near or moving track to look at, or None."""
         for track in recent_tracks(self.tracker.tracks, main, now):
             recognised = now - track.identified_at < MAX_GAZE_AGE
             moves = hypot(*track.velocity) > MOVING and track.confirmed
@@ -90,13 +79,11 @@ class UnnamedSelection(TargetSelection):
 
     Recognised tracks are opponents, as many as there are; of more, where
     robots overlap in images, the most certain ones. The nearest is the main
-    one, and another one than at present only when that is nearer by a tenth.
-    The head looks at the main track, and now and then where another was last
-    seen. Unrecognised objects are no targets: they may be teammates.
+    one, with hysteresis. The head looks at it, and now and then where another
+    was last seen. Unrecognised objects may be teammates.
     """
 
     def __init__(self, tracker: Tracker, most: int) -> None:
-        """Select at most a number of opponents."""
         super().__init__(tracker)
         self._most = most
         self._present = 0  # number of the main track
@@ -156,7 +143,6 @@ class PeopleSelection(TargetSelection):
     """
 
     def __init__(self, tracker: Tracker) -> None:
-        """Select among the tracks of a tracker, without a main track yet."""
         super().__init__(tracker)
         self._main: TargetTrack | None = None
         # Start of the last glance at each track, in [s].
@@ -179,10 +165,7 @@ class PeopleSelection(TargetSelection):
     def look(
         self, main: TargetTrack | None, now: float, x: float, y: float
     ) -> TargetTrack | None:
-        """Return an approaching track, else one that is due for a glance.
-
-        Tracks that a camera on the torso shows do not need the head.
-        """
+        """Return an approaching track, else one that is due for a glance."""
         tracks = self.tracker.tracks
         candidates = [
             track
@@ -220,9 +203,7 @@ class PeopleSelection(TargetSelection):
 
         While the head sweeps over a person, parts are detected whose middle
         seems to move, and the first steps do not show the direction of the
-        walk. The distance at which a person passes takes longer to estimate
-        than the approach itself. A new track nearby settles at once, for
-        there is no time left.
+        walk. A new track nearby settles at once, for there is no time left.
         """
         if now - track.observed_at > MAX_GAP:
             return False
@@ -244,10 +225,7 @@ class PeopleSelection(TargetSelection):
 def closest_approach(
     track: TargetTrack, now: float, x: float, y: float
 ) -> float:
-    """Return how near a track will come to a position, in [m].
-
-    It keeps its velocity over the horizon.
-    """
+    """Return how near a track will come at constant velocity, in [m]."""
     u, v = track.position_at(now)
     dx, dy = u - x, v - y
     vx, vy = track.drift

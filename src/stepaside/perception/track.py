@@ -25,15 +25,10 @@ MIN_WALK = 0.2
 
 
 class MotionModel(NamedTuple):
-    """Process noise of a track.
+    """Process noise of a track."""
 
-    Attributes:
-        acceleration: Standard deviation of the acceleration, in [m/s^2].
-        speed: Standard deviation of the first velocity, in [m/s].
-    """
-
-    acceleration: float
-    speed: float
+    acceleration: float  # standard deviation of the acceleration [m/s^2]
+    speed: float  # standard deviation of the first velocity [m/s]
 
 
 PERSON_MOTION = MotionModel(1.0, 0.25)
@@ -41,29 +36,17 @@ ROBOT_MOTION = MotionModel(0.3, 0.1)  # a humanoid robot among things that rest
 
 
 class Observation(NamedTuple):
-    """Measured position of an object in odometry.
+    """Measured position of an object in odometry."""
 
-    Attributes:
-        time: Time of the measurement, in [s].
-        x_in_odometry: Position, in [m].
-        y_in_odometry: Position, in [m].
-        bearing: Direction from the sensor in odometry, in [rad].
-        along: Standard deviation along the bearing, in [m].
-        across: Standard deviation across the bearing, in [m].
-        identified: Whether it has the appearance of the opponent.
-        ranged: Whether its distance was measured.
-        height: Observed height, in [m]; 0 if unknown.
-    """
-
-    time: float
-    x_in_odometry: float
-    y_in_odometry: float
-    bearing: float
-    along: float
-    across: float
-    identified: bool
-    ranged: bool
-    height: float = 0.0
+    time: float  # time of the measurement [s]
+    x_in_odometry: float  # [m]
+    y_in_odometry: float  # position [m]
+    bearing: float  # direction from the sensor in odometry [rad]
+    along: float  # standard deviation along the bearing [m]
+    across: float  # standard deviation across the bearing [m]
+    identified: bool  # whether it has the appearance of the opponent
+    ranged: bool  # whether its distance was measured
+    height: float = 0.0  # observed height [m]; 0 if unknown
 
     @property
     def covariance(self) -> Array:
@@ -76,24 +59,7 @@ class Observation(NamedTuple):
 
 
 class TargetTrack:
-    """Kalman filter of position and velocity, confirmed by several frames.
-
-    Attributes:
-        time: Time of the state, in [s].
-        started_at: Time of the first observation, in [s].
-        identified_at: Time when it last had the opponent's appearance, in
-            [s].
-        observed_at: Time of the last observation, in [s].
-        ranged_at: Time of the last measured distance, in [s].
-        imaged_at: Time of the last observation by a camera, in [s].
-        watched_at: Time of the last observation by a camera on the torso,
-            in [s].
-        observed_since: Start of the observations without a gap, in [s].
-        confirmed: Whether enough frames show it.
-        height: Largest observed height, in [m].
-        has_walked: Whether it has moved away from its first position.
-        number: Number of the track.
-    """
+    """Kalman filter of position and velocity, confirmed by several frames."""
 
     def __init__(
         self,
@@ -102,7 +68,6 @@ class TargetTrack:
         motion: MotionModel = PERSON_MOTION,
         velocity_in_odometry: tuple[float, float] = (0.0, 0.0),
     ) -> None:
-        """Start with a first observation and velocity, in [m/s]."""
         self.number, self._acceleration = number, motion.acceleration
         self.has_walked = False
         self.imaged_at = self.watched_at = -inf
@@ -130,10 +95,9 @@ class TargetTrack:
 
     @property
     def drift(self) -> tuple[float, float]:
-        """Velocity by regression over recent precise positions, in [m/s].
+        """Velocity [m/s] by regression over recent precise positions.
 
-        It sways less than the velocity of the filter. It is zero until the
-        positions span enough time.
+        It sways less than that of the filter, and is zero at first.
         """
         trail = self._trail
         if not trail or trail[-1][0] - trail[0][0] < MIN_SPAN:
@@ -278,7 +242,7 @@ class TargetTrack:
 
 
 def _decay_velocity(step: float) -> tuple[float, float]:
-    """Return displacement, in [s], and remaining fraction of a unit speed.
+    """Return displacement [s] and remaining fraction of a unit speed.
 
     Walkers sway, so a velocity estimate predicts for a short time only.
     """

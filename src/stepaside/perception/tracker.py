@@ -20,22 +20,12 @@ class Tracker:
     """Multi-object tracker with nearest-neighbour association.
 
     Several frames confirm a track, so that one wrong frame does not make the
-    robot move. The main track is the confirmed one that was recognised as
-    the opponent recently, else the nearest confirmed one.
-
-    Attributes:
-        tracks: All tracks.
+    robot move.
     """
 
     def __init__(
         self, motion: MotionModel = PERSON_MOTION, *, several: bool = False
     ) -> None:
-        """Start without tracks.
-
-        Where several objects of one kind may be near each other, the nearest
-        pairs of track and observation are associated first, else the tracks
-        that were observed last.
-        """
         self._motion, self._several = motion, several
         self.tracks: list[TargetTrack] = []
         self._numbers = count(1)
@@ -47,16 +37,7 @@ class Tracker:
         may_start: bool = True,
         walked_only: bool = False,
     ) -> list[TargetTrack]:
-        """Update the tracks with all observations of one frame.
-
-        Args:
-            observations: Observations; the nearest one updates a track.
-            may_start: Whether an observation without track starts one.
-            walked_only: Whether to update only tracks that have walked.
-
-        Returns:
-            Tracks that were updated or started.
-        """
+        """Update or start tracks with observations of a frame; return them."""
         remaining = list(observations)
         updated = []
         for track in self._ordered(remaining):

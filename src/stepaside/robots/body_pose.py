@@ -13,43 +13,24 @@ from .head import HeadDescription
 
 @dataclass(frozen=True, slots=True, eq=False)
 class BodyPose:
-    """Torso and head of a body in odometry, measured at one instant.
+    """Torso and head of a body in odometry: positions [m], axes as columns."""
 
-    Positions are in [m], axes are columns. Shapes (3,), (3, 3).
-
-    Attributes:
-        time: Time of the measurement, in [s].
-        pose_torso_in_odometry: Planar pose of the torso.
-        position_torso_in_odometry: Position of the torso.
-        axes_torso_in_odometry: Axes of the torso.
-        position_head_in_odometry: Position of the head.
-        axes_head_in_odometry: Axes of the head.
-        yaw: Measured yaw of the head, in [rad].
-        pitch: Measured pitch of the head, in [rad].
-    """
-
-    time: float
+    time: float  # time of the measurement [s]
     pose_torso_in_odometry: Pose
     position_torso_in_odometry: Array
     axes_torso_in_odometry: Array
     position_head_in_odometry: Array
     axes_head_in_odometry: Array
-    yaw: float
-    pitch: float
+    yaw: float  # measured yaw of the head [rad]
+    pitch: float  # measured pitch of the head [rad]
 
 
 class SpatialTorsoPose(NamedTuple):
-    """Spatial pose of a torso in odometry.
+    """Spatial pose of a torso in odometry."""
 
-    Attributes:
-        position_in_odometry: Position of the torso, in [m]. Shape (3,).
-        axes_in_odometry: Axes of the torso as columns. Shape (3, 3).
-        heading_in_odometry: Heading of the torso, in [rad].
-    """
-
-    position_in_odometry: Array
-    axes_in_odometry: Array
-    heading_in_odometry: float
+    position_in_odometry: Array  # position of the torso [m], (3,)
+    axes_in_odometry: Array  # axes of the torso as columns, (3, 3)
+    heading_in_odometry: float  # heading of the torso [rad]
 
 
 def torso_pose_on_foot(
@@ -58,11 +39,7 @@ def torso_pose_on_foot(
     support: Pose,
     tilt: tuple[float, float],
 ) -> SpatialTorsoPose:
-    """Return the torso pose that puts the stance foot at a given pose.
-
-    The stance foot is 0 (left) or 1 (right); tilt is roll and pitch of the
-    torso, in [rad].
-    """
+    """Return the torso pose that puts foot 0 (left) or 1 at a given pose."""
     lean = rotation(*tilt, 0.0)
     # Torso heading = foot heading - foot yaw relative to the levelled torso.
     ahead = lean @ posture.axes_feet_in_torso[foot, :, 0]
@@ -75,20 +52,13 @@ def torso_pose_on_foot(
 
 
 class BodyKinematics:
-    """Forward kinematics from the stance foot to the head.
-
-    Attributes:
-        forward: Kinematics of the measured joints.
-        yaw: Index of the head yaw among the joints.
-        pitch: Index of the head pitch among the joints.
-    """
+    """Forward kinematics from the stance foot to the head."""
 
     def __init__(
         self,
         description: RobotDescription,
         head: HeadDescription,
     ) -> None:
-        """Look up the head joints."""
         self.forward = ForwardKinematics(description, head.body)
         names = self.forward.tree.motors
         self.yaw, self.pitch = names.index(head.yaw), names.index(head.pitch)
@@ -101,15 +71,7 @@ class BodyKinematics:
         left_supports: bool,
         tilt: tuple[float, float],
     ) -> BodyPose:
-        """Return the body pose given the pose of the stance foot.
-
-        Args:
-            time: Time of the measurement, in [s].
-            joints: Encoder angles, in [rad]. Shape (joints,).
-            support: Pose of the stance foot in odometry.
-            left_supports: Whether the stance foot is the left one.
-            tilt: Roll and pitch of the torso, in [rad].
-        """
+        """Return the body pose by encoder angles and pose of the stance."""
         posture = self.forward.posture(joints)
         foot = 0 if left_supports else 1
         place, axes, heading = torso_pose_on_foot(posture, foot, support, tilt)

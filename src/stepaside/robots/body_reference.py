@@ -20,21 +20,16 @@ def torso_roll(row: Sequence[float] | Array, lean: float) -> float:
 
 
 class BodyReference(NamedTuple):
-    """Desired CoM and feet at one instant, all in one level frame.
+    """Desired CoM and feet at one instant, all in one level frame."""
 
-    Attributes:
-        com: CoM (x, y, z), in [m].
-        left_foot: Left foot (x, y, z, yaw), in [m] and [rad].
-        right_foot: Right foot, likewise.
-        left_tilt: Roll and pitch of the left foot in the frame of its
-            heading, in [rad]; small angles.
-        right_tilt: Roll and pitch of the right foot, likewise.
-    """
-
-    com: tuple[float, float, float]
+    com: tuple[float, float, float]  # CoM (x, y, z) [m]
+    # left foot (x, y, z, yaw) [m] and [rad]
     left_foot: tuple[float, float, float, float]
-    right_foot: tuple[float, float, float, float]
+    right_foot: tuple[float, float, float, float]  # right foot, likewise
+    # roll and pitch of the left foot in the frame of its heading [rad]; small
+    # angles
     left_tilt: tuple[float, float] = (0.0, 0.0)
+    # roll and pitch of the right foot, likewise
     right_tilt: tuple[float, float] = (0.0, 0.0)
 
     def row(self) -> tuple[float, ...]:
@@ -55,7 +50,7 @@ class BodyReference(NamedTuple):
         return left + 0.5 * remainder(right - left, tau)
 
     def roll(self, lean: float) -> float:
-        """Return the roll of a torso that leans over the stance foot, [rad].
+        """Return the roll [rad] of a torso that leans over the stance foot.
 
         It is proportional to the lateral position of the CoM: zero midway
         between the feet, ``lean`` with the CoM over one of them.

@@ -112,7 +112,6 @@ class RobotDescription:
     )
 
     def __post_init__(self) -> None:
-        """Check ranges, and the order of the working limits."""
         check_settings(self, ModelError)
         for name in self.published:
             if name not in PUBLISHED:
@@ -146,12 +145,7 @@ class RobotDescription:
         return text
 
     def spec(self, colour: Colour | None = None) -> mujoco.MjSpec:
-        """Return the editable MuJoCo model with its overlay.
-
-        Args:
-            colour: Colour of its accent, or of its torso, red to opacity; by
-                default that of the model.
-        """
+        """Return the editable model with its overlay, and a colour."""
         from .model_reader import read_model
 
         try:
@@ -227,10 +221,7 @@ class RobotDescription:
         return motors
 
     def coupled_joints(self, model: mujoco.MjModel) -> dict[str, str]:
-        """Return the joints that share a motor, as follower to leader.
-
-        These are the equality constraints joint1 = joint2 of a model.
-        """
+        """Return the joints that share a motor, as follower to leader."""
         import mujoco
 
         coupled = {}
@@ -255,10 +246,7 @@ class RobotDescription:
         joints: Collection[str],
         motors: Collection[str],
     ) -> None:
-        """Check that a model has all elements that the description names.
-
-        Motors are the actuated joints.
-        """
+        """Check that a model has all elements that the description names."""
         feet, limits = [self.left_foot, self.right_foot], self.speed_limits
         required: list[tuple[str, Iterable[str], str, Collection[str]]] = [
             ("torso", [self.torso], "body", bodies),

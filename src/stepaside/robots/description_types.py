@@ -41,7 +41,6 @@ class SensorNames:
     )
 
     def __post_init__(self) -> None:
-        """Check names."""
         check_settings(self, ModelError, prefix="sensors.")
 
 
@@ -66,7 +65,6 @@ class ReferencePoint:
     )
 
     def __post_init__(self) -> None:
-        """Check ranges."""
         check_settings(self, ModelError, prefix="place.")
 
 
@@ -90,7 +88,6 @@ class ServoGains:
     )
 
     def __post_init__(self) -> None:
-        """Check ranges."""
         check_settings(self, ModelError)
 
 
@@ -125,7 +122,6 @@ class Overlay:
     )
 
     def __post_init__(self) -> None:
-        """Check that there are two soles, unless there is no overlay."""
         if len(self.soles) != 2 and (self.soles or self.servos):
             raise ModelError(
                 f"overlay.soles must have 2 entries, got {len(self.soles)}"

@@ -13,51 +13,28 @@ from .tree_cache import load_tree
 
 
 class MeasuredPosture(NamedTuple):
-    """CoM, feet and head in the torso frame.
+    """CoM, feet and head in the torso frame."""
 
-    Attributes:
-        position_com_in_torso: Position of the CoM, in [m]. Shape (3,).
-        positions_feet_in_torso: Positions of left and right foot, in [m].
-            Shape (2, 3).
-        axes_feet_in_torso: Rotation matrices of both. Shape (2, 3, 3).
-        position_head_in_torso: Position of the head, in [m]; zero without a
-            head. Shape (3,).
-        axes_head_in_torso: Rotation matrix of the head; identity without a
-            head. Shape (3, 3).
-    """
-
-    position_com_in_torso: Array
+    position_com_in_torso: Array  # position of the CoM [m], (3,)
+    # positions of left and right foot [m], (2, 3)
     positions_feet_in_torso: Array
-    axes_feet_in_torso: Array
+    axes_feet_in_torso: Array  # rotation matrices of both, (2, 3, 3)
+    # position of the head [m]; zero without a head, (3,)
     position_head_in_torso: Array = np.zeros(3)
+    # rotation matrix of the head; identity without a head, (3, 3)
     axes_head_in_torso: Array = np.eye(3)
 
 
 class ForwardKinematics:
-    """Forward kinematics of one robot.
+    """Kinematics of the actuated joints: CoM, left foot, right foot and head.
 
-    The last result is cached, so that balance control and perception can
-    share one object at no extra cost.
-
-    Attributes:
-        description: Robot description.
-        tree: Kinematic tree of the robot.
-        mass: Mass of the robot, in [kg].
-        angles: Angles of the actuated joints, in [rad]. Shape (joints,).
-        com: CoM at these angles in the torso frame, in [m]. Shape (3,).
-        places: Positions of left foot, right foot and head, if that is
-            known, in [m]. Shape (2 or 3, 3).
-        axes: Their axes as columns. Shape (2 or 3, 3, 3).
-        run: Function that sets the results at :attr:`angles`.
+    Results are in the torso frame, in [m], with axes as columns. The last one
+    is cached for balance control and perception.
     """
 
     def __init__(
         self, description: RobotDescription, head: str | None = None
     ) -> None:
-        """Load the kinematic tree.
-
-        The head is the body that carries the cameras; None leaves it out.
-        """
         self.description = description
         self.tree = tree = load_tree(description)
         self.mass = tree.mass
@@ -102,11 +79,7 @@ class ForwardKinematics:
         self.run()
 
     def force_sensors(self) -> Array:
-        """Return the positions of the foot force sensors. Shape (8, 2).
-
-        They are (x, y) in the foot frame, in [m]: front left, front right,
-        rear left, rear right of the left foot, then of the right foot.
-        """
+        """Return positions (8, 2) [m] of force sensors in the foot frames."""
         corners = []
         for i, name in enumerate(self.description.sensors.feet):
             foot = self._feet[i // 4]

@@ -13,7 +13,7 @@ TYPES = mujoco.mjtGeom
 def geom_points_in_world(
     model: mujoco.MjModel, data: mujoco.MjData, geom: int
 ) -> Array:
-    """Return points that span a geom, in the world, in [m]. Shape (n, 3).
+    """Return points (n, 3) in the world [m] that span a geom.
 
     Round geoms give their extreme points along the axes of the world;
     planes and height fields give none.

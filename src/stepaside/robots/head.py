@@ -19,19 +19,12 @@ FILE = "head.toml"
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Mount:
-    """Pose of a sensor on a body: the head, or the torso.
+    """Pose of a sensor on a body: the head, or the torso."""
 
-    Attributes:
-        position_in_body: Position in the frame of the body, in [m]. Shape
-            (3,).
-        axes_in_body: Axes (forward, left, up) of the sensor, as columns.
-            Shape (3, 3).
-        on_torso: Whether the body is the torso, which the head joints do not
-            turn.
-    """
-
-    position_in_body: Array
+    position_in_body: Array  # position in the frame of the body [m], (3,)
+    # axes (forward, left, up) of the sensor, as columns, (3, 3)
     axes_in_body: Array
+    # whether the body is the torso, which the head joints do not turn
     on_torso: bool = False
 
 
@@ -42,34 +35,24 @@ def depth_camera_name(number: int) -> str:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class HeadDescription:
-    """Description of an actuated head with its sensors.
+    """Description of an actuated head with its sensors."""
 
-    Attributes:
-        body: Body that carries the cameras of the head.
-        torso: Body that carries all other sensors.
-        yaw: Yaw joint.
-        pitch: Pitch joint.
-        camera: Name of the colour camera in the model; one that the model
-            lacks is added with camera sensing.
-        coupling: Pitch limits by yaw: rows yaw, least pitch, greatest
-            pitch, in [rad]. Shape (3, n).
-        top: Mount of the colour camera on the body.
-        depth: Mounts of the depth cameras: the first on the head, any others
-            on the torso.
-        housings: Depth, width and height of each depth camera, in [m].
-        sonars: Mounts of the sonars on the torso, by name.
-    """
-
-    body: str
-    torso: str
+    body: str  # body that carries the cameras of the head
+    torso: str  # body that carries all other sensors
     yaw: str
     pitch: str
+    # name of the colour camera in the model; one that the model lacks is added
+    # with camera sensing
     camera: str
+    # pitch limits by yaw: rows yaw, least pitch, greatest pitch [rad], (3, n)
     coupling: Array
-    top: Mount
+    top: Mount  # mount of the colour camera on the body
+    # mounts of the depth cameras: the first on the head, any others on the
+    # torso
     depth: tuple[Mount, ...]
+    # depth, width and height of each depth camera [m]
     housings: tuple[tuple[float, float, float], ...]
-    sonars: dict[str, Mount]
+    sonars: dict[str, Mount]  # mounts of the sonars on the torso, by name
 
     def body_of(self, mount: Mount) -> str:
         """Return the name of the body of a mount."""
@@ -117,7 +100,6 @@ class _CouplingEntries:
     pitch_max: tuple[float, ...] = setting(REQUIRED, "Greatest pitch", ANGLE)
 
     def __post_init__(self) -> None:
-        """Check that there are as many limits as yaws."""
         if not len(self.yaw) == len(self.pitch_min) == len(self.pitch_max):
             raise ModelError(
                 "coupling: yaw, pitch_min and pitch_max must have as many "

@@ -18,11 +18,9 @@ def repair_inertias(spec: mujoco.MjSpec) -> list[str]:
     """Give every link a valid mass and inertia; return the repaired ones.
 
     Links without mass get a millionth of a kilogram. Inertias that are not
-    positive definite keep their axes and get positive moments; MuJoCo
-    would refuse to compile them. If the radius of gyration of a link
-    exceeds the size of the robot, units are wrong, and all inertias that
-    are too large for their links are replaced by typical ones for links of
-    that length.
+    positive definite keep their axes and get positive moments. If the radius
+    of gyration of a link exceeds the size of the robot, units are wrong, and
+    all inertias that are too large become typical ones for their links.
     """
     spec.compiler.boundmass = LEAST_MASS
     spec.compiler.boundinertia = LEAST_MASS * DEFAULT_RADIUS**2
@@ -81,10 +79,7 @@ def _radius_of_gyration(body: mujoco.MjsBody) -> float:
 
 
 def _link_lengths(spec: mujoco.MjSpec) -> dict[str, float]:
-    """Return the distance of each link to its farthest child, in [m].
-
-    A link without children gets the length of its parent.
-    """
+    """Return the distance [m] of each link to its farthest child."""
     found: dict[str, float] = {}
     for body in spec.bodies:  # parents come before their children
         below = [float(np.linalg.norm(child.pos)) for child in body.bodies]

@@ -30,18 +30,10 @@ def load_rows(
     calls: int,
     torques: Array,
 ) -> None:
-    """Set the torques of consecutive ticks.
+    """Set the torques (ticks, motors) [N m] of consecutive ticks, 0 before.
 
-    Args:
-        tree: Links of the legs, with the frames of both soles.
-        motors: Motor that moves each link; -1 for none. Shape (links,).
-        states: Rows of :class:`.LegStates`. Shape (ticks + 1, columns).
-        contacts: See :meth:`LegLoads._ground_contacts`. Shape (ticks, 7).
-        points: Positions of the masses, in [m]: two ticks and one tick ago,
-            which are given, then at each tick. Shape (ticks + 2, links, 3).
-        rate: Factor of second differences, in [1/s^2].
-        calls: Number of ticks before.
-        torques: Torques, in [N m]; zero before. Shape (ticks, motors).
+    Rows of states begin a tick earlier, points (ticks + 2, links, 3) [m] of
+    the masses two ticks; ``rate`` [1/s^2] is of second differences.
     """
     links, n = tree.parents.shape[0], states.shape[1] - STATE
     axes, places = np.empty((links, 3, 3)), np.empty((links, 3))
@@ -114,14 +106,7 @@ class LegLoads:
     def __init__(
         self, kinematics: LegKinematics, *, zmp_forward: float, tick: float
     ) -> None:
-        """Prepare the loads of a robot.
-
-        Args:
-            kinematics: Inverse kinematics, whose present posture is evaluated.
-            zmp_forward: Sagittal coordinate of the anchor of a foot in its
-                frame, in [m].
-            tick: Control period, in [s].
-        """
+        """Prepare loads of feet anchored at ``zmp_forward`` in their frame."""
         self._kinematics = kinematics
         self._zmp_forward = zmp_forward
         self._rate = 1.0 / (tick * tick)
@@ -141,11 +126,10 @@ class LegLoads:
     def torques(
         self, reference: BodyReference, zmp: tuple[float, float]
     ) -> Array:
-        """Return the torques of all motors, in [N m]. Shape (joints,).
+        """Return the torques of all motors, in [N m], once a tick.
 
-        To be called once a tick, with the reference of the present posture and
-        the ZMP in its frame: accelerations are second differences of the last
-        three postures; they are zero in the first two calls.
+        Accelerations are second differences of the last three postures,
+        and zero in the first two calls.
         """
         states = np.array([self._kinematics.state] * 2)
         row = np.array([reference.row()])
@@ -157,11 +141,8 @@ class LegLoads:
     ) -> Array:
         """Return the torques of consecutive ticks, as :meth:`torques` does.
 
-        Args:
-            states: States of the kinematics, the one before the first tick
-                included; see :class:`.LegStates`.
-            references: Rows of :meth:`.BodyReference.row`. Shape (ticks, 15).
-            zmp: ZMP of the plan, in [m]. Shape (ticks, 2).
+        States are :class:`.LegStates`, references rows of the body
+        reference, and ``zmp`` (ticks, 2) [m] is that of the plan.
         """
         ticks = len(references)
         points = np.empty((ticks + 2, *self._points.shape[1:]))
@@ -182,10 +163,7 @@ class LegLoads:
         self._points = self._points[ticks : ticks + 2]
 
     def _ground_contacts(self, references: Array, zmp: Array) -> Array:
-        """Return anchors of both feet, in [m], and load fraction of the left.
-
-        Anchors are in the frame of the reference. Shape (ticks, 7).
-        """
+        """Return anchors of both feet [m] and load fraction of the left."""
         x, y, z, yaw, u, v, w, turned = references[:, 3:11].T
         forward = self._zmp_forward
         x, y = x + forward * np.cos(yaw), y + forward * np.sin(yaw)

@@ -17,38 +17,26 @@ class JointTree(NamedTuple):
     """Links that some joints move: the torso, then parents first.
 
     Links that they do not move belong to the link that carries them.
-
-    Attributes:
-        parents: Index of each parent; -1 for the torso. Shape (links,).
-        columns: Which of the angles moves each link; -1 for the torso, and
-            for a link at a fixed angle that carries moving ones. Shape
-            (links,).
-        hinges: Whether each joint is a hinge; else it slides. Shape (links,).
-        axes: Unit axis of each joint. Shape (links, 3).
-        origins: Position of each joint in its parent, in [m]. Shape
-            (links, 3).
-        zeros: Angle [rad] or length [m] at which a link is parallel to the
-            torso; the fixed angle is subtracted. Shape (links,).
-        masses: Mass of each link, in [kg]. Shape (links,).
-        moments: Mass times CoM in the frame of the link, in [kg m]. Shape
-            (links, 3).
-        carriers: Link of each frame. Shape (frames,).
-        frame_places: Origin of each frame in its link, in [m]. Shape
-            (frames, 3).
-        frame_axes: Axes of each frame in its link, as columns. Shape
-            (frames, 3, 3).
     """
 
+    # index of each parent; -1 for the torso, (links,)
     parents: NDArray[np.int64]
+    # which of the angles moves each link; -1 for the torso, and for a link at
+    # a fixed angle that carries moving ones, (links,)
     columns: NDArray[np.int64]
+    # whether each joint is a hinge; else it slides, (links,)
     hinges: NDArray[np.bool_]
-    axes: Array
-    origins: Array
+    axes: Array  # unit axis of each joint, (links, 3)
+    origins: Array  # position of each joint in its parent [m], (links, 3)
+    # angle [rad] or length [m] at which a link is parallel to the torso; the
+    # fixed angle is subtracted, (links,)
     zeros: Array
-    masses: Array
+    masses: Array  # mass of each link [kg], (links,)
+    # mass times CoM in the frame of the link [kg m], (links, 3)
     moments: Array
-    carriers: NDArray[np.int64]
-    frame_places: Array
+    carriers: NDArray[np.int64]  # link of each frame, (frames,)
+    frame_places: Array  # origin of each frame in its link [m], (frames, 3)
+    # axes of each frame in its link, as columns, (frames, 3, 3)
     frame_axes: Array
 
 
@@ -58,13 +46,9 @@ def joint_tree(
     fixed: Mapping[str, float],
     frames: Sequence[LinkFrame],
 ) -> JointTree:
-    """Return the links that some joints of a robot move.
+    """Return the links that joints move, given their indices among the angles.
 
-    Args:
-        tree: Kinematic tree of the robot.
-        columns: Index among the angles, by moving joint.
-        fixed: Angles of other joints, in [rad] or [m]; 0 by default.
-        frames: Frames to be placed.
+    Other joints are at fixed angles, by default 0; frames are to be placed.
     """
     links = tree.links
     moving = [i for i, link in enumerate(links) if link.joint in columns]
@@ -125,16 +109,9 @@ def place_links(
     axes: Array,
     places: Array,
 ) -> None:
-    """Set the poses of all links.
+    """Set axes (links, 3, 3) and places (links, 3) of all links, in [m].
 
-    Args:
-        tree: Moving links.
-        angles: Angles of the joints, in [rad] or [m].
-        position: Origin of the torso, in [m]. Shape (3,).
-        heading: Heading of the torso, in [rad].
-        roll: Roll of the torso about its heading, in [rad].
-        axes: Axes of the links, as columns. Shape (links, 3, 3).
-        places: Origins of the links, in [m]. Shape (links, 3).
+    Position, heading and roll are of the torso.
     """
     c, s, cr, sr = cos(heading), sin(heading), cos(roll), sin(roll)
     axes[0, 0, 0], axes[0, 0, 1], axes[0, 0, 2] = c, -s * cr, s * sr
@@ -212,11 +189,7 @@ def place_frames(
     frame_places: Array,
     frame_axes: Array,
 ) -> None:
-    """Set the CoM and the poses of all frames in the torso frame.
-
-    Positions are in [m], axes are columns. Shapes (3,), (frames, 3),
-    (frames, 3, 3).
-    """
+    """Set the CoM and the poses of all frames in the torso frame, in [m]."""
     links, mass = tree.parents.shape[0], 0.0
     axes, places = np.empty((links, 3, 3)), np.empty((links, 3))
     for k in range(3):

@@ -19,33 +19,24 @@ from .robot_tree import RobotTree
 
 @dataclass(frozen=True, slots=True, eq=False)
 class LegJoints:
-    """Leg joints of one robot.
-
-    Attributes:
-        tree: Kinematic tree of the robot.
-        free: Independent leg joints: the unknowns.
-        links: Links that they move, with the frames of both soles.
-        columns: Index of the free joint that moves each joint; -1 for those
-            that are fixed to the torso. Shape (joints,).
-        fixed: Angles of all joints with the free ones at 0, in [rad]. Shape
-            (joints,).
-        standing: Standing angles of the free joints, in [rad]. Shape (free,).
-        limits: Lower and upper limit [rad] and speed limit [rad/s] of the
-            free joints. Shape (free, 3).
-        holds_heading: Whether the torso heading is a row: legs with
-            independent hip yaws have one more unknown than the other rows.
-        lean: See :class:`~.description.RobotDescription`, in [rad].
-    """
+    """Leg joints of one robot."""
 
     tree: RobotTree
-    free: tuple[str, ...]
-    links: JointTree
+    free: tuple[str, ...]  # independent leg joints: the unknowns
+    links: JointTree  # links that they move, with the frames of both soles
+    # index of the free joint that moves each joint; -1 for those that are
+    # fixed to the torso, (joints,)
     columns: NDArray[np.int64]
+    # angles of all joints with the free ones at 0 [rad], (joints,)
     fixed: Array
-    standing: Array
+    standing: Array  # standing angles of the free joints [rad], (free,)
+    # lower and upper limit [rad] and speed limit [rad/s] of the free joints,
+    # (free, 3)
     limits: Array
+    # whether the torso heading is a row: legs with independent hip yaws have
+    # one more unknown than the other rows
     holds_heading: bool
-    lean: float
+    lean: float  # of the torso, see `RobotDescription` [rad]
 
     @classmethod
     def of(cls, description: RobotDescription, tree: RobotTree) -> "LegJoints":

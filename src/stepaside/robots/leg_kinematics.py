@@ -41,19 +41,14 @@ ROWS = (
 
 
 class LegStates(NamedTuple):
-    """Postures of the legs at consecutive ticks.
+    """Postures of the legs at consecutive ticks."""
 
-    Attributes:
-        rows: Angles of the free joints, in [rad]; position (x, y, z) of the
-            torso, in [m], and its heading, in [rad], in the frame of the
-            reference; its heading a tick earlier; its roll, all in [rad].
-            The first row is the posture before the first tick. Shape
-            (ticks + 1, free + 6).
-        targets: Joint targets, in [rad]. Shape (ticks, joints).
-    """
-
+    # angles of the free joints [rad]; position (x, y, z) of the torso [m], and
+    # its heading [rad], in the frame of the reference; its heading a tick
+    # earlier; its roll, all [rad]. The first row is the posture before the
+    # first tick, (ticks + 1, free + 6)
     rows: Array
-    targets: Array
+    targets: Array  # [rad], (ticks, joints)
 
     @property
     def torso_headings(self) -> list[float]:
@@ -64,19 +59,11 @@ class LegStates(NamedTuple):
 class LegKinematics:
     """Floating-base inverse kinematics of one robot.
 
-    Attributes:
-        description: Robot description.
-        joint_names: Actuated joints, in the order of the joint targets.
-        legs: Leg joints.
-        state: Present posture, as a row of :class:`LegStates`.
-        error: Remaining error of each row of the last solution.
+    ``state`` is the present posture, a row of :class:`LegStates`; ``error``
+    the remaining error of each row of the last solution.
     """
 
     def __init__(self, description: RobotDescription, *, tick: float) -> None:
-        """Begin at the standing angles, with the torso at the origin.
-
-        A tick is the time between tracked references, in [s].
-        """
         self.description = description
         tree = load_tree(description)
         self.joint_names = tree.motors
@@ -129,10 +116,7 @@ class LegKinematics:
 
     @property
     def posture(self) -> Array:
-        """Position and quaternion of the torso, then all joints.
-
-        Shape (7 + joints,).
-        """
+        """Position and quaternion of the torso, then all joints."""
         n = len(self.legs.free)
         turned = quaternion_of(self.state[n + 5], 0.0, self.state[n + 3])
         joints = self.legs.angles(self.state[:n])
@@ -140,10 +124,9 @@ class LegKinematics:
 
     @property
     def torso_heading(self) -> float:
-        """Heading of the torso in the frame of the reference, in [rad].
+        """Heading of the torso before the last step, in [rad].
 
-        Of the posture before the last step, which is where the body is by
-        the time of the next one.
+        That is where the body is by the time of the next one.
         """
         return remainder(self.state[-2], tau)
 
@@ -171,10 +154,7 @@ class LegKinematics:
         return self.joint_targets
 
     def com_heights(self, reference: BodyReference) -> tuple[float, float]:
-        """Return least and greatest CoM height over the reference's feet.
-
-        They are in [m]; both 0 if no height is in reach.
-        """
+        """Return least and greatest CoM height [m] over the feet, or zeros."""
         x, y, _ = reference.com
 
         def reaches(height: float) -> bool:
@@ -207,10 +187,7 @@ class LegKinematics:
     def _posture_of(
         self, reference: BodyReference
     ) -> tuple[Array | None, Array]:
-        """Return the state of a standing posture, and its residuals.
-
-        The state is None if the legs cannot reach it.
-        """
+        """Return state, None if out of reach, and residuals of a posture."""
         legs, n = self.legs, len(self.legs.free)
         states, errors = np.zeros((2, n + STATE)), np.empty_like(self.error)
         states[1, :n] = legs.standing
@@ -230,13 +207,10 @@ class LegKinematics:
         return None, errors
 
     def track(self, reference: BodyReference) -> Array:
-        """Track a reference by one step from the last posture.
+        """Track a reference by one step from the last posture; return targets.
 
         A joint at a limit of its range or speed stays there, and the torso and
         the other joints minimise the residuals.
-
-        Returns:
-            Joint targets, in [rad]. Shape (joints,).
 
         Raises:
             ReachError: If a residual is too large; names the worst row.
@@ -249,12 +223,7 @@ class LegKinematics:
         return self.joint_targets
 
     def track_rows(self, references: Array) -> LegStates:
-        """Track references tick by tick, up to one that is out of reach.
-
-        They are rows of :meth:`.BodyReference.row`, shape (ticks, 15). The
-        targets are those of :meth:`track` called for each of them, which
-        raises for the first.
-        """
+        """Track rows (ticks, 15) up to one out of reach; see :meth:`track`."""
         rows = np.empty((len(references) + 1, self.state.size))
         rows[0] = self.state
         count = newton_steps(

@@ -14,8 +14,7 @@ def resolve_meshes(
     """Replace the mesh files of a model by absolute paths.
 
     A file is looked up as the model names it, then by name in the folders.
-    Meshes without a file, or of a format that MuJoCo does not read, are
-    returned and deleted, with the geoms that show them.
+    Meshes that are missing or unreadable are returned and deleted.
     """
     by_name: dict[str, Path] = {}
     for folder in folders:
@@ -58,10 +57,7 @@ def _in_ros_package(path: Path, file: str) -> list[Path]:
 
 
 def _treat_massless_meshes_as_shells(spec: mujoco.MjSpec) -> None:
-    """Treat meshes that contribute no mass as shells.
-
-    MuJoCo refuses flat or open meshes as solids.
-    """
+    """Treat massless meshes as shells: MuJoCo refuses flat or open solids."""
     weighed = {
         geom.meshname
         for body in spec.bodies

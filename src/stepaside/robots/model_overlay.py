@@ -44,19 +44,7 @@ def put_overlay(
     path: Path,
     mesh_folders: list[Path],
 ) -> None:
-    """Add an overlay to a published model.
-
-    Args:
-        spec: Model as published; changed in place.
-        overlay: Foot frames, servos and torso orientation.
-        torso: Root body of the robot.
-        feet: Names of the foot sites, left and right.
-        sole: Edges ``back``, ``front``, ``outer`` and ``inner`` of a sole
-            in its foot frame, in [m].
-        sensors: Names of the sensors.
-        path: File of the model.
-        mesh_folders: Additional folders with mesh files.
-    """
+    """Add foot frames, servos, sensors and torso orientation to a model."""
     strip(spec, torso, path, mesh_folders)
     rotate_torso_frame(spec, torso, overlay.turn)
     for site in [s for s in spec.sites if s.name in (*feet, *sensors.feet)]:
@@ -78,11 +66,7 @@ def put_overlay(
 def strip(
     spec: mujoco.MjSpec, torso: str, path: Path, folders: list[Path]
 ) -> list[str]:
-    """Reduce a model to the floating-base body with a root body.
-
-    It returns the mesh files that are missing or cannot be read, whose
-    geoms are removed. They are looked up in further folders, too.
-    """
+    """Reduce a model to its floating-base body; return missing meshes."""
     spec.compiler.fusestatic = False
     repair_inertias(spec)
     _reset_options(spec)

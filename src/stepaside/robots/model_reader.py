@@ -31,13 +31,9 @@ UNKNOWN_ATTRIBUTE = re.compile(
 
 
 def read_model(path: Path) -> mujoco.MjSpec:
-    """Read an MJCF or URDF file as an editable model.
+    """Read an MJCF or URDF file as an editable model, or ValueError.
 
-    Attributes of physics and rendering settings that this version of
-    MuJoCo does not support are ignored.
-
-    Raises:
-        ValueError: If it is not a model; with the message of MuJoCo.
+    Attributes of physics and rendering that MuJoCo lacks are ignored.
     """
     path = path.resolve()  # MuJoCo does not find includes of a relative path
     try:

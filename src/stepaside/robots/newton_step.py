@@ -33,11 +33,7 @@ def motion_by(
     link: int,
     point: tuple[float, float, float],
 ) -> tuple[float, float, float, float, float, float]:
-    """Return the motion of a point by the joint of a link at unit speed.
-
-    That is the velocity, in [m/s], then the angular velocity, in [rad/s],
-    of a point that moves with the link.
-    """
+    """Return velocity and rate of a point by a joint at unit speed."""
     a, b, c = turned(axes, link, tree.axes, link)
     if not tree.hinges[link]:
         return a, b, c, 0.0, 0.0, 0.0
@@ -55,16 +51,9 @@ def linearise(
     errors: Array,
     jacobian: Array,
 ) -> None:
-    """Set the residuals of all rows and their Jacobian.
+    """Set the residuals [m, rad] of all rows, and their Jacobian.
 
-    Args:
-        tree: Links of the legs, with the frames of both soles.
-        reference: See :meth:`.BodyReference.row`.
-        state: Row of :class:`.LegStates`.
-        roll: Roll of the torso, in [rad].
-        errors: Residuals, in [m] and [rad]. Shape (rows,).
-        jacobian: Derivatives of position, rotation and heading. Shape
-            (rows, free + 4).
+    Columns of the Jacobian are the free joints, then the torso.
     """
     n, links = state.shape[0] - STATE, tree.parents.shape[0]
     axes, places = np.empty((links, 3, 3)), np.empty((links, 3))
@@ -222,15 +211,7 @@ def move_within(
     The joint farthest beyond its limit is fixed there and leaves the
     problem, which is solved again for the torso and the other joints; then
     the next one. Clipping joints alone would move the torso as if they had
-    followed, and drag the feet along.
-
-    Args:
-        jacobian: Derivatives of the rows. Shape (rows, unknowns).
-        errors: Residuals. Shape (rows,).
-        state: Row of :class:`.LegStates`.
-        limits: See :func:`newton_steps`.
-        matrix: Changed. Shape (unknowns, unknowns).
-        step: The step. Shape (unknowns,).
+    followed, and drag the feet along. ``matrix`` is changed.
     """
     rows, unknowns = jacobian.shape
     n = limits.shape[0]
@@ -282,28 +263,14 @@ def newton_steps(
     states: Array,
     errors: Array,
 ) -> int:
-    """Track references by one step a tick, up to one that is out of reach.
+    """Track references by one step a tick; return how many are in reach.
 
     The step of Newton's method is taken if rows match unknowns and it meets
     all limits, else the damped one: near singularities the first is too
-    long.
-
-    Args:
-        tree: Links of the legs, with the frames of both soles.
-        limits: Lower and upper limit [rad], speed limit [rad/s] and
-            greatest move in a tick [rad] of the free joints. Shape
-            (free, 4).
-        lean: Roll of the torso with the CoM over one foot, in [rad].
-        direct: Whether undamped steps may be taken.
-        greatest: Residual beyond which a damped step is refused, in [m] or
-            [rad].
-        references: Rows of :meth:`.BodyReference.row`. Shape (ticks, 15).
-        states: Rows of :class:`.LegStates`, of which the first is given.
-            Shape (ticks + 1, free + 6).
-        errors: Residuals before the last step. Shape (rows,).
-
-    Returns:
-        Number of ticks that were tracked.
+    long. Limits (free, 4) are lower and upper limit, speed limit and greatest
+    move in a tick; states (ticks + 1, free + 6) are :class:`.LegStates`, of
+    which the first is given. A damped step is refused beyond the greatest
+    residual. ``errors`` are residuals before the last step.
     """
     n = states.shape[1] - STATE
     rows, unknowns = errors.shape[0], n + BASE

@@ -17,72 +17,45 @@ OWN_MARGIN = 0.06
 
 
 class Link(NamedTuple):
-    """A link and the joint to its parent.
+    """A link and the joint to its parent."""
 
-    Attributes:
-        joint: Name of the joint; empty for the torso.
-        parent: Index of the parent link; -1 for the torso.
-        kind: ``hinge`` or ``slide``.
-        axis: Unit axis of the joint in the frame of the link.
-        origin: Position of the joint in the frame of the parent, in [m].
-        zero: Joint angle [rad] or length [m] in the zero posture.
-        low: Lower limit, in [rad] or [m].
-        high: Upper limit, in [rad] or [m].
-        mass: Mass of the link, in [kg].
-        com: CoM of the link in its frame, in [m].
-    """
-
-    joint: str
-    parent: int
-    kind: str
-    axis: Triple
-    origin: Triple
-    zero: float
-    low: float
-    high: float
-    mass: float
-    com: Triple
+    joint: str  # name of the joint; empty for the torso
+    parent: int  # index of the parent link; -1 for the torso
+    kind: str  # ``hinge`` or ``slide``
+    axis: Triple  # unit axis of the joint in the frame of the link
+    origin: Triple  # position of the joint in the frame of the parent [m]
+    zero: float  # joint angle [rad] or length [m] in the zero posture
+    low: float  # lower limit [rad] or [m]
+    high: float  # upper limit [rad] or [m]
+    mass: float  # mass of the link [kg]
+    com: Triple  # CoM of the link in its frame [m]
 
 
 class Servo(NamedTuple):
-    """Gains of the position servo of a joint.
+    """Gains of the position servo of a joint."""
 
-    Attributes:
-        stiffness: Proportional gain, in [N m/rad]; 0 if the actuator is not
-            a position servo.
-        damping: Derivative gain, in [N m s/rad].
-    """
-
+    # proportional gain [N m/rad]; 0 if the actuator is not a position servo
     stiffness: float
-    damping: float
+    damping: float  # derivative gain [N m s/rad]
 
 
 class LinkFrame(NamedTuple):
-    """A frame that is fixed to a link.
-
-    Attributes:
-        link: Index of the link.
-        place: Origin in the frame of the link, in [m].
-        axes: Rotation matrix in the frame of the link, row by row.
-    """
+    """A frame that is fixed to a link."""
 
     link: int
-    place: Triple
+    place: Triple  # origin in the frame of the link [m]
+    # rotation matrix in the frame of the link, row by row
     axes: tuple[Triple, Triple, Triple]
 
 
 class BodySize(NamedTuple):
-    """Measures of the standing robot, in [m]; by default those of a NAO.
+    """Measures of the standing robot, in [m]; by default those of a NAO."""
 
-    Attributes:
-        height: Height of its highest point.
-        radius: Radius around the axis of the torso that contains it.
-        trim: Heights of the lower and upper end of what is painted to tell
-            robots apart.
-    """
-
-    height: float = 0.5725
+    height: float = 0.5725  # height of its highest point
+    # radius around the axis of the torso that contains it
     radius: float = 0.1614
+    # heights of the lower and upper end of what is painted to tell robots
+    # apart
     trim: tuple[float, float] = (0.0495, 0.5385)
 
 
@@ -91,27 +64,19 @@ NAO_SIZE = BodySize()
 
 @dataclass(frozen=True, slots=True, eq=False)
 class RobotTree:
-    """Links, frames and motors of one robot.
-
-    Attributes:
-        links: The torso, then a link for each joint, parents first.
-        bodies: Frames of the bodies of the model, by name.
-        sites: Frames of the sites of the model, by name.
-        motors: Actuated joints, in the order of the actuators.
-        servos: Servo gains, in the same order.
-        followers: Joints that share a motor, as follower to leader.
-        size: Measures of the standing robot.
-    """
+    """Links, frames and motors of one robot."""
 
     __repr__ = brief_repr
 
+    # the torso, then a link for each joint, parents first
     links: tuple[Link, ...]
-    bodies: dict[str, LinkFrame]
-    sites: dict[str, LinkFrame]
-    motors: tuple[str, ...]
-    servos: tuple[Servo, ...]
+    bodies: dict[str, LinkFrame]  # frames of the bodies of the model, by name
+    sites: dict[str, LinkFrame]  # frames of the sites of the model, by name
+    motors: tuple[str, ...]  # actuated joints, in the order of the actuators
+    servos: tuple[Servo, ...]  # servo gains, in the same order
+    # joints that share a motor, as follower to leader
     followers: dict[str, str]
-    size: BodySize = NAO_SIZE
+    size: BodySize = NAO_SIZE  # measures of the standing robot
 
     @property
     def joints(self) -> tuple[str, ...]:

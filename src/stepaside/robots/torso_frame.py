@@ -14,8 +14,7 @@ def rotate_torso_frame(
 ) -> None:
     """Rotate the frame of a torso; its body and links do not move.
 
-    The torso has no joint but a free one. The quaternion (w, x, y, z) is
-    the orientation of the published frame in the new one.
+    The quaternion is the orientation of the published frame in the new one.
     """
     if tuple(quaternion) == IDENTITY:
         return

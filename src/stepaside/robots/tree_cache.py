@@ -47,12 +47,7 @@ def store_tree(description: RobotDescription) -> Path:
 
 
 def digest_of(description: RobotDescription) -> str:
-    """Return a digest of all inputs of the compilation of a tree.
-
-    These are the MJCF files of the folder with their names, the name of the
-    torso, the standing posture and the accent, and the overlay with the model
-    that it refers to. The content of meshes is not included.
-    """
+    """Return a digest of all inputs of the compiled tree but meshes."""
     named = description.model, description.torso, description.accent
     digest = sha256(f"{named} {description.standing}\n".encode())
     for path in sorted(description.folder.rglob("*.xml")):

@@ -24,57 +24,37 @@ _JOINTS = mujoco.mjtJoint
 
 
 class UrdfLink(NamedTuple):
-    """Link of a robot.
-
-    Attributes:
-        name: Name of the link.
-        body: Index of its body in the model; None for a frame without mass,
-            -1 for a link between two hinges of one body.
-        anchor: Origin of the link in the body, in [m]: joint anchors of
-            MuJoCo need not be at the origin of a body, those of URDF are.
-            Shape (3,).
-    """
+    """Link of a robot."""
 
     name: str
+    # index of its body in the model; None for a frame without mass, -1 for a
+    # link between two hinges of one body
     body: int | None
+    # origin of the link in the body [m]: joint anchors of MuJoCo need not be
+    # at the origin of a body, those of URDF are, (3,)
     anchor: Array
 
 
 class UrdfJoint(NamedTuple):
-    """Joint between two links.
-
-    Attributes:
-        name: Name of the joint.
-        kind: "fixed", "revolute", "continuous" or "prismatic".
-        parent: Name of the parent link.
-        child: Name of the child link.
-        position: Position of the child in the parent at angle 0, in [m].
-            Shape (3,).
-        axes: Axes of the child in the parent at angle 0, as columns. Shape
-            (3, 3).
-        number: Index of the joint in the model; None if it is fixed.
-        axis: Axis in the child. Shape (3,).
-    """
+    """Joint between two links."""
 
     name: str
-    kind: str
-    parent: str
-    child: str
-    position: Array
+    kind: str  # "fixed", "revolute", "continuous" or "prismatic"
+    parent: str  # name of the parent link
+    child: str  # name of the child link
+    position: Array  # position of the child in the parent at angle 0 [m], (3,)
+    # axes of the child in the parent at angle 0, as columns, (3, 3)
     axes: Array
+    # index of the joint in the model; None if it is fixed
     number: int | None = None
-    axis: Array = np.array([0.0, 0.0, 1.0])
+    axis: Array = np.array([0.0, 0.0, 1.0])  # axis in the child, (3,)
 
 
 class UrdfTree(NamedTuple):
-    """Links and joints of a robot, from the root to the tips.
+    """Links and joints of a robot, from the root to the tips."""
 
-    Attributes:
-        links: Links; the first is the root.
-        joints: Joints; each has a link as child that no other has.
-    """
-
-    links: tuple[UrdfLink, ...]
+    links: tuple[UrdfLink, ...]  # links; the first is the root
+    # joints; each has a link as child that no other has
     joints: tuple[UrdfJoint, ...]
 
 
@@ -152,10 +132,7 @@ def _site_frame(model: mujoco.MjModel, name: str, site: int) -> UrdfJoint:
 def _joints_of(
     model: mujoco.MjModel, data: mujoco.MjData, body: int, parent: UrdfLink
 ) -> list[UrdfJoint]:
-    """Return the joints of a body; several hinges get links between them.
-
-    The data are those with all joints at 0.
-    """
+    """Return the joints of a body; several hinges get links between them."""
     before = data.xmat[parent.body].reshape(3, 3)
     place = data.xpos[parent.body] + before @ parent.anchor
     axes, own = data.xmat[body].reshape(3, 3), link_name(model, body)

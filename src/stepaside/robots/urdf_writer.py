@@ -25,10 +25,7 @@ _GEOMS = mujoco.mjtGeom
 def urdf_of(
     description: RobotDescription, colour: Colour | None = None
 ) -> str:
-    """Return the URDF of a robot, as XML text; see :func:`urdf_tree`.
-
-    The colour of its accent is by default that of the model.
-    """
+    """Return the URDF of a robot, as XML text; see :func:`urdf_tree`."""
     model = description.compile(colour)
     tree = urdf_tree(description, model)
     coupled = description.coupled_joints(model)
@@ -59,10 +56,7 @@ def urdf_of(
 
 
 def _add_carrier(link: ElementTree.Element) -> None:
-    """Add a negligible inertia to a link between two hinges of a body.
-
-    Simulators reject moving links without inertia.
-    """
+    """Add a negligible inertia between two hinges; simulators want one."""
     inertial = ElementTree.SubElement(link, "inertial")
     ElementTree.SubElement(inertial, "mass", value="1e-06")
     ElementTree.SubElement(

@@ -108,7 +108,6 @@ class BodySettings:
     )
 
     def __post_init__(self) -> None:
-        """Check the ranges."""
         check_settings(self)
 
     @property
@@ -158,11 +157,7 @@ BODIES = {
 
 
 def at_tick(body: BodySettings, tick: float) -> BodySettings:
-    """Return a body with the same delays, counted in control ticks, in [s].
-
-    A walking policy has its own period, of which the tick is a fraction, and
-    does not follow the control period of the body.
-    """
+    """Return a body with the same delays, in control ticks [s] of a policy."""
     if body.cycle == 0.0:
         return body
     return replace(
@@ -176,9 +171,5 @@ def at_tick(body: BodySettings, tick: float) -> BodySettings:
 def with_control_period(
     physics: PhysicsSettings, body: BodySettings
 ) -> PhysicsSettings:
-    """Return physics settings with the control period of a body.
-
-    Raises:
-        ConfigurationError: If the period is no multiple of the time step.
-    """
+    """Return physics settings with the control period of a body."""
     return replace(physics, tick=body.cycle) if body.cycle > 0.0 else physics

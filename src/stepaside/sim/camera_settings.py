@@ -63,7 +63,6 @@ class ColourSettings:
     )
 
     def __post_init__(self) -> None:
-        """Check the ranges."""
         check_settings(self)
 
     def model(self) -> CameraModel:
@@ -114,7 +113,6 @@ class DepthSettings:
     )
 
     def __post_init__(self) -> None:
-        """Check the ranges."""
         check_settings(self)
         check_within(self.far, self.near, 20.0, "far", "m", ConfigurationError)
 
@@ -169,18 +167,13 @@ class SonarSettings:
     step: float = setting(0.01, "Resolution of the distance", QUANTUM)
 
     def __post_init__(self) -> None:
-        """Check the ranges."""
         check_settings(self)
         check_within(self.far, self.near, 10.0, "far", "m", ConfigurationError)
 
 
 @dataclass(frozen=True, slots=True)
 class LidarSettings:
-    """Settings of a lidar above the head.
-
-    Rate, noise and near limit are those of Livox's Mid-360, which humanoids
-    of that size carry; it measures farther and more points.
-    """
+    """Lidar above the head; rate, noise and near limit of Livox's Mid-360."""
 
     rays: int = setting(
         360,
@@ -211,7 +204,6 @@ class LidarSettings:
     )
 
     def __post_init__(self) -> None:
-        """Check the ranges."""
         check_settings(self)
 
 
@@ -252,7 +244,6 @@ class CameraSettings:
     )
 
     def __post_init__(self) -> None:
-        """Check the ranges."""
         check_settings(self)
 
     def depth_of(self, mount: Mount) -> DepthSettings:
@@ -277,7 +268,6 @@ class RoomObject:
     )
 
     def __post_init__(self) -> None:
-        """Check the kind and the ranges."""
         check_settings(self, prefix="room object ")
 
 
@@ -317,6 +307,5 @@ class SceneSettings:
     )
 
     def __post_init__(self) -> None:
-        """Check the ranges."""
         check_settings(self)
         check_count(self.things, MAX_OBJECTS, "things")

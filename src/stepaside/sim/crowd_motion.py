@@ -25,15 +25,10 @@ from .social_force import (
 
 
 class Notice(NamedTuple):
-    """When a person notices a robot, and for how long it reacts.
+    """When a person notices a robot, and for how long it reacts."""
 
-    Attributes:
-        within: Greatest distance, in [m].
-        lasts: Duration of the reaction, in [s].
-    """
-
-    within: float
-    lasts: float
+    within: float  # greatest distance [m]
+    lasts: float  # duration of the reaction [s]
 
 
 NOTICES = {
@@ -82,37 +77,22 @@ class CrowdSettings:
     )
 
     def __post_init__(self) -> None:
-        """Check the ranges."""
         check_settings(self, prefix="crowd.")
 
 
 @dataclass(frozen=True, slots=True)
 class Neighbour:
-    """Another player, as a person sees it.
+    """Another player, as a person sees it."""
 
-    Attributes:
-        x: Position in the world, in [m].
-        y: Likewise.
-        is_person: Whether it is a person.
-        radius: Radius of its body, in [m].
-        is_companion: Whether it walks in the same group.
-    """
-
-    x: float
+    x: float  # position in the world [m]
     y: float
     is_person: bool
-    radius: float = RADIUS
-    is_companion: bool = False
+    radius: float = RADIUS  # radius of its body [m]
+    is_companion: bool = False  # whether it walks in the same group
 
 
 class CrowdMotion:
-    """Walk of a person to a goal, integrated step by step.
-
-    Attributes:
-        pose: Pose of the person in the world.
-        arrived_at: Time of the first arrival at the goal, in [s]; None
-            before.
-    """
+    """Walk of a person to a goal, integrated step by step."""
 
     def __init__(
         self,
@@ -121,7 +101,6 @@ class CrowdMotion:
         goal: Vector,
         obstacles: ObstacleSet = NO_OBSTACLES,
     ) -> None:
-        """Start a walk to a goal in the world, in [m]."""
         self._settings, self._obstacles = settings, obstacles
         self.pose = start
         self._goals = [goal, start[:2]]
@@ -134,13 +113,7 @@ class CrowdMotion:
     def advance(
         self, time: float, duration: float, others: Sequence[Neighbour]
     ) -> None:
-        """Advance the walk by one step.
-
-        Args:
-            time: Time at the end of the step, in [s].
-            duration: Duration of the step, in [s].
-            others: All other players, in the same order at every step.
-        """
+        """Advance by a step [s]; the order of the others never changes."""
         self._observe(others, duration)
         x, y, theta = self.pose
         gx, gy = self._goals[0]

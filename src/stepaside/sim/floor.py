@@ -35,18 +35,7 @@ def add_geom(
     bit: int = FLOOR_BIT,
     **more: Any,
 ) -> None:
-    """Add a geom that robots collide with, unless its contact type is 0.
-
-    Args:
-        body: Body of the geom.
-        kind: Kind, like "BOX".
-        size: Sizes as MuJoCo has them, in [m].
-        colour: Red to opacity.
-        at: Position in the body, in [m].
-        yaw: Rotation about the vertical, in [rad].
-        bit: Contact type.
-        more: Further attributes.
-    """
+    """Add a geom, with sizes as in MuJoCo [m] and a yaw [rad] in its body."""
     body.add_geom(
         type=getattr(mujoco.mjtGeom, f"mjGEOM_{kind}"),
         size=[*size, *(0.0,) * (3 - len(size))],

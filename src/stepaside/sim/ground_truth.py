@@ -14,17 +14,11 @@ FALLEN = cos(radians(45.0))  # upward component of the torso's axis
 
 
 class FloorTruth:
-    """True state of a player that physics does not move.
-
-    Attributes:
-        pose: Pose in the world.
-        reach: Radius that contains the whole body, in [m].
-    """
+    """True state of a player that physics does not move."""
 
     has_fallen = False
 
     def __init__(self, pose: Pose, *, reach: float, height: float) -> None:
-        """Begin at a pose; ``height`` stands for that of the CoM, in [m]."""
         self.pose, self.reach, self._height = pose, reach, height
 
     @property
@@ -46,20 +40,11 @@ class FloorTruth:
 
 
 class TrueRobotState:
-    """True state of one robot in its world.
+    """True state of one robot in its world; arrays are views.
 
     The reference point is midway between the feet of a standing robot, and
-    moves with the CoM of a walking one. The origin of the torso is elsewhere:
-    its position follows from the posture with the CoM over the feet.
-
-    Attributes:
-        position_com_in_world: CoM of the robot, in [m], as a view. Shape
-            (3,).
-        origin_torso_in_world: Origin of the torso body, in [m], as a view.
-            Shape (3,).
-        axes_torso_in_world: Axes of the torso body, as a view. Shape (9,),
-            rows of the rotation matrix.
-        reach: Radius around the torso that contains the whole robot, in [m].
+    moves with the CoM of a walking one. Around the torso, ``reach`` [m]
+    contains the whole robot.
     """
 
     def __init__(
@@ -71,11 +56,6 @@ class TrueRobotState:
         com_forward: float = 0.0,
         place: ReferencePoint | None = None,
     ) -> None:
-        """Read the state of a robot by the name of its torso body.
-
-        ``com_forward`` is the offset of the CoM ahead of the reference point
-        in its gait, in [m].
-        """
         self._com_forward = com_forward
         place = place or ReferencePoint()
         self._hips_forward, self.reach = place.forward, place.reach
@@ -115,16 +95,7 @@ class TrueRobotState:
     def poses_at(
         self, com: Array, origin: Array, axes: Array
     ) -> tuple[Array, Array]:
-        """Return the poses of reference point and torso in the world.
-
-        Args:
-            com: Recorded values of ``position_com_in_world``. Shape (n, 3).
-            origin: Those of ``origin_torso_in_world``. Shape (n, 3).
-            axes: Those of ``axes_torso_in_world``. Shape (n, 9).
-
-        Returns:
-            Rows (x [m], y [m], theta [rad]) of both. Shapes (n, 3).
-        """
+        """Return rows (x, y, theta) of reference point and torso."""
         forward = axes[:, [0, 3]]
         heading = np.arctan2(forward[:, 1], forward[:, 0])
         turned = np.column_stack([np.cos(heading), np.sin(heading)])
@@ -148,17 +119,10 @@ def torsos_apart(one: GroundTruth, other: GroundTruth) -> float:
 
 
 class TrueStance(NamedTuple):
-    """Torso, feet and velocity of a robot in its world.
+    """Torso, feet and velocity of a robot in its world."""
 
-    Attributes:
-        velocity: CoM velocity (x, y), in [m/s].
-        tilt: Roll and pitch of the torso, in [rad].
-        left_sole: Pose of the left sole.
-        right_sole: Pose of the right sole.
-    """
-
-    velocity: tuple[float, float]
-    tilt: tuple[float, float]
+    velocity: tuple[float, float]  # CoM velocity (x, y) [m/s]
+    tilt: tuple[float, float]  # roll and pitch of the torso [rad]
     left_sole: Pose
     right_sole: Pose
 
@@ -166,10 +130,7 @@ class TrueStance(NamedTuple):
 def true_stance(
     model: mujoco.MjModel, data: mujoco.MjData, torso: int, soles: list[int]
 ) -> TrueStance:
-    """Return the stance by the body of the torso and the sites of the soles.
-
-    The left sole is first.
-    """
+    """Return the stance, by torso body and sites of left and right sole."""
     mujoco.mj_subtreeVel(model, data)
     vx, vy, _ = data.subtree_linvel[torso].tolist()
     roll, pitch, _ = angles_of(data.xmat[torso].reshape(3, 3))

@@ -17,12 +17,10 @@ TALL_ENOUGH = 0.8  # CoM height of a body that hides another, relative to it
 
 
 class IdealLineOfSight:
-    """Sensor of the true bearing and distance of one player.
+    """Sensor of the true bearing and distance between reference points.
 
-    The bearing is measured from the heading of the own torso, between the
-    reference points. The sensor replaces cameras; its settings add noise,
-    delay and a rate. Bodies of other players may hide the player; then the
-    latest sighting stays.
+    Settings add noise, delay and a rate. Bodies of other players may hide the
+    player; then the latest sighting stays.
     """
 
     def __init__(
@@ -35,10 +33,6 @@ class IdealLineOfSight:
         identity: PlayerIdentity | None = None,
         between: Sequence[GroundTruth] = (),
     ) -> None:
-        """Measure a player, recognised if its identity is given.
-
-        ``between`` are players that can hide it.
-        """
         self._own, self._opponent = own, opponent
         self._settings = settings
         self._generator = generator
@@ -49,10 +43,7 @@ class IdealLineOfSight:
 
     @property
     def is_exact(self) -> bool:
-        """Whether sightings have no noise, delay or rate.
-
-        Such a sensor may be read at some ticks only.
-        """
+        """Whether it has no noise, delay or rate: any tick may be left out."""
         return self._settings == SightSettings()
 
     def read(self, now: float) -> Sighting | None:
@@ -89,12 +80,7 @@ class IdealLineOfSight:
 
 
 def hides(body: GroundTruth, eye: GroundTruth, seen: GroundTruth) -> bool:
-    """Return whether a body hides a player from another one.
-
-    The body is a cylinder around its reference point. It hides what is
-    behind it if the line between the reference points passes through it, and
-    if it is about as tall as the hidden player.
-    """
+    """Return whether a body of about its height hides a player."""
     x, y = eye.position_reference_in_world
     u, v = seen.position_reference_in_world
     p, q = body.position_reference_in_world

@@ -31,15 +31,6 @@ class Lidar(StreamedSensors[LidarScan]):
         settings: LidarSettings,
         seed: int,
     ) -> None:
-        """Mount a lidar on a robot.
-
-        Args:
-            world: World with the robot in its first posture.
-            name: Name of the robot.
-            torso: Name of its torso in the description.
-            settings: Settings of the lidar.
-            seed: Seed of its noise.
-        """
         model, data = world.model, world.data
         self._settings = settings
         self._generator = named_generator(seed, f"lidar/{name}")

@@ -15,11 +15,7 @@ PALE = (0.78, 0.79, 0.81, 1.0)  # of walls
 
 
 def add_solids(spec: mujoco.MjSpec, room: Room) -> None:
-    """Add the obstacles and walls of a room to a world.
-
-    Each is a separate body, which names its contacts: "disc 1", "box 1",
-    "polygon 1", "wall 1" and so on.
-    """
+    """Add obstacles and walls, each a body: "disc 1", "wall 1" and so on."""
     for name, solid in named_solids(room):
         colour = PALE if name.startswith("wall") else GREY
         _add_solid(spec, name, solid, colour)

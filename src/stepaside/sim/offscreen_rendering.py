@@ -27,24 +27,15 @@ GRID = 10.0  # spacing of the vertices of a plane, in [m]
 
 
 class RenderQuality(NamedTuple):
-    """Quality settings of a rendered image.
+    """Quality settings of a rendered image."""
 
-    Attributes:
-        samples: Samples per pixel for antialiasing; 0 for one.
-        shadow: Side of the shadow map, in [pixels]; 0 for none.
-        reach: Half side of the square with shadows, in [m].
-        slices: Slices of round geoms around their axis.
-        stacks: Slices of round geoms along their axis.
-        groups: Number of geom groups that are drawn.
-        interpolate: Whether textures are interpolated between their pixels.
-    """
-
-    samples: int = 0
-    shadow: int = 0
-    reach: float = 1.0
-    slices: int = 12
-    stacks: int = 6
-    groups: int = 3
+    samples: int = 0  # samples per pixel for antialiasing; 0 for one
+    shadow: int = 0  # side of the shadow map [pixels]; 0 for none
+    reach: float = 1.0  # half side of the square with shadows [m]
+    slices: int = 12  # slices of round geoms around their axis
+    stacks: int = 6  # slices of round geoms along their axis
+    groups: int = 3  # number of geom groups that are drawn
+    # whether textures are interpolated between their pixels
     interpolate: bool = True
 
 
@@ -57,14 +48,7 @@ def choose_renderer(wanted: str = "auto") -> str:
     """Return a renderer of colour images that works on this machine.
 
     A broken graphics driver can crash the process, so each backend is tried
-    in another process.
-
-    Args:
-        wanted: "auto", or one of "egl", "osmesa" and "raycast". MUJOCO_GL
-            narrows down what "auto" tries.
-
-    Raises:
-        ConfigurationError: If it does not work on this machine.
+    in another process. MUJOCO_GL narrows down what "auto" tries.
     """
     if wanted == RAYCAST:
         return RAYCAST
@@ -124,7 +108,6 @@ class OffscreenRenderer:
         backend: str,
         look: RenderQuality = PLAIN,
     ) -> None:
-        """Create the graphics context; a process can use one backend only."""
         os.environ.update(_environment(backend))
         context: Any = import_module(f"mujoco.{backend}").GLContext
         self._model = model
@@ -163,10 +146,7 @@ class OffscreenRenderer:
         camera: int | mujoco.MjvCamera,
         decorate: Callable[[mujoco.MjvScene], None] | None = None,
     ) -> Pixels:
-        """Render the image of a camera. Shape (height, width, 3).
-
-        ``decorate`` adds to the scene before.
-        """
+        """Render an image (height, width, 3), of a scene to decorate."""
         self._gl.make_current()
         view = camera
         if isinstance(camera, int):

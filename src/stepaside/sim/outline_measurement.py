@@ -17,20 +17,10 @@ SIDES = 32  # of the polygon around the trunk
 def measure_outline(
     description: RobotDescription, gait: GaitSettings
 ) -> BodyOutline:
-    """Measure the outline of a robot in the stance of its gait.
+    """Measure the outline [m] of all that collides, in the stance of a gait.
 
-    It contains all colliding geoms: a polygon around trunk, head, arms and
-    legs, and a rectangle around each foot.
-
-    Args:
-        description: Description of the robot.
-        gait: Gait with the standing posture.
-
-    Returns:
-        Outline in the frames of the body and of the feet, in [m].
-
-    Raises:
-        ReachError: If the robot cannot stand in this posture.
+    It is a polygon around trunk, head, arms and legs, in the frame of the
+    body, and a rectangle around each foot in its frame.
     """
     kinematics = LegKinematics(description, tick=1.0)
     kinematics.stand(initial_stance(gait))

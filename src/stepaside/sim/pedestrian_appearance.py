@@ -9,21 +9,13 @@ HIP = 0.9  # height of an adult's hips, in [m]
 
 @dataclass(frozen=True, slots=True)
 class PedestrianModel:
-    """Appearance and gait of a pedestrian.
+    """Appearance and gait of a pedestrian."""
 
-    Attributes:
-        size: Scale of all lengths; 1 for an adult of 1.74 m.
-        step: Step length, in [m].
-        swing: Amplitude of the leg angle, in [rad], which gives that step.
-        shirt: Colour of the shirt: red, green, blue and opacity.
-        trousers: Colour of the trousers.
-    """
-
-    size: float
-    step: float
-    swing: float
-    shirt: Colour
-    trousers: Colour
+    size: float  # scale of all lengths; 1 for an adult of 1.74 m
+    step: float  # step length [m]
+    swing: float  # amplitude of the leg angle [rad], which gives that step
+    shirt: Colour  # colour of the shirt: red, green, blue and opacity
+    trousers: Colour  # colour of the trousers
 
 
 FIGURES = {

@@ -31,11 +31,7 @@ def add_person(
     shirt: Colour | None = None,
     solid: bool = True,
 ) -> None:
-    """Add the bodies of a person to a world; physics does not move them.
-
-    Robots and obstacles can touch a solid one. The shirt has the colour of
-    the model by default.
-    """
+    """Add the bodies of a person; robots and obstacles touch a solid one."""
 
     def capsule(
         body: mujoco.MjsBody,
@@ -82,15 +78,7 @@ def set_person_pose(
     way: float,
     figure: PedestrianModel = ADULT,
 ) -> None:
-    """Set the poses of the bodies of a person.
-
-    Args:
-        data: State of the world.
-        parts: Mocap indices, from :func:`mocap_indices`.
-        frame: Pose of the person in the world.
-        way: Distance walked, which is the phase of the step, in [m].
-        figure: Pedestrian model.
-    """
+    """Set the bodies of a person; the way [m] is the phase of a step."""
     size = figure.size
     swing = figure.swing * sin(pi * way / figure.step)
     positions = {
@@ -108,13 +96,7 @@ def set_person_pose(
 
 
 class PersonBody:
-    """Body of a person, whose legs swing with the distance walked.
-
-    Attributes:
-        name: Name of the player.
-        world: The world.
-        truth: True state.
-    """
+    """Body of a person, whose legs swing with the distance walked."""
 
     def __init__(
         self,
@@ -123,7 +105,6 @@ class PersonBody:
         pose: Pose,
         figure: PedestrianModel = ADULT,
     ) -> None:
-        """Set the bodies to a pose."""
         self.name, self.world, self._figure = name, world, figure
         self.truth = FloorTruth(
             pose, reach=REACH * figure.size, height=figure.size

@@ -21,8 +21,8 @@ BEYOND = 8.0  # goal of a person who reacts, beyond the evader, in [m]
 class PersonMotion:
     """Walk of a person, integrated step by step.
 
-    Attributes:
-        pose: Pose of the person in the world.
+    A person slides along obstacles. A recorded path ignores them, and the
+    initial pose.
     """
 
     def __init__(
@@ -32,14 +32,6 @@ class PersonMotion:
         evader: Place,
         obstacles: ObstacleSet = NO_OBSTACLES,
     ) -> None:
-        """Start a walk, towards the evader where the path says so.
-
-        A person slides along obstacles. A recorded path ignores them, and
-        the initial pose.
-
-        Raises:
-            ConfigurationError: If a recorded path cannot be read.
-        """
         self._settings, self._obstacles = settings, obstacles
         self._recorded: Array | None = None
         heading = start.theta
@@ -146,14 +138,7 @@ class PersonMotion:
 
 
 def read_path(file: Path) -> Array:
-    """Read a recorded path.
-
-    Returns:
-        Rows of time [s], x [m] and y [m]. Shape (n, 3).
-
-    Raises:
-        ConfigurationError: If the file is unreadable or invalid.
-    """
+    """Return a recorded path: rows of time [s], x [m] and y [m]."""
     import csv
 
     try:
@@ -191,23 +176,10 @@ def template_approach(
     duration: float,
     step: float = 0.01,
 ) -> float:
-    """Compute the closest approach of a person to the evader's template.
+    """Return the closest approach [m] of a person to the evader's template.
 
     The evader is a unicycle: it stands until the person is within the safety
     radius, and then walks backward across the line of sight.
-
-    Args:
-        motion: Function that starts a walk of the person.
-        start: Initial pose of the person in the world.
-        evader: Initial pose of the evader in the world.
-        unicycle: Speed and steering gain of the evader.
-        angle: Evasion angle, in [rad].
-        safety_radius: Safety radius, in [m].
-        duration: Duration of the game, in [s].
-        step: Time step of the integration, in [s].
-
-    Returns:
-        Smallest distance, in [m].
     """
     x, y, theta = evader
     walk = motion(start, (x, y))

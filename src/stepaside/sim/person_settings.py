@@ -93,7 +93,6 @@ class PersonSettings:
     )
 
     def __post_init__(self) -> None:
-        """Check the ranges, the path and the figure."""
         check_settings(self, prefix="person.")
         if not self.path:
             raise ConfigurationError(

@@ -53,7 +53,6 @@ class PhysicsSettings:
     )
 
     def __post_init__(self) -> None:
-        """Check the ranges, and the ratio of the periods."""
         check_settings(self)
         ratio = self.tick / self.time_step
         if round(ratio) < 1 or abs(ratio - round(ratio)) > 1e-9 * ratio:
@@ -101,5 +100,4 @@ class SightSettings:
     )
 
     def __post_init__(self) -> None:
-        """Check the ranges."""
         check_settings(self)

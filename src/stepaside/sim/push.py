@@ -43,7 +43,6 @@ class Push:
     )
 
     def __post_init__(self) -> None:
-        """Check the ranges."""
         check_settings(self, prefix="push ")
 
     @classmethod
@@ -51,9 +50,6 @@ class Push:
         """Return the push of a text: 1.2@5:90deg is 1.2 N s at 5 s, left.
 
         The player may precede it, as in ``pursuer=1.2@5:90deg``.
-
-        Raises:
-            ConfigurationError: If it is not such a text.
         """
         parts = _SYNTAX.fullmatch(text)
         if parts is None:
@@ -84,31 +80,18 @@ def _number(text: str) -> Any:
 
 
 class ScheduledPush(NamedTuple):
-    """Push with its impulse in the world.
+    """Push with its impulse in the world."""
 
-    Attributes:
-        time: Start time, in [s].
-        duration: Duration, in [s].
-        x: Position of the torso at the start, x in the world, in [m].
-        y: Position of the torso at the start, y in the world, in [m].
-        impulse_x: Impulse along x of the world, in [N s].
-        impulse_y: Impulse along y of the world, in [N s].
-    """
-
-    time: float
-    duration: float
-    x: float
-    y: float
-    impulse_x: float
-    impulse_y: float
+    time: float  # start time [s]
+    duration: float  # [s]
+    x: float  # position of the torso at the start, x in the world [m]
+    y: float  # position of the torso at the start, y in the world [m]
+    impulse_x: float  # impulse along x of the world [N s]
+    impulse_y: float  # impulse along y of the world [N s]
 
 
 def check_pushes(pushes: Sequence[Push], robots: Sequence[str]) -> None:
-    """Check that pushes name robots of a game, or none.
-
-    Raises:
-        ConfigurationError: If a push names any other player.
-    """
+    """Check that pushes name robots of a game, or none."""
     for push in pushes:
         if push.player not in ("", *robots):
             raise ConfigurationError(

@@ -11,17 +11,11 @@ MAX_STORED = 1000  # pushes; a live game may run without end
 
 
 class PushApplier:
-    """Applies pushes to one body of a world.
-
-    Attributes:
-        impulse: Total impulse so far in the world, in [N s].
-        given: Most recent pushes that have started.
-    """
+    """Pushes of one body: total impulse [N s], and the latest pushes."""
 
     def __init__(
         self, model: mujoco.MjModel, data: mujoco.MjData, torso: int
     ) -> None:
-        """Prepare pushes of the body with an index."""
         self._force = data.xfrc_applied[torso]
         self._frame = data.xmat[torso]
         self._position = data.xpos[torso]

@@ -18,15 +18,10 @@ UNLIMITED = 1e10  # cutoff, in [m]
 
 
 class RayCaster:
-    """Ray caster from a mount on a body, which the rays ignore.
+    """Rays from a mount on a body, which they ignore; misses are -1.
 
-    Attributes:
-        along: Depth along the mount axis per distance. Shape (n,).
-        geoms: Indices of the geoms hit; -1 for none. Shape (n,).
-        distances: Distances to the hits, in [m]; -1 for none. Shape (n,).
-        normals: Surface normals in the world. Shape (n, 3).
-        directions: Ray directions in the world. Shape (n, 3).
-        origin: Origin of the rays in the world, in [m]. Shape (3,).
+    Origin [m], directions and normals are in the world; ``along`` is the depth
+    along the mount axis per distance.
     """
 
     def __init__(
@@ -37,7 +32,6 @@ class RayCaster:
         mount: Mount,
         rays: Array,
     ) -> None:
-        """Prepare rays, of any length, in the mount frame. Shape (n, 3)."""
         self._model, self._data = model, data
         self._body, self._mount = model.body(body).id, mount
         lengths = np.linalg.norm(rays, axis=1)

@@ -23,13 +23,10 @@ class RobotLog:
         prepare: Callable[[], None],
         convert: Callable[[Columns], Columns],
     ) -> None:
-        """Begin without samples.
+        """Begin without samples of some arrays, views of shape (n,).
 
-        Args:
-            sources: Views of the arrays, by name. Shapes (n,).
-            prepare: Function that computes them for a sample.
-            convert: Function from all samples to what the log gives. Shapes
-                (samples, n).
+        ``prepare`` computes them for a sample; ``convert`` makes what the log
+        gives of all samples, shapes (samples, n).
         """
         self._names, self._sources = tuple(sources), tuple(sources.values())
         self._prepare, self._convert = prepare, convert
@@ -59,11 +56,7 @@ def state_log(
     forces: NDArray[np.int_],
     corners: NDArray[np.int_],
 ) -> RobotLog:
-    """Return a log of CoM, poses, ZMP and posture; see ``Trajectory``.
-
-    ``forces`` are addresses of the foot force sensors, ``corners`` their
-    sites.
-    """
+    """Return a log of CoM, poses, ZMP and posture; see ``Trajectory``."""
     data = world.data
     # One contiguous range that contains all is copied faster.
     sensors = slice(int(forces.min()), int(forces.max()) + 1)
@@ -106,10 +99,9 @@ def sensor_log(
     accelerometer: slice,
     forces: NDArray[np.int_],
 ) -> RobotLog:
-    """Return a log of what sensors without errors measure, and of efforts.
+    """Return a log of exact sensors and efforts; see ``RobotSignals``.
 
-    Values are those of the last step of the physics; see ``RobotSignals`` of
-    the games. ``dofs`` are free joint, then hinges in the order of qpos.
+    ``dofs`` are free joint, then hinges in the order of qpos.
     """
     sensors = slice(int(forces.min()), int(forces.max()) + 1)
 
@@ -139,15 +131,7 @@ def sensor_log(
 
 
 def centers_of_pressure(forces: Array, corners: Array) -> Array:
-    """Return the centres of pressure in the world; NaN without a force.
-
-    Args:
-        forces: Normal forces, in [N]. Shape (n, corners).
-        corners: Their points in the world, in [m]. Shape (n, corners, 3).
-
-    Returns:
-        Centres (x, y), in [m]. Shape (n, 2).
-    """
+    """Return centres (n, 2) [m] of forces (n, corners) in the world."""
     totals = forces.sum(axis=1)
     moments = (forces[:, None, :] @ corners)[:, 0, :2]
     centers = np.full((len(forces), 2), np.nan)

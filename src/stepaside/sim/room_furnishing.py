@@ -42,14 +42,8 @@ def furnisher(
 ) -> Furnish:
     """Return the function that adds walls, objects and cameras to a world.
 
-    Args:
-        room: Scene with the objects.
-        head: Description of the heads of the robots.
-        walls: Distance of the walls from the origin, in [m]; 0 for none.
-        housings: Names of robots that carry depth cameras.
-        rear: Whether these have cameras on the torso, too.
-        upper: Names of robots that use the top camera of their heads; it is
-            added to models without one.
+    Walls are at a distance [m], 0 for none. The camera is added to the heads
+    of the robots that use one, where the model lacks it.
     """
 
     def furnish(spec: mujoco.MjSpec) -> None:

@@ -11,26 +11,15 @@ from .body_settings import BodySettings
 
 
 class StrapdownImu:
-    """Gyro and accelerometer that integrate between readings.
+    """Gyro and accelerometer that integrate between readings, as real ones do.
 
-    One sample per control tick would alias landing impacts, which causes an
-    error of half a degree in the estimated tilt.
-    The means follow from the change of orientation and velocity of the torso
-    over the whole interval, as an IMU with delta angles and delta velocities
-    gives them. Nothing has to be read in between.
+    One sample per tick would alias landing impacts: half a degree of tilt.
+    The means follow from the change of orientation and velocity of the torso.
     """
 
     def __init__(
         self, model: mujoco.MjModel, data: mujoco.MjData, root: int, site: int
     ) -> None:
-        """Integrate from the present state.
-
-        Args:
-            model: Compiled model.
-            data: Its state.
-            root: Body with the free joint, on which the IMU is.
-            site: Site of the IMU.
-        """
         joint = model.body_jntadr[root]
         at, dof = model.jnt_qposadr[joint], model.jnt_dofadr[joint]
         self._data, self._gravity = data, model.opt.gravity.copy()
@@ -47,10 +36,7 @@ class StrapdownImu:
     def read(self) -> tuple[Array, Array, Array]:
         """Return mean rate and specific force since the last call, and rate.
 
-        Returns:
-            Mean angular velocity, in [rad/s], and mean specific force, in
-            [m/s^2], since the last call, and the present angular velocity, in
-            the frame of the IMU. Shape (3,) each.
+        They are in the frame of the IMU, in [rad/s] and [m/s^2].
         """
         now, quaternion = self._data.time, self._quaternion.copy()
         frame = np.empty(9)
@@ -83,10 +69,6 @@ class SensorErrors:
         *,
         force_unit: float = 1.0,
     ) -> None:
-        """Draw the constant errors of one robot.
-
-        ``force_unit`` is the weight of the robot relative to NAO's.
-        """
         self._body = body
         self._generator = generator
         # Of gyro, then accelerometer.
@@ -120,11 +102,7 @@ class SensorErrors:
         return steps
 
     def velocities(self, exact: Array, angles: Array, now: float) -> Array:
-        """Return joint velocities as encoders give them, in [rad/s].
-
-        They are the change of the quantised angles since the last reading;
-        the exact ones at the first.
-        """
+        """Return velocities [rad/s] as the change of the quantised angles."""
         last, self._last = self._last, (now, angles)
         if self._body.encoder_step == 0.0 or last is None or now <= last[0]:
             return exact
@@ -134,18 +112,7 @@ class SensorErrors:
     def readings(
         self, gyro: Array, force: Array, latest: Array, foot_forces: Array
     ) -> tuple[Array, Array, Array, Array]:
-        """Return readings of IMU and feet with their errors.
-
-        Args:
-            gyro: True angular velocity, in [rad/s]. Shape (3,).
-            force: True specific force, in [m/s^2]. Shape (3,).
-            latest: True angular velocity at this instant. Shape (3,).
-            foot_forces: True normal forces, in [N]. Shape (8,).
-
-        Returns:
-            Noisy and delayed angular velocity, specific force and latest
-            angular velocity, and noisy normal forces, at least zero.
-        """
+        """Return rate, specific force, latest rate, foot forces, all noisy."""
         noise = next(self._noise, None)
         if noise is None:
             drawn = self._generator.standard_normal((BLOCK, 14))
@@ -169,11 +136,7 @@ def perturb_masses(
     *,
     length_unit: float = 1.0,
 ) -> None:
-    """Perturb the masses of the bodies of a MuJoCo specification in place.
-
-    The CoM of the torso is shifted; ``length_unit`` is the size of the robot
-    relative to NAO's.
-    """
+    """Perturb masses, and the CoM of the torso in units of NAO's size."""
     for part in spec_bodies:  # type: ignore[attr-defined]
         error = generator.uniform(-1, 1)
         shift = generator.uniform(-1, 1, 2)

@@ -14,24 +14,15 @@ T = TypeVar("T", bound=AnyPercept)
 
 @dataclass(slots=True, eq=False)
 class SensorStream(Generic[T]):
-    """Sensor with a rate, a latency and losses.
+    """Sensor with a rate, a latency and losses."""
 
-    Attributes:
-        take: Function that returns a percept at a time.
-        period: Period of the exposures, in [s].
-        latency: Delay from exposure to arrival, in [s].
-        drop: Fraction of lost percepts.
-        generator: Random generator of the losses.
-        taken: Number of exposures.
-        pending: Times of arrival and percepts that have not arrived.
-    """
-
-    take: Callable[[float], T]
-    period: float
-    latency: float
-    drop: float
-    generator: np.random.Generator
-    taken: int = 0
+    take: Callable[[float], T]  # function that returns a percept at a time
+    period: float  # period of the exposures [s]
+    latency: float  # delay from exposure to arrival [s]
+    drop: float  # fraction of lost percepts
+    generator: np.random.Generator  # random generator of the losses
+    taken: int = 0  # number of exposures
+    # times of arrival and percepts that have not arrived
     pending: deque[tuple[float, T]] = field(default_factory=deque)
 
     @property
@@ -43,12 +34,7 @@ class SensorStream(Generic[T]):
         return due - 1e-9
 
     def read(self, now: float, exposed: list[T]) -> list[T]:
-        """Return percepts that have arrived; take one when it is due.
-
-        Args:
-            now: Time, in [s].
-            exposed: List to which a new percept is appended.
-        """
+        """Return what has arrived; take and expose a percept when due."""
         if now >= self.taken * self.period - 1e-9:
             self.taken += 1
             if self.drop == 0.0 or self.generator.random() >= self.drop:
@@ -62,14 +48,9 @@ class SensorStream(Generic[T]):
 
 
 class StreamedSensors(Generic[T]):
-    """Sensors of one robot.
-
-    Attributes:
-        exposed: Percepts taken at the last tick, before their latency.
-    """
+    """Sensors of one robot, and what they took before its latency."""
 
     def __init__(self, streams: Sequence[SensorStream[T]]) -> None:
-        """Read some sensors."""
         self._streams, self._due = streams, 0.0
         self.exposed: list[T] = []
 

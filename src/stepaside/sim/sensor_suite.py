@@ -41,11 +41,7 @@ Generator = np.random.Generator
 
 
 class SensorSuite(StreamedSensors[Percept]):
-    """All cameras and sonars of one robot.
-
-    Attributes:
-        camera: Model of its colour camera.
-    """
+    """All cameras and sonars of one robot."""
 
     def __init__(
         self,
@@ -58,18 +54,7 @@ class SensorSuite(StreamedSensors[Percept]):
         *,
         with_depth: bool,
     ) -> None:
-        """Create the sensors of a robot.
-
-        Args:
-            world: World with the robot.
-            name: Name of the robot in the world.
-            description: Description of the robot, which has a head.
-            settings: Settings of the sensors.
-            renderer: Renderer of colour images, which robots may share; None
-                for ray casting.
-            seed: Seed of the run.
-            with_depth: Whether it has a depth camera and sonars.
-        """
+        """Create the sensors; robots may share the renderer, None for rays."""
         self._world, self._name = world, name
         self._settings, self._seed = settings, seed
         self._head = load_head(description)
@@ -175,10 +160,7 @@ def cast_depths(
     settings: DepthSettings,
     generator: Generator,
 ) -> Depths:
-    """Return a depth image with the errors of structured light.
-
-    Depths are in [m], and 0 without return. Shape (height, width).
-    """
+    """Return depths [m] with errors of structured light; 0 is no return."""
     caster.cast()
     hit = caster.distances > 0.0
     depth = caster.distances * caster.along
@@ -197,11 +179,7 @@ def cast_depths(
 
 
 def edges(image: Depths) -> np.ndarray:
-    """Return pixels in the shadow of a nearer neighbour.
-
-    The projector is to the right of the camera, so the pixels left of a near
-    edge have no return.
-    """
+    """Return pixels left of a nearer one, which the projector cannot reach."""
     edge = np.zeros(image.shape, dtype=bool)
     jump = image[:, :-1] - image[:, 1:]
     edge[:, :-1] = (jump > 0.3) & (image[:, 1:] > 0.0)
@@ -211,7 +189,7 @@ def edges(image: Depths) -> np.ndarray:
 def cast_echo(
     caster: RayCaster, settings: SonarSettings, generator: Generator
 ) -> float | None:
-    """Return the distance of the nearest surface that faces a sonar, in [m].
+    """Return the distance [m] of the nearest surface that faces a sonar.
 
     None without an echo; the floor reflects sound away from the robot.
     """
@@ -238,10 +216,7 @@ def cone(opening: float) -> Array:
 def colour_caster(
     model: mujoco.MjModel, caster: RayCaster, camera: CameraModel
 ) -> Callable[[], Pixels]:
-    """Return the function that casts images with flat colours and one light.
-
-    Shape of an image: (height, width, 3).
-    """
+    """Return the function that casts images of flat colours."""
     palette = model.geom_rgba[:, :3].copy()
     coated = model.geom_matid >= 0
     palette[coated] = model.mat_rgba[model.geom_matid[coated], :3]
@@ -275,7 +250,6 @@ class ImageNoise:
     def __init__(
         self, camera: CameraModel, deviation: float, generator: Generator
     ) -> None:
-        """Generate the tile."""
         self._generator = generator
         self._height, self._width = camera.height, camera.width
         shape = 2 * camera.height, 2 * camera.width, 3

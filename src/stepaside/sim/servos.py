@@ -21,11 +21,7 @@ def set_joint_gains(
     names: Sequence[str],
     gains: JointGains,
 ) -> None:
-    r"""Set the gains of the torque :math:`k_p (q^* - q) - k_d \dot q`.
-
-    MuJoCo evaluates it at every physics step and limits it to the torque
-    limits of the actuators. Joints without gains keep theirs.
-    """
+    """Set gains of the torque k_p (q* - q) - k_d dq/dt, where given."""
     for actuator, name in zip(actuators.tolist(), names, strict=True):
         if name in gains:
             stiffness, damping = gains[name]
@@ -83,10 +79,6 @@ class IdealServos:
 
     Targets are limited to the speed limits of the joints, and their velocity
     is fed forward.
-
-    Attributes:
-        lead: Addition to the target per change. Shape (joints,).
-        reach: Largest change of a target, in [rad]. Shape (joints,).
     """
 
     def __init__(
@@ -99,16 +91,9 @@ class IdealServos:
         *,
         feedforward: bool = True,
     ) -> None:
-        """Drive consecutive actuators of a model.
+        """Drive consecutive actuators with speed limits [rad/s] and a cycle.
 
-        Args:
-            model: Compiled model.
-            data: Its state.
-            actuators: Indices of the actuators, without gaps.
-            speed_limits: Speed limits of their joints, in [rad/s].
-            cycle: Control period, in [s].
-            feedforward: Whether targets are limited in speed and their
-                velocity is fed forward; else each is sent as it is.
+        Without feedforward each target is sent as it is.
         """
         self._data = data
         self._ctrl = slice(int(actuators[0]), int(actuators[-1]) + 1)
@@ -146,12 +131,10 @@ class IdealServos:
 
 
 class RealisticServos(IdealServos):
-    """Servos with delay, backlash and speed-dependent torque.
+    """Servos with delay, backlash and torque that falls with the speed.
 
-    A target takes effect after a number of cycles, and the servo ramps to it
-    in one cycle. Within the backlash the motor turns without the joint. The
-    torque limit falls linearly with the speed of the joint, to zero at the
-    no-load speed.
+    A target takes effect after some cycles, and the servo ramps to it in one
+    cycle. Within the backlash the motor turns without the joint.
     """
 
     def __init__(
@@ -166,10 +149,6 @@ class RealisticServos(IdealServos):
         *,
         feedforward: bool = True,
     ) -> None:
-        """Drive consecutive actuators; see :class:`IdealServos`.
-
-        ``backlash`` is the width of the dead zone of each joint, in [rad].
-        """
         model.actuator_gainprm[actuators, 0] *= body.servo_gain
         model.actuator_biasprm[actuators, 1] *= body.servo_gain
         super().__init__(

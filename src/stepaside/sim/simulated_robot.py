@@ -39,11 +39,7 @@ if TYPE_CHECKING:
 
 
 def motor_of(model: mujoco.MjModel, joint: int) -> int:
-    """Return the index of the actuator of a joint, by the joint's index.
-
-    Raises:
-        ModelError: If the joint has no actuator or several.
-    """
+    """Return the index of the one actuator of a joint, by its index."""
     moving = (model.actuator_trnid[:, 0] == joint) & (
         model.actuator_trntype == mujoco.mjtTrn.mjTRN_JOINT
     )
@@ -58,39 +54,26 @@ def motor_of(model: mujoco.MjModel, joint: int) -> int:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class SensorSetup:
-    """Sensors of a simulated robot.
+    """Sensors of a simulated robot."""
 
-    Attributes:
-        generator: Random generator of errors and noise; None for exact
-            sensors.
-        integrates_imu: Whether the IMU gives the change of orientation and
-            velocity between readings, as real ones do, instead of samples, as
-            far as it is on the body with the free joint.
-        sights: Ideal lines of sight to all other players, if any.
-        eyes: Cameras and sonars, if any.
-        truth: True state of the robot, if it exists already.
-        knows_pose: Whether it has an ideal sensor of its pose in a room,
-            which replaces localisation on a given map.
-    """
-
+    # random generator of errors and noise; None for exact sensors
     generator: np.random.Generator | None = None
+    # whether the IMU gives the change of orientation and velocity between
+    # readings, as real ones do, instead of samples, as far as it is on the
+    # body with the free joint
     integrates_imu: bool = False
+    # ideal lines of sight to all other players, if any
     sights: tuple[IdealLineOfSight, ...] = ()
-    eyes: SensorSuite | Lidar | None = None
+    eyes: SensorSuite | Lidar | None = None  # cameras and sonars, if any
+    # true state of the robot, if it exists already
     truth: TrueRobotState | None = None
+    # whether it has an ideal sensor of its pose in a room, which replaces
+    # localisation on a given map
     knows_pose: bool = False
 
 
 class SimulatedRobot:
-    """Robot in a world, with its sensors and servos.
-
-    Attributes:
-        name: Name of the robot in the world.
-        tick: Control period, in [s].
-        joint_names: Names of the actuated joints, in the order of targets.
-        eyes: Cameras and sonars, if any.
-        truth: True state, for ideal sensors and for records.
-    """
+    """Robot in a world, with its sensors and servos."""
 
     def __init__(
         self,
@@ -104,18 +87,10 @@ class SimulatedRobot:
         *,
         gains: JointGains | None = None,
     ) -> None:
-        """Place a robot in the posture of its kinematics.
+        """Place a robot in the posture of its kinematics at a pose.
 
-        Args:
-            world: World with the robot.
-            name: Name of the robot in the world.
-            description: Description of the robot.
-            kinematics: Kinematics in the standing posture.
-            pose: Pose of the odometry frame in the world.
-            body: Errors of the body; none by default.
-            sensors: Its sensors; by default exact ones of its joints, IMU
-                and feet.
-            gains: Gains of a body that is driven by joint torques.
+        Without setup its sensors are exact ones of joints, IMU and feet. Gains
+        are of a body that is driven by joint torques.
         """
         body, setup = body or BodySettings(), sensors or SensorSetup()
         self.world, self.name = world, name
@@ -221,13 +196,7 @@ class SimulatedRobot:
         return GRAVITY * float(mass)
 
     def read(self, *, sees: bool = True, feels: bool = True) -> RobotState:
-        """Read the sensors.
-
-        Args:
-            sees: Whether to read the ideal sightings of other players.
-            feels: Whether to read joints, IMU and soles; their values are
-                empty otherwise.
-        """
+        """Read the sensors, or without sightings, or without the body."""
         now = self.world.time
         seen = self._sightings(now) if sees else ()
         first = seen[0] if seen and len(self._sights) == 1 else None

@@ -27,16 +27,10 @@ Vector = tuple[float, float]
 def social_force(
     offset: Vector, relative_velocity: Vector, preference: float = PREFERENCE
 ) -> Vector:
-    """Return the acceleration of a walker by another one, in [m/s^2].
+    """Return the acceleration [m/s^2] of a walker by another one.
 
-    Args:
-        offset: Position of the walker relative to the other one, in [m].
-        relative_velocity: Velocity of the walker relative to it, in [m/s].
-        preference: Angle per reach by which both tend to the right, in
-            [rad/m]; without, two who meet head-on only slow down.
-
-    Returns:
-        Components along the axes of the offset.
+    Offset and velocity are relative to the other. Both tend to the right by
+    the preference; without, two who meet head-on only slow down.
     """
     distance = hypot(*offset)
     if distance == 0.0:
@@ -61,14 +55,7 @@ def social_force(
 def desired_force(
     offset: Vector, velocity: Vector, speed: float, halts_within: float
 ) -> Vector:
-    """Return the acceleration towards a goal, in [m/s^2].
-
-    Args:
-        offset: Position of the goal relative to the walker, in [m].
-        velocity: Velocity of the walker, in [m/s].
-        speed: Desired speed, in [m/s].
-        halts_within: Distance from the goal at which it halts, in [m].
-    """
+    """Return the acceleration [m/s^2] towards a goal at an offset [m]."""
     distance = hypot(*offset)
     scale = speed / distance if distance > halts_within else 0.0
     return (
@@ -78,23 +65,13 @@ def desired_force(
 
 
 def obstacle_force(outward: Vector, gap: float) -> Vector:
-    """Return the acceleration away from an obstacle, in [m/s^2].
-
-    Args:
-        outward: Unit vector away from the obstacle.
-        gap: Distance between the body and the obstacle, in [m].
-    """
+    """Return the acceleration [m/s^2] away from an obstacle at a gap [m]."""
     push = OBSTACLE * exp(-max(gap, 0.0) / OBSTACLE_RANGE)
     return push * outward[0], push * outward[1]
 
 
 def group_force(place: Vector, members: list[Vector]) -> Vector:
-    """Return the acceleration of a walker by its group, in [m/s^2].
-
-    Args:
-        place: Position of the walker, in [m].
-        members: Positions of the others of its group.
-    """
+    """Return the acceleration [m/s^2] of a walker by its group."""
     if not members:
         return 0.0, 0.0
     count = len(members) + 1

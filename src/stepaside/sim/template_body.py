@@ -23,10 +23,7 @@ OTHER_COLOUR = (0.35, 0.35, 0.38, 1.0)
 def add_template(
     spec: mujoco.MjSpec, name: str, colour: Colour | None = None
 ) -> None:
-    """Add the marker of a template to a world, without contacts.
-
-    Its colour is by default that of the role by this name.
-    """
+    """Add the marker of a template to a world, without contacts."""
     colour = colour or COLOURS.get(name, OTHER_COLOUR)
     body = spec.worldbody.add_body(name=f"{name}/trunk", mocap=True)
     disc, mast = (DISC_RADIUS, DISC_HALF_HEIGHT), 0.5 * MAST_HEIGHT

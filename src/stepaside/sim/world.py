@@ -40,17 +40,8 @@ def build_model(
 ) -> mujoco.MjModel:
     """Compile a floor and robots that collide with it and each other.
 
-    Args:
-        robots: Robots by name; the names become prefixes, as in
-            ``pursuer/torso``.
-        physics: Time step and floor.
-        body: Errors of the robots; none by default.
-        seed: Seed of the floor and of the errors of the robots.
-        furnish: Function that adds to the world after the robots.
-        rendered: Whether to include geoms and materials that do not
-            collide and only serve images.
-        colours: Colours of robots by name, red to opacity; by default those
-            of the two roles.
+    Names of robots become prefixes, as in ``pursuer/torso``. What only serves
+    images is included if rendered; the furnisher adds after the robots.
     """
     colours = COLOURS if colours is None else colours
     spec = mujoco.MjSpec()
@@ -97,9 +88,8 @@ def build_model(
 def _contact_types() -> Iterator[int]:
     """Yield contact types of robots, none of which contains another.
 
-    Each type is a different half of the bits. It therefore shares a bit with
-    the complement of every other type, but not with its own. 30 bits have
-    1.6e8 halves.
+    Each is a different half of the bits: it shares one with the complement
+    of every other type, but not with its own.
     """
     bits = range(1, CONTACT_BITS.bit_length())  # bit 0 is the floor's
     for half in combinations(bits, len(bits) // 2):
@@ -109,18 +99,9 @@ def _contact_types() -> Iterator[int]:
 class World:
     """Physics of a model that its robots advance together.
 
-    Time advances when every robot has called :meth:`advance`, so that each
-    can be driven through its own interface.
-
-    Attributes:
-        model: Compiled model.
-        data: Its state; ``sensordata`` after :meth:`update_sensors`.
-        physics: Time step and control period.
-        ticks: Number of control ticks so far.
-        before_step: Functions called with the time, in [s], before each
-            physics step.
-        measures_always: Whether sensors are read at each control tick: then
-            the last physics step computes them.
+    Time advances when every robot has called :meth:`advance`. Sensors are
+    current after :meth:`update_sensors`; the last step of a tick computes
+    them where ``measures_always``.
     """
 
     def __init__(
@@ -134,13 +115,7 @@ class World:
         rendered: bool = False,
         colours: Mapping[str, Colour] | None = None,
     ) -> None:
-        """Compile a world whose robots are not placed yet.
-
-        Args are those of :func:`build_model`.
-
-        Raises:
-            ModelError: If a model lacks what its description names.
-        """
+        """Compile a world of robots to be placed; see :func:`build_model`."""
         for robot in robots.values():
             load_tree(robot)  # raises if model and description differ
         self.physics = physics
@@ -256,10 +231,7 @@ class World:
 
 
 def transform_free_joint(qpos: Sequence[float], pose: Pose) -> list[float]:
-    """Transform position and quaternion from odometry to the world.
-
-    The pose is of the odometry frame in the world. Shapes (7,).
-    """
+    """Return position and quaternion of a frame with a pose in the world."""
     x, y, z, w, a, b, c = qpos
     place = pose.compose(Pose(x, y, 0.0))
     cw, sw = cos(0.5 * pose.theta), sin(0.5 * pose.theta)
