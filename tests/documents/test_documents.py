@@ -21,7 +21,6 @@ NOT_MEASURED = {
     ("docs/games.md", "strategy"),
     ("docs/campaigns.md", "`--executor`"),
     ("docs/commands.md", "command"),
-    ("docs/conventions.md", "angle"),
     ("docs/conventions.md", "frame"),
     ("docs/conventions.md", "generator"),
     ("docs/conventions.md", "symbol"),
