@@ -53,8 +53,6 @@ def people(*results: Mapping[str, Any]) -> str:
             counted(row["contacts"], row["number"]),
             counted(row["falls"], row["number"]),
             number(row["closest_m"], 2),
-            number(row["mean_closest_m"], 2),
-            number(row["template_closest_m"], 2),
             number(row["triggered_at_m"], 1),
         )
         for result in results
@@ -62,6 +60,6 @@ def people(*results: Mapping[str, Any]) -> str:
     ]
     head = (
         *("body", "speed [m/s]", "touched", "fell", "closest [m]"),
-        *("mean [m]", "template's closest [m]", "begun at [m]"),
+        "begun at [m]",
     )
     return table(head, rows)

@@ -7,36 +7,28 @@ from .markdown import counted, number, table
 
 
 def people(*results: Mapping[str, Any]) -> str:
-    """List contacts and distances by body, sensing and walking speed."""
+    """List contacts and distances by walking speed."""
     rows = [
         (
-            result["settings"]["body"],
-            row["sensing"],
             f"{row['speed_m_s']:g}",
             str(row["number"]),
             counted(row["contacts"], row["number"]),
             counted(row["falls"], row["number"]),
             number(row["closest_m"], 2),
             number(row["mean_closest_m"], 2),
-            number(row["template_closest_m"], 2),
             number(row["triggered_at_m"], 1),
-            number(row["theory_room_m"], 2),
         )
         for result in results
         for row in result["people"]
     ]
     head = (
-        "body",
-        "seen by",
         "speed [m/s]",
         "people",
         "touched",
         "fell",
         "closest [m]",
         "mean [m]",
-        "template's closest [m]",
         "begun at [m]",
-        "theory's room at 3.5 m [m]",
     )
     return table(head, rows)
 
@@ -70,23 +62,25 @@ def seen(*results: Mapping[str, Any]) -> str:
 
 def reactions(*results: Mapping[str, Any]) -> str:
     """List what came of people by reaction, drawn at random and searched."""
+    found: dict[str, dict[bool, Mapping[str, Any]]] = {}
+    for result in results:
+        for row in result["reactions"]:
+            found.setdefault(row["reaction"], {})[row["hard"]] = row
     rows = [
         (
-            row["sensing"],
-            row["reaction"],
-            "searched" if row["hard"] else "drawn",
-            str(row["number"]),
-            counted(row["contacts"], row["number"]),
-            counted(row["falls"], row["number"]),
-            number(row["closest_m"], 2),
-            number(row["median_closest_m"], 2),
-            ", ".join(f"{n} {c}" for c, n in row["causes"].items()) or "-",
+            reaction,
+            *(
+                f"{row['number']}: {counted(row['contacts'], row['number'])}"
+                for row in kinds
+            ),
+            number(min(row["closest_m"] for row in kinds), 2),
+            number(kinds[0]["median_closest_m"], 2),
         )
-        for result in results
-        for row in result["reactions"]
+        for reaction, by_kind in found.items()
+        for kinds in [(by_kind[False], by_kind[True])]
     ]
     head = (
-        *("seen by", "reaction", "people", "games", "touched", "fell"),
-        *("closest [m]", "median [m]", "causes"),
+        *("reaction", "drawn: touched", "searched: touched"),
+        *("closest [m]", "median of drawn [m]"),
     )
     return table(head, rows)

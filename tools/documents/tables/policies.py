@@ -19,9 +19,9 @@ UNITS = ("m/s", "m/s", "rad/s")
 
 
 def tracking(results: Mapping[str, Result]) -> str:
-    """List gain, cross terms, lag, halting motion and falls by axis."""
+    """List gain, lag, halting motion and falls by axis."""
     head = (
-        *("policy", "axis", "delivered", "gain", "cross terms"),
+        *("policy", "axis", "delivered", "gain"),
         *("lag [s]", "halts in [m, rad]", "falls"),
     )
     rows = []
@@ -31,17 +31,12 @@ def tracking(results: Mapping[str, Result]) -> str:
         found = results[name]["measured"]
         for i, axis in enumerate(AXES):
             low, high = found["limits"][axis]
-            gains = [row[i] for row in found["gains"]]
-            cross = ", ".join(
-                f"{gains[k]:+.3f}" for k in range(len(AXES)) if k != i
-            )
             rows.append(
                 (
                     words if i == 0 else "",
                     axis,
                     f"{number(low, 2)} to {number(high, 2)} {UNITS[i]}",
-                    number(gains[i], 2),
-                    cross,
+                    number(found["gains"][i][i], 2),
                     number(found["lag_s"][i], 2),
                     number(found["halting"][i], 2),
                     _falls(found) if i == 0 else "",

@@ -3,7 +3,7 @@
 from collections.abc import Mapping
 from typing import Any
 
-from .markdown import NONE, interval, number, table
+from .markdown import interval, number, table
 
 Result = Mapping[str, Any]
 
@@ -40,12 +40,10 @@ def _survived(row: Mapping[str, Any]) -> str:
 
 
 def ladder(result: Result) -> str:
-    """List survival of both evaders, beside an offline search."""
+    """List survival of both evaders."""
     head = (
         *("world", "pursuer", "games"),
-        *("look-ahead", "robust"),
-        *("look-ahead [s]", "robust [s]", "offline search [s]"),
-        "robust decides, mean and longest [ms]",
+        *("look-ahead", "robust", "robust decides, mean, longest [ms]"),
     )
     rows = []
     for world, found in result["worlds"].items():
@@ -54,15 +52,12 @@ def ladder(result: Result) -> str:
             evaders.setdefault(row["pursuer"], {})[row["evader"]] = row
         for pursuer, by_name in evaders.items():
             both = [by_name[name] for name in ("look-ahead", "robust")]
-            times = found["offline_s"].get(pursuer)
             rows.append(
                 (
                     world,
                     pursuer,
                     str(both[0]["games"]),
                     *(_survived(row) for row in both),
-                    *(number(row["mean_survival_s"], 1) for row in both),
-                    number(sum(times) / len(times), 1) if times else NONE,
                     f"{both[1]['decision_ms']:.0f}, "
                     f"{both[1]['longest_decision_ms']:.0f}",
                 )
