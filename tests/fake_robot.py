@@ -12,7 +12,8 @@ from stepaside.control.strategy_runner import StrategyRunner
 from stepaside.core.poses import Array, Pose
 from stepaside.locomotion.maneuver_walk import ManeuverWalk
 from stepaside.locomotion.walk_snapshots import Phase, StepStarted
-from stepaside.locomotion.zmp.feedback_loop import ClosedLoop, OpenLoop
+from stepaside.locomotion.zmp.open_loop import OpenLoop
+from stepaside.locomotion.zmp.stabiliser import Stabiliser
 from stepaside.perception.measurement import RobotState, Sighting
 from stepaside.planning import Direction, Foot, GaitSettings
 from stepaside.robots.leg_kinematics import BodyReference
@@ -79,14 +80,13 @@ class FakeStrategy:
         return intent, (*memory, knowledge) if going else memory
 
 
-class FakeFeedback:
+class FakeFeedback(Stabiliser):
     """Passes everything on, and can be told to interfere."""
 
-    def __init__(self) -> None:
-        self.ready = True
-        self.estimator = SimpleNamespace(torso_heading=0.0, tilt=(0.0, 0.0))
-        self.zmp_feedback = SimpleNamespace(solved=None)
-        self.adapted = 0
+    def __init__(self, legs: Any = None) -> None:
+        OpenLoop.__init__(self, legs)
+        self.ready, self.measured_heading = True, 0.0
+        self.tilt = (0.0, 0.0)
         self.state: Any = None
         self.lift = self.shift = 0.0
         self.jump = (0.0, 0.0)
@@ -94,7 +94,8 @@ class FakeFeedback:
         self.steps: list[Any] = []
         self.landed: list[Any] = []
         self.fits = 0
-        self.joints = SimpleNamespace(update=lambda angles, t: t + angles)
+        joints: Any = SimpleNamespace(update=lambda angles, t: t + angles)
+        self.joints = joints
 
     def update(self, _: Any, row: Any, step: Any) -> BodyReference:
         """Pass the reference on, lifted."""
@@ -205,10 +206,9 @@ FIRST = GAIT.start_support + STEP  # duration of the first maneuver walked
 
 
 def feeding(strategy: Any = None) -> tuple[Run, FakeFeedback]:
-    feedback: Any = FakeFeedback()
-    return Run(
-        strategy, balance=lambda legs: ClosedLoop(feedback, legs)
-    ), feedback
+    run = Run(strategy, balance=FakeFeedback)
+    feedback: Any = walk_of(run.scheme).balance
+    return run, feedback
 
 
 class FakePerception:

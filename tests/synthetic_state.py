@@ -15,7 +15,6 @@ from stepaside.locomotion.zmp.stabiliser import Stabiliser
 from stepaside.locomotion.zmp.state_estimator import BodyState
 from stepaside.perception.measurement import RobotState
 from stepaside.planning import Foot, GaitSettings
-from stepaside.robots.forward_kinematics import MeasuredPosture
 from stepaside.robots.leg_kinematics import BodyReference
 
 GAIT = GaitSettings()
@@ -54,7 +53,7 @@ class FakeEstimator:
 
     def __init__(self) -> None:
         self.ready = True
-        self.posture: MeasuredPosture | None = None
+        self.torso_heading = 0.0
         self.off_com = self.off_dcm = self.tilt = ZERO
         self.left_share = 0.5
         self.told: list[tuple[BodyReference, tuple[float, float]]] = []
@@ -90,7 +89,9 @@ def stabiliser(
 ) -> tuple[Stabiliser, FakeEstimator]:
     fake: Any = FakeEstimator()
     settings = ControlSettings(method, True, gains)  # type: ignore[arg-type]
-    return Stabiliser(settings, fake, GAIT, tick=TICK, **changes), fake
+    legs: Any = None
+    made = Stabiliser(settings, fake, GAIT, legs, tick=TICK, **changes)
+    return made, fake
 
 
 def step(**changes: Any) -> CurrentStep:

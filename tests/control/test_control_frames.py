@@ -14,7 +14,7 @@ from stepaside.arena import Disc
 from stepaside.arena.obstacles import ObstacleSet
 from stepaside.control.strategy_runner import StrategyRunner
 from stepaside.core.poses import Array, Pose, wrap_angle
-from stepaside.locomotion.zmp.feedback_loop import OpenLoop
+from stepaside.locomotion.zmp.open_loop import OpenLoop
 from stepaside.locomotion.zmp.reference_table import (
     ReferenceSample,
     ReferenceTable,
@@ -132,7 +132,7 @@ class Noted(OpenLoop):
 
     def targets(
         self, measurement: RobotState, table: ReferenceTable, *more: Any
-    ) -> Array:
+    ) -> Array | None:
         """Note it."""
         self.rows.append(table.at(measurement.time))
         return super().targets(measurement, table, *more)

@@ -14,7 +14,7 @@ from stepaside.fitting.gait_feasibility import JointLoads
 from stepaside.fitting.walk_trials import WalkTrialResult
 from stepaside.games.robot_settings import settings_from_description
 from stepaside.locomotion.zmp.control_settings import StabiliserSettings
-from stepaside.locomotion.zmp.joint_correction import Ankles
+from stepaside.locomotion.zmp.stabiliser import Ankles
 from stepaside.locomotion.zmp.state_estimator import BodyState
 from stepaside.robots.description import (
     RobotDescription,

@@ -5,11 +5,12 @@ from typing import Any
 import pytest
 
 from stepaside.locomotion.zmp.control_settings import StabiliserSettings
-from stepaside.locomotion.zmp.joint_correction import Ankles, Tilt
+from stepaside.locomotion.zmp.stabiliser import Ankles
 from stepaside.locomotion.zmp.state_estimator import BodyState
 
-GAINS = StabiliserSettings(ankle=0.5, ankle_rate=0.04, ankle_bandwidth=50.0)
+GAINS = StabiliserSettings(ankle=0.5, ankle_rate=0.04)
 TICK = 0.004
+Vector = tuple[float, float]
 ZERO = (0.0, 0.0)
 
 
@@ -22,9 +23,9 @@ def state(**changes: Any) -> BodyState:
     return BodyState(ZERO, ZERO, ZERO, ZERO, weight=50.0, **values)
 
 
-def settled(state: BodyState, gains: StabiliserSettings = GAINS) -> list[Tilt]:
-    ankles = Ankles(gains, TICK)
-    tilts: tuple[Tilt, Tilt] = (ZERO, ZERO)
+def settled(state: BodyState) -> list[Vector]:
+    ankles = Ankles(GAINS, TICK)
+    tilts: tuple[Vector, Vector] = (ZERO, ZERO)
     for _ in range(500):
         tilts = ankles.tilts(state)
     return list(tilts)

@@ -1,25 +1,18 @@
 """Test the correction of joint errors."""
 
-from typing import Any
-
 import numpy as np
 import pytest
 
 from stepaside.core.poses import Array
-from stepaside.locomotion.zmp.joint_correction import JointCorrection
+from stepaside.locomotion.zmp.control_settings import StabiliserSettings
+from stepaside.locomotion.zmp.stabiliser import JointCorrection
 
 TICK = 0.01
 
 
-def correction(**changes: Any) -> JointCorrection:
-    request: dict[str, Any] = {
-        "gain": 4.0,
-        "bound": 0.05,
-        "leak": 0.5,
-        "tick": TICK,
-        "delay": 0.0,
-    } | changes
-    return JointCorrection(**request)
+def correction(gain: float = 4.0, delay: float = 0.0) -> JointCorrection:
+    gains = StabiliserSettings(joint_gain=gain, joint_leak=0.5)
+    return JointCorrection(gains, tick=TICK, delay=delay)
 
 
 def hold(joints: JointCorrection, missing: Array, ticks: int) -> Array:
@@ -58,7 +51,7 @@ def test_a_servo_that_answers_too_late_is_not_mistaken_for_play() -> None:
 
 
 def test_a_correction_that_is_no_longer_needed_fades() -> None:
-    joints, targets = correction(leak=0.5), np.array([0.1])
+    joints, targets = correction(), np.array([0.1])
     for _ in range(50):
         joints.update(np.zeros(1), targets)
     for _ in range(5):

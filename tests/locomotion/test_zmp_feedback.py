@@ -6,25 +6,19 @@ from typing import Any
 import numpy as np
 import pytest
 
-from stepaside.core.poses import Array, Pose
-from stepaside.locomotion.zmp.control_settings import (
-    STABILISED,
-    ControlSettings,
-    StabiliserSettings,
-)
+from stepaside.core.poses import Array
+from stepaside.locomotion.zmp.control_settings import StabiliserSettings
 from stepaside.locomotion.zmp.current_step import (
     CurrentStep,
     resting_step,
     zmp_box,
 )
 from stepaside.locomotion.zmp.mpc import IntrinsicallyStableMpc
-from stepaside.locomotion.zmp.zmp_feedback import ZmpFeedback
-from stepaside.planning import Direction, Foot, GaitSettings, ManeuverPlanner
+from stepaside.planning import Direction, Foot, ManeuverPlanner
+from synthetic_state import GAIT, SUPPORT, TICK, stabiliser
 
-GAIT = GaitSettings()
-EDGE, TICK = 0.002, 0.004
-SUPPORT = Pose(1.0, -2.0, 0.7)
-RULE = ZmpFeedback(STABILISED, GAIT, TICK)
+EDGE = 0.002
+RULE = stabiliser()[0]
 
 
 def walking(swing: Foot = Foot.LEFT) -> CurrentStep:
@@ -50,7 +44,7 @@ class FakeMpc:
 def test_a_small_shift_is_answered_by_its_multiple() -> None:
     """In any direction, and beyond it: only then does the DCM return."""
     for dcm in ((0.003, 0.0), (-0.002, 0.004), (0.0, -0.005)):
-        p = RULE.shift(walking(), dcm, (0.3, 0.3))
+        p = RULE.zmp_response(walking(), dcm, (0.3, 0.3))
         assert p == pytest.approx((4.0 * dcm[0], 4.0 * dcm[1]))
 
 
@@ -59,17 +53,17 @@ def test_the_sole_that_stands_limits_it(swing: Foot) -> None:
     made = walking(swing)
     low, high = zmp_box(swing, GAIT, EDGE)
     for far, corner in ((1.0, high), (-1.0, low)):
-        p = RULE.shift(made, made.from_support(far, far), (0.0, 0.0))
+        p = RULE.zmp_response(made, made.from_support(far, far), (0.0, 0.0))
         assert made.to_support(*p) == pytest.approx(corner)
 
 
 def test_the_mpc_is_solved_in_the_plan_frame() -> None:
     fake: Any = FakeMpc()
-    rule = ZmpFeedback(STABILISED, GAIT, TICK)
+    rule = stabiliser()[0]
     rule.mpc = fake
     made = walking()
     dcm, zmp = made.from_support(0.01, 0.02), made.from_support(0.03, 0.04)
-    p = rule.shift(made, dcm, zmp)
+    p = rule.zmp_response(made, dcm, zmp)
     (plan, passed, *state) = fake.asked[0]
     assert plan is made.plan and passed == 1.25
     np.testing.assert_allclose(state, [0.01, 0.02, 0.03, 0.04])
@@ -81,14 +75,14 @@ def test_the_mpc_is_solved_in_the_plan_frame() -> None:
 def test_the_mpc_method_asks_a_solver_while_walking() -> None:
     pytest.importorskip("daqp")
     gains = StabiliserSettings(feedback=3.0, edge=0.005)
-    rule = ZmpFeedback(ControlSettings("mpc", True, gains), GAIT, TICK)
+    rule, _ = stabiliser("mpc", gains)
     assert isinstance(rule.mpc, IntrinsicallyStableMpc)
     made = walking()
     rest = resting_step(SUPPORT, Foot.LEFT)
-    assert rule.shift(rest, (0.001, 0.0), (0.0, 0.0)) == pytest.approx(
+    assert rule.zmp_response(rest, (0.001, 0.0), (0.0, 0.0)) == pytest.approx(
         (0.003, 0.0)
     )
     dcm = made.from_support(0.005, 0.0)
-    p = rule.shift(made, dcm, (0.0, 0.0))
+    p = rule.zmp_response(made, dcm, (0.0, 0.0))
     assert made.to_support(*p)[0] > 0.0
     assert rule.solved is not None and rule.solved.feasible

@@ -6,7 +6,7 @@ import mujoco
 import numpy as np
 
 from stepaside.core.poses import Array
-from stepaside.locomotion.zmp.feedforward import LoadFeedforward
+from stepaside.locomotion.zmp.open_loop import LoadFeedforward
 from stepaside.planning import GaitSettings
 from stepaside.robots.description import load_robot
 from stepaside.robots.joint_loads import LegLoads

@@ -5,7 +5,7 @@ import pytest
 
 from stepaside.core.errors import ReachError
 from stepaside.core.poses import Array
-from stepaside.locomotion.zmp.feedforward import LoadFeedforward
+from stepaside.locomotion.zmp.open_loop import LoadFeedforward
 from stepaside.robots.description import load_robot
 from stepaside.robots.leg_kinematics import BodyReference, LegKinematics
 

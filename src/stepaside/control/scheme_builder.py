@@ -4,7 +4,7 @@ from typing import NamedTuple
 
 from ..locomotion.maneuver_walk import ManeuverWalk
 from ..locomotion.zmp.control_settings import ControlSettings
-from ..locomotion.zmp.feedback_loop import build_balance
+from ..locomotion.zmp.stabiliser import build_balance
 from ..planning import GaitSettings, ManeuverPlanner
 from ..robots.description import RobotDescription
 from ..robots.forward_kinematics import ForwardKinematics

@@ -28,7 +28,6 @@ STABILISER_LENGTHS = {
     "reach_forward": 2.0 * STRIDE,
     "reach_backward": 2.0 * STRIDE,
     "reach_outward": 0.075,
-    "stride_bound": 0.056,
 }
 STABILISER_RATES = {"yielding": 0.83, "joint_gain": 1.65, "joint_leak": 0.165}
 GAP = 0.045
@@ -109,7 +108,6 @@ def stabiliser_of(size: RobotSize) -> dict[str, float]:
         "ankle_rate": _round(ANKLE_RATE * time),
         "gap": _round(min(GAP * z, 0.5 * gap)),
         "step_speed": _round(STEP_SPEED * size.speed),
-        "stride_gain": 0.0,
         "load_share": 1.0,
     }
 

@@ -16,7 +16,7 @@ from ..planning import (
 )
 from ..strategies.knowledge import Intent
 from .locomotion import MotionRequest
-from .zmp.feedback_loop import Balance
+from .zmp.open_loop import OpenLoop
 
 
 class GuardDecision(NamedTuple):
@@ -81,7 +81,7 @@ class ManeuverSelection:
     def __init__(
         self,
         settings: GaitSettings,
-        balance: Balance,
+        balance: OpenLoop,
         guard: ManeuverGuard | None,
     ) -> None:
         """Prepare a planner; balance control fits plans to the state."""

@@ -17,7 +17,7 @@ from .zmp.current_step import (
     first_step_of,
     resting_step,
 )
-from .zmp.feedback_loop import Balance, OpenLoop
+from .zmp.open_loop import OpenLoop
 from .zmp.reference_table import ReferenceTable, resting_sample
 
 SETTLING = 1.0  # how long a halted robot takes to come to rest, in [s]
@@ -50,7 +50,7 @@ class ManeuverWalk:
         self,
         gait: GaitSettings,
         kinematics: LegKinematics,
-        balance: Balance | None = None,
+        balance: OpenLoop | None = None,
         *,
         tick: float,
         delay: float = 0.0,
@@ -73,9 +73,7 @@ class ManeuverWalk:
         """
         self.gait = gait
         self.kinematics = kinematics
-        self.balance: Balance = (
-            OpenLoop(kinematics) if balance is None else balance
-        )
+        self.balance = OpenLoop(kinematics) if balance is None else balance
         self.phase = Phase.STANDING
         self.plan: ManeuverPlan | None = None
         self.plan_frame = Pose(0.0, 0.0, 0.0)
@@ -158,7 +156,7 @@ class ManeuverWalk:
     @property
     def feels(self) -> bool:
         """Whether balance uses joint angles, IMU or forces on the soles."""
-        return not isinstance(self.balance, OpenLoop)
+        return self.balance.feels
 
     def decides(self, now: float) -> bool:
         """Return whether a decision is due at a tick, at a time in [s]."""

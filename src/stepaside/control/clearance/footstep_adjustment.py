@@ -22,7 +22,7 @@ import numpy as np
 from ...arena import ObstacleSet
 from ...core.poses import Array, Pose
 from ...locomotion.zmp.control_settings import StabiliserSettings
-from ...locomotion.zmp.qp_solver import load_solver
+from ...locomotion.zmp.mpc import load_solver
 from ...planning import GaitSettings, ManeuverPlan, ManeuverPlanner
 
 SOLVED = 1  # smallest exit flag of the solver for a solution

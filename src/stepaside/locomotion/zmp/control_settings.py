@@ -9,7 +9,6 @@ from ...core.setting import check_settings, setting
 
 Method = Literal["closed-form", "measured", "mpc"]
 METHODS: tuple[str, ...] = get_args(Method)
-Tail = Literal["anticipative", "periodic", "truncated"]
 SIZE = "about a hundred foot lengths"
 TICKS = "a faster rate acts within one tick"
 
@@ -52,11 +51,6 @@ class StabiliserSettings:
         "Tilt of the stance foot per tilt rate of the torso",
         Range(0.0, 10.0, "s", "a larger gain tips the foot"),
     )
-    ankle_bandwidth: float = setting(
-        50.0,
-        "Bandwidth of the filter of the tilt of the stance foot",
-        Range(0.0, 10000.0, "1/s", TICKS),
-    )
     edge: float = setting(
         0.002,
         "Smallest distance of the ZMP from the edge of the sole",
@@ -87,28 +81,10 @@ class StabiliserSettings:
         "Greatest speed at which an adapted footstep moves",
         Range(0.0, 100.0, "m/s", "no swing foot is faster"),
     )
-    freeze: float = setting(
-        0.95,
-        "Fraction of the swing after which the footstep is fixed",
-        Range(0.0, 1.0, "1", "a fraction"),
-    )
-    stride_gain: float = setting(
-        0.3,
-        "Learning gain of the shortfall of footsteps",
-        Range(0.0, 1.0, "1", "a fraction"),
-    )
-    stride_bound: float = setting(
-        0.015, "Largest learned shortfall", Range(0.0, 10.0, "m", SIZE)
-    )
     joint_gain: float = setting(
         10.0,
         "Gain of the integral of joint errors",
         Range(0.0, 1000.0, "1/s", TICKS),
-    )
-    joint_bound: float = setting(
-        0.03,
-        "Largest correction of a joint",
-        Range(0.0, 3.2, "rad", "half a turn of a joint"),
     )
     joint_leak: float = setting(
         1.0,
@@ -152,10 +128,6 @@ class MpcSettings:
             "samples shorter than a tick have no effect",
             whole=True,
         ),
-    )
-    tail: Tail = setting(
-        "anticipative",
-        "Assumed ZMP motion beyond the MPC horizon",
     )
     pull: float = setting(
         100.0,

@@ -5,30 +5,29 @@ The ZMP velocity is the decision, constant over N samples of length
 w = 0 is the closed form itself. With the DCM d and the ZMP z, both less the
 plan's, the motion is bounded if and only if
 
-.. math:: \sum_i \kappa_i w_i + \mathrm{tail} = d_0 - z_0, \qquad
+.. math:: \sum_i \kappa_i w_i = d_0 - z_0, \qquad
    \kappa_i = e^{-i \eta \delta} \frac{1 - e^{-\eta \delta}}{\eta},
 
-where the tail is the ZMP assumed beyond the horizon: the plan's own ZMP
-(anticipative: 0), a constant ZMP (truncated), or one whose velocity repeats
-(periodic). The ZMP has to stay in the support polygon
-(:mod:`stepaside.planning.support_polygon`) at the end of each sample and
-whenever a foot lands or lifts off. Between these instants the added ZMP is
-linear in time, and so is the plan's, except for its correction (27 a / T^2
-in curvature, at most 0.06 of its amplitude a between two samples) and for
-the cubic profile.
+with the plan's own ZMP beyond the horizon. The ZMP has to stay in the support
+polygon (:mod:`stepaside.planning.support_polygon`) at the end of each sample
+and whenever a foot lands or lifts off. Between these instants the added ZMP is
+linear in time, and so is the plan's, except for its correction (27 a / T^2 in
+curvature, at most 0.06 of its amplitude a between two samples) and for the
+cubic profile.
 """
 
+from functools import cache
 from math import hypot
 from time import perf_counter
 from typing import Any, NamedTuple
 
 import numpy as np
 
+from ...core.errors import ConfigurationError
 from ...core.poses import Array
 from ...planning import GaitSettings, ManeuverPlan
 from ...planning.zmp import evaluate
 from .control_settings import MpcSettings
-from .qp_solver import load_solver
 
 EQUALITY = 5  # flag of an equality constraint in the solver
 INFEASIBLE = -1  # exit flag; other values below 1 mean no convergence
@@ -36,6 +35,18 @@ PRECISION = 1e-6  # an excess below this counts as zero, in [m]
 # Weight of the violated boundedness over the cost of the ZMP motion: so large
 # that the excess is minimal to within a micrometre.
 SLACK = 1e11
+
+
+@cache
+def load_solver() -> Any:
+    """Import the optional solver of quadratic programs."""
+    try:
+        import daqp
+    except ImportError as error:
+        raise ConfigurationError(
+            "method 'mpc' needs the solver daqp: pip install 'stepaside[mpc]'"
+        ) from error
+    return daqp
 
 
 class _Support(NamedTuple):
@@ -52,40 +63,26 @@ class _Support(NamedTuple):
 class MpcResult(NamedTuple):
     """Result of the MPC at one tick, in the plan frame.
 
-    Attributes:
-        velocity: ZMP velocity to add to the plan's now, in [m/s].
-        feasible: Whether a bounded motion exists with the ZMP in the
-            support polygon.
-        excess: DCM that no ZMP in the support polygon can hold, in [m];
-            zero if feasible. The velocity then minimises it.
-        iterations: Iterations of the solver.
-        time: Computation time, in [s].
+    The excess is the DCM that no ZMP in the support polygon can hold; the
+    velocity then minimises it.
     """
 
-    velocity: tuple[float, float]
-    feasible: bool
-    excess: tuple[float, float]
+    velocity: tuple[float, float]  # of the ZMP, added to the plan's [m/s]
+    feasible: bool  # whether a bounded motion exists
+    excess: tuple[float, float]  # [m]
     iterations: int
-    time: float
+    time: float  # of computation [s]
 
 
 class IntrinsicallyStableMpc:
-    """Intrinsically stable MPC for the plans of one gait.
-
-    Attributes:
-        settings: Horizon and weights.
-        interval: Length of a sample, in [s].
-    """
+    """Intrinsically stable MPC for the plans of one gait."""
 
     def __init__(
         self, gait: GaitSettings, settings: MpcSettings, *, edge: float
     ) -> None:
         """Precompute what does not depend on the plan.
 
-        Args:
-            gait: Gait.
-            settings: Horizon and weights.
-            edge: Distance of the ZMP from the edge of the sole, in [m].
+        ``edge`` is the distance of the ZMP from the edge of the sole, in [m].
 
         Raises:
             ConfigurationError: If the solver is not installed.
@@ -98,7 +95,6 @@ class IntrinsicallyStableMpc:
         self._ends: Array = np.linspace(delta, n * delta, n)
         fade = np.exp(-eta * delta)
         self._kappa = fade ** np.arange(n) * (1.0 - fade) / eta
-        self._end = float(fade**n)
         total = delta * np.tri(n)
         cost = np.eye(n) + settings.pull * total.T @ total
         none = np.zeros((n, n))
@@ -113,17 +109,13 @@ class IntrinsicallyStableMpc:
     def solve(
         self, plan: ManeuverPlan, passed: float, dcm: Array, zmp: Array
     ) -> MpcResult:
-        """Solve at one tick.
+        """Solve at one tick, ``passed`` after the plan began, in [s].
 
-        Args:
-            plan: Plan being walked.
-            passed: Time since it began, in [s].
-            dcm: DCM less the plan's, in the plan frame, in [m]. Shape (2,).
-            zmp: ZMP less the plan's, likewise.
+        DCM and ZMP are less the plan's, in the plan frame, in [m].
         """
         began = perf_counter()
         rows, high, soon = self._constraints(plan, passed, zmp)
-        bounded = self.boundedness(plan, passed, dcm, zmp)
+        bounded = dcm - zmp
         gradient = np.concatenate([self._drift * zmp[0], self._drift * zmp[1]])
         w, flag, info = self._program(
             self._cost, gradient, rows, high, bounded
@@ -158,10 +150,9 @@ class IntrinsicallyStableMpc:
     ) -> tuple[Array, Array, Array]:
         """Return the half planes that keep the ZMP in the support polygon.
 
-        Returns:
-            Rows and bounds on the velocities, and relaxed bounds that
-            admit a ZMP on its way straight back to the plan's during the
-            first sample. Shapes (m, 2 n), (m,), (m,).
+        They are rows and bounds on the velocities, and relaxed bounds that
+        admit a ZMP on its way straight back to the plan's during the first
+        sample. Shapes (m, 2 n), (m,), (m,).
         """
         support = self._support
         if support is None or support.plan is not plan:
@@ -196,36 +187,6 @@ class IntrinsicallyStableMpc:
         high = room - held
         soon = np.where(back == 0.0, high, back - held)
         return rows[keep], high[keep], soon[keep]
-
-    def boundedness(
-        self, plan: ManeuverPlan, passed: float, dcm: Array, zmp: Array
-    ) -> Array:
-        """Return the right side of the boundedness condition.
-
-        Args:
-            plan: Plan being walked.
-            passed: Time since its start, in [s].
-            dcm: Deviation of the DCM from the plan, in the plan frame, in
-                [m]. Shape (2,).
-            zmp: Deviation of the ZMP, also in the plan frame. Shape (2,).
-
-        Returns:
-            Deviation that the velocities of the ZMP in the horizon have to
-            sum up to, weighted by their decay, in [m]. Shape (2,).
-        """
-        bounded: Array = dcm - zmp
-        if self.settings.tail == "anticipative":
-            return bounded
-        span = float(self._ends[-1])
-        samples = plan.sample([passed, passed + span])
-        lead = samples.dcm - samples.zmp
-        if self.settings.tail == "truncated":
-            bounded = bounded + self._end * lead[1]
-            return bounded
-        # A repeating velocity: the horizon's sum divided by 1 - end.
-        inside = lead[0] - self._end * lead[1]
-        bounded = (1.0 - self._end) * (bounded + lead[0]) - inside
-        return bounded
 
     def _program(
         self,

@@ -15,15 +15,19 @@ plan stays in the sole.
 """
 
 from collections import deque
-from collections.abc import Callable
 from math import exp, hypot
 from typing import NamedTuple
 
-from ...core.poses import Pose
+import numpy as np
+
+from ...core.compilation import bound, compiled
+from ...core.poses import Array, Pose
 from ...perception.measurement import RobotState
 from ...planning import CenterState, Foot, GaitSettings, ManeuverPlan
-from ...robots.leg_kinematics import BodyReference
-from .control_settings import ControlSettings
+from ...robots.description import RobotDescription
+from ...robots.forward_kinematics import ForwardKinematics
+from ...robots.leg_kinematics import BodyReference, LegKinematics
+from .control_settings import ControlSettings, StabiliserSettings
 from .current_step import (
     CurrentStep,
     adapted_landing,
@@ -32,58 +36,43 @@ from .current_step import (
     shifted_swing,
     zmp_box,
 )
-from .joint_correction import Ankles, JointCorrection
-from .reference_table import ReferenceSample
+from .mpc import IntrinsicallyStableMpc
+from .open_loop import LoadFeedforward, OpenLoop, PlanFrom, StepAt, Vector
+from .reference_table import ReferenceSample, ReferenceTable
 from .state_estimator import BodyState, StateEstimator
-from .stride_learning import StrideLearning
-from .zmp_feedback import ZmpFeedback
 
-Vector = tuple[float, float]
 ZERO = (0.0, 0.0)
+FREEZE = 0.95  # fraction of the swing after which the footstep is fixed
+ANKLE_BANDWIDTH = 50.0  # of the filter of the tilt of the stance foot [1/s]
+JOINT_BOUND = 0.03  # largest correction of a joint [rad]
 
 
 class StabiliserTargets(NamedTuple):
-    """Commanded motion of the body at one tick, in odometry.
-
-    Attributes:
-        body: CoM and feet.
-        dcm: DCM, in [m].
-        acceleration: Acceleration of the CoM, in [m/s^2].
-        reaction: Shift of the ZMP by the swing leg, in [m].
-    """
+    """Commanded motion of the body at one tick, in odometry."""
 
     body: BodyReference
-    dcm: Vector
-    acceleration: Vector
-    reaction: Vector
+    dcm: Vector  # [m]
+    acceleration: Vector  # of the CoM [m/s^2]
+    reaction: Vector  # shift of the ZMP by the swing leg [m]
 
 
-class Stabiliser:
+class Stabiliser(OpenLoop):
     """Feedback controller of one walking robot.
 
-    Attributes:
-        settings: Method and gains.
-        estimator: State estimator.
-        state: Last estimate; None before the first.
-        error: DCM less its command, beyond the dead zone, in [m].
-        com_error: Likewise for the CoM.
-        com_shift: CoM reference less the plan's, in [m].
-        dcm_shift: Likewise for the DCM.
-        zmp_shift: Likewise for the ZMP.
-        step_shift: Landing of the swing foot less the plan's, in [m].
-        adapted: Number of footsteps that were moved.
-        joints: Correction of joint errors.
-        zmp_feedback: Rule for the ZMP shift.
-        stride: Learning of the footsteps' shortfall.
-        tick: Control period, in [s].
-        lean: See :meth:`BodyReference.roll`, in [rad].
+    Errors and shifts are in odometry, in [m]: an error is the measured value
+    less its command, beyond the dead zone; a shift the reference less the
+    plan's.
     """
+
+    feels = True
 
     def __init__(
         self,
         settings: ControlSettings,
         estimator: StateEstimator,
         gait: GaitSettings,
+        kinematics: LegKinematics,
+        feedforward: LoadFeedforward | None = None,
         *,
         tick: float,
         delay: float = 0.0,
@@ -91,46 +80,64 @@ class Stabiliser:
     ) -> None:
         """Prepare the stabiliser.
 
-        ``delay`` is the time from a command to the motion, in [s].
+        ``delay`` is the time from a command to the motion, in [s]; for
+        ``lean`` see :meth:`BodyReference.roll`.
+
+        Raises:
+            ConfigurationError: If the method needs a solver that is missing.
         """
+        super().__init__(kinematics, feedforward)
         self.settings, self.estimator = settings, estimator
-        self.state: BodyState | None = None
-        self.error: Vector = ZERO
+        self.tilt, self.measured_heading, self.ready = ZERO, 0.0, False
+        self.error: Vector = ZERO  # of the DCM
         self.com_error: Vector = ZERO
         self.com_shift: Vector = ZERO
         self.dcm_shift: Vector = ZERO
         self.zmp_shift: Vector = ZERO
-        self.step_shift: Vector = ZERO
-        self.adapted = 0
+        self.step_shift: Vector = ZERO  # of the landing of the swing foot
         gains = settings.stabiliser
-        self.joints = JointCorrection(
-            gains.joint_gain,
-            gains.joint_bound,
-            gains.joint_leak,
-            tick=tick,
-            delay=delay,
-        )
-        self.zmp_feedback = ZmpFeedback(settings, gait, tick)
-        self.stride = StrideLearning(
-            gait, gains.stride_gain, gains.stride_bound
-        )
+        self.joints = JointCorrection(gains, tick=tick, delay=delay)
         self._gait, self.tick, self.lean = gait, tick, lean
         self._grow = exp(gait.eta * tick)
         self._boxes = {foot: zmp_box(foot, gait, gains.edge) for foot in Foot}
+        self.mpc: IntrinsicallyStableMpc | None = None
+        if settings.method == "mpc":
+            edge = gains.edge
+            self.mpc = IntrinsicallyStableMpc(gait, settings.mpc, edge=edge)
         self._ankles = Ankles(gains, tick)
         self._asked: deque[StabiliserTargets] = deque(
             maxlen=max(1, round(delay / tick) + 1)
         )
 
     @property
-    def delay_ticks(self) -> int:
-        """Delay from a command to the motion, in ticks."""
-        return (self._asked.maxlen or 1) - 1
+    def planned_heading(self) -> float:
+        """Heading of the torso of the last targets, in [rad]."""
+        return self._kinematics.torso_heading
 
-    @property
-    def ready(self) -> bool:
-        """Whether the robot has stood still long enough to start walking."""
-        return self.estimator.ready
+    def planned_targets(self, table: ReferenceTable, index: int) -> None:
+        """Return None: every tick needs a measurement."""
+
+    def targets(
+        self,
+        measurement: RobotState,
+        table: ReferenceTable,
+        index: int,
+        step: StepAt,
+    ) -> Array | None:
+        """Return the targets of the stabilised reference."""
+        sample = table.sample(index)
+        body = self.update(measurement, sample, step(measurement.time))
+        self.commanded = body
+        if self.state is not None and self.state.has_fallen:
+            return None
+        angles = measurement.joint_positions
+        targets = self._kinematics.track(body)
+        corrected = self.joints.update(angles, targets)
+        if self.feedforward is None:
+            return corrected
+        (x, y), (u, v) = sample.zmp, self.zmp_shift
+        share = self.settings.stabiliser.load_share
+        return corrected + share * self.feedforward.added(body, (x + u, y + v))
 
     def update(
         self, measurement: RobotState, row: ReferenceSample, step: CurrentStep
@@ -141,7 +148,6 @@ class Stabiliser:
             return row.body
         self._react(step)
         body = shifted_swing(row.body, step, self.step_shift)
-        body = self.stride.aimed(body, step)
         x, y, z = row.body.com
         assert self.state is not None
         commanded = self._asked[0].body
@@ -179,7 +185,9 @@ class Stabiliser:
             commanded.acceleration,
             commanded.reaction,
         )
-        self.state = state
+        self.state, self.tilt = state, state.tilt
+        self.ready = self.estimator.ready
+        self.measured_heading = self.estimator.torso_heading
         dead = self.settings.stabiliser.dead_zone
         self.error = beyond(
             state.dcm[0] - commanded.dcm[0],
@@ -200,7 +208,7 @@ class Stabiliser:
         dy = self.dcm_shift[1] + rate * self.error[1]
         cx = self.com_shift[0] + rate * self.com_error[0]
         cy = self.com_shift[1] + rate * self.com_error[1]
-        px, py = self.zmp_feedback.shift(step, (dx, dy), self.zmp_shift)
+        px, py = self.zmp_response(step, (dx, dy), self.zmp_shift)
         dx = px + self._grow * (dx - px)
         dy = py + self._grow * (dy - py)
         self.zmp_shift = px, py
@@ -210,10 +218,35 @@ class Stabiliser:
             cy + tick * eta * (dy - cy),
         )
         if step.walking and step.remaining > 0.0:
-            if step.progress < gains.freeze:
+            if step.progress < FREEZE:
                 rest = 1.0 - rate
                 ex, ey = dx + rest * self.error[0], dy + rest * self.error[1]
                 self._adapt(step.to_support(ex, ey), step)
+
+    def zmp_response(
+        self, step: CurrentStep, dcm: Vector, zmp: Vector
+    ) -> Vector:
+        """Return the ZMP shift at the next tick, for shifts of DCM and ZMP.
+
+        It is a multiple of the DCM shift, clipped to the sole; with the MPC,
+        the rule of a standing robot only.
+        """
+        self.solved = None
+        if self.mpc is None or step.plan is None:
+            u, v = step.to_support(*dcm)
+            gain = self.settings.stabiliser.feedback
+            inside = clip_to((gain * u, gain * v), self._boxes[step.swing])
+            return step.from_support(*inside)
+        if dcm == zmp == ZERO:
+            return zmp  # the plan itself is optimal
+        self.solved = self.mpc.solve(
+            step.plan,
+            step.passed,
+            np.array(step.to_support(*dcm)),
+            np.array(step.to_support(*zmp)),
+        )
+        vx, vy = step.from_support(*self.solved.velocity)
+        return zmp[0] + self.tick * vx, zmp[1] + self.tick * vy
 
     def _adapt(self, error: Vector, step: CurrentStep) -> None:
         """Shift the landing at a bounded rate, which the foot can follow."""
@@ -234,11 +267,7 @@ class Stabiliser:
         velocity: Vector,
         step: CurrentStep,
     ) -> tuple[Pose, Vector, Vector]:
-        """Add the shifts to the planned state when a step ends.
-
-        It is the landed foot in odometry, and CoM and its velocity in the
-        frame of that foot, in [m] and [m/s].
-        """
+        """Add the shifts to the planned state when a step ends."""
         eta = self._gait.eta
         u, v = self.step_shift
         cx, cy = self.com_shift
@@ -251,8 +280,6 @@ class Stabiliser:
         vx, vy, _ = turn.compose(Pose(eta * (dx - cx), eta * (dy - cy), 0.0))
         if hypot(u, v) > 1e-3:
             self.adapted += 1
-        elif self.estimator.posture is not None:
-            self.stride.learn(self.estimator.posture, step)
         self.com_shift = self.dcm_shift = self.step_shift = ZERO
         return (
             Pose(landed.x + u, landed.y + v, landed.theta),
@@ -261,16 +288,9 @@ class Stabiliser:
         )
 
     def fit(
-        self,
-        plan_from: Callable[[CenterState], ManeuverPlan],
-        state: CenterState,
-        support: Pose,
+        self, plan_from: PlanFrom, state: CenterState, support: Pose
     ) -> tuple[ManeuverPlan, CenterState]:
-        """Plan with the correction inside the sole.
-
-        The remaining DCM error becomes a shift. ``support`` is the support
-        foot in odometry, in whose frame the state is.
-        """
+        """Plan with the correction inside the sole; the rest is a shift."""
         plan = plan_from(state)
         box = self._boxes[plan.first_foot]
         weight = float(plan.schedule.dcm_start_map[-2])
@@ -285,3 +305,128 @@ class Stabiliser:
             turned = Pose(0.0, 0.0, support.theta).compose(excess)
             self.dcm_shift = turned[:2]
         return plan, state
+
+
+@compiled
+def correct(
+    measured: Array,
+    past: Array,
+    correction: Array,
+    gain: float,
+    keep: float,
+    most: float,
+) -> None:
+    """Integrate the joint errors of one tick."""
+    for i in range(measured.shape[0]):
+        error = (past[i] - measured[i]) * gain
+        error += keep * correction[i]
+        correction[i] = max(min(error, most), -most)
+
+
+class Ankles:
+    """Ankle feedback: tilts the loaded feet to rotate the body upright."""
+
+    def __init__(self, gains: StabiliserSettings, tick: float) -> None:
+        """Begin with level feet."""
+        self._gains, self._tick = gains, tick
+        self._reference_roll = 0.0
+        self._blend = min(1.0, ANKLE_BANDWIDTH * tick)
+        self._tilts = (0.0, 0.0, 0.0, 0.0)
+
+    def tilts(
+        self, state: BodyState, reference_roll: float = 0.0
+    ) -> tuple[Vector, Vector]:
+        """Return roll and pitch of the left and the right foot, in [rad]."""
+        gains, blend = self._gains, self._blend
+        tilt = state.tilt[0] - reference_roll
+        rate = (
+            state.rate[0]
+            - (reference_roll - self._reference_roll) / self._tick
+        )
+        self._reference_roll = reference_roll
+        roll = gains.ankle * tilt + gains.ankle_rate * rate
+        pitch = gains.ankle * state.tilt[1] + gains.ankle_rate * state.rate[1]
+        left = min(1.0, 2.0 * state.left_share)
+        right = min(1.0, 2.0 - 2.0 * state.left_share)
+        a, b, c, d = self._tilts
+        self._tilts = (
+            a + blend * (left * roll - a),
+            b + blend * (left * pitch - b),
+            c + blend * (right * roll - c),
+            d + blend * (right * pitch - d),
+        )
+        return self._tilts[:2], self._tilts[2:]
+
+
+class JointCorrection:
+    """Bounded, leaky integral of the joint errors.
+
+    A joint with backlash rests on one side until its load reverses, and a
+    servo deflects under load; both errors last long enough to be measured
+    and added to the targets.
+    """
+
+    def __init__(
+        self, gains: StabiliserSettings, *, tick: float, delay: float
+    ) -> None:
+        """Begin without a correction; the delay is of the motion, in [s]."""
+        self._gain = gains.joint_gain * tick
+        self._keep = 1.0 - gains.joint_leak * tick
+        # The servo ramps to a target over one more tick.
+        self._targets: deque[Array] = deque(maxlen=round(delay / tick) + 2)
+        self._correction: Array | None = None
+        self._bind(1)  # compiles
+
+    def update(self, measured: Array, targets: Array) -> Array:
+        """Return the corrected targets of one tick, in [rad]."""
+        if self._correction is None:
+            self._correction = self._bind(len(targets))
+        if len(self._targets) == self._targets.maxlen:
+            self._measured[:], self._past[:] = measured, self._targets[0]
+            self._correct()
+        self._targets.append(targets)
+        corrected: Array = targets + self._correction
+        return corrected
+
+    def _bind(self, count: int) -> Array:
+        """Prepare the integral for a number of joints; return it."""
+        self._measured, self._past, correction = np.zeros((3, count))
+        self._correct = bound(
+            *(correct, self._measured, self._past, correction),
+            *(self._gain, self._keep, JOINT_BOUND),
+        )
+        return correction
+
+
+def build_balance(
+    description: RobotDescription,
+    gait: GaitSettings,
+    control: ControlSettings,
+    *,
+    tick: float,
+    delay: float,
+    kinematics: LegKinematics,
+    forward: ForwardKinematics | None = None,
+) -> OpenLoop:
+    """Build the balance control that the settings select.
+
+    ``delay`` is the time from a command to the motion, in [s]; ``forward``
+    are the kinematics of the measured body, built if not given.
+    """
+    loads = None
+    if not control.feedback or control.stabiliser.load_share > 0.0:
+        loads = LoadFeedforward(
+            kinematics, zmp_forward=gait.zmp_forward, tick=tick
+        )
+    if not control.feedback:
+        return OpenLoop(kinematics, loads)
+    forward = forward or ForwardKinematics(description)
+    estimator = StateEstimator(
+        forward, forward.force_sensors(), gait.eta, tick
+    )
+    return Stabiliser(
+        *(control, estimator, gait, kinematics, loads),
+        tick=tick,
+        delay=delay,
+        lean=description.lean,
+    )

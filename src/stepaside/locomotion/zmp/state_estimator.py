@@ -10,7 +10,7 @@ from ...core.constants import GRAVITY
 from ...core.poses import Array
 from ...perception.attitude import AttitudeFilter
 from ...perception.measurement import RobotState
-from ...robots.forward_kinematics import ForwardKinematics, MeasuredPosture
+from ...robots.forward_kinematics import ForwardKinematics
 from ...robots.leg_kinematics import BodyReference
 
 STANDS, TOUCHES = 0.2, 0.02  # least fractions of the weight on the feet
@@ -169,7 +169,6 @@ class StateEstimator:
         weight = GRAVITY * kinematics.mass
         self._attitude = AttitudeFilter(correction, bias_correction)
         fade = exp(-bandwidth * tick)
-        self._angles: Array | None = None  # of the last measurement
         self._values, self._state = np.zeros(VALUES), np.zeros(STATE)
         self._state[:2], self._state[8] = np.nan, 0.5
         self._estimate = bound(
@@ -183,13 +182,6 @@ class StateEstimator:
             *(1.0 - fade * fade, (1.0 - fade) ** 2 / tick),
             *(TOUCHES * weight, STANDS * weight),
         )
-
-    @property
-    def posture(self) -> MeasuredPosture | None:
-        """Last measured posture; None before the first."""
-        if self._angles is None:
-            return None
-        return self.kinematics.posture(self._angles)
 
     @property
     def ready(self) -> bool:
@@ -224,7 +216,6 @@ class StateEstimator:
                 wrong tilt explains its own acceleration.
             reaction: ZMP shift by the swing leg of that command, in [m].
         """
-        self._angles = measurement.joint_positions
         values, state, attitude = self._values, self._state, self._attitude
         (ax, ay), heading = acceleration, state.item(10)
         c, s = cos(heading), sin(heading)
