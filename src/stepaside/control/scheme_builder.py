@@ -21,17 +21,11 @@ from .turn_calibration import TurnCalibration
 
 
 class ClearanceSetup(NamedTuple):
-    """Known obstacles, body outline and required clearance of one robot.
+    """Known obstacles, body outline and required clearance of one robot."""
 
-    Attributes:
-        surroundings: Known obstacles.
-        outline: Outline of the body.
-        margin: Required clearance, in [m].
-    """
-
-    surroundings: Surroundings
+    surroundings: Surroundings  # known obstacles
     outline: BodyOutline
-    margin: float
+    margin: float  # required clearance [m]
 
 
 def build_scheme(

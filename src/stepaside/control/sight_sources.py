@@ -20,14 +20,10 @@ CORRECTION = 0.5  # of the attitude filter by the accelerometer, in [1/s]
 
 
 class PlayersInSight(NamedTuple):
-    """Own identity and sightings of other players.
-
-    Attributes:
-        identity: Own identity.
-        sightings: Latest sighting of each other player, with its identity.
-    """
+    """Own identity and sightings of other players."""
 
     identity: PlayerIdentity
+    # latest sighting of each other player, with its identity
     sightings: tuple[Sighting, ...]
 
 
@@ -55,14 +51,7 @@ class SightSource:
         step: StepAt,
         tilt: tuple[float, float] | None,
     ) -> Sighting | None:
-        """Return the latest sighting of the opponent; None if it is lost.
-
-        Args:
-            measurement: RobotState of the tick.
-            step: Function from a time, in [s], to the step in progress.
-            tilt: Roll and pitch of the torso, in [rad], if balance
-                estimates them.
-        """
+        """Return the latest sighting of the opponent; None if it is lost."""
         raise NotImplementedError
 
     def aim(self, targets: Array) -> None:
@@ -94,12 +83,7 @@ class SightOfPlayers(SightSource):
     """
 
     def __init__(self, identity: PlayerIdentity, target: str = "") -> None:
-        """Begin without sightings.
-
-        Args:
-            identity: Own identity.
-            target: Name of the assigned opponent; empty for the nearest.
-        """
+        """Begin without sightings."""
         self._identity, self._target = identity, target
         self._latest: dict[str, Sighting] = {}
         self._numbers: dict[str, int] = {}
@@ -145,9 +129,6 @@ class LidarSight(SightSource):
 
     The pose of a sensor uses the torso tilt that balance estimates; without
     an estimate, an attitude filter of its own.
-
-    Attributes:
-        perception: Perception.
     """
 
     perception: "Perception | LidarPerception"
@@ -191,14 +172,7 @@ class CameraSight(LidarSight):
         tick: float,
         unnamed: tuple[PlayerIdentity, Role] | None = None,
     ) -> None:
-        """Wrap a perception.
-
-        Args:
-            perception: The perception.
-            tick: Control period, in [s].
-            unnamed: Own identity, and role of the opponents, where several
-                wear one trim, so that images do not tell them apart.
-        """
+        """Wrap a perception."""
         super().__init__(perception, tick=tick)
         self._unnamed = unnamed
 

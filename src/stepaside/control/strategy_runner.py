@@ -41,17 +41,7 @@ def next_pace(before: float, wanted: float, *, standing: bool) -> float:
 
 
 class StrategyRunner(DecisionMaker):
-    """Strategy of a robot with its memory and its history of states.
-
-    Attributes:
-        strategy: Strategy of the player.
-        memory: Memory of the strategy.
-        pace: Pace of the last decided step, see :class:`Intent`.
-        headings: Past headings of the torso in odometry, in [rad], to which
-            the bearings of sightings refer.
-        templates: Past poses of the template unicycle in odometry.
-        turns: Calibration of the turning rate; None for none.
-    """
+    """Strategy of a robot with its memory and its history of states."""
 
     def __init__(
         self,
@@ -62,21 +52,11 @@ class StrategyRunner(DecisionMaker):
         velocities: VelocitySet | None = None,
         views: tuple[Sector, ...] = ALL_AROUND,
     ) -> None:
-        """Begin without a sighting.
-
-        Args:
-            strategy: Strategy of the player.
-            gait: Gait.
-            surroundings: Known obstacles; none by default.
-            turns: Calibration of the turning rate; none by default.
-            velocities: Velocities of the legs; those of a unicycle by
-                default.
-            views: Bearings at which the robot sees others.
-        """
+        """Begin without a sighting."""
         super().__init__(strategy, limits_of(gait, velocities, views))
         self._surroundings = surroundings or Surroundings()
         self.pace = 1.0
-        self.headings: History[float] = History(MEMORY)
+        self.headings: History[float] = History(MEMORY)  # [rad]
         self.templates: History[Pose] = History(MEMORY)
         self.turns = turns
         self._spacing = gait.foot_spacing
@@ -106,9 +86,6 @@ class StrategyRunner(DecisionMaker):
         robot starts, the strategy decides again at the time of the step,
         and the memory of this decision is discarded. Arguments are those of
         :meth:`decide`.
-
-        Raises:
-            StrategyError: If the strategy returns no intent.
         """
         if self.turns is not None and not self.turns.ready:
             return False
@@ -132,16 +109,9 @@ class StrategyRunner(DecisionMaker):
     ) -> Intent:
         """Evaluate the strategy and store its memory.
 
-        Args:
-            now: Time of the decision, in [s].
-            sighting: Last sighting; None while scanning.
-            turning: Turn on the spot for a scan: 1 left, -1 right.
-            stands: Pose in odometry, and side, of the foot that has just
-                landed; None if the next step begins at the present pose.
-            moving: Whether the robot is walking.
-
-        Raises:
-            StrategyError: If the strategy returns no intent.
+        Without a sighting the robot turns on the spot for a scan: 1 left, -1
+        right. ``stands`` is the foot that has just landed, in odometry; None
+        if the next step begins at the present pose.
         """
         if sighting is None:
             return Intent(turning * pi, ON_THE_SPOT)

@@ -16,17 +16,10 @@ class TurnCalibration:
     Feet twist on the floor and joints comply, which odometry from encoders
     does not contain. A gyro about the vertical measures the turn, once its
     bias is known from standing.
-
-    Attributes:
-        share: Actual turn per turn in odometry; 1 before the first estimate.
     """
 
     def __init__(self, tick: float) -> None:
-        """Begin without an estimate.
-
-        Args:
-            tick: Period of the readings, in [s].
-        """
+        """Begin without an estimate."""
         self._tick, self._decay = tick, exp(-tick / TIME_CONSTANT)
         self._standing_ticks, self._bias_sum, self._missing_ticks = 0, 0.0, 0
         self._actual = self._odometric = 0.0
@@ -56,10 +49,7 @@ class TurnCalibration:
 
         Without a gyro about the vertical the ratio stays as it is.
 
-        Args:
-            rate: Gyro rate about the vertical, in [rad/s]; NaN without one.
-            heading: Heading in odometry, unwrapped, in [rad].
-            stands: Whether the robot stands still.
+        ``heading``: Heading in odometry, unwrapped, in [rad].
         """
         if not isfinite(rate):
             self._missing_ticks += stands

@@ -66,11 +66,6 @@ class VelocityScheme:
     Turns of a walk by maneuvers, which is a unicycle's, are calibrated
     against the commanded ones; learned legs follow the command itself, also
     sideways.
-
-    Attributes:
-        locomotion: Locomotion, from steps to joint targets.
-        headings: Past headings of the torso in odometry, in [rad].
-        templates: Past poses of the template unicycle in odometry.
     """
 
     def __init__(
@@ -78,7 +73,7 @@ class VelocityScheme:
     ) -> None:
         """Begin standing, at a control period in [s]."""
         self.locomotion = locomotion
-        self.headings: History[float] = History(MEMORY)
+        self.headings: History[float] = History(MEMORY)  # [rad]
         self.headings.note(0.0, locomotion.torso_heading)
         self.templates: History[Pose] = History(MEMORY)
         self.templates.note(0.0, locomotion.pose)
@@ -101,11 +96,7 @@ class VelocityScheme:
         self._commanded = velocity
 
     def update(self, measurement: RobotState) -> Array:
-        """Return the joint targets of one control tick, in [rad].
-
-        Raises:
-            ReachError: If the legs cannot follow the reference.
-        """
+        """Return the joint targets of one control tick, in [rad]."""
         walk, now = self.locomotion, measurement.time
         if walk.phase is Phase.STANDING:
             self._walking_direction = None

@@ -71,9 +71,8 @@ def least_lean(
 
     For a robot whose joints are overloaded with a level torso.
 
-    Returns:
-        Lean, in [rad], and the loads with it. If no candidate is enough,
-        the least one that no greater one improves on by much.
+    Lean, in [rad], and the loads with it. If no candidate is enough, the least
+    one that no greater one improves on by much.
     """
     best: tuple[float, JointLoads] | None = None
     for lean in LEAN_CANDIDATES:
@@ -88,35 +87,22 @@ def least_lean(
 
 @dataclass(frozen=True, eq=False)
 class DerivedDescription:
-    """A robot description with the data that it was derived from.
+    """A robot description with the data that it was derived from."""
 
-    Attributes:
-        description: Robot description; its folder may not exist yet.
-        analysis: Analysis of the model.
-        size: Size by which the gait was scaled.
-        lowest: Least CoM height in reach, in [m].
-        highest: Greatest CoM height in reach, in [m].
-        published_torques: Joints whose torque limit is in the model.
-        published_speeds: Joints whose speed limit is in the model.
-        lengths: Fraction of the nominal stride and step height for which
-            the joints are fast enough.
-        zmp_offset: Fraction of the nominal ZMP offset ahead of the ankles
-            for which these are strong enough.
-        loads: Joint loads of a step, relative to the torque limits.
-        is_weak: Whether servos are softened, and feedback is needed.
-    """
-
+    # robot description; its folder may not exist yet
     description: RobotDescription
     analysis: ModelAnalysis
-    size: RobotSize
-    lowest: float
-    highest: float
+    size: RobotSize  # size by which the gait was scaled
+    lowest: float  # least CoM height in reach [m]
+    highest: float  # greatest CoM height in reach [m]
+    # joints whose torque limit is in the model
     published_torques: frozenset[str]
+    # joints whose speed limit is in the model
     published_speeds: frozenset[str]
-    lengths: float
-    zmp_offset: float
-    loads: JointLoads
-    is_weak: bool
+    lengths: float  # feasible share of nominal stride and step height
+    zmp_offset: float  # likewise of the nominal ZMP offset
+    loads: JointLoads  # joint loads of a step, relative to the torque limits
+    is_weak: bool  # whether servos are softened, and feedback is needed
 
     @property
     def assumed_torques(self) -> list[str]:
@@ -134,17 +120,7 @@ class DerivedDescription:
 def derive(
     model: Path, folder: Path, meshes: list[Path]
 ) -> DerivedDescription:
-    """Derive the description of a robot.
-
-    Args:
-        model: MJCF or URDF file as published; it is not changed.
-        folder: Folder of the description, to which its paths are relative.
-        meshes: Folders in which mesh files are looked up.
-
-    Raises:
-        ModelError: If it is not the model of a humanoid that can walk;
-            names what is missing.
-    """
+    """Derive the description of a robot."""
     if not model.is_file():
         raise ModelError(f"model must be an MJCF or URDF file, got {model}")
     mesh_folders = meshes or [model.parent, model.parent.parent / "meshes"]
@@ -239,14 +215,8 @@ def choose_com_height(
     Knee speed grows without bound as a knee gets straight, so that lower
     heights are tried if the speed limits are exceeded.
 
-    Args:
-        description: Robot description.
-        size: Size of the robot at the greatest height in reach.
-        lowest: Least height in reach, in [m].
-
-    Returns:
-        Size at the chosen height, and the feasible fraction of the nominal
-        stride and step height.
+    Size at the chosen height, and the feasible fraction of the nominal stride
+    and step height.
     """
     best: tuple[RobotSize, float] | None = None
     for fraction in HEIGHT_FRACTIONS:
@@ -277,11 +247,7 @@ def _reachable_heights(
     sole: tuple[float, float, float, float],
     stiff: list[str],
 ) -> tuple[float, float]:
-    """Return least and greatest CoM height with the feet abreast, in [m].
-
-    Raises:
-        ModelError: If no height is reached; names the stiff joints.
-    """
+    """Return least and greatest CoM height with the feet abreast, in [m]."""
     forward = 0.45 * (sole[0] + sole[1])
     half = 0.5 * spacing
     stance = BodyReference(
@@ -307,11 +273,7 @@ def _reachable_heights(
 def shared_sole(analysis: ModelAnalysis) -> tuple[float, float, float, float]:
     """Return the outline that lies within the soles of both feet.
 
-    Returns:
-        Back, front, outer and inner edge, in [m].
-
-    Raises:
-        ModelError: If the common outline is too small.
+    Back, front, outer and inner edge, in [m].
     """
     left, right = (leg.outline for leg in analysis.legs)
     edges = (

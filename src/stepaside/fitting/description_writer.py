@@ -191,12 +191,6 @@ def rewrite_description(
     """Return the text of a description with the values of a search.
 
     Comments stay; a changed value has one on its previous value.
-
-    Args:
-        text: Present content of ``robot.toml``.
-        tuned: Description with new gait, control and servos.
-        words: Lines of a comment at the top, which replaces that of an
-            earlier search.
     """
     control = {k: tuned.control[k] for k in ("method", "feedback")}
     servos = {k: _servo(gains) for k, gains in tuned.overlay.servos.items()}

@@ -35,11 +35,7 @@ LIFTED = 1e-3  # height above which a foot is lifted, in [m]
 
 
 def speed_ratio(description: RobotDescription, gait: GaitSettings) -> float:
-    """Return the greatest joint speed of straight walking by its limit.
-
-    Raises:
-        ReachError: If the legs cannot reach the reference.
-    """
+    """Return the greatest joint speed of straight walking by its limit."""
     greatest = 0.0
     for direction in Direction:
         scheme = _scheme(description, gait, direction)
@@ -52,18 +48,11 @@ def speed_ratio(description: RobotDescription, gait: GaitSettings) -> float:
 
 
 class JointLoads(NamedTuple):
-    """Greatest joint torques of single support, by the torque limits.
+    """Greatest joint torques of single support, by the torque limits."""
 
-    Attributes:
-        usual: Median over time: short peaks may exceed the servos.
-        joint: Joint with this load.
-        most: Load that is exceeded in a tenth of the time; above 1 the
-            robot cannot walk so.
-    """
-
-    usual: float
+    usual: float  # median over time: short peaks may exceed the servos
     joint: str
-    most: float
+    most: float  # exceeded in a tenth of the time
 
 
 def step_loads(
@@ -71,16 +60,7 @@ def step_loads(
     gait: GaitSettings,
     torques: Mapping[str, float],
 ) -> JointLoads:
-    """Compute the joint loads of a step by inverse dynamics.
-
-    Args:
-        description: Robot description.
-        gait: Gait of the step.
-        torques: Torque limit of each joint, in [N m].
-
-    Raises:
-        ReachError: If the legs cannot reach the reference.
-    """
+    """Compute the joint loads of a step by inverse dynamics."""
     scheme = _scheme(description, gait, Direction.FORWARD)
     # The scheme computes many ticks at once; loads need them one by one.
     legs = LegKinematics(scheme.kinematics.description, tick=TICK)
@@ -118,10 +98,9 @@ def choose_zmp_offset(
     The torque of an ankle grows with this offset; no other gait parameter
     has as much influence on any torque.
 
-    Returns:
-        Fraction of the nominal offset, and the loads with it: the greatest
-        of 1, 1/2 and 0 within the torque limits; else the one with the
-        least load, if that is much less than with 1.
+    Fraction of the nominal offset, and the loads with it: the greatest of 1,
+    1/2 and 0 within the torque limits; else the one with the least load, if
+    that is much less than with 1.
     """
     candidates = []
     for fraction in (1.0, 0.5, 0.0):
@@ -144,8 +123,7 @@ def feasible_lengths(
     in the wrong position. Shorter steps of the same duration need less speed
     of every joint.
 
-    Returns:
-        Fraction in [0.35, 1]; 1 if the joints are fast enough.
+    Fraction in [0.35, 1]; 1 if the joints are fast enough.
     """
     fraction = 1.0
     for _ in range(ITERATIONS):

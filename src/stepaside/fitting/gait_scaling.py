@@ -45,23 +45,14 @@ START_FAR = 1.67
 
 @dataclass(frozen=True, slots=True)
 class RobotSize:
-    """Size of a robot, by which its gait is scaled.
+    """Size of a robot, by which its gait is scaled."""
 
-    Attributes:
-        com_height: Walking height of the CoM, in [m].
-        mass: Mass of the robot, in [kg].
-        foot_spacing: Distance between the feet, in [m].
-        sole: Edges back, front, outer and inner, in [m]; only the back edge
-            is negative.
-        reach: Radius of the standing robot, in [m]; see
-            :class:`stepaside.robots.description_types.ReferencePoint`.
-    """
-
-    com_height: float
-    mass: float
-    foot_spacing: float
+    com_height: float  # walking height of the CoM [m]
+    mass: float  # mass of the robot [kg]
+    foot_spacing: float  # distance between the feet [m]
+    # edges back, front, outer and inner [m]; only the back edge is negative
     sole: tuple[float, float, float, float]
-    reach: float
+    reach: float  # radius of the standing robot [m]
 
     @property
     def time(self) -> float:
@@ -75,12 +66,7 @@ class RobotSize:
 
 
 def gait_of(size: RobotSize, lengths: float = 1.0) -> dict[str, float]:
-    """Return the gait entries of a description, in SI units.
-
-    Args:
-        size: Size of the robot.
-        lengths: Fraction of the nominal stride and step height.
-    """
+    """Return the gait entries of a description, in SI units."""
     z, time = size.com_height, size.time
     stride = _round(lengths * STRIDE * z)
     back, front, *_ = size.sole

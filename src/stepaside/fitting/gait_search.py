@@ -53,30 +53,19 @@ GREATEST_ZMP_SHIFT = 0.35
 
 @dataclass(frozen=True, slots=True)
 class Candidate:
-    """Changes to a robot description.
+    """Changes to a robot description."""
 
-    Attributes:
-        feedback: 1 with feedback, 0 without.
-        stiffness: Factor on the gains of all servos.
-        times: Factor on single and double support durations.
-        stride: Factor on stride and speed.
-        spacing: Factor on the distance between the feet.
-        zmp: Forward shift of the ZMP reference, by the length of the sole.
-        height: Factor on the CoM height.
-        lean: Additional lean of the torso over the stance foot, in [rad].
-        even: 1 for swing feet with constant speed, which twist the stance
-            foot less; 0 for the smoothest swing profile.
-    """
-
-    feedback: float
-    stiffness: float = 1.0
-    times: float = 1.0
-    stride: float = 1.0
-    spacing: float = 1.0
+    feedback: float  # 1 with feedback, 0 without
+    stiffness: float = 1.0  # factor on the gains of all servos
+    times: float = 1.0  # factor on single and double support durations
+    stride: float = 1.0  # factor on stride and speed
+    spacing: float = 1.0  # factor on the distance between the feet
+    # forward shift of the ZMP reference, by the length of the sole
     zmp: float = 0.0
-    height: float = 1.0
+    height: float = 1.0  # factor on the CoM height
+    # additional lean of the torso over the stance foot [rad]
     lean: float = 0.0
-    even: float = 0.0
+    even: float = 0.0  # 1 for swing feet with even velocity
 
     @property
     def cost(self) -> float:
@@ -148,17 +137,12 @@ class Candidate:
 
 
 class RatedCandidate(NamedTuple):
-    """A candidate with the results of its walks.
+    """A candidate with the results of its walks."""
 
-    Attributes:
-        candidate: Changes to the description.
-        unsteadiness: Of the worst walk; after a fall, the lower the farther
-            it walked before.
-        walks: Results of the walks, up to the one that ended the rating.
-    """
-
-    candidate: Candidate
+    candidate: Candidate  # changes to the description
+    # of the worst walk; after a fall, the lower the farther it walked before
     unsteadiness: float
+    # results of the walks, up to the one that ended the rating
     walks: tuple[dict[str, Any], ...]
 
     @property
@@ -168,17 +152,11 @@ class RatedCandidate(NamedTuple):
 
 
 class SearchResult(NamedTuple):
-    """Result of a gait search.
+    """Result of a gait search."""
 
-    Attributes:
-        before: Rating of the description without changes.
-        best: Best candidate.
-        tried: Number of candidates that were rated.
-    """
-
-    before: RatedCandidate
+    before: RatedCandidate  # rating of the description without changes
     best: RatedCandidate
-    tried: int
+    tried: int  # number of candidates that were rated
 
 
 def search_gait(
@@ -187,21 +165,7 @@ def search_gait(
     file: Path | None,
     report: Callable[[int, int, float], None] = lambda *_: None,
 ) -> SearchResult:
-    """Search until no change improves the walk.
-
-    Args:
-        own: Robot description.
-        executor: Executor of the walks.
-        file: SQLite file of the ratings, those of an earlier search
-            included; None to store nothing.
-        report: Called with the number of candidates that are rated, the
-            number by the end of the round, and the least unsteadiness so
-            far.
-
-    Raises:
-        OutputError: If a rating cannot be stored.
-        KeyboardInterrupt: After Ctrl-C.
-    """
+    """Search until no change improves the walk."""
     rated: dict[Candidate, RatedCandidate] = {}
     digest = _digest_of(own)
 

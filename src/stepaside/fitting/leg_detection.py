@@ -25,52 +25,29 @@ class NoLegsError(ModelError):
 
 
 class DetectedLeg(NamedTuple):
-    """One leg in the zero posture, in the torso frame.
+    """One leg in the zero posture, in the torso frame."""
 
-    Attributes:
-        joints: Joints between torso and foot.
-        pitches: Pitch joints of hip, knee and ankle.
-        signs: Sign of each pitch axis along the axis to the left.
-        foot: Body of the foot.
-        hip: Mean position of the first three joints, in [m]. Shape (3,).
-        ankle: Position of the last joint, in [m]. Shape (3,).
-        sole: Height of the sole of the levelled foot, in [m].
-        outline: Edges of the sole from the ankle, in [m]: back, front,
-            right, left.
-        is_guessed: Whether sole and outline are a guess, because the foot
-            has no geoms.
-        axes: Axes forward, left and up of the standing foot, as columns.
-            Shape (3, 3).
-        pivots: Positions of the pitch joints, in [m]. Shape (3, 3).
-    """
-
-    joints: tuple[str, ...]
-    pitches: tuple[str, ...]
+    joints: tuple[str, ...]  # joints between torso and foot
+    pitches: tuple[str, ...]  # pitch joints of hip, knee and ankle
+    # sign of each pitch axis along the axis to the left
     signs: tuple[float, ...]
     foot: str
-    hip: Array
-    ankle: Array
-    sole: float
+    hip: Array  # mean position of the first three joints [m]. Shape (3,)
+    ankle: Array  # position of the last joint [m]. Shape (3,)
+    sole: float  # height of the sole of the levelled foot [m]
+    # edges of the sole from the ankle [m]: back, front, right, left
     outline: tuple[float, float, float, float]
+    # whether sole and outline are a guess, because the foot has no geoms
     is_guessed: bool
+    # axes forward, left and up of the standing foot, as columns. Shape (3, 3)
     axes: Array
-    pivots: Array
+    pivots: Array  # positions of the pitch joints [m]. Shape (3, 3)
 
 
 def find_legs(
     model: mujoco.MjModel, data: mujoco.MjData, path: Path
 ) -> tuple[DetectedLeg, DetectedLeg]:
-    """Find the left and right leg of a robot.
-
-    Args:
-        model: Compiled model.
-        data: State with the torso at the origin, facing forward.
-        path: File of the model, for messages.
-
-    Raises:
-        NoLegsError: If there are not two legs.
-        ModelError: If the legs lack joints; names them.
-    """
+    """Find the left and right leg of a robot."""
     ends = [
         _End(
             body,

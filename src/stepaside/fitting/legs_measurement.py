@@ -51,55 +51,31 @@ COMBINED = (
 
 
 class LegsTrial(NamedTuple):
-    """One walk of a robot on a policy.
-
-    Attributes:
-        description: Description of the robot.
-        legs: Walking policy.
-        body: Deviations of the body from an ideal one.
-        command: Command of the policy, where it is constant.
-        seed: Seed of sensor errors and of random commands.
-        response: Response by which velocities are commanded; None for
-            commands as they are.
-    """
+    """One walk of a robot on a policy."""
 
     description: RobotDescription
-    legs: LegsSettings
-    body: BodySettings
-    command: BodyVelocity
-    seed: int
+    legs: LegsSettings  # walking policy
+    body: BodySettings  # deviations of the body from an ideal one
+    command: BodyVelocity  # command of the policy, where it is constant
+    seed: int  # seed of sensor errors and of random commands
+    # response by which velocities are commanded; None for commands as they are
     response: VelocityResponse | None = None
 
 
 class LegsTrialResult(NamedTuple):
-    """Motion of one walk at a constant command.
-
-    Attributes:
-        command: Command of the policy.
-        delivered: Mean velocity of the steady walk; NaN after a fall.
-        lag: Time by which the motion along the greatest component is behind
-            that of the final velocity, in [s]; NaN after a fall.
-        halting: Motion along it from the end of the command to rest, in [m]
-            or [rad]; NaN after a fall.
-        fell_at: Time of a fall, in [s]; None without one.
-        odometry: Mean horizontal velocity of the steady walk by the leg
-            odometry (ahead, to the left), in [m/s].
-    """
+    """Motion of one walk at a constant command."""
 
     command: BodyVelocity
+    # mean velocity of the steady walk; NaN after a fall
     delivered: BodyVelocity
-    lag: float
-    halting: float
-    fell_at: float | None
-    odometry: tuple[float, float] = (0.0, 0.0)
+    lag: float  # behind the final velocity [s]; NaN after a fall
+    halting: float  # way from command to rest [m] or [rad]
+    fell_at: float | None  # time of a fall [s]; None without one
+    odometry: tuple[float, float] = (0.0, 0.0)  # by the legs [m/s]
 
 
 def run_trial(trial: LegsTrial) -> LegsTrialResult:
-    """Walk at a constant command from rest to rest.
-
-    Raises:
-        PolicyError: If the network cannot run on the robot.
-    """
+    """Walk at a constant command from rest to rest."""
     walk = _LegsWalk(trial)
     ends = STANDING + SETTLING + STEADY
     poses, estimates = [], []
@@ -138,11 +114,7 @@ def run_random_walk(trial: LegsTrial) -> float | None:
     Each command is drawn from the ranges of the contract, and holds for 1 to
     4 s.
 
-    Returns:
-        Time of a fall, in [s]; None without one.
-
-    Raises:
-        PolicyError: If the network cannot run on the robot.
+    Time of a fall, in [s]; None without one.
     """
     walk = _LegsWalk(trial)
     ranges = walk.legs.contract.command_ranges
@@ -164,12 +136,8 @@ def run_tracking_walk(trial: LegsTrial) -> float:
     Velocities are drawn from the set that the legs deliver, and hold for 1 to
     4 s.
 
-    Returns:
-        Greatest distance of the body from its template point, see
-        :mod:`stepaside.strategies.shield_template`, in [m]; NaN after a fall.
-
-    Raises:
-        PolicyError: If the network cannot run on the robot.
+    Greatest distance of the body from its template point, see
+    :mod:`stepaside.strategies.shield_template`, in [m]; NaN after a fall.
     """
     assert trial.response is not None
     walk, legs = _LegsWalk(trial), trial.response.velocities
@@ -287,22 +255,12 @@ def trial_commands(ranges: CommandRanges) -> list[BodyVelocity]:
 
 @dataclass(frozen=True, slots=True)
 class LegsMeasurement:
-    """Measured response of a robot's learned legs.
+    """Measured response of a robot's learned legs."""
 
-    Attributes:
-        trials: Results of all walks.
-        response: Response by axis, without commands that led to a fall and
-            those beyond which the velocity does not increase.
-        combined_error: Greatest difference between the velocity of a combined
-            command and the sum of its axes: of the horizontal velocity, in
-            [m/s], and of the turning rate, in [rad/s].
-        random_walks: Time of the fall in each walk at random commands, in
-            [s]; None without one.
-    """
-
-    trials: tuple[LegsTrialResult, ...]
+    trials: tuple[LegsTrialResult, ...]  # results of all walks
     response: VelocityResponse
-    combined_error: tuple[float, float]
+    combined_error: tuple[float, float]  # [m/s] [rad/s]
+    # time of the fall in each walk at random commands [s]; None without one
     random_walks: tuple[float | None, ...] = ()
 
     @property
@@ -313,9 +271,8 @@ class LegsMeasurement:
     def gains(self) -> Array:
         """Return the linear fit of delivered velocities to commands.
 
-        Returns:
-            Row by delivered component, column by commanded axis: the slope
-            through the origin. Shape (3, 3).
+        Row by delivered component, column by commanded axis: the slope through
+        the origin. Shape (3, 3).
         """
         columns = []
         for axis in self.response.axes:
@@ -336,21 +293,7 @@ def measure_legs(
     seed: int = 1,
     random_walks: int = 0,
 ) -> LegsMeasurement:
-    """Walk a grid of commands, and tabulate the velocities that result.
-
-    Args:
-        description: Description of the robot.
-        legs: Walking policy.
-        body: Deviations of the body from an ideal one.
-        executor: Runs the walks.
-        report: Called with the number of finished walks and of all walks.
-        seed: Seed of sensor errors, and the first one of random commands.
-        random_walks: Number of walks at random commands.
-
-    Raises:
-        PolicyError: If the network cannot run on the robot, the robot falls
-            while it is to stand, or an axis does not follow its command.
-    """
+    """Walk a grid of commands, and tabulate the velocities that result."""
     contract, _ = load_policy(legs, description)
     base = LegsTrial(description, legs, body, STILL, seed)
     commands = trial_commands(contract.command_ranges)

@@ -22,25 +22,16 @@ Quaternion = tuple[float, float, float, float]
 
 @dataclass(frozen=True, eq=False)
 class ModelAnalysis:
-    """The robot in a published model, and its legs.
+    """The robot in a published model, and its legs."""
 
-    Attributes:
-        path: File of the model.
-        model: Compiled model of the robot alone.
-        data: Zero posture, with the torso at the origin, facing forward.
-        torso: Body that carries the free joint.
-        legs: Left and right leg.
-        missing: Mesh files that are missing or cannot be read.
-        turn: Orientation of the published torso in axes (forward, left,
-            up), as a quaternion (w, x, y, z).
-    """
-
-    path: Path
-    model: mujoco.MjModel
+    path: Path  # file of the model
+    model: mujoco.MjModel  # compiled model of the robot alone
+    # zero posture, with the torso at the origin, facing forward
     data: mujoco.MjData
-    torso: str
-    legs: tuple[DetectedLeg, DetectedLeg]
-    missing: tuple[str, ...]
+    torso: str  # body that carries the free joint
+    legs: tuple[DetectedLeg, DetectedLeg]  # left and right leg
+    missing: tuple[str, ...]  # mesh files that are missing or cannot be read
+    # of the published torso in axes (forward, left, up)
     turn: Quaternion = (1.0, 0.0, 0.0, 0.0)
 
     @property
@@ -77,16 +68,7 @@ class ModelAnalysis:
 
 
 def analyse_model(path: Path, folders: Sequence[Path]) -> ModelAnalysis:
-    """Find torso, legs and feet in a published model.
-
-    Args:
-        path: MJCF or URDF file.
-        folders: Additional folders with mesh files.
-
-    Raises:
-        ModelError: If it is not the model of a humanoid; names what is
-            missing.
-    """
+    """Find torso, legs and feet in a published model."""
     try:
         spec = read_model(path)
         for body in spec.bodies:
@@ -131,12 +113,7 @@ def analyse_model(path: Path, folders: Sequence[Path]) -> ModelAnalysis:
 def _legs(
     model: mujoco.MjModel, path: Path
 ) -> tuple[mujoco.MjData, Quaternion, tuple[DetectedLeg, DetectedLeg]]:
-    """Find the legs in the orientation in which the robot faces forward.
-
-    Raises:
-        ModelError: If no orientation has legs. Reports the first error with
-            legs, or else the first one.
-    """
+    """Find the legs in the orientation in which the robot faces forward."""
     first_error: ModelError | None = None
     for quarters in (0, 2, 1, 3):
         half = 0.25 * np.pi * quarters

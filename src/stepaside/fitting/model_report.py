@@ -19,9 +19,8 @@ def head_of(analysis: ModelAnalysis) -> dict[str, Any]:
     The head joints are those over the hips in the sagittal plane with a
     vertical axis (yaw) and a lateral axis (pitch) that carry the least mass.
 
-    Returns:
-        Joints ``yaw`` and ``pitch``, each None if there is none, and the
-        names of all ``cameras`` of the model.
+    Joints ``yaw`` and ``pitch``, each None if there is none, and the names of
+    all ``cameras`` of the model.
     """
     model, data = analysis.model, analysis.data
     hips = max(leg.hip[2] for leg in analysis.legs)

@@ -61,11 +61,10 @@ def published_torques(spec: mujoco.MjSpec) -> dict[str, float]:
 def published_values(spec: mujoco.MjSpec) -> dict[str, dict[str, float]]:
     """Return the gains and the posture in a model, by joint.
 
-    Returns:
-        Those that it has of ``stiffness``, in [N m/rad], and ``damping``, in
-        [N m s/rad], of its position actuators, that of the joint included;
-        and ``default_posture``, in [rad], of its keyframe of a standing
-        robot, else of its first.
+    Those that it has of ``stiffness``, in [N m/rad], and ``damping``, in [N m
+    s/rad], of its position actuators, that of the joint included; and
+    ``default_posture``, in [rad], of its keyframe of a standing robot, else of
+    its first.
     """
     passive = {x.name: float(np.ravel(x.damping)[0]) for x in spec.joints}
     found: dict[str, dict[str, float]] = {
@@ -121,14 +120,7 @@ def gains_of(
     *,
     weak: bool = False,
 ) -> dict[str, ServoGains]:
-    """Return the servo of every joint that does not follow another.
-
-    Args:
-        found: Analysis of the model.
-        torques: Published torque limits, in [N m].
-        com_height: Height of the CoM over the soles, in [m].
-        weak: Whether walking takes most of the torque limits.
-    """
+    """Return the servo of every joint that does not follow another."""
     tipping = found.mass * GRAVITY * com_height
     time = np.sqrt(com_height / GRAVITY)
     legs = {name for leg in found.legs for name in leg.joints}

@@ -30,34 +30,21 @@ TUNE = "`stepaside robot tune` searches for a"
 
 
 class RequirementCheck(NamedTuple):
-    """Result of one check.
-
-    Attributes:
-        name: Name of the requirement.
-        verdict: "pass", "warn" or "fail".
-        value: Measured value as text.
-        hint: Remedy; empty if it passed.
-    """
+    """Result of one check."""
 
     name: str
-    verdict: str
-    value: str
-    hint: str = ""
+    verdict: str  # "pass", "warn" or "fail"
+    value: str  # measured value as text
+    hint: str = ""  # remedy; empty if it passed
 
 
 class VerificationReport(NamedTuple):
-    """Result of a verification.
+    """Result of a verification."""
 
-    Attributes:
-        findings: Results of the checks.
-        walks: Walk trials, open loop and with feedback; empty if the robot
-            cannot stand.
-        feedback: Whether the description uses feedback.
-    """
-
-    findings: tuple[RequirementCheck, ...]
+    findings: tuple[RequirementCheck, ...]  # results of the checks
+    # walk trials, open loop and with feedback; empty if the robot cannot stand
     walks: tuple[WalkTrialResult, ...]
-    feedback: bool
+    feedback: bool  # whether the description uses feedback
 
     @property
     def passes(self) -> bool:
@@ -84,13 +71,7 @@ def check_robot(
     executor: Executor,
     report: Callable[[int, int], None] | None = None,
 ) -> VerificationReport:
-    """Check the requirements of a robot and run its walk trials.
-
-    Args:
-        description: Robot description.
-        executor: Executor of the walks.
-        report: Called with the number of finished walks and of all walks.
-    """
+    """Check the requirements of a robot and run its walk trials."""
     found = check_requirements(description)
     if any(finding.verdict == "fail" for finding in found):
         return VerificationReport(tuple(found), (), False)
@@ -317,12 +298,7 @@ def _strains(walks: list[WalkTrialResult]) -> Iterator[RequirementCheck]:
 def _steadiness(
     walks: list[WalkTrialResult], *, described: bool = True
 ) -> RequirementCheck:
-    """Check the walks with or without feedback.
-
-    Args:
-        walks: Walks along all paths.
-        described: Whether the robot is described to walk so.
-    """
+    """Check the walks with or without feedback."""
     name = "walks with feedback" if walks[0].feedback else "walks open loop"
     failed = [walk for walk in walks if not walk.is_steady]
     worst = max(failed or walks, key=lambda walk: walk.unsteadiness)

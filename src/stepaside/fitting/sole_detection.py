@@ -28,20 +28,13 @@ GUESS = (0.12, -0.12, 0.22, -0.09, 0.09)
 
 
 class DetectedSole(NamedTuple):
-    """Sole of a foot in the zero posture.
+    """Sole of a foot in the zero posture."""
 
-    Attributes:
-        axes: Axes forward, left and up of the standing foot in the torso
-            frame, as columns. Shape (3, 3).
-        height: Height of the ankle over the sole, in [m].
-        outline: Edges from the ankle, in [m]: back, front, right, left.
-        is_guessed: Whether height and outline are a guess, because the foot
-            has no geoms.
-    """
-
-    axes: Array
-    height: float
+    axes: Array  # forward, left, up in the torso frame, as columns (3, 3)
+    height: float  # height of the ankle over the sole [m]
+    # edges from the ankle [m]: back, front, right, left
     outline: tuple[float, float, float, float]
+    # whether height and outline are a guess, because the foot has no geoms
     is_guessed: bool = False
 
 
@@ -54,15 +47,8 @@ def sole_of(
 ) -> DetectedSole:
     """Find the sole of a foot.
 
-    Args:
-        model: Compiled model.
-        data: Zero posture, with the torso level at the origin.
-        body: Body of the foot.
-        hip: Position of the hip, in [m]. Shape (3,).
-        ankle: Position of the ankle, in [m]. Shape (3,).
-
-    Raises:
-        ModelError: If the geoms have no side that a robot can stand on.
+    ``hip``: Position of the hip, in [m]. Shape (3,). ``ankle``: Position of
+    the ankle, in [m]. Shape (3,).
     """
     points = foot_points(model, data, body)
     if len(points) == 1:
@@ -96,9 +82,7 @@ def foot_points(
 ) -> Array:
     """Return the surface points of a foot: of colliding geoms if any.
 
-    Returns:
-        Positions, in [m]; that of the body if it has no geoms.
-        Shape (n, 3).
+    Positions, in [m]; that of the body if it has no geoms. Shape (n, 3).
     """
     parts = [body]
     for other in range(body + 1, model.nbody):
@@ -115,12 +99,7 @@ def foot_points(
 
 
 def check_size(edges: tuple[float, ...], length: float) -> str:
-    """Return the violation of the size limits of a sole; empty if none.
-
-    Args:
-        edges: Back, front, right and left edge, in [m].
-        length: Length of the leg, in [m].
-    """
+    """Return the violation of the size limits of a sole; empty if none."""
     back, front, right, left = edges
     sizes = ((front - back, LENGTHS, "long"), (left - right, WIDTHS, "wide"))
     for size, (least, most), how in sizes:
@@ -149,8 +128,7 @@ def _check(name: str, edges: tuple[float, ...], length: float) -> None:
 def _downward(points: Array) -> Array | None:
     """Return the outward normal of the sole; None if it is vertical.
 
-    Returns:
-        Shape (3,).
+    Shape (3,).
     """
     try:
         hull = ConvexHull(points)

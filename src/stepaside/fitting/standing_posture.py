@@ -85,11 +85,8 @@ def reach_of(
 ) -> float:
     """Return the radius that contains the standing robot, in [m].
 
-    Args:
-        found: Analysis of the model.
-        standing: Standing angles, in [rad].
-        forward: Sagittal coordinate of the reference point in the torso
-            frame, in [m].
+    ``forward``: Sagittal coordinate of the reference point in the torso frame,
+    in [m].
     """
     model, data = found.model, _posture(found, standing)
     mujoco.mj_kinematics(model, data)

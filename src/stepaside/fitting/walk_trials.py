@@ -30,23 +30,14 @@ STANDING_UNTIL = 0.6  # time before which no robot starts walking, in [s]
 
 
 class JointStrain(NamedTuple):
-    """Joint loads of a robot in a walk.
+    """Joint loads of a robot in a walk."""
 
-    Attributes:
-        standing: Greatest fraction of a torque limit while standing.
-        standing_joint: Joint with this load.
-        walking: Greatest fraction of a torque limit while walking.
-        walking_joint: Joint with this load.
-        saturated: Fraction of ticks with a joint at its torque limit.
-        sag: Mean deficit of the CoM height while standing, in [m].
-    """
-
-    standing: float
+    standing: float  # greatest fraction of a torque limit while standing
     standing_joint: str
-    walking: float
+    walking: float  # greatest fraction of a torque limit while walking
     walking_joint: str
-    saturated: float
-    sag: float
+    saturated: float  # fraction of ticks with a joint at its torque limit
+    sag: float  # mean deficit of the CoM height while standing [m]
 
 
 class StrainGauge(GameObserver):
@@ -101,17 +92,11 @@ class StrainGauge(GameObserver):
 
 
 class TrialPath(NamedTuple):
-    """Path of a walk trial.
-
-    Attributes:
-        name: Name of the path.
-        backward: Whether the robot walks backward.
-        bearing: Desired heading, in [rad].
-    """
+    """Path of a walk trial."""
 
     name: str
     backward: bool
-    bearing: float
+    bearing: float  # desired heading [rad]
 
 
 PATHS = (
@@ -133,32 +118,23 @@ class WalkTrial(NamedTuple):
 
 
 class WalkTrialResult(NamedTuple):
-    """Result of a walk trial.
+    """Result of a walk trial."""
 
-    Attributes:
-        way: Name of the path.
-        feedback: Whether feedback was used.
-        message: Message of the outcome.
-        completed: Whether the walk was completed.
-        lasted: Fraction of the duration that was walked.
-        tilt: Greatest tilt of the torso, in [deg]; None after an early fall.
-        strays: Rms error of the CoM by its height; None likewise.
-        speed: Speed by that of the plan; None likewise.
-        turning: Turning by that of the plan; None also for a straight path.
-        strain: Joint strain; None if the walk could not begin.
-        lean: Commanded lean of the torso, in [deg], which adds to the tilt.
-    """
-
-    way: str
+    way: str  # name of the path
     feedback: bool
     message: str
     completed: bool = False
-    lasted: float = 0.0
+    lasted: float = 0.0  # fraction of the duration that was walked
+    # greatest tilt of the torso [deg]; None after an early fall
     tilt: float | None = None
+    # rms error of the CoM by its height; None likewise
     strays: float | None = None
-    speed: float | None = None
+    speed: float | None = None  # speed by that of the plan; None likewise
+    # turning by that of the plan; None also for a straight path
     turning: float | None = None
+    # joint strain; None if the walk could not begin
     strain: JointStrain | None = None
+    # commanded lean of the torso [deg], which adds to the tilt
     lean: float = 0.0
 
     def to_json(self) -> dict[str, Any]:
@@ -201,11 +177,7 @@ def control_with(control: ControlSettings, feedback: bool) -> ControlSettings:
 def trials_of(
     description: RobotDescription, *, feedback: bool
 ) -> tuple[WalkTrial, ...]:
-    """Return the walk trials of a robot along all paths.
-
-    Raises:
-        StepAsideError: If its settings are invalid.
-    """
+    """Return the walk trials of a robot along all paths."""
     own = settings_from_description(description)
     control = control_with(own.control, feedback)
     return tuple(

@@ -10,18 +10,11 @@ from ..theory import laws
 
 
 class MotionRequest(NamedTuple):
-    """Decision of a player, for its locomotion.
+    """Decision of a player, for its locomotion."""
 
-    Attributes:
-        intent: Desired heading and speed, in the frame of the decision, or
-            velocity, in that of the body.
-        direction: Whether the body drives forward or backward.
-        saturated: Whether it turns by (6) instead of (8).
-    """
-
-    intent: Intent
-    direction: Direction
-    saturated: bool
+    intent: Intent  # heading in the frame of the decision, or body velocity
+    direction: Direction  # whether the body drives forward or backward
+    saturated: bool  # whether it turns by (6) instead of (8)
 
 
 def template_velocity(
@@ -31,10 +24,6 @@ def template_velocity(
 
     It is the desired body velocity, or that of the template unicycle, (3)
     and (8), or (6) if saturated.
-
-    Args:
-        request: Decision of the player.
-        gait: Speed and steering gain of the template.
     """
     intent = request.intent
     if not intent.walks:
@@ -52,24 +41,13 @@ class IntentSource(Protocol):
     """Decisions of a player, evaluated when its locomotion can use one."""
 
     def starts(self, now: float) -> bool:
-        """Return whether a standing robot starts to walk.
-
-        Args:
-            now: Time of the decision, in [s].
-        """
+        """Return whether a standing robot starts to walk."""
 
     def decide(
         self, now: float, support: Pose, side: Foot, *, moving: bool
     ) -> MotionRequest | None:
         """Decide on the next step.
 
-        Args:
-            now: Time at which the step begins, in [s].
-            support: Pose of its support foot in odometry: the frame of the
-                intent.
-            side: Side of the support foot.
-            moving: Whether the robot is walking.
-
-        Returns:
-            The decision; None if the opponent is lost: the robot halts.
+        ``support``: Pose of its support foot in odometry: the frame of the
+        intent. The decision; None if the opponent is lost: the robot halts.
         """

@@ -20,16 +20,10 @@ from .zmp.open_loop import OpenLoop
 
 
 class GuardDecision(NamedTuple):
-    """Intent that the guard accepts in place of the requested one.
+    """Intent that the guard accepts in place of the requested one."""
 
-    Attributes:
-        intent: Heading and speed.
-        back: Whether the driving direction is reversed: forward if the
-            strategy drives backward.
-    """
-
-    intent: Intent
-    back: bool = False
+    intent: Intent  # heading and speed
+    back: bool = False  # whether the driving direction is reversed
 
 
 PlanFor = Callable[[GuardDecision], ManeuverPlan]
@@ -71,12 +65,7 @@ class ManeuverGuard(Protocol):
 
 
 class ManeuverSelection:
-    """Plans the maneuvers and halts of one robot.
-
-    Attributes:
-        planner: Maneuver planner of the gait.
-        guard: Guard against obstacles, if any.
-    """
+    """Plans the maneuvers and halts of one robot."""
 
     def __init__(
         self,
@@ -114,15 +103,9 @@ class ManeuverSelection:
     ) -> tuple[ManeuverPlan, CenterState] | None:
         """Plan an intent, or the accepted decision closest to it.
 
-        Args:
-            request: Decision of the player.
-            state: Present CoM in the frame of the support foot.
-            feet: Poses of support foot and swing foot in odometry.
-            foot: Foot that swings.
-            standing: Whether the robot stands.
-
-        Returns:
-            The plan and the state that it begins with; None to stand.
+        ``state``: Present CoM in the frame of the support foot. ``feet``:
+        Poses of support foot and swing foot in odometry. The plan and the
+        state that it begins with; None to stand.
         """
         support = feet[0]
         swing_start = support.inverse().compose(feet[1])

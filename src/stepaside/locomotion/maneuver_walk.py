@@ -30,20 +30,6 @@ class ManeuverWalk:
     All poses are in the robot's own odometry: the frame midway between its
     feet at the start. No history is stored: a recorder reads ``begun`` after
     each tick.
-
-    Attributes:
-        gait: Gait.
-        kinematics: Joint motion generation.
-        balance: Balance control.
-        phase: Phase of motion.
-        plan: Maneuver being walked; None while standing.
-        plan_frame: Pose of its frame in odometry.
-        plan_started: When it began, in [s].
-        left_foot: Last stance pose of the left foot, in odometry.
-        right_foot: Last stance pose of the right foot, likewise.
-        begun: Step that began at this tick; None if none did.
-        joint_targets: Joint targets of this tick, in [rad]. Shape (joints,).
-        pose_delay: Time from a tick until the body is at its pose, in [s].
     """
 
     def __init__(
@@ -57,32 +43,19 @@ class ManeuverWalk:
         first_foot: Foot = Foot.LEFT,
         guard: ManeuverGuard | None = None,
     ) -> None:
-        """Take the standing posture.
-
-        Args:
-            gait: Gait.
-            kinematics: Joint motion generation of the robot.
-            balance: Balance control; none by default, the plan alone.
-            tick: Control period, in [s].
-            delay: Time from a command to the motion, in [s].
-            first_foot: Foot that makes the first step.
-            guard: Guard against obstacles; none by default.
-
-        Raises:
-            ReachError: If the standing posture of the gait is out of reach.
-        """
+        """Take the standing posture."""
         self.gait = gait
         self.kinematics = kinematics
         self.balance = OpenLoop(kinematics) if balance is None else balance
         self.phase = Phase.STANDING
         self.plan: ManeuverPlan | None = None
         self.plan_frame = Pose(0.0, 0.0, 0.0)
-        self.plan_started = self._blocked_until = self._plan_ends = 0.0
+        self.plan_started = self._blocked_until = self._plan_ends = 0.0  # [s]
         half = 0.5 * gait.foot_spacing
         self.left_foot = Pose(0.0, half, 0.0)
         self.right_foot = Pose(0.0, -half, 0.0)
         self.begun: StepStarted | None = None
-        self.pose_delay = delay + tick
+        self.pose_delay = delay + tick  # [s]
         self._delay, self._pace = delay, 1.0
         self._maneuvers = ManeuverSelection(gait, self.balance, guard)
         self._first_foot = first_foot
@@ -165,12 +138,8 @@ class ManeuverWalk:
     def coast(self, now: float) -> Array | None:
         """Run a control tick that needs neither measurement nor decision.
 
-        Returns:
-            Joint targets, in [rad]; None if this tick needs one of both, and
-            then nothing has changed.
-
-        Raises:
-            ReachError: If the legs cannot follow the reference.
+        Joint targets, in [rad]; None if this tick needs one of both, and then
+        nothing has changed.
         """
         if self.decides(now) or self._maneuvers.guard is not None:
             return None
@@ -184,11 +153,7 @@ class ManeuverWalk:
     def update(
         self, measurement: RobotState, decisions: IntentSource
     ) -> Array:
-        """Return the joint targets of a tick, in [rad]; decide if it is due.
-
-        Raises:
-            ReachError: If the legs cannot follow the reference.
-        """
+        """Return the joint targets of a tick, in [rad]; decide if due."""
         self.begun = None
         if self.phase is Phase.FALLEN:
             return self.joint_targets

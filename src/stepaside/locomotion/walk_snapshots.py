@@ -22,62 +22,36 @@ class Phase(Enum):
 
 
 class StepStarted(NamedTuple):
-    """Step that began at a tick.
+    """Step that began at a tick."""
 
-    Attributes:
-        plan: Maneuver whose first step it is.
-        started: Start time, in [s]; not always on a tick.
-        landing_time: Planned landing time, in [s].
-        foot: Foot that lands.
-        landing: Planned landing pose, in odometry.
-        planning_time: Processor time of planning, in [s]; None for a halt.
-        velocity_jump: Jump of the CoM velocity reference, in [m/s].
-    """
-
-    plan: ManeuverPlan
-    started: float
-    landing_time: float
-    foot: Foot
-    landing: Pose
+    plan: ManeuverPlan  # maneuver whose first step it is
+    started: float  # start time [s]; not always on a tick
+    landing_time: float  # planned landing time [s]
+    foot: Foot  # foot that lands
+    landing: Pose  # planned landing pose, in odometry
+    # processor time of planning [s]; None for a halt
     planning_time: float | None
-    velocity_jump: float
+    velocity_jump: float  # jump of the CoM velocity reference [m/s]
 
 
 @dataclass(frozen=True, slots=True)
 class WalkState:
-    """Plan, references and estimates at one tick, in odometry.
-
-    Attributes:
-        phase: Phase of motion.
-        gait: Gait.
-        plan: Current maneuver; None while standing.
-        plan_frame: Pose of the plan frame.
-        plan_started: Start time of the plan, in [s].
-        left_foot: Last stance pose of the left foot.
-        right_foot: Last stance pose of the right foot.
-        first_foot: Foot that swings now, or will swing first.
-        reference: Body reference.
-        zmp_reference: ZMP reference, in [m].
-        torso_heading: Reference heading of the torso, in [rad].
-        estimate: Estimated state of the body, if any.
-        solved: Result of the MPC at this tick, if it ran.
-        adapted: Number of footsteps that feedback has moved so far.
-    """
+    """Plan, references and estimates at one tick, in odometry."""
 
     phase: Phase
     gait: GaitSettings
-    plan: ManeuverPlan | None
+    plan: ManeuverPlan | None  # current maneuver; None while standing
     plan_frame: Pose
-    plan_started: float
-    left_foot: Pose
-    right_foot: Pose
-    first_foot: Foot
+    plan_started: float  # start time of the plan [s]
+    left_foot: Pose  # last stance pose of the left foot
+    right_foot: Pose  # last stance pose of the right foot
+    first_foot: Foot  # foot that swings now, or will swing first
     reference: BodyReference
-    zmp_reference: tuple[float, float]
-    torso_heading: float
-    estimate: BodyState | None
-    solved: MpcResult | None
-    adapted: int
+    zmp_reference: tuple[float, float]  # ZMP reference [m]
+    torso_heading: float  # reference heading of the torso [rad]
+    estimate: BodyState | None  # estimated state of the body, if any
+    solved: MpcResult | None  # result of the MPC at this tick, if it ran
+    adapted: int  # number of footsteps that feedback has moved so far
 
     def step(self, now: float) -> CurrentStep:
         """Return the step in progress at a time, in [s]."""

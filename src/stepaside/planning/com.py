@@ -20,25 +20,17 @@ from .zmp import PiecewisePolynomial, evaluate
 
 @dataclass(frozen=True, slots=True)
 class BoundedCom:
-    """Closed-form CoM and DCM over a piecewise polynomial ZMP.
-
-    Attributes:
-        zmp: ZMP reference.
-        eta: Rate of the pendulum, in [1/s].
-        dcm_polynomial: Polynomial part of the DCM, in the frame of the ZMP
-            and laid out like it.
-        com_polynomial: Polynomial part of the CoM, in the frame of the ZMP.
-        growth: DCM less its polynomial at the end of each piece, in [m].
-            Shape (n, ...).
-        decay: Coefficient of exp(-eta s) in the CoM of each piece, in [m].
-            Shape (n, ...).
-    """
+    """Closed-form CoM and DCM over a piecewise polynomial ZMP."""
 
     zmp: PiecewisePolynomial
-    eta: float
+    eta: float  # rate of the pendulum [1/s]
+    # polynomial part of the DCM, in the frame of the ZMP and laid out like it
     dcm_polynomial: Array
+    # polynomial part of the CoM, in the frame of the ZMP
     com_polynomial: Array
+    # DCM less its polynomial at the end of each piece [m]. Shape (n, ...)
     growth: Array
+    # coefficient of exp(-eta s) in the CoM of each piece [m]. Shape (n, ...)
     decay: Array
 
     @classmethod
@@ -47,10 +39,7 @@ class BoundedCom:
     ) -> "BoundedCom":
         """Solve (15)-(17); the velocity at the start follows from (16).
 
-        Args:
-            zmp: ZMP reference, constant after its end.
-            eta: Rate of the pendulum, in [1/s].
-            com_start: CoM at the start, in [m]. Shape (...), as the ZMP.
+        ``com_start``: CoM at the start, in [m]. Shape (...), as the ZMP.
         """
         p = zmp.coefficients
         durations = zmp.durations
@@ -77,9 +66,8 @@ class BoundedCom:
 
         The CoM velocity is ``eta * (dcm - com)``.
 
-        Args:
-            times: Times since the start, in [s]; any, also after the end of
-                the ZMP's last piece. Shape (m,).
+        ``times``: Times since the start, in [s]; any, also after the end of
+        the ZMP's last piece. Shape (m,).
         """
         index, s = self.zmp.locate(times)
         beyond = np.maximum(s - self.zmp.durations[index], 0.0)

@@ -47,16 +47,9 @@ def place_footsteps(
     (9)-(14) is taken at :math:`t_i = i \Delta / \bar{v}` and moved sideways
     by half a spacing.
 
-    Args:
-        trajectory: Trajectory to walk along.
-        count: Number :math:`n` of footsteps.
-        stride: Step size :math:`\Delta` along the trajectory, in [m].
-        foot_spacing: Coronal distance between the foot frames, in [m].
-        first_foot: Foot that lands first.
-
-    Returns:
-        Rows (x [m], y [m], theta [rad]) in the plan frame, in landing order;
-        odd rows are of the other foot. Shape (n, 3).
+    ``foot_spacing``: Coronal distance between the foot frames, in [m]. Rows (x
+    [m], y [m], theta [rad]) in the plan frame, in landing order; odd rows are
+    of the other foot. Shape (n, 3).
     """
     times = np.arange(1, count + 1) * (stride / trajectory.speed)
     steps = trajectory.poses(times)

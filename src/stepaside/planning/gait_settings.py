@@ -219,14 +219,7 @@ def stride_share(
     outer_stride: float | None,
     foot_spacing: float,
 ) -> float:
-    """Return the fraction of the stride that a turn allows, in [0.1, 1].
-
-    Args:
-        turn: Turn of one step, in [rad].
-        stride: Stride without a turn, in [m].
-        outer_stride: Longest stride of the outer foot, in [m]; None for any.
-        foot_spacing: Coronal distance between the feet, in [m].
-    """
+    """Return the fraction of the stride that a turn allows, in [0.1, 1]."""
     if outer_stride is None:
         return 1.0
     room = outer_stride - 0.5 * foot_spacing * abs(turn)

@@ -25,30 +25,19 @@ class UnicycleTrajectory:
     :math:`t_s = 1 / k`, less the factor sign(theta*) that the text prints
     in (10) and (11): integrating (8) yields none, and only without it does
     the arc join the line at :math:`t_s`.
-
-    Attributes:
-        bearing: Desired heading :math:`\theta^*` in the frame, in [rad].
-        speed: Magnitude :math:`\bar{v}` of the driving velocity, in [m/s].
-        gain: Steering gain :math:`k`, in [1/s].
-        direction: Whether the robot walks forward or backward.
-        saturated: Whether the turning rate is k sign(theta*), eq. (6),
-            until theta* is reached, rather than k theta*, eq. (8).
     """
 
-    bearing: float
-    speed: float
-    gain: float
-    direction: Direction
-    saturated: bool = False
+    bearing: float  # desired heading :math:`\theta^*` in the frame [rad]
+    speed: float  # magnitude :math:`\bar{v}` of the driving velocity [m/s]
+    gain: float  # steering gain :math:`k` [1/s]
+    direction: Direction  # whether the robot walks forward or backward
+    saturated: bool = False  # (6) until theta* is reached, rather than (8)
 
     def poses(self, times: ArrayLike) -> Array:
         r"""Evaluate the trajectory.
 
-        Args:
-            times: Times since planning, in [s]. Shape (n,).
-
-        Returns:
-            Poses (x [m], y [m], theta [rad]), columns. Shape (n, 3).
+        ``times``: Times since planning, in [s]. Shape (n,). Poses (x [m], y
+        [m], theta [rad]), columns. Shape (n, 3).
         """
         t = np.asarray(times, dtype=np.float64)
         rate = laws.proportional_rate(self.bearing, self.gain)

@@ -36,19 +36,13 @@ from .support_polygon import sole_corners
 
 
 class FootReach(NamedTuple):
-    """Reachable landings, in the axes of the support foot.
+    """Reachable landings, in the axes of the support foot."""
 
-    Attributes:
-        forward: Largest distance ahead, in [m].
-        backward: Largest distance behind, in [m].
-        outward: Largest lateral distance beyond the foot spacing, in [m].
-        gap: Least distance between soles abreast, in [m].
-    """
-
-    forward: float = 0.12
-    backward: float = 0.12
+    forward: float = 0.12  # largest distance ahead [m]
+    backward: float = 0.12  # largest distance behind [m]
+    # largest lateral distance beyond the foot spacing [m]
     outward: float = 0.12
-    gap: float = 0.012
+    gap: float = 0.012  # least distance between soles abreast [m]
 
 
 def push_bound(
@@ -63,24 +57,15 @@ def push_bound(
     r"""Return the largest push such that it and all smaller ones are held.
 
     A push is held by the feet on the floor, or by one reachable footstep that
-    lands at the planned time, in place of the next planned one.
+    lands at the planned time, in place of the next planned one. The push
+    begins at a time since the plan began, within its first step, in [s], in a
+    direction relative to the support foot's heading, in [rad].
 
     A push of finite duration is a constant force, with the ZMP free from
     its start: with :math:`h = \eta T` it shifts the DCM by the factor
     :math:`(1 - e^{-h}) / h` less than an impulse at its start.
 
-    Args:
-        plan: Current plan.
-        time: Start of the push since the plan began, in [s]; within its
-            first step.
-        direction: Direction of the push relative to the support foot's
-            heading, in [rad].
-        mass: Mass of the body, in [kg].
-        reach: Reachable landings.
-        lasts: Duration of the push, in [s]; 0 is an impulse.
-
-    Returns:
-        Impulse at the CoM, in [N s]; 0 if the DCM cannot be held at all.
+    Impulse at the CoM, in [N s]; 0 if the DCM cannot be held at all.
     """
     check_within(time, 0.0, plan.schedule.first_step_duration, "time", "s")
     dcm = plan.sample([time]).dcm[0]
@@ -107,9 +92,7 @@ def held_regions(
     First the region held by the feet on the floor, then that held by the
     next footstep. Their union need not be convex.
 
-    Returns:
-        Corners of each region in the plan frame, counter-clockwise. Shapes
-        (n, 2).
+    Corners of each region in the plan frame, counter-clockwise. Shapes (n, 2).
     """
     gait, phases = plan.schedule.settings, plan.support()
     now = max(i for i, phase in enumerate(phases) if phase.start <= time)

@@ -23,24 +23,15 @@ DEGREE = 3
 
 @dataclass(frozen=True, slots=True)
 class Sampler:
-    """Linear maps from the inputs of a plan to its samples at fixed times.
+    """Linear maps from the inputs of a plan to its samples at fixed times."""
 
-    Attributes:
-        times: Times since the plan began, in [s]. Shape (m,).
-        pendulum: Stacked maps to ZMP, DCM and CoM, and to the pivot if it
-            differs from the ZMP.
-            Shape (3 m or 4 m, inputs).
-        feet: Stacked maps from placements to the first support foot and to
-            the first swing foot. Shape (2 m, placements).
-        support_height: Height of the first support foot, in [m]. Shape (m,).
-        swing_height: Height of the first swing foot, in [m]. Shape (m,).
-    """
-
-    times: Array
+    times: Array  # times since the plan began [s]. Shape (m,)
+    # to ZMP, DCM, CoM, and pivot if it differs. Shape (3 m or 4 m, inputs)
     pendulum: Array
+    # from placements to first support and swing foot. (2 m, placements)
     feet: Array
-    support_height: Array
-    swing_height: Array
+    support_height: Array  # height of the first support foot [m]. Shape (m,)
+    swing_height: Array  # height of the first swing foot [m]. Shape (m,)
 
 
 class Schedule:
@@ -61,11 +52,6 @@ class Schedule:
     the first piece (s: its phase), which is zero at both ends, so that
     position, velocity and acceleration of the CoM stay continuous from one
     plan to the next.
-
-    Attributes:
-        settings: Gait.
-        count: Number of footsteps.
-        standing: Whether the maneuver starts from standing.
     """
 
     def __init__(
@@ -176,12 +162,9 @@ class Schedule:
     def swing_phases(self, times: Array) -> tuple[np.ndarray, Array]:
         """Return the step index and swing phase of each time.
 
-        Args:
-            times: Times since the start, in [s]. Shape (m,).
-
-        Returns:
-            Indices of the steps from 0, and phases of their single support,
-            below 0 before it and above 1 after it. Shapes (m,), (m,).
+        ``times``: Times since the start, in [s]. Shape (m,). Indices of the
+        steps from 0, and phases of their single support, below 0 before it and
+        above 1 after it. Shapes (m,), (m,).
         """
         s = self.settings
         walked = times - (s.start_support if self.standing else 0.0)

@@ -34,14 +34,8 @@ def steady_plan(
     The map from the state at one landing to that at the next is affine; the
     periodic state is the fixed point of two steps.
 
-    Args:
-        planner: Maneuver planner of the gait.
-        bearing: Desired heading in the frame of each support foot, in [rad].
-        direction: Forward or backward.
-        first_foot: Foot that lands first.
-
-    Returns:
-        The plan, whose first step begins in the periodic state.
+    ``bearing``: Desired heading in the frame of each support foot, in [rad].
+    The plan, whose first step begins in the periodic state.
     """
 
     def plan_from(

@@ -18,25 +18,15 @@ from .schedule import Schedule
 
 
 class SupportPhase(NamedTuple):
-    """Interval over which the same feet are on the floor.
+    """Interval over which the same feet are on the floor."""
 
-    Attributes:
-        start: Start time since the plan began, in [s].
-        end: End time, in [s]; infinite for the last phase.
-        rows: Rows of the placements whose feet are on the floor; in single
-            support there is one.
-        corners: Corners of the soles' hull, counter-clockwise, in the plan
-            frame, in [m]. Shape (n, 2).
-        normals: Outward unit normals of its edges. Shape (n, 2).
-        offsets: A ZMP p is in the polygon if normals p <= offsets, in [m].
-            Shape (n,).
-    """
-
-    start: float
-    end: float
-    rows: tuple[int, ...]
+    start: float  # start time since the plan began [s]
+    end: float  # end time [s]; infinite for the last phase
+    rows: tuple[int, ...]  # of the placements whose feet are on the floor
+    # of the hull, counter-clockwise, in the plan frame [m]. Shape (n, 2)
     corners: Array
-    normals: Array
+    normals: Array  # outward unit normals of its edges. Shape (n, 2)
+    # A ZMP p is in the polygon if normals p <= offsets [m]. Shape (n,)
     offsets: Array
 
     @property
@@ -57,11 +47,7 @@ def support_phases(
     lifts off is on the floor, but the ZMP already has to be under the foot
     of the single support.
 
-    Args:
-        schedule: Timing of the plan.
-        placements: As in :class:`.ManeuverPlan`. Shape (count + 2, 3).
-        first_foot: Foot that lands first.
-        duration: Phases that begin later are omitted, in [s].
+    ``placements``: As in :class:`.ManeuverPlan`. Shape (count + 2, 3).
     """
     sole = schedule.settings.sole
     sides = (first_foot, first_foot.other)

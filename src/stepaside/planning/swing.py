@@ -25,13 +25,7 @@ def swing_progress(phase: Any, profile: SwingProfile = "minimum-jerk") -> Any:
     polynomial peaks half-way at 15/8 of the mean velocity; the even one has
     the flattest velocity of its degree there, 35/24 of the mean.
 
-    Args:
-        phase: Phase of single support, a number or an array; below 0 the foot
-            is at lift-off, above 1 at touch-down.
-        profile: Profile of the motion.
-
-    Returns:
-        Fraction in [0, 1], like the phase.
+    Fraction in [0, 1], like the phase.
     """
     if isinstance(phase, float):
         s = min(max(phase, 0.0), 1.0)

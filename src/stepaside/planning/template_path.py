@@ -48,17 +48,11 @@ def poses_on_path(
     limited to half a step before and after that by time; on the spot the
     progress by time alone is used.
 
-    Args:
-        samples: Samples of the path, in the order of the steps. Shape
-            (n, 3).
-        com: CoM in the same frame, in [m]. Shape (m, 2).
-        clock: Progress between samples by time, from the middle of one
-            support to that of the next, below 0 before and above 1 after
-            it; NaN if undefined. Shape (m, n - 1).
-        gait: Gait, for the lead of the CoM and the foot spacing.
-
-    Returns:
-        Rows (x [m], y [m], theta [rad]). Shape (m, 3).
+    ``samples``: Samples of the path, in the order of the steps. Shape (n, 3).
+    ``com``: CoM in the same frame, in [m]. Shape (m, 2). ``clock``: Progress
+    between samples by time, from the middle of one support to that of the
+    next, below 0 before and above 1 after it; NaN if undefined. Shape (m, n -
+    1). Rows (x [m], y [m], theta [rad]). Shape (m, 3).
     """
     ways = np.diff(samples, axis=0)
     middle = samples[:-1, 2] + 0.5 * ways[:, 2]

@@ -10,17 +10,10 @@ from ..core.poses import Array
 
 @dataclass(frozen=True, slots=True)
 class PiecewisePolynomial:
-    r"""Piecewise polynomial in local time, then a constant.
+    r"""Piecewise polynomial in local time, then a constant."""
 
-    Attributes:
-        durations: Duration of each piece, in [s]. Shape (n,).
-        coefficients: Coefficient of :math:`s^j` of each piece, in
-            [m/s^j]. Shape (degree + 1, n, ...); the last axes are free
-            (sagittal and coronal, say).
-    """
-
-    durations: Array
-    coefficients: Array
+    durations: Array  # duration of each piece [s]. Shape (n,)
+    coefficients: Array  # [m/s^j] (degree + 1, n, ...)
 
     @property
     def end(self) -> Array:
@@ -54,9 +47,7 @@ def least_values(coefficients: Array, duration: float) -> Array:
 
     They are at an end or where the derivative vanishes.
 
-    Args:
-        coefficients: Of the powers 0 to 3. Shape (4, n).
-        duration: Length of the interval, in [s].
+    ``coefficients``: Of the powers 0 to 3. Shape (4, n).
     """
     c0, c1, c2, c3 = coefficients
     # Roots of c1 + 2 c2 s + 3 c3 s^2 without cancellation, also if any is 0.

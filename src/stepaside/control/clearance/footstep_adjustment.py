@@ -30,12 +30,7 @@ NEGLIGIBLE = 1e-9  # violation that is tolerated, in [m]
 
 
 class FootstepAdjustment:
-    """Moves the footsteps of plans away from obstacles.
-
-    Attributes:
-        radius: Clearance that the body requires around the midpoint of its
-            feet, in [m].
-    """
+    """Moves the footsteps of plans away from obstacles."""
 
     def __init__(
         self,
@@ -43,31 +38,19 @@ class FootstepAdjustment:
         reach: StabiliserSettings,
         radius: float,
     ) -> None:
-        """Prepare the adjustment for one gait.
-
-        Args:
-            planner: Maneuver planner of the gait.
-            reach: Limits on the landing of a foot beside the other foot.
-            radius: Clearance that the body requires, in [m].
-        """
+        """Prepare the adjustment for one gait."""
         self._planner, self._reach = planner, reach
         self._solver = load_solver()
-        self.radius = radius
+        self.radius = radius  # [m]
 
     def adjust(
         self, plan: ManeuverPlan, pose_plan_in_map: Pose, solids: ObstacleSet
     ) -> ManeuverPlan:
         """Return the plan with footsteps that keep clear, if they exist.
 
-        Args:
-            plan: Plan whose footsteps are adjusted.
-            pose_plan_in_map: Pose of the plan frame in the frame of
-                ``solids``.
-            solids: Obstacles.
-
-        Returns:
-            The plan itself if its footsteps keep clear already, and also if
-            no reachable footsteps do: the guard checks the result.
+        ``pose_plan_in_map``: Pose of the plan frame in the frame of
+        ``solids``. The plan itself if its footsteps keep clear already, and
+        also if no reachable footsteps do: the guard checks the result.
         """
         steps = plan.placements[2:]
         rows, least = self._half_planes(plan, pose_plan_in_map, solids)
@@ -99,8 +82,7 @@ class FootstepAdjustment:
     ) -> tuple[Array, Array]:
         """Return the half planes as rows and lower bounds on all footsteps.
 
-        Returns:
-            Shapes (m, 2 count), (m,).
+        Shapes (m, 2 count), (m,).
         """
         beside = _offsets_to_middle(plan)
         here = 0.5 * (plan.placements[0, :2] + plan.placements[1, :2])
@@ -131,9 +113,8 @@ class FootstepAdjustment:
     def _within_reach(self, plan: ManeuverPlan) -> tuple[Array, Array, Array]:
         """Return the limits on the displacement from one foot to the next.
 
-        Returns:
-            Rows on all footsteps, with lower and upper bounds.
-            Shapes (2 count, 2 count), (2 count,), (2 count,).
+        Rows on all footsteps, with lower and upper bounds. Shapes (2 count, 2
+        count), (2 count,), (2 count,).
         """
         gait, own = plan.gait, self._reach
         before, steps = plan.placements[1:-1], plan.placements[2:]

@@ -43,17 +43,11 @@ ESCAPES = tuple(
 
 
 class ManeuverClearance(NamedTuple):
-    """Clearance of the body over the first step of a maneuver and its halt.
+    """Clearance of the body over the first step of a maneuver and its halt."""
 
-    Attributes:
-        now: Clearance at the start, in [m].
-        least: Least clearance during the first step and the halt, in [m].
-        last: Clearance after the halt, in [m].
-    """
-
-    now: float
-    least: float
-    last: float
+    now: float  # clearance at the start [m]
+    least: float  # least clearance during the first step and the halt [m]
+    last: float  # clearance after the halt [m]
 
     def escapes(
         self, margin: float, map_error: float, gained: float = NEARER
@@ -69,12 +63,7 @@ class ManeuverClearance(NamedTuple):
 
 
 class Guard:
-    """Filter of intents that keeps a robot clear of known obstacles.
-
-    Attributes:
-        surroundings: Known obstacles.
-        margin: Required clearance, in [m].
-    """
+    """Filter of intents that keeps a robot clear of known obstacles."""
 
     def __init__(
         self,

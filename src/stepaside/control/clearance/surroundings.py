@@ -11,14 +11,7 @@ REFRESH_PERIOD = 0.25  # of obstacles that may change, in [s]
 
 
 class Surroundings:
-    """Obstacles known to a robot: none, on an open floor.
-
-    Attributes:
-        solids: Known obstacles in the frame of the map.
-        pose_odometry_in_map: Pose of the own odometry in the frame of the
-            obstacles.
-        map_error: Largest position error of the obstacles, in [m].
-    """
+    """Obstacles known to a robot: none, on an open floor."""
 
     solids = NO_OBSTACLES
     pose_odometry_in_map = HERE

@@ -23,20 +23,14 @@ SETTLING = 1.0  # time until the CoM is at rest after a halt, in [s]
 
 @dataclass(frozen=True, slots=True, eq=False)
 class BodyOutline:
-    """Top view of a body as convex outlines of its parts.
+    """Top view of a body as convex outlines of its parts."""
 
-    Attributes:
-        trunk: Corners of all but the feet in the walking posture, relative
-            to the CoM, in the axes of the mean heading of the feet, in [m].
-            Shape (n, 2).
-        left_sole: Corners of the left foot in its foot frame, in [m]. Shape
-            (m, 2).
-        right_sole: Corners of the right foot, likewise. Shape (k, 2).
-    """
-
+    # all but the feet in the walking posture, from the CoM, in the axes of the
+    # mean heading of the feet [m]. Shape (n, 2)
     trunk: Array
+    # corners of the left foot in its foot frame [m]. Shape (m, 2)
     left_sole: Array
-    right_sole: Array
+    right_sole: Array  # corners of the right foot, likewise. Shape (k, 2)
 
     def __post_init__(self) -> None:
         """Validate the corners."""
@@ -58,13 +52,8 @@ class BodyOutline:
     def along(self, plan: ManeuverPlan, frame: Pose, part: "Part") -> Array:
         """Return the corners of the body over a part of a plan, in [m].
 
-        Args:
-            plan: The plan.
-            frame: Pose of the plan frame in the frame of the result.
-            part: "step" for its first step, "all" for all of it.
-
-        Returns:
-            Shape (instants, n + m + k, 2).
+        ``frame``: Pose of the plan frame in the frame of the result. Shape
+        (instants, n + m + k, 2).
         """
         samples = plan.sample(_sampler(plan.schedule, part))
         left, right = samples.left_foot, samples.right_foot

@@ -36,12 +36,8 @@ class VelocityGuard:
     ) -> None:
         """Guard one robot.
 
-        Args:
-            surroundings: Known obstacles.
-            velocities: Velocities that the legs deliver.
-            clearance: Least distance of the reference point from obstacles,
-                in [m]; the measured tube of the legs is added, as the body
-                is that far from the path that is checked.
+        To its clearance, in [m], the measured tube of the legs is added, as
+        the body is that far from the path that is checked.
         """
         self._surroundings, self._velocities = surroundings, velocities
         self._clearance = clearance + velocities.tube
@@ -58,13 +54,8 @@ class VelocityGuard:
     ) -> BodyVelocity:
         """Return the admissible velocity nearest to a desired one.
 
-        Args:
-            velocity: Desired velocity.
-            pose: Pose of the robot in odometry.
-            duration: Time until the next decision, in [s].
-
-        Returns:
-            The velocity; zero if none is admissible.
+        ``pose``: Pose of the robot in odometry. The velocity; zero if none is
+        admissible.
         """
         solids = self._surroundings.solids
         if velocity == STILL or not len(solids):
@@ -101,13 +92,8 @@ class VelocityGuard:
     def _paths(self, tried: Array, here: Pose, duration: float) -> Array:
         """Return the positions of the robot at velocities, until it stands.
 
-        Args:
-            tried: Velocities. Shape (n, 3).
-            here: Pose of the robot in the map.
-            duration: Time until the next decision, in [s].
-
-        Returns:
-            Positions in the map, in [m]. Shape (n, SAMPLES + 1, 2).
+        ``tried``: Velocities. Shape (n, 3). Positions in the map, in [m].
+        Shape (n, SAMPLES + 1, 2).
         """
         times = np.linspace(0.0, duration, SAMPLES)
         ahead, left, turn = tried.T[:, :, None]

@@ -20,16 +20,12 @@ Standing = Literal["runs", "holds", "silent"]
 
 
 class ObservationTerm(NamedTuple):
-    """One quantity of an observation.
+    """One quantity of an observation."""
 
-    Attributes:
-        name: Name of the quantity, a key of :data:`TERMS`.
-        scale: Factor on each of its values, or one factor for all.
-        clip: Largest magnitude of a value before scaling; inf for none.
-    """
-
-    name: str
+    name: str  # name of the quantity, a key of :data:`TERMS`
+    # factor on each of its values, or one factor for all
     scale: tuple[float, ...] = (1.0,)
+    # largest magnitude of a value before scaling; inf for none
     clip: float = inf
 
 
@@ -93,16 +89,13 @@ class PhaseClock:
 
 
 class CommandRanges(NamedTuple):
-    """Ranges of the commands that a policy was trained for.
+    """Ranges of the commands that a policy was trained for."""
 
-    Attributes:
-        forward: Least and greatest velocity ahead, in [m/s].
-        lateral: Least and greatest velocity to the left, in [m/s].
-        turn: Least and greatest turning rate, in [rad/s].
-    """
-
+    # least and greatest velocity ahead [m/s]
     forward: tuple[float, float] = (-1.0, 1.0)
+    # least and greatest velocity to the left [m/s]
     lateral: tuple[float, float] = (-1.0, 1.0)
+    # least and greatest turning rate [rad/s]
     turn: tuple[float, float] = (-1.0, 1.0)
 
 
@@ -179,12 +172,7 @@ class PolicyContract:
     )
 
     def __post_init__(self) -> None:
-        """Check entries by themselves, and that they fit together.
-
-        Raises:
-            PolicyError: If a term is unknown, an entry does not fit the
-                number of joints, or a value is out of its range.
-        """
+        """Check entries by themselves, and that they fit together."""
         check_settings(self, PolicyError)
         twice = [x for x in self.joints if self.joints.count(x) > 1]
         if twice:

@@ -56,30 +56,19 @@ AXES = {
 
 @dataclass(frozen=True)
 class Convention:
-    """Contract values that one trainer has in common for its networks.
-
-    Attributes:
-        name: Name of the convention.
-        source: Where it is published.
-        values: Values as in ``[locomotion]`` of a robot description.
-        metadata: Field by the metadata key that the exporter writes;
-            ``terms.scale`` and the like have one value for each term.
-        unused: Further keys that it writes, which change no contract.
-        recognised_by: Metadata keys by which its networks are recognised.
-        postures: Default angles by joint, in [rad], of robots whose networks
-            do not contain them; joints that are absent are at zero.
-        by_joint: Further values for robots that have a joint.
-        deployment: Places of values in the YAML file that the trainer keeps
-            beside a network, if it does: keys separated by dots.
-    """
+    """Contract values that one trainer has in common for its networks."""
 
     name: str
-    source: str
+    source: str  # where it is published
+    # values as in ``[locomotion]`` of a robot description
     values: dict[str, Any]
     metadata: dict[str, str] = field(default_factory=dict)
+    # further keys that it writes, which change no contract
     unused: tuple[str, ...] = ()
+    # metadata keys by which its networks are recognised
     recognised_by: tuple[str, ...] = ()
-    postures: dict[str, float] = field(default_factory=dict)
+    postures: dict[str, float] = field(default_factory=dict)  # [rad]
+    # further values for robots that have a joint
     by_joint: dict[str, dict[str, Any]] = field(default_factory=dict)
     deployment: dict[str, Any] = field(default_factory=dict)
 
@@ -96,33 +85,20 @@ def conventions() -> Mapping[str, Convention]:
 
 
 class Finding(NamedTuple):
-    """One remark about a contract.
+    """One remark about a contract."""
 
-    Attributes:
-        severity: "error" if the network cannot run, else "warning".
-        text: What is wrong, with the name of the entry.
-    """
-
-    severity: str
-    text: str
+    severity: str  # "error" if the network cannot run, else "warning"
+    text: str  # what is wrong, with the name of the entry
 
 
 class RobotJoints(NamedTuple):
-    """What a contract takes from a robot; empty if it is not known.
+    """What a contract takes from a robot; empty if it is not known."""
 
-    Attributes:
-        motors: Actuated joints, in the order of the model.
-        driven: All joints that motors move.
-        legs: Leg joints, in the order of the description.
-        entries: ``[locomotion]`` of the description.
-        published: Gains and posture of the model, by joint, which fill in
-            what is missing.
-    """
-
-    motors: tuple[str, ...] = ()
-    driven: tuple[str, ...] = ()
-    legs: tuple[str, ...] = ()
-    entries: Mapping[str, Any] = {}
+    motors: tuple[str, ...] = ()  # actuated joints, in the order of the model
+    driven: tuple[str, ...] = ()  # all joints that motors move
+    legs: tuple[str, ...] = ()  # leg joints, in the order of the description
+    entries: Mapping[str, Any] = {}  # ``[locomotion]`` of the description
+    # gains and posture of the model, by joint, which fill in what is missing
     published: Mapping[str, Mapping[str, float]] = {}
 
     @classmethod
@@ -135,22 +111,18 @@ class RobotJoints(NamedTuple):
 
 @dataclass
 class ContractReading:
-    """Values of a contract with their sources; some may be missing.
-
-    Attributes:
-        network: The network.
-        convention: Convention in use; None if none was named or recognised.
-        values: Values by field of the contract.
-        sources: Source of each value, as text.
-        findings: What is missing, wrong or implausible.
-        contract: The contract; None if it is incomplete or invalid.
-    """
+    """Values of a contract with their sources; some may be missing."""
 
     network: PolicyNetwork
+    # convention in use; None if none was named or recognised
     convention: Convention | None
+    # values by field of the contract
     values: dict[str, Any] = field(default_factory=dict)
+    # source of each value, as text
     sources: dict[str, str] = field(default_factory=dict)
+    # what is missing, wrong or implausible
     findings: list[Finding] = field(default_factory=list)
+    # the contract; None if it is incomplete or invalid
     contract: PolicyContract | None = None
 
     def put(self, entries: Mapping[str, Any], source: str) -> None:
@@ -163,11 +135,7 @@ class ContractReading:
             self.values[key], self.sources[key] = value, source
 
     def check(self) -> PolicyContract:
-        """Return the contract of a network that can run.
-
-        Raises:
-            PolicyError: Names the first error.
-        """
+        """Return the contract of a network that can run."""
         errors = [each for each in self.findings if each.severity == "error"]
         if errors or self.contract is None:
             raise PolicyError(f"legs: {self.network.path}: {errors[0].text}")
@@ -179,17 +147,7 @@ def read_contract(
     robot: RobotJoints = RobotJoints(),  # noqa: B008 (immutable)
     convention: str = "",
 ) -> ContractReading:
-    """Collect and examine the contract of a network.
-
-    Args:
-        network: The network.
-        robot: Robot that is to walk by it.
-        convention: Name of the convention; empty to recognise it.
-
-    Raises:
-        PolicyError: If a convention is unknown, or metadata or a deployment
-            file are malformed.
-    """
+    """Collect and examine the contract of a network."""
     own = _own_entries(network)
     name = convention or robot.entries.get("convention", own.get("convention"))
     used = _convention_of(str(name or ""), network.metadata)

@@ -24,10 +24,8 @@ class GravityFilter(AttitudeFilter):
     def __init__(self, velocity: Array, duration: float) -> None:
         """Begin upright.
 
-        Args:
-            velocity: Velocity of the torso in its level frame, in [m/s];
-                read at each update. Shape (3,).
-            duration: Time between readings, in [s].
+        ``velocity``: Velocity of the torso in its level frame, in [m/s]; read
+        at each update. Shape (3,).
         """
         super().__init__(FIRST, 0.0, calibration=0.0)
         self._velocity, self._duration, self._time = velocity, duration, 0.0
@@ -56,9 +54,6 @@ class GravityFilter(AttitudeFilter):
         """Replace the direction by the estimate of the robot itself.
 
         It is known at once then.
-
-        Args:
-            tilt: Roll and pitch of the torso, in [rad].
         """
         self.lean(*tilt)
         self._time = CALIBRATION

@@ -99,13 +99,6 @@ class LegOdometry:
     by a ratio that is measured. Without force sensors the lowest corners
     count as loaded. The CoM, which is the reference point of a walking robot,
     moves as the joints say in addition.
-
-    Attributes:
-        moved: Motion of the CoM over the last reading, ahead and to the left
-            at the mean heading, in [m], and turn, in [rad]. Shape (3,).
-        velocity: Velocity of the torso in its level frame, smoothed, in
-            [m/s]. Shape (3,).
-        loops: Loops that advance it by a reading.
     """
 
     def __init__(
@@ -116,17 +109,13 @@ class LegOdometry:
     ) -> None:
         """Begin at the origin.
 
-        Args:
-            forward: Kinematics of the robot, which nothing else evaluates.
-            joint_positions: Initial joint angles, in [rad]. Shape (joints,).
-            ratio: True motion of the torso by that over feet at rest, ahead
-                and to the side.
+        ``joint_positions``: Initial joint angles, in [rad]. Shape (joints,).
         """
         self._forward = forward
         forward.evaluate(joint_positions)
         self._tilt = 0.0, 0.0
-        self.moved: Array = np.zeros(3)
-        self.velocity: Array = np.zeros(3)
+        self.moved: Array = np.zeros(3)  # ahead, left [m], turn [rad]
+        self.velocity: Array = np.zeros(3)  # [m/s] (3,)
         self._pose, self._loads = np.zeros(3), np.zeros((2, 8))
         self._com, self._forces = forward.com, np.zeros(8)
         self._feet, self._axes = forward.places[:2], forward.axes[:2]

@@ -15,15 +15,7 @@ def load_policy(
     legs: LegsSettings,
     description: RobotDescription,
 ) -> tuple[PolicyContract, PolicyNetwork]:
-    """Load a network with its contract for one robot.
-
-    Args:
-        legs: Settings of the legs.
-        description: Description of the robot.
-
-    Raises:
-        PolicyError: If the network cannot run on the robot.
-    """
+    """Load a network with its contract for one robot."""
     network = PolicyNetwork(Path(legs.network))
     robot = RobotJoints.of(description)
     return read_contract(network, robot, legs.contract).check(), network
@@ -35,16 +27,7 @@ def load_legs(
     *,
     tick: float,
 ) -> PolicyLegs:
-    """Build learned legs, with their measured response if there is one.
-
-    Args:
-        legs: Settings of the legs.
-        description: Description of the robot.
-        tick: Control period, in [s].
-
-    Raises:
-        PolicyError: If the network cannot run on the robot.
-    """
+    """Build learned legs, with their measured response if there is one."""
     contract, network = load_policy(legs, description)
     return PolicyLegs(
         contract,

@@ -23,16 +23,12 @@ DIRECTIONS = {"in", "out", "input", "output", "prev", "next", "new", "old"}
 
 
 class TensorShape(NamedTuple):
-    """Input or output of a network.
-
-    Attributes:
-        name: Its name.
-        shape: Its shape; None for a size that the network leaves open.
-        kind: Type of its numbers, as ONNX Runtime writes it.
-    """
+    """Input or output of a network."""
 
     name: str
+    # its shape; None for a size that the network leaves open
     shape: tuple[int | None, ...]
+    # type of its numbers, as ONNX Runtime writes it
     kind: str = "tensor(float)"
 
     @property
@@ -56,26 +52,10 @@ class PolicyNetwork:
     Inputs beside the observation are recurrent states: each is fed back from
     the output of its name and shape, see :func:`_stem`, and is zero at the
     start.
-
-    Attributes:
-        path: File of the network.
-        observation: Input that is no recurrent state.
-        action: First output that is none.
-        states: Recurrent states, as pairs of input and output.
-        metadata: Text entries that the exporter wrote.
-        draws: Whether outputs differ for the same input.
     """
 
     def __init__(self, path: Path) -> None:
-        """Load a network.
-
-        Args:
-            path: ONNX file.
-
-        Raises:
-            PolicyError: If the file is not an ONNX network with one
-                observation and one action.
-        """
+        """Load a network."""
         self.path = path
         try:
             check_readable(path)
@@ -140,12 +120,7 @@ class PolicyNetwork:
     ) -> tuple[Array, Memory]:
         """Return action and new recurrent states.
 
-        Args:
-            observation: Shape (width of the input,).
-            memory: Recurrent states.
-
-        Raises:
-            PolicyError: If an output is NaN, infinite or huge.
+        ``observation``: Shape (width of the input,).
         """
         first, *states = self._given
         first.reshape(-1)[:] = observation

@@ -39,18 +39,11 @@ def learn(
 
 
 class InitialPosture(NamedTuple):
-    """Posture in which a robot with a walking policy begins.
-
-    Attributes:
-        joint_names: Names of the actuated joints.
-        joint_targets: Their angles, in [rad]. Shape (joints,).
-        posture: Position and quaternion of the torso in odometry, then the
-            angles of all joints. Shape (7 + joints,).
-    """
+    """Posture in which a robot with a walking policy begins."""
 
     joint_names: tuple[str, ...]
-    joint_targets: Array
-    posture: Array
+    joint_targets: Array  # their angles [rad]. Shape (joints,)
+    posture: Array  # (7 + joints,)
 
 
 def initial_posture(
@@ -78,17 +71,6 @@ class PolicyLegs:
     tick. Its command is the inverse of the measured response. While it walks
     the remaining error is learned: of the turning rate from the gyro, and of
     the other components from the leg odometry.
-
-    Attributes:
-        contract: Contract of the network.
-        coupled: Joints of the policy that share a motor, for each such motor;
-            its target is the mean of theirs.
-        response: Response of the legs to commands.
-        standing: Posture in which the robot begins.
-        odometry: Odometry of the robot.
-        intended: Intended velocity at this tick.
-        pose: Pose in odometry: place of the CoM and heading of the torso.
-        tilt: Roll and pitch of the torso, in [rad].
     """
 
     def __init__(
@@ -103,17 +85,7 @@ class PolicyLegs:
     ) -> None:
         """Begin in the default posture.
 
-        Args:
-            contract: Contract of the network.
-            network: The network.
-            description: Description of the robot.
-            tick: Control period, in [s].
-            response: Measured response; by default commands are delivered.
-            learns: Whether velocities are corrected by gyro and odometry.
-
-        Raises:
-            PolicyError: If the period of the policy is no multiple of the
-                tick.
+        ``learns``: Whether velocities are corrected by gyro and odometry.
         """
         ratio = contract.period / tick
         if round(ratio) < 1 or abs(ratio - round(ratio)) > 1e-6:
@@ -184,9 +156,6 @@ class PolicyLegs:
 
         The nearest deliverable velocity with the path of the intended one is
         walked.
-
-        Raises:
-            PolicyError: If the network returns NaN or infinity.
         """
         if velocity is not self._wanted:
             self._wanted = velocity

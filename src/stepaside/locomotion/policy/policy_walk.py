@@ -23,10 +23,7 @@ class VelocityFilter(Protocol):
     ) -> BodyVelocity:
         """Return the velocity that is walked instead of a desired one.
 
-        Args:
-            velocity: Desired velocity.
-            pose: Pose of the robot in odometry.
-            duration: Time until the next decision, in [s].
+        ``pose``: Pose of the robot in odometry.
         """
 
 
@@ -41,19 +38,10 @@ class PolicyWalk:
 
     A heading is walked for the step of the template, a body velocity for
     0.08 s.
-
-    Attributes:
-        gait: Speed, steering gain and decision interval of the template.
-        legs: Learned legs.
-        phase: Phase of motion.
-        begun: None: a policy plans no steps.
-        state: Likewise.
-        heading_delay: 0: the heading is measured.
-        pose_delay: 0: the pose is measured.
     """
 
-    begun: StepStarted | None = None
-    state: WalkState | None = None
+    begun: StepStarted | None = None  # none: a policy plans no steps
+    state: WalkState | None = None  # likewise
     heading_delay = pose_delay = 0.0
     feels = True
 

@@ -39,12 +39,8 @@ def response_entries(
 def load_response(folder: Path, network: Path) -> VelocityResponse | None:
     """Load the response of a network on a robot.
 
-    Returns:
-        The response; None if it was not measured, or of another network of
-        this name.
-
-    Raises:
-        PolicyError: If the file is malformed.
+    The response; None if it was not measured, or of another network of this
+    name.
     """
     path = response_path(folder, network)
     if not path.is_file():

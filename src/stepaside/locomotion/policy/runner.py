@@ -92,36 +92,18 @@ def act(
 
 
 class BodyMotion(NamedTuple):
-    """Arrays of what a policy observes, read at each of its periods.
+    """Arrays of what a policy observes, read at each of its periods."""
 
-    Attributes:
-        joint_positions: Angles of all joints, in [rad].
-        joint_velocities: Their velocities, in [rad/s].
-        angular_velocity: Of the torso in its frame, in [rad/s]. Shape (3,).
-        up: Upward unit vector in the torso frame. Shape (3,).
-        velocity: Of the torso in its frame, in [m/s]. Shape (3,).
-        command: Commanded velocity ahead and to the left, in [m/s], and
-            turning rate, in [rad/s]. Shape (3,).
-    """
-
-    joint_positions: Array
-    joint_velocities: Array
-    angular_velocity: Array
-    up: Array
-    velocity: Array
-    command: Array
+    joint_positions: Array  # angles of all joints [rad]
+    joint_velocities: Array  # their velocities [rad/s]
+    angular_velocity: Array  # of the torso in its frame [rad/s]. Shape (3,)
+    up: Array  # upward unit vector in the torso frame. Shape (3,)
+    velocity: Array  # of the torso in its frame [m/s]. Shape (3,)
+    command: Array  # [m/s] [rad/s] (3,)
 
 
 class PolicyRunner:
-    """Policy with its clock, history and previous action.
-
-    Attributes:
-        contract: Contract of the network.
-        memory: Recurrent states of the network.
-        loop: Loop that observes the motion, before :meth:`observation`.
-        targets: Joint targets, in [rad], in the order of the contract. Shape
-            (joints,).
-    """
+    """Policy with its clock, history and previous action."""
 
     def __init__(
         self,
@@ -130,17 +112,10 @@ class PolicyRunner:
         motion: BodyMotion,
         joints: Sequence[int],
     ) -> None:
-        """Begin standing in the default posture.
-
-        Args:
-            contract: Contract of the network.
-            network: The network.
-            motion: Motion of the body, which others update.
-            joints: Indices of the joints of the contract in it.
-        """
+        """Begin standing in the default posture."""
         self.contract, self.memory = contract, network.initial_memory()
         posture = np.array(contract.default_posture, dtype=np.float64)
-        self.targets = posture.copy()
+        self.targets = posture.copy()  # [rad] (joints,)
         layout, clock = ObservationLayout.of(contract), contract.clock
         values, self._raw = (
             np.zeros(layout.size),
@@ -186,12 +161,8 @@ class PolicyRunner:
     def act(self, raw: Array, memory: Memory) -> Array:
         """Update the targets by the output of the network.
 
-        Args:
-            raw: Output of the network. Shape (action width,).
-            memory: Recurrent states.
-
-        Returns:
-            The targets, in [rad]. Shape (joints,).
+        ``raw``: Output of the network. Shape (action width,). The targets, in
+        [rad]. Shape (joints,).
         """
         self.memory, self._raw[:] = memory, raw
         self._act()
@@ -233,22 +204,15 @@ def clock_values(contract: PolicyContract) -> list[float]:
 
 
 class ObservationLayout(NamedTuple):
-    """Places of the observed quantities in the input of a network.
+    """Places of the observed quantities in the input of a network."""
 
-    Attributes:
-        size: Number of all quantities at one instant.
-        places: Place of each quantity among them, by name.
-        order: Quantities of one observation, in order. Shape (n,).
-        scales: Factor on each. Shape (n,).
-        clips: Greatest magnitude of each before scaling. Shape (n,).
-        flat: Order of past observations in the input. Shape (history n,).
-    """
-
-    size: int
-    places: dict[str, slice]
+    size: int  # number of all quantities at one instant
+    places: dict[str, slice]  # place of each quantity among them, by name
+    # quantities of one observation, in order. Shape (n,)
     order: NDArray[np.int_]
-    scales: Array
-    clips: Array
+    scales: Array  # factor on each. Shape (n,)
+    clips: Array  # greatest magnitude of each before scaling. Shape (n,)
+    # order of past observations in the input. Shape (history n,)
     flat: NDArray[np.int_]
 
     @classmethod

@@ -134,12 +134,7 @@ class VelocityResponse:
     network: str = setting("", "Digest of the network, in its file")
 
     def __post_init__(self) -> None:
-        """Check the numbers, and that velocities ascend with the command.
-
-        Raises:
-            PolicyError: If a number is not finite or out of its range, or a
-                table is not ascending.
-        """
+        """Check the numbers, and that velocities ascend with the command."""
         check_settings(self, PolicyError)
         for i, (name, axis) in enumerate(zip(AXES, self.axes, strict=True)):
             own = [row[i] for row in axis.delivered]
@@ -218,9 +213,8 @@ class VelocityResponse:
         turn is solved for what the others leave; the cross terms of walking
         policies are small.
 
-        Args:
-            velocity: Velocity that is read. Shape (3,).
-            command: Command that is written. Shape (3,).
+        ``velocity``: Velocity that is read. Shape (3,). ``command``: Command
+        that is written. Shape (3,).
         """
         return bound(
             *(invert, velocity, *self.tables),

@@ -13,27 +13,16 @@ Box = tuple[tuple[float, float], tuple[float, float]]
 
 
 class CurrentStep(NamedTuple):
-    """Step in progress, in odometry.
+    """Step in progress, in odometry."""
 
-    Attributes:
-        support: Pose of the support foot.
-        swing: Foot that swings, or swung last.
-        landing: Planned landing pose.
-        remaining: Time until the landing, in [s]; negative after it.
-        progress: Fraction of the swing path that is completed.
-        walking: Whether the robot walks; otherwise it stands.
-        plan: Plan whose first step this is, if any.
-        passed: Time since that plan began, in [s].
-    """
-
-    support: Pose
-    swing: Foot
-    landing: Pose
-    remaining: float
-    progress: float
-    walking: bool
-    plan: ManeuverPlan | None = None
-    passed: float = 0.0
+    support: Pose  # pose of the support foot
+    swing: Foot  # foot that swings, or swung last
+    landing: Pose  # planned landing pose
+    remaining: float  # time until the landing [s]; negative after it
+    progress: float  # fraction of the swing path that is completed
+    walking: bool  # whether the robot walks; otherwise it stands
+    plan: ManeuverPlan | None = None  # plan whose first step this is, if any
+    passed: float = 0.0  # time since that plan began [s]
 
     def to_support(self, x: float, y: float) -> tuple[float, float]:
         """Rotate a vector from odometry to the support foot's axes."""

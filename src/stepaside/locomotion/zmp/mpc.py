@@ -83,9 +83,6 @@ class IntrinsicallyStableMpc:
         """Precompute what does not depend on the plan.
 
         ``edge`` is the distance of the ZMP from the edge of the sole, in [m].
-
-        Raises:
-            ConfigurationError: If the solver is not installed.
         """
         self._solver = load_solver()
         self.settings, self._edge = settings, edge

@@ -61,9 +61,6 @@ class OpenLoop:
         """Return the joint targets of a tick of the table, in [rad].
 
         None after a fall.
-
-        Raises:
-            ReachError: If the legs cannot follow the reference.
         """
         return self.planned_targets(table, index)
 

@@ -20,22 +20,13 @@ CACHED = 256  # samplers; rational durations need only a few
 
 
 class ReferenceSample(NamedTuple):
-    """References of a plan at one tick, in odometry.
+    """References of a plan at one tick, in odometry."""
 
-    Attributes:
-        body: CoM and feet.
-        zmp: ZMP reference, in [m].
-        dcm: DCM reference, in [m].
-        template: Pose of the template unicycle.
-        reaction: Shift of the ZMP by the swing leg, in [m]: the pivot of
-            the pendulum is the ZMP less this shift.
-    """
-
-    body: BodyReference
-    zmp: tuple[float, float]
-    dcm: tuple[float, float]
-    template: Pose
-    reaction: tuple[float, float] = (0.0, 0.0)
+    body: BodyReference  # CoM and feet
+    zmp: tuple[float, float]  # ZMP reference [m]
+    dcm: tuple[float, float]  # DCM reference [m]
+    template: Pose  # pose of the template unicycle
+    reaction: tuple[float, float] = (0.0, 0.0)  # [m]
 
 
 def standing_reference(
@@ -83,14 +74,10 @@ class ReferenceTable:
 
     Plans begin when a step ends, which need not be on a tick: the plan is
     sampled at the ticks, so that gait time is exact.
-
-    Attributes:
-        references: Rows of :meth:`.BodyReference.row`. Shape (ticks, 15).
-        zmp: ZMP references, in [m]. Shape (ticks, 2).
     """
 
-    references: Array
-    zmp: Array
+    references: Array  # rows of :meth:`.BodyReference.row`. Shape (ticks, 15)
+    zmp: Array  # ZMP references [m]. Shape (ticks, 2)
 
     def __init__(self, tick: float) -> None:
         """Begin empty, for a control period in [s]."""

@@ -82,9 +82,6 @@ class Stabiliser(OpenLoop):
 
         ``delay`` is the time from a command to the motion, in [s]; for
         ``lean`` see :meth:`BodyReference.roll`.
-
-        Raises:
-            ConfigurationError: If the method needs a solver that is missing.
         """
         super().__init__(kinematics, feedforward)
         self.settings, self.estimator = settings, estimator

@@ -101,27 +101,17 @@ def estimate(
 
 
 class BodyState(NamedTuple):
-    """Estimated state of the body, in odometry.
+    """Estimated state of the body, in odometry."""
 
-    Attributes:
-        com: CoM (x, y), in [m].
-        velocity: Its velocity, in [m/s].
-        dcm: Divergent component of motion, in [m].
-        zmp: Center of the foot forces, in [m].
-        tilt: Roll and pitch of the torso, in [rad].
-        rate: Angular velocity in the torso frame, in [rad/s].
-        left_share: Fraction of the weight on the left foot, in [0, 1].
-        weight: Sum of the foot forces, in [N].
-    """
-
-    com: tuple[float, float]
-    velocity: tuple[float, float]
-    dcm: tuple[float, float]
-    zmp: tuple[float, float]
-    tilt: tuple[float, float]
+    com: tuple[float, float]  # CoM (x, y) [m]
+    velocity: tuple[float, float]  # its velocity [m/s]
+    dcm: tuple[float, float]  # divergent component of motion [m]
+    zmp: tuple[float, float]  # center of the foot forces [m]
+    tilt: tuple[float, float]  # roll and pitch of the torso [rad]
+    # angular velocity in the torso frame [rad/s]
     rate: tuple[float, float, float]
-    left_share: float
-    weight: float
+    left_share: float  # fraction of the weight on the left foot [0, 1]
+    weight: float  # sum of the foot forces [N]
 
     @property
     def has_fallen(self) -> bool:
@@ -136,9 +126,6 @@ class StateEstimator:
     the measured joints relative to the loaded feet, whose poses are those
     of odometry. A constant-gain observer of the linear inverted pendulum,
     driven by the measured ZMP, adds the velocity.
-
-    Attributes:
-        kinematics: Forward kinematics of the robot.
     """
 
     def __init__(
@@ -154,15 +141,8 @@ class StateEstimator:
     ) -> None:
         """Prepare an estimator.
 
-        Args:
-            kinematics: Forward kinematics of the robot.
-            force_sensors: Positions of the force sensors in the foot frames,
-                left then right, in [m]. Shape (8, 2).
-            eta: Rate of the pendulum, in [1/s].
-            tick: Control period, in [s].
-            bandwidth: Bandwidth of the observer, in [rad/s].
-            correction: Gain of the :class:`AttitudeFilter`, in [1/s].
-            bias_correction: Gain of its bias, in [1/s^2].
+        ``force_sensors``: Positions of the force sensors in the foot frames,
+        left then right, in [m]. Shape (8, 2).
         """
         self.kinematics = kinematics
         self._tick = tick
@@ -207,14 +187,8 @@ class StateEstimator:
     ) -> BodyState:
         """Estimate the state at one tick.
 
-        Args:
-            measurement: RobotState of the tick.
-            feet: Body reference of the command that the measured motion
-                executes, in odometry; its feet are used.
-            acceleration: CoM acceleration of that command, in [m/s^2]. The
-                estimated one would not do: through the lever of the CoM a
-                wrong tilt explains its own acceleration.
-            reaction: ZMP shift by the swing leg of that command, in [m].
+        ``feet``: Body reference of the command that the measured motion
+        executes, in odometry; its feet are used.
         """
         values, state, attitude = self._values, self._state, self._attitude
         (ax, ay), heading = acceleration, state.item(10)
