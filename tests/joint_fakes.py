@@ -19,7 +19,7 @@ from stepaside.perception.measurement import (
     Sighting,
 )
 from stepaside.planning import Foot, GaitSettings
-from stepaside.robots.body_reference import BodyReference
+from stepaside.robots.newton_step import BodyReference
 from stepaside.strategies import Evasion, Strategy
 
 TICK = 0.02  # [s]

@@ -22,9 +22,8 @@ TICK = 0.004
 WITH_MUJOCO = [
     f"stepaside.robots.{name}"
     for name in (
-        *("geom_points", "tree_compiler", "torso_frame", "inertia_repair"),
-        *("mesh_files", "model_overlay", "model_reader"),
-        *("urdf_writer", "urdf_elements"),
+        *("geom_points", "tree_compiler", "model_repair"),
+        *("model_overlay", "model_reader", "urdf_writer"),
     )
 ]
 

@@ -15,14 +15,15 @@ from stepaside.arena import (
     RoomRecipe,
     generate_room,
 )
-from stepaside.arena.free_space import (
+from stepaside.arena.room_generation import (
     BODY_RADIUS,
     CELL,
+    FARTHEST,
+    NEAREST,
     measure_room,
     path_exists,
 )
-from stepaside.arena.moving_box import MovingBox
-from stepaside.arena.room_generation import FARTHEST, NEAREST
+from stepaside.arena.shapes import MovingBox
 from stepaside.arena.shortest_path import first_waypoint
 from stepaside.core.poses import Pose, wrap_angle
 

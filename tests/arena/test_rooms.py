@@ -23,7 +23,7 @@ from stepaside.arena import (
     room_from_entries,
     room_to_toml,
 )
-from stepaside.arena.free_space import measure_room
+from stepaside.arena.room_generation import measure_room
 from stepaside.arena.shapes import CentreLine
 from stepaside.cli.main import main
 from stepaside.core.errors import ConfigurationError

@@ -17,7 +17,7 @@ from stepaside.core.errors import ConfigurationError
 from stepaside.core.poses import Pose
 from stepaside.perception.measurement import RobotState
 from stepaside.robots.leg_kinematics import BodyReference
-from stepaside.sim.obstacle_geoms import add_solids, obstacle_mover
+from stepaside.sim.room_furnishing import add_solids, obstacle_mover
 
 BOX = MovingBox(0.2, -0.9, 0.3, 0.2, (0.5, 0.6), 0.1, 0.4)
 ROOM = Room(

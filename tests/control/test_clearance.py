@@ -35,8 +35,8 @@ from stepaside.planning import (
     ManeuverPlanner,
     TemplateDrive,
 )
-from stepaside.robots.body_reference import BodyReference
 from stepaside.robots.description import load_robot
+from stepaside.robots.newton_step import BodyReference
 from stepaside.sim.outline_measurement import measure_outline
 from stepaside.strategies import Intent, Knowledge
 

@@ -145,7 +145,7 @@ def test_without_a_folder_to_write_to_it_compiles_and_says_so(
 
 def test_numba_is_not_imported_before_something_is_compiled() -> None:
     code = (
-        "import sys, stepaside.__main__, stepaside.sim.servos, "
+        "import sys, stepaside.__main__, stepaside.sim.body_errors, "
         "stepaside.robots.leg_kinematics; assert 'numba' not in sys.modules"
     )
     subprocess.run([sys.executable, "-c", code], check=True)

@@ -12,8 +12,8 @@ from stepaside.fitting.derivation import derive
 from stepaside.fitting.description_writer import write_description
 from stepaside.fitting.model_analysis import analyse_model
 from stepaside.robots.description import FILE, RobotDescription, load_robot
+from stepaside.robots.model_overlay import rotate_torso_frame
 from stepaside.robots.model_reader import read_model
-from stepaside.robots.torso_frame import rotate_torso_frame
 
 TURNS = {
     "backward": (0.0, 0.0, 0.0, 1.0),

@@ -27,7 +27,7 @@ from stepaside.games.configuration_file import (
 from stepaside.games.duel_settings import DuelSettings, StartSettings
 from stepaside.games.recorded_game import RecordedGame
 from stepaside.sim.camera_settings import SceneSettings
-from stepaside.sim.obstacle_geoms import HEIGHT, add_solids
+from stepaside.sim.room_furnishing import HEIGHT, add_solids
 
 TRIANGLE = Polygon(((0.5, 0.5), (0.9, 0.5), (0.7, 0.9)))
 FULL = Room(

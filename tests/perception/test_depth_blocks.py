@@ -6,8 +6,7 @@ import numpy as np
 import pytest
 
 from stepaside.core.rotations import rotation
-from stepaside.perception.camera_model import CameraModel
-from stepaside.perception.camera_pose import CameraPose
+from stepaside.perception.camera_model import CameraModel, CameraPose
 from stepaside.perception.depth_detector import DepthScene, detect_obstacles
 from stepaside.perception.images import DepthImage
 

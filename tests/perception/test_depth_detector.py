@@ -7,8 +7,7 @@ import pytest
 
 from stepaside.core.poses import Array
 from stepaside.core.rotations import rotation
-from stepaside.perception.camera_model import CameraModel
-from stepaside.perception.camera_pose import CameraPose
+from stepaside.perception.camera_model import CameraModel, CameraPose
 from stepaside.perception.depth_detector import DepthScene, detect_obstacles
 from stepaside.perception.images import DepthImage
 from synthetic_depth import Post, draw

@@ -7,15 +7,14 @@ import pytest
 
 from stepaside.arena import Box, Disc, Obstacle
 from stepaside.core.poses import Array
-from stepaside.perception.camera_model import CameraModel
-from stepaside.perception.camera_pose import CameraPose
+from stepaside.perception.camera_model import CameraModel, CameraPose
 from stepaside.perception.floor_map import (
     CELL,
     FloorMap,
+    cover,
     wide_areas,
 )
 from stepaside.perception.images import DepthImage
-from stepaside.perception.polygon_cover import cover
 
 CAMERA = CameraModel.of_field_of_view(80, 60, 1.01, 0.785)
 EYE, HIGH, FAR = 0.5, 0.6, 3.5

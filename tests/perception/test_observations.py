@@ -8,8 +8,7 @@ import pytest
 
 from stepaside.core.poses import Array, wrap_angle
 from stepaside.core.rotations import rotation
-from stepaside.perception.camera_model import CameraModel
-from stepaside.perception.camera_pose import CameraPose
+from stepaside.perception.camera_model import CameraModel, CameraPose
 from stepaside.perception.colour_detector import RED, ColourDetection
 from stepaside.perception.depth_detector import Shadow
 from stepaside.perception.images import ColourImage, DepthImage

@@ -8,8 +8,7 @@ import numpy as np
 import pytest
 
 from stepaside.core.poses import Pose, wrap_angle
-from stepaside.perception.camera_model import CameraModel
-from stepaside.perception.camera_pose import camera_pose
+from stepaside.perception.camera_model import CameraModel, camera_pose
 from stepaside.perception.colour_detector import RED, ColourDetector
 from stepaside.perception.images import Percept, SonarEcho
 from stepaside.perception.measurement import RobotState, Sighting
@@ -17,8 +16,7 @@ from stepaside.perception.pipeline import build_perception
 from stepaside.perception.target_selection import (
     PeopleSelection,
 )
-from stepaside.perception.track import Observation, TargetTrack
-from stepaside.perception.tracker import Tracker
+from stepaside.perception.track import Observation, TargetTrack, Tracker
 from synthetic_cameras import HEAD, JOINTS, NAO, UP
 from synthetic_depth import Post, Wall, draw
 

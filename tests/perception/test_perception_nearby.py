@@ -10,10 +10,10 @@ import pytest
 from stepaside.perception.depth_detector import Shadow
 from stepaside.perception.floor_map import FloorMap
 from stepaside.perception.images import SonarEcho
+from stepaside.perception.observations import HALF_CONE
 from stepaside.perception.pipeline import (
     FloorMapping,
 )
-from stepaside.perception.sonar import HALF_CONE
 from synthetic_cameras import (
     HEAD,
     TICK,

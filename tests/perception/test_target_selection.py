@@ -5,8 +5,8 @@ from stepaside.perception.track import (
     ROBOT_MOTION,
     Observation,
     TargetTrack,
+    Tracker,
 )
-from stepaside.perception.tracker import Tracker
 
 
 def track(

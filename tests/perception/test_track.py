@@ -8,8 +8,8 @@ import pytest
 from stepaside.perception.track import (
     Observation,
     TargetTrack,
+    Tracker,
 )
-from stepaside.perception.tracker import Tracker
 
 FRAME = 1.0 / 15.0
 

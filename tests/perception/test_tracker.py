@@ -2,8 +2,7 @@
 
 import pytest
 
-from stepaside.perception.track import Observation, TargetTrack
-from stepaside.perception.tracker import Tracker
+from stepaside.perception.track import Observation, TargetTrack, Tracker
 
 
 def look(

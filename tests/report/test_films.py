@@ -25,7 +25,7 @@ from stepaside.report.film_settings import VIEWS, FilmSettings
 from stepaside.report.overlays import theory_ring
 from stepaside.report.palette import PALETTES
 from stepaside.sim.camera_settings import SceneSettings
-from stepaside.sim.obstacle_geoms import add_solids
+from stepaside.sim.room_furnishing import add_solids
 from synthetic_run import run_of
 
 FOVY, ASPECT = 45.0, 16.0 / 9.0

@@ -21,7 +21,7 @@ from stepaside.games.recorded_game import run_duel, run_walk
 from stepaside.games.run import Run
 from stepaside.games.run_archive import load_run, write_run_files
 from stepaside.games.walk_settings import WalkSettings
-from stepaside.robots.urdf_elements import BASE
+from stepaside.robots.urdf_writer import BASE
 from stepaside.sim.camera_settings import SceneSettings
 
 

@@ -16,14 +16,14 @@ from stepaside.report.visual_geoms import (
     visual_geoms_of,
 )
 from stepaside.robots.description import load_robot
-from stepaside.sim.obstacle_geoms import add_solids
-from stepaside.sim.pedestrian_appearance import FIGURES
 from stepaside.sim.person_body import (
     add_person,
     mocap_indices,
     set_person_pose,
 )
+from stepaside.sim.person_settings import FIGURES
 from stepaside.sim.physics_settings import PhysicsSettings
+from stepaside.sim.room_furnishing import add_solids
 from stepaside.sim.world import build_model
 
 

@@ -4,7 +4,7 @@ import mujoco
 import numpy as np
 import pytest
 
-from stepaside.robots.inertia_repair import repair_inertias
+from stepaside.robots.model_repair import repair_inertias
 
 LINK = (
     '<mujoco><worldbody><body name="link"><joint name="turn"/>'

@@ -9,8 +9,7 @@ import pytest
 from stepaside.core.poses import Array
 from stepaside.robots.description import RobotDescription, load_robot
 from stepaside.robots.description_types import SensorNames
-from stepaside.robots.urdf_elements import BASE
-from stepaside.robots.urdf_writer import urdf_of
+from stepaside.robots.urdf_writer import BASE, urdf_of
 
 # Anchors off the origin, two hinges on one body, a zero that is not 0, a
 # slide, rotated bodies, a mesh-free ellipsoid and a continuous joint.

@@ -11,10 +11,12 @@ from stepaside.sim.crowd_motion import (
     CrowdMotion,
     CrowdSettings,
     Neighbour,
+    Vector,
+    group_force,
+    social_force,
 )
 from stepaside.sim.person_motion import PersonMotion
 from stepaside.sim.person_settings import PersonSettings
-from stepaside.sim.social_force import Vector, group_force, social_force
 
 STEP = 0.02  # in [s]
 ROBOT = (0.0, 0.0)

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from stepaside.perception.measurement import Sighting
-from stepaside.sim.ideal_sensors import IdealLineOfSight, hides
+from stepaside.sim.ground_truth import IdealLineOfSight, hides
 from stepaside.sim.physics_settings import SightSettings
 
 OWN: Any = SimpleNamespace(

@@ -11,7 +11,6 @@ from stepaside.core.errors import ConfigurationError
 from stepaside.core.poses import Array, Pose
 from stepaside.games.floor_player import FloorPlayer
 from stepaside.games.floor_world import FloorPerson
-from stepaside.sim.pedestrian_appearance import FIGURES
 from stepaside.sim.person_body import (
     PARTS,
     PersonBody,
@@ -20,7 +19,7 @@ from stepaside.sim.person_body import (
     set_person_pose,
 )
 from stepaside.sim.person_motion import PersonMotion
-from stepaside.sim.person_settings import PersonSettings
+from stepaside.sim.person_settings import FIGURES, PersonSettings
 from stepaside.sim.push import Push
 
 TICK = 0.05

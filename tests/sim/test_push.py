@@ -9,8 +9,7 @@ import pytest
 
 from stepaside.core.errors import ConfigurationError
 from stepaside.core.poses import Array
-from stepaside.sim.push import Push, check_pushes, pushes_by_robot
-from stepaside.sim.push_forces import PushApplier
+from stepaside.sim.push import Push, PushApplier, check_pushes, pushes_by_robot
 
 STEP = 0.002
 MODEL = f"""

@@ -12,7 +12,7 @@ from stepaside.core.rotations import rotation
 from stepaside.perception.camera_model import CameraModel
 from stepaside.robots.head import Mount
 from stepaside.sim.camera_settings import DepthSettings, SonarSettings
-from stepaside.sim.ray_casting import RayCaster, geoms_in_cone
+from stepaside.sim.ranging import RayCaster, geoms_in_cone
 from stepaside.sim.sensor_suite import cast_depths, cast_echo, cone
 
 CAMERA = CameraModel.of_field_of_view(40, 30, radians(58.0), radians(45.0))

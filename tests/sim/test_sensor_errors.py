@@ -8,8 +8,8 @@ import pytest
 
 from stepaside.core.poses import Array
 from stepaside.core.random_streams import named_generator
+from stepaside.sim.body_errors import SensorErrors, perturb_masses
 from stepaside.sim.body_settings import BodySettings
-from stepaside.sim.sensor_errors import SensorErrors, perturb_masses
 
 TURN = np.array([0.3, -0.2, 0.1])
 FORCE = np.array([1.0, 2.0, 9.0])

@@ -24,7 +24,7 @@ from stepaside.sim.camera_settings import (
     DepthSettings,
     SonarSettings,
 )
-from stepaside.sim.sensor_stream import SensorStream
+from stepaside.sim.ranging import SensorStream
 from stepaside.sim.sensor_suite import ImageNoise, SensorSuite
 
 TICK = 0.004

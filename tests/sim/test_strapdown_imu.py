@@ -4,7 +4,7 @@ import mujoco
 import numpy as np
 import pytest
 
-from stepaside.sim.sensor_errors import StrapdownImu
+from stepaside.sim.body_errors import StrapdownImu
 
 MODEL = """
 <mujoco>

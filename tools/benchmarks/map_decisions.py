@@ -33,7 +33,7 @@ from stepaside.control.clearance.surroundings import Surroundings
 from stepaside.control.clearance.swept_outline import lateral_sway
 from stepaside.core.poses import Pose, wrap_angle
 from stepaside.locomotion.maneuver_selection import GuardDecision
-from stepaside.perception.polygon_cover import cover
+from stepaside.perception.floor_map import cover
 from stepaside.planning import (
     CenterState,
     Direction,

@@ -14,7 +14,7 @@ import numpy as np
 import pysocialforce
 from pysocialforce import forces
 
-from stepaside.sim.social_force import (
+from stepaside.sim.crowd_motion import (
     desired_force,
     obstacle_force,
     social_force,

@@ -44,7 +44,7 @@ def room(
     Prints free floor, obstacles and clearances of the room.
     """
     from ..arena import check_initial_poses, generate_room, load_room
-    from ..arena.free_space import measure_room
+    from ..arena.room_generation import measure_room
 
     if file is None:
         made = generate_room(settings, seed)

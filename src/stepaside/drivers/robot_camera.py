@@ -17,7 +17,7 @@ from ..core.user_file import FAILURES
 from ..perception.camera_model import CameraModel
 from ..perception.images import ColourImage
 from ..perception.measurement import RobotState
-from ..robots.body_pose import BodyPose
+from ..robots.forward_kinematics import BodyPose
 from .method_thread import MethodThread, SessionLost
 from .robot import CameraImage, CameraMount
 

@@ -10,7 +10,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from ..arena.obstacle_distances import PackedObstacles, hull_clearance
+from ..arena.obstacles import PackedObstacles, hull_clearance
 from ..core.compilation import compiled, copy_values, inlined
 from ..core.poses import Array
 from ..strategies.learned.observation_terms import (

@@ -9,7 +9,7 @@ from typing import Protocol
 
 from ..core.poses import Pose
 from ..sim.ground_truth import FloorTruth
-from ..sim.template_body import pose_template
+from ..sim.person_body import pose_template
 from ..sim.world import World
 from .floor_world import AT_ONCE, FloorMotion, Seen
 from .player import Player, Snapshot

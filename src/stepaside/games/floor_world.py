@@ -12,7 +12,7 @@ from typing import NamedTuple, Protocol
 import numpy as np
 
 from ..arena import NO_OBSTACLES, ObstacleSet
-from ..arena.obstacle_distances import clearance_at
+from ..arena.obstacles import clearance_at
 from ..core.player_identity import PlayerIdentity
 from ..core.poses import Array, Pose, wrap_angle
 from ..locomotion.locomotion import MotionRequest, template_velocity

@@ -11,11 +11,14 @@ from ..core.player_identity import Role
 from ..robots.description import load_robot
 from ..robots.head import load_head
 from ..sim.camera_settings import SceneSettings
-from ..sim.obstacle_geoms import add_solids, obstacle_mover
-from ..sim.pedestrian_appearance import FIGURES
-from ..sim.person_body import add_person
-from ..sim.room_furnishing import Furnish, furnisher
-from ..sim.template_body import add_template
+from ..sim.person_body import add_person, add_template
+from ..sim.person_settings import FIGURES
+from ..sim.room_furnishing import (
+    Furnish,
+    add_solids,
+    furnisher,
+    obstacle_mover,
+)
 from ..sim.world import COLOURS
 from .game_settings import GameSettings
 

@@ -26,10 +26,9 @@ from ..robots.leg_kinematics import LegKinematics
 from ..sim.body_settings import at_tick, with_control_period
 from ..sim.camera_settings import RoomObject
 from ..sim.crowd_motion import CrowdMotion
-from ..sim.ground_truth import GroundTruth, torsos_apart
-from ..sim.ideal_sensors import IdealLineOfSight
-from ..sim.pedestrian_appearance import FIGURES
+from ..sim.ground_truth import GroundTruth, IdealLineOfSight, torsos_apart
 from ..sim.person_body import PersonBody
+from ..sim.person_settings import FIGURES
 from ..sim.physics_settings import PhysicsSettings
 from ..sim.push import pushes_by_robot
 from ..sim.world import World
@@ -418,7 +417,7 @@ class PhysicsWorld(World):
                 SightOfPlayers(own.identity, own.target), self._sights(own)
             )
         from ..perception.lidar_perception import LidarPerception
-        from ..sim.lidar import Lidar
+        from ..sim.ranging import Lidar
 
         description = self._setups[own.name].description
         settings = self._settings

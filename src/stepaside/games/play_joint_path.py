@@ -9,9 +9,13 @@ from ..core.poses import Array, Pose
 from ..core.rotations import quaternion_of, rotation
 from ..perception.attitude import AttitudeFilter
 from ..planning import GaitSettings
-from ..robots.body_pose import SpatialTorsoPose, torso_pose_on_foot
 from ..robots.description import RobotDescription
-from ..robots.forward_kinematics import ForwardKinematics, MeasuredPosture
+from ..robots.forward_kinematics import (
+    ForwardKinematics,
+    MeasuredPosture,
+    SpatialTorsoPose,
+    torso_pose_on_foot,
+)
 from .play_rows import PlayedRows
 from .trajectory import Trajectory
 

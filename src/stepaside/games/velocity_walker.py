@@ -15,9 +15,8 @@ from ..locomotion.walk_snapshots import Phase, StepStarted
 from ..perception.images import ColourImage
 from ..perception.measurement import RobotState, Sighting
 from ..planning import Foot
-from ..robots.body_pose import torso_pose_on_foot
 from ..robots.description import RobotDescription
-from ..robots.forward_kinematics import ForwardKinematics
+from ..robots.forward_kinematics import ForwardKinematics, torso_pose_on_foot
 from ..sim.ground_truth import TrueRobotState
 from ..sim.simulated_robot import SimulatedRobot
 from ..sim.world import World

@@ -19,11 +19,10 @@ from ..locomotion.zmp.control_settings import ControlSettings
 from ..planning import GaitSettings
 from ..robots.description import RobotDescription
 from ..robots.leg_kinematics import LegKinematics
+from ..sim.body_errors import JointGains
 from ..sim.body_settings import BodySettings
-from ..sim.ground_truth import TrueRobotState
-from ..sim.ideal_sensors import IdealLineOfSight
+from ..sim.ground_truth import IdealLineOfSight, TrueRobotState
 from ..sim.outline_measurement import measure_outline
-from ..sim.servos import JointGains
 from ..sim.simulated_robot import SensorSetup, SimulatedRobot
 from ..sim.world import World
 from ..strategies import Strategy
@@ -32,7 +31,7 @@ from .walker import SimulatedPlayer
 if TYPE_CHECKING:
     from ..locomotion.policy.policy_legs import InitialPosture
     from ..perception.pipeline import Perception
-    from ..sim.lidar import Lidar
+    from ..sim.ranging import Lidar
     from ..sim.sensor_suite import SensorSuite
 
 

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from ..core.poses import Array, wrap_angles
 from ..robots.robot_tree import NAO_SIZE, OWN_MARGIN, BodySize
-from .camera_pose import CameraPose
+from .camera_model import CameraPose
 from .images import DepthImage
 
 MAX_STEP = 0.25  # of depth between pixels of one component, in [m]

@@ -5,7 +5,7 @@ from math import atan2, copysign, hypot, radians
 from typing import NamedTuple
 
 from ..core.poses import Array, wrap_angle
-from .tracker import TALL
+from .track import TALL
 
 FOLLOW_SPEED = 3.0  # of the head while it follows, in [rad/s]
 SCAN_SPEED = 3.0  # of the head during a scan, in [rad/s]

@@ -6,14 +6,16 @@ import numpy as np
 
 from ..core.history import History
 from ..core.poses import Array, Pose, wrap_angle
-from ..robots.body_pose import SpatialTorsoPose, torso_pose_on_foot
 from ..robots.description import RobotDescription
-from ..robots.forward_kinematics import ForwardKinematics
+from ..robots.forward_kinematics import (
+    ForwardKinematics,
+    SpatialTorsoPose,
+    torso_pose_on_foot,
+)
 from .images import LidarScan
 from .measurement import RobotState, Sighting
 from .target_selection import PeopleSelection
-from .track import Observation, TargetTrack
-from .tracker import Tracker
+from .track import Observation, TargetTrack, Tracker
 
 POSE_MEMORY = 1.0  # how long past poses are stored, in [s]
 BINS = 360  # of bearings around the robot

@@ -14,11 +14,11 @@ import numpy as np
 
 from ..core.history import History
 from ..core.poses import Array, Pose, Sector, wrap_angle
-from ..robots.body_pose import BodyKinematics, BodyPose
 from ..robots.description import RobotDescription
+from ..robots.forward_kinematics import BodyKinematics, BodyPose
 from ..robots.head import HeadDescription, Mount
 from ..robots.robot_tree import NAO_SIZE, BodySize
-from .camera_pose import CameraPose, camera_pose
+from .camera_model import CameraPose, camera_pose
 from .colour_detector import ColourDetection, ColourDetector
 from .depth_detector import DepthScene, detect_obstacles
 from .floor_map import FloorMap
@@ -35,19 +35,26 @@ from .measurement import RobotState, Sighting
 from .observations import (
     angle_of,
     is_opponent,
+    is_valid_echo,
+    may_be_mapped,
+    observe_echo,
     observe_obstacle,
     observe_shadow,
     observe_trim,
 )
-from .sonar import is_valid_echo, may_be_mapped, observe_echo
 from .target_selection import (
     MAX_GAZE_AGE,
     PeopleSelection,
     TargetSelection,
     UnnamedSelection,
 )
-from .track import PERSON_MOTION, ROBOT_MOTION, Observation, TargetTrack
-from .tracker import Tracker
+from .track import (
+    PERSON_MOTION,
+    ROBOT_MOTION,
+    Observation,
+    TargetTrack,
+    Tracker,
+)
 
 POSE_MEMORY = 1.0  # how long past poses are stored, in [s]
 MAX_AGE = 0.5  # of the opponent's position when the map is updated, in [s]

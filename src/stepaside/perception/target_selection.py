@@ -3,8 +3,7 @@
 from collections.abc import Sequence
 from math import hypot
 
-from .track import MAX_GAP, TargetTrack
-from .tracker import Tracker
+from .track import MAX_GAP, TargetTrack, Tracker
 
 # Of every selection.
 MAX_GAZE_AGE = 1.0  # of a track at which the head looks, in [s]

@@ -17,13 +17,13 @@ from ..core.worker_pool import worker_pool
 from ..games.run import Run
 from ..games.run_archive import load_run
 from ..perception.images import Pixels
-from ..sim.obstacle_geoms import is_room_wall
 from ..sim.offscreen_rendering import (
     RAYCAST,
     OffscreenRenderer,
     RenderQuality,
     choose_renderer,
 )
+from ..sim.room_furnishing import is_room_wall
 from .film_camera import HEIGHT, FilmCamera
 from .film_captions import caption
 from .film_layers import add_layers, aim_light

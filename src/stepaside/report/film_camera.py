@@ -12,7 +12,7 @@ import numpy as np
 
 from ..core.poses import Array
 from ..games.run import Run
-from ..sim.obstacle_geoms import HEIGHT as WALL_HEIGHT
+from ..sim.room_furnishing import HEIGHT as WALL_HEIGHT
 from .scene import wall_corners
 
 AZIMUTH, ELEVATION = 60.0, -32.0  # of the fixed and following view, in [deg]

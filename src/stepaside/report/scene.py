@@ -14,11 +14,15 @@ from ..games.play_settings import PlaySettings
 from ..games.run import Run, is_duel, is_match
 from ..games.settings_as_game import scenery_of
 from ..robots.description import load_robot
-from ..sim.pedestrian_appearance import FIGURES, PedestrianModel
-from ..sim.person_body import mocap_indices, set_person_pose
+from ..sim.person_body import (
+    add_template,
+    mocap_indices,
+    pose_template,
+    set_person_pose,
+)
+from ..sim.person_settings import FIGURES, PedestrianModel
 from ..sim.physics_settings import PhysicsSettings
 from ..sim.room_furnishing import hide_walls
-from ..sim.template_body import add_template, pose_template
 from ..sim.world import build_model
 
 

@@ -8,7 +8,7 @@ import mujoco
 import numpy as np
 
 from ..core.poses import Array
-from ..sim.obstacle_geoms import is_room_wall
+from ..sim.room_furnishing import is_room_wall
 from .mesh_simplification import TriangleMesh, mesh_of
 
 MAX_VISIBLE_GROUP = 2  # geoms of higher groups are collision shapes

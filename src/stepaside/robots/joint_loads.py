@@ -11,10 +11,9 @@ from numpy.typing import NDArray
 from ..core.compilation import bound, compiled
 from ..core.constants import GRAVITY
 from ..core.poses import Array
-from .body_reference import BodyReference
 from .joint_tree import JointTree, place_links, turned
 from .leg_kinematics import LegKinematics
-from .newton_step import STATE
+from .newton_step import STATE, BodyReference
 
 LIFTED = 1e-6  # height above which a foot carries no load, in [m]
 

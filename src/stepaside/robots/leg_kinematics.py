@@ -1,27 +1,98 @@
 """Joint motion generation by Newton's method (paper, Sec. III-A)."""
 
+from dataclasses import dataclass
 from math import remainder, tau
 from typing import NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 
 from ..core.compilation import bound
 from ..core.errors import ModelError, ReachError
 from ..core.poses import Array
 from ..core.rotations import quaternion_of
-from .body_reference import BodyReference
 from .description import RobotDescription
-from .joint_tree import place_frames
-from .leg_joints import LegJoints
+from .joint_tree import JointTree, joint_tree, place_frames
 from .newton_step import (
     BASE,
     FIXED_ROWS,
     SINGULAR,
     STATE,
+    BodyReference,
     linearise,
     newton_steps,
 )
+from .robot_tree import RobotTree
 from .tree_cache import load_tree
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class LegJoints:
+    """Leg joints of one robot."""
+
+    tree: RobotTree
+    free: tuple[str, ...]  # independent leg joints: the unknowns
+    links: JointTree  # links that they move, with the frames of both soles
+    # index of the free joint that moves each joint; -1 for those that are
+    # fixed to the torso, (joints,)
+    columns: NDArray[np.int64]
+    # angles of all joints with the free ones at 0 [rad], (joints,)
+    fixed: Array
+    standing: Array  # standing angles of the free joints [rad], (free,)
+    # lower and upper limit [rad] and speed limit [rad/s] of the free joints,
+    # (free, 3)
+    limits: Array
+    # whether the torso heading is a row: legs with independent hip yaws have
+    # one more unknown than the other rows
+    holds_heading: bool
+    lean: float  # of the torso, see `RobotDescription` [rad]
+
+    @classmethod
+    def of(cls, description: RobotDescription, tree: RobotTree) -> "LegJoints":
+        """Look up the leg joints of a robot in its tree."""
+        free = tuple(
+            name for name in description.legs if name not in tree.followers
+        )
+        for name in free:
+            if name not in description.speed_limits:
+                raise ModelError(
+                    f"legs of {description.name}: joint {name!r} has neither "
+                    "a motor with a speed limit nor a joint to follow"
+                )
+        columns, fixed = {}, {}
+        for name in tree.joints:
+            leader = tree.followers.get(name, name)
+            if leader in free:
+                columns[name] = free.index(leader)
+            else:
+                fixed[name] = float(description.standing.get(leader, 0.0))
+        limits = []
+        for name in free:
+            link = tree.links[tree.link_of(name)]
+            low, high = description.working_limits.get(
+                name, (link.low, link.high)
+            )
+            limits.append((low, high, description.speed_limits[name]))
+        soles = [
+            tree.sites[name]
+            for name in (description.left_foot, description.right_foot)
+        ]
+        return cls(
+            tree,
+            free,
+            joint_tree(tree, columns, fixed, soles),
+            np.array([columns.get(name, -1) for name in tree.joints]),
+            np.array([fixed.get(name, 0.0) for name in tree.joints]),
+            np.array([description.standing.get(n, 0.0) for n in free], float),
+            np.array(limits, dtype=np.float64),
+            len(free) + BASE > FIXED_ROWS,
+            description.lean,
+        )
+
+    def angles(self, free: Array) -> Array:
+        """Return the angles of all joints from the free ones, in [rad]."""
+        return np.where(self.columns < 0, self.fixed, free[self.columns])
+
 
 __all__ = ["ROWS", "BodyReference", "LegKinematics"]
 

@@ -1,14 +1,22 @@
-"""True state of players, known to the simulator only."""
+"""True state of players, ideal sensors of it, and records."""
 
+from collections import deque
+from collections.abc import Callable, Mapping, Sequence
 from math import atan2, cos, hypot, radians, sin
 from typing import NamedTuple
 
 import mujoco
 import numpy as np
+from numpy.typing import NDArray
 
-from ..core.poses import Array, Pose
+from ..core.player_identity import PlayerIdentity
+from ..core.poses import Array, Pose, wrap_angle
 from ..core.rotations import angles_of
+from ..core.row_table import RowTable
+from ..perception.measurement import Sighting
 from ..robots.description_types import ReferencePoint
+from .physics_settings import SightSettings
+from .world import World
 
 FALLEN = cos(radians(45.0))  # upward component of the torso's axis
 
@@ -142,3 +150,216 @@ def _pose(data: mujoco.MjData, site: int) -> Pose:
     x, y, _ = data.site_xpos[site].tolist()
     frame = data.site_xmat[site]
     return Pose(x, y, atan2(frame[3], frame[0]))
+
+
+HALF_WIDTH = 0.35  # of a body that hides others, relative to its reach
+TALL_ENOUGH = 0.8  # CoM height of a body that hides another, relative to it
+
+
+class IdealLineOfSight:
+    """Sensor of the true bearing and distance between reference points.
+
+    Settings add noise, delay and a rate. Bodies of other players may hide the
+    player; then the latest sighting stays.
+    """
+
+    def __init__(
+        self,
+        own: GroundTruth,
+        opponent: GroundTruth,
+        settings: SightSettings,
+        generator: np.random.Generator,
+        *,
+        identity: PlayerIdentity | None = None,
+        between: Sequence[GroundTruth] = (),
+    ) -> None:
+        self._own, self._opponent = own, opponent
+        self._settings = settings
+        self._generator = generator
+        self._pending: deque[Sighting] = deque()
+        self._latest: Sighting | None = None
+        self._count = 0
+        self._identity, self._between = identity, tuple(between)
+
+    @property
+    def is_exact(self) -> bool:
+        """Whether it has no noise, delay or rate: any tick may be left out."""
+        return self._settings == SightSettings()
+
+    def read(self, now: float) -> Sighting | None:
+        """Return the latest sighting that has arrived at a time, in [s]."""
+        settings = self._settings
+        if now * settings.rate >= self._count - 1e-9 or now == 0.0:
+            self._count = 1 if now == 0.0 else self._count + 1
+            own, other = self._own, self._opponent
+            if not any(hides(body, own, other) for body in self._between):
+                self._pending.append(self._measure(now))
+        while (
+            self._pending
+            and self._pending[0].time <= now - settings.delay + 1e-9
+        ):
+            self._latest = self._pending.popleft()
+        return self._latest
+
+    def _measure(self, now: float) -> Sighting:
+        x, y = self._own.position_reference_in_world
+        u, v = self._opponent.position_reference_in_world
+        bearing = atan2(v - y, u - x) - self._own.heading_in_world
+        distance = hypot(u - x, v - y)
+        settings = self._settings
+        if settings.bearing_noise > 0.0:
+            bearing += settings.bearing_noise * self._generator.normal()
+        if settings.distance_noise > 0.0:
+            distance += settings.distance_noise * self._generator.normal()
+        return Sighting(
+            now,
+            wrap_angle(bearing),
+            max(distance, 0.0),
+            identity=self._identity,
+        )
+
+
+def hides(body: GroundTruth, eye: GroundTruth, seen: GroundTruth) -> bool:
+    """Return whether a body of about its height hides a player."""
+    x, y = eye.position_reference_in_world
+    u, v = seen.position_reference_in_world
+    p, q = body.position_reference_in_world
+    dx, dy = u - x, v - y
+    length = hypot(dx, dy)
+    if length == 0.0:
+        return False
+    along = ((p - x) * dx + (q - y) * dy) / length
+    across = abs((p - x) * dy - (q - y) * dx) / length
+    if not (0.0 < along < length and across < HALF_WIDTH * body.reach):
+        return False
+    own, other = body.position_com_in_world, seen.position_com_in_world
+    return bool(own[2] >= TALL_ENOUGH * other[2])
+
+
+Columns = dict[str, Array]
+
+
+class RobotLog:
+    """Samples of arrays of the simulation."""
+
+    def __init__(
+        self,
+        sources: Mapping[str, Array],
+        prepare: Callable[[], None],
+        convert: Callable[[Columns], Columns],
+    ) -> None:
+        """Begin without samples of some arrays, views of shape (n,).
+
+        ``prepare`` computes them for a sample; ``convert`` makes what the log
+        gives of all samples, shapes (samples, n).
+        """
+        self._names, self._sources = tuple(sources), tuple(sources.values())
+        self._prepare, self._convert = prepare, convert
+        widths = [source.size for source in self._sources]
+        self._ends = np.cumsum(widths)[:-1]
+        self._table = RowTable(sum(widths))
+
+    def add(self) -> None:
+        """Sample the present state."""
+        self._prepare()
+        np.concatenate(self._sources, out=self._table.append())
+
+    def truncate(self, count: int) -> None:
+        """Keep only the first samples."""
+        self._table.truncate(count)
+
+    def arrays(self) -> Columns:
+        """Return the samples by name."""
+        parts = np.split(self._table.rows, self._ends, axis=1)
+        return self._convert(dict(zip(self._names, parts, strict=True)))
+
+
+def state_log(
+    world: World,
+    truth: TrueRobotState,
+    qpos: slice,
+    forces: NDArray[np.int_],
+    corners: NDArray[np.int_],
+) -> RobotLog:
+    """Return a log of CoM, poses, ZMP and posture; see ``Trajectory``."""
+    data = world.data
+    # One contiguous range that contains all is copied faster.
+    sensors = slice(int(forces.min()), int(forces.max()) + 1)
+    sites = slice(int(corners.min()), int(corners.max()) + 1)
+
+    def convert(found: Columns) -> Columns:
+        place, torso = truth.poses_at(
+            found["com"], found["origin"], found["axes"]
+        )
+        points = found["sites"].reshape(-1, sites.stop - sites.start, 3)
+        zmp = centers_of_pressure(
+            found["sensors"].take(forces - sensors.start, axis=1),
+            points.take(corners - sites.start, axis=1),
+        )
+        return {
+            "com": found["com"].copy(),
+            "place": place,
+            "torso": torso,
+            "zmp": zmp,
+            "qpos": found["qpos"].astype(np.float32),
+        }
+
+    sources: Columns = {
+        "com": truth.position_com_in_world,
+        "origin": truth.origin_torso_in_world,
+        "axes": truth.axes_torso_in_world,
+        "sensors": data.sensordata[sensors],
+        "sites": data.site_xpos[sites].reshape(-1),
+        "qpos": data.qpos[qpos],
+    }
+    return RobotLog(sources, world.update_sensors, convert)
+
+
+def sensor_log(
+    model: mujoco.MjModel,
+    data: mujoco.MjData,
+    torso: int,
+    dofs: slice,
+    gyro: slice,
+    accelerometer: slice,
+    forces: NDArray[np.int_],
+) -> RobotLog:
+    """Return a log of exact sensors and efforts; see ``RobotSignals``.
+
+    ``dofs`` are free joint, then hinges in the order of qpos.
+    """
+    sensors = slice(int(forces.min()), int(forces.max()) + 1)
+
+    def convert(found: Columns) -> Columns:
+        velocity, effort = found.pop("velocity"), found.pop("effort")
+        found["foot_forces"] = found["foot_forces"].take(
+            forces - sensors.start, axis=1
+        )
+        return {
+            "torso_velocity": velocity[:, :6].copy(),
+            "joint_velocity": velocity[:, 6:].copy(),
+            "joint_effort": effort[:, 6:].copy(),
+            **{name: values.copy() for name, values in found.items()},
+        }
+
+    sources: Columns = {
+        "velocity": data.qvel[dofs],
+        "effort": data.qfrc_actuator[dofs],
+        "gyro": data.sensordata[gyro],
+        "accelerometer": data.sensordata[accelerometer],
+        "foot_forces": data.sensordata[sensors],
+        "com_velocity": data.subtree_linvel[torso, :2],
+    }
+    return RobotLog(
+        sources, lambda: mujoco.mj_subtreeVel(model, data), convert
+    )
+
+
+def centers_of_pressure(forces: Array, corners: Array) -> Array:
+    """Return centres (n, 2) [m] of forces (n, corners) in the world."""
+    totals = forces.sum(axis=1)
+    moments = (forces[:, None, :] @ corners)[:, 0, :2]
+    centers = np.full((len(forces), 2), np.nan)
+    pressed = totals > 0.0
+    centers[pressed] = moments[pressed] / totals[pressed, None]
+    return centers

@@ -1,6 +1,6 @@
-"""Body of a person in a world."""
+"""Bodies that physics does not move: people and templates."""
 
-from math import hypot, pi, sin
+from math import cos, hypot, pi, sin
 
 import mujoco
 
@@ -9,7 +9,7 @@ from ..core.poses import Pose
 from ..core.rotations import quaternion_of
 from .floor import FLOOR_BIT, add_geom
 from .ground_truth import FloorTruth
-from .pedestrian_appearance import FIGURES, HIP, PedestrianModel
+from .person_settings import FIGURES, HIP, PedestrianModel
 from .world import CONTACT_BITS, World
 
 SKIN = (0.85, 0.68, 0.56, 1.0)
@@ -119,3 +119,43 @@ class PersonBody:
         self.truth.pose = pose
         data, walked = self.world.data, self._walked
         set_person_pose(data, self._parts, pose, walked, self._figure)
+
+
+DISC_RADIUS = 0.07  # in [m]
+DISC_HALF_HEIGHT = 0.006  # in [m]
+MAST_RADIUS = 0.012  # in [m]
+MAST_HEIGHT = 0.5  # in [m]
+ARROW = 0.12  # length, in [m]
+COLOURS = {
+    "pursuer": (0.73, 0.17, 0.10, 1.0),
+    "evader": (0.12, 0.37, 0.75, 1.0),
+}
+OTHER_COLOUR = (0.35, 0.35, 0.38, 1.0)
+
+
+def add_template(
+    spec: mujoco.MjSpec, name: str, colour: Colour | None = None
+) -> None:
+    """Add the marker of a template to a world, without contacts."""
+    colour = colour or COLOURS.get(name, OTHER_COLOUR)
+    body = spec.worldbody.add_body(name=f"{name}/trunk", mocap=True)
+    disc, mast = (DISC_RADIUS, DISC_HALF_HEIGHT), 0.5 * MAST_HEIGHT
+    arrow = 0.5 * ARROW, 0.2 * DISC_RADIUS, DISC_HALF_HEIGHT
+    arm = 0.25 * ARROW, MAST_RADIUS, MAST_RADIUS
+    for kind, size, at in (
+        ("CYLINDER", disc, (0.0, 0.0, DISC_HALF_HEIGHT)),
+        ("BOX", arrow, (0.5 * ARROW, 0.0, DISC_HALF_HEIGHT)),
+        ("CYLINDER", (MAST_RADIUS, mast), (0.0, 0.0, mast)),
+        ("BOX", arm, (0.25 * ARROW, 0.0, MAST_HEIGHT)),
+    ):
+        add_geom(body, kind, size, colour, at=at, bit=0, group=2)
+
+
+def pose_template(
+    model: mujoco.MjModel, data: mujoco.MjData, name: str, pose: Pose
+) -> None:
+    """Set the pose of a template in the world."""
+    at = int(model.body(f"{name}/trunk").mocapid[0])
+    data.mocap_pos[at] = pose.x, pose.y, 0.0
+    half = 0.5 * pose.theta
+    data.mocap_quat[at] = cos(half), 0.0, 0.0, sin(half)

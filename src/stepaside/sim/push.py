@@ -1,16 +1,21 @@
-"""Pushes of robots."""
+"""Pushes of robots, and their forces."""
 
 import re
+from collections import deque
 from collections.abc import Sequence
 from dataclasses import dataclass
-from math import pi
-from typing import Any, NamedTuple
+from math import atan2, cos, pi, sin
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 from ..core.errors import ConfigurationError, shown
 from ..core.ranges import Range
 from ..core.setting import REQUIRED, check_settings, setting
 
+if TYPE_CHECKING:
+    import mujoco
+
 MOST_PUSHES = 1000  # in one game
+MAX_STORED = 1000  # pushes; a live game may run without end
 
 
 @dataclass(frozen=True, slots=True)
@@ -108,3 +113,48 @@ def pushes_by_robot(
         name: tuple(p for p in pushes if (p.player or robots[-1]) == name)
         for name in robots
     }
+
+
+class PushApplier:
+    """Pushes of one body: total impulse [N s], and the latest pushes."""
+
+    def __init__(
+        self, model: "mujoco.MjModel", data: "mujoco.MjData", torso: int
+    ) -> None:
+        self._force = data.xfrc_applied[torso]
+        self._frame = data.xmat[torso]
+        self._position = data.xpos[torso]
+        self._time_step = model.opt.timestep
+        self._scheduled: list[Push] = []
+        self._active: list[tuple[float, float, float]] = []
+        self.impulse = (0.0, 0.0)
+        self.given: deque[ScheduledPush] = deque(maxlen=MAX_STORED)
+
+    def add(self, push: Push) -> None:
+        """Schedule a push."""
+        self._scheduled = sorted(
+            [*self._scheduled, push], key=lambda push: push.time
+        )
+
+    def before_step(self, time: float) -> None:
+        """Set the force for the physics step that starts at a time, [s]."""
+        if not self._scheduled and not self._active:
+            return
+        while self._scheduled and self._scheduled[0].time <= time + 1e-9:
+            self._start(self._scheduled.pop(0), time)
+        self._active = [a for a in self._active if a[0] > time + 1e-9]
+        fx = sum(a[1] for a in self._active)
+        fy = sum(a[2] for a in self._active)
+        self._force[0], self._force[1] = fx, fy
+        given, h = self.impulse, self._time_step
+        self.impulse = given[0] + fx * h, given[1] + fy * h
+
+    def _start(self, push: Push, time: float) -> None:
+        """Start a push, in the direction of the torso's heading."""
+        angle = atan2(self._frame[3], self._frame[0]) + push.direction
+        force = push.impulse / push.duration
+        fx, fy = force * cos(angle), force * sin(angle)
+        self._active.append((time + push.duration, fx, fy))
+        x, y, _ = self._position.tolist()
+        whole = fx * push.duration, fy * push.duration
+        self.given.append(ScheduledPush(time, push.duration, x, y, *whole))

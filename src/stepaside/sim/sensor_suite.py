@@ -22,8 +22,13 @@ from ..robots.description import RobotDescription
 from ..robots.head import Mount, load_head
 from .camera_settings import CameraSettings, DepthSettings, SonarSettings
 from .offscreen_rendering import OffscreenRenderer
-from .ray_casting import RayCaster, geoms_in_cone
-from .sensor_stream import SensorStream, StreamedSensors, period_of
+from .ranging import (
+    RayCaster,
+    SensorStream,
+    StreamedSensors,
+    geoms_in_cone,
+    period_of,
+)
 from .world import World
 
 RAYCAST_WIDTH = 160  # largest width of a ray-cast image, in [pixels]

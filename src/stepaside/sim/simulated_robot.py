@@ -14,19 +14,26 @@ from ..core.errors import ModelError
 from ..core.poses import Array, Pose
 from ..perception.measurement import RobotState, Sighting
 from ..robots.description import REMEDY, RobotDescription
-from .body_settings import BodySettings
-from .ground_truth import TrueRobotState, TrueStance, true_stance
-from .ideal_sensors import IdealLineOfSight
-from .push import Push, ScheduledPush
-from .push_forces import PushApplier
-from .robot_log import RobotLog, centers_of_pressure, sensor_log, state_log
-from .sensor_errors import SensorErrors, StrapdownImu
-from .servos import (
+from .body_errors import (
     IdealServos,
     JointGains,
     RealisticServos,
+    SensorErrors,
+    StrapdownImu,
     set_joint_gains,
 )
+from .body_settings import BodySettings
+from .ground_truth import (
+    IdealLineOfSight,
+    RobotLog,
+    TrueRobotState,
+    TrueStance,
+    centers_of_pressure,
+    sensor_log,
+    state_log,
+    true_stance,
+)
+from .push import Push, PushApplier, ScheduledPush
 from .world import World, transform_free_joint
 
 EMPTY = np.empty(0)
@@ -34,7 +41,7 @@ EMPTY = np.empty(0)
 if TYPE_CHECKING:
     from ..locomotion.policy.policy_legs import InitialPosture
     from ..robots.leg_kinematics import LegKinematics
-    from .lidar import Lidar
+    from .ranging import Lidar
     from .sensor_suite import SensorSuite
 
 

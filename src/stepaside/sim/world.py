@@ -13,10 +13,10 @@ from ..core.poses import Pose
 from ..core.random_streams import named_generator
 from ..robots.description import RobotDescription
 from ..robots.tree_cache import load_tree
+from .body_errors import perturb_masses
 from .body_settings import BodySettings
 from .floor import add_floor, tilt_gravity
 from .physics_settings import PhysicsSettings
-from .sensor_errors import perturb_masses
 
 NO_SENSORS = int(mujoco.mjtDisableBit.mjDSBL_SENSOR)
 CONTACT_BITS = 0x7FFFFFFF  # of MuJoCo's contact masks, without the sign

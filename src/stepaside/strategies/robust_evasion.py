@@ -7,7 +7,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ..arena.obstacle_distances import PackedObstacles
+from ..arena.obstacles import PackedObstacles
 from ..core.constants import CAPTURE_DISTANCE
 from ..core.poses import Array, Pose, wrap_angle
 from ..core.ranges import Range

@@ -18,7 +18,7 @@ from ...games.replayed_signals import RobotSignals
 from ...games.run import Run
 from ...perception.images import ColourImage
 from ...robots.head import depth_camera_name
-from ...robots.urdf_elements import IMU, OPTICAL
+from ...robots.urdf_writer import IMU, OPTICAL
 from ..overlays import overlays_of, soles
 from .bag_messages import MessageFactory, nanoseconds
 from .recorded_transforms import (

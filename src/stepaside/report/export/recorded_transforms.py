@@ -4,7 +4,7 @@ import numpy as np
 from scipy.spatial.transform import Rotation
 
 from ...core.poses import Array
-from ...robots.urdf_elements import UrdfJoint
+from ...robots.urdf_writer import UrdfJoint
 from .recording import RobotModel
 
 

@@ -18,9 +18,8 @@ from ...games.replayed_signals import RobotSignals, repeat_game
 from ...games.run import Run, is_play
 from ...games.run_archive import load_run
 from ...robots.description import RobotDescription, load_robot
-from ...robots.urdf_elements import UrdfTree, urdf_tree
-from ...robots.urdf_writer import urdf_of
-from ...sim.robot_log import centers_of_pressure
+from ...robots.urdf_writer import UrdfTree, urdf_of, urdf_tree
+from ...sim.ground_truth import centers_of_pressure
 
 BEYOND = (
     "joint velocities and efforts, IMU, foot forces, DCM, planned footsteps, "

@@ -12,7 +12,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from ...arena.obstacle_distances import PackedObstacles
+from ...arena.obstacles import PackedObstacles
 from ...core.compilation import (
     compiled,
     compiled_loop,

@@ -11,7 +11,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from ...arena.obstacle_distances import (
+from ...arena.obstacles import (
     PackedObstacles,
     clearance_at,
     hull_clearance,

@@ -14,7 +14,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from ...arena.obstacle_distances import PackedObstacles
+from ...arena.obstacles import PackedObstacles
 from ...core.compilation import compiled, copy_values, inlined
 from ...theory.value.interpolation import OutcomeRules, look_up
 from ..knowledge import ON_THE_SPOT
