@@ -12,7 +12,6 @@ from stepaside.planning import PRESETS
 from stepaside.sim.person_motion import PersonMotion
 from stepaside.sim.person_settings import PersonSettings
 from stepaside.strategies import Evasion
-from stepaside.theory.unicycle.lateral_evasion import lateral_displacement
 
 FAST = PRESETS["fast"]
 TIMED = Evasion(trigger="time")
@@ -52,7 +51,9 @@ def test_the_template_steps_aside_as_the_unicycle_of_theory() -> None:
     speed = 2.0  # too fast to stop beside the robot
     late = FAST.start_support
     time = TIMED.contact_time + TIMED.clearance / speed - late
-    aside = lateral_displacement(FAST.speed, 0.5 * pi * FAST.gain, time)
+    turning = 0.5 * pi * FAST.gain  # to across the line of sight, then on
+    turned = 0.5 * pi / turning
+    aside = FAST.speed * (1.0 / turning + time - turned)
     assert met(speed, far=9.0) == pytest.approx(aside, abs=0.02)
 
 

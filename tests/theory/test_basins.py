@@ -3,13 +3,13 @@
 import numpy as np
 import pytest
 
-from stepaside.theory.unicycle.basins import (
+from stepaside.theory.unicycle.batch import play_games
+from stepaside.theory.unicycle.circles import circles_of
+from stepaside.theory.unicycle.start_maps import (
     duration_and_step,
     find_basins,
     random_starts,
 )
-from stepaside.theory.unicycle.batch import play_games
-from stepaside.theory.unicycle.circles import circles_of
 from stepaside.theory.unicycle.unicycle_game import Game, make_game
 
 FAST = make_game(2.0, 1.0, 1.0, 4.0)

@@ -8,7 +8,6 @@ import pytest
 from stepaside.core.errors import PlanError
 from stepaside.core.poses import wrap_angle
 from stepaside.theory.unicycle.adaptive_simulation import simulate
-from stepaside.theory.unicycle.basins import find_basins, random_starts
 from stepaside.theory.unicycle.batch import play_games
 from stepaside.theory.unicycle.circle_fit import (
     circle_at,
@@ -21,7 +20,11 @@ from stepaside.theory.unicycle.circles import (
     circles_of,
     find_circle,
 )
-from stepaside.theory.unicycle.ratio_map import map_ratios
+from stepaside.theory.unicycle.start_maps import (
+    find_basins,
+    map_ratios,
+    random_starts,
+)
 from stepaside.theory.unicycle.unicycle_game import (
     Game,
     RelativeStart,

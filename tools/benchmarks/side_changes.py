@@ -14,9 +14,9 @@ import numpy as np
 from benchmark_options import ask
 
 from stepaside.studies.result_files import header, write_result
-from stepaside.theory.unicycle.basins import random_starts
 from stepaside.theory.unicycle.batch import play_games
 from stepaside.theory.unicycle.circles import circles_of
+from stepaside.theory.unicycle.start_maps import random_starts
 from stepaside.theory.unicycle.unicycle_game import Game, TurningLaw, make_game
 
 SPREAD = 0.9  # logarithm of the largest speed and gain ratio

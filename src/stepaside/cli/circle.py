@@ -174,8 +174,8 @@ def _pairs(values: tuple[complex, ...]) -> list[list[float]]:
 
 def _find_circles(settings: CircleSettings, progress: Any) -> dict[str, Any]:
     """Return every circle, and the fraction of starts that end on it."""
-    from ..theory.unicycle.basins import find_basins, random_starts
     from ..theory.unicycle.circles import circles_of
+    from ..theory.unicycle.start_maps import find_basins, random_starts
 
     game = settings.game
     if settings.starts == 0:

@@ -143,8 +143,8 @@ def _result(
     """Return all results for JSON."""
     import numpy as np
 
-    from ..theory.unicycle.basins import settled_fractions
     from ..theory.unicycle.circles import circles_of
+    from ..theory.unicycle.start_maps import settled_fractions
 
     out, game = found.outcomes, settings.game
     total = settings.distances * settings.grid**2

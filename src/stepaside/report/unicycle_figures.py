@@ -13,8 +13,7 @@ from ..core.poses import Array
 from ..theory.unicycle.adaptive_simulation import PlayedGame, simulate
 from ..theory.unicycle.circle_fit import FittedCircle, measure, settling_time
 from ..theory.unicycle.circles import Circle, circle_of
-from ..theory.unicycle.ratio_map import RatioMap, map_ratios
-from ..theory.unicycle.start_maps import StartMap
+from ..theory.unicycle.start_maps import RatioMap, StartMap, map_ratios
 from ..theory.unicycle.unicycle_game import (
     Game,
     RelativeStart,

@@ -1,7 +1,7 @@
 """Encounters with approaching people."""
 
 from dataclasses import dataclass, field, replace
-from math import atan2, cos, pi, radians, sin
+from math import atan2, cos, radians, sin
 
 import numpy as np
 
@@ -15,7 +15,6 @@ from ..games.run import DuelRun
 from ..sim.crowd_motion import REACTIONS
 from ..sim.person_settings import PersonSettings
 from ..strategies import DashEvasion
-from ..theory.unicycle.lateral_evasion import lateral_clearance
 from .tabulation import Record
 
 LADDER = (  # of what people do near the robot
@@ -25,7 +24,6 @@ LADDER = (  # of what people do near the robot
     "backing",
     *(name for name in REACTIONS if name not in ("none", "avoid-people")),
 )
-SEEN_AT = 3.5  # distance at which a depth camera detects people, in [m]
 LEAST = np.array([0.5, -180.0, -0.6, 0.8])  # speed [m/s], bearing [deg],
 MOST = np.array([1.4, 180.0, 0.6, 3.0])  # offset [m], change at [m]
 TURNING = 0.6, 1.4  # offset of drawn people who turn, to either side, in [m]
@@ -171,32 +169,8 @@ def _record_of(person: Encounter, run: DuelRun) -> Record:
         "triggered_at_distance_m": summary.triggered_at_distance_m,
         "closest_m": summary.min_distance_m,
         "theory_closest_m": summary.theory.closest_approach_m,
-        "theory_clearance_m": theory_clearance(run.settings, person.speed),
         "cause": cause_of(run),
     }
-
-
-def theory_clearance(settings: DuelSettings, speed: float) -> float | None:
-    """Return the theoretical clearance from a person detected at 3.5 m.
-
-    Args:
-        settings: Settings of the game.
-        speed: Speed of the person, in [m/s].
-
-    Returns:
-        Clearance, in [m]; None on learned legs.
-    """
-    if settings.legs.walks:
-        return None
-    gait = settings.gait
-    time_scale = gait.path_interval / gait.step_duration
-    return lateral_clearance(
-        gait.speed * time_scale,
-        0.5 * pi * gait.gain * time_scale,
-        person_speed=speed,
-        distance=SEEN_AT,
-        first_step=gait.start_support,
-    )
 
 
 def cause_of(run: DuelRun) -> str | None:

@@ -16,7 +16,7 @@ import numpy as np
 
 from ...arena.obstacles import PackedObstacles
 from ...core.compilation import compiled, copy_values, inlined
-from ...theory.value.interpolation import OutcomeRules, look_up
+from ...theory.value.outcomes import OutcomeRules, look_up
 from ..knowledge import ON_THE_SPOT
 from .distance_field import DistanceField, distance_field, field_clearance
 from .step_motion import (

@@ -207,16 +207,10 @@ def play_all(
 ) -> None:
     """Play games to the end, on all cores.
 
-    Args:
-        played: Rows of r [m], a, psi [rad]; overwritten by the final ones,
-            with the side, closest approach [m], its time, the time of
-            capture, -1 for none, and the last time off all circles [s].
-            Shape (n, 8).
-        side: Initial side, or 0 for the one behind the evader.
-        circles: Rows of r [m], a, psi [rad] at side +1. Shape (m, 3).
-        steps: Number of steps.
-        step: Step size, in [s].
-        rules: Rules of the game.
+    Rows of r [m], a, psi [rad] in ``played``, shape (n, 8), are overwritten
+    by the final ones, with the side, closest approach [m], its time, the
+    time of capture, -1 for none, and the last time off all circles [s].
+    Circles are rows of r [m], a, psi [rad] at side +1. Shape (m, 3).
     """
     for i in prange(len(played)):
         _play_one(played[i], side, circles, steps, step, rules)

@@ -22,14 +22,7 @@ SAMPLES = 361  # of a path
 class FittedCircle:
     """Circles fitted to two paths, with the quantities of ``Circle``.
 
-    Attributes:
-        radius_pursuer_m: Radius fitted to the pursuer's path, in [m].
-        radius_evader_m: Radius fitted to the evader's path, in [m].
-        distance_m: Final distance, in [m].
-        turning_rate_rad_s: Mean turning rate of the pursuer, in [rad/s].
-        headings_apart_rad: Angle between the headings, in [rad].
-        motions_apart_rad: Angle between the directions of motion, in [rad].
-        centers_apart_m: Distance between the two fitted centres, in [m].
+    The distance is the final one, the turning rate the pursuer's mean.
     """
 
     radius_pursuer_m: float

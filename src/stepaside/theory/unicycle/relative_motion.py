@@ -55,47 +55,28 @@ class Rules(NamedTuple):
 
 
 class Mode(NamedTuple):
-    """Discrete state that identifies a smooth piece.
+    """Discrete state that identifies a smooth piece."""
 
-    Attributes:
-        side: Side of the line of sight that the evader takes, +1 or -1.
-        branch: Branch of its turning law.
-    """
-
-    side: int
-    branch: int
+    side: int  # of the line of sight that the evader takes, +1 or -1
+    branch: int  # of its turning law
 
 
 class SmoothPiece(NamedTuple):
-    """Coefficients of a smooth piece.
+    """Coefficients of a smooth piece."""
 
-    Attributes:
-        low: Least bearing, in [rad].
-        high: Largest bearing, in [rad].
-        constant: Turning rate of the evader at bearing zero, in [rad/s].
-        slope: Derivative of the turning rate by the bearing, in [1/s].
-        free: 0 if the evader turns with the line of sight, else 1.
-    """
-
-    low: float
+    low: float  # least bearing, in [rad]
     high: float
-    constant: float
-    slope: float
-    free: float
+    constant: float  # turning rate of the evader at bearing zero, in [rad/s]
+    slope: float  # derivative of the turning rate by the bearing, in [1/s]
+    free: float  # 0 if the evader turns with the line of sight, else 1
 
 
 class RelativeState(NamedTuple):
-    """Relative coordinates.
+    """Relative coordinates; see :class:`.RelativeStart`."""
 
-    Attributes:
-        r: Distance, in [m].
-        a: Bearing of the evader in the pursuer's frame, its error, in [rad].
-        psi: Bearing of the pursuer in the evader's frame, in [rad].
-    """
-
-    r: Any
-    a: Any
-    psi: Any
+    r: Any  # [m]
+    a: Any  # [rad]
+    psi: Any  # [rad]
 
 
 class Rates(NamedTuple):

@@ -1,19 +1,23 @@
-"""Maps of outcomes over initial states, and the worst initial state."""
+"""Maps of games: over initial states, by final circle, over ratios."""
 
 from dataclasses import dataclass
 from math import pi
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
 from ...core.errors import PlanError, check_positive, check_within
 from .batch import Outcomes, play_games
-from .unicycle_game import Game, RelativeStart
+from .circles import Circle, GameParameters, circles_of, find_equilibria
+from .unicycle_game import Game, RelativeStart, TurningLaw
 
 Array = NDArray[np.float64]
 _CANDIDATES = 4  # local minima of the grid that are refined
 _GAMES = 150  # of the refinement of one of them
+NEAREST, FARTHEST = 0.3, 4.0  # initial distances, in units of the game
+_SETTLE = 8.0  # simulated time constants of the slowest stable circle
+_LONGEST = 400.0  # longest game, in units of one over the smaller gain
 
 
 @dataclass(frozen=True, slots=True)
@@ -188,3 +192,147 @@ def _local_minima(start_map: StartMap) -> tuple[Array, Array]:
     axes = (start_map.distances, start_map.pursuer_errors, start_map.bearings)
     starts = [axis[i] for axis, i in zip(axes, index, strict=True)]
     return np.stack(starts, axis=-1), values.ravel()[order]
+
+
+@dataclass(frozen=True, slots=True)
+class Basins:
+    """Final circles of games from many initial states.
+
+    Attributes:
+        circles: Circles of the game, in the order of ``circles_of``.
+        shares: Fraction of the games that settled on each circle, in [1].
+        captured: Fraction of the games that ended by capture, in [1].
+        unsettled: Fraction with neither within the duration, in [1].
+        closest_distance: Mean closest approach, in [m].
+        starts: Number of initial states.
+        duration: Duration of each game, in [s].
+    """
+
+    circles: tuple[Circle, ...]
+    shares: tuple[float, ...]
+    captured: float
+    unsettled: float
+    closest_distance: float
+    starts: int
+    duration: float
+
+
+def random_starts(
+    game: Game,
+    count: int,
+    *,
+    seed: int = 0,
+) -> Array:
+    """Draw initial states r [m], a, psi [rad], uniformly. Shape (count, 3).
+
+    Distances are 0.3 to 4 units, of the evader's speed over the
+    smaller gain.
+    """
+    unit = game.evader.speed / min(game.pursuer.gain, game.evader.gain)
+    rng = np.random.default_rng(seed)
+    r = rng.uniform(NEAREST * unit, FARTHEST * unit, count)
+    return np.column_stack([r, rng.uniform(-np.pi, np.pi, (count, 2))])
+
+
+def find_basins(game: Game, starts: Array, **options: Any) -> Basins:
+    """Play a game from many initial states and classify the outcomes.
+
+    Games are long enough to reach all stable circles.
+
+    Args:
+        game: Parameters of the game.
+        starts: Rows of r [m], a, psi [rad]. Shape (n, 3).
+        options: Further options of :func:`.batch.play_games`.
+    """
+    circles = circles_of(game)
+    duration, step = duration_and_step(game)
+    out = play_games(game, starts, duration, step=step, **options)
+    captured = float(out.captured.mean())
+    return Basins(
+        circles,
+        settled_fractions(out, len(circles)),
+        captured,
+        float((out.circle < 0).mean()) - captured,
+        float(out.closest_distance.mean()),
+        len(starts),
+        duration,
+    )
+
+
+def duration_and_step(game: Game) -> tuple[float, float]:
+    """Return duration and time step of games that reach stable circles."""
+    slow, fast = sorted((game.pursuer.gain, game.evader.gain))
+    constants = [c.time_constant_s for c in circles_of(game) if c.stable]
+    duration = 40.0 / slow + _SETTLE * max(constants, default=0.0)
+    return min(duration, _LONGEST / slow), min(0.02 / slow, 0.1 / fast)
+
+
+def settled_fractions(outcomes: Outcomes, count: int) -> tuple[float, ...]:
+    """Return the fraction of games that settled on each of the circles."""
+    numbers = np.bincount(outcomes.circle + 1, minlength=count + 1)[1:]
+    return tuple((numbers / len(outcomes.circle)).tolist())
+
+
+@dataclass(frozen=True, slots=True)
+class RatioMap:
+    """Distances on circles consistent with the side behind the evader.
+
+    Lengths are in units of the evader's speed over the pursuer's gain. The
+    arrays over both ratios have shape (n, m) and are NaN where no such
+    circle exists.
+
+    Attributes:
+        speed_ratios: Pursuer's over evader's speed. Shape (n,).
+        gain_ratios: Evader's over pursuer's gain. Shape (m,).
+        main: Distance on the slowest circle with the main sense of rotation.
+        reversed_stable: Least distance on a stable reversed circle.
+        reversed_unstable: Least distance on an unstable reversed circle.
+    """
+
+    speed_ratios: Array
+    gain_ratios: Array
+    main: Array
+    reversed_stable: Array
+    reversed_unstable: Array
+
+
+def map_ratios(
+    angle: float,
+    law: TurningLaw | str,
+    speed_ratios: ArrayLike,
+    gain_ratios: ArrayLike,
+) -> RatioMap:
+    """Compute the circles of all games on a grid of ratios.
+
+    The evasion angle is in [rad]; ratios are those of :class:`RatioMap`.
+    """
+    speeds = np.asarray(speed_ratios, dtype=np.float64)
+    gains = np.asarray(gain_ratios, dtype=np.float64)
+    grid = np.meshgrid(speeds, gains, indexing="ij")
+    vp, ke = (axis.ravel() for axis in grid)
+    games = GameParameters.of(vp, 1.0, 1.0, ke, angle)
+    saturated = TurningLaw(law) is TurningLaw.SATURATED
+    equilibria = find_equilibria(games, saturated=saturated)
+    modes = equilibria.eigenvalues(games, saturated=saturated)
+    growth = modes.real.max(axis=-1)
+    bearing = equilibria.evader_error - angle
+    behind = (bearing > -pi) & (bearing < 0.0)
+
+    def least(which: NDArray[np.bool_], values: Array) -> Array:
+        found = np.full(len(vp), np.inf)
+        np.minimum.at(found, equilibria.game[which], values[which])
+        found[np.isinf(found)] = np.nan
+        return found
+
+    onward = behind & (equilibria.turning_rate > 0.0)
+    slowest = least(onward, equilibria.turning_rate)[equilibria.game]
+    first = onward & (equilibria.turning_rate == slowest)
+    backward = behind & (equilibria.turning_rate < 0.0)
+    shape = (len(speeds), len(gains))
+    return RatioMap(
+        speeds,
+        gains,
+        least(first, equilibria.distance).reshape(shape),
+        least(backward & (growth < 0.0), equilibria.distance).reshape(shape),
+        least(backward & (growth >= 0.0), equilibria.distance).reshape(shape),
+    )

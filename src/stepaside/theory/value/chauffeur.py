@@ -16,7 +16,7 @@ import numpy as np
 from ...core.errors import PlanError, check_positive, check_within
 from ...core.poses import Array
 from .closed_forms import chauffeur_barrier, guaranteed_distance
-from .interpolation import OutcomeRules
+from .outcomes import OutcomeRules
 from .pose_grid import PoseGrid, sub_poses
 from .solver import solve_game, step_back
 from .table import ValueTable

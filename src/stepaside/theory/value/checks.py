@@ -31,22 +31,12 @@ def play(
     faces: bool = False,
     reacts: bool = False,
 ) -> Array:
-    """Simulate games along exact arcs.
+    """Simulate games along exact arcs; return closest approaches, in [m].
 
-    Args:
-        starts: Poses of the evader in the frame of the pursuer, in [m] and
-            [rad]. Shape (n, 3).
-        evader: Velocities to which the evader commits for a period.
-        pursuer: Velocities of the pursuer in answer.
-        period: Time between two decisions of the evader, in [s].
-        duration: Duration of the games, in [s].
-        parts: Parts of a period in which the distance is measured.
-        faces: Whether the evader is turned away from the pursuer when it
-            decides.
-        reacts: Whether the pursuer decides at each part of a period.
-
-    Returns:
-        Closest approach of each game, in [m]. Shape (n,).
+    Starts are poses of the evader in the frame of the pursuer, shape (n, 3).
+    The evader commits to velocities for a period, in whose parts the distance
+    is measured, and in which a pursuer that ``reacts`` decides. An evader that
+    ``faces`` is turned away from the pursuer when it decides.
     """
     poses = np.array(starts, dtype=np.float64)
     least: Array = np.hypot(poses[:, 0], poses[:, 1])

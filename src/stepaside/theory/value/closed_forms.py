@@ -81,13 +81,9 @@ def chauffeur_barrier(ratio: float, capture: float, count: int = 60) -> Array:
 def turn_back(
     state: tuple[Array, Array, Array], pursuer: float, evader: float, t: Array
 ) -> tuple[Array, Array, Array]:
-    """Integrate the motion backwards in time with constant turning rates.
+    """Integrate backwards in time from x, y and theta, in turning radii.
 
-    Args:
-        state: Final x, y and theta, in turning radii and [rad].
-        pursuer: Turning rate of the pursuer: -1, 0 or 1.
-        evader: Turning rate of the evader: -1, 0 or 1.
-        t: Duration, in units of one over the turning rate.
+    Turning rates are -1, 0 or 1, the time ``t`` in units of one over them.
     """
     x, y, theta = state
     forward, aside = _car_ago(evader, t)

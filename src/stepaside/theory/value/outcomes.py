@@ -1,7 +1,7 @@
 """Outcome of motions against answers, in compiled loops."""
 
 from math import atan2, cos, exp, inf, pi, sin, sqrt, tau
-from typing import Any
+from typing import Any, NamedTuple
 
 from ...core.compilation import (
     compiled,
@@ -9,9 +9,114 @@ from ...core.compilation import (
     inlined,
     parallel_range,
 )
-from .interpolation import OutcomeRules, look_up
 
 prange = parallel_range()
+
+
+class OutcomeRules(NamedTuple):
+    """How the outcome of a motion is read from the values after it.
+
+    Flat, since Numba takes no nested tuples into parallel loops; the grid is
+    that of :class:`.PoseGrid`. See also :func:`.solve_game`.
+    """
+
+    left: float  # x of the first node, in [m]
+    right: float  # y of the first node, in [m]
+    spacing: float  # of positions, in [m]
+    columns: int  # nodes along x
+    rows: int  # nodes along y
+    headings: int
+    outside: float  # value, in [m]; infinite: that of the edge plus the way
+    sag: float = 0.0
+    cubic: bool = False
+    coarse: int = 1
+    way: float = 0.0  # of a pursuer with a law in a part of a period, in [m]
+    rate: float = 0.0  # gain of that law times that time; zero without a law
+    tie: float = 0.0  # weight of the value after, where it decides nothing
+
+
+@inlined
+def cubic_of(a: float, b: float, c: float, d: float, t: float) -> float:
+    """Interpolate between b and c by the cubic of Catmull and Rom."""
+    m, n, rise = 0.5 * (c - a), 0.5 * (d - b), c - b
+    found: float = b + t * (
+        m + t * (3.0 * rise - 2.0 * m - n + t * (m + n - 2.0 * rise))
+    )
+    return found
+
+
+@inlined
+def cubic_row(v: Any, i: int, j: int, s: float, rules: OutcomeRules) -> float:
+    """Interpolate by a cubic along x, in a row that may be mirrored."""
+    if j < 0 and rules.right == 0.0:
+        j = -j
+    j = min(max(j, 0), rules.rows - 1)
+    before, after = max(i - 1, 0), min(i + 2, rules.columns - 1)
+    return cubic_of(
+        v[before, j, 0], v[i, j, 0], v[i + 1, j, 0], v[after, j, 0], s
+    )
+
+
+@inlined
+def cubic_cell(
+    v: Any, i: int, j: int, s: float, t: float, rules: OutcomeRules
+) -> float:
+    """Interpolate in a cell by cubics, within the range of its corners."""
+    found = cubic_of(
+        cubic_row(v, i, j - 1, s, rules),
+        cubic_row(v, i, j, s, rules),
+        cubic_row(v, i, j + 1, s, rules),
+        cubic_row(v, i, j + 2, s, rules),
+        t,
+    )
+    a, b, c, d = v[i, j, 0], v[i, j + 1, 0], v[i + 1, j, 0], v[i + 1, j + 1, 0]
+    low, high = min(min(a, b), min(c, d)), max(max(a, b), max(c, d))
+    kept: float = min(max(found, low), high)
+    return kept
+
+
+@inlined
+def look_up(
+    v: Any, x: float, y: float, theta: float, rules: OutcomeRules
+) -> float:
+    """Interpolate between the nodes of a cell, never beyond them."""
+    if y < 0.0 and rules.right == 0.0:
+        y, theta = -y, -theta
+    u = (x - rules.left) / rules.spacing
+    w = (y - rules.right) / rules.spacing
+    columns, rows, count = rules.columns, rules.rows, rules.headings
+    beyond = 0.0
+    if not (0.0 <= u < columns - 1 and 0.0 <= w < rows - 1):
+        if rules.outside != inf:
+            return rules.outside
+        ux, wx = min(max(u, 0.0), columns - 1.0), min(max(w, 0.0), rows - 1.0)
+        beyond = rules.spacing * sqrt((u - ux) ** 2 + (w - wx) ** 2)
+        u, w = ux, wx
+    i, j = min(int(u), columns - 2), min(int(w), rows - 2)
+    s, t = u - i, w - j
+    if rules.cubic:
+        return cubic_cell(v, i, j, s, t, rules) + beyond
+    a = (theta / tau * count) % count
+    k, r = int(a) % count, a - int(a)
+    n = (k + 1) % count
+    p, q = 1.0 - s, 1.0 - t
+    low = p * (q * v[i, j, k] + t * v[i, j + 1, k]) + s * (
+        q * v[i + 1, j, k] + t * v[i + 1, j + 1, k]
+    )
+    high = p * (q * v[i, j, n] + t * v[i, j + 1, n]) + s * (
+        q * v[i + 1, j, n] + t * v[i + 1, j + 1, n]
+    )
+    linear: float = (1.0 - r) * low + r * high
+    return linear + beyond
+
+
+@compiled
+def look_up_all(v: Any, poses: Any, rules: OutcomeRules, out: Any) -> None:
+    """Interpolate at many poses. Shape (n, 3)."""
+    for n in range(len(poses)):
+        x, y = poses[n, 0], poses[n, 1]
+        found = look_up(v, x, y, poses[n, 2], rules)
+        out[n] = min(found, sqrt(x * x + y * y))
 
 
 @inlined
@@ -167,20 +272,11 @@ def relax(
     rules: OutcomeRules,
     changes: Any,
 ) -> None:
-    """Lower the values of a period's begin to those of its end.
+    """Lower the values ``v`` of a period's begin to those ``after`` its end.
 
-    Args:
-        v: Values of the nodes; lowered in place.
-        after: Least values within the disturbance, at the end.
-        guesses: Best motion and worst answer of each node in the last sweep;
-            replaced. Shape (*grid.shape, 2).
-        active: Whether the values at the positions of a column can change.
-            Shape ``grid.shape[:2]``.
-        motions: Motions of the robot. Shape (n, parts, 3).
-        answers: Motions of the opponent. Shape (m, parts, 3).
-        rules: Grid of the values, and how the distance is reckoned.
-        changes: Output: greatest change of a column. Shape
-            ``grid.shape[:2]``.
+    Columns, of shape ``grid.shape[:2]``, are ``active`` if they can change;
+    their greatest ``changes`` are written. The ``guesses``, best motion and
+    worst answer of the last sweep, are replaced. Shape (*grid.shape, 2).
     """
     for i in prange(rules.columns):
         x = rules.left + rules.spacing * i

@@ -23,6 +23,9 @@ DISPLACED = 8  # directions of a displacement
 class ShieldTable:
     """Distance that the robot can keep for ever, by its state.
 
+    Poses are those of the robot in the frame of the person, in [m] and
+    [rad]. Shape (n, 3).
+
     Attributes:
         game: Game that was solved.
         walking: Guaranteed distance of a walking robot, cut off.
@@ -77,12 +80,7 @@ class ShieldTable:
         )
 
     def value(self, poses: ArrayLike) -> Array:
-        """Return the guaranteed distance of a walking robot, in [m].
-
-        Args:
-            poses: Poses of the robot in the frame of the person, in [m] and
-                [rad]. Shape (n, 3).
-        """
+        """Return the guaranteed distance of a walking robot, in [m]."""
         return self.walking.value(np.atleast_2d(poses))
 
     def standing_value(self, poses: ArrayLike) -> Array:
@@ -116,13 +114,10 @@ class ShieldTable:
     def halting_value(
         self, poses: ArrayLike, duration: float, reach: float = 0.0
     ) -> float:
-        """Return the guaranteed distance of a robot that halts.
+        """Return the guaranteed distance of a robot that halts, in [m].
 
-        Args:
-            poses: Poses of the robot in the frame of the person, of which the
-                worst counts. Shape (m, 3).
-            duration: Time until it stands and decides again, in [s].
-            reach: Distance within which it comes to rest, in [m].
+        It stands and decides again after a duration, in [s], and comes to
+        rest within a reach, in [m]. Of the poses the worst counts.
         """
         later, least = self._stood(poses, duration)
         lost = reach + self.game.loss_in(duration)
@@ -209,18 +204,10 @@ class ShieldTable:
     def outcomes(
         self, poses: ArrayLike, motions: Array, duration: float
     ) -> Array:
-        """Return the distance that remains guaranteed after a motion.
+        """Return the distances that remain guaranteed after motions.
 
-        Args:
-            poses: Poses of the robot in the frame of the person, of which the
-                worst counts. Shape (m, 3).
-            motions: Motions of the robot; see
-                :func:`.sub_poses`. Shape (n, parts, 3).
-            duration: Their duration, in [s].
-
-        Returns:
-            Least distance on the way and value after it, at worst, in [m].
-            Shape (n,).
+        Motions, of a duration in [s], are those of :func:`.sub_poses`. Of the
+        poses the worst counts. Shape (n,), in [m].
         """
         return self._outcomes(self.walking.after, poses, motions, duration)
 

@@ -24,8 +24,7 @@ import numpy as np
 
 from ...core.errors import PlanError, check_not_negative, check_positive
 from ...core.poses import Array
-from .interpolation import OutcomeRules
-from .outcomes import relax
+from .outcomes import OutcomeRules, relax
 from .pose_grid import PARTS, PoseGrid, least_within
 from .table import ValueTable
 
@@ -35,17 +34,11 @@ INTERPOLATIONS = ("linear", "cubic")
 
 
 class PursuerLaw(NamedTuple):
-    """Pursuer that drives on and turns by eq. (2), in place of answers.
+    """Pursuer that drives on and turns by eq. (2), in place of answers."""
 
-    Attributes:
-        speed: Its speed, in [m/s].
-        gain: Gain of its turning rate over the bearing, in [1/s].
-        period: Time for which the robot commits to a motion, in [s].
-    """
-
-    speed: float
-    gain: float
-    period: float
+    speed: float  # [m/s]
+    gain: float  # [1/s]
+    period: float  # for which the robot commits to a motion, in [s]
 
 
 def rising(values: Array) -> float:
@@ -178,16 +171,10 @@ def step_back(
     start: Array,
     reach: float = inf,
 ) -> Array:
-    """Return the values a motion before those at its end.
+    """Return values a motion, the best one, before those at its end.
 
-    Args:
-        after: Values at the end.
-        motions: Motions of the robot, of which the best counts.
-        answers: Motions of the opponent meanwhile.
-        rules: Rules of the outcome.
-        grid: Grid of the values.
-        start: Values to be lowered, of nodes that cannot change, too.
-        reach: As in :func:`solve_game`.
+    ``start`` are the values to be lowered, of nodes that cannot change, too;
+    the rest is as in :func:`solve_game`.
     """
     found = start.copy()
     guesses = np.zeros((*grid.shape, 2), np.int32)

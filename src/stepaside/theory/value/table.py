@@ -12,8 +12,7 @@ from ...core.atomic_output import atomic_draft
 from ...core.brief_repr import brief_repr
 from ...core.errors import AnyPath, PlanError, as_path
 from ...core.poses import Array
-from .interpolation import OutcomeRules, look_up_all
-from .outcomes import choose_all
+from .outcomes import OutcomeRules, choose_all, look_up_all
 from .pose_grid import PoseGrid
 
 Numbers = NDArray[np.int64]
@@ -54,15 +53,10 @@ class ValueTable:
         return PoseGrid(own.left, own.spacing, shape, own.right)
 
     def value(self, poses: ArrayLike) -> Array:
-        """Return the distance that the robot can keep.
+        """Return the distances that the robot can keep, in [m].
 
-        Args:
-            poses: Poses of the robot in the frame of its opponent, in [m]
-                and [rad]. Shape (..., 3).
-
-        Returns:
-            Distances, in [m], between those of the nodes and at most the
-            present one. Shape (...).
+        Poses are those of the robot in the frame of its opponent, in [m] and
+        [rad]. Shape (..., 3).
         """
         return interpolated(self.values, poses, self.rules)
 
