@@ -1,4 +1,4 @@
-"""Time planner, MPC, duels, decisions and games of unicycles in one process.
+"""Time planner, MPC and duels in one process.
 
 Both sides of every ratio are timed here, on one core; processor times. Drake's
 planner and cameras are skipped if they are not installed (``pip install
@@ -14,28 +14,12 @@ os.environ.setdefault("NUMBA_NUM_THREADS", "1")
 
 from benchmark_options import ask, machine
 from duel import measure_camera_duel, measure_duel
-from map_decisions import RECIPES, measure
 from mpc import measure_mpc
 from planner import measure_planner
 
 from stepaside.studies.result_files import header, write_result
 
 LIBRARIES = ("mujoco", "numpy", "drake", "daqp", "numba")
-ROOMS = 25  # whose maps decisions are timed in
-
-
-def measure_decisions() -> dict[str, float]:
-    """Return the times of decisions on maps of rooms with a few discs."""
-    measure(RECIPES[0], 2.2, 2)  # import all code
-    row = measure(RECIPES[0], 2.2, ROOMS)
-    return {
-        f"{name}_decision_{key}": row[part][key]
-        for part, name in (
-            ("look-ahead", "look_ahead"),
-            ("pursuit", "pursuit"),
-        )
-        for key in ("median_ms", "p99_ms")
-    }
 
 
 def main() -> None:
@@ -45,7 +29,6 @@ def main() -> None:
     arguments = asked.parse_args()
     figures = measure_planner() | measure_mpc()
     figures |= measure_duel(arguments.duration) | measure_camera_duel()
-    figures |= measure_decisions()
     for suffix in ("", "_with_samples"):
         drake = "drake_zmp_planner_us" if not suffix else f"drake{suffix}_us"
         if drake in figures:

@@ -31,7 +31,7 @@ REPORTS = 0.048  # from one report to the next, in [s]
 SILENCE = 0.5  # without a command before the robot stops, in [s]
 REPEAT = 400  # polls for an answer in lock step before a report is repeated
 HANDLES = 1 << 64  # CycloneDDS has handles as signed and unsigned numbers
-# Errors of the odometry, measured by `python -m tools.checks.served_odometry`:
+# Errors of the odometry, measured against the true pose in duels:
 # of position [m] and heading [rad] in a gait cycle, per path [m/m], [rad/m],
 # and per turn [rad/rad]; of forward and lateral velocity [m/s] and turning
 # rate [rad/s] beyond those commanded.

@@ -36,7 +36,6 @@ TABLES: dict[str, Callable[..., str]] = {
     "opponent-ladder": room_evaders.ladder,
     "environments": learning.environments,
     "fast-walks": walking.fast_walks,
-    "floors": duels.floors,
     "headlines": benchmark.headlines,
     "humanoids": humanoids.reached,
     "legs-people": legs_encounters.people,

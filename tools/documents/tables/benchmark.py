@@ -68,18 +68,6 @@ ROWS = {
         "x real time",
         "",
     ),
-    "look_ahead_decision_median_ms": (
-        "decision of look-ahead on a sensed map, median",
-        "ms",
-        "",
-    ),
-    "look_ahead_decision_p99_ms": ("the same, 99th percentile", "ms", ""),
-    "pursuit_decision_median_ms": (
-        "decision of pursuit on a sensed map, median",
-        "ms",
-        "",
-    ),
-    "pursuit_decision_p99_ms": ("the same, 99th percentile", "ms", ""),
 }
 
 

@@ -3,8 +3,6 @@
 from collections.abc import Mapping
 from typing import Any
 
-from .markdown import interval, table
-
 # Labels and decimals of duel values; others appear by their keys.
 WORDS = {
     "pursuer_radius_m": ("pursuer radius [m]", 3),
@@ -26,37 +24,6 @@ WORDS = {
 def words_of(key: str) -> tuple[str, int]:
     """Return label and decimals of a value."""
     return WORDS.get(key, (key.replace("_", " "), 3))
-
-
-def floors(result: Mapping[str, Any]) -> str:
-    """List duels on each floor: outcomes, and the circle."""
-    head = (
-        "floor",
-        "duels of 120 s",
-        "falls",
-        "contacts",
-        "radius [m]",
-        "distance [m]",
-        "between headings [deg]",
-    )
-    rows = []
-    for floor, found in result["floors"].items():
-        radius, away, angle = (
-            found[key]
-            for key in ("radius_m", "distance_m", "relative_orientation_deg")
-        )
-        rows.append(
-            (
-                floor,
-                str(found["number"]),
-                str(found["falls"]),
-                str(found["contacts"]),
-                interval(radius["least"], radius["greatest"]),
-                interval(away["least"], away["greatest"]),
-                interval(angle["least"], angle["greatest"], 1),
-            )
-        )
-    return table(head, rows)
 
 
 def printed(result: Mapping[str, Any]) -> str:
