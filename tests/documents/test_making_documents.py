@@ -80,7 +80,7 @@ def test_remaking_twice_changes_nothing_more(store: Store) -> None:
             "<!-- made: run.nothing -->\n<!-- /made -->",
             "3: no table 'nothing'",
         ),
-        ("<!-- made: run.floors -->\n<!-- /made -->", "3: run does not hold"),
+        ("<!-- made: run.rooms -->\n<!-- /made -->", "3: run does not hold"),
         ("<!-- made: run.printed -->\n", "2: a block must read"),
         ("<!-- /made -->", "2: a block must read"),
         (

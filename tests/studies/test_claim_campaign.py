@@ -241,11 +241,12 @@ def test_command_prints_rows_and_writes_the_page(
     assert stored["rows"] == rows
     assert (stored["seed"], stored["runs"]) == (1, 10)
     assert stored["results"] == RESULTS
-    html = (tmp_path / "claims.html").read_text()
-    first = html.split("</table>")[0]
-    assert first.count("<tr>") == len(rows) + 1
-    assert first.count("<td") == 10 * len(rows)  # bars do not split cells
-    assert "|theta*|" in html
+    page = (tmp_path / "claims.md").read_text()
+    lines = page.split("\n\n## ")[0].splitlines()
+    table = [line for line in lines if line.startswith("|")]
+    assert len(table) == len(rows) + 2
+    assert {line.replace("\\|", "").count("|") for line in table} == {7}
+    assert "\\|theta\\*\\|" in page
     assert f"{len(rows)} of {len(rows)} hold" in reproduce().stdout
 
 
@@ -259,7 +260,7 @@ def test_exit_status_is_0_if_every_claim_holds_else_1(
     result = reproduce("--runs", "1")
     assert result.exit_code == status, result.output
     assert f"{2 - 2 * status} of 2 hold" in result.stdout
-    assert (tmp_path / "claims.html").exists()
+    assert (tmp_path / "claims.md").exists()
 
 
 def test_without_runs_only_what_needs_one_is_measured(

@@ -106,7 +106,7 @@ def _write_page(
         given: Seed and number of runs.
         rows: Rows of all claims.
     """
-    from ..report.claims_page import write_page
+    from ..report.claims_page import markdown_page
     from ..report.unicycle_figures import time_shown
     from ..studies.paper_figures import paper_figures
     from ..studies.results_version import RESULTS, library_versions
@@ -128,7 +128,11 @@ def _write_page(
     pursuer, _ = run.poses([0.0, end])
     turns = abs(float(pursuer[1, 2] - pursuer[0, 2])) / tau
     beside = paper_figures(rows, turns, end)
-    return write_page(output, rows, beside, figures, made)
+    page = output / "claims.md"
+    with atomic_draft(page) as draft:
+        text = markdown_page(rows, beside, figures, made)
+        draft.write_text(text, encoding="utf-8")
+    return page
 
 
 def draw_figures(
