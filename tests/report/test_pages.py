@@ -100,7 +100,7 @@ def test_a_live_duel_can_be_watched_pushed_and_driven(browser: Any) -> None:
         assert session.world.time == 0.0
 
         press(page, "Start")
-        page.get_by_text("the pursuer approaches").first.wait_for()
+        page.get_by_text("walking: pursuer").first.wait_for()
         pause = page.get_by_role("button", name="Pause", exact=True)
         pause.first.wait_for()
         keep_picture(page, "live.png")

@@ -8,13 +8,19 @@ import mujoco
 import numpy as np
 import pytest
 
-from contrast_ratio import contrast
 from stepaside.core.errors import ConfigurationError
+from stepaside.core.player_colours import from_hex
 from stepaside.perception.images import ColourImage
 from stepaside.report import replay_page
 from stepaside.report.camera_pictures import FOUND, camera_picture
-from stepaside.report.palette import PALETTES, THEMES
-from stepaside.report.visual_geoms import visual_geoms_of
+from stepaside.report.palette import PALETTES
+from stepaside.report.visual_geoms import (
+    MAX_TRIANGLES,
+    TriangleMesh,
+    label_over,
+    simplify,
+    visual_geoms_of,
+)
 
 MODEL = """
 <mujoco>
@@ -66,7 +72,45 @@ def test_geoms_keep_their_shape_pose_and_colour() -> None:
     assert len(values["vertices"]) == len(values["faces"]) == 4
 
 
-@pytest.mark.parametrize("theme", THEMES)
+def test_a_label_stands_over_the_highest_point_of_a_player() -> None:
+    model = mujoco.MjModel.from_xml_string(
+        '<mujoco><worldbody><body name="a/trunk" pos="0 0 1">'
+        '<geom size="0.2"/><body name="a/head" pos="0 0 0.3">'
+        '<geom size="0.1"/></body></body><body name="b/trunk" pos="0 0 9">'
+        '<geom size="1"/></body></worldbody></mujoco>'
+    )
+    data = mujoco.MjData(model)
+    mujoco.mj_kinematics(model, data)
+    body, height = label_over(model, data, "a")
+    assert body == 1 and height == pytest.approx(0.44)
+
+
+def test_a_large_mesh_becomes_small_and_keeps_its_extent() -> None:
+    trimesh = pytest.importorskip("trimesh")
+    ball = trimesh.creation.icosphere(subdivisions=4, radius=0.3)
+    large = TriangleMesh(ball.vertices, ball.faces)
+    small = simplify(large)
+    assert 200 < len(small.faces) <= MAX_TRIANGLES < len(large.faces)
+    radii = np.linalg.norm(small.vertices, axis=1)
+    assert 0.27 < radii.min() and radii.max() <= 0.3 + 1e-9
+    assert simplify(small) is small
+
+
+def luminance(colour: str) -> float:
+    linear = [
+        c / 12.92 if c <= 0.04045 else ((c + 0.055) / 1.055) ** 2.4
+        for c in from_hex(colour)
+    ]
+    return float(np.dot([0.2126, 0.7152, 0.0722], linear))
+
+
+def contrast(first: str, second: str) -> float:
+    """Contrast ratio as WCAG 2.2 defines it, from 1 to 21."""
+    darker, lighter = sorted(map(luminance, (first, second)))
+    return (lighter + 0.05) / (darker + 0.05)
+
+
+@pytest.mark.parametrize("theme", PALETTES)
 def test_text_and_lines_of_pages_have_the_contrast_of_wcag(theme: str) -> None:
     """Text at least 4.5 to 1, lines at least 3 to 1."""
     palette = PALETTES[theme]

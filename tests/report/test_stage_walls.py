@@ -10,11 +10,7 @@ import pytest
 from stepaside.arena import Disc, Door, Room
 from stepaside.core.poses import Array, Pose
 from stepaside.report.viewer.scene_bodies import SceneBodies
-from stepaside.report.visual_geoms import (
-    BodyHeights,
-    VisualGeom,
-    visual_geoms_of,
-)
+from stepaside.report.visual_geoms import VisualGeom, visual_geoms_of
 from stepaside.robots.description import load_robot
 from stepaside.sim.person_body import (
     add_person,
@@ -131,46 +127,6 @@ def test_only_walls_of_the_room_lose_their_outer_faces() -> None:
     assert kinds == ["cylinder", "mesh", "mesh", "mesh", "mesh"]
 
 
-BODY = """
-<mujoco><worldbody><body name="a">
-<geom type="{kind}" size="{size}" quat="0.9 0.3 -0.2 0.1" pos="0.1 0.2 0.3"/>
-</body></worldbody></mujoco>
-"""
-
-
-@pytest.mark.parametrize(
-    ("kind", "size"),
-    [
-        ("box", "0.1 0.2 0.3"),
-        ("sphere", "0.2"),
-        ("capsule", "0.05 0.4"),
-        ("cylinder", "0.1 0.3"),
-        ("ellipsoid", "0.1 0.2 0.3"),
-    ],
-)
-def test_the_height_of_a_body_bounds_its_vertices_within_25_cm(
-    kind: str, size: str
-) -> None:
-    from stepaside.report.viewer.scene_bodies import shape_of
-
-    model = mujoco.MjModel.from_xml_string(BODY.format(kind=kind, size=size))
-    (part,) = visual_geoms_of(model)
-    heights = BodyHeights([part])
-    random = np.random.default_rng(1)
-    for _ in range(20):
-        quaternion = random.normal(size=4)
-        quaternion /= np.linalg.norm(quaternion)
-        frame = np.zeros(9)
-        mujoco.mju_quat2Mat(frame, quaternion)
-        position = random.normal(size=3)
-        points = shape_of(part).vertices @ frame.reshape(3, 3).T + position
-        positions = np.array([np.zeros(3), position])
-        quaternions = np.array([[1.0, 0, 0, 0], quaternion])
-        top = heights.highest([1], positions, quaternions)
-        high = float(points[:, 2].max())
-        assert high - 1e-6 <= top <= high + 0.25
-
-
 @pytest.mark.parametrize("figure", FIGURES)
 @pytest.mark.parametrize("place", [(0.0, 0.0), (12.0, -5.0)])
 def test_the_label_of_a_person_is_above_its_head(
@@ -189,7 +145,7 @@ def test_the_label_of_a_person_is_above_its_head(
     )
     mujoco.mj_kinematics(model, data)
     scene: Any = Scene()
-    bodies = SceneBodies(scene, model, ("pursuer", "evader"))
+    bodies = SceneBodies(scene, model, data, ("pursuer", "evader"))
     bodies.move(data.xpos, data.xquat)
     x, y, z = scene.items["/names/pursuer"].position
     assert np.hypot(x - place[0], y - place[1]) < 0.3

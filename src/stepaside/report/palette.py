@@ -7,8 +7,6 @@ from typing import NamedTuple
 from ..core.player_colours import from_hex, shades_of, to_hex
 from ..core.player_identity import PlayerIdentity, Role
 
-THEMES = ("light", "dark")
-
 
 class Palette(NamedTuple):
     """Colours of one theme, as ``#rrggbb``.
@@ -87,47 +85,6 @@ PALETTES = {
 }
 
 
-class FloorColour(NamedTuple):
-    """Floor of a served page.
-
-    Attributes:
-        ground: Colour of the floor.
-        line: Colour of its grid.
-        shadow: Opacity of shadows, 0 to 1.
-    """
-
-    ground: str
-    line: str
-    shadow: float
-
-
-FLOORS = {
-    "light": FloorColour("#f0efec", "#dad9d4", 0.30),
-    "dark": FloorColour("#1b1e21", "#32373c", 0.55),
-}
-# Luminance of lines of a served page, which all viewers share: enough contrast
-# on both floors.
-ON_BOTH_FLOORS = 0.15, 0.24
-
-
-def on_both_floors(colour: str) -> str:
-    """Return a colour, lighter or darker for contrast on both floors."""
-    low, high = ON_BOTH_FLOORS
-    end = 1.0 if luminance(colour) < low else 0.0
-    red, green, blue = from_hex(colour)
-    mixed = (
-        to_hex(
-            (
-                red + m * (end - red),
-                green + m * (end - green),
-                blue + m * (end - blue),
-            )
-        )
-        for m in (0.02 * i for i in range(50))
-    )
-    return next(each for each in mixed if low <= luminance(each) <= high)
-
-
 def rgb(colour: str) -> tuple[int, int, int]:
     """Return red, green and blue, 0 to 255, of a colour ``#rrggbb``."""
     red, green, blue = bytes.fromhex(colour[1:])
@@ -142,7 +99,7 @@ def colours_in(
     """Return the colour of each player: its role's, or the next free one.
 
     Args:
-        theme: One of ``THEMES``.
+        theme: Name in ``PALETTES``.
         players: Their names.
         identities: Identities by name; players of one role have shades of
             its colour.

@@ -16,13 +16,12 @@ from ..core.errors import AnyPath, ConfigurationError, as_path
 from ..core.poses import Array
 from ..games.run import Run
 from ..games.run_captions import describe_state
-from ..robots.description import load_robot
 from .cycle_means import whole_cycles
 from .overlays import LAYERS, overlays_of
 from .palette import PALETTES, colours_in
 from .scene import RunScene, wall_corners
 from .text_escaping import fill_page, visible
-from .visual_geoms import LABEL_GAP, BodyHeights, visual_geoms_of
+from .visual_geoms import label_over, visual_geoms_of
 
 ARCHIVE = "templates/viewer.zip"  # of trimesh
 TEMPLATE = "viewer.html.template"
@@ -92,8 +91,12 @@ def page_data(run: Run) -> dict[str, Any]:
     scene = RunScene(run)
     geoms = visual_geoms_of(scene.model)
     # Poses are stored only for bodies that move and are visible.
-    torsos = {_torso_of(run, scene, name) for name in run.players}
-    bodies = sorted({geom.body for geom in geoms} - {0} | torsos)
+    scene.put(0)
+    labels = {
+        name: label_over(scene.model, scene.data, name) for name in run.players
+    }
+    roots = {body for body, _ in labels.values()}
+    bodies = sorted({geom.body for geom in geoms} - {0} | roots)
     samples = _samples_shown(run.times)
     positions = np.empty((len(samples), len(bodies), 3), "<f4")
     quaternions = np.empty((len(samples), len(bodies), 4), "<i2")
@@ -104,7 +107,6 @@ def page_data(run: Run) -> dict[str, Any]:
     messages = [visible(describe_state(run, int(index))) for index in samples]
     distinct = list(dict.fromkeys(messages))
     low, high = _extent(run)
-    heights = BodyHeights(geoms)
     colours = {
         theme: colours_in(theme, run.players, run.identities)
         for theme in PALETTES
@@ -125,8 +127,8 @@ def page_data(run: Run) -> dict[str, Any]:
         "players": [
             {
                 "name": name,
-                "torso": _torso_of(run, scene, name),
-                "label_height": _height_over_torso(run, scene, name, heights),
+                "torso": labels[name][0],
+                "label_height": round(labels[name][1], 3),
                 "colours": {theme: colours[theme][name] for theme in colours},
             }
             for name in run.players
@@ -173,33 +175,6 @@ def page_data(run: Run) -> dict[str, Any]:
 def _packed(values: NDArray[Any]) -> str:
     """Return numbers of a page's own types as text."""
     return b64encode(values.tobytes()).decode("ascii")
-
-
-def _height_over_torso(
-    run: Run, scene: RunScene, name: str, heights: BodyHeights
-) -> float:
-    """Return the height of a player's label over its torso, in [m]."""
-    scene.put(0)
-    data = scene.data
-    own = [
-        i
-        for i in range(scene.model.nbody)
-        if scene.model.body(i).name.startswith(f"{name}/")
-    ]
-    top = heights.highest(own, data.xpos, data.xquat)
-    torso = float(data.xpos[_torso_of(run, scene, name), 2])
-    return round(top - torso + LABEL_GAP, 3)
-
-
-def _torso_of(run: Run, scene: RunScene, name: str) -> int:
-    """Return the number of the body of a player's torso.
-
-    It may have no visible part of its own.
-    """
-    torso = "trunk"
-    if name in run.robots:
-        torso = load_robot(run.settings.robot_of(name).robot).torso
-    return int(scene.model.body(f"{name}/{torso}").id)
 
 
 def _extent(run: Run) -> tuple[Array, Array]:

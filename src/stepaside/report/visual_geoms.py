@@ -1,19 +1,19 @@
 """Visible geoms of a model, in the form in which all pages draw them."""
 
-from collections.abc import Iterable
-from itertools import product
 from typing import Any, NamedTuple
 
 import mujoco
 import numpy as np
+from numpy.typing import NDArray
 
 from ..core.poses import Array
 from ..sim.room_furnishing import is_room_wall
-from .mesh_simplification import TriangleMesh, mesh_of
 
 MAX_VISIBLE_GROUP = 2  # geoms of higher groups are collision shapes
 WALL_HEIGHT = 1.5  # of a fixed box from which on it counts as a wall, in [m]
 LABEL_GAP = 0.04  # between a player's highest point and its label, in [m]
+MAX_TRIANGLES = 800  # of one mesh on a page
+MIN_CELLS, MAX_CELLS = 2, 64  # along the longest side of a mesh
 FOOTPRINT = 0.003  # height of a wall's outline over the floor, in [m]
 _TYPES = mujoco.mjtGeom
 KINDS = {
@@ -23,6 +23,13 @@ KINDS = {
     int(_TYPES.mjGEOM_CYLINDER): "cylinder",
     int(_TYPES.mjGEOM_BOX): "box",
 }
+
+
+class TriangleMesh(NamedTuple):
+    """Triangle mesh."""
+
+    vertices: Array  # in the frame of its geom, in [m]. Shape (vertices, 3)
+    faces: NDArray[np.int64]  # three vertices each. Shape (faces, 3)
 
 
 class VisualGeom(NamedTuple):
@@ -38,7 +45,7 @@ class VisualGeom(NamedTuple):
         position: In the body, in [m]. Shape (3,).
         quaternion: (w, x, y, z) in the body. Shape (4,).
         colour: Red, green, blue, 0 to 255.
-        mesh: Of a geom of kind "mesh", in the frame of the geom.
+        mesh: Of a geom of kind "mesh".
         casts_shadow: Whether it casts a shadow. A wall of a room casts none,
             because only its inner face is drawn.
     """
@@ -51,21 +58,6 @@ class VisualGeom(NamedTuple):
     colour: tuple[int, int, int]
     mesh: TriangleMesh | None = None
     casts_shadow: bool = True
-
-    @property
-    def corners(self) -> Array:
-        """Corners of its bounding box in the body, in [m]. Shape (8, 3)."""
-        a, b, c = self.size.tolist()
-        if self.kind == "sphere":
-            b = c = a
-        elif self.kind in ("capsule", "cylinder"):
-            a, b, c = a, a, b + (a if self.kind == "capsule" else 0.0)
-        signs = np.array(list(product((-1.0, 1.0), repeat=3)))
-        rotation = np.zeros(9)
-        mujoco.mju_quat2Mat(rotation, self.quaternion)
-        around = signs * [a, b, c]
-        corners: Array = around @ rotation.reshape(3, 3).T + self.position
-        return corners
 
     @property
     def is_wall(self) -> bool:
@@ -107,7 +99,7 @@ def visual_geoms_of(model: mujoco.MjModel) -> list[VisualGeom]:
         if is_room_wall(model, geom):
             name, mesh = "mesh", inside_of_wall(model, geom)
         elif kind == _TYPES.mjGEOM_MESH:
-            name, mesh = "mesh", mesh_of(model, geom)
+            name, mesh = "mesh", _mesh_of(model, geom)
         elif kind not in KINDS:
             center, size = model.geom_aabb[geom].reshape(2, 3)
             offset = np.zeros(3)
@@ -178,38 +170,52 @@ def rgba_of(model: mujoco.MjModel, geom: int) -> Array:
     return rgba
 
 
-class BodyHeights:
-    """Heights of bodies in any posture, from the bounding boxes of geoms."""
+def label_over(
+    model: mujoco.MjModel, data: mujoco.MjData, player: str
+) -> tuple[int, float]:
+    """Return a player's first body, and its label's height over it, in [m]."""
+    bodies = [
+        body
+        for body in range(model.nbody)
+        if model.body(body).name.startswith(f"{player}/")
+    ]
+    own = np.isin(model.geom_bodyid, bodies)
+    own &= model.geom_group <= MAX_VISIBLE_GROUP
+    tops = data.geom_xpos[own, 2] + model.geom_rbound[own]
+    return bodies[0], float(tops.max() - data.xpos[bodies[0], 2]) + LABEL_GAP
 
-    def __init__(self, geoms: Iterable[VisualGeom]) -> None:
-        """Collect the corners of the bounding boxes by body."""
-        found: dict[int, list[Array]] = {}
-        for geom in geoms:
-            found.setdefault(geom.body, []).append(geom.corners)
-        self._corners = {b: np.concatenate(c) for b, c in found.items()}
 
-    def highest(
-        self, bodies: Iterable[int], positions: Array, quaternions: Array
-    ) -> float:
-        """Return the height of the highest point of some bodies, in [m].
+def _mesh_of(model: mujoco.MjModel, geom: int) -> TriangleMesh:
+    """Return the mesh of a mesh geom, simplified.
 
-        Args:
-            bodies: Their numbers; bodies without geoms are ignored.
-            positions: Of all bodies, in the world, in [m]. Shape (bodies, 3).
-            quaternions: (w, x, y, z) of all bodies. Shape (bodies, 4).
-        """
-        highest = -np.inf
-        for body in bodies:
-            if body in self._corners:
-                w, x, y, z = quaternions[body].tolist()
-                # Third row of the rotation matrix: the world's z.
-                up = np.array(
-                    [
-                        2.0 * (x * z - w * y),
-                        2.0 * (y * z + w * x),
-                        1.0 - 2.0 * (x * x + y * y),
-                    ]
-                )
-                over = positions[body, 2] + (self._corners[body] @ up).max()
-                highest = max(highest, float(over))
-        return highest
+    Published models have meshes of some hundred thousand triangles. All
+    vertices in one cell of a grid become their mean; the finest grid is
+    taken whose mesh is small enough.
+    """
+    number = int(model.geom_dataid[geom])
+    first, count = model.mesh_vertadr[number], model.mesh_vertnum[number]
+    vertices = model.mesh_vert[first : first + count].astype(np.float64)
+    first, count = model.mesh_faceadr[number], model.mesh_facenum[number]
+    faces = model.mesh_face[first : first + count].astype(np.int64)
+    return simplify(TriangleMesh(vertices, faces))
+
+
+def simplify(mesh: TriangleMesh) -> TriangleMesh:
+    """Reduce a mesh by vertex clustering, if it is too large."""
+    cells, reduced = MAX_CELLS, mesh
+    low = mesh.vertices.min(axis=0)
+    side = max(float((mesh.vertices.max(axis=0) - low).max()), 1e-9)
+    while len(reduced.faces) > MAX_TRIANGLES and cells >= MIN_CELLS:
+        at = np.floor((mesh.vertices - low) * (cells / side))
+        _, cell, counts = np.unique(
+            at, axis=0, return_inverse=True, return_counts=True
+        )
+        means = np.zeros((len(counts), 3))
+        np.add.at(means, cell, mesh.vertices)
+        faces = cell[mesh.faces]
+        a, b, c = faces.T
+        faces = faces[(a != b) & (b != c) & (c != a)]
+        _, kept = np.unique(np.sort(faces, axis=1), axis=0, return_index=True)
+        reduced = TriangleMesh(means / counts[:, None], faces[np.sort(kept)])
+        cells = int(cells / 1.3)
+    return reduced

@@ -26,13 +26,7 @@ KEYS: dict[str, Any] = {
 def add_push(
     gui: viser.GuiApi, session: LiveSession, notify: Callable[[str], None]
 ) -> None:
-    """Add the controls of pushes to a page.
-
-    Args:
-        gui: Controls of the page.
-        session: Session whose robots are pushed.
-        notify: Function that shows a message.
-    """
+    """Add the controls of pushes to a page."""
     with gui.add_folder("Push"):
         robot = gui.add_dropdown("Robot", session.names)
         impulse = gui.add_number("Impulse [N s]", 0.5, step=0.1)
@@ -59,22 +53,17 @@ def named(player: str) -> str:
 
 
 def drivable(session: LiveSession) -> tuple[str, ...]:
-    """Return the robots that pursue, or all robots if none does."""
+    """Return the robots that pursue, or all if none does, or all players."""
     robots = [p for p in session.played.players if p.body == "robot"]
     pursuers = [p for p in robots if p.role == PURSUER]
-    return tuple(p.name for p in pursuers or robots)
+    return tuple(p.name for p in pursuers or robots) or session.names
 
 
 class DrivePanel:
     """Teleoperation of one robot."""
 
     def __init__(self, gui: viser.GuiApi, session: LiveSession) -> None:
-        """Add the controls to a page.
-
-        Args:
-            gui: Controls of the page.
-            session: Session whose robot is driven.
-        """
+        """Add the controls to a page."""
         self._session = session
         self._hand: Walk | None = None
         self._own: Strategy | None = None  # of the driven robot
@@ -83,7 +72,7 @@ class DrivePanel:
                 "Buttons or keys: arrows left, right and up (straight), g "
                 "(go), h (halt)."
             )
-            names = drivable(session) or session.names
+            names = drivable(session)
             self._choice = gui.add_dropdown(
                 "Driven robot", names, visible=len(names) > 1
             )
@@ -92,24 +81,22 @@ class DrivePanel:
             self._state = gui.add_markdown(self._state_text())
             self._stop = gui.add_button("Stop driving", disabled=True)
         self._choice.on_update(lambda _: self._release())
-        turn.on_click(lambda _: self._drive(turn=TURNS[turn.value]))
-        walk.on_click(lambda _: self._drive(going=walk.value == "go"))
+        turn.on_click(lambda _: self._drive(bearing=TURN * TURNS[turn.value]))
+        walk.on_click(
+            lambda _: self._drive(speed_factor=float(walk.value == "go"))
+        )
         self._stop.on_click(lambda _: self._release())
-        for name, key in KEYS.items():
-            command: Any = gui.add_command(f"Drive {name}", hotkey=key)
-            command.on_trigger(
-                lambda _, turn=TURNS[name]: self._drive(turn=turn)
-            )
-        go = gui.add_command("Drive: go", hotkey="G")
-        halt = gui.add_command("Drive: halt", hotkey="H")
-        go.on_trigger(lambda _: self._drive(going=True))
-        halt.on_trigger(lambda _: self._drive(going=False))
+        for name, key, change in (
+            *((n, k, {"bearing": TURN * TURNS[n]}) for n, k in KEYS.items()),
+            ("go", "G", {"speed_factor": 1.0}),
+            ("halt", "H", {"speed_factor": 0.0}),
+        ):
+            command: Any = gui.add_command(f"Drive: {name}", hotkey=key)
+            command.on_trigger(lambda _, change=change: self._drive(**change))
 
     def reset(self) -> None:
         """End teleoperation, since another game has begun."""
-        names = drivable(self._session) or self._session.names
-        if tuple(self._choice.options) != names:
-            self._choice.options = names
+        self._choice.options = drivable(self._session)
         self._own = None
         self._set_hand(None)
 
@@ -118,29 +105,20 @@ class DrivePanel:
         if self._session.outcome is not None and self._hand is not None:
             self._set_hand(None)
 
-    def _drive(
-        self, *, turn: float | None = None, going: bool | None = None
-    ) -> None:
+    def _drive(self, **change: float) -> None:
         """Change the command, taking over the robot if it is one."""
         name = self._choice.value
-        if not self._is_robot(name):
-            return
-        hand = self._hand or Walk()
-        if turn is not None:
-            hand = replace(hand, bearing=turn * TURN)
-        if going is not None:
-            hand = replace(hand, speed_factor=float(going))
-        self._set_hand(hand)
-        going = hand.speed_factor > 0.0
-        self._session.record_command(turn=hand.bearing / TURN, going=going)
-        self._adopt(name, hand)
+        if self._is_robot(name):
+            changes: Any = change
+            hand = replace(self._hand or Walk(), **changes)
+            self._set_hand(hand)
+            self._adopt(name, hand)
 
     def _release(self) -> None:
         """Return the robot to its own strategy."""
         name = self._session.driven
         self._set_hand(None)
         if name:
-            self._session.record_command(released=True)
             self._adopt(name, None)
 
     def _set_hand(self, hand: Walk | None) -> None:
@@ -172,11 +150,10 @@ class DrivePanel:
 
         def change() -> None:
             robot = self._session.world.player(name)
-            if not isinstance(robot, RobotPlayer):
-                return
-            decisions = robot.scheme.decisions
-            own = self._own or decisions.strategy
-            decisions.adopt(strategy or own)
-            self._own = own if strategy else None
+            if isinstance(robot, RobotPlayer):
+                decisions = robot.scheme.decisions
+                own = self._own or decisions.strategy
+                decisions.adopt(strategy or own)
+                self._own = own if strategy else None
 
         self._session.call(change)

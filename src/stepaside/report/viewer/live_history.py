@@ -3,30 +3,23 @@
 from collections import deque
 from math import degrees, inf, nan
 
-import mujoco
 import numpy as np
-from numpy.typing import NDArray
 
 from ...core.poses import Array, Pose
-from ...games.approach_forecast import estimate_approach
 from ...games.duel_circle import angle_between
 from ...games.duel_settings import PLAYERS
 from ...games.game import GameInPlay, GameObserver
 from ...games.physics_world import PhysicsWorld
-from ...games.player import PhysicalPlayer, Player, Snapshot
+from ...games.player import PhysicalPlayer, Player
 from ...games.recorded_game import RecordedGame
 from ...perception.pipeline import FrameReport
 from ...planning import Foot
-from ...strategies.approach import Approach
 
 PERIOD = 0.1  # between samples, in [s]
 MAX_RECORDED = 600.0  # simulated time that is recorded, in [s]
 MAX_SAMPLES = 6000  # of the plots
-MAX_OFFSETS = 100  # samples of the offset
 MAX_TRACE = 1500  # points of a trace
 MAX_STEPS = 60  # footsteps of each player
-AXES = ("x [m]", "y [m]", "z [m]")
-HINGE = mujoco.mjtJoint.mjJNT_HINGE
 
 
 def true_odometry(player: Player) -> Pose | None:
@@ -59,9 +52,6 @@ class LiveHistory(GameObserver):
             layer and player.
         steps: Last footsteps of each player, by name; each where it was
             going to land when it began: rows (side, x, y, heading).
-        signals: Further quantities of every sample in ``history``, in the
-            order of ``labels``. Each of shape (labels,).
-        labels: Names of these quantities, with units; empty at first.
         frames: Newest image of each camera with its detections, by player
             and camera.
     """
@@ -70,11 +60,8 @@ class LiveHistory(GameObserver):
         """Start with an empty history."""
         self.history = deque[tuple[float, float, float]](maxlen=MAX_SAMPLES)
         self.closest = inf
-        self._offsets = deque[tuple[float, float, float]](maxlen=MAX_OFFSETS)
         self.traces: dict[tuple[str, str], deque[Array]] = {}
         self.steps: dict[str, deque[Array]] = {}
-        self.signals = deque[NDArray[np.float32]](maxlen=MAX_SAMPLES)
-        self.labels: tuple[str, ...] = ()
         self.frames: dict[str, FrameReport] = {}
 
     def before(self, game: GameInPlay) -> None:
@@ -91,12 +78,9 @@ class LiveHistory(GameObserver):
         if tuple(s.name for s in snapshots) == PLAYERS:
             pursuer, evader = (np.array([s.place]) for s in snapshots)
             angle = degrees(float(angle_between(pursuer, evader)[0]))
-            x, y = (pursuer - evader)[0, :2].tolist()
-            self._offsets.append((world.time, x, y))
         apart = nan if distance is None else distance
         self.closest = min(self.closest, inf if distance is None else apart)
         self.history.append((world.time, apart, angle))
-        self._record_signals(world, snapshots)
         for snapshot in snapshots:
             self._trace("CoM trace", snapshot.name, snapshot.com[:2])
             # The ZMP is NaN while no foot is in contact.
@@ -106,30 +90,6 @@ class LiveHistory(GameObserver):
     def _trace(self, layer: str, name: str, point: tuple[float, ...]) -> None:
         new = deque[Array](maxlen=MAX_TRACE)
         self.traces.setdefault((layer, name), new).append(np.array(point))
-
-    def _record_signals(
-        self, world: PhysicsWorld, snapshots: list[Snapshot]
-    ) -> None:
-        """Record poses, joint angles, CoM and ZMP of a sample."""
-        data, model = world.data, world.model
-        joints = [j for j in range(model.njnt) if model.jnt_type[j] == HINGE]
-        values: list[float] = []
-        for snapshot in snapshots:
-            zmp = (nan, nan) if snapshot.zmp is None else snapshot.zmp
-            values += [*snapshot.com, snapshot.place.theta, *zmp]
-        values += data.qpos[model.jnt_qposadr[joints]].tolist()
-        self.signals.append(np.array(values, dtype=np.float32))
-        if not self.labels:
-            quantities = [f"CoM {axis}" for axis in AXES]
-            quantities += ["heading [rad]", *(f"ZMP {a}" for a in AXES[:2])]
-            self.labels = (
-                *(
-                    f"{s.name}/{each}"
-                    for s in snapshots
-                    for each in quantities
-                ),
-                *(f"{model.joint(j).name} [rad]" for j in joints),
-            )
 
     def acted(self, game: GameInPlay) -> None:
         """Store the steps that begin, and the images that arrived."""
@@ -145,20 +105,3 @@ class LiveHistory(GameObserver):
                 self.steps.setdefault(player.name, new).append(row)
             for report in player.reports:
                 self.frames[f"{player.name}, {report.camera}"] = report
-
-    def approach(self, cycle: float) -> Approach | None:
-        """Return the approach of the pursuer of a duel over a gait cycle.
-
-        Args:
-            cycle: Duration of a gait cycle, in [s].
-
-        Returns:
-            The approach; None before the first cycle has passed.
-        """
-        if not self._offsets:
-            return None
-        now, x, y = self._offsets[-1]
-        for time, was_x, was_y in reversed(self._offsets):
-            if now - time > cycle - 0.5 * PERIOD:
-                return estimate_approach((was_x, was_y), (x, y), now - time)
-        return None

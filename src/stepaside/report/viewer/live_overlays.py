@@ -21,7 +21,7 @@ from ..overlays import (
     soles,
     theory_ring,
 )
-from ..palette import on_both_floors, rgb
+from ..palette import rgb
 from .live_history import true_odometry
 from .live_session import LiveSession
 
@@ -30,11 +30,7 @@ MAX_PUSHES = 20  # last pushes that may be drawn
 
 
 def live_overlays(session: LiveSession) -> list[SceneLines]:
-    """Return all that lies over the scene now.
-
-    Args:
-        session: The session; the caller holds its lock.
-    """
+    """Return all that lies over the scene now; the caller holds the lock."""
     found = []
     places = places_of(session)
     for player in session.world.players:
@@ -68,12 +64,8 @@ def _walk_lines(
 ) -> list[SceneLines]:
     """Return plan, footsteps and support polygon of a walking robot.
 
-    Args:
-        name: Name of the robot.
-        walk: State of the walk.
-        steps: Last footsteps in the world: rows (side, x, y, heading).
-        frame: Pose of its odometry in the world.
-        now: Simulated time, in [s].
+    Steps are its last ones in the world, rows (side, x, y, heading); the
+    frame is the pose of its odometry in the world.
     """
     sole, found = walk.gait.sole, []
     if walk.plan is not None:
@@ -154,11 +146,7 @@ class SceneLayers:
     ) -> None:
         """Replace lines and labels that changed; remove those that are gone.
 
-        Args:
-            overlays: All lines of the page.
-            now: Time, in [s].
-            places: Positions of the players, in [m], by name.
-            colours: Their colours.
+        Places of the players are in [m], by name; ``now`` is in [s].
         """
         kept = set()
         for own in overlays:
@@ -170,7 +158,7 @@ class SceneLayers:
             points = np.ascontiguousarray(segments, dtype=np.float32)
             if self._drawn.get(name) != points.tobytes():
                 self._drawn[name] = points.tobytes()
-                colour = rgb(on_both_floors(own.colour("light", colours)))
+                colour = rgb(own.colour("light", colours))
                 self._scene.add_line_segments(
                     name, points, colors=colour, thickness=0.008
                 )

@@ -2,6 +2,7 @@
 
 import logging
 import threading
+from functools import partial
 from math import inf
 from pathlib import Path
 from time import perf_counter, sleep
@@ -12,22 +13,17 @@ import viser
 from ...core.errors import StepAsideError
 from ..camera_pictures import camera_picture
 from ..overlays import LAYERS
-from ..palette import THEMES
+from ..palette import rgb
+from ..scene import wall_corners
 from .drive_panel import DrivePanel, add_push
-from .duel_presets import presets_of
 from .live_overlays import SceneLayers, live_overlays, places_of
 from .live_session import LiveSession, LiveSettings
-from .page_server import Notices, open_server
+from .page_server import open_server, show_notice
 from .plots import Plots
 from .scene_bodies import SceneBodies
 from .settings_panel import SettingsPanel
 from .status_text import page_text
-from .viewer_clients import (
-    CAMERAS,
-    EVERYBODY,
-    ViewerClients,
-    order_in_view,
-)
+from .viewer_cameras import CAMERAS, ViewerCameras
 
 LOG = logging.getLogger(__name__)
 RATE = 30.0  # updates of the scene per second
@@ -35,6 +31,7 @@ PLOT_RATE = 4.0  # updates of plots and camera images per second
 SPEEDS = ("0.25", "0.5", "1", "2", "4", "as fast as possible")
 STATUS_WIDTH = 340.0  # of the panel on the right, in [pixels]
 CONTROL_WIDTH = 290.0  # of the panel on the left, in [pixels]
+FLOOR, FLOOR_LINES = rgb("#f0efec"), rgb("#dad9d4")
 
 
 class Page:
@@ -46,15 +43,10 @@ class Page:
     """
 
     def __init__(self, settings: LiveSettings, *, port: int) -> None:
-        """Serve a game, which is paused at first.
-
-        Args:
-            settings: Settings of the game.
-            port: First port to try.
+        """Serve a game, which is paused at first, at the next free port.
 
         Raises:
-            StepAsideError: If the address cannot be used or the settings are
-                invalid.
+            StepAsideError: If the settings are invalid.
         """
         self.server = open_server(port)
         try:
@@ -62,7 +54,7 @@ class Page:
         except BaseException:
             self.server.stop()
             raise
-        self._notify = Notices(self.server).show
+        self._notify = partial(show_notice, self.server)
         self._closing = threading.Event()
         self._generation = self.session.generation
         gui, scene = self.server.gui, self.server.scene
@@ -71,7 +63,8 @@ class Page:
         self.server.initial_camera.position = (-0.5, -1.6, 1.3)
         self.server.initial_camera.look_at = (0.5, 0.0, 0.2)
         self._layers = SceneLayers(scene)
-        self._viewers = ViewerClients(self.server, self.session.played.room)
+        self._viewers = ViewerCameras(self.server)
+        _add_floor(scene)
         self._add_bodies()
         play, settings_tab, layers = self._arrange()
         self._status = gui.add_markdown("starting")
@@ -83,9 +76,7 @@ class Page:
             self._drive = DrivePanel(gui, self.session)
             self._cameras = gui.add_folder("Cameras", visible=False)
         with settings_tab:
-            self._panel = SettingsPanel(
-                gui, self.session, self._notify, presets_of(settings)
-            )
+            self._panel = SettingsPanel(gui, self.session, self._notify)
         self._panel.preset.on_update(lambda _: self._play_preset())
         with layers:
             for layer, described in LAYERS.items():
@@ -116,8 +107,10 @@ class Page:
 
     def _add_bodies(self) -> None:
         """Add the bodies of the game."""
-        model, names = self.session.world.model, self.session.names
-        self._bodies = SceneBodies(self.server.scene, model, names)
+        world, names = self.session.world, self.session.names
+        self._bodies = SceneBodies(
+            self.server.scene, world.model, world.data, names
+        )
         self._shown = self._stage()
 
     def _stage(self) -> tuple[Any, ...]:
@@ -140,7 +133,7 @@ class Page:
         self.server.stop()
 
     def _add_buttons(self) -> None:
-        """Add buttons of game, speed, camera and theme, and their keys."""
+        """Add buttons of game, speed and camera, and their keys."""
         gui, session, viewers = self.server.gui, self.session, self._viewers
         self._play = gui.add_button("Start", hint="Key: space.")
         actions = {
@@ -151,12 +144,6 @@ class Page:
         action = gui.add_button_group("Game", tuple(actions))
         speed = gui.add_dropdown("Speed", SPEEDS, initial_value="1")
         camera = gui.add_button_group("Camera", CAMERAS)
-        self._follow = gui.add_dropdown(
-            "Follow",
-            (EVERYBODY, *session.names),
-            visible=len(session.names) > 2,
-        )
-        theme = gui.add_button_group("Light", THEMES)
 
         def toggle(_: object) -> None:
             session.running = not session.running
@@ -169,13 +156,11 @@ class Page:
         self._play.on_click(toggle)
         action.on_click(lambda _: actions[action.value]())
         camera.on_click(lambda e: viewers.choose(e.client, camera.value))
-        theme.on_click(lambda e: viewers.set_theme(e.client, theme.value))
         for label, key, call in (
             ("Play or pause", "space", toggle),
             ("Step 0.1 s", "N", lambda _: self._step()),
             ("Reset", "R", lambda _: self._reset()),
             ("Save this run", "S", lambda _: self._save()),
-            ("Light or dark", "L", lambda e: viewers.toggle_theme(e.client)),
         ):
             command: Any = gui.add_command(label, hotkey=key)  # type: ignore[arg-type]
             command.on_trigger(call)
@@ -248,14 +233,16 @@ class Page:
             overlays, now = live_overlays(session), world.time
             places, text = places_of(session), page_text(session)
             heights = {p.name: p.snapshot().com[2] for p in world.players}
-            opponents, colours = session.opponents, session.colours
+            first = session.opponents[0] if session.opponents else ()
+            colours, walls = session.colours, wall_corners(session.played.room)
         with self.server.atomic():
             self._bodies.move(positions, quaternions)
             self._layers.draw(overlays, now, places, colours)
-        order = order_in_view(places, opponents, self._follow.value)
+        order = [*first, *(name for name in places if name not in first)]
         self._viewers.aim(
             [places[name] for name in order],
             [float(heights[name]) for name in order],
+            walls,
         )
         self._play.label = "Pause" if session.running else "Start"
         if self._status.content != text:
@@ -267,7 +254,6 @@ class Page:
         if self._shown != self._stage():
             self._bodies.remove()
             self._add_bodies()
-            self._viewers.show_room(self.session.played.room)
         for handle in self._images.values():
             handle.remove()
         self._images.clear()
@@ -288,3 +274,22 @@ class Page:
                 self._images[label] = self.server.gui.add_image(
                     image, label=label, format="jpeg"
                 )
+
+
+def _add_floor(scene: viser.SceneApi) -> None:
+    """Add the floor, which receives shadows."""
+    scene.add_grid(
+        "/floor",
+        width=40.0,
+        height=40.0,
+        plane="xy",
+        cell_size=0.5,
+        section_size=1.0,
+        cell_color=FLOOR_LINES,
+        section_color=FLOOR_LINES,
+        plane_color=FLOOR,
+        plane_opacity=1.0,
+        shadow_opacity=0.3,
+        fade_distance=25.0,
+        position=(0.0, 0.0, -0.002),
+    )

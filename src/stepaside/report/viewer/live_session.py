@@ -1,21 +1,18 @@
 """Live game in its own thread, paced by the wall clock."""
 
-import json
 import logging
 import threading
 from collections import deque
 from collections.abc import Callable
-from math import degrees, inf
+from math import degrees
 from pathlib import Path
 from time import perf_counter, sleep
 
-from ...core.atomic_output import atomic_draft
 from ...core.errors import ConfigurationError, StepAsideError
 from ...core.player_identity import Role
 from ...games.duel_circle import circle_of_theory
 from ...games.duel_settings import DuelSettings
 from ...games.game_settings import GameSettings
-from ...games.implied_settings import EVASION
 from ...games.outcome import Outcome
 from ...games.physics_world import PhysicsWorld
 from ...games.recorded_game import RecordedGame
@@ -23,14 +20,10 @@ from ...games.settings_as_game import as_game, complete
 from ...sim.push import Push
 from ..palette import colours_in
 from ..run_folder import free_folder, write_run
-from ..settling_report import settling_time
 from .live_history import LiveHistory
 
 LOG = logging.getLogger(__name__)
-MAX_COMMANDS = 10_000  # of teleoperation that are recorded
 MAX_DELAY = 0.25  # beyond which lost time is not caught up, in [s]
-MAX_FOLDERS = 20  # that one page may write
-COMMAND_FILE = "hand.json"
 LiveSettings = DuelSettings | GameSettings
 
 
@@ -47,35 +40,25 @@ class LiveSession:
         game: The game that is played; it has no end by time.
         running: Whether simulated time passes.
         speed: Simulated time per wall-clock time; inf for no limit.
-        error: Message of an error in the loop; None if there was none.
+        error: Message of an error in the loop.
         history: Recent history of the game.
         colours: Colour of each player, by name.
         lock: Held while the game changes.
-        commands: Recorded commands of teleoperation.
-        driven: Name of the player that is teleoperated, or empty; theory
+        driven: Name of the player that is driven by hand, or empty; theory
             does not apply then.
         generation: Number of games that have begun.
         real_time_factor: Measured simulated time per wall-clock time; 0
             before the first measurement.
-        settling: Time constant of the approach to the circle of theory, in
-            [s]; None without a stable one.
     """
 
     def __init__(self, settings: LiveSettings) -> None:
-        """Start the loop with a game that is paused.
-
-        Args:
-            settings: Settings of the game.
-
-        Raises:
-            StepAsideError: If the settings are invalid.
-        """
+        """Start the loop with a game that is paused."""
         self.lock = threading.RLock()
         self.running = False
         self.speed = 1.0
         self.real_time_factor = 0.0
         self.error: str | None = None
-        self.generation = self._saved = 0
+        self.generation = 0
         self._requests: deque[Callable[[], None]] = deque()
         self._closing = threading.Event()
         self._thread = threading.Thread(target=self._loop, daemon=True)
@@ -125,7 +108,6 @@ class LiveSession:
         self._open = self.game = game
         self.history = history
         self.driven = ""
-        self.commands: list[dict[str, float | str | bool]] = []
         self.adopt_settings(settings)
         self.generation += 1
 
@@ -134,10 +116,9 @@ class LiveSession:
         self.settings = settings
         self.played = as_game(complete(settings))
         self.colours = colours_in("light", self.names, self.played.identities)
-        self._circle = self.settling = None
+        self._circle = None
         if isinstance(settings, DuelSettings):
             self._circle = circle_of_theory(settings)
-            self.settling = settling_time(settings)
 
     @property
     def world(self) -> PhysicsWorld:
@@ -172,22 +153,6 @@ class LiveSession:
         angle = degrees(circle.headings_apart_rad)
         return circle.radius_evader_m, circle.distance_m, angle
 
-    @property
-    def trigger_distance(self) -> float:
-        """Distance at which the evader of a duel begins to move, in [m].
-
-        Infinite for strategies that do not wait for a distance.
-        """
-        if not isinstance(self.settings, DuelSettings):
-            return inf
-        settings = self.settings.resolved()
-        if settings.evader_strategy != EVASION:
-            return inf
-        speed = settings.gait.stride / settings.gait.step_duration
-        if settings.pursuer == "person":
-            speed = settings.person.speed
-        return settings.strategy.begins_at(speed)
-
     def close(self) -> None:
         """Stop the loop and wait for it."""
         self._closing.set()
@@ -195,10 +160,7 @@ class LiveSession:
             self._thread.join(timeout=5.0)
 
     def reset(self, settings: LiveSettings | None = None) -> None:
-        """Start a new game.
-
-        Args:
-            settings: Its settings; None for those of the last game.
+        """Start a new game, with the settings of the last one if None.
 
         Raises:
             StepAsideError: If the settings are invalid; the current game
@@ -214,12 +176,9 @@ class LiveSession:
         self._requests.append(lambda: self._advance(ticks))
 
     def push(self, player: str, impulse: float, direction: float) -> None:
-        """Push a robot now.
+        """Push a robot now by an impulse, in [N s].
 
-        Args:
-            player: Name of the player.
-            impulse: In [N s].
-            direction: Relative to its heading, in [rad].
+        The direction is relative to its heading, in [rad].
 
         Raises:
             ConfigurationError: If the push is invalid or the player is not a
@@ -227,11 +186,6 @@ class LiveSession:
         """
         push = Push(impulse, self.world.time, direction)
         self.call(lambda: self.world.player(player).push(push))
-
-    def record_command(self, **command: float | str | bool) -> None:
-        """Record a command of teleoperation with the simulated time."""
-        if len(self.commands) < MAX_COMMANDS:
-            self.commands.append({"time_s": self.world.time, **command})
 
     def save(self, parent: Path) -> Path:
         """Write the game so far, which pauses meanwhile.
@@ -243,29 +197,17 @@ class LiveSession:
             The run folder.
 
         Raises:
-            ConfigurationError: If nothing has been recorded yet, or
-                ``MAX_FOLDERS`` have been written.
+            ConfigurationError: If nothing has been recorded yet.
             OutputError: If it cannot be written.
         """
         with self.lock:
-            if self._saved >= MAX_FOLDERS:
-                raise ConfigurationError(
-                    f"saved runs must be at most {MAX_FOLDERS}; restart "
-                    "stepaside view to save more"
-                )
             if len(self.game.recorder.times) < 3:
                 raise ConfigurationError(
                     "nothing has been recorded yet: start the game first"
                 )
             run = self.game.run()
             name = f"live-seed{run.settings.seed}"
-            folder = write_run(free_folder(parent, name), run).parent
-            if self.commands:
-                with atomic_draft(folder / COMMAND_FILE) as draft:
-                    text = json.dumps(self.commands, indent=1)
-                    draft.write_text(text + "\n")
-            self._saved += 1
-        return folder
+            return write_run(free_folder(parent, name), run).parent
 
     @property
     def outcome(self) -> Outcome | None:

@@ -8,15 +8,9 @@ import mujoco
 import numpy as np
 import trimesh
 import viser
-from numpy.typing import NDArray
 
 from ...core.poses import Array
-from ..visual_geoms import (
-    LABEL_GAP,
-    BodyHeights,
-    VisualGeom,
-    visual_geoms_of,
-)
+from ..visual_geoms import VisualGeom, label_over, visual_geoms_of
 
 SECTIONS = 20  # of a round shape
 
@@ -47,20 +41,6 @@ def shape_of(part: VisualGeom) -> trimesh.Trimesh:
     return mesh
 
 
-def join_meshes(
-    meshes: list[trimesh.Trimesh],
-) -> tuple[NDArray[np.float32], NDArray[np.uint32]]:
-    """Return vertices and triangles of several meshes as one mesh."""
-    vertices = np.concatenate([mesh.vertices for mesh in meshes])
-    starts = np.cumsum([0, *(len(mesh.vertices) for mesh in meshes)])
-    faces = [
-        mesh.faces + start
-        for mesh, start in zip(meshes, starts[:-1], strict=True)
-    ]
-    joined_faces = np.concatenate(faces).astype(np.uint32)
-    return vertices.astype(np.float32), joined_faces
-
-
 class SceneBodies:
     """Bodies of one model; each is a frame with one mesh per colour."""
 
@@ -68,6 +48,7 @@ class SceneBodies:
         self,
         scene: viser.SceneApi,
         model: mujoco.MjModel,
+        data: mujoco.MjData,
         players: Iterable[str],
     ) -> None:
         """Add all visible bodies but walls, and a label above each player.
@@ -75,53 +56,50 @@ class SceneBodies:
         Args:
             scene: Scene to add to.
             model: Model of the bodies, whose names begin with the player's.
+            data: Their poses at first.
             players: Names of the players.
         """
         looks = defaultdict[
             int, defaultdict[tuple[Any, ...], list[trimesh.Trimesh]]
         ](lambda: defaultdict(list))
-        geoms = visual_geoms_of(model)
-        for geom in geoms:
+        for geom in visual_geoms_of(model):
             if not geom.is_wall:  # it would hide the players from outside
                 look = geom.colour, geom.casts_shadow
                 looks[geom.body][look].append(shape_of(geom))
         self._frames: dict[int, viser.FrameHandle] = {}
-        self._heights = BodyHeights(geoms)
-        self._labels: dict[tuple[int, ...], viser.LabelHandle] = {}
+        self._labels = []
         for body, colours in looks.items():
             name = f"/bodies/{body}"
             self._frames[body] = scene.add_frame(name, show_axes=False)
             for number, ((colour, casts_shadow), meshes) in enumerate(
                 colours.items()
             ):
-                vertices, faces = join_meshes(meshes)
+                joined: Any = trimesh.util.concatenate(meshes)
                 scene.add_mesh_simple(
                     f"{name}/{number}",
-                    vertices,
-                    faces,
+                    joined.vertices,
+                    joined.faces,
                     color=colour,
                     cast_shadow=casts_shadow,
                     receive_shadow=False,
                 )
         for player in players:
-            bodies = tuple(
-                body
-                for body in self._frames
-                if model.body(body).name.startswith(f"{player}/")
-            )
-            self._labels[bodies] = scene.add_label(
+            body, height = label_over(model, data, player)
+            label = scene.add_label(
                 f"/names/{player}",
                 player,
                 anchor="bottom-center",
                 depth_test=False,
             )
+            self._labels.append((label, body, np.array([0.0, 0.0, height])))
 
     def remove(self) -> None:
         """Remove all bodies and labels from the scene."""
-        for frame in self._frames.values():
-            frame.remove()
-        for label in self._labels.values():
-            label.remove()
+        for handle in (
+            *self._frames.values(),
+            *(label for label, *_ in self._labels),
+        ):
+            handle.remove()
 
     def move(self, positions: Array, quaternions: Array) -> None:
         """Move all bodies and labels.
@@ -133,7 +111,5 @@ class SceneBodies:
         for body, frame in self._frames.items():
             frame.position = positions[body]
             frame.wxyz = quaternions[body]
-        for bodies, label in self._labels.items():
-            x, y = positions[list(bodies), :2].mean(axis=0).tolist()
-            top = self._heights.highest(bodies, positions, quaternions)
-            label.position = (x, y, top + LABEL_GAP)
+        for label, body, above in self._labels:
+            label.position = positions[body] + above

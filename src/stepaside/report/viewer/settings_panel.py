@@ -2,36 +2,64 @@
 
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import is_dataclass, replace
+from importlib.util import find_spec
 from math import degrees, isfinite, radians
 from operator import attrgetter
 from typing import Any, NamedTuple
 
 import viser
 
-from ...arena import Room
+from ...arena import Room, RoomRecipe, generate_room
 from ...core.errors import StepAsideError
 from ...core.setting import Setting, settings_of
 from ...games.duel_settings import EVADER, DuelSettings
 from ...games.implied_settings import EVASION
 from ...games.walker import RobotPlayer
+from ...planning import PRESETS as GAITS
 from .live_session import LiveSession, LiveSettings
 
-OWN_VALUES = "own values"  # of a section that is no preset
 UNUSED = {"duration"}  # a live game has no end
+AS_STARTED = "as started"
+ROOM_SEED = 3  # of the room that is offered
+PERSON_DISTANCE, PERSON_SPEED = 2.5, 0.3  # in [m], [m/s]
+
+
+def presets_of(started: LiveSettings) -> dict[str, LiveSettings]:
+    """Return the games that a page offers; that of its start comes first.
+
+    Cameras are among them if the library that reads images is installed.
+    """
+    if not isinstance(started, DuelSettings):
+        return {AS_STARTED: started}
+    duel = DuelSettings(seed=started.seed)
+    room = generate_room(RoomRecipe(discs=3), ROOM_SEED)
+    found: dict[str, LiveSettings] = {
+        AS_STARTED: started,
+        "duel": duel,
+        "room": replace(
+            duel,
+            room=replace(duel.room, plan=room),
+            evader_strategy="look-ahead",
+        ),
+        "person": replace(
+            duel,
+            pursuer="person",
+            person=replace(duel.person, speed=PERSON_SPEED),
+            start=replace(duel.start, distance=PERSON_DISTANCE),
+            gait=GAITS["fast"],
+        ),
+    }
+    if find_spec("cv2") is not None:
+        found["cameras"] = replace(duel, sensing="cameras")
+    return found
 
 
 class Leaf(NamedTuple):
-    """One value of settings.
+    """One value of settings."""
 
-    Attributes:
-        path: Names from the root, with dots; players are counted from 0.
-        described: Description of the setting.
-        value: The value; None for one that is drawn or implied.
-    """
-
-    path: str
+    path: str  # names from the root, with dots; players are counted from 0
     described: Setting
-    value: Any
+    value: Any  # None for one that is drawn or implied
 
     @property
     def shown(self) -> Any:
@@ -71,10 +99,8 @@ def leaves_of(
 ) -> Iterator[Leaf]:
     """Yield the values of settings that one control can show.
 
-    Args:
-        settings: The settings.
-        path: Their path from the root, with a dot at its end.
-        above: The settings that they are part of, from the root on.
+    Their path from the root has a dot at its end; ``above`` are the settings
+    that they are part of, from the root on.
     """
     if isinstance(settings, tuple):
         for number, each in enumerate(settings):
@@ -151,21 +177,17 @@ class SettingsPanel:
         gui: viser.GuiApi,
         session: LiveSession,
         notify: Callable[[str], None],
-        presets: Mapping[str, LiveSettings],
     ) -> None:
-        """Add the controls to a page.
-
-        Args:
-            gui: Controls of the page.
-            session: Session whose settings are changed.
-            notify: Function that shows a message.
-            presets: Games by name; the first is played.
-        """
+        """Add the controls to a page; ``notify`` shows a message."""
         self._gui, self._session, self._notify = gui, session, notify
-        self._presets = presets
+        self._presets = presets_of(session.settings)
         self._leaves: dict[str, Leaf] = {}
+        self._controls: dict[str, Any] = {}
+        self._folders: list[Any] = []
         self.preset = gui.add_dropdown(
-            "Preset", tuple(presets), visible=len(presets) > 1
+            "Preset",
+            tuple(self._presets),
+            visible=len(self._presets) > 1,
         )
         gui.add_markdown(
             "Settings act at the next reset; those of the paper's evasion, "
@@ -173,8 +195,6 @@ class SettingsPanel:
             "empty means drawn or implied."
         )
         self._box = gui.add_folder("Settings")
-        with self._box:
-            self._inner = gui.add_folder(None)
         self._show(session.settings)
 
     def _show(self, settings: LiveSettings) -> None:
@@ -186,76 +206,43 @@ class SettingsPanel:
                 if self._controls[path].value != leaf.shown:
                     self._controls[path].value = leaf.shown
             return
-        self._inner.remove()
-        with self._box:
-            self._inner = self._gui.add_folder(None)
-        self._controls: dict[str, Any] = {}
-        folders = {"": self._inner}
-        for path, leaf in leaves.items():
-            place = path.rpartition(".")[0]
-            with self._folder(folders, settings, place):
-                self._controls[path] = self._control(leaf)
-            if place == "strategy":
-                self._controls[path].on_update(lambda _: self._adopt())
-
-    def _folder(
-        self, folders: dict[str, Any], settings: Any, path: str
-    ) -> Any:
-        """Return the folder of a section, after adding it if needed."""
-        if path not in folders:
-            above, _, name = path.rpartition(".")
-            parent = settings
-            for part in filter(None, above.split(".")):
-                parent = _part(parent, part)
-            own = _part(parent, name)
-            with self._folder(folders, settings, above):
-                folders[path] = self._gui.add_folder(
-                    getattr(own, "name", name), expand_by_default=False
+        while self._folders:
+            self._folders.pop().remove()
+        sections: dict[str, list[Leaf]] = {}
+        for leaf in leaves.values():
+            sections.setdefault(leaf.path.rpartition(".")[0], []).append(leaf)
+        for section, inside in sections.items():
+            with self._box:
+                folder = self._gui.add_folder(
+                    section or "game", expand_by_default=not section
                 )
-            players = isinstance(parent, tuple)
-            described = {} if players else settings_of(type(parent))
-            presets = described[name].presets if name in described else None
-            if presets:
-                with folders[path]:
-                    self._add_presets(path, presets, own)
-        return folders[path]
-
-    def _add_presets(
-        self, path: str, presets: Mapping[str, Any], own: Any
-    ) -> None:
-        """Add a choice that fills in the values of a section."""
-        chosen = [name for name, each in presets.items() if each == own]
-        choice = self._gui.add_dropdown(
-            f"{path} preset",
-            (OWN_VALUES, *presets),
-            initial_value=(chosen or [OWN_VALUES])[0],
-        )
-
-        @choice.on_update
-        def _(_: object) -> None:
-            if choice.value in presets:
-                for leaf in leaves_of(presets[choice.value], f"{path}."):
-                    if leaf.path in self._controls:
-                        self._controls[leaf.path].value = leaf.shown
+            self._folders.append(folder)
+            with folder:
+                for leaf in inside:
+                    self._controls[leaf.path] = self._control(leaf)
 
     def _control(self, leaf: Leaf) -> Any:
         """Add the control of a value; return its handle."""
-        gui, value = self._gui, leaf.shown
+        gui, value, names = self._gui, leaf.shown, leaf.described.names
         name = leaf.path.rpartition(".")[2].replace("_", " ")
         hint = f"{leaf.path}: {leaf.described.text}"
         unit = leaf.described.range and leaf.described.range.unit
         if unit and unit not in ("1", ""):
             name += f" [{'deg' if leaf.turns else unit}]"
+        made: Any
         if isinstance(value, bool):
-            return gui.add_checkbox(name, value, hint=hint)
-        if value in leaf.described.names:
-            names = leaf.described.names
-            return gui.add_dropdown(
+            made = gui.add_checkbox(name, value, hint=hint)
+        elif value in names:
+            made = gui.add_dropdown(
                 name, names, initial_value=value, hint=hint
             )
-        if isinstance(value, str):
-            return gui.add_text(name, value, hint=hint)
-        return gui.add_number(name, value, hint=hint)
+        elif isinstance(value, str):
+            made = gui.add_text(name, value, hint=hint)
+        else:
+            made = gui.add_number(name, value, hint=hint)
+        if leaf.path.startswith("strategy."):
+            made.on_update(lambda _: self._attempt(self._adopt))
+        return made
 
     def values(self) -> LiveSettings:
         """Return the settings of the controls.
@@ -273,45 +260,42 @@ class SettingsPanel:
         return settings
 
     def restart(self) -> bool:
-        """Start a game with the settings of the controls.
+        """Start a game with the settings of the controls, if they are valid.
 
         Returns:
-            Whether the settings were valid.
+            Whether they are.
         """
-        return self._attempt(lambda: self._session.reset(self.values()))
+        return self._attempt(lambda: self._begin(self.values()))
 
     def play_preset(self) -> bool:
         """Start the chosen preset; return whether it is valid."""
-        settings = self._presets[self.preset.value]
-        return self._attempt(lambda: self._session.reset(settings))
+        chosen = self._presets[self.preset.value]
+        return self._attempt(lambda: self._begin(chosen))
+
+    def _begin(self, settings: LiveSettings) -> None:
+        self._session.reset(settings)
+        self._show(self._session.settings)
 
     def _attempt(self, change: Callable[[], None]) -> bool:
-        """Change the game, and show its settings or what is wrong."""
+        """Change the game, or show what is wrong."""
         try:
             change()
         except (StepAsideError, ArithmeticError, ValueError) as error:
             self._notify(str(error))
             return False
-        self._notify("")
-        self._show(self._session.settings)
         return True
 
     def _adopt(self) -> None:
         """Change the evader's strategy from its next plan on."""
-        session = self._session
-        try:
-            settings = self.values()
-        except (StepAsideError, ArithmeticError, ValueError) as error:
-            self._notify(str(error))
+        session, settings = self._session, self.values()
+        now = session.settings
+        if not isinstance(settings, DuelSettings):
             return
-        if not isinstance(settings, DuelSettings) or not isinstance(
-            session.settings, DuelSettings
-        ):
-            return
+        assert isinstance(now, DuelSettings)
         strategy = settings.strategy
-        if strategy == session.settings.strategy:
+        if strategy == now.strategy:
             return
-        played = session.settings.resolved_evader
+        played = now.resolved_evader
         if played != EVASION:
             self._notify(f"these are settings of evasion, not of {played}")
             return
@@ -320,18 +304,8 @@ class SettingsPanel:
             evader = session.world.player(EVADER)
             if isinstance(evader, RobotPlayer):
                 evader.scheme.decisions.adopt(strategy)
-            now = session.settings
-            assert isinstance(now, DuelSettings)
             session.adopt_settings(replace(now, strategy=strategy))
 
         session.call(change)
-        self._notify("")
         for leaf in leaves_of(strategy, "strategy."):
             self._leaves[leaf.path] = leaf
-
-
-def _part(settings: Any, name: str) -> Any:
-    """Return a field, or an entry of an array by its number."""
-    if isinstance(settings, tuple):
-        return settings[int(name)]
-    return getattr(settings, name)
