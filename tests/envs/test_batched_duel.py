@@ -9,10 +9,9 @@ import pytest
 
 from stepaside.arena import Room, RoomRecipe
 from stepaside.core.errors import ConfigurationError
-from stepaside.envs.arena_pool import ArenaPool
-from stepaside.envs.batched_duel import BatchedDuel, law_of
 from stepaside.envs.environment_settings import EnvironmentSettings
 from stepaside.envs.step_batch import CAPTURED, RUNNING, TOUCHED
+from stepaside.envs.vector_duel import BatchedDuel, law_of
 from stepaside.games import play_strategies
 from stepaside.planning import Direction
 from stepaside.strategies import (
@@ -78,13 +77,13 @@ def test_many_games_are_those_of_the_rules(pair: str, level: str) -> None:
         closest[goes_on] = games.state.closest[goes_on]
         outcomes[goes_on] = games.outcomes[goes_on]
         goes_on &= games.outcomes == RUNNING
-    pool = games.pool
+    arenas = games.arenas
     for i in range(12):
         track = play_strategies(
             pursuer,
             evader,
-            pool.starts[i],
-            room=pool.rooms[i],
+            arenas.starts[i],
+            room=arenas.rooms[i],
             game=settings.step_game,
         )
         assert outcomes[i] == OUTCOMES[str(track.outcome)]
@@ -104,6 +103,7 @@ def test_a_law_that_the_kernel_does_not_know_is_refused() -> None:
 
 
 def test_a_given_room_is_that_of_all_games() -> None:
-    pool = ArenaPool.draw(Room(4.0, 3.0), 5)
-    assert len({id(room) for room in pool.rooms}) == 1
-    assert len(set(pool.starts)) == 5
+    settings = EnvironmentSettings(room=Room(4.0, 3.0), arenas=5)
+    rooms, starts = settings.draw_arenas()
+    assert len({id(room) for room in rooms}) == 1
+    assert len(set(starts)) == 5

@@ -24,7 +24,7 @@ import numpy as np
 from benchmark_options import ask, machine
 
 from stepaside.envs import VectorDuel, duel_v0
-from stepaside.envs.batched_duel import BatchedDuel
+from stepaside.envs.vector_duel import BatchedDuel
 from stepaside.strategies import Pursuit
 from stepaside.studies.result_files import header, write_result
 
@@ -57,7 +57,7 @@ def kernel_steps(games: int, steps: int) -> Callable[[], int]:
     def play() -> int:
         for n in range(steps):
             if n % bare.rules.limit == 0:
-                bare.start(everyone, everyone % len(bare.pool))
+                bare.start(everyone, everyone % len(bare.arenas.starts))
             bare.step((None, rows))
         return games * steps
 

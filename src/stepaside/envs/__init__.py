@@ -15,7 +15,7 @@ except ModuleNotFoundError as error:
     raise ModuleNotFoundError(hint, name=error.name) from error
 
 from . import duel_v0, game_v0
-from .duel_env import DuelEnv
+from .duel_v0 import DuelEnv
 from .environment_settings import EnvironmentSettings
 from .vector_duel import VectorDuel
 

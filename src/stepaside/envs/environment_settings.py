@@ -1,17 +1,46 @@
-"""Settings that all learning environments share."""
+r"""Settings, arenas, actions and rewards of learning environments.
 
+The reward of the evader is the change of the closest approach so far, in
+units of v/k, zero or negative; contact with an obstacle counts as a closest
+approach of zero. So its return, undiscounted, is the closest approach of the
+episode less the initial distance: what
+:mod:`stepaside.theory.value.two_cars` bounds. The pursuer has the negative.
+
+Shaping adds :math:`\gamma \Phi(s') - \Phi(s)` to the evader's reward, where
+the potential :math:`\Phi` is a weight times the distance, and zero after the
+end of a game; that changes no optimal policy (Ng, Harada and Russell 1999).
+"""
+
+from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
+from math import pi
+from typing import Any, NamedTuple, TypeVar
 
-from ..arena import Room, RoomRecipe
+import numpy as np
+from gymnasium.spaces import Box, Discrete, Space
+from numpy.typing import ArrayLike, NDArray
+
+from ..arena import (
+    OPEN_FLOOR,
+    Room,
+    RoomRecipe,
+    draw_any_start,
+    draw_initial_poses,
+    generate_room,
+)
 from ..core.errors import (
     ConfigurationError,
+    PlanError,
     check_choice,
     check_not_negative,
     check_within,
+    shown,
 )
+from ..core.poses import Array, Pose
 from ..games.duel_settings import PLAYERS, DuelSettings
 from ..games.floor_world import PARTS
 from ..planning import Direction
+from ..strategies.knowledge import STAND, Intent
 from ..strategies.learned.observation_terms import (
     FULL_STATE_TERMS,
     SENSED_TERMS,
@@ -23,11 +52,37 @@ from ..strategies.learned.strategy_contract import (
     discrete_headings,
 )
 from ..strategies.strategy_game import StepGame
-from .arena_pool import ArenaPool
 
 LEVELS = ("unicycle", "steps", "physics")
 ALL_TERMS: dict[str, ObservedTerm] = SENSED_TERMS | FULL_STATE_TERMS
-ACTIONS = ("continuous", "discrete")
+SEEDS = 2**31
+# Arenas between one episode and the next of the same seed: a prime that
+# divides no usual number of arenas, so that all of them come.
+STRIDE = 7919
+FLOAT = np.float32
+Values = TypeVar("Values", float, Array)
+
+
+class Arenas(NamedTuple):
+    """Arenas, drawn once; an episode takes one of them.
+
+    Arena i is that of seed i in a tournament, in the same room.
+
+    Attributes:
+        rooms: Room of each arena.
+        starts: Initial poses of pursuer and evader in each.
+    """
+
+    rooms: tuple[Room, ...]
+    starts: tuple[tuple[Pose, Pose], ...]
+
+    def indices(
+        self, seeds: ArrayLike, episodes: ArrayLike
+    ) -> NDArray[np.int64]:
+        """Return the arena of each episode, by its number since seeding."""
+        first, number = np.asarray(seeds), np.asarray(episodes)
+        found: NDArray[np.int64] = (first + STRIDE * number) % len(self.rooms)
+        return found
 
 
 @dataclass(frozen=True)
@@ -78,31 +133,58 @@ class EnvironmentSettings:
     def __post_init__(self) -> None:
         """Validate names, ranges and combinations."""
         check_choice(self.level, LEVELS, "level")
-        check_choice(self.action, ACTIONS, "action")
+        check_choice(self.action, ("continuous", "discrete"), "action")
         error = ConfigurationError
         check_within(self.duration, 0.01, 3600.0, "duration", "s", error)
         check_within(self.headings, 2, 1000, "headings", "1", error)
         check_not_negative(self.shaping, "shaping", "1", error)
         check_within(self.discount, 0.0, 1.0, "discount", "1", error)
-        if self.level == "physics" and self.room is not None:
-            raise error("room must be given as duel.room at level physics")
-        for name in ("full_state", "any_heading"):
-            if self.level == "physics" and getattr(self, name):
-                raise error(f"{name} must be false at level physics")
-        if self.level != "physics" and self.game.solid_pursuer:
+        check_within(self.arenas, 1, 100_000, "arenas", "1", error)
+        check_within(self.first_arena, 0, SEEDS, "first_arena", "1", error)
+        if not isinstance(self.room, Room | RoomRecipe | None):
+            raise error(
+                "room must be a Room, a RoomRecipe or None, got "
+                f"{shown(self.room)}"
+            )
+        if self.any_heading and self.room is not None:
+            raise error("any_heading must be false in a room, got true")
+        if self.level == "physics":
+            if self.room is not None:
+                raise error("room must be given as duel.room at level physics")
+            for name in ("full_state", "any_heading"):
+                if getattr(self, name):
+                    raise error(f"{name} must be false at level physics")
+        elif self.game.solid_pursuer:
             raise error(
                 "game.solid_pursuer must be false: pursuers of "
                 "environments pass through obstacles"
             )
 
-    def draw_arenas(self) -> ArenaPool:
-        """Draw the arenas, at levels "unicycle" and "steps"."""
-        return ArenaPool.draw(
-            self.room,
-            self.arenas,
-            self.first_arena,
-            any_heading=self.any_heading,
+    def draw_arenas(self) -> Arenas:
+        """Draw the arenas, at levels "unicycle" and "steps".
+
+        Raises:
+            ConfigurationError: If a room has no space, or moving boxes.
+        """
+        first, room = int(self.first_arena), self.room
+        seeds = range(first, first + int(self.arenas))
+        rooms = tuple(
+            generate_room(room, seed)
+            if isinstance(room, RoomRecipe)
+            else room or OPEN_FLOOR
+            for seed in seeds
         )
+        if any(each.moving for each in rooms):
+            raise ConfigurationError(
+                "room must have no moving boxes at this level"
+            )
+        starts = (
+            draw_any_start(seed)
+            if self.any_heading
+            else one.starts or draw_initial_poses(one, seed)
+            for one, seed in zip(rooms, seeds, strict=True)
+        )
+        return Arenas(rooms, tuple(starts))
 
     @property
     def step_game(self) -> StepGame:
@@ -112,18 +194,12 @@ class EnvironmentSettings:
         )
 
     @property
-    def in_rooms(self) -> bool:
-        """Whether there may be obstacles."""
-        if self.level == "physics":
-            return self.duel.room.plan is not None
-        return self.room is not None
-
-    @property
     def sensed_terms(self) -> tuple[str, ...]:
         """Terms of the observation that a strategy can have, too."""
-        clear = ("clearances",) if self.in_rooms else ()
+        physics = self.level == "physics"
+        room = self.duel.room.plan if physics else self.room
         names = (n for n in SENSED_TERMS if n != "clearances")
-        return (*names, *clear)
+        return (*names, *(() if room is None else ("clearances",)))
 
     @property
     def terms(self) -> tuple[str, ...]:
@@ -148,8 +224,89 @@ class EnvironmentSettings:
             direction_of(role), self.sensed_terms, self.action_headings
         )
 
+    def evader_reward(
+        self,
+        closest: tuple[Values, Values],
+        distance: tuple[Values, Values],
+        ended: Values,
+    ) -> Values:
+        """Return the reward of an evader for one step, in [m].
+
+        Args:
+            closest: Closest approach so far, before and after, in [m].
+            distance: Distance before and after the step, in [m].
+            ended: 1 if the game ended with the step, else 0; a game that was
+                truncated did not end.
+        """
+        potential = self.discount * (1.0 - ended) * distance[1] - distance[0]
+        return closest[1] - closest[0] + self.shaping * potential
+
+
+class IntentActions:
+    """Actions of one environment, and the intents that they mean.
+
+    A continuous action is a heading, in [-pi, pi] [rad], in the frame of the
+    player, and a speed factor, in [0, 1]; 0 stands. Values beyond are
+    limited. A discrete action is one of evenly spaced headings at full
+    speed, or, the last, to stand.
+    """
+
+    def __init__(self, settings: EnvironmentSettings) -> None:
+        """Build the space of actions."""
+        headings = settings.action_headings
+        low, high = np.array([-pi, 0.0], FLOAT), np.array([pi, 1.0], FLOAT)
+        self.space: Space[Any] = Box(low, high, dtype=FLOAT)
+        if headings:
+            self.space = Discrete(len(headings))
+        self._rows = np.array(
+            [(h or 0.0, h is not None) for h in headings], np.float64
+        )
+
+    def intent(self, action: Any) -> Intent:
+        """Return the intent that an action means."""
+        heading, speed = self.rows([action])[0].tolist()
+        return Intent(heading, speed) if speed > 0.0 else STAND
+
+    def rows(self, actions: Any) -> Array:
+        """Return headings [rad] and speed factors of many actions.
+
+        Args:
+            actions: Shape (n,) if discrete, else (n, 2).
+
+        Returns:
+            Shape (n, 2).
+
+        Raises:
+            PlanError: If the actions have another shape, or are not finite.
+        """
+        values, count = np.array(actions), len(self._rows)
+        if count:
+            codes = values.reshape(len(values), -1)
+            right = codes.shape[1] == 1 and codes.dtype.kind in "iu"
+            if not right or ((codes < 0) | (codes >= count)).any():
+                raise PlanError(
+                    f"an action must be an integer in [0, {count - 1}], got "
+                    f"{shown(values.tolist())}"
+                )
+            found: Array = self._rows[codes[:, 0]]
+            return found
+        if values.shape[1:] != (2,) or np.isnan(values).any():
+            raise PlanError(
+                "an action must be a heading [rad] and a speed factor [1], "
+                f"finite, shape (2,), got {shown(values.tolist())}"
+            )
+        return np.clip(values.astype(np.float64), (-pi, 0.0), (pi, 1.0))
+
 
 def direction_of(role: str) -> Direction:
     """Return the direction in which a role drives, (1) or (3)."""
     check_choice(role, PLAYERS, "role")
     return Direction.FORWARD if role == "pursuer" else Direction.BACKWARD
+
+
+def observation_space(terms: Sequence[str]) -> Box:
+    """Return the space of observations with some terms, in order."""
+    ranges = [ALL_TERMS[name] for name in terms]
+    low = [t.low for t in ranges for _ in range(t.width)]
+    high = [t.high for t in ranges for _ in range(t.width)]
+    return Box(np.array(low, FLOAT), np.array(high, FLOAT), dtype=FLOAT)

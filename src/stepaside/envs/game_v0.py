@@ -9,13 +9,14 @@ from gymnasium.spaces import Box
 from numpy.typing import NDArray
 
 from ..arena import OPEN_FLOOR
+from ..core.constants import CAPTURE_DISTANCE
 from ..core.errors import AnyPath, ConfigurationError, check_within
 from ..games.floor_games import floor_of, rules_of
 from ..games.game import GameInPlay
 from ..games.game_file import load_game
 from ..games.game_settings import GameSettings
 from ..games.game_starts import with_starts
-from ..games.recorded_game import RecordedGame
+from ..games.physics_world import PhysicsWorld
 from ..strategies.knowledge import Knowledge, OtherPlayer
 from ..strategies.learned.observation_terms import (
     FARTHEST,
@@ -24,11 +25,15 @@ from ..strategies.learned.observation_terms import (
     length_unit,
     observe,
 )
-from .arena_pool import STRIDE
-from .environment_settings import EnvironmentSettings, direction_of
-from .episode_games import EpisodeGame, FloorGame, HeldIntent, PhysicsGame
-from .intent_actions import observation_space
-from .parallel_games import SEEDS, ParallelGames
+from ..strategies.learned.strategy_contract import HEADINGS
+from .environment_settings import (
+    SEEDS,
+    STRIDE,
+    EnvironmentSettings,
+    direction_of,
+    observation_space,
+)
+from .parallel_games import Episode, HeldIntent, ParallelGames
 
 # Values that describe one other player: 1 if there is one, cosine and sine of
 # its bearing, distance [v/k], its velocity ahead and to the left [v], 1 if it
@@ -42,11 +47,10 @@ class GameParallelEnv(ParallelGames):
     """Several players of one game; a step lasts one decision period.
 
     The reward of an evader is the change of its closest approach to any
-    pursuer so far (without pursuers, to any other player), in units of v/k of
-    its gait, that of a pursuer the negative mean of those of all evaders.
-    Capture of one evader ends the episode, in physics also a fall or a
-    contact; the time limit truncates it. Players that do not learn follow
-    their own strategies.
+    pursuer so far, in units of v/k of its gait, that of a pursuer the
+    negative mean of those of all evaders. Capture of one evader ends the
+    episode, in physics also a fall or a contact; the time limit truncates
+    it. Players that do not learn follow their own strategies.
 
     Attributes:
         game: Settings of the game.
@@ -60,7 +64,7 @@ class GameParallelEnv(ParallelGames):
         learners: Sequence[str] | None = None,
         period: float | None = None,
         action: str = "continuous",
-        headings: int | None = None,
+        headings: int = HEADINGS,
         render_mode: str | None = None,
     ) -> None:
         """Build the environment.
@@ -85,68 +89,70 @@ class GameParallelEnv(ParallelGames):
         check_within(
             self.period, 0.02, 60.0, "period", "s", ConfigurationError
         )
-        choice = EnvironmentSettings(action=action)
-        if headings is not None:
-            choice = replace(choice, headings=headings)
+        choice = EnvironmentSettings(action=action, headings=headings)
+        self._terms: tuple[str, ...] = ("moving",)
+        if given.room is not None:
+            self._terms += ("clearances",)
+        own, others = observation_space(self._terms), len(given.players) - 1
+        space = Box(
+            np.array([*own.low, *OTHER_LOW * others], np.float32),
+            np.array([*own.high, *OTHER_HIGH * others], np.float32),
+        )
         names = learning_players(given, learners)
-        super().__init__(names, choice, _space_of(given), render_mode)
+        super().__init__(names, choice, space, render_mode)
 
-    def begin(self, seed: int, number: int) -> EpisodeGame:
+    def begin(self, seed: int, number: int) -> Episode:
         """Begin the game of seed s + 7919 n, of episode n of seed s."""
-        settings = self.game
         held = {
-            name: HeldIntent(direction_of(settings.player(name).role))
+            name: HeldIntent(direction_of(self.game.player(name).role))
             for name in self.possible_agents
         }
         players = tuple(
             replace(own, strategy=held.get(own.name, own.strategy))
-            for own in settings.players
+            for own in self.game.players
         )
         seed = (seed + STRIDE * number) % SEEDS
-        settings = with_starts(replace(settings, seed=seed, players=players))
-        room = settings.room or OPEN_FLOOR
-        if settings.level != "physics":
-            played = GameInPlay(floor_of(settings), rules_of(settings))
-            return FloorGame(played, room, self.period)
-        return PhysicsGame(
-            RecordedGame(settings, recorded=False, endless=True),
+        game = with_starts(replace(self.game, seed=seed, players=players))
+        physics = game.level == "physics"
+        return Episode(
+            GameInPlay(
+                PhysicsWorld(game) if physics else floor_of(game),
+                replace(rules_of(game), capture=CAPTURE_DISTANCE),
+            ),
             held,
-            room,
-            settings.duration,
+            game.room or OPEN_FLOOR,
             period=self.period,
             patience=LONGEST_WAIT,
-            captures=True,
         )
 
-    def observe(self, game: EpisodeGame, name: str) -> NDArray[np.float32]:
+    def observe(self, episode: Episode, name: str) -> NDArray[np.float32]:
         """Return the observation of a player.
 
         Its own terms, then the values of each other player, the nearest
         first; zeros for those that it has not seen.
         """
-        terms = _own_terms(self.game)
-        known = game.knowledge(name)
-        width = sum(SENSED_TERMS[term].width for term in terms)
+        known = episode.knowledge(name)
+        width = sum(SENSED_TERMS[term].width for term in self._terms)
         others = np.zeros((len(self.game.players) - 1, len(OTHER_LOW)))
         own = np.zeros(width, np.float32)
         if known is not None:
-            own = observe(known, terms)
+            own = observe(known, self._terms)
             seen = sorted(known.others, key=lambda other: other.distance)
             for row, other in zip(others, seen, strict=False):
                 row[:] = _describe(known, other)
         return np.concatenate([own, others.ravel().astype(np.float32)])
 
-    def unit(self, game: EpisodeGame, name: str) -> float:
+    def unit(self, episode: Episode, name: str) -> float:
         """Return the unit of length of a player, v/k, in [m]."""
         gait = self.game.player(name).gait
         return gait.speed / gait.gain
 
-    def info(self, game: EpisodeGame) -> dict[str, Any]:
+    def info(self, episode: Episode) -> dict[str, Any]:
         """Return closest approaches [m] by evader, time [s] and outcome."""
         return {
-            "closest_m": dict(game.closest),
-            "time_s": game.time,
-            "outcome": game.ended,
+            "closest_m": episode.closest,
+            "time_s": episode.time,
+            "outcome": episode.ended,
         }
 
 
@@ -160,8 +166,9 @@ def learning_players(
         learners: Their names; None for all that can.
 
     Raises:
-        ConfigurationError: If one cannot, or the game has no evader.
+        ConfigurationError: If one cannot, or an evader has no pursuer.
     """
+    ids = game.identities
     able = [
         p.name
         for p in game.players
@@ -179,26 +186,15 @@ def learning_players(
         raise ConfigurationError(
             f"learners must differ, got {', '.join(chosen)}"
         )
-    if all(p.role != "evader" for p in game.players):
+    evaders = [own for own in ids.values() if own.role == "evader"]
+    if not evaders or not all(
+        any(own.opposes(other) for other in ids.values()) for own in evaders
+    ):
         raise ConfigurationError(
-            "game must have an evader, got roles "
+            "game must have an evader, and a pursuer of each, got roles "
             f"{', '.join(sorted({p.role for p in game.players}))}"
         )
     return tuple(chosen)
-
-
-def _own_terms(settings: GameSettings) -> tuple[str, ...]:
-    """Return the terms of an observation that describe the player itself."""
-    return ("moving",) if settings.room is None else ("moving", "clearances")
-
-
-def _space_of(game: GameSettings) -> Box:
-    """Return the space of observations of a player of a game."""
-    own, others = observation_space(_own_terms(game)), len(game.players) - 1
-    return Box(
-        np.array([*own.low, *OTHER_LOW * others], np.float32),
-        np.array([*own.high, *OTHER_HIGH * others], np.float32),
-    )
 
 
 def _describe(known: Knowledge, other: OtherPlayer) -> list[float]:

@@ -40,11 +40,7 @@ class StableBaselinesDuel(VecEnv):
         self._given = actions
 
     def step_wait(self) -> tuple[Any, Any, Any, list[dict[str, Any]]]:
-        """Play one decision of all games.
-
-        Returns:
-            Observations, rewards, whether each episode is over, and infos.
-        """
+        """Play one decision; return observations, rewards, ends, infos."""
         found, rewards, ended, late, info = self.games.step(self._given)
         infos: list[dict[str, Any]] = [{} for _ in range(self.num_envs)]
         over = ended | late

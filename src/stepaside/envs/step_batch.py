@@ -42,98 +42,54 @@ RING = ring_points()
 
 
 class BatchState(NamedTuple):
-    """State of n games; the arrays are changed in place.
+    """State of n games, of pursuer and evader; changed in place."""
 
-    Attributes:
-        poses: x, y [m], cosine and sine of the heading of pursuer and
-            evader. Shape (n, 2, 4).
-        sights: The last lines of sight, in a ring by decision whose length
-            is a power of two: components of the unit vector from pursuer to
-            evader, and the distance [m]. Shape (n, history, 3).
-        decisions: Decisions so far. Shape (n,).
-        sides: Side of an evader that follows the law; 0 while it does not
-            evade. Shape (n, 2).
-        walking: Whether the last intent of each player was to walk. Shape
-            (n, 2).
-        closest: Closest approach so far; 0 after contact with an obstacle,
-            in [m]. Shape (n,).
-        rooms: Index of the room of each game. Shape (n,).
-    """
-
+    # x, y [m], cosine and sine of the heading. Shape (n, 2, 4).
     poses: Array
+    # The last lines of sight, in a ring by decision whose length is a power
+    # of two: unit vector to the evader, and distance [m]. (n, history, 3).
     sights: Array
-    decisions: NDArray[np.int64]
-    sides: NDArray[np.int64]
-    walking: NDArray[np.bool_]
-    closest: Array
-    rooms: NDArray[np.int64]
+    decisions: NDArray[np.int64]  # so far. Shape (n,).
+    sides: NDArray[np.int64]  # of an evader; 0 unless it evades. (n, 2).
+    walking: NDArray[np.bool_]  # by the last intent. Shape (n, 2).
+    closest: Array  # so far [m]; 0 after contact with an obstacle. (n,).
+    rooms: NDArray[np.int64]  # index of the room. Shape (n,).
 
 
 class BatchRules(NamedTuple):
-    """Rules of a step game, as numbers.
+    """Rules of a step game, as numbers."""
 
-    Attributes:
-        stride: Path length between two decisions, in [m].
-        share: Turn of a step per desired heading, kappa.
-        turn: Largest turn of a step, in [rad].
-        parts: Decisions per step.
-        period: Time between two decisions, in [s].
-        speed: Speed of the template, in [m/s].
-        gain: Steering gain, in [1/s].
-        capture: Capture distance, in [m].
-        body_radius: Clearance below which the evader touches, in [m].
-        limit: Decisions until a game ends.
-        lag: Decisions over which rates are differences.
-        least_lag: Least number of decisions over which they are known.
-    """
-
-    stride: float
-    share: float
-    turn: float
-    parts: float
-    period: float
-    speed: float
-    gain: float
-    capture: float
-    body_radius: float
-    limit: int
-    lag: int
-    least_lag: int
+    stride: float  # between two decisions [m]
+    share: float  # turn of a step per desired heading, kappa
+    turn: float  # largest turn of a step [rad]
+    parts: float  # decisions per step
+    period: float  # between two decisions [s]
+    unit: float  # v/k [m]
+    speed: float  # of the template [m/s]
+    gain: float  # of the steering [1/s]
+    capture: float  # distance [m]
+    body_radius: float  # clearance below which the evader touches [m]
+    limit: int  # decisions until a game ends
+    lag: int  # decisions over which rates are differences
+    least_lag: int  # over which they are known
 
 
 class BatchLaw(NamedTuple):
-    """Law of a player, as numbers.
-
-    Attributes:
-        code: :data:`STANDS`, :data:`PURSUES` or :data:`EVADES`.
-        saturated: Whether it turns by (6) instead of (8).
-        ratio: Gain of a pursuer over that of its gait.
-        angle: Evasion angle, in [rad].
-        safety_radius: Distance at which evasion begins, in [m].
-        release: Distance at which it ends, in [m].
-        hysteresis: Angle past which the side changes, in [rad].
-    """
+    """Law of a player, as numbers."""
 
     code: int = STANDS
-    saturated: bool = False
-    ratio: float = 1.0
-    angle: float = 0.0
-    safety_radius: float = inf
-    release: float = inf
-    hysteresis: float = 0.0
+    ratio: float = 1.0  # gain of a pursuer over that of its gait
+    angle: float = 0.0  # of evasion [rad]
+    safety_radius: float = inf  # where evasion begins [m]
+    release: float = inf  # where it ends [m]
+    hysteresis: float = 0.0  # past which the side changes [rad]
 
 
 class RoomBatch(NamedTuple):
-    """Obstacles of many rooms.
-
-    Attributes:
-        packed: Obstacles of all rooms.
-        firsts: Index of the first obstacle of each room, and the number of
-            obstacles. Shape (rooms + 1,).
-    """
+    """Obstacles of many rooms."""
 
     packed: PackedObstacles
-    firsts: NDArray[np.int64]
+    firsts: NDArray[np.int64]  # of each room, and their number. (rooms + 1,).
 
 
 @inlined
@@ -163,14 +119,7 @@ def record_sight(state: BatchState, i: int) -> float:
 
 @compiled
 def start_games(state: BatchState, games: Any, starts: Any) -> None:
-    """Begin games.
-
-    Args:
-        state: State of all games.
-        games: Indices of those that begin. Shape (m,).
-        starts: x, y [m], cosine and sine of the heading of pursuer and
-            evader. Shape (m, 2, 4).
-    """
+    """Begin the games with some indices, at poses of shape (m, 2, 4)."""
     for n in range(len(games)):
         i = games[n]
         for p in range(2):
@@ -185,14 +134,9 @@ def start_games(state: BatchState, games: Any, starts: Any) -> None:
 def decide_by_law(
     state: BatchState, player: int, law: BatchLaw, rules: BatchRules, out: Any
 ) -> None:
-    """Decide for a player of all games by the paper's law.
+    """Decide for player 0 or 1 of all games by the paper's law.
 
-    Args:
-        state: State of all games; sides are updated.
-        player: 0 for the pursuer, 1 for the evader.
-        law: The law.
-        rules: Rules of the game.
-        out: Heading [rad] and speed factor of each game. Shape (n, 2).
+    Fills in the heading [rad] and speed factor of each game, shape (n, 2).
     """
     ratio = min(law.ratio, max(1.0, 1.0 / rules.share))
     for i in range(len(out)):
@@ -239,7 +183,6 @@ def walk(
 def advance_games(
     state: BatchState,
     intents: Any,
-    signs: Any,
     saturated: Any,
     rooms: RoomBatch,
     rules: BatchRules,
@@ -247,15 +190,9 @@ def advance_games(
 ) -> None:
     """Move the players of all games to the next decision, and judge.
 
-    Args:
-        state: State of all games.
-        intents: Heading [rad] and speed factor of pursuer and evader. Shape
-            (n, 2, 2).
-        signs: 1 for players that walk forward, -1 for backward. Shape (2,).
-        saturated: Whether each turns by (6). Shape (2,).
-        rooms: Obstacles.
-        rules: Rules of the game.
-        outcomes: Output: outcome code of each game. Shape (n,).
+    ``intents`` are heading [rad] and speed factor of pursuer and evader,
+    shape (n, 2, 2), ``saturated`` tells who turns by (6), shape (2,), and
+    ``outcomes`` receive the codes, shape (n,).
     """
     for i in range(len(outcomes)):
         for p in range(2):
@@ -265,7 +202,7 @@ def advance_games(
                 walk(
                     state.poses[i, p],
                     intents[i, p, 0],
-                    signs[p] * speed,
+                    speed if p == 0 else -speed,
                     saturated[p],
                     rules,
                 )
@@ -322,7 +259,7 @@ def clearances_around(
     pose: Any, rooms: RoomBatch, room: int, rules: BatchRules, out: Any
 ) -> None:
     """Fill in the term "clearances" of a player at a pose."""
-    unit = rules.speed / rules.gain
+    unit = rules.unit
     for k in range(len(RING)):
         u, v = unit * RING[k, 0], unit * RING[k, 1]
         x = pose[0] + pose[2] * u - pose[3] * v
@@ -340,18 +277,11 @@ def observe_games(
     rules: BatchRules,
     out: Any,
 ) -> None:
-    """Compute the observations of a player in all games.
+    """Compute the observations of a player in all games, shape (n, width).
 
-    Args:
-        state: State of all games.
-        player: 0 for the pursuer, which knows no obstacles, 1 for the
-            evader.
-        terms: Code of each term, in order. Shape (terms,).
-        rooms: Obstacles.
-        rules: Rules of the game.
-        out: Observations. Shape (n, width).
+    Player 0 is the pursuer, which knows no obstacles; ``terms`` are codes.
     """
-    unit = rules.speed / rules.gain
+    unit = rules.unit
     toward = 1.0 if player == 0 else -1.0
     for i in range(len(out)):
         pose = state.poses[i]

@@ -1,6 +1,8 @@
-"""Vector environment over the compiled games."""
+"""Vector environment over games in compiled loops."""
 
 from collections.abc import Sequence
+from dataclasses import replace
+from math import ceil, floor
 from typing import Any, ClassVar
 
 import numpy as np
@@ -8,22 +10,239 @@ from gymnasium.vector import AutoresetMode, VectorEnv
 from gymnasium.vector.utils import batch_space
 from numpy.typing import NDArray
 
-from ..core.errors import ConfigurationError, PlanError, check_choice
+from ..arena.obstacles import ObstacleSet
+from ..core.errors import (
+    ConfigurationError,
+    PlanError,
+    check_choice,
+    check_within,
+)
+from ..core.poses import Array
 from ..games.duel_settings import PLAYERS
+from ..strategies.constant_walk import StandStill
+from ..strategies.evasion import Evasion
+from ..strategies.learned import LearnedStrategy
+from ..strategies.pursuit import Pursuit
 from ..strategies.strategy import Strategy
-from .batched_duel import BatchedDuel
-from .distance_reward import evader_reward
-from .duel_env import load_opponent
-from .environment_settings import EnvironmentSettings
-from .intent_actions import IntentActions, observation_space
-from .parallel_games import SEEDS
-from .step_batch import RUNNING
+from ..strategies.strategy_game import StepGame
+from .duel_v0 import load_opponent
+from .environment_settings import (
+    ALL_TERMS,
+    SEEDS,
+    EnvironmentSettings,
+    IntentActions,
+    observation_space,
+)
+from .step_batch import (
+    EVADES,
+    PURSUES,
+    RUNNING,
+    TERM_CODES,
+    BatchLaw,
+    BatchRules,
+    BatchState,
+    RoomBatch,
+    advance_games,
+    decide_by_law,
+    observe_games,
+    start_games,
+)
 
+LARGEST_TURN = 0.8  # between two decisions, of the series of the kernel
 Batch = NDArray[np.float32]
+Integers = NDArray[np.int64]
+
+
+def rules_of(game: StepGame) -> BatchRules:
+    """Return the rules of a game as numbers.
+
+    Raises:
+        ConfigurationError: If its turns are too large for the kernel.
+    """
+    parts = game.decisions
+    if game.turn / parts > LARGEST_TURN:
+        raise ConfigurationError(
+            f"game.largest_turn must be at most {LARGEST_TURN * parts:g} "
+            f"[rad] for many games, got {game.turn:g}"
+        )
+    return BatchRules(
+        game.stride / parts,
+        game.share,
+        game.turn,
+        float(parts),
+        game.period / parts,
+        game.speed / game.gain,
+        game.speed,
+        game.gain,
+        game.capture,
+        game.body_radius,
+        game.count,
+        # Of strategies.opponent_track, in decisions.
+        floor(2.25 * parts + 1e-9),
+        ceil(0.75 * parts + 1e-9),
+    )
+
+
+def law_of(strategy: Strategy) -> BatchLaw:
+    """Return the law of a strategy as numbers.
+
+    Raises:
+        ConfigurationError: If it has none that the kernel knows.
+    """
+    if isinstance(strategy, Pursuit):
+        plain = replace(
+            Pursuit(),
+            saturated=strategy.saturated,
+            body_radius=strategy.body_radius,
+            gain=strategy.gain,
+        )
+        if strategy == plain:
+            return BatchLaw(PURSUES, strategy.gain)
+    if type(strategy) is Evasion and strategy.trigger != "time":
+        return BatchLaw(
+            EVADES,
+            angle=strategy.angle,
+            safety_radius=strategy.safety_radius,
+            release=strategy.release_distance,
+            hysteresis=strategy.side_hysteresis,
+        )
+    if type(strategy) is StandStill:
+        return BatchLaw()
+    raise ConfigurationError(
+        "opponent of many games must be evasion with the trigger distance, "
+        "pursuit of any gain, sharp, stand or FILE.onnx, got a "
+        f"{type(strategy).__name__}; others play in vectorization_mode "
+        "'sync' or 'async'"
+    )
+
+
+class BatchedDuel:
+    """Games side by side, at level "unicycle" or "steps".
+
+    Attributes:
+        arenas: Their rooms and starts.
+        state: State of all games.
+        rules: Rules.
+        outcomes: Outcome code of each game. Shape (n,).
+    """
+
+    def __init__(
+        self,
+        settings: EnvironmentSettings,
+        number: int,
+        strategies: Sequence[Strategy | None],
+    ) -> None:
+        """Draw the arenas; games begin with :meth:`start`.
+
+        Args:
+            settings: Settings of the environment.
+            number: Number of games.
+            strategies: Strategies of pursuer and evader; None for a player
+                whose intents are given.
+
+        Raises:
+            ConfigurationError: If the settings do not suit many games.
+        """
+        if settings.level == "physics":
+            raise ConfigurationError(
+                "level must be unicycle or steps for compiled games, got "
+                "physics, which plays in vectorization_mode 'sync' or 'async'"
+            )
+        check_within(number, 1, 1_000_000, "num_envs", "1", ConfigurationError)
+        self.rules = rules = rules_of(settings.step_game)
+        self.arenas = arenas = settings.draw_arenas()
+        solids = [room.solid_set.shapes for room in arenas.rooms]
+        whole = ObstacleSet(shape for shapes in solids for shape in shapes)
+        self._rooms = RoomBatch(
+            whole.packed, np.cumsum([0, *map(len, solids)])
+        )
+        poses = np.array(arenas.starts, dtype=np.float64)
+        x, y, heading = np.moveaxis(poses, -1, 0)
+        axes = x, y, np.cos(heading), np.sin(heading)
+        self._starts = np.stack(axes, axis=-1)
+        self._terms = codes_of(settings.terms)
+        history = 1 << rules.lag.bit_length()  # above lag, a power of two
+        self.state = BatchState(
+            np.zeros((number, 2, 4)),
+            np.zeros((number, history, 3)),
+            np.zeros(number, np.int64),
+            np.zeros((number, 2), np.int64),
+            np.zeros((number, 2), np.bool_),
+            np.zeros(number),
+            np.zeros(number, np.int64),
+        )
+        self.outcomes: Integers = np.full(number, RUNNING)
+        self._intents = np.zeros((number, 2, 2))
+        self._strategies = [
+            law_of(s) if s and not isinstance(s, LearnedStrategy) else s
+            for s in strategies
+        ]
+        self._saturated = np.array(
+            [s is not None and s.saturated for s in strategies]
+        )
+
+    def start(self, games: Integers, arenas: Integers) -> None:
+        """Begin the games with some indices in some arenas."""
+        self.state.rooms[games] = arenas
+        self.outcomes[games] = RUNNING
+        start_games(self.state, games, self._starts[arenas])
+
+    def step(self, given: Sequence[Array | None]) -> None:
+        """Play one decision of all games.
+
+        Args:
+            given: Heading [rad] and speed factor of pursuer and evader, each
+                of shape (n, 2); None for a player with a strategy.
+        """
+        for player, rows in enumerate(given):
+            own, intents = self._strategies[player], self._intents[:, player]
+            if rows is not None:
+                intents[:] = rows
+            elif isinstance(own, BatchLaw):
+                decide_by_law(self.state, player, own, self.rules, intents)
+            elif isinstance(own, LearnedStrategy):
+                terms = codes_of(own.contract.terms)
+                intents[:] = own.intents(self._observed(player, terms))
+        advance_games(
+            self.state,
+            self._intents,
+            self._saturated,
+            self._rooms,
+            self.rules,
+            self.outcomes,
+        )
+
+    @property
+    def distances(self) -> Array:
+        """Distance of each game, in [m]. Shape (n,)."""
+        sights = self.state.sights
+        history = sights.shape[1]
+        at = self.state.decisions & (history - 1)
+        at += np.arange(0, len(at) * history, history)
+        found: Array = sights.reshape(-1, 3)[:, 2].take(at)
+        return found
+
+    def observations(self, player: int) -> Batch:
+        """Return the observations of a player, 0 or 1. Shape (n, width)."""
+        return self._observed(player, self._terms)
+
+    def _observed(self, player: int, terms: Integers) -> Batch:
+        width = sum(WIDTHS[code] for code in terms)
+        out = np.empty((len(self.outcomes), width), dtype=np.float32)
+        observe_games(self.state, player, terms, self._rooms, self.rules, out)
+        return out
+
+
+WIDTHS = [term.width for term in ALL_TERMS.values()]
+
+
+def codes_of(terms: Sequence[str]) -> Integers:
+    """Return the codes of terms for the kernel."""
+    return np.array([TERM_CODES[name] for name in terms], dtype=np.int64)
 
 
 class VectorDuel(VectorEnv[Batch, Any, Any]):
-    """Many games of :class:`.duel_env.DuelEnv`, without Python per game.
+    """Many games of :class:`.duel_v0.DuelEnv`, without Python per game.
 
     Game i with seed s is the game of a single environment with seed s. It is
     reset in the step that ends it (``AutoresetMode.SAME_STEP``): the
@@ -74,8 +293,8 @@ class VectorDuel(VectorEnv[Batch, Any, Any]):
         played = load_opponent(opponent, role)
         strategies = [played.get(name) for name in PLAYERS]
         self._games = BatchedDuel(given, self.num_envs, strategies)
-        unit = self._games.rules.speed / self._games.rules.gain
-        self._scale = (1.0 if role == "evader" else -1.0) / unit
+        sign = 1.0 if role == "evader" else -1.0
+        self._scale = sign / self._games.rules.unit
         self._actions = IntentActions(given)
         self.single_action_space = self._actions.space
         self.single_observation_space = observation_space(given.terms)
@@ -137,11 +356,10 @@ class VectorDuel(VectorEnv[Batch, Any, Any]):
         ended = games.outcomes != RUNNING
         late = games.state.decisions >= games.rules.limit
         distances = games.distances
-        rewards = self._scale * evader_reward(
+        rewards = self._scale * self.settings.evader_reward(
             (closest, games.state.closest),
             (self._distances, distances),
             ended.astype(np.float64),
-            (self.settings.shaping, self.settings.discount),
         )
         self._distances = distances
         over, info = ended | late, self._info()
@@ -163,7 +381,7 @@ class VectorDuel(VectorEnv[Batch, Any, Any]):
         """Arena of the present episode of each game."""
         if self._seeds is None:
             raise PlanError("reset the environment first: no episode is on")
-        return self._games.pool.indices(self._seeds, self._numbers)
+        return self._games.arenas.indices(self._seeds, self._numbers)
 
     def _begin(self, games: NDArray[np.int64]) -> None:
         self._games.start(games, self.episode_arenas[games])
@@ -178,10 +396,8 @@ class VectorDuel(VectorEnv[Batch, Any, Any]):
 
     def _chosen(self, options: dict[str, Any] | None) -> NDArray[np.int64]:
         """Return the indices of the games to begin."""
-        mask = (options or {}).get("reset_mask")
-        if mask is None:
-            return np.arange(self.num_envs)
-        flags = np.asarray(mask)
+        every = np.ones(self.num_envs, np.bool_)
+        flags = np.asarray((options or {}).get("reset_mask", every))
         if flags.shape != (self.num_envs,) or flags.dtype != np.bool_:
             raise PlanError(
                 f"reset_mask must be {self.num_envs} booleans, got shape "
@@ -203,12 +419,9 @@ class VectorDuel(VectorEnv[Batch, Any, Any]):
             raise PlanError(
                 f"there must be {self.num_envs} seeds, got {len(seed)}"
             )
+        drawn = self.np_random.integers(SEEDS, size=self.num_envs)
+        given = zip(drawn.tolist(), seed, strict=True)
         return np.array(
-            [
-                int(self.np_random.integers(SEEDS))
-                if one is None
-                else one % SEEDS
-                for one in seed
-            ],
+            [own if one is None else one % SEEDS for own, one in given],
             dtype=np.int64,
         )
