@@ -109,9 +109,7 @@ def scenery_of_game(
                 scene or SceneSettings(),
                 load_head(load_robot(seeing[0].robot)),
                 walls=walls,
-                housings=[p.name for p in seeing if p.role == "evader"],
-                rear=settings.cameras.rear_camera,
-                upper=[p.name for p in seeing],
+                wearers=[p.name for p in seeing],
             )
         )
 

@@ -50,8 +50,6 @@ class HeadDescription:
     # mounts of the depth cameras: the first on the head, any others on the
     # torso
     depth: tuple[Mount, ...]
-    # depth, width and height of each depth camera [m]
-    housings: tuple[tuple[float, float, float], ...]
     sonars: dict[str, Mount]  # mounts of the sonars on the torso, by name
 
     def body_of(self, mount: Mount) -> str:
@@ -65,7 +63,7 @@ class HeadDescription:
         if len(self.depth) == 1:
             raise ModelError(
                 f"the robot has no rear camera: {FILE} needs [rear] with "
-                "place, pitch, yaw and housing"
+                "place, pitch and yaw"
             )
         return self.depth
 
@@ -81,9 +79,6 @@ class _SensorEntries:
     roll: float = setting(0.0, "Roll", ANGLE)
     pitch: float = setting(0.0, "Pitch, positive downward", ANGLE)
     yaw: float = setting(0.0, "Yaw, positive leftward", ANGLE)
-    housing: Place = setting(
-        (0.026, 0.124, 0.029), "Depth, width and height of a depth camera [m]"
-    )
 
     def mount(self, *, on_torso: bool = False) -> Mount:
         """Return the mount."""
@@ -147,6 +142,5 @@ def load_head(description: RobotDescription) -> HeadDescription:
         np.radians([*vars(own.coupling).values()]),
         own.top.mount(),
         (own.depth.mount(), *(each.mount(on_torso=True) for each in rear)),
-        (own.depth.housing, *(each.housing for each in rear)),
         {name: each.mount(on_torso=True) for name, each in own.sonar.items()},
     )

@@ -35,13 +35,10 @@ class RenderQuality(NamedTuple):
     slices: int = 12  # slices of round geoms around their axis
     stacks: int = 6  # slices of round geoms along their axis
     groups: int = 3  # number of geom groups that are drawn
-    # whether textures are interpolated between their pixels
-    interpolate: bool = True
 
 
-# Fast, for sensors: a sphere of 3 cm at 1 m is round to a third of a pixel,
-# and the tiles of floor and walls differ by less than the pixel noise.
-PLAIN = RenderQuality(interpolate=False)
+# Fast, for sensors: a sphere of 3 cm at 1 m is round to a third of a pixel.
+PLAIN = RenderQuality()
 
 
 def choose_renderer(wanted: str = "auto") -> str:
@@ -126,8 +123,6 @@ class OffscreenRenderer:
         model.vis.global_.offheight = height
         scale = mujoco.mjtFontScale.mjFONTSCALE_100
         self._context = mujoco.MjrContext(model, scale)
-        if not look.interpolate:
-            _disable_interpolation(model, self._context)
         offscreen = mujoco.mjtFramebuffer.mjFB_OFFSCREEN
         mujoco.mjr_setBuffer(offscreen, self._context)
         self._scene = mujoco.MjvScene(model, MAX_GEOMS)
@@ -176,25 +171,3 @@ class OffscreenRenderer:
         self._gl.make_current()
         self._context.free()
         self._gl.free()
-
-
-def _disable_interpolation(
-    model: mujoco.MjModel, context: mujoco.MjrContext
-) -> None:
-    """Draw each pixel with the nearest one of a texture."""
-    # PyOpenGL comes with MuJoCo, and needs the chosen platform on import.
-    gl: Any = import_module("OpenGL.GL")
-    kinds = {
-        mujoco.mjtTexture.mjTEXTURE_2D: gl.GL_TEXTURE_2D,
-        mujoco.mjtTexture.mjTEXTURE_CUBE: gl.GL_TEXTURE_CUBE_MAP,
-        mujoco.mjtTexture.mjTEXTURE_SKYBOX: gl.GL_TEXTURE_CUBE_MAP,
-    }
-    filters = {
-        gl.GL_TEXTURE_MIN_FILTER: gl.GL_NEAREST_MIPMAP_NEAREST,
-        gl.GL_TEXTURE_MAG_FILTER: gl.GL_NEAREST,
-    }
-    for number in range(model.ntex):
-        kind = kinds[mujoco.mjtTexture(model.tex_type[number])]
-        gl.glBindTexture(kind, int(context.texture[number]))
-        for name, value in filters.items():
-            gl.glTexParameteri(kind, name, value)

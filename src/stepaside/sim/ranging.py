@@ -1,10 +1,8 @@
 """Sensors with rates and latencies, rays from them, and a lidar."""
 
 from collections import deque
-from collections.abc import Callable, Iterator, Sequence
-from contextlib import contextmanager
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
-from math import cos, sin
 from typing import Generic, TypeVar
 
 import mujoco
@@ -84,7 +82,6 @@ def period_of(rate: float, tick: float) -> float:
 
 
 VISIBLE = np.array([1, 1, 1, 0, 0, 0], dtype=np.uint8)  # geom groups
-HIDDEN_GROUP = 5  # geom group that no sensor shows
 # MuJoCo drops a plane whose origin is beyond the cutoff: a floor would vanish
 # before robots far from the origin of the world.
 UNLIMITED = 1e10  # cutoff, in [m]
@@ -110,7 +107,6 @@ class RayCaster:
         lengths = np.linalg.norm(rays, axis=1)
         self._rays = rays / lengths[:, None]
         self.along = 1.0 / lengths
-        self._half_angle = float(np.arccos(self._rays[:, 0].min()))
         self.geoms = np.zeros(len(rays), dtype=np.int32)
         self.distances = np.zeros(len(rays))
         self.normals = np.zeros((len(rays), 3))
@@ -123,13 +119,11 @@ class RayCaster:
         self.origin = data.xpos[body] + axes @ self._mount.position_in_body
         turned = axes @ self._mount.axes_in_body
         self.directions = self._rays @ turned.T
-        forward, half = turned[:, 0], self._half_angle
-        with geoms_in_cone(model, data, self.origin, forward, half):
-            mujoco.mj_multiRay(
-                *(model, data, self.origin, self.directions.reshape(-1)),
-                *(VISIBLE, True, body, self.geoms, self.distances),
-                *(self.normals.reshape(-1), len(self.directions), cutoff),
-            )
+        mujoco.mj_multiRay(
+            *(model, data, self.origin, self.directions.reshape(-1)),
+            *(VISIBLE, True, body, self.geoms, self.distances),
+            *(self.normals.reshape(-1), len(self.directions), cutoff),
+        )
 
     @property
     def slants(self) -> Array:
@@ -138,42 +132,6 @@ class RayCaster:
             np.einsum("ij,ij->i", self.directions, self.normals)
         )
         return slants
-
-
-@contextmanager
-def geoms_in_cone(
-    model: mujoco.MjModel,
-    data: mujoco.MjData,
-    position_in_world: Array,
-    axis_in_world: Array,
-    half_angle: float,
-) -> Iterator[None]:
-    """Hide the geoms whose bounding spheres lie outside a cone.
-
-    Every image of a camera within the cone stays the same, and takes less
-    time. Planes, which have no bounding sphere, are never hidden.
-
-    Args:
-        model: Model, whose geom groups are changed in the block.
-        data: Its state.
-        position_in_world: Apex of the cone, in [m]. Shape (3,).
-        axis_in_world: Unit vector along its axis. Shape (3,).
-        half_angle: Half of its opening angle, in [rad]; below pi / 2.
-    """
-    offsets = data.geom_xpos - position_in_world
-    along = offsets @ axis_in_world
-    squared = np.einsum("ij,ij->i", offsets, offsets) - along**2
-    across = np.sqrt(np.maximum(squared, 0.0))
-    # Distance from the surface of the cone; less than that from its apex.
-    distances = across * cos(half_angle) - along * sin(half_angle)
-    radii, groups = model.geom_rbound, model.geom_group
-    hidden = np.flatnonzero((distances > radii) & (radii > 0.0))
-    shown = groups[hidden]
-    groups[hidden] = HIDDEN_GROUP
-    try:
-        yield
-    finally:
-        groups[hidden] = shown
 
 
 RINGS = (0.0, -10.0, -25.0, -40.0)  # elevations, in [deg]

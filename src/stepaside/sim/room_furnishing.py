@@ -1,13 +1,12 @@
 """Geoms of walls, obstacles, objects and cameras in a room."""
 
 from collections.abc import Callable, Sequence
-from math import atan2, cos, sin
 
 import mujoco
 import numpy as np
 
 from ..arena import Box, Disc, Obstacle, Room
-from ..robots.head import HeadDescription, Mount
+from ..robots.head import HeadDescription
 from .camera_settings import SceneSettings
 from .floor import add_geom, add_tiles
 
@@ -114,9 +113,7 @@ def furnisher(
     head: HeadDescription,
     *,
     walls: float,
-    housings: Sequence[str] = (),
-    rear: bool = False,
-    upper: Sequence[str] = (),
+    wearers: Sequence[str] = (),
 ) -> Furnish:
     """Return the function that adds walls, objects and cameras to a world.
 
@@ -132,13 +129,7 @@ def furnisher(
                 name=f"thing {index}", pos=[thing.x, thing.y, 0.0]
             )
             _add_thing(body, thing.kind)
-        for name in housings:
-            for mount, size in zip(
-                head.depth_mounts(rear=rear), head.housings, strict=False
-            ):
-                body = spec.body(f"{name}/{head.body_of(mount)}")
-                _add_housing(body, mount, size)
-        for name in upper:
+        for name in wearers:
             if spec.camera(f"{name}/{head.camera}") is None:
                 _add_camera(spec, name, head)
 
@@ -196,18 +187,3 @@ def _add_thing(body: mujoco.MjsBody, kind: str) -> None:
         return
     for place, size in FIGURE:
         add_geom(body, "ELLIPSOID", size, WHITE, at=place)
-
-
-def _add_housing(
-    body: mujoco.MjsBody, mount: Mount, size: tuple[float, float, float]
-) -> None:
-    """Add the massless housing of a depth camera to its body."""
-    x, y, z = mount.position_in_body.tolist()
-    yaw = atan2(mount.axes_in_body[1, 0], mount.axes_in_body[0, 0])
-    back = 0.5 * size[0]  # from the mount, which is at the front face
-    at = x - back * cos(yaw), y - back * sin(yaw), z
-    half = [0.5 * side for side in size]
-    black = 0.1, 0.1, 0.1, 1.0
-    add_geom(
-        body, "BOX", half, black, at=at, yaw=yaw, bit=0, group=2, mass=0.0
-    )

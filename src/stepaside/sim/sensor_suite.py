@@ -1,7 +1,6 @@
 """Simulated cameras and sonars of a robot, with rates and latencies."""
 
 from collections.abc import Callable
-from math import atan, hypot
 
 import cv2
 import mujoco
@@ -26,7 +25,6 @@ from .ranging import (
     RayCaster,
     SensorStream,
     StreamedSensors,
-    geoms_in_cone,
     period_of,
 )
 from .world import World
@@ -124,17 +122,7 @@ class SensorSuite(StreamedSensors[Percept]):
         number = model.camera(f"{self._name}/{name}").id
         vertical = 2.0 * np.arctan(0.5 * camera.height / camera.focal_y)
         model.cam_fovy[number] = np.degrees(vertical)
-        # Graphics use the vertical focal length in both directions.
-        focal = min(camera.focal_x, camera.focal_y)
-        half_angle = atan(0.5 * hypot(camera.width, camera.height) / focal)
-
-        def draw() -> Pixels:
-            axis = -data.cam_xmat[number].reshape(3, 3)[:, 2]
-            position = data.cam_xpos[number]
-            with geoms_in_cone(model, data, position, axis, half_angle):
-                return screen.draw(data, number)
-
-        return draw
+        return lambda: screen.draw(data, number)
 
     def _depth(self, number: int, mount: Mount) -> SensorStream[Percept]:
         own = self._settings.depth_of(mount)
