@@ -13,17 +13,17 @@ from stepaside.games.floor_player import FloorPlayer
 from stepaside.games.floor_world import FloorPerson
 from stepaside.sim.person_body import (
     PARTS,
+    STEP,
     PersonBody,
     add_person,
     mocap_indices,
     set_person_pose,
 )
 from stepaside.sim.person_motion import PersonMotion
-from stepaside.sim.person_settings import FIGURES, PersonSettings
+from stepaside.sim.person_settings import PersonSettings
 from stepaside.sim.push import Push
 
 TICK = 0.05
-STEP = FIGURES["adult"].step
 
 
 def figure() -> tuple[mujoco.MjModel, mujoco.MjData]:

@@ -11,8 +11,7 @@ from ..core.player_identity import Role
 from ..robots.description import load_robot
 from ..robots.head import load_head
 from ..sim.camera_settings import SceneSettings
-from ..sim.person_body import add_person, add_template
-from ..sim.person_settings import FIGURES
+from ..sim.person_body import SHIRT, add_person, add_template
 from ..sim.room_furnishing import (
     Furnish,
     add_solids,
@@ -116,12 +115,9 @@ def scenery_of_game(
     def furnish_players(spec: mujoco.MjSpec) -> None:
         for player in settings.players:
             if player.body == "person":
-                own = player.person
-                add_person(
-                    *(spec, player.name, FIGURES[own.figure]),
-                    shirt=None if scene else colours[player.name],
-                    solid=own.solid,
-                )
+                shirt = SHIRT if scene else colours[player.name]
+                solid = player.person.solid
+                add_person(spec, player.name, shirt=shirt, solid=solid)
             elif player.body != "robot" or player.name in templates:
                 add_template(spec, player.name, colours[player.name])
 

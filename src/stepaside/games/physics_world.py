@@ -28,7 +28,6 @@ from ..sim.camera_settings import RoomObject
 from ..sim.crowd_motion import CrowdMotion
 from ..sim.ground_truth import GroundTruth, IdealLineOfSight, torsos_apart
 from ..sim.person_body import PersonBody
-from ..sim.person_settings import FIGURES
 from ..sim.physics_settings import PhysicsSettings
 from ..sim.push import pushes_by_robot
 from ..sim.world import World
@@ -266,8 +265,7 @@ class PhysicsWorld(World):
         if own.body == "person":
             if own.name in self._walks:
                 pose = self._walks[own.name].pose  # it looks along its path
-            figure = FIGURES[own.person.figure]
-            return PersonBody(self, own.name, pose, figure)
+            return PersonBody(self, own.name, pose)
         return MarkerBody(self, own.name, pose)
 
     def _player(self, own: PlayerSettings) -> Player:

@@ -20,7 +20,6 @@ from ..sim.person_body import (
     pose_template,
     set_person_pose,
 )
-from ..sim.person_settings import FIGURES, PedestrianModel
 from ..sim.physics_settings import PhysicsSettings
 from ..sim.room_furnishing import hide_walls
 from ..sim.world import build_model
@@ -63,7 +62,6 @@ class RunScene:
         hide_walls(self.model)
         self.data = mujoco.MjData(self.model)
         self._movers = scenery.movers_in(self.model, self.data)
-        self._figures = {name: _figure_of(run, name) for name in persons}
         self._persons = {
             name: mocap_indices(self.model, name) for name in persons
         }
@@ -106,21 +104,12 @@ class RunScene:
         for name, parts in self._persons.items():
             pose = Pose(*self._tracks[name].torso[index].tolist())
             walked = float(self._walked[name][index])
-            figure = self._figures[name]
-            set_person_pose(self.data, parts, pose, walked, figure)
+            set_person_pose(self.data, parts, pose, walked)
         for name in self._templates:
             pose = Pose(*self._tracks[name].torso[index].tolist())
             pose_template(self.model, self.data, name, pose)
         mujoco.mj_kinematics(self.model, self.data)
         mujoco.mj_camlight(self.model, self.data)
-
-
-def _figure_of(run: Run, name: str) -> PedestrianModel:
-    """Return the figure of a person in a duel or a game."""
-    if is_match(run):
-        return FIGURES[run.settings.player(name).person.figure]
-    assert is_duel(run)
-    return FIGURES[run.settings.person.figure]
 
 
 def wall_corners(room: Room | None) -> Array:

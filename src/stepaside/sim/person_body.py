@@ -9,11 +9,14 @@ from ..core.poses import Pose
 from ..core.rotations import quaternion_of
 from .floor import FLOOR_BIT, add_geom
 from .ground_truth import FloorTruth
-from .person_settings import FIGURES, HIP, PedestrianModel
 from .world import CONTACT_BITS, World
 
 SKIN = (0.85, 0.68, 0.56, 1.0)
-ADULT = FIGURES["adult"]
+SHIRT = (0.80, 0.16, 0.14, 1.0)
+TROUSERS = (0.25, 0.27, 0.32, 1.0)
+HIP = 0.9  # height of the hips, in [m]
+STEP = 0.25  # length of a step, in [m]
+SWING = 0.14  # amplitude of the leg angle that gives it, in [rad]
 PARTS = ("trunk", "left leg", "right leg", "left arm", "right arm")
 SHOULDER = 1.42  # height of an adult's shoulders, in [m]
 TRUNK = 0.15  # half depth of an adult's trunk, in [m]
@@ -26,9 +29,8 @@ REACH = 0.4  # of an adult around the trunk with arms hanging, in [m]
 def add_person(
     spec: mujoco.MjSpec,
     name: str,
-    figure: PedestrianModel = ADULT,
     *,
-    shirt: Colour | None = None,
+    shirt: Colour = SHIRT,
     solid: bool = True,
 ) -> None:
     """Add the bodies of a person; robots and obstacles touch a solid one."""
@@ -43,23 +45,22 @@ def add_person(
         add_geom(
             body,
             "CAPSULE",
-            (figure.size * radius,),
+            (radius,),
             colour,
             bit=FLOOR_BIT if solid else UNTOUCHABLE_BIT,
-            fromto=[figure.size * value for value in (*start, *end)],
+            fromto=[*start, *end],
             group=2,
         )
 
-    shirt, trousers = shirt or figure.shirt, figure.trousers
     trunk = spec.worldbody.add_body(name=f"{name}/trunk", mocap=True)
     capsule(trunk, (0, 0, 1.0), (0, 0, 1.35), TRUNK, shirt)
     capsule(trunk, (0, -0.16, SHOULDER), (0, 0.16, SHOULDER), 0.07, shirt)
-    capsule(trunk, (0, -0.08, HIP), (0, 0.08, HIP), 0.1, trousers)
+    capsule(trunk, (0, -0.08, HIP), (0, 0.08, HIP), 0.1, TROUSERS)
     capsule(trunk, (0.01, 0, 1.58), (0.01, 0, 1.65), 0.09, SKIN)
     for side, y in (("left", 1.0), ("right", -1.0)):
         leg = spec.worldbody.add_body(name=f"{name}/{side} leg", mocap=True)
-        capsule(leg, (0, 0, 0), (0, 0, -0.80), 0.065, trousers)
-        capsule(leg, (-0.04, 0, -0.85), (0.14, 0, -0.85), 0.045, trousers)
+        capsule(leg, (0, 0, 0), (0, 0, -0.80), 0.065, TROUSERS)
+        capsule(leg, (-0.04, 0, -0.85), (0.14, 0, -0.85), 0.045, TROUSERS)
         arm = spec.worldbody.add_body(name=f"{name}/{side} arm", mocap=True)
         capsule(arm, (0, 0.04 * y, 0), (0.03, 0.05 * y, -0.55), 0.045, shirt)
 
@@ -76,11 +77,9 @@ def set_person_pose(
     parts: dict[str, int],
     frame: Pose,
     way: float,
-    figure: PedestrianModel = ADULT,
 ) -> None:
     """Set the bodies of a person; the way [m] is the phase of a step."""
-    size = figure.size
-    swing = figure.swing * sin(pi * way / figure.step)
+    swing = SWING * sin(pi * way / STEP)
     positions = {
         "trunk": (0.0, 0.0, 0.0, 0.0),
         "left leg": (0.0, 0.09, HIP, swing),
@@ -90,8 +89,8 @@ def set_person_pose(
     }
     for part, (x, y, z, pitch) in positions.items():
         index = parts[part]
-        place = frame.compose(Pose(size * x, size * y, 0.0))
-        data.mocap_pos[index] = place.x, place.y, size * z
+        place = frame.compose(Pose(x, y, 0.0))
+        data.mocap_pos[index] = place.x, place.y, z
         data.mocap_quat[index] = quaternion_of(0.0, pitch, frame.theta)
 
 
@@ -103,12 +102,9 @@ class PersonBody:
         world: World,
         name: str,
         pose: Pose,
-        figure: PedestrianModel = ADULT,
     ) -> None:
-        self.name, self.world, self._figure = name, world, figure
-        self.truth = FloorTruth(
-            pose, reach=REACH * figure.size, height=figure.size
-        )
+        self.name, self.world = name, world
+        self.truth = FloorTruth(pose, reach=REACH, height=1.0)
         self._parts, self._walked = mocap_indices(world.model, name), 0.0
         self.move(pose)
 
@@ -118,7 +114,7 @@ class PersonBody:
         self._walked += hypot(pose.x - before.x, pose.y - before.y)
         self.truth.pose = pose
         data, walked = self.world.data, self._walked
-        set_person_pose(data, self._parts, pose, walked, self._figure)
+        set_person_pose(data, self._parts, pose, walked)
 
 
 DISC_RADIUS = 0.07  # in [m]

@@ -117,8 +117,7 @@ class Page:
         """Return what decides which bodies a game has."""
         played = self.session.played
         return played.room, *(
-            (own.name, own.body, own.robot, own.person.figure)
-            for own in played.players
+            (own.name, own.body, own.robot) for own in played.players
         )
 
     def start(self) -> None:
