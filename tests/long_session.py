@@ -9,22 +9,16 @@ as JSON, with the time that they took.
 import gc
 import json
 import sys
-from typing import Any
 
 import numpy as np
 
 from fake_body import FakeBody
 from stepaside.control.scheme_builder import build_scheme
-from stepaside.control.sight_sources import CameraSight
 from stepaside.locomotion.walk_snapshots import Phase
 from stepaside.locomotion.zmp.control_settings import ControlSettings
-from stepaside.perception.colour_detector import RED, ColourDetector
-from stepaside.perception.images import SonarEcho
-from stepaside.perception.pipeline import build_perception
 from stepaside.planning import GaitSettings
 from stepaside.robots.description import load_robot
 from stepaside.robots.forward_kinematics import ForwardKinematics
-from stepaside.robots.head import load_head
 from stepaside.strategies import Evasion
 
 TICK = 0.012
@@ -36,45 +30,21 @@ CONTROLS = {
 }
 
 
-class DayBody(FakeBody):
-    """A body that hears the other."""
-
-    hears = False
-
-    def read(self) -> Any:
-        """State; sightings arrive five times a second."""
-        measured = super().read()
-        if not self.hears:
-            return measured
-        heard: tuple[SonarEcho, ...] = ()
-        if self._ticks % 16 == 0:
-            distance = self.distance if self.distance < 1.0 else None
-            heard = (SonarEcho(self.time, "left", distance),)
-        return measured._replace(sighting=None, percepts=heard)
-
-
 class Day:
     """One robot's control, and the body that it moves."""
 
     def __init__(self, kind: str) -> None:
-        """Stand at midnight; ``kind`` is of ``CONTROLS``, or "eyes"."""
+        """Stand at midnight; ``kind`` is of ``CONTROLS``."""
         nao = load_robot("nao")
-        eyes = None
-        if kind == "eyes":
-            eyes = build_perception(
-                nao, load_head(nao), ColourDetector(RED), tick=TICK
-            )
         self.mind = build_scheme(
             Evasion(safety_radius=0.8, release_distance=1.5),
             nao,
             GaitSettings(),
-            CONTROLS.get(kind, CONTROLS["feedback"]),
+            CONTROLS[kind],
             tick=TICK,
-            senses=None if eyes is None else CameraSight(eyes, tick=TICK),
         )
         weight = 9.81 * ForwardKinematics(nao).mass
-        self.body = DayBody(self.mind.joint_targets, weight, TICK)
-        self.body.hears = kind == "eyes"
+        self.body = FakeBody(self.mind.joint_targets, weight, TICK)
         self.steps = 0
 
     def pass_until(self, phase: Phase, longest: float) -> None:

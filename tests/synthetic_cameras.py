@@ -1,6 +1,6 @@
 """Perception on synthetic images of a robot at a known pose."""
 
-from math import atan2, cos, sin
+from math import cos, sin
 from typing import Any
 
 import numpy as np
@@ -16,7 +16,7 @@ from stepaside.perception.depth_detector import (
     Shadow,
 )
 from stepaside.perception.gaze import GazeTarget
-from stepaside.perception.images import ColourImage, DepthImage, SonarEcho
+from stepaside.perception.images import ColourImage, DepthImage
 from stepaside.perception.measurement import RobotState
 from stepaside.perception.pipeline import (
     FloorMapping,
@@ -104,8 +104,8 @@ class Eyes:
         *percepts: Any,
         tilt: tuple[float, float] = (0.0, 0.0),
     ) -> Any:
-        """Take in one tick; without percepts, an echo of the own arms."""
-        percepts = percepts or (SonarEcho(time, "left", 0.1),)
+        """Take in one tick; without percepts, an image of a wall."""
+        percepts = percepts or (colour(time),)
         angles, still = np.zeros(JOINTS), np.zeros(3)
         seen = self.perception.see(
             RobotState(time, angles, still, UP, np.zeros(8), None, percepts),
@@ -193,11 +193,3 @@ def show(
 
     monkeypatch.setattr(module, "detect_obstacles", detect)
     return given
-
-
-def axis_of(eyes: Eyes, sonar: str) -> float:
-    """Direction of a sonar in odometry."""
-    body = eyes.perception.body
-    assert body is not None
-    axis = body.axes_torso_in_odometry @ HEAD.sonars[sonar].axes_in_body[:, 0]
-    return atan2(axis[1], axis[0])

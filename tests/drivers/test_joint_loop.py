@@ -28,7 +28,7 @@ from stepaside.drivers.method_thread import SessionLost
 from stepaside.drivers.motors import motors_of
 from stepaside.drivers.safety import SafetyState
 from stepaside.locomotion.walk_snapshots import Phase
-from stepaside.perception.images import SonarEcho
+from stepaside.perception.images import LidarScan
 from stepaside.perception.measurement import Sighting
 from stepaside.robots.description import load_robot
 from stepaside.robots.tree_cache import load_tree
@@ -109,7 +109,7 @@ def test_time_counts_ticks_also_of_reports_that_are_missing() -> None:
     session = game.session
     session.time += 2 * TICK
     session.now += 2 * TICK
-    session.changes["percepts"] = (SonarEcho(session.time, "left", 0.5),)
+    session.changes["percepts"] = (LidarScan(session.time, np.zeros((0, 3))),)
     game.play(1)
     read = game.schemes[-1].read[-1]
     assert read.time == pytest.approx(3 * TICK)

@@ -31,7 +31,6 @@ from stepaside.drivers.lola import STALL_CURRENT, LolaRobot  # noqa: E402
 from stepaside.drivers.lola_server import LolaServer  # noqa: E402
 from stepaside.drivers.robot import JointTargets  # noqa: E402
 from stepaside.drivers.safety import SafetyState  # noqa: E402
-from stepaside.perception.images import SonarEcho  # noqa: E402
 from stepaside.perception.measurement import (  # noqa: E402
     RobotState,
 )
@@ -102,7 +101,6 @@ def test_a_frame_is_a_state_in_our_conventions(daemon: Daemon) -> None:
             Gyroscope=[0.3, 0.4, 0.5],
             Angles=[0.01, 0.02],
             FSR=[0.1 * i for i in range(8)],
-            Sonar=[0.6, 2.55],
             Current=current,
             Touch=touch,
             Battery=[0.4, 0.0, 0.0, 36.0],
@@ -122,10 +120,6 @@ def test_a_frame_is_a_state_in_our_conventions(daemon: Daemon) -> None:
     np.testing.assert_allclose(state.gyro, [0.3, 0.4, 0.5], rtol=1e-6)
     assert state.tilt == pytest.approx((0.01, 0.02))
     assert state.foot_forces[7] == pytest.approx(0.7 * 9.81)
-    left, right = state.percepts
-    assert isinstance(left, SonarEcho) and left.sonar == "left"
-    assert left.distance == pytest.approx(0.6)
-    assert isinstance(right, SonarEcho) and right.distance is None
     status = state.status
     assert status is not None and status.pressed and status.bumped
     assert status.current[KNEE] == pytest.approx(1.0)

@@ -25,7 +25,7 @@ LEAVES = pytest.mark.xfail(
 
 @pytest.mark.parametrize(
     "kind",
-    [pytest.param("open loop", marks=LEAVES), "feedback", "eyes"],
+    [pytest.param("open loop", marks=LEAVES), "feedback"],
 )
 def test_maneuvers_do_not_accumulate_memory(kind: str) -> None:
     """Whole control, nothing made up but the body: it fits into a day.

@@ -10,7 +10,7 @@ import pytest
 from stepaside.core.poses import Pose, wrap_angle
 from stepaside.perception.camera_model import CameraModel, camera_pose
 from stepaside.perception.colour_detector import RED, ColourDetector
-from stepaside.perception.images import Percept, SonarEcho
+from stepaside.perception.images import Percept
 from stepaside.perception.measurement import RobotState, Sighting
 from stepaside.perception.pipeline import build_perception
 from stepaside.perception.target_selection import (
@@ -28,28 +28,23 @@ Place = tuple[float, float]
 class Watch:
     """Robot at the origin that scans."""
 
-    def __init__(self, walls: Sequence[Wall], echo: float | None) -> None:
+    def __init__(self, walls: Sequence[Wall]) -> None:
         self.perception = build_perception(
             NAO, HEAD, ColourDetector(RED), tick=TICK, people=True
         )
-        self._walls, self._echo = walls, echo
+        self._walls = walls
         self._joints = np.zeros(JOINTS)
         self._ticks = 0
 
     def see(self, people: Sequence[Place]) -> Sighting | None:
         """Take in one tick of a scene."""
-        now, percepts = self._ticks * TICK, list[Percept]()
-        body = self.perception.body
+        body, percepts = self.perception.body, list[Percept]()
         if self._ticks % 4 == 0 and body is not None:
             place, axes, _ = camera_pose(body, HEAD.depth[0])
             posts: list[Post] = [(x, y, 0.15, 1.7) for x, y in people]
             taken = body.time  # a tick ago, with the head as it was then
             image = draw(CAMERA, place, axes, posts, self._walls, taken)
             percepts.append(image)
-        if self._ticks % 6 == 0 and self._echo is not None:
-            percepts += [
-                SonarEcho(now, side, self._echo) for side in HEAD.sonars
-            ]
         return self._take(percepts)
 
     def _take(self, percepts: Sequence[Percept]) -> Sighting | None:
@@ -98,8 +93,7 @@ def test_a_near_wall_does_not_distract_from_an_approaching_person(
     beside: float, away: float
 ) -> None:
     """The person is followed from 1.5 m on, wherever the wall is."""
-    echo = away if beside == 0.0 and away < 0.8 else None
-    watch = Watch([(radians(beside), away)], echo)
+    watch = Watch([(radians(beside), away)])
     walk = coming(90.0, 0.8, 5.5)
     for tick in range(round(6.0 / TICK)):
         place = walk(tick * TICK)
@@ -114,7 +108,7 @@ def test_an_approaching_person_is_preferred_to_one_who_passes() -> None:
 
     They cross in sight of the robot, and each is still the one it was.
     """
-    watch = Watch([], None)
+    watch = Watch([])
     walk = coming(30.0, 0.8, 5.0)
     counted = set()
     for tick in range(round(5.0 / TICK)):
@@ -207,7 +201,7 @@ class WatchBehind(Watch):
 
 def test_a_camera_on_the_back_shows_who_comes_from_behind() -> None:
     """At true bearing and distance, wherever the head looks."""
-    watch, place = WatchBehind([], None), coming(170.0, 0.8, 3.2)
+    watch, place = WatchBehind([]), coming(170.0, 0.8, 3.2)
     seen = None
     for tick in range(90):
         seen = watch.see([place(tick * TICK)])
@@ -218,7 +212,7 @@ def test_a_camera_on_the_back_shows_who_comes_from_behind() -> None:
 
 
 def test_the_head_searches_ahead_while_the_back_watches_a_person() -> None:
-    watch, place = WatchBehind([], None), coming(180.0, 0.8, 3.2)
+    watch, place = WatchBehind([]), coming(180.0, 0.8, 3.2)
     yaws = []
     for tick in range(130):
         watch.see([place(tick * TICK)])

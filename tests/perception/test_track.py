@@ -204,10 +204,10 @@ def test_a_delayed_observation_does_not_turn_back_times() -> None:
     track.update(look(1.2, 2.0))
     track.update(look(1.1, 2.0))
     assert (track.time, track.observed_at) == (1.2, 1.2)
-    assert (track.identified_at, track.ranged_at) == (1.2, 1.2)
+    assert track.identified_at == 1.2
     track.update(Observation(1.4, 2.0, 0.0, 0.0, 0.1, 0.1, False, False))
     assert (track.time, track.observed_at) == (1.4, 1.4)
-    assert (track.identified_at, track.ranged_at) == (1.2, 1.2)
+    assert track.identified_at == 1.2
 
 
 def test_a_delayed_frame_is_compared_at_its_time() -> None:

@@ -13,7 +13,6 @@ from stepaside.sim.camera_settings import (
     DepthSettings,
     RoomObject,
     SceneSettings,
-    SonarSettings,
 )
 
 
@@ -26,7 +25,6 @@ from stepaside.sim.camera_settings import (
         (DepthSettings, {"missing": 1.1}, "missing"),
         (DepthSettings, {"near": 3.0, "far": 2.0}, r"far must lie in \[3"),
         (DepthSettings, {"across": 3.0}, "across must lie"),
-        (SonarSettings, {"near": 0.5, "far": 0.4}, "far must lie"),
         (CameraSettings, {"drop_frames": -0.1}, "drop_frames"),
         (SceneSettings, {"walls": 1.0}, "walls"),
         (RoomObject, {"kind": "red box", "x": 20.1, "y": 0.0}, "object x"),

@@ -1,4 +1,4 @@
-"""Test ray-cast cameras and sonars in front of walls and slopes."""
+"""Test ray-cast cameras in front of walls and slopes."""
 
 from dataclasses import replace
 from math import cos, radians, sqrt
@@ -11,14 +11,13 @@ from stepaside.core.poses import Array
 from stepaside.core.rotations import rotation
 from stepaside.perception.camera_model import CameraModel
 from stepaside.robots.head import Mount
-from stepaside.sim.camera_settings import DepthSettings, SonarSettings
+from stepaside.sim.camera_settings import DepthSettings
 from stepaside.sim.ranging import RayCaster
-from stepaside.sim.sensor_suite import cast_depths, cast_echo, cone
+from stepaside.sim.sensor_suite import cast_depths
 
 CAMERA = CameraModel.of_field_of_view(40, 30, radians(58.0), radians(45.0))
 AHEAD = Mount(np.array([0.1, 0.0, 0.0]), np.eye(3))
 CLEAN = DepthSettings(noise=0.0, missing=0.0, step=1e-5)
-QUIET = SonarSettings(noise=0.0)
 
 
 def generator() -> np.random.Generator:
@@ -134,31 +133,6 @@ def test_the_shadow_of_an_edge_is_dark_in_the_image() -> None:
     near = np.flatnonzero(np.abs(image - 0.95) < 0.01)
     dark = np.flatnonzero(image == 0.0)
     assert dark.tolist() == [near[0] - 1]
-
-
-def hear(
-    things: str, settings: SonarSettings = QUIET, at: str = 'pos="0 0 0.5"'
-) -> float | None:
-    _, caster = cast(things, cone(settings.cone), AHEAD, at)
-    return cast_echo(caster, settings, generator())
-
-
-def test_a_sonar_measures_the_nearest_object_not_the_floor() -> None:
-    post = '<geom type="box" pos="0.75 0.1 0.5" size="0.1 0.1 0.5"/>'
-    for things in (wall(0.8) + post, post):
-        heard = hear(things)
-        assert heard is not None and 0.55 <= heard <= 0.60
-    assert hear("") is None
-
-
-@pytest.mark.parametrize("sign", [-1.0, 1.0])
-def test_floor_and_ceiling_give_no_echo(sign: float) -> None:
-    """Also for a sonar that is pitched; a slope gives an echo."""
-    lid = '<geom type="box" pos="0 0 1.1" size="2 2 0.1" euler="0 {} 0"/>'
-    up = np.cos(-sign * np.pi / 6), np.sin(-sign * np.pi / 6)
-    at = f'pos="0 0 0.5" quat="{up[0]} 0 {up[1]} 0"'
-    assert hear(lid.format(0), at=at) is None
-    assert (hear(lid.format(35), at=at) is not None) is (sign > 0.0)
 
 
 EYE = np.array([0.1, -0.2, 0.5])

@@ -1,4 +1,4 @@
-"""Test rates, latencies and losses of cameras and sonars."""
+"""Test rates, latencies and losses of cameras."""
 
 from collections import deque
 from dataclasses import replace
@@ -15,14 +15,12 @@ from stepaside.perception.images import (
     ColourImage,
     DepthImage,
     Percept,
-    SonarEcho,
 )
 from stepaside.robots.description import load_robot
 from stepaside.sim.camera_settings import (
     CameraSettings,
     ColourSettings,
     DepthSettings,
-    SonarSettings,
 )
 from stepaside.sim.ranging import SensorStream
 from stepaside.sim.sensor_suite import ImageNoise, SensorSuite
@@ -32,15 +30,15 @@ NAO = load_robot("nao")
 PLAIN = CameraSettings(
     colour=ColourSettings(width=80, height=60, noise=0.0),
     depth=DepthSettings(noise=0.0, missing=0.0),
-    sonar=SonarSettings(noise=0.0),
 )
+CAMERA = CameraModel.of_field_of_view(8, 8, 1.0, 1.0)
 
 
 def stream(
     period: float = 0.1, latency: float = 0.0, drop: float = 0.0
 ) -> SensorStream[Percept]:
     def take(now: float) -> Percept:
-        return SonarEcho(now, "left", None)
+        return ColourImage(now, CAMERA, np.zeros((8, 8, 3), np.uint8))
 
     generator = np.random.default_rng(1)
     return SensorStream(take, period, latency, drop, generator, 0, deque())
@@ -112,8 +110,6 @@ def arrivals(
     for tick in range(ticks):
         for percept in eyes.read(tick * TICK):
             kind = type(percept).__name__
-            if isinstance(percept, SonarEcho):
-                kind = percept.sonar
             found.setdefault(kind, []).append((percept.time, tick * TICK))
     return found
 
@@ -127,12 +123,10 @@ def test_each_sensor_has_its_own_rate() -> None:
         added_latency=0.008,
     )
     found = arrivals(eyes_of(settings), 60)
-    assert sorted(found) == ["ColourImage", "DepthImage", "left", "right"]
+    assert sorted(found) == ["ColourImage", "DepthImage"]
     expected = {
         "ColourImage": (17 * TICK, 0.058),
         "DepthImage": (8 * TICK, 0.028),
-        "left": (25 * TICK, 0.008),
-        "right": (25 * TICK, 0.008),
     }
     for kind, (period, latency) in expected.items():
         taken, arrived = np.array(found[kind]).T
@@ -145,7 +139,7 @@ def test_each_sensor_has_its_own_rate() -> None:
 def test_images_are_taken_from_the_sensor_mounts() -> None:
     eyes = eyes_of()
     arrivals(eyes, 1)
-    colour, depth, left, right = eyes.exposed
+    colour, depth = eyes.exposed
     assert isinstance(colour, ColourImage) and isinstance(depth, DepthImage)
     assert (depth.near, depth.far) == (0.8, 3.5)
     # The face of the box, from the depth camera that looks down by 8 deg.
@@ -157,10 +151,6 @@ def test_images_are_taken_from_the_sensor_mounts() -> None:
     assert colour.camera == eyes.camera
     assert colour.pixels.shape == (60, 80, 3)
     assert colour.pixels[30, 40, 0] > 2 * colour.pixels[30, 40, 1]
-    # The sonars sit on the torso, which stands a meter ahead.
-    for echo in (left, right):
-        assert isinstance(echo, SonarEcho) and echo.distance is not None
-        assert echo.distance == pytest.approx(0.6, abs=0.03)
 
 
 def depth_images(eyes: SensorSuite, ticks: int = 60) -> list[DepthImage]:

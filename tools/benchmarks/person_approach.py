@@ -6,8 +6,8 @@
     python tools/benchmarks/person_approach.py cameras --seeds 1:3
 
 A person does not wear the colours of a robot, so colour images contain no
-detections: with cameras, two images per second are ray cast. Depth images and
-sonar have their usual rates.
+detections: with cameras, two images per second are ray cast. Depth images
+have their usual rate.
 """
 
 from typing import NamedTuple

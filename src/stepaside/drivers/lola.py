@@ -20,7 +20,6 @@ import numpy as np
 
 from ..core.errors import ConfigurationError
 from ..core.poses import Array
-from ..perception.images import SonarEcho
 from ..perception.measurement import RobotState, RobotStatus, Sighting
 from .robot import JointRobot, JointTargets
 from .robot_loader import RobotRequest
@@ -76,7 +75,6 @@ STALL_CURRENT = np.array(
 ) * (25.2 / 21.6**2)  # in [A]
 CHEST, BUMPERS = 0, (4, 5, 9, 10)  # in Touch
 GRAVITY = 9.81  # foot sensors read in kilograms
-MAX_ECHO = 2.545  # of a sonar; 2.55, in single precision, is none, in [m]
 CHEST_COLOURS = {
     SafetyState.LIMP: (1.0, 0.0, 0.0),
     SafetyState.REACHING: (1.0, 0.5, 0.0),
@@ -141,7 +139,6 @@ class LolaRobot(JointRobot):
         now, angles = self._count * TICK, np.array(frame["Position"])
         then, old = self._last or (now - TICK, angles)
         self._last = now, angles
-        echoes = zip(("left", "right"), frame["Sonar"], strict=True)
         touch = frame["Touch"]
         roll, pitch = frame["Angles"]
         return RobotState(
@@ -151,10 +148,6 @@ class LolaRobot(JointRobot):
             -np.array(frame["Accelerometer"]),
             GRAVITY * np.array(frame["FSR"]),
             self._newest_sight(),
-            tuple(
-                SonarEcho(now, name, echo if 0.0 < echo < MAX_ECHO else None)
-                for name, echo in echoes
-            ),
             joint_velocities=(angles - old) / (now - then),
             tilt=(roll, pitch),
             status=RobotStatus(

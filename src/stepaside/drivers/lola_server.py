@@ -13,7 +13,6 @@ import numpy as np
 from ..core.errors import ConfigurationError
 from ..core.poses import Array
 from ..perception.attitude import AttitudeFilter
-from ..perception.images import SonarEcho
 from ..perception.measurement import RobotState, Sighting
 from .lola import GRAVITY, JOINTS, LOCK_STEP, SIGHT, SIGHT_SUFFIX, TICK
 
@@ -261,10 +260,6 @@ class LolaServer:
 
     def _frame(self, measured: RobotState) -> bytes:
         """Return the sensor frame of a measurement."""
-        echoes = {"left": NO_ECHO, "right": NO_ECHO}
-        for each in measured.percepts:
-            if isinstance(each, SonarEcho) and each.distance is not None:
-                echoes[each.sonar] = each.distance
         position = np.zeros(len(JOINTS))
         position[self._order] = measured.joint_positions
         number = float(self._count % (1 << 16))
@@ -278,7 +273,7 @@ class LolaServer:
             "Gyroscope": measured.gyro.tolist(),
             "Angles": [self._attitude.roll, self._attitude.pitch],
             "FSR": (measured.foot_forces / GRAVITY).tolist(),
-            "Sonar": list(echoes.values()),
+            "Sonar": [NO_ECHO] * 2,
             "Touch": [float(self._pressed)] + [0.0] * 13,
             "Battery": [1.0, 0.0, 0.0, number],
             "RobotConfig": [self._serial, "6.0.0", self._serial, "6.0.0"],

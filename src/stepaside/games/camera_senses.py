@@ -106,7 +106,7 @@ class CameraSenses:
         )
 
     def _has_depth(self, own: PlayerSettings) -> bool:
-        """Return whether a robot has depth cameras and sonars."""
+        """Return whether a robot has depth cameras."""
         return self._settings.maps_room or own.role == "evader"
 
     def _fixed_views(self, own: PlayerSettings) -> tuple[Sector, ...]:
@@ -122,7 +122,7 @@ class CameraSenses:
         return tuple(found)
 
     def eyes_of(self, world: World, name: str) -> SensorSuite:
-        """Return the cameras and sonars of a robot of a world."""
+        """Return the cameras of a robot of a world."""
         own = self._settings.player(name)
         return SensorSuite(
             world,

@@ -197,7 +197,7 @@ class DuelSettings:
     )
     cameras: CameraSettings = setting(
         CameraSettings(),
-        "Cameras and sonars, with camera sensing",
+        "Cameras, with camera sensing",
         needs=("sensing", "cameras"),
     )
     lidar: LidarSettings = setting(

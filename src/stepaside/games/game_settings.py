@@ -248,7 +248,7 @@ class GameSettings:
         MapSettings(), "Map of the room that robots have", needs=("room", "")
     )
     cameras: CameraSettings = setting(
-        CameraSettings(), "Cameras and sonars of players that sense by them"
+        CameraSettings(), "Cameras of players that sense by them"
     )
     lidar: LidarSettings = setting(
         LidarSettings(), "Lidar of players that sense by one"

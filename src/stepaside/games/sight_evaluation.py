@@ -12,7 +12,6 @@ from ..perception.images import (
     DepthImage,
     LidarScan,
     Percept,
-    SonarEcho,
 )
 from ..perception.measurement import Sighting
 from ..perception.pipeline import FrameReport, Perception
@@ -120,7 +119,7 @@ class SightEvaluator:
 
     def record_truth(self, percept: AnyPercept) -> None:
         """Store the truth at the instant at which an image is taken."""
-        if isinstance(percept, SonarEcho | LidarScan):
+        if isinstance(percept, LidarScan):
             return
         head, is_colour = self._head, isinstance(percept, ColourImage)
         if isinstance(percept, DepthImage):

@@ -73,7 +73,7 @@ class RobotSensing(NamedTuple):
     Attributes:
         source: Source of sightings for its controller.
         sights: Ideal sensors, one for each other player.
-        eyes: Cameras and sonars, or the lidar.
+        eyes: Cameras, or the lidar.
     """
 
     source: SightSource

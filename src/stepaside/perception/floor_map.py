@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 
 from ..arena import Polygon
 from ..core.convex import Point, lower_hull, signed_area
-from ..core.poses import Array, wrap_angles
+from ..core.poses import Array
 from ..robots.robot_tree import NAO_SIZE, OWN_MARGIN, BodySize
 from .camera_model import CameraPose
 from .images import DepthImage
@@ -262,15 +262,6 @@ class FloorMap:
             np.hypot(distances[:, 0], distances[:, 1]).min(initial=inf)
             < TOLERANCE
         )
-
-    def distance_in_cone(
-        self, x: float, y: float, facing: float, half: float
-    ) -> float:
-        """Return the distance [m] to the nearest occupied cell in a cone."""
-        distances = self.occupied_cells() - (x, y)
-        aside = np.arctan2(distances[:, 1], distances[:, 0]) - facing
-        inside = np.abs(wrap_angles(aside)) < half
-        return float(np.hypot(*distances[inside].T).min(initial=inf))
 
     def unknown(self, position: tuple[float, float]) -> tuple[Polygon, ...]:
         """Return the unknown floor near a position as polygons in odometry."""

@@ -1,4 +1,4 @@
-"""Images and sonar echoes with their times."""
+"""Images and lidar scans with their times."""
 
 from dataclasses import dataclass
 
@@ -35,16 +35,6 @@ class DepthImage:
     number: int = 0
 
 
-@dataclass(frozen=True, slots=True)
-class SonarEcho:
-    """Sonar echo, or the absence of one."""
-
-    time: float  # time of the echo [s]
-    sonar: str
-    # distance of the nearest object in its cone [m]; None without echo
-    distance: float | None
-
-
 @dataclass(frozen=True, slots=True, eq=False)
 class LidarScan:
     """Returns of one turn of a lidar."""
@@ -54,5 +44,5 @@ class LidarScan:
     points_in_torso: Array
 
 
-Percept = ColourImage | DepthImage | SonarEcho
+Percept = ColourImage | DepthImage
 AnyPercept = Percept | LidarScan

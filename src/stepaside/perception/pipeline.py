@@ -1,12 +1,12 @@
-"""Perception: from images and echoes to sightings and motion of the head.
+"""Perception: from images to sightings and motion of the head.
 
-Each image or echo is evaluated with the pose of the body at its exposure:
-detections become observations, and these update tracks and map. Then the
-opponent is selected among the tracks. This happens when an image or echo
-arrives, or an update period ends; at other ticks only the head moves.
+Each image is evaluated with the pose of the body at its exposure: detections
+become observations, and these update tracks and map. Then the opponent is
+selected among the tracks. This happens when an image arrives, or an update
+period ends; at other ticks only the head moves.
 """
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cache
 
@@ -28,16 +28,11 @@ from .images import (
     ColourImage,
     DepthImage,
     LidarScan,
-    Percept,
-    SonarEcho,
 )
 from .measurement import RobotState, Sighting
 from .observations import (
     angle_of,
     is_opponent,
-    is_valid_echo,
-    may_be_mapped,
-    observe_echo,
     observe_obstacle,
     observe_shadow,
     observe_trim,
@@ -62,7 +57,7 @@ NEAR_MARGIN = 0.1  # beyond the near limit: measured in part only, in [m]
 MIN_SHADOW = 0.12  # width of a shadow that starts a track, in [rad]
 TRIM_TIP = 0.0105  # lowest part of trim, too narrow to be seen, in [m]
 USABLE_VIEW = 0.85  # fraction of the half view in which a track must appear
-# Longest time between updates when no image or echo arrives, so that tracks
+# Longest time between updates when no image arrives, so that tracks
 # age and the head searches, in [s].
 UPDATE_PERIOD = 0.1
 
@@ -110,8 +105,6 @@ class Perception:
     head: HeadControl
     top: Mount  # mount of the colour camera
     depth: Sequence[Mount]  # mounts of the depth cameras, by number
-    # mounts of the sonars on the torso, by name
-    sonars: Mapping[str, Mount] = field(default_factory=dict)
     size: BodySize = NAO_SIZE
     # kinematics of the body; None for a robot that gives the poses of its
     # camera
@@ -198,19 +191,17 @@ class Perception:
         self, now: float, percepts: Sequence[AnyPercept]
     ) -> Sighting | None:
         self.reports.clear()
-        # A LoLA frame brings a value of each sonar, though most often none.
-        arrived = [
-            percept
-            for percept in percepts
-            if not isinstance(percept, LidarScan) and not _is_empty(percept)
-        ]
+        arrived = [p for p in percepts if not isinstance(p, LidarScan)]
         # A person at 1 m/s needs a decision before the next image arrives.
         if arrived or self.people or now >= self._next_update:
             self._next_update = now + UPDATE_PERIOD - 1e-9
             for percept in arrived:
-                report = take(percept, self.poses.at(percept.time)(), self)
-                if report is not None:
-                    self.reports.append(report)
+                body = self.poses.at(percept.time)()
+                if isinstance(percept, ColourImage):
+                    report = _take_colour(percept, body, self)
+                else:
+                    report = _take_depth(percept, body, self)
+                self.reports.append(report)
             self._select(now, self.poses.at(now)())
         self.head.move(now, self._heading, self.gaze_target)
         return self.sighting
@@ -253,18 +244,6 @@ class Perception:
             self.selection.settled(track, now, x, y),
             track.deviation_at(now),
         )
-
-
-def take(
-    percept: Percept, body: BodyPose, state: Perception
-) -> FrameReport | None:
-    """Update tracks and map; return what was detected in an image."""
-    if isinstance(percept, ColourImage):
-        return _take_colour(percept, body, state)
-    if isinstance(percept, DepthImage):
-        return _take_depth(percept, body, state)
-    _take_echo(percept, body, state)
-    return None
 
 
 def _take_colour(
@@ -368,20 +347,6 @@ def _on_mapped_floor(
     return updated
 
 
-def _take_echo(echo: SonarEcho, body: BodyPose, state: Perception) -> None:
-    """Update the track of the opponent, where no camera gives a distance."""
-    if not is_valid_echo(echo):
-        return
-    mount, floor = state.sonars[echo.sonar], state.floor
-    track = state.selection.main(echo.time, *body.pose_torso_in_odometry[:2])
-    if floor is not None:
-        if track is None or may_be_mapped(echo, mount, body, floor):
-            return
-    observation = observe_echo(echo, mount, body, track)
-    if observation is not None:
-        state.tracker.observe([observation], may_start=track is None)
-
-
 def record_misses(
     tracker: Tracker,
     updated: Sequence[object],
@@ -405,11 +370,6 @@ def record_misses(
             continue
         if abs(wrap_angle(track.bearing_from(x, y, time) - ahead)) < half:
             track.record_frame(False)
-
-
-def _is_empty(percept: Percept) -> bool:
-    """Return whether a percept is the absence of an echo."""
-    return isinstance(percept, SonarEcho) and percept.distance is None
 
 
 def build_perception(
@@ -455,7 +415,6 @@ def build_perception(
         ),
         head.top,
         head.depth,
-        head.sonars,
         size,
         kinematics,
         None if mapping is None else mapping.floor,

@@ -120,10 +120,10 @@ class UnnamedSelection(TargetSelection):
         unseen = [
             track
             for track in self.recognised(now)
-            if now - track.imaged_at > UNSEEN
+            if now - track.observed_at > UNSEEN
         ]
         if unseen and now % (GLANCE + GLANCE_PAUSE) < GLANCE:
-            return min(unseen, key=lambda t: t.imaged_at)
+            return min(unseen, key=lambda t: t.observed_at)
         return main
 
     def target_id(self, track: TargetTrack) -> int:
@@ -180,7 +180,7 @@ class PeopleSelection(TargetSelection):
         ]
         for track in near:
             known = track.has_walked or track.has_velocity(now)
-            if now - track.imaged_at <= MAX_GAZE_AGE and not known:
+            if now - track.observed_at <= MAX_GAZE_AGE and not known:
                 return track
         begun = self._glanced
         self._glanced = {t: begun[t] for t in tracks if t in begun}

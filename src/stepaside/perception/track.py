@@ -20,7 +20,6 @@ TRAIL = 1.2  # how long precise positions are stored, in [s]
 MIN_INTERVAL = 0.1  # between precise positions, in [s]
 MIN_SPAN = 0.35  # of precise positions for a velocity, in [s]
 MAX_GAP = 0.3  # without observation, after which a track is unsettled, in [s]
-SONAR_DEVIATION = 0.2  # across the bearing, which only sonar exceeds, in [m]
 # Distance from the first precise position beyond which a track has walked, in
 # [m]; the middle of a person at rest moves less than this.
 MIN_WALK = 0.2
@@ -72,13 +71,12 @@ class TargetTrack:
     ) -> None:
         self.number, self._acceleration = number, motion.acceleration
         self.has_walked = False
-        self.imaged_at = self.watched_at = -inf
+        self.watched_at = -inf
         self._first_position: tuple[float, float] | None = None
         self._trail: deque[tuple[float, float, float]] = deque()
         self.time = self.observed_at = self.started_at = first.time
         self.observed_since = first.time
         self.identified_at = first.time if first.identified else -inf
-        self.ranged_at = first.time if first.ranged else -inf
         self.confirmed = False
         self.height = first.height
         self._state = np.array(
@@ -122,8 +120,6 @@ class TargetTrack:
 
     def _store_position(self, observation: Observation) -> None:
         """Store a precise position."""
-        if observation.across < SONAR_DEVIATION:
-            self.imaged_at = max(self.imaged_at, observation.time)
         if (
             not observation.ranged
             or max(observation.along, observation.across) > MAX_DEVIATION
@@ -184,8 +180,6 @@ class TargetTrack:
         self.observed_at = max(self.observed_at, observation.time)
         if observation.identified:
             self.identified_at = max(self.identified_at, observation.time)
-        if observation.ranged:
-            self.ranged_at = max(self.ranged_at, observation.time)
         self.height = max(self.height, observation.height)
         self._store_position(observation)
 
@@ -198,8 +192,8 @@ class TargetTrack:
     def merge(self, other: "TargetTrack") -> None:
         """Merge the history of another track of the same object."""
         for name in (
-            *("identified_at", "observed_at", "ranged_at", "imaged_at"),
-            *("watched_at", "height", "confirmed", "has_walked"),
+            *("identified_at", "observed_at", "watched_at"),
+            *("height", "confirmed", "has_walked"),
         ):
             setattr(self, name, max(getattr(self, name), getattr(other, name)))
 

@@ -1,4 +1,4 @@
-"""Head of a robot: its joints, cameras and sonars."""
+"""Head of a robot: its joints and cameras."""
 
 from dataclasses import dataclass
 from math import radians
@@ -50,7 +50,6 @@ class HeadDescription:
     # mounts of the depth cameras: the first on the head, any others on the
     # torso
     depth: tuple[Mount, ...]
-    sonars: dict[str, Mount]  # mounts of the sonars on the torso, by name
 
     def body_of(self, mount: Mount) -> str:
         """Return the name of the body of a mount."""
@@ -73,7 +72,7 @@ ANGLE = Range(-180.0, 180.0, "deg", "half a turn")
 
 @dataclass(frozen=True)
 class _SensorEntries:
-    """Camera or sonar in ``head.toml``."""
+    """Camera in ``head.toml``."""
 
     place: Place = setting(REQUIRED, "Place in the frame of the body [m]")
     roll: float = setting(0.0, "Roll", ANGLE)
@@ -117,9 +116,6 @@ class _HeadEntries:
     rear: _SensorEntries | tuple[_SensorEntries, ...] = setting(
         (), "Depth cameras on the torso"
     )
-    sonar: dict[str, _SensorEntries] = setting(
-        dict[str, _SensorEntries](), "Sonars on the torso by name"
-    )
 
 
 def load_head(description: RobotDescription) -> HeadDescription:
@@ -142,5 +138,4 @@ def load_head(description: RobotDescription) -> HeadDescription:
         np.radians([*vars(own.coupling).values()]),
         own.top.mount(),
         (own.depth.mount(), *(each.mount(on_torso=True) for each in rear)),
-        {name: each.mount(on_torso=True) for name, each in own.sonar.items()},
     )

@@ -1,4 +1,4 @@
-"""Settings of cameras and sonars, and of the scene around the robots."""
+"""Settings of cameras and lidar, and of the scene around the robots."""
 
 from dataclasses import dataclass
 from math import radians
@@ -134,44 +134,6 @@ DEPTH_CAMERAS = {
 
 
 @dataclass(frozen=True, slots=True)
-class SonarSettings:
-    """Settings of NAO's sonars, V5 and V6."""
-
-    rate: float = setting(
-        10.0,
-        "Echo rate of each sonar {unit}; assumed",
-        Range(1.0, 40.0, "1/s", "echoes must not overlap"),
-    )
-    near: float = setting(
-        0.2,
-        "Shortest distance that is measured {unit}; nearer objects read as "
-        "this",
-        Range(0.01, 10.0, "m", "the surface of the chest"),
-    )
-    far: float = setting(
-        0.8,
-        "Longest distance that is measured {unit}; farther objects give no "
-        "echo",
-        Range(0.01, 10.0, "m", "from near to the longest echo"),
-    )
-    cone: float = setting(
-        radians(60.0),
-        "Opening angle",
-        Range(0.05, 2.5, "rad", "from a ray to half the room"),
-    )
-    noise: float = setting(
-        0.01,
-        "Standard deviation of the distance",
-        Range(0.0, 1.0, "m", "more is no measurement"),
-    )
-    step: float = setting(0.01, "Resolution of the distance", QUANTUM)
-
-    def __post_init__(self) -> None:
-        check_settings(self)
-        check_within(self.far, self.near, 10.0, "far", "m", ConfigurationError)
-
-
-@dataclass(frozen=True, slots=True)
 class LidarSettings:
     """Lidar above the head; rate, noise and near limit of Livox's Mid-360."""
 
@@ -228,9 +190,6 @@ class CameraSettings:
         "Depth cameras on the evader's torso",
         presets=DEPTH_CAMERAS,
         needs=("cameras.rear_camera", ""),
-    )
-    sonar: SonarSettings = setting(
-        SonarSettings(), "Sonars in the evader's chest"
     )
     drop_frames: float = setting(
         0.0,

@@ -1,4 +1,4 @@
-"""Simulated cameras and sonars of a robot, with rates and latencies."""
+"""Simulated cameras of a robot, with rates and latencies."""
 
 from collections.abc import Callable
 
@@ -15,11 +15,10 @@ from ..perception.images import (
     Depths,
     Percept,
     Pixels,
-    SonarEcho,
 )
 from ..robots.description import RobotDescription
 from ..robots.head import Mount, load_head
-from .camera_settings import CameraSettings, DepthSettings, SonarSettings
+from .camera_settings import CameraSettings, DepthSettings
 from .offscreen_rendering import OffscreenRenderer
 from .ranging import (
     RayCaster,
@@ -37,14 +36,11 @@ AMBIENT, DIFFUSE = 0.55, 0.45
 TILE = 0.5  # side of a square of the floor, in [m]
 FARTHEST = 40.0  # that a ray-cast image shows, in [m]
 MIN_COSINE = 0.12  # of the incidence angle for a return to depth cameras
-MIN_COSINE_SONAR = 0.5  # of the incidence angle for an echo
-LEVEL = 0.9  # upward component of normals that reflect sound away
-CONE_RAYS = 6  # across the cone of a sonar
 Generator = np.random.Generator
 
 
 class SensorSuite(StreamedSensors[Percept]):
-    """All cameras and sonars of one robot."""
+    """All cameras of one robot."""
 
     def __init__(
         self,
@@ -68,8 +64,6 @@ class SensorSuite(StreamedSensors[Percept]):
         if with_depth:
             used = self._head.depth_mounts(rear=settings.rear_camera)
             streams += map(self._depth, range(len(used)), used)
-            for key, mount in self._head.sonars.items():
-                streams.append(self._sonar(key, mount))
         super().__init__(streams)
 
     def close(self) -> None:
@@ -136,16 +130,6 @@ class SensorSuite(StreamedSensors[Percept]):
 
         return self._stream(name, take, own.rate, own.latency)
 
-    def _sonar(self, key: str, mount: Mount) -> SensorStream[Percept]:
-        own, name = self._settings.sonar, f"sonar {key}"
-        caster = self._caster(mount, cone(own.cone))
-        generator = self._generator(name)
-
-        def take(now: float) -> Percept:
-            return SonarEcho(now, key, cast_echo(caster, own, generator))
-
-        return self._stream(name, take, own.rate, 0.0)
-
 
 def cast_depths(
     caster: RayCaster,
@@ -177,33 +161,6 @@ def edges(image: Depths) -> np.ndarray:
     jump = image[:, :-1] - image[:, 1:]
     edge[:, :-1] = (jump > 0.3) & (image[:, 1:] > 0.0)
     return edge
-
-
-def cast_echo(
-    caster: RayCaster, settings: SonarSettings, generator: Generator
-) -> float | None:
-    """Return the distance [m] of the nearest surface that faces a sonar.
-
-    None without an echo; the floor reflects sound away from the robot.
-    """
-    caster.cast(settings.far + 0.1)
-    echoes = (caster.distances > 0.0) & (caster.slants > MIN_COSINE_SONAR)
-    echoes &= np.abs(caster.normals[:, 2]) < LEVEL
-    if not echoes.any():
-        return None
-    distance = float(caster.distances[echoes].min())
-    distance += settings.noise * float(generator.standard_normal())
-    distance = round(distance / settings.step) * settings.step
-    return None if distance > settings.far else max(distance, settings.near)
-
-
-def cone(opening: float) -> Array:
-    """Return rays that fill a cone about x. Shape (n, 3)."""
-    reach = np.tan(0.5 * opening)
-    across = np.linspace(-reach, reach, CONE_RAYS)
-    y, z = np.meshgrid(across, across)
-    inside = np.hypot(y, z) <= reach
-    return np.column_stack([np.ones(int(inside.sum())), y[inside], z[inside]])
 
 
 def colour_caster(

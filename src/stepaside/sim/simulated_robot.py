@@ -71,7 +71,7 @@ class SensorSetup:
     integrates_imu: bool = False
     # ideal lines of sight to all other players, if any
     sights: tuple[IdealLineOfSight, ...] = ()
-    eyes: SensorSuite | Lidar | None = None  # cameras and sonars, if any
+    eyes: SensorSuite | Lidar | None = None  # cameras, if any
     # true state of the robot, if it exists already
     truth: TrueRobotState | None = None
     # whether it has an ideal sensor of its pose in a room, which replaces
