@@ -137,7 +137,7 @@ test-export: .venv-export/.installed
 .venv-export/.installed: pyproject.toml
 	$(PYTHON) -m venv .venv-export
 	.venv-export/bin/python $(INSTALL) --quiet --editable \
-		".[export,tables,viewer,vision]" "rerun-sdk>=0.41" \
+		".[export,viewer,vision]" "rerun-sdk>=0.41" \
 		hypothesis mcap mcap-ros2-support pandas pytest pytest-timeout \
 		pytest-xdist yourdfpy
 	touch $@

@@ -1,5 +1,5 @@
 # /// script
-# dependencies = ["stepaside[tables]"]
+# dependencies = ["stepaside[export]"]
 # ///
 """Study of an own evader: 20 duels over a parameter, a frame and a figure."""
 

@@ -37,7 +37,7 @@ NEEDS = {
     "show run --no-open": "viewer",
     "show run -o page.html": "viewer",
     "show run -o run.mcap": "export",
-    "show run -o run.parquet": "tables",
+    "show run -o run.parquet": "export",
     "show run -o film.mp4": "viewer",
     "play lola:none --role evader": "robot",
     "serve --lola evader=socket --wait 0.1": "robot",

@@ -8,7 +8,7 @@ it is kept here:
     git clone https://github.com/coders-group-eu/nao_logs /tmp/peer
     python tools/checks/lola_client.py /tmp/peer
 
-It needs this package with ``[robot]``, and ``/tmp/robocup`` for itself,
+It needs this package with msgpack, and ``/tmp/robocup`` for itself,
 which is the only place where that client looks for a robot. The world runs
 in lock step, so a machine may be busy, and the client's clock is told by the
 frames. Prints what happened, as JSON; ``tools/checks/README.md`` holds what

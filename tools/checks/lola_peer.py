@@ -6,7 +6,7 @@ The peer is the controller of github.com/Bembelbots/WebotsLoLaController
     git clone https://github.com/Bembelbots/WebotsLoLaController /tmp/peer
     python tools/checks/lola_peer.py /tmp/peer
 
-It needs opencv-python and this package with ``[robot]``. Webots itself is
+It needs opencv-python and this package with msgpack. Webots itself is
 not needed: this file stands in for its ``controller`` module, with motors
 that reach their targets at once, and a user who presses C, the
 chest button, when our client is ready. Prints what happened, as JSON;

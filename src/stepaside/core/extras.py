@@ -2,14 +2,11 @@
 
 EXTRAS = {  # as in ``pyproject.toml``, with the names of the modules
     "dask": ("distributed",),
-    "tables": ("polars",),
-    "export": ("rosbags",),
+    "export": ("polars", "rosbags"),
     "learn": ("gymnasium", "pettingzoo"),
     "legs": ("onnx", "onnxruntime", "yaml"),
     "mpc": ("daqp",),
-    "robot": ("msgpack",),
-    "naoqi": ("qi",),
-    "ros2": ("cyclonedds", "rosbags"),
+    "robot": ("cyclonedds", "msgpack", "qi", "rosbags"),
     "viewer": ("av", "trimesh", "viser", "websockets"),
     "vision": ("cv2",),
 }

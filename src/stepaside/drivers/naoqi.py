@@ -29,7 +29,7 @@ try:
     import qi
 except ImportError as error:
     raise ConfigurationError(
-        "NAOqi needs its library qi: pip install 'stepaside[naoqi]'"
+        "NAOqi needs its library qi: pip install 'stepaside[robot]'"
     ) from error
 
 _URL = re.compile(r"(?:tcp://)?(?P<host>[A-Za-z0-9_.-]+)(?::(?P<port>\d+))?")

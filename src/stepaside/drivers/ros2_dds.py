@@ -32,7 +32,7 @@ try:
 except ImportError as error:
     raise ConfigurationError(
         "ROS 2 topics need CycloneDDS and rosbags: pip install "
-        "'stepaside[ros2]'"
+        "'stepaside[robot]'"
     ) from error
 
 _NAME = re.compile(r"(/[A-Za-z_][A-Za-z0-9_]*)*")
