@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from stepaside.core.poses import Array
-from stepaside.sim.body_errors import IdealServos, RealisticServos
+from stepaside.sim.body_errors import Servos
 from stepaside.sim.body_settings import BodySettings
 
 KP, KV, STALL = 20.0, 0.5, 1.5
@@ -44,18 +44,18 @@ def bench() -> tuple[mujoco.MjModel, mujoco.MjData]:
     return model, data
 
 
-def ideal() -> tuple[IdealServos, mujoco.MjModel, mujoco.MjData]:
+def ideal() -> tuple[Servos, mujoco.MjModel, mujoco.MjData]:
     model, data = bench()
-    servos = IdealServos(model, data, ACTUATORS, SPEEDS, CYCLE)
+    servos = Servos(model, data, ACTUATORS, SPEEDS, CYCLE)
     return servos, model, data
 
 
 def realistic(
     play: tuple[float, float] = (0.0, 0.0), **effects: Any
-) -> tuple[RealisticServos, mujoco.MjModel, mujoco.MjData]:
+) -> tuple[Servos, mujoco.MjModel, mujoco.MjData]:
     model, data = bench()
     body = BodySettings(**effects)
-    servos = RealisticServos(
+    servos = Servos(
         model, data, ACTUATORS, SPEEDS, CYCLE, body, np.array(play)
     )
     servos.reset(np.zeros(2))

@@ -61,7 +61,7 @@ def servo_step(
     sent: Array,
     limits: Array,
 ) -> None:
-    """Set control and torque limits of :class:`RealisticServos`."""
+    """Set control and torque limits of :class:`Servos`."""
     clock[0] = min(clock[0] + clock[1], clock[2])
     share = clock[0] / clock[2]
     for j in range(target.shape[0]):
@@ -74,11 +74,13 @@ def servo_step(
         limits[j, 0] = max(min(-stall[j] - loss, 0.0), -stall[j])
 
 
-class IdealServos:
-    """Position servos without delay.
+class Servos:
+    """Position servos, with delay, backlash and torque that falls with speed.
 
     Targets are limited to the speed limits of the joints, and their velocity
-    is fed forward.
+    is fed forward; else each is sent as it is. With errors of a body a target
+    takes effect after some cycles, and the servo ramps to it in one cycle.
+    Within the backlash the motor turns without the joint.
     """
 
     def __init__(
@@ -88,117 +90,70 @@ class IdealServos:
         actuators: np.ndarray,
         speed_limits: Array,
         cycle: float,
+        body: BodySettings | None = None,
+        backlash: Array | float = 0.0,
         *,
         feedforward: bool = True,
     ) -> None:
-        """Drive consecutive actuators with speed limits [rad/s] and a cycle.
-
-        Without feedforward each target is sent as it is.
-        """
-        self._data = data
-        self._ctrl = slice(int(actuators[0]), int(actuators[-1]) + 1)
-        self._sent: Array = data.ctrl[self._ctrl]  # a view
+        """Drive consecutive actuators with limits [rad/s] and a cycle [s]."""
+        body, count = body or BodySettings(), actuators.size
+        model.actuator_gainprm[actuators, 0] *= body.servo_gain
+        model.actuator_biasprm[actuators, 1] *= body.servo_gain
+        driven = slice(int(actuators[0]), int(actuators[-1]) + 1)
+        self._sent: Array = data.ctrl[driven]  # a view
         gains = model.actuator_gainprm[actuators, 0]
         self.lead = -model.actuator_biasprm[actuators, 2] / gains / cycle
         self.reach = speed_limits * cycle
         if not feedforward:
-            self.lead = np.zeros(actuators.size)
-            self.reach = np.full(actuators.size, np.inf)
-        self._target = np.zeros(actuators.size)
-        self._range = model.actuator_forcerange[self._ctrl]
-        self._full = self._range[:, 1].copy()
-        self._wanted = np.zeros(actuators.size)
-        self._change = np.zeros(actuators.size)
+            self.lead = np.zeros(count)
+            self.reach = np.full(count, np.inf)
+        self._target, self._change = np.zeros(count), np.zeros(count)
+        self._wanted = np.zeros(count)
         self._take = bound(
             *(take_targets, self._wanted, self._target, self._change),
             *(self.reach, self.lead, self._sent),
         )
+        self._range = model.actuator_forcerange[driven]
+        self._full = self._range[:, 1] * (body.efficiency * body.stiffness)
+        self._no_load = speed_limits if body.torque_speed else np.inf
+        self._stall, self._slope = np.zeros(count), np.zeros(count)
+        self._pending: deque[Array] = deque()
+        self._delay = body.delay_cycles
+        # Time since the targets, period of the physics, control period.
+        self._clock = np.array([0.0, model.opt.timestep, cycle])
+        joints = model.actuator_trnid[actuators, 0]
+        self._step = bound(
+            *(servo_step, data.qpos, data.qvel),
+            model.jnt_qposadr[joints].astype(np.int64),
+            model.jnt_dofadr[joints].astype(np.int64),
+            *(self._change, self._target, self.lead),
+            *(np.full(count, 0.5 * backlash), self._stall, self._slope),
+            *(self._clock, self._sent, self._range),
+        )
+        if not body.has_ideal_servos:
+            self.soften(np.ones(count))
 
     def soften(self, stiffness: Array) -> None:
         """Limit the torques to fractions of their maximum, 0 to 1."""
-        self._range[:, 1] = self._full * stiffness
-        self._range[:, 0] = -self._range[:, 1]
+        self._stall[:] = self._full * stiffness
+        self._slope[:] = self._stall / self._no_load
+        self._range[:, 0], self._range[:, 1] = -self._stall, self._stall
 
     def reset(self, targets: Array) -> None:
         """Set targets, in [rad], without motion towards them."""
         self._target[:] = self._sent[:] = targets
         self._change.fill(0.0)
-
-    def write(self, targets: Array) -> None:
-        """Set new targets, in [rad]. Shape (joints,)."""
-        self._wanted[:] = targets
-        self._take()
-
-
-class RealisticServos(IdealServos):
-    """Servos with delay, backlash and torque that falls with the speed.
-
-    A target takes effect after some cycles, and the servo ramps to it in one
-    cycle. Within the backlash the motor turns without the joint.
-    """
-
-    def __init__(
-        self,
-        model: mujoco.MjModel,
-        data: mujoco.MjData,
-        actuators: np.ndarray,
-        speed_limits: Array,
-        cycle: float,
-        body: BodySettings,
-        backlash: Array,
-        *,
-        feedforward: bool = True,
-    ) -> None:
-        model.actuator_gainprm[actuators, 0] *= body.servo_gain
-        model.actuator_biasprm[actuators, 1] *= body.servo_gain
-        super().__init__(
-            model,
-            data,
-            actuators,
-            speed_limits,
-            cycle,
-            feedforward=feedforward,
-        )
-        joints = model.actuator_trnid[actuators, 0]
-        qpos = model.jnt_qposadr[joints].astype(np.int64)
-        dofs = model.jnt_dofadr[joints].astype(np.int64)
-        fraction = body.efficiency * body.stiffness
-        self._stall = model.actuator_forcerange[actuators, 1] * fraction
-        self._full = self._stall.copy()
-        self._range[:, 0], self._range[:, 1] = -self._stall, self._stall
-        self._no_load = speed_limits if body.torque_speed else np.inf
-        self._slope = self._stall / self._no_load
-        self._pending: deque[Array] = deque()
-        self._delay = body.delay_cycles
-        # Time since the targets, period of the physics, control period.
-        self._clock = np.array([0.0, model.opt.timestep, cycle])
-        self._step = bound(
-            servo_step,
-            *(data.qpos, data.qvel, qpos, dofs),
-            *(self._change, self._target, self.lead),
-            *(0.5 * backlash, self._stall, self._slope),
-            *(self._clock, self._sent, self._range),
-        )
-
-    def soften(self, stiffness: Array) -> None:
-        """Limit the torques to fractions of their maximum, 0 to 1."""
-        super().soften(stiffness)
-        self._stall[:] = self._full * stiffness
-        self._slope[:] = self._stall / self._no_load
-
-    def reset(self, targets: Array) -> None:
-        """Set targets, in [rad], without motion towards them."""
-        super().reset(targets)
         self._pending = deque([targets] * self._delay)
 
     def write(self, targets: Array) -> None:
         """Queue new targets, in [rad]. Shape (joints,)."""
         self._pending.append(targets)
-        super().write(self._pending.popleft())
+        self._wanted[:] = self._pending.popleft()
+        self._take()
         self._clock[0] = 0.0
 
     def before_step(self, time: float) -> None:
-        """Set control and torque limits for one physics step."""
+        """Set control and torque limits for one step of a body with errors."""
         self._step()
 
 

@@ -15,10 +15,9 @@ from ..core.poses import Array, Pose
 from ..perception.measurement import RobotState, Sighting
 from ..robots.description import REMEDY, RobotDescription
 from .body_errors import (
-    IdealServos,
     JointGains,
-    RealisticServos,
     SensorErrors,
+    Servos,
     StrapdownImu,
     set_joint_gains,
 )
@@ -148,18 +147,18 @@ class SimulatedRobot:
         body: BodySettings,
         *,
         feedforward: bool,
-    ) -> IdealServos:
+    ) -> Servos:
         """Return the servos of the joints with these names."""
         world = self.world
         speeds = np.array([description.speed_limits[n] for n in names])
-        driven = (world.model, world.data, actuators, speeds, self.tick)
-        if body.has_ideal_servos:
-            return IdealServos(*driven, feedforward=feedforward)
         legs = np.array([n in description.legs for n in names])
-        servos = RealisticServos(
-            *driven, body, body.backlash * legs, feedforward=feedforward
+        servos = Servos(
+            *(world.model, world.data, actuators, speeds, self.tick),
+            *(body, body.backlash * legs),
+            feedforward=feedforward,
         )
-        world.before_step.append(servos.before_step)
+        if not body.has_ideal_servos:
+            world.before_step.append(servos.before_step)
         return servos
 
     def _find_sensors(self, description: RobotDescription) -> None:
