@@ -15,11 +15,11 @@ from stepaside.perception.depth_detector import (
     DetectedObstacle,
     Shadow,
 )
-from stepaside.perception.gaze import GazeTarget
+from stepaside.perception.floor_map import FloorMap
+from stepaside.perception.gaze import GazeTarget, RoomScan
 from stepaside.perception.images import ColourImage, DepthImage
 from stepaside.perception.measurement import RobotState
 from stepaside.perception.pipeline import (
-    FloorMapping,
     FrameReport,
     build_perception,
 )
@@ -68,8 +68,9 @@ class Eyes:
 
     def __init__(
         self,
-        mapping: FloorMapping | None = None,
         *,
+        floor: FloorMap | None = None,
+        scan: RoomScan | None = None,
         people: bool = False,
         robot: RobotDescription = NAO,
         head: HeadDescription = HEAD,
@@ -77,8 +78,9 @@ class Eyes:
         self.detector = FakeDetector()
         detector: Any = self.detector
         self.perception = build_perception(
-            robot, head, detector, tick=TICK, mapping=mapping, people=people
+            robot, head, detector, tick=TICK, scan=scan, people=people
         )
+        self.perception.floor = floor or self.perception.floor
         self.reports: list[FrameReport] = []  # of all ticks so far
         self.support = SUPPORT
 

@@ -90,13 +90,13 @@ def mapped(robot: Path, away: float, heights: tuple[float, float]) -> bool:
     """
     pytest.importorskip("cv2")
     from stepaside.perception.camera_model import camera_pose
+    from stepaside.perception.floor_map import FloorMap
     from stepaside.perception.images import DepthImage
-    from stepaside.perception.pipeline import FloorMapping
     from synthetic_cameras import CAMERA, TICK, Eyes
 
-    description, mapping = load_robot(str(robot)), FloorMapping()
+    description, floor = load_robot(str(robot)), FloorMap()
     head = load_head(description)
-    eyes = Eyes(mapping, robot=description, head=head)
+    eyes = Eyes(floor=floor, robot=description, head=head)
     eyes.see(0.0)
     body = eyes.perception.body
     assert body is not None
@@ -108,7 +108,7 @@ def mapped(robot: Path, away: float, heights: tuple[float, float]) -> bool:
     image = DepthImage(0.0, CAMERA, depths.astype(np.float32), 0.1, 3.5)
     for tick in range(1, 4):
         eyes.see(tick * TICK, replace(image, time=tick * TICK))
-    return len(mapping.floor.occupied_cells()) > 0
+    return len(floor.occupied_cells()) > 0
 
 
 def of_robots(part: str) -> pytest.MarkDecorator:

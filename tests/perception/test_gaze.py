@@ -13,9 +13,9 @@ from stepaside.perception.gaze import (
     MIN_DISTANCE,
     PERSON_TOP,
     ROBOT_MIDDLE,
-    Gaze,
     GazeTarget,
     Glances,
+    HeadControl,
 )
 from stepaside.robots.description import load_robot
 from stepaside.robots.head import load_head
@@ -29,7 +29,7 @@ def at(bearing: float, distance: float, height: float = 0.0) -> GazeTarget:
     return GazeTarget(bearing, distance, height, CAMERA_HEIGHT)
 
 
-def within(gaze: Gaze) -> bool:
+def within(gaze: HeadControl) -> bool:
     yaws, low, high = COUPLING
     return bool(
         yaws[0] <= gaze.yaw <= yaws[-1]
@@ -39,7 +39,7 @@ def within(gaze: Gaze) -> bool:
 
 
 def test_it_reaches_what_it_follows() -> None:
-    gaze = Gaze(COUPLING, TICK, ROBOT)
+    gaze = HeadControl(COUPLING, TICK, ROBOT)
     for _ in range(250):
         gaze.follow(at(radians(-45.0), 0.9))
     assert degrees(gaze.yaw) == pytest.approx(-45.0, abs=0.1)
@@ -50,7 +50,7 @@ def test_it_reaches_what_it_follows() -> None:
 @pytest.mark.parametrize("bearing", [-170.0, -100.0, 0.0, 88.0, 150.0])
 def test_it_keeps_to_ranges_and_speed(bearing: float) -> None:
     """Close by it would nod beyond what the shells allow at that yaw."""
-    gaze = Gaze(COUPLING, TICK, ROBOT)
+    gaze = HeadControl(COUPLING, TICK, ROBOT)
     for _ in range(500):
         yaw, pitch = gaze.yaw, gaze.pitch
         gaze.follow(at(radians(bearing), 0.2))
@@ -62,7 +62,7 @@ def test_it_keeps_to_ranges_and_speed(bearing: float) -> None:
 
 
 def test_a_search_looks_everywhere_it_can() -> None:
-    gaze = Gaze(COUPLING, TICK, ROBOT)
+    gaze = HeadControl(COUPLING, TICK, ROBOT)
     seen = []
     for _ in range(round(8.0 / TICK)):
         gaze.search()
@@ -75,7 +75,7 @@ def test_a_search_looks_everywhere_it_can() -> None:
 
 def test_a_search_begins_where_the_other_left() -> None:
     for side in (1.0, -1.0):
-        gaze = Gaze(COUPLING, TICK, ROBOT)
+        gaze = HeadControl(COUPLING, TICK, ROBOT)
         for _ in range(20):
             gaze.follow(at(side * 1.0, 1.0))
         before = gaze.yaw
@@ -83,8 +83,8 @@ def test_a_search_begins_where_the_other_left() -> None:
         assert side * (gaze.yaw - before) > 0.0
 
 
-def settled(bearing: float, distance: float) -> Gaze:
-    gaze = Gaze(COUPLING, TICK, ROBOT)
+def settled(bearing: float, distance: float) -> HeadControl:
+    gaze = HeadControl(COUPLING, TICK, ROBOT)
     for _ in range(500):
         gaze.follow(at(bearing, distance))
     return gaze
@@ -106,7 +106,10 @@ def test_it_looks_at_the_middle_of_a_body_and_keeps_the_crown_in_view() -> (
 
 
 def test_bearings_are_taken_the_short_way() -> None:
-    wrapped, plain = Gaze(COUPLING, TICK, ROBOT), Gaze(COUPLING, TICK, ROBOT)
+    wrapped, plain = (
+        HeadControl(COUPLING, TICK, ROBOT),
+        HeadControl(COUPLING, TICK, ROBOT),
+    )
     for _ in range(100):
         wrapped.follow(at(-0.6 + 2.0 * pi, 1.0))
         plain.follow(at(-0.6, 1.0))
@@ -115,7 +118,7 @@ def test_bearings_are_taken_the_short_way() -> None:
 
 def test_a_neck_that_turns_less_searches_as_far_as_it_can() -> None:
     short = np.array([[-1.0, 0.0, 1.0], [-0.5, -0.5, -0.5], [0.5, 0.5, 0.5]])
-    gaze = Gaze(short, TICK, ROBOT)
+    gaze = HeadControl(short, TICK, ROBOT)
     yaws = []
     for _ in range(1500):
         gaze.search()
@@ -127,7 +130,7 @@ def test_a_neck_that_turns_less_searches_as_far_as_it_can() -> None:
 
 def pitch_at(distance: float, height: float) -> float:
     """Pitch towards something after a second, in [deg]."""
-    gaze = Gaze(COUPLING, TICK, ROBOT)
+    gaze = HeadControl(COUPLING, TICK, ROBOT)
     for _ in range(250):
         gaze.follow(at(0.0, distance, height))
     return degrees(gaze.pitch)

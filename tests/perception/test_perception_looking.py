@@ -7,7 +7,6 @@ import pytest
 
 from stepaside.core.poses import Pose
 from stepaside.perception.gaze import MAX_YAW, SCAN_SPEED, RoomScan
-from stepaside.perception.pipeline import FloorMapping
 from stepaside.perception.target_selection import GAZE_RADIUS
 from synthetic_cameras import TICK, Eyes
 
@@ -79,7 +78,8 @@ def test_a_lost_opponent_gives_no_sighting(eyes: Eyes) -> None:
 
 def test_a_robot_with_a_map_scans_the_room_first() -> None:
     """Until then it gives no sighting, so that the robot stands."""
-    eyes, yaws = Eyes(FloorMapping(scan=RoomScan(behind=False))), []
+    eyes, yaws = Eyes(scan=RoomScan(behind=False)), []
+    eyes.perception.head.start()
     head = eyes.perception.head
     for tick in range(round(8.0 / TICK)):
         now = tick * TICK

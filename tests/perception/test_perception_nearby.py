@@ -6,9 +6,6 @@ import pytest
 
 from stepaside.perception.depth_detector import Shadow
 from stepaside.perception.floor_map import FloorMap
-from stepaside.perception.pipeline import (
-    FloorMapping,
-)
 from synthetic_cameras import (
     TICK,
     Eyes,
@@ -40,7 +37,7 @@ class NoFloor(FloorMap):
 def mapping() -> tuple[Eyes, NoFloor]:
     """Return the eyes of a robot with a map."""
     floor = NoFloor()
-    made = Eyes(FloorMapping(floor))
+    made = Eyes(floor=floor)
     made.see(0.0)
     return made, floor
 

@@ -10,7 +10,6 @@ from stepaside.perception.gaze import (
     BODY_TURN,
     HEADING_TOLERANCE,
     MAX_DURATION,
-    Gaze,
     HeadControl,
     RoomScan,
 )
@@ -26,7 +25,10 @@ def looked(
     *, behind: bool, rate: float = RATE
 ) -> tuple[float, Array, RoomScan]:
     """Return the duration of a scan, in [s], and the directions."""
-    gaze, around = Gaze(HEAD.coupling, TICK, 0.5725), RoomScan(behind=behind)
+    gaze, around = (
+        HeadControl(HEAD.coupling, TICK, 0.5725),
+        RoomScan(behind=behind),
+    )
     now, heading, turned = 0.0, 0.0, []
     while around.lasts(gaze):
         around.look(gaze, now, START + heading)
@@ -61,7 +63,10 @@ def test_a_turning_body_covers_all_directions() -> None:
 
 
 def test_after_turning_back_the_body_does_not_turn_again() -> None:
-    gaze, around = Gaze(HEAD.coupling, TICK, 0.5725), RoomScan(behind=True)
+    gaze, around = (
+        HeadControl(HEAD.coupling, TICK, 0.5725),
+        RoomScan(behind=True),
+    )
     headings = np.array([0.0, -0.7, -1.4, -1.4, -0.7, 0.0, 0.1])
     turnings: list[float] = []
     for heading in START + np.repeat(headings, 100):
@@ -81,7 +86,10 @@ def test_a_scan_times_out_without_a_turn() -> None:
 @pytest.mark.parametrize("rate", [0.05, 0.1, 0.2, 0.26])
 def test_a_slow_turn_is_reversed_in_time(rate: float) -> None:
     """So that the game begins from its initial pose."""
-    gaze, around = Gaze(HEAD.coupling, TICK, 0.5725), RoomScan(behind=True)
+    gaze, around = (
+        HeadControl(HEAD.coupling, TICK, 0.5725),
+        RoomScan(behind=True),
+    )
     now, heading = 0.0, START
     while around.lasts(gaze):
         around.look(gaze, now, heading)
@@ -98,19 +106,12 @@ def test_a_turn_in_the_wrong_direction_is_reversed_too() -> None:
     assert around.turning == 0.0
 
 
-@pytest.mark.parametrize("awaits_start", [True, False])
-def test_a_robot_that_is_ready_scans_on_until_the_start(
-    awaits_start: bool,
-) -> None:
-    head = HeadControl(
-        *(HEAD.coupling, TICK, 0.5725),
-        scan=RoomScan(behind=False),
-        awaits_start=awaits_start,
-    )
+def test_a_robot_that_is_ready_scans_on_until_the_start() -> None:
+    scan = RoomScan(behind=False)
+    head = HeadControl(HEAD.coupling, TICK, 0.5725, scan=scan)
     assert head.scans and not head.is_ready
     for tick in range(round(3.0 / TICK)):
         head.move(tick * TICK, 0.0, None)
-    assert head.is_ready
-    assert head.scans is awaits_start
+    assert head.is_ready and head.scans
     head.start()
     assert not head.scans

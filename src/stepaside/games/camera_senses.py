@@ -15,7 +15,7 @@ except ImportError as error:
 from ..core.poses import Array, Sector
 from ..perception.colour_detector import RED, TRIMS, ColourDetector
 from ..perception.gaze import OFTEN, SELDOM, Glances, RoomScan
-from ..perception.pipeline import FloorMapping, Perception, build_perception
+from ..perception.pipeline import Perception, build_perception
 from ..planning import Direction
 from ..robots.description import RobotDescription
 from ..robots.head import load_head
@@ -82,16 +82,13 @@ class CameraSenses:
         self, name: str, direction: Direction, tick: float
     ) -> Perception:
         """Build the perception of a robot."""
-        own, mapping = self._settings.player(name), None
+        own, scan, glances = self._settings.player(name), None, None
         views = self._fixed_views(own)
         if self._settings.maps_room:
             backward = direction is Direction.BACKWARD and not views
             often = own.role == "evader" and not views
-            mapping = FloorMapping(
-                scan=RoomScan(behind=backward),
-                glances=Glances(tick, OFTEN if often else SELDOM),
-                awaits_start=True,
-            )
+            scan = RoomScan(behind=backward)
+            glances = Glances(tick, OFTEN if often else SELDOM)
         opponents = self._settings.sensed_opponents(own)
         return build_perception(
             self._description,
@@ -99,7 +96,8 @@ class CameraSenses:
             # Of people no colour is known; they are told by their shape.
             ColourDetector(TRIMS.get(opponents[0].role, RED)),
             tick=tick,
-            mapping=mapping,
+            scan=scan,
+            glances=glances,
             people=any(p.body == "person" for p in opponents),
             unnamed=len(self._settings.unnamed_opponents(own)),
             fixed_views=views,

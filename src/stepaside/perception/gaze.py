@@ -38,16 +38,90 @@ class GazeTarget(NamedTuple):
     camera_height: float  # height of the own camera [m]
 
 
-class Gaze:
+class Glances:
+    """Periodic glances over alternate shoulders while following a target."""
+
+    def __init__(self, tick: float, every: float = OFTEN) -> None:
+        self._interval = round(every / tick)
+        self._glance_ticks = round(GLANCE_DURATION / tick)
+        self._ticks, self._side = 0, 1.0
+
+    def direction(self, bearing: float, distance: float) -> float:
+        """Return the bearing of the target or of a glance; call every tick.
+
+        The head does not look away from a very near target.
+        """
+        self._ticks += 1
+        if self._ticks < self._interval or distance < MIN_DISTANCE:
+            return bearing
+        if self._ticks == self._interval and not self._is_in_reach(bearing):
+            self._side = -self._side
+        if self._ticks >= self._interval + self._glance_ticks:
+            self._ticks, self._side = 0, -self._side
+            return bearing
+        return self._side * MAX_YAW if self._is_in_reach(bearing) else bearing
+
+    def _is_in_reach(self, bearing: float) -> bool:
+        """Return whether a glance to the current side is short enough."""
+        return abs(self._side * MAX_YAW - wrap_angle(bearing)) < MAX_TURN
+
+
+class RoomScan:
+    """Scan of the head to both sides, and optionally behind the body.
+
+    A robot that walks backward also turns on the spot, away from the first
+    side of the scan, and holds the head at the second end until the floor
+    behind is visible or half of the time has passed. It then turns back to
+    its first heading, from which the game begins.
+    """
+
+    def __init__(self, *, behind: bool) -> None:
+        self._behind = behind
+        self.turning = 0.0
+        self._start: tuple[float, float] | None = None
+
+    def lasts(self, gaze: "HeadControl") -> bool:
+        """Return whether the scan is incomplete."""
+        return gaze.scan_ends < SCAN_ENDS or self.turning != 0.0
+
+    def look(self, gaze: "HeadControl", now: float, heading: float) -> None:
+        """Advance the scan by one tick; see :meth:`HeadControl.move`."""
+        if self._start is None:
+            self._start = now, heading
+        time, before = self._start
+        turned = wrap_angle(heading - before)
+        timed_out = now - time >= MAX_DURATION
+        half_time = now - time >= 0.5 * MAX_DURATION
+        done = not self._behind or abs(turned) >= BODY_TURN or half_time
+        gaze.search(stay=not done and gaze.scan_ends == SCAN_ENDS - 1)
+        if not self._behind or timed_out:
+            self.turning = 0.0
+        elif gaze.scan_ends < SCAN_ENDS:
+            self.turning = RIGHT
+        else:
+            back = abs(turned) > HEADING_TOLERANCE
+            self.turning = -copysign(1.0, turned) if back else 0.0
+
+
+class HeadControl:
     """Head motion at a limited speed within the joint ranges."""
 
     def __init__(
-        self, coupling: Array, tick: float, robot_height: float
+        self,
+        coupling: Array,
+        tick: float,
+        robot_height: float,
+        *,
+        glances: Glances | None = None,
+        scan: RoomScan | None = None,
     ) -> None:
         """Start straight ahead at the pitch of a scan.
 
-        The coupling has rows of yaw, least and greatest pitch, [rad].
+        The coupling has rows of yaw, least and greatest pitch, [rad]. After a
+        scan of the room, if any, a signal starts the game.
         """
+        self._glances, self._scan = glances, scan
+        self._started = scan is None
         self._robot_height = robot_height
         self._yaws, self._low, self._high = coupling.tolist()
         self.reach: float = self._yaws[-1]
@@ -105,93 +179,6 @@ class Gaze:
             (low[i + 1] - low[i]) / width * along + low[i],
             (high[i + 1] - high[i]) / width * along + high[i],
         )
-
-
-class Glances:
-    """Periodic glances over alternate shoulders while following a target."""
-
-    def __init__(self, tick: float, every: float = OFTEN) -> None:
-        self._interval = round(every / tick)
-        self._glance_ticks = round(GLANCE_DURATION / tick)
-        self._ticks, self._side = 0, 1.0
-
-    def direction(self, bearing: float, distance: float) -> float:
-        """Return the bearing of the target or of a glance; call every tick.
-
-        The head does not look away from a very near target.
-        """
-        self._ticks += 1
-        if self._ticks < self._interval or distance < MIN_DISTANCE:
-            return bearing
-        if self._ticks == self._interval and not self._is_in_reach(bearing):
-            self._side = -self._side
-        if self._ticks >= self._interval + self._glance_ticks:
-            self._ticks, self._side = 0, -self._side
-            return bearing
-        return self._side * MAX_YAW if self._is_in_reach(bearing) else bearing
-
-    def _is_in_reach(self, bearing: float) -> bool:
-        """Return whether a glance to the current side is short enough."""
-        return abs(self._side * MAX_YAW - wrap_angle(bearing)) < MAX_TURN
-
-
-class RoomScan:
-    """Scan of the head to both sides, and optionally behind the body.
-
-    A robot that walks backward also turns on the spot, away from the first
-    side of the scan, and holds the head at the second end until the floor
-    behind is visible or half of the time has passed. It then turns back to
-    its first heading, from which the game begins.
-    """
-
-    def __init__(self, *, behind: bool) -> None:
-        self._behind = behind
-        self.turning = 0.0
-        self._start: tuple[float, float] | None = None
-
-    def lasts(self, gaze: Gaze) -> bool:
-        """Return whether the scan is incomplete."""
-        return gaze.scan_ends < SCAN_ENDS or self.turning != 0.0
-
-    def look(self, gaze: Gaze, now: float, heading: float) -> None:
-        """Advance the scan by one tick; see :meth:`HeadControl.move`."""
-        if self._start is None:
-            self._start = now, heading
-        time, before = self._start
-        turned = wrap_angle(heading - before)
-        timed_out = now - time >= MAX_DURATION
-        half_time = now - time >= 0.5 * MAX_DURATION
-        done = not self._behind or abs(turned) >= BODY_TURN or half_time
-        gaze.search(stay=not done and gaze.scan_ends == SCAN_ENDS - 1)
-        if not self._behind or timed_out:
-            self.turning = 0.0
-        elif gaze.scan_ends < SCAN_ENDS:
-            self.turning = RIGHT
-        else:
-            back = abs(turned) > HEADING_TOLERANCE
-            self.turning = -copysign(1.0, turned) if back else 0.0
-
-
-class HeadControl(Gaze):
-    """Head motion of a robot before and during a game."""
-
-    def __init__(
-        self,
-        coupling: Array,
-        tick: float,
-        robot_height: float,
-        *,
-        glances: Glances | None = None,
-        scan: RoomScan | None = None,
-        awaits_start: bool = False,
-    ) -> None:
-        """Start as a :class:`Gaze`.
-
-        A signal starts the game if awaited; else the end of the scan does.
-        """
-        super().__init__(coupling, tick, robot_height)
-        self._glances, self._scan = glances, scan
-        self._started = not awaits_start
 
     @property
     def turning(self) -> float:

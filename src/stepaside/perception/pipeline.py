@@ -83,19 +83,6 @@ class FrameReport:
         return f"depth {number}" if number else "depth"
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class FloorMapping:
-    """Parts of a robot that maps the floor."""
-
-    floor: FloorMap = field(default_factory=FloorMap)
-    scan: RoomScan | None = None  # scan of the room before the game, if any
-    # glances over the shoulders at the floor behind, if any
-    glances: Glances | None = None
-    # whether a signal starts the game; otherwise it begins with the end of the
-    # scan
-    awaits_start: bool = False
-
-
 @dataclass(slots=True, eq=False)
 class Perception:
     """Perception of one robot: its parts, and what it knows."""
@@ -378,18 +365,19 @@ def build_perception(
     detector: ColourDetector,
     *,
     tick: float,
-    mapping: FloorMapping | None = None,
+    scan: RoomScan | None = None,
+    glances: Glances | None = None,
     people: bool = False,
     unnamed: int = 0,
     fixed_views: tuple[Sector, ...] = (),
 ) -> Perception:
     """Build the perception of a robot, whose opponents are of its model.
 
-    People, who wear no trim, may approach. Several opponents that all wear the
-    trim are unnamed; one of several robots has 0.
+    One that scans the room maps its floor. People, who wear no trim, may
+    approach. Several opponents that all wear the trim are unnamed.
     """
     # Walls and obstacles of a map rest, so a robot's motion may be smooth.
-    calm = (mapping is not None and not people) or unnamed > 0
+    calm = (scan is not None and not people) or unnamed > 0
     motion = ROBOT_MOTION if calm else PERSON_MOTION
     tracker = Tracker(motion, several=unnamed > 0)
     selection = TargetSelection(tracker)
@@ -403,21 +391,17 @@ def build_perception(
     detector.appearance = replace(
         detector.appearance, top=high, bottom=low + TRIM_TIP
     )
-    used = mapping or FloorMapping()
     return Perception(
         detector,
         selection,
         HeadControl(
-            *(head.coupling, tick, size.height),
-            glances=used.glances,
-            scan=used.scan,
-            awaits_start=used.awaits_start,
+            *(head.coupling, tick, size.height), glances=glances, scan=scan
         ),
         head.top,
         head.depth,
         size,
         kinematics,
-        None if mapping is None else mapping.floor,
+        None if scan is None else FloorMap(),
         people=people,
         most=max(1, unnamed),
         fixed_views=fixed_views,
