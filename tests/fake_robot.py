@@ -10,8 +10,8 @@ from stepaside.control.scheme import ControlScheme
 from stepaside.control.sight_sources import MeasuredSight, SightSource
 from stepaside.control.strategy_runner import StrategyRunner
 from stepaside.core.poses import Array, Pose
+from stepaside.locomotion.locomotion import Phase, StepStarted
 from stepaside.locomotion.maneuver_walk import ManeuverWalk
-from stepaside.locomotion.walk_snapshots import Phase, StepStarted
 from stepaside.locomotion.zmp.open_loop import OpenLoop
 from stepaside.locomotion.zmp.stabiliser import Stabiliser
 from stepaside.perception.measurement import RobotState, Sighting

@@ -129,7 +129,7 @@ def _targets(
     while game.world.time < settings.duration:
         now = game.world.time
         assert game.tick() is None, game.message
-        state = walker_of(game).scheme.state
+        state = walker_of(game).scheme.walk
         if now >= STEADY and state.plan is not None:
             first = state.plan.first_foot is Foot.LEFT
             phase = (now - state.plan_started) / cycle + 0.5 * (not first)

@@ -1,5 +1,6 @@
 """Fake robot of three motors, and control of it, on a clock set by hand."""
 
+from types import SimpleNamespace
 from typing import Any
 
 import numpy as np
@@ -12,14 +13,14 @@ from stepaside.drivers.motors import Motors
 from stepaside.drivers.robot import JointRobot, JointTargets
 from stepaside.drivers.robot_reports import plain_report
 from stepaside.drivers.safety import SafetyState
-from stepaside.locomotion.walk_snapshots import Phase, WalkState
+from stepaside.locomotion.locomotion import Phase
+from stepaside.locomotion.zmp.current_step import resting_step
 from stepaside.perception.measurement import (
     RobotState,
     RobotStatus,
     Sighting,
 )
 from stepaside.planning import Foot, GaitSettings
-from stepaside.robots.newton_step import BodyReference
 from stepaside.strategies import Evasion, Strategy
 
 TICK = 0.02  # [s]
@@ -162,26 +163,11 @@ class FakeSession:
         self.closed = True
 
 
-def standing_still() -> WalkState:
+def standing_still() -> Any:
     """Nothing planned, on both feet."""
-    left, right = Pose(0.0, 0.05, 0.0), Pose(0.0, -0.05, 0.0)
-    return WalkState(
-        phase=Phase.STANDING,
-        gait=GaitSettings(),
-        plan=None,
-        plan_frame=Pose(0.0, 0.0, 0.0),
-        plan_started=0.0,
-        left_foot=left,
-        right_foot=right,
-        first_foot=Foot.LEFT,
-        reference=BodyReference(
-            (0.0, 0.0, 0.27), (*left[:2], 0.0, 0.0), (*right[:2], 0.0, 0.0)
-        ),
-        zmp_reference=(0.0, 0.0),
-        torso_heading=0.0,
-        estimate=None,
-        solved=None,
-        adapted=0,
+    step = resting_step(Pose(0.0, -0.05, 0.0), Foot.LEFT)
+    return SimpleNamespace(
+        step=lambda now: step, planned_centers=(0.0, 0.0, 0.0, 0.0)
     )
 
 
@@ -196,7 +182,7 @@ class FakeScheme:
         self.fails: Exception | None = None
         self.begun = None
         self.sighting: Sighting | None = None
-        self.locomotion, self.state = self, standing_still()
+        self.locomotion, self.maneuvers = self, standing_still()
         self.pose = Pose(0.0, 0.0, 0.0)
 
     def update(self, measurement: Any) -> Array:

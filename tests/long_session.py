@@ -14,8 +14,8 @@ import numpy as np
 
 from fake_body import FakeBody
 from stepaside.control.scheme_builder import build_scheme
-from stepaside.locomotion.walk_snapshots import Phase
-from stepaside.locomotion.zmp.control_settings import ControlSettings
+from stepaside.locomotion.control_settings import ControlSettings
+from stepaside.locomotion.locomotion import Phase
 from stepaside.planning import GaitSettings
 from stepaside.robots.description import load_robot
 from stepaside.robots.forward_kinematics import ForwardKinematics

@@ -10,7 +10,7 @@ from importlib import import_module
 from fake_body import FakeBody
 from fake_robot import FakeStrategy
 from stepaside.control.scheme_builder import build_scheme
-from stepaside.locomotion.zmp.control_settings import ControlSettings
+from stepaside.locomotion.control_settings import ControlSettings
 from stepaside.planning import GaitSettings
 from stepaside.robots.description import load_robot
 from stepaside.robots.forward_kinematics import ForwardKinematics
@@ -60,7 +60,7 @@ def play(feedback: bool) -> dict[str, object]:
     posture = forward.posture(body.joints)
     return {
         "phases": phases,
-        "walked": scheme.state.left_foot.x,
+        "walked": scheme.walk.left_foot.x,
         "apart": float(
             abs(
                 posture.positions_feet_in_torso[0]

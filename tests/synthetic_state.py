@@ -5,7 +5,7 @@ from typing import Any
 import numpy as np
 
 from stepaside.core.poses import Pose
-from stepaside.locomotion.zmp.control_settings import (
+from stepaside.locomotion.control_settings import (
     ControlSettings,
     StabiliserSettings,
 )

@@ -21,7 +21,7 @@ from .games.configuration_file import load_configuration as load_configuration
 from .games.duel_settings import StartSettings as StartSettings
 from .games.run_archive import load_run as load_run
 from .games.walk_settings import WalkSettings as WalkSettings
-from .locomotion.zmp.control_settings import ControlSettings as ControlSettings
+from .locomotion.control_settings import ControlSettings as ControlSettings
 from .perception.measurement import RobotState as RobotState
 from .perception.measurement import RobotStatus as RobotStatus
 from .perception.measurement import Sighting as Sighting

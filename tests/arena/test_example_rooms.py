@@ -9,10 +9,10 @@ import pytest
 
 from fake_robot import GAIT, FakeLegs, scheme_of
 from stepaside.arena import check_initial_poses, load_room
-from stepaside.control.clearance.guard import Guard
-from stepaside.control.clearance.surroundings import KnownRoom
-from stepaside.control.clearance.swept_outline import BodyOutline, lateral_sway
 from stepaside.core.poses import Pose, wrap_angle
+from stepaside.locomotion.guard import Guard
+from stepaside.locomotion.surroundings import KnownRoom
+from stepaside.locomotion.swept_outline import BodyOutline, lateral_sway
 from stepaside.perception.measurement import RobotState, Sighting
 from stepaside.planning import ManeuverPlanner
 from stepaside.robots.description import load_robot
@@ -45,7 +45,7 @@ def test_pursuer_reaches_a_standing_evader_without_contact(file: Path) -> None:
     goal = start.inverse().compose(other)
     for number in range(round(60.0 / tick)):
         now = number * tick
-        body = scheme.state.reference
+        body = scheme.walk.reference
         legs.torso_heading = body.heading
         away = goal.x - body.com[0], goal.y - body.com[1]
         distance = hypot(*away)

@@ -12,9 +12,9 @@ from stepaside.arena import (
     Room,
     check_initial_poses,
 )
-from stepaside.control.clearance.surroundings import AHEAD, KnownRoom
 from stepaside.core.errors import ConfigurationError
 from stepaside.core.poses import Pose
+from stepaside.locomotion.surroundings import AHEAD, KnownRoom
 from stepaside.perception.measurement import RobotState
 from stepaside.robots.leg_kinematics import BodyReference
 from stepaside.sim.room_furnishing import add_solids, obstacle_mover

@@ -19,13 +19,12 @@ from stepaside.arena import (
     generate_room,
     hull,
 )
-from stepaside.control.clearance.guard import Guard
-from stepaside.control.clearance.surroundings import KnownRoom
-from stepaside.control.clearance.swept_outline import BodyOutline
 from stepaside.control.scheme import ControlScheme
 from stepaside.core.poses import Array, Pose
-from stepaside.locomotion.maneuver_selection import GuardDecision
-from stepaside.locomotion.walk_snapshots import Phase
+from stepaside.locomotion.guard import Guard, GuardDecision
+from stepaside.locomotion.locomotion import Phase
+from stepaside.locomotion.surroundings import KnownRoom
+from stepaside.locomotion.swept_outline import BodyOutline
 from stepaside.perception.measurement import RobotState, Sighting
 from stepaside.planning import (
     CenterState,
@@ -132,7 +131,7 @@ def test_any_intent_keeps_the_robot_clear_of_obstacles() -> None:
             )
             phases.add(scheme.phase)
             if number % 10 == 0:
-                corners = corners_of(scheme.state.reference, start)
+                corners = corners_of(scheme.walk.reference, start)
                 least.append(clearance(room, corners))
     assert min(least) >= MARGIN - 1e-4
     assert phases == {Phase.STANDING, Phase.WALKING, Phase.HALTING}

@@ -6,11 +6,11 @@ import numpy as np
 import pytest
 
 from stepaside.arena import Box, Disc, Obstacle, ObstacleSet
-from stepaside.control.clearance.footstep_adjustment import FootstepAdjustment
 from stepaside.core.poses import Array, Pose
-from stepaside.locomotion.zmp.control_settings import (
+from stepaside.locomotion.control_settings import (
     StabiliserSettings,
 )
+from stepaside.locomotion.footstep_adjustment import FootstepAdjustment
 from stepaside.planning import (
     CenterState,
     Direction,

@@ -6,13 +6,13 @@ import pytest
 
 from fake_robot import GAIT
 from stepaside.arena import Box, ObstacleSet
-from stepaside.control.clearance.guard import (
+from stepaside.core.poses import Pose
+from stepaside.locomotion.guard import (
     GAINED,
     Guard,
+    GuardDecision,
     ManeuverClearance,
 )
-from stepaside.core.poses import Pose
-from stepaside.locomotion.maneuver_selection import GuardDecision
 from stepaside.planning import (
     Direction,
     Foot,

@@ -12,7 +12,7 @@ from stepaside.core.poses import Pose
 from stepaside.games.outcome import Outcome
 from stepaside.games.recorded_game import RecordedGame
 from stepaside.games.walk_settings import WalkSettings
-from stepaside.locomotion.zmp.control_settings import ControlSettings
+from stepaside.locomotion.control_settings import ControlSettings
 from stepaside.planning import (
     PRESETS,
     Direction,

@@ -13,8 +13,8 @@ from fake_robot import (
     measure,
 )
 from stepaside.core.poses import Pose
+from stepaside.locomotion.locomotion import Phase
 from stepaside.locomotion.maneuver_walk import SETTLING
-from stepaside.locomotion.walk_snapshots import Phase
 from stepaside.perception.measurement import Sighting
 from stepaside.planning import Foot
 
@@ -23,18 +23,18 @@ def test_it_stands_midway_until_the_other_is_a_reason() -> None:
     run = Run()
     scheme = run.scheme
     half = 0.5 * GAIT.foot_spacing
-    assert scheme.state.left_foot == Pose(0.0, half, 0.0)
-    assert scheme.state.right_foot == Pose(0.0, -half, 0.0)
+    assert scheme.walk.left_foot == Pose(0.0, half, 0.0)
+    assert scheme.walk.right_foot == Pose(0.0, -half, 0.0)
     com = (GAIT.zmp_forward, 0.0, GAIT.com_height)
     np.testing.assert_allclose(scheme.joint_targets, com, atol=1e-15)
-    assert scheme.state.plan_frame == Pose(0.0, 0.0, 0.0)
-    assert scheme.state.plan_started == 0.0
+    assert scheme.walk.plan_frame == Pose(0.0, 0.0, 0.0)
+    assert scheme.walk.plan_started == 0.0
     run.until(1.0, distance=None)
     run.until(2.0, distance=2.1)
-    assert run.phase() is Phase.STANDING and scheme.state.plan is None
+    assert run.phase() is Phase.STANDING and scheme.walk.plan is None
     assert run.steps == [] and scheme.begun is None
-    assert scheme.state.reference.com == pytest.approx(com, abs=1e-15)
-    assert scheme.state.zmp_reference == pytest.approx(com[:2], abs=1e-15)
+    assert scheme.walk.reference.com == pytest.approx(com, abs=1e-15)
+    assert scheme.walk.planned_centers[2:] == pytest.approx(com[:2], abs=1e-15)
     run.until(2.0 + TICK, distance=1.9)
     assert run.phase() is Phase.WALKING and run.replans == 1
 
@@ -56,7 +56,7 @@ def test_feet_land_alternately_from_the_first_foot(foot: Foot) -> None:
 def test_gait_time_is_exact_though_steps_end_between_ticks() -> None:
     run = Run()
     scheme = run.until(FIRST + 4.2 * STEP)
-    assert scheme.state.plan_started == pytest.approx(
+    assert scheme.walk.plan_started == pytest.approx(
         FIRST + 4.0 * STEP, abs=1e-9
     )
     assert run.replans == 6
@@ -71,9 +71,9 @@ def test_a_maneuver_turns_the_robot_as_the_template() -> None:
     turn = GAIT.gain * 0.5 * GAIT.path_interval
     headings = [pose.theta for _, _, pose in run.landings]
     np.testing.assert_allclose(headings, turn * np.arange(1, 6))
-    plan = scheme.state.plan
+    plan = scheme.walk.plan
     assert plan is not None and plan.bearing == 0.5
-    assert scheme.state.plan_frame.theta == pytest.approx(headings[3])
+    assert scheme.walk.plan_frame.theta == pytest.approx(headings[3])
 
 
 def test_the_reference_is_continuous_through_all_plans() -> None:
@@ -81,8 +81,8 @@ def test_the_reference_is_continuous_through_all_plans() -> None:
     coms, zmps = [], []
     while run.ticks * TICK < FIRST + 3.0 * STEP:
         scheme = run.until((run.ticks + 1) * TICK)
-        coms.append(scheme.state.reference.com)
-        zmps.append(scheme.state.zmp_reference)
+        coms.append(scheme.walk.reference.com)
+        zmps.append(scheme.walk.planned_centers[2:])
     speed = np.diff(coms, axis=0) / TICK
     assert np.abs(speed).max() < 0.4
     assert np.abs(np.diff(speed, axis=0)).max() < 0.03
@@ -127,15 +127,15 @@ def test_without_a_reason_it_brings_its_feet_abreast_and_rests() -> None:
     assert run.phase() is Phase.HALTING
     assert scheme.locomotion.step(ends).walking
     run.until(ends + 2 * TICK)
-    assert run.phase() is Phase.STANDING and scheme.state.plan is None
-    apart = scheme.state.right_foot.inverse().compose(scheme.state.left_foot)
+    assert run.phase() is Phase.STANDING and scheme.walk.plan is None
+    apart = scheme.walk.right_foot.inverse().compose(scheme.walk.left_foot)
     expected = (0.0, GAIT.foot_spacing, 0.0)
     assert apart == pytest.approx(expected, abs=1e-12)
-    assert scheme.state.left_foot == run.landings[0][2]
-    assert scheme.state.right_foot == run.landings[1][2]
+    assert scheme.walk.left_foot == run.landings[0][2]
+    assert scheme.walk.right_foot == run.landings[1][2]
     assert len(run.steps) == 2 and run.replans == 1  # a halt is no maneuver
     before = run.legs.tracked[-3].com
-    assert scheme.state.reference.com == pytest.approx(before, abs=1e-3)
-    assert scheme.state.zmp_reference == scheme.state.reference.com[:2]
+    assert scheme.walk.reference.com == pytest.approx(before, abs=1e-3)
+    assert scheme.walk.planned_centers[2:] == scheme.walk.reference.com[:2]
     assert not scheme.locomotion.step(ends).walking
     assert SETTLING == 1.0

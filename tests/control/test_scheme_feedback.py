@@ -17,7 +17,7 @@ from fake_robot import (
     feeding,
 )
 from stepaside.control.sight_sources import CameraSight
-from stepaside.locomotion.walk_snapshots import Phase
+from stepaside.locomotion.locomotion import Phase
 from stepaside.perception.measurement import Sighting
 from stepaside.planning import Direction, Foot
 
@@ -40,8 +40,8 @@ def test_feedback_says_where_a_foot_landed() -> None:
     assert landed == pytest.approx((GAIT.stride, 0.05, 0.0))
     assert step.remaining == pytest.approx(-GAIT.double_support)
     expected = (GAIT.stride + 0.01, 0.05, 0.0)
-    assert scheme.state.plan_frame == pytest.approx(expected)
-    assert scheme.state.left_foot == scheme.state.plan_frame
+    assert scheme.walk.plan_frame == pytest.approx(expected)
+    assert scheme.walk.left_foot == scheme.walk.plan_frame
 
 
 def test_a_fallen_robot_stops_moving() -> None:
@@ -51,7 +51,7 @@ def test_a_fallen_robot_stops_moving() -> None:
     before = scheme.joint_targets.copy()
     feedback.state = SimpleNamespace(has_fallen=True)
     run.until(FIRST + 0.2)
-    assert run.phase() is Phase.FALLEN and scheme.state.plan is None
+    assert run.phase() is Phase.FALLEN and scheme.walk.plan is None
     np.testing.assert_array_equal(scheme.joint_targets, before)
     steps = len(feedback.steps)
     feedback.state = SimpleNamespace(has_fallen=False)
@@ -73,7 +73,7 @@ def test_perception_stands_on_the_support_foot(foot: Foot) -> None:
     assert scheme.joint_targets[0] == 0.75
     run.until(0.1 + FIRST + 0.1)
     left = foot is Foot.RIGHT  # the left one stands while the right swings
-    support = scheme.state.left_foot if not left else scheme.state.right_foot
+    support = scheme.walk.left_foot if not left else scheme.walk.right_foot
     assert eyes.stood[0][1] is left
     assert eyes.stood[-1] == (support, not left)
     eyes.seen = None
@@ -98,7 +98,7 @@ def test_eyes_that_look_around_turn_the_body(
     if not turning:
         return
     landed = 0.5 * (
-        np.array(scheme.state.left_foot) + np.array(scheme.state.right_foot)
+        np.array(scheme.walk.left_foot) + np.array(scheme.walk.right_foot)
     )
     assert landed[2] == pytest.approx(turning * 2.5 * 0.08 * np.pi, abs=0.01)
     assert np.hypot(*landed[:2]) < 0.02

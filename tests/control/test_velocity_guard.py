@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 
 from stepaside.arena import Box, Disc, Obstacle, Room
-from stepaside.control.clearance.surroundings import KnownRoom
-from stepaside.control.clearance.velocity_guard import VelocityGuard
 from stepaside.core.poses import Pose
+from stepaside.locomotion.guard import VelocityGuard
+from stepaside.locomotion.surroundings import KnownRoom
 from stepaside.strategies.velocity_set import (
     STILL,
     AxisValues,

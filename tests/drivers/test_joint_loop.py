@@ -27,7 +27,7 @@ from stepaside.drivers.joint_motion import (
 from stepaside.drivers.method_thread import SessionLost
 from stepaside.drivers.motors import motors_of
 from stepaside.drivers.safety import SafetyState
-from stepaside.locomotion.walk_snapshots import Phase
+from stepaside.locomotion.locomotion import Phase
 from stepaside.perception.images import LidarScan
 from stepaside.perception.measurement import Sighting
 from stepaside.robots.description import load_robot

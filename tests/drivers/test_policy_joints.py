@@ -21,11 +21,11 @@ from stepaside.drivers.motors import motors_of
 from stepaside.drivers.robot import JointRobot, JointTargets
 from stepaside.drivers.safety import SafetyState
 from stepaside.drivers.scheme_factory import policy_gains, scheme_factory
-from stepaside.locomotion.policy.legs_loader import load_policy
-from stepaside.locomotion.policy.legs_settings import LegsSettings
+from stepaside.locomotion.control_settings import LegsSettings
 from stepaside.locomotion.policy.policy_legs import (
     InitialPosture,
     initial_posture,
+    load_policy,
 )
 from stepaside.perception.measurement import Sighting
 from stepaside.planning import GaitSettings

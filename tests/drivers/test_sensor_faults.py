@@ -19,7 +19,7 @@ from stepaside.drivers.robot_loader import load_robot_class
 from stepaside.drivers.robot_session import RobotSession
 from stepaside.drivers.safety import SafetyState
 from stepaside.drivers.scheme_factory import scheme_factory
-from stepaside.locomotion.zmp.control_settings import STABILISED
+from stepaside.locomotion.control_settings import STABILISED
 from stepaside.perception.measurement import RobotState
 from stepaside.planning import GaitSettings
 from stepaside.robots.description import load_robot

@@ -13,7 +13,7 @@ from stepaside.fitting.derivation import LEAN_CANDIDATES, least_lean
 from stepaside.fitting.gait_feasibility import JointLoads
 from stepaside.fitting.walk_trials import WalkTrialResult
 from stepaside.games.robot_settings import settings_from_description
-from stepaside.locomotion.zmp.control_settings import StabiliserSettings
+from stepaside.locomotion.control_settings import StabiliserSettings
 from stepaside.locomotion.zmp.stabiliser import Ankles
 from stepaside.locomotion.zmp.state_estimator import BodyState
 from stepaside.robots.description import (

@@ -19,8 +19,8 @@ from stepaside.games.duel_settings import DuelSettings
 from stepaside.games.outcome import Outcome
 from stepaside.games.recorded_game import run_duel
 from stepaside.games.robot_settings import with_legs, with_robot
+from stepaside.locomotion.control_settings import LegsSettings
 from stepaside.locomotion.policy.contract_reader import read_contract
-from stepaside.locomotion.policy.legs_settings import LegsSettings
 from stepaside.locomotion.policy.network import PolicyNetwork
 from stepaside.robots.description import load_robot
 from stepaside.sim.body_settings import BodySettings

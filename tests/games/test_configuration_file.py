@@ -15,7 +15,7 @@ from stepaside.games.configuration_file import (
 )
 from stepaside.games.duel_settings import DuelSettings, StartSettings
 from stepaside.games.initial_poses import draw_start
-from stepaside.locomotion.zmp.control_settings import ControlSettings
+from stepaside.locomotion.control_settings import ControlSettings
 from stepaside.sim.body_settings import (
     BODIES,
     BodySettings,

@@ -7,7 +7,7 @@ import pytest
 
 from stepaside.games import DuelSettings, Outcome, run_duel
 from stepaside.games.duel_settings import StartSettings
-from stepaside.locomotion.zmp.control_settings import STABILISED
+from stepaside.locomotion.control_settings import STABILISED
 from stepaside.sim.body_settings import BODIES
 from stepaside.strategies import Evasion
 

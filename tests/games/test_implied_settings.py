@@ -22,7 +22,7 @@ from stepaside.games.recorded_game import run_duel, run_walk
 from stepaside.games.robot_settings import with_legs
 from stepaside.games.settings_reader import settings_of
 from stepaside.games.walk_settings import WalkSettings
-from stepaside.locomotion.zmp.control_settings import ControlSettings
+from stepaside.locomotion.control_settings import ControlSettings
 from stepaside.planning import PRESETS
 from stepaside.sim.body_settings import BODIES
 from stepaside.strategies import Evasion

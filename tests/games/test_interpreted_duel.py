@@ -11,7 +11,7 @@ DUEL = """
 import sys
 from stepaside.games.recorded_game import RecordedGame
 from stepaside.games.duel_settings import DuelSettings
-from stepaside.locomotion.zmp.control_settings import STABILISED
+from stepaside.locomotion.control_settings import STABILISED
 from stepaside.sim.body_settings import BODIES
 
 body = {"body": BODIES["hardware"], "control": STABILISED}

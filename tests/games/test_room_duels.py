@@ -17,7 +17,6 @@ from stepaside.arena import (
 )
 from stepaside.arena.room_generation import RoomRecipe
 from stepaside.cli.settings_text import commented
-from stepaside.control.clearance.map_settings import MapSettings
 from stepaside.core.errors import ConfigurationError
 from stepaside.core.poses import Pose
 from stepaside.games.configuration_file import (
@@ -26,6 +25,7 @@ from stepaside.games.configuration_file import (
 )
 from stepaside.games.duel_settings import DuelSettings, StartSettings
 from stepaside.games.recorded_game import RecordedGame
+from stepaside.locomotion.control_settings import MapSettings
 from stepaside.sim.camera_settings import SceneSettings
 from stepaside.sim.room_furnishing import HEIGHT, add_solids
 

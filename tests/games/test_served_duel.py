@@ -23,7 +23,7 @@ from stepaside.games.robot_endpoints import LolaEndpoint
 from stepaside.games.run import DuelRun
 from stepaside.games.run_archive import load_run, results_of
 from stepaside.games.served_duel import serve_duel
-from stepaside.locomotion.zmp.control_settings import ControlSettings
+from stepaside.locomotion.control_settings import ControlSettings
 from stepaside.planning import GaitSettings
 from stepaside.report.run_folder import write_run
 from stepaside.report.scene import RunScene

@@ -9,7 +9,7 @@ import pytest
 from stepaside.games.recorded_game import run_walk
 from stepaside.games.run_archive import results_of
 from stepaside.games.walk_settings import WalkSettings
-from stepaside.locomotion.zmp.control_settings import ControlSettings
+from stepaside.locomotion.control_settings import ControlSettings
 from stepaside.planning import PRESETS, GaitSettings
 from stepaside.sim.body_settings import BODIES
 

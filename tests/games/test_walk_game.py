@@ -13,7 +13,7 @@ from stepaside.games.run import WalkRun
 from stepaside.games.run_archive import results_of
 from stepaside.games.support_foot_columns import express_in_support_foot
 from stepaside.games.walk_settings import WalkSettings
-from stepaside.locomotion.zmp.control_settings import OPEN_LOOP, STABILISED
+from stepaside.locomotion.control_settings import OPEN_LOOP, STABILISED
 from stepaside.planning import GaitSettings
 from stepaside.sim.body_settings import BODIES
 from stepaside.sim.physics_settings import PhysicsSettings

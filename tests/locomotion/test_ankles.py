@@ -4,7 +4,7 @@ from typing import Any
 
 import pytest
 
-from stepaside.locomotion.zmp.control_settings import StabiliserSettings
+from stepaside.locomotion.control_settings import StabiliserSettings
 from stepaside.locomotion.zmp.stabiliser import Ankles
 from stepaside.locomotion.zmp.state_estimator import BodyState
 

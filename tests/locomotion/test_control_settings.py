@@ -5,7 +5,7 @@ from typing import Any
 import pytest
 
 from stepaside.core.errors import ConfigurationError
-from stepaside.locomotion.zmp.control_settings import (
+from stepaside.locomotion.control_settings import (
     OPEN_LOOP,
     STABILISED,
     ControlSettings,

@@ -10,7 +10,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from stepaside.core.poses import Pose
-from stepaside.locomotion.zmp.control_settings import StabiliserSettings
+from stepaside.locomotion.control_settings import StabiliserSettings
 from stepaside.locomotion.zmp.current_step import (
     Box,
     CurrentStep,

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from stepaside.core.poses import Array
-from stepaside.locomotion.zmp.control_settings import StabiliserSettings
+from stepaside.locomotion.control_settings import StabiliserSettings
 from stepaside.locomotion.zmp.stabiliser import JointCorrection
 
 TICK = 0.01

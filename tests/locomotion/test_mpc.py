@@ -11,7 +11,7 @@ from scipy.optimize import linprog
 
 from reference_plans import KINDS, plan_of, reference_corners
 from stepaside.core.poses import Array
-from stepaside.locomotion.zmp.control_settings import (
+from stepaside.locomotion.control_settings import (
     MpcSettings,
 )
 from stepaside.locomotion.zmp.mpc import IntrinsicallyStableMpc, MpcResult

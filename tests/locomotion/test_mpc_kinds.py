@@ -7,7 +7,7 @@ import pytest
 
 from reference_plans import KINDS, plan_of
 from stepaside.core.poses import Array
-from stepaside.locomotion.zmp.control_settings import MpcSettings
+from stepaside.locomotion.control_settings import MpcSettings
 from stepaside.locomotion.zmp.mpc import IntrinsicallyStableMpc
 from stepaside.planning import GaitSettings, ManeuverPlan
 

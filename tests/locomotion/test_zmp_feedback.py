@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from stepaside.core.poses import Array
-from stepaside.locomotion.zmp.control_settings import StabiliserSettings
+from stepaside.locomotion.control_settings import StabiliserSettings
 from stepaside.locomotion.zmp.current_step import (
     CurrentStep,
     resting_step,

@@ -43,7 +43,7 @@ class Ghost:
 
     def pose(self) -> Pose:
         """Place, and heading of the torso: midway between the feet's."""
-        body = self.scheme.state.reference
+        body = self.scheme.walk.reference
         apart = wrap_angle(body.left_foot[3] - body.right_foot[3])
         heading = body.right_foot[3] + 0.5 * apart
         self.legs.torso_heading = heading

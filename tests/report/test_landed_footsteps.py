@@ -7,7 +7,7 @@ from stepaside.core.poses import Array
 from stepaside.games.duel_settings import DuelSettings, StartSettings
 from stepaside.games.recorded_game import run_duel
 from stepaside.games.run import DuelRun
-from stepaside.locomotion.zmp.control_settings import ControlSettings
+from stepaside.locomotion.control_settings import ControlSettings
 from stepaside.report.landed_footsteps import footsteps_in
 from stepaside.report.scene import RunScene
 from stepaside.sim.body_settings import BODIES

@@ -126,7 +126,7 @@ def test_a_live_duel_can_be_watched_pushed_and_driven(browser: Any) -> None:
         mind = pursuer.scheme
         until(
             page,
-            lambda: (p := mind.state.plan) is not None and p.bearing > 0.8,
+            lambda: (p := mind.walk.plan) is not None and p.bearing > 0.8,
         )
         page.get_by_text("walks to the left").first.wait_for()
 

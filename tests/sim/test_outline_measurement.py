@@ -66,7 +66,7 @@ def test_a_walking_body_stays_within_its_outline_by_the_margin() -> None:
             continue
         for player in duel.in_physics.players:
             assert isinstance(player, SimulatedPlayer)
-            body = player.scheme.state.reference
+            body = player.scheme.walk.reference
             corners = np.concatenate(
                 [
                     Pose(*place[:2], heading).transform_points(part)

@@ -15,7 +15,7 @@ from stepaside.games.walker_factory import (
     WalkerSetup,
     place_walker,
 )
-from stepaside.locomotion.zmp.control_settings import OPEN_LOOP, STABILISED
+from stepaside.locomotion.control_settings import OPEN_LOOP, STABILISED
 from stepaside.perception.measurement import Sighting
 from stepaside.planning import GaitSettings
 from stepaside.robots.description import load_robot

@@ -15,10 +15,10 @@ from stepaside.arena import (
     RoomRecipe,
     generate_room,
 )
-from stepaside.control.clearance.surroundings import KnownRoom, MappedRoom
 from stepaside.control.strategy_runner import StrategyRunner
 from stepaside.core.poses import Pose
 from stepaside.games import play_strategies
+from stepaside.locomotion.surroundings import KnownRoom, MappedRoom
 from stepaside.perception.floor_map import CELL, FloorMap
 from stepaside.perception.measurement import Sighting
 from stepaside.planning import Direction

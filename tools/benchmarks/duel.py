@@ -16,7 +16,7 @@ from stepaside.core.errors import ConfigurationError
 from stepaside.core.poses import Array
 from stepaside.games.duel_settings import DuelSettings
 from stepaside.games.recorded_game import RecordedGame
-from stepaside.locomotion.zmp.control_settings import STABILISED
+from stepaside.locomotion.control_settings import STABILISED
 from stepaside.sim.body_settings import BODIES
 
 CAMERA_DUEL = 5.0  # simulated time of a duel with cameras, in [s]

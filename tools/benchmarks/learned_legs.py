@@ -32,8 +32,8 @@ from stepaside.games.robot_settings import (
     with_robot,
 )
 from stepaside.games.run_archive import results_of
-from stepaside.locomotion.policy.legs_settings import LegsSettings
-from stepaside.locomotion.policy.response_file import (
+from stepaside.locomotion.control_settings import LegsSettings
+from stepaside.locomotion.policy.velocity_response import (
     response_entries,
     response_path,
 )

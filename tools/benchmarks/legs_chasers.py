@@ -29,8 +29,8 @@ from stepaside.games.duel_evaluation import template_closest_approach
 from stepaside.games.duel_settings import SENSING, DuelSettings
 from stepaside.games.recorded_game import run_duel
 from stepaside.games.robot_settings import with_legs, with_robot
-from stepaside.locomotion.policy.legs_loader import load_legs
-from stepaside.locomotion.policy.legs_settings import LegsSettings
+from stepaside.locomotion.control_settings import LegsSettings
+from stepaside.locomotion.policy.policy_legs import load_legs
 from stepaside.robots.description import load_robot
 from stepaside.sim.camera_settings import (
     DEPTH_CAMERAS,

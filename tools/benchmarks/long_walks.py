@@ -12,7 +12,7 @@ from benchmark_options import ask
 from parallel_walks import walk_all
 
 from stepaside.games.walk_settings import WalkSettings
-from stepaside.locomotion.zmp.control_settings import STABILISED
+from stepaside.locomotion.control_settings import STABILISED
 from stepaside.sim.body_settings import BODIES
 
 KEPT = ("outcome", "duration_s", "steps", "speed_ratio", "yaw_ratio")

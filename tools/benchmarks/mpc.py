@@ -3,7 +3,7 @@
 import numpy as np
 from call_timing import time_call
 
-from stepaside.locomotion.zmp.control_settings import MpcSettings
+from stepaside.locomotion.control_settings import MpcSettings
 from stepaside.locomotion.zmp.mpc import IntrinsicallyStableMpc
 from stepaside.planning import (
     CenterState,

@@ -16,10 +16,10 @@ from benchmark_options import ask, machine, seeds_of
 from resumable_jobs import Row, finished, gather, spread
 
 from stepaside.arena import RoomRecipe, generate_room
-from stepaside.control.clearance.map_settings import MAPS, MapSettings
 from stepaside.core.constants import CAPTURE_DISTANCE
 from stepaside.games import DuelSettings, run_duel
 from stepaside.games.run_archive import results_of
+from stepaside.locomotion.control_settings import MAPS, MapSettings
 from stepaside.sim.camera_settings import SceneSettings
 from stepaside.studies.result_files import header, read_result, write_result
 from stepaside.studies.tournament import clearance

@@ -26,8 +26,8 @@ from resumable_jobs import Row, finished, gather
 from stepaside.core.poses import Pose, wrap_angle
 from stepaside.core.random_streams import named_generator
 from stepaside.games.template_game import play_template
-from stepaside.locomotion.policy.legs_loader import load_legs
-from stepaside.locomotion.policy.legs_settings import LegsSettings
+from stepaside.locomotion.control_settings import LegsSettings
+from stepaside.locomotion.policy.policy_legs import load_legs
 from stepaside.planning import Direction, GaitSettings
 from stepaside.planning.gait_settings import PRESETS
 from stepaside.robots.description import load_robot

@@ -16,7 +16,7 @@ from resumable_jobs import Row, finished, gather, spread
 from stepaside.games.recorded_game import run_walk
 from stepaside.games.run_archive import results_of
 from stepaside.games.walk_settings import WalkSettings
-from stepaside.locomotion.zmp.control_settings import (
+from stepaside.locomotion.control_settings import (
     STABILISED,
     StabiliserSettings,
 )

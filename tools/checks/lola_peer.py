@@ -155,7 +155,7 @@ class HeadSwing:
         """Begin at rest."""
         import numpy as np
 
-        from stepaside.locomotion.walk_snapshots import Phase
+        from stepaside.locomotion.locomotion import Phase
 
         self.decisions = self.locomotion = self
         self.joint_targets = np.clip(0.0, motors.low + 0.02, motors.high)

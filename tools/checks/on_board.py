@@ -40,7 +40,7 @@ def record(file: Path) -> None:
     from stepaside.games.duel_settings import DuelSettings
     from stepaside.games.recorded_game import RecordedGame
     from stepaside.games.walker import SimulatedPlayer
-    from stepaside.locomotion.zmp.control_settings import STABILISED
+    from stepaside.locomotion.control_settings import STABILISED
     from stepaside.sim.body_settings import BODIES
 
     settings = DuelSettings(
@@ -71,7 +71,7 @@ def play(file: Path) -> dict[str, Any]:
     for name in ABSENT:
         sys.modules[name] = None  # type: ignore[assignment]
     from stepaside.drivers.scheme_factory import scheme_factory
-    from stepaside.locomotion.zmp.control_settings import STABILISED
+    from stepaside.locomotion.control_settings import STABILISED
     from stepaside.perception.measurement import RobotState, Sighting
     from stepaside.planning import GaitSettings
     from stepaside.robots.description import load_robot

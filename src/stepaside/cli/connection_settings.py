@@ -19,7 +19,7 @@ from ..games.duel_settings import (
 )
 from ..games.play_settings import PYTHON
 from ..games.unicycle_settings import WHY, positive
-from ..locomotion.zmp.control_settings import OPEN_LOOP, STABILISED
+from ..locomotion.control_settings import OPEN_LOOP, STABILISED
 from ..strategies import Strategy, load_strategy
 from .settings import CONTROL, GIVEN
 from .terminal import echo

@@ -25,7 +25,7 @@ from .terminal import echo, print_json
 
 if TYPE_CHECKING:
     from ..fitting.legs_measurement import LegsMeasurement
-    from ..locomotion.policy.legs_settings import LegsSettings
+    from ..locomotion.control_settings import LegsSettings
     from ..robots.description import RobotDescription
     from ..sim.body_settings import BodySettings
 
@@ -87,8 +87,8 @@ def measure(
         body_of_robot,
         settings_from_description,
     )
-    from ..locomotion.policy.legs_settings import LegsSettings
-    from ..locomotion.policy.response_file import (
+    from ..locomotion.control_settings import LegsSettings
+    from ..locomotion.policy.velocity_response import (
         response_entries,
         response_path,
     )

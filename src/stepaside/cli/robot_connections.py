@@ -52,7 +52,7 @@ def _open_joints(
     from ..drivers.joint_loop import JointLoop
     from ..drivers.motors import motors_of
     from ..drivers.scheme_factory import policy_gains, scheme_factory
-    from ..locomotion.policy.legs_loader import load_policy
+    from ..locomotion.policy.policy_legs import load_policy
     from ..robots.description import load_robot
     from .camera_connections import open_camera
 

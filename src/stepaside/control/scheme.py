@@ -3,9 +3,12 @@
 from typing import TYPE_CHECKING
 
 from ..core.poses import Array, Pose
-from ..locomotion.locomotion import MotionRequest
+from ..locomotion.locomotion import (
+    MotionRequest,
+    Phase,
+    StepStarted,
+)
 from ..locomotion.maneuver_walk import ManeuverWalk
-from ..locomotion.walk_snapshots import Phase, StepStarted, WalkState
 from ..perception.measurement import RobotState, Sighting
 from ..planning import Foot, GaitSettings
 from ..robots.leg_kinematics import LegKinematics
@@ -102,11 +105,6 @@ class ControlScheme:
     def begun(self) -> StepStarted | None:
         """Step that began at the last tick; None if none did."""
         return self.locomotion.begun
-
-    @property
-    def state(self) -> WalkState:
-        """Plan and references of a walk by maneuvers at the last tick."""
-        return self.walk.state
 
     @property
     def joint_targets(self) -> Array:

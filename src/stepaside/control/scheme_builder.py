@@ -2,18 +2,18 @@
 
 from typing import NamedTuple
 
+from ..locomotion.control_settings import ControlSettings
+from ..locomotion.footstep_adjustment import FootstepAdjustment
+from ..locomotion.guard import Guard
 from ..locomotion.maneuver_walk import ManeuverWalk
-from ..locomotion.zmp.control_settings import ControlSettings
+from ..locomotion.surroundings import Surroundings
+from ..locomotion.swept_outline import BodyOutline, lateral_sway
 from ..locomotion.zmp.stabiliser import build_balance
 from ..planning import GaitSettings, ManeuverPlanner
 from ..robots.description import RobotDescription
 from ..robots.forward_kinematics import ForwardKinematics
 from ..robots.leg_kinematics import LegKinematics
 from ..strategies.strategy import Strategy
-from .clearance.footstep_adjustment import FootstepAdjustment
-from .clearance.guard import Guard
-from .clearance.surroundings import Surroundings
-from .clearance.swept_outline import BodyOutline, lateral_sway
 from .scheme import ControlScheme
 from .sight_sources import CameraSight, MeasuredSight, SightSource
 from .strategy_runner import StrategyRunner

@@ -5,6 +5,7 @@ from math import atan2, cos, hypot, pi, sin
 
 from ..core.history import History
 from ..core.poses import ALL_AROUND, Pose, Sector
+from ..locomotion.surroundings import Surroundings
 from ..perception.measurement import RobotState, Sighting
 from ..planning import Foot, GaitSettings
 from ..planning.template_path import pose_beside_foot
@@ -19,7 +20,6 @@ from ..strategies.knowledge import (
 from ..strategies.opponent_track import OpponentTrack
 from ..strategies.strategy import Strategy
 from ..strategies.velocity_set import VelocitySet
-from .clearance.surroundings import Surroundings
 from .sight_sources import PlayersInSight
 from .turn_calibration import TurnCalibration
 

@@ -5,9 +5,8 @@ from typing import TYPE_CHECKING
 
 from ..core.history import History
 from ..core.poses import Array, Pose
-from ..locomotion.locomotion import MotionRequest
+from ..locomotion.locomotion import MotionRequest, Phase
 from ..locomotion.maneuver_walk import ManeuverWalk, velocity_limits
-from ..locomotion.walk_snapshots import Phase
 from ..perception.measurement import RobotState
 from ..planning import Direction, Foot, GaitSettings
 from ..strategies.knowledge import STAND, Intent
@@ -78,7 +77,7 @@ class VelocityScheme:
         self.templates: History[Pose] = History(MEMORY)
         self.templates.note(0.0, locomotion.pose)
         self._commanded = REST
-        self._plans = locomotion.state is not None
+        self._plans = locomotion.maneuvers is not None
         self._turns = TurnCalibration(tick)
         self._walking_direction: Direction | None = None
 

@@ -11,7 +11,7 @@ import numpy as np
 from ..control.scheme import ControlScheme
 from ..core.errors import ReachError, StrategyError
 from ..core.poses import Array
-from ..locomotion.walk_snapshots import Phase
+from ..locomotion.locomotion import Phase
 from ..perception.measurement import RobotState
 from ..strategies import StandStill, Strategy
 from .joint_motion import JointMotion
@@ -225,7 +225,8 @@ class JointLoop:
             self._stood = (
                 self._stood + 1 if scheme.phase is Phase.STANDING else 0
             )
-            settling = 0.0 if scheme.locomotion.state is not None else SETTLING
+            learned = scheme.locomotion.maneuvers is None
+            settling = SETTLING if learned else 0.0
             if self._stood * self._robot.tick > settling:
                 self._safety.halted(self._time)
                 self._change(self._safety.state)

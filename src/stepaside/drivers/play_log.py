@@ -14,7 +14,7 @@ import numpy as np
 from ..core.atomic_output import atomic_draft, check_folder
 from ..core.errors import ConfigurationError
 from ..core.poses import Array
-from ..locomotion.walk_snapshots import Phase, StepStarted
+from ..locomotion.locomotion import Phase, StepStarted
 from ..perception.measurement import RobotState, Sighting
 
 if TYPE_CHECKING:
@@ -209,14 +209,13 @@ def joint_row(
         number: Its number, in the column ``mind``.
         begun: Step that began at this tick; None if none did.
     """
-    walk = scheme.locomotion.state
+    walk = scheme.locomotion.maneuvers
     support = np.array([*scheme.pose, np.nan])
     com = zmp = np.full(2, np.nan)
     if walk is not None:
         step = walk.step(measurement.time)
         support = np.array([*step.support, -float(step.swing.value)])
-        com = np.array(walk.reference.com[:2])
-        zmp = np.array(walk.zmp_reference)
+        com, zmp = np.array(walk.planned_centers).reshape(2, 2)
     landing = NO_STEP
     if begun is not None:
         spent = begun.planning_time

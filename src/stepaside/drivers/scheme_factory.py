@@ -11,11 +11,10 @@ from ..control.sight_sources import CameraSight, MeasuredSight, SightSource
 from ..control.strategy_runner import StrategyRunner
 from ..core.errors import ConfigurationError, ModelError
 from ..core.poses import Array
+from ..locomotion.control_settings import ControlSettings, LegsSettings
 from ..locomotion.policy.contract import PolicyContract
-from ..locomotion.policy.legs_loader import load_legs
-from ..locomotion.policy.legs_settings import LegsSettings
+from ..locomotion.policy.policy_legs import load_legs
 from ..locomotion.policy.policy_walk import PolicyWalk
-from ..locomotion.zmp.control_settings import ControlSettings
 from ..planning import GaitSettings
 from ..robots.description import RobotDescription
 from ..strategies import Strategy

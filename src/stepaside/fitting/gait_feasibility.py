@@ -14,7 +14,7 @@ from ..control.scheme import ControlScheme
 from ..control.scheme_builder import build_scheme
 from ..control.sight_sources import MeasuredSight
 from ..core.poses import Array
-from ..locomotion.zmp.control_settings import OPEN_LOOP
+from ..locomotion.control_settings import OPEN_LOOP
 from ..perception.measurement import RobotState, Sighting
 from ..planning import Direction, GaitSettings
 from ..robots.description import RobotDescription
@@ -64,13 +64,14 @@ def step_loads(
     scheme = _scheme(description, gait, Direction.FORWARD)
     # The scheme computes many ticks at once; loads need them one by one.
     legs = LegKinematics(scheme.kinematics.description, tick=TICK)
-    legs.stand(scheme.state.reference)
+    walk = scheme.walk
+    legs.stand(walk.reference)
     dynamics = LegLoads(legs, zmp_forward=gait.zmp_forward, tick=TICK)
     by_swing_foot: dict[bool, list[Array]] = {True: [], False: []}
     for _ in _walk(scheme, gait):
-        body = scheme.state.reference
+        body = walk.reference
         legs.track(body)
-        required = np.abs(dynamics.torques(body, scheme.state.zmp_reference))
+        required = np.abs(dynamics.torques(body, walk.planned_centers[2:]))
         left, right = (
             f[2] > LIFTED for f in (body.left_foot, body.right_foot)
         )

@@ -14,15 +14,13 @@ from ..core.poses import Array, Pose
 from ..core.random_streams import named_generator
 from ..games.policy_player import place_on_legs, policy_physics
 from ..games.walker_factory import WalkerSetup
+from ..locomotion.control_settings import ControlSettings, LegsSettings
 from ..locomotion.policy.contract import CommandRanges
-from ..locomotion.policy.legs_loader import load_policy
-from ..locomotion.policy.legs_settings import LegsSettings
-from ..locomotion.policy.policy_legs import PolicyLegs
+from ..locomotion.policy.policy_legs import PolicyLegs, load_policy
 from ..locomotion.policy.velocity_response import (
     AxisResponse,
     VelocityResponse,
 )
-from ..locomotion.zmp.control_settings import ControlSettings
 from ..planning import GaitSettings
 from ..robots.description import RobotDescription
 from ..sim.body_settings import BodySettings, at_tick

@@ -15,7 +15,7 @@ from ..games.recorded_game import RecordedGame
 from ..games.robot_settings import settings_from_description
 from ..games.walk_settings import WalkSettings
 from ..games.walker import SimulatedPlayer
-from ..locomotion.zmp.control_settings import ControlSettings
+from ..locomotion.control_settings import ControlSettings
 from ..planning import GaitSettings
 from ..robots.description import RobotDescription
 
@@ -70,7 +70,7 @@ class StrainGauge(GameObserver):
             self._standing += 1
             (walker,) = world.players
             assert isinstance(walker, SimulatedPlayer)
-            height = walker.scheme.state.reference.com[2]
+            height = walker.scheme.walk.reference.com[2]
             actual = float(walker.truth.position_com_in_world[2])
             self._sags.append(height - actual)
 

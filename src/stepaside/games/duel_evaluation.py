@@ -167,7 +167,7 @@ def template_closest_approach(settings: DuelSettings) -> float | None:
         Pose(start.distance, 0.0, pi + (start.evader_offset or 0.0)),
     )
     if legs.walks:
-        from ..locomotion.policy.legs_loader import load_legs
+        from ..locomotion.policy.policy_legs import load_legs
 
         policy = load_legs(
             legs, load_robot(own.robot), tick=settings.physics.tick

@@ -4,7 +4,6 @@ from dataclasses import dataclass, fields, replace
 from math import pi
 from typing import ClassVar
 
-from ..control.clearance.map_settings import MapSettings
 from ..core.brief_repr import brief_repr
 from ..core.errors import ConfigurationError, check_within
 from ..core.ranges import (
@@ -14,8 +13,11 @@ from ..core.ranges import (
     check_count,
 )
 from ..core.setting import check_settings, setting
-from ..locomotion.policy.legs_settings import LegsSettings
-from ..locomotion.zmp.control_settings import ControlSettings
+from ..locomotion.control_settings import (
+    ControlSettings,
+    LegsSettings,
+    MapSettings,
+)
 from ..planning import PRESETS, GaitSettings
 from ..sim.body_settings import BODIES, BodySettings
 from ..sim.camera_settings import (

@@ -6,15 +6,17 @@ from math import pi
 from typing import ClassVar
 
 from ..arena import Room
-from ..control.clearance.map_settings import MapSettings
 from ..core.brief_repr import brief_repr
 from ..core.errors import ConfigurationError
 from ..core.player_identity import PlayerIdentity, Role
 from ..core.poses import Pose
 from ..core.ranges import RUNTIME, SEEDS, Range, check_count
 from ..core.setting import REQUIRED, check_settings, setting
-from ..locomotion.policy.legs_settings import LegsSettings
-from ..locomotion.zmp.control_settings import ControlSettings
+from ..locomotion.control_settings import (
+    ControlSettings,
+    LegsSettings,
+    MapSettings,
+)
 from ..planning import GaitSettings
 from ..robots.description import load_robot
 from ..sim.body_settings import BODIES, BodySettings

@@ -7,8 +7,7 @@ from: command line, file, study or Python.
 
 from dataclasses import replace
 
-from ..locomotion.policy.legs_settings import LegsSettings
-from ..locomotion.zmp.control_settings import ControlSettings
+from ..locomotion.control_settings import ControlSettings, LegsSettings
 from ..planning import GaitSettings
 from ..sim.body_settings import BodySettings
 from ..strategies import Evasion

@@ -5,7 +5,7 @@ from typing import ClassVar
 
 from ..core.brief_repr import brief_repr
 from ..core.setting import check_settings, setting
-from ..locomotion.zmp.control_settings import ControlSettings
+from ..locomotion.control_settings import ControlSettings
 from ..planning import GaitSettings
 from ..strategies import Evasion
 from ..strategies.registry import check_strategy_name

@@ -7,7 +7,8 @@ from typing import TYPE_CHECKING, Protocol
 from ..core.errors import ConfigurationError
 from ..core.poses import Array, Pose
 from ..core.row_table import RowTable
-from ..locomotion.walk_snapshots import StepStarted, WalkState
+from ..locomotion.locomotion import StepStarted
+from ..locomotion.maneuver_walk import ManeuverWalk
 from ..perception.measurement import RobotState
 from ..sim.ground_truth import GroundTruth
 from ..sim.push import Push, ScheduledPush
@@ -43,7 +44,7 @@ class Snapshot:
     torso: Pose
     com: tuple[float, float, float]
     frame: Pose | None = None
-    walk: WalkState | None = None
+    walk: ManeuverWalk | None = None
     zmp: tuple[float, float] | None = None
     pushes: tuple[ScheduledPush, ...] = ()
 
@@ -52,7 +53,7 @@ def snapshot_of(
     robot: "SimulatedRobot",
     *,
     frame: Pose | None = None,
-    walk: WalkState | None = None,
+    walk: ManeuverWalk | None = None,
 ) -> Snapshot:
     """Return the state of a robot in the world at this instant.
 

@@ -3,17 +3,16 @@
 from collections.abc import Sequence
 from dataclasses import replace
 
-from ..control.clearance.surroundings import Surroundings
-from ..control.clearance.velocity_guard import VelocityGuard
 from ..control.scheme import ControlScheme
 from ..control.scheme_builder import ClearanceSetup
 from ..control.strategy_runner import StrategyRunner
 from ..core.errors import PolicyError
 from ..core.poses import Pose
-from ..locomotion.policy.legs_loader import load_legs, load_policy
-from ..locomotion.policy.legs_settings import LegsSettings
-from ..locomotion.policy.policy_legs import PolicyLegs
+from ..locomotion.control_settings import LegsSettings
+from ..locomotion.guard import VelocityGuard
+from ..locomotion.policy.policy_legs import PolicyLegs, load_legs, load_policy
 from ..locomotion.policy.policy_walk import PolicyWalk
+from ..locomotion.surroundings import Surroundings
 from ..robots.description import RobotDescription
 from ..sim.body_settings import BodySettings
 from ..sim.ground_truth import TrueRobotState

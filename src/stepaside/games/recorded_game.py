@@ -167,7 +167,7 @@ class SolverRecorder(GameObserver):
         assert isinstance(game.world, PhysicsWorld)
         (walker,) = game.world.players
         assert isinstance(walker, SimulatedPlayer)
-        solved = walker.scheme.state.solved
+        solved = walker.scheme.walk.balance.solved
         if solved is not None:
             self._solved.append(solved)
 

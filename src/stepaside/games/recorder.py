@@ -3,7 +3,7 @@
 import numpy as np
 
 from ..core.poses import Array, Pose
-from ..locomotion.walk_snapshots import StepStarted
+from ..locomotion.locomotion import StepStarted
 from ..planning import Foot, ManeuverPlan
 from ..sim.world import World
 from .game import GameInPlay, GameObserver

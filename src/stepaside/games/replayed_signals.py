@@ -13,7 +13,7 @@ import numpy as np
 
 from ..core.poses import Array, Pose
 from ..core.row_table import RowTable
-from ..locomotion.walk_snapshots import StepStarted
+from ..locomotion.locomotion import StepStarted
 from ..perception.images import ColourImage, DepthImage
 from .game import GameInPlay, GameObserver, Progress, play
 from .outcome import Outcome
@@ -153,7 +153,7 @@ class RobotSignalRecord:
     def _plan(
         self, player: SimulatedPlayer, begun: StepStarted
     ) -> PlannedFootsteps:
-        frame = player.frame.compose(player.scheme.state.plan_frame)
+        frame = player.frame.compose(player.scheme.walk.plan_frame)
         rows = [
             (float(step.foot.value), *frame.compose(Pose(*pose)))
             for step in begun.plan.footsteps
@@ -300,7 +300,7 @@ def _strategy_numbers(player: RobotPlayer) -> Iterator[tuple[str, float]]:
         yield "sighting_bearing_rad", sighting.bearing
         yield "sighting_distance_m", sighting.distance
     if isinstance(player, SimulatedPlayer):
-        plan = player.scheme.state.plan
+        plan = player.scheme.walk.plan
         if plan is not None:
             yield "desired_heading_rad", plan.bearing
     yield "pace", scheme.decisions.pace

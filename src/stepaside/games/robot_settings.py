@@ -6,8 +6,7 @@ from pathlib import Path
 from typing import Any, TypeVar
 
 from ..core.errors import ConfigurationError, check_positive
-from ..locomotion.policy.legs_settings import LegsSettings
-from ..locomotion.zmp.control_settings import ControlSettings
+from ..locomotion.control_settings import ControlSettings, LegsSettings
 from ..planning import GaitSettings
 from ..robots.description import FILE, RobotDescription, load_robot
 from ..sim.body_settings import BODIES, BodySettings

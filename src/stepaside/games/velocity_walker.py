@@ -3,15 +3,15 @@
 import logging
 from typing import TYPE_CHECKING
 
-from ..control.clearance.surroundings import Surroundings
 from ..control.scheme_builder import ClearanceSetup, build_walk
 from ..control.velocity_scheme import VelocityScheme
 from ..core.poses import Pose, wrap_angle
+from ..locomotion.control_settings import LegsSettings
+from ..locomotion.locomotion import Phase, StepStarted
 from ..locomotion.maneuver_walk import ManeuverWalk
-from ..locomotion.policy.legs_loader import load_legs
-from ..locomotion.policy.legs_settings import LegsSettings
+from ..locomotion.policy.policy_legs import load_legs
 from ..locomotion.policy.policy_walk import PolicyWalk
-from ..locomotion.walk_snapshots import Phase, StepStarted
+from ..locomotion.surroundings import Surroundings
 from ..perception.images import ColourImage
 from ..perception.measurement import RobotState, Sighting
 from ..planning import Foot
@@ -104,7 +104,7 @@ class VelocityWalker(PhysicalPlayer):
 
     def snapshot(self) -> Snapshot:
         """Return the state at this instant."""
-        walk = self.scheme.locomotion.state
+        walk = self.scheme.locomotion.maneuvers
         return snapshot_of(self.robot, frame=self.frame, walk=walk)
 
     def motion_log(self, *, closely: bool) -> MotionLog:

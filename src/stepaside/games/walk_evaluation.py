@@ -77,7 +77,7 @@ def summarise_walk(
     return WalkSummary(
         seed=settings.seed,
         steps=own.steps,
-        adapted_steps=walker.scheme.state.adapted,
+        adapted_steps=walker.scheme.walk.balance.adapted,
         method=str(settings.control.method),
         feedback=bool(settings.control.feedback),
         push_impulse_n_s=(0.0, 0.0) if pusher is None else pusher.impulse,

@@ -12,7 +12,7 @@ from ..core.ranges import (
     check_count,
 )
 from ..core.setting import check_settings, setting
-from ..locomotion.zmp.control_settings import ControlSettings
+from ..locomotion.control_settings import ControlSettings
 from ..planning import PRESETS, GaitSettings
 from ..sim.body_settings import BODIES, BodySettings
 from ..sim.physics_settings import PhysicsSettings

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 from ..control.scheme import ControlScheme
 from ..control.sight_sources import CameraSight
 from ..core.poses import Pose
-from ..locomotion.walk_snapshots import Phase, StepStarted
+from ..locomotion.locomotion import Phase, StepStarted
 from ..sim.simulated_robot import SimulatedRobot
 from .player import PhysicalPlayer, Snapshot, snapshot_of
 from .walker_log import WalkerLog
@@ -73,7 +73,7 @@ class RobotPlayer(PhysicalPlayer):
 
     def snapshot(self) -> Snapshot:
         """Return the state at this instant."""
-        walk = self.scheme.locomotion.state
+        walk = self.scheme.locomotion.maneuvers
         return snapshot_of(self.robot, frame=self.frame, walk=walk)
 
 

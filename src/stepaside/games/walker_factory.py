@@ -4,18 +4,17 @@ from dataclasses import is_dataclass, replace
 from typing import TYPE_CHECKING, NamedTuple
 
 from ..arena import Room
-from ..control.clearance.map_settings import MapSettings
-from ..control.clearance.surroundings import (
-    KnownRoom,
-    MappedRoom,
-    Surroundings,
-)
-from ..control.clearance.swept_outline import lateral_sway
 from ..control.scheme_builder import ClearanceSetup, build_scheme
 from ..control.sight_sources import SightSource
 from ..core.poses import Pose
 from ..core.random_streams import named_generator
-from ..locomotion.zmp.control_settings import ControlSettings
+from ..locomotion.control_settings import ControlSettings, MapSettings
+from ..locomotion.surroundings import (
+    KnownRoom,
+    MappedRoom,
+    Surroundings,
+)
+from ..locomotion.swept_outline import lateral_sway
 from ..planning import GaitSettings
 from ..robots.description import RobotDescription
 from ..robots.leg_kinematics import LegKinematics

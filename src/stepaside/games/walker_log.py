@@ -75,12 +75,12 @@ class WalkerLog:
 
     def _close_row(self) -> tuple[float, ...]:
         """Return foot states and estimates, in the order of their columns."""
-        walk, stance = self._locomotion.state, self._robot.stance
+        walk, stance = self._locomotion, self._robot.stance
         step = walk.step(self._robot.world.time)
         foot = step.swing.other
         single = float(step.walking and step.remaining > 0.0)
         sole = stance.left_sole if foot is Foot.LEFT else stance.right_sole
-        state = walk.estimate
+        state = walk.balance.state
         return (
             *stance.velocity,
             *stance.tilt,
@@ -88,7 +88,7 @@ class WalkerLog:
             foot.value,
             single,
             *step.support,
-            walk.torso_heading,
+            walk.balance.planned_heading,
             *(
                 NO_ESTIMATE
                 if state is None

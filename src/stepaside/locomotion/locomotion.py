@@ -1,12 +1,35 @@
 """Interface between a controller that decides and one that walks."""
 
+from enum import Enum
 from typing import NamedTuple, Protocol
 
 from ..core.poses import Pose
-from ..planning import Direction, Foot, GaitSettings
+from ..planning import Direction, Foot, GaitSettings, ManeuverPlan
 from ..strategies.knowledge import Intent
 from ..strategies.velocity_set import STILL, BodyVelocity
 from ..theory import laws
+
+
+class Phase(Enum):
+    """Phase of motion of a robot, by its own estimate."""
+
+    STANDING = "standing"
+    WALKING = "walking"
+    HALTING = "halting"
+    FALLEN = "fallen"
+
+
+class StepStarted(NamedTuple):
+    """Step that began at a tick."""
+
+    plan: ManeuverPlan  # maneuver whose first step it is
+    started: float  # start time [s]; not always on a tick
+    landing_time: float  # planned landing time [s]
+    foot: Foot  # foot that lands
+    landing: Pose  # planned landing pose, in odometry
+    # processor time of planning [s]; None for a halt
+    planning_time: float | None
+    velocity_jump: float  # jump of the CoM velocity reference [m/s]
 
 
 class MotionRequest(NamedTuple):

@@ -1,17 +1,25 @@
 """Locomotion of the paper: a maneuver is planned for every step."""
 
+from collections.abc import Iterator
 from math import pi
 from time import process_time
 
 from ..core.poses import Array, Pose
 from ..perception.measurement import RobotState
-from ..planning import CenterState, Foot, GaitSettings, ManeuverPlan
+from ..planning import (
+    CenterState,
+    Direction,
+    Foot,
+    GaitSettings,
+    ManeuverPlan,
+    ManeuverPlanner,
+    TemplateDrive,
+)
 from ..planning.steady_gait import landing_state
 from ..robots.leg_kinematics import BodyReference, LegKinematics
 from ..strategies.velocity_set import VelocitySet
-from .locomotion import IntentSource
-from .maneuver_selection import ManeuverGuard, ManeuverSelection
-from .walk_snapshots import Phase, StepStarted, WalkState
+from .guard import Guard, GuardDecision
+from .locomotion import IntentSource, MotionRequest, Phase, StepStarted
 from .zmp.current_step import (
     CurrentStep,
     first_step_of,
@@ -41,7 +49,7 @@ class ManeuverWalk:
         tick: float,
         delay: float = 0.0,
         first_foot: Foot = Foot.LEFT,
-        guard: ManeuverGuard | None = None,
+        guard: Guard | None = None,
     ) -> None:
         """Take the standing posture."""
         self.gait = gait
@@ -57,7 +65,8 @@ class ManeuverWalk:
         self.begun: StepStarted | None = None
         self.pose_delay = delay + tick  # [s]
         self._delay, self._pace = delay, 1.0
-        self._maneuvers = ManeuverSelection(gait, self.balance, guard)
+        self.planner, self.guard = ManeuverPlanner(gait), guard
+        self._relaxed = False
         self._first_foot = first_foot
         self._index = 0
         self._landing: Pose | None = None
@@ -106,25 +115,9 @@ class ManeuverWalk:
         return self.balance.tilt
 
     @property
-    def state(self) -> WalkState:
-        """Plan and references of the current tick."""
-        sample = self._table.sample(self._index)
-        return WalkState(
-            phase=self.phase,
-            gait=self.gait,
-            plan=self.plan,
-            plan_frame=self.plan_frame,
-            plan_started=self.plan_started,
-            left_foot=self.left_foot,
-            right_foot=self.right_foot,
-            first_foot=self._first_foot,
-            reference=self.balance.commanded or sample.body,
-            zmp_reference=sample.zmp,
-            torso_heading=self.balance.planned_heading,
-            estimate=self.balance.state,
-            solved=self.balance.solved,
-            adapted=self.balance.adapted,
-        )
+    def maneuvers(self) -> "ManeuverWalk":
+        """Itself: a walk by maneuvers."""
+        return self
 
     @property
     def feels(self) -> bool:
@@ -141,7 +134,7 @@ class ManeuverWalk:
         Joint targets, in [rad]; None if this tick needs one of both, and then
         nothing has changed.
         """
-        if self.decides(now) or self._maneuvers.guard is not None:
+        if self.decides(now) or self.guard is not None:
             return None
         index = self._table.index(now)
         targets = self.balance.planned_targets(self._table, index)
@@ -158,10 +151,10 @@ class ManeuverWalk:
         if self.phase is Phase.FALLEN:
             return self.joint_targets
         now = measurement.time
-        if self._maneuvers.guard is not None:
+        if self.guard is not None:
             body = self.reference
             planned = Pose(*body.com[:2], body.heading)
-            self._maneuvers.guard.note(measurement, planned)
+            self.guard.note(measurement, planned)
         if self.plan is None:
             self._wait(now, decisions)
         elif self.decides(now):
@@ -189,7 +182,7 @@ class ManeuverWalk:
         if not decisions.starts(now):
             return
         x, y, _ = self.reference.com
-        for _ in self._maneuvers.start_attempts():
+        for _ in self._start_attempts():
             support = self._support(self._first_foot)
             rest = support.inverse().compose(Pose(x, y, 0.0))
             state = CenterState(rest[:2], (0.0, 0.0))
@@ -239,7 +232,7 @@ class ManeuverWalk:
         feet = support, self._support(foot.other)
         selected = None
         if request.intent.walks:
-            selected = self._maneuvers.plan(
+            selected = self._allowed(
                 request, state, feet, foot, standing=standing
             )
         if selected is None:
@@ -255,10 +248,83 @@ class ManeuverWalk:
         duration = plan.schedule.first_step_duration
         self._walk(plan, support, started, duration, state, spent)
 
+    def _start_attempts(self) -> Iterator[None]:
+        """Yield the start attempts of a standing robot: once with each foot.
+
+        With a map that may be off, each foot then has a second attempt, with
+        relaxed clearance; see :meth:`.Guard.choose_escape`.
+        """
+        blurred = self.guard is not None and self.guard.map_error > 0.0
+        try:
+            for self._relaxed in (False, True)[: 1 + blurred]:
+                for _ in Foot:
+                    yield
+        finally:
+            self._relaxed = False
+
+    def _allowed(
+        self,
+        request: MotionRequest,
+        state: CenterState,
+        feet: tuple[Pose, Pose],
+        foot: Foot,
+        *,
+        standing: bool,
+    ) -> tuple[ManeuverPlan, CenterState] | None:
+        """Plan an intent, or the accepted decision closest to it.
+
+        ``state``: Present CoM in the frame of the support foot. ``feet``:
+        Poses of support foot and swing foot in odometry. The plan and the
+        state that it begins with; None to stand.
+        """
+        support = feet[0]
+        swing_start = support.inverse().compose(feet[1])
+
+        def plan_of(choice: GuardDecision, state: CenterState) -> ManeuverPlan:
+            direction, chosen = request.direction, choice.intent
+            if choice.back:
+                direction = Direction(-direction.value)
+            plan = self.planner.plan(
+                chosen.heading,
+                direction,
+                first_foot=foot,
+                state=state,
+                swing_start=swing_start,
+                standing=standing,
+                drive=TemplateDrive(
+                    request.saturated, chosen.speed_factor, chosen.pace
+                ),
+            )
+            if self.guard is None:
+                return plan
+            return self.guard.adjust_footsteps(plan, support)
+
+        intent = request.intent
+        accepted: GuardDecision | None = GuardDecision(intent)
+        if self.guard is not None:
+            # The fit to the state moves no foot: it can follow the choice.
+            def planned(choice: GuardDecision) -> ManeuverPlan:
+                return plan_of(choice, state)
+
+            if self._relaxed:
+                accepted = self.guard.choose_escape(intent, planned, support)
+            else:
+                accepted = self.guard.choose(
+                    intent, planned, support, standing=standing
+                )
+        if accepted is None:
+            return None
+        walked = accepted
+        if standing:
+            return plan_of(walked, state), state
+        return self.balance.fit(
+            lambda state: plan_of(walked, state), state, support
+        )
+
     def _halt(self, started: float, support: Pose, state: CenterState) -> None:
         """Plan the halt that brings the feet abreast."""
         foot = self._first_foot
-        plan = self._maneuvers.planner.plan_halt(
+        plan = self.planner.plan_halt(
             first_foot=foot,
             state=state,
             swing_start=support.inverse().compose(self._support(foot.other)),

@@ -4,8 +4,8 @@ import mujoco
 import numpy as np
 from numpy.typing import NDArray
 
-from ..control.clearance.swept_outline import BodyOutline
 from ..core.poses import Array
+from ..locomotion.swept_outline import BodyOutline
 from ..locomotion.zmp.reference_table import initial_stance
 from ..planning import GaitSettings
 from ..robots.description import RobotDescription

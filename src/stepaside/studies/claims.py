@@ -10,7 +10,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from ..locomotion.policy.response_file import digest_of
+from ..locomotion.policy.velocity_response import digest_of
 from . import evasion_claims as evading
 from . import physics_claims as physics
 from . import planner_claims as planner

@@ -89,7 +89,7 @@ class _TickObserver(GameObserver):
             return
         player = world.player(self._name)
         assert isinstance(player, SimulatedPlayer)
-        state = player.scheme.state
+        walk = player.scheme.walk
         world.update_sensors()
         data = world.data
         forces = [
@@ -104,14 +104,14 @@ class _TickObserver(GameObserver):
             (
                 np.reshape(forces, (2, -1)).sum(axis=1),
                 np.array(sites),
-                np.array(state.reference.com[:2]),
+                np.array(walk.reference.com[:2]),
             )
         )
-        if state.plan is not self._plan and state.plan is not None:
+        if walk.plan is not self._plan and walk.plan is not None:
             sent = (world.ticks - 1) * world.physics.tick
-            standing = state.plan.schedule.standing
-            self.plans.append(WalkedPlan(state.plan_started, sent, standing))
-        self._plan = state.plan
+            standing = walk.plan.schedule.standing
+            self.plans.append(WalkedPlan(walk.plan_started, sent, standing))
+        self._plan = walk.plan
 
     def ended(self, game: GameInPlay) -> None:
         """Record the state after the last tick."""

@@ -14,7 +14,6 @@ from ..arena import (
     generate_room,
     load_room,
 )
-from ..control.clearance.map_settings import MapSettings
 from ..core.convex import grown_hull_area
 from ..core.errors import ConfigurationError, check_choice
 from ..core.poses import Array, Pose, rotate, wrap_angles
@@ -24,6 +23,7 @@ from ..games.floor_world import PARTS
 from ..games.outcome import Outcome
 from ..games.recorded_game import run_duel
 from ..games.run import DuelRun
+from ..locomotion.control_settings import MapSettings
 from ..robots.description import load_robot
 from ..sim.camera_settings import SceneSettings
 from ..sim.outline_measurement import measure_outline

@@ -7,7 +7,7 @@ import pytest
 
 from stepaside.core.constants import GRAVITY
 from stepaside.core.poses import Array
-from stepaside.locomotion.policy.gravity_filter import GravityFilter
+from stepaside.locomotion.policy.policy_legs import GravityFilter
 
 TICK = 0.004
 NONE = np.zeros(3)

@@ -7,8 +7,8 @@ import numpy as np
 import pytest
 
 from stepaside.core.constants import GRAVITY
+from stepaside.locomotion.control_settings import LegsSettings
 from stepaside.locomotion.locomotion import MotionRequest, template_velocity
-from stepaside.locomotion.policy.legs_settings import LegsSettings
 from stepaside.perception.measurement import RobotState
 from stepaside.planning import Direction, GaitSettings
 from stepaside.robots.description import load_robot
@@ -60,8 +60,7 @@ def test_the_heading_follows_the_gyro_between_decisions(
     """The robot stands for 1.5 s, and is then turned by 0.5 rad/s."""
     pytest.importorskip("onnxruntime")
     from small_policies import write_policy
-    from stepaside.locomotion.policy.legs_loader import load_policy
-    from stepaside.locomotion.policy.policy_legs import PolicyLegs
+    from stepaside.locomotion.policy.policy_legs import PolicyLegs, load_policy
 
     path = write_policy(tmp_path / "a.onnx", np.zeros((12, 47)), np.zeros(12))
     nao = load_robot("nao")

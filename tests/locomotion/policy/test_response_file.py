@@ -11,15 +11,13 @@ import tomli_w
 
 from stepaside.core.errors import PolicyError
 from stepaside.locomotion.policy.contract import CommandRanges
-from stepaside.locomotion.policy.response_file import (
+from stepaside.locomotion.policy.velocity_response import (
+    AXES,
+    VelocityResponse,
     digest_of,
     load_response,
     response_entries,
     response_path,
-)
-from stepaside.locomotion.policy.velocity_response import (
-    AXES,
-    VelocityResponse,
 )
 
 RESPONSE = replace(

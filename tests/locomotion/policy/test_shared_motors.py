@@ -9,9 +9,8 @@ pytest.importorskip("onnxruntime")
 
 from small_policies import write_policy
 from stepaside.core.constants import GRAVITY
-from stepaside.locomotion.policy.legs_loader import load_policy
-from stepaside.locomotion.policy.legs_settings import LegsSettings
-from stepaside.locomotion.policy.policy_legs import PolicyLegs
+from stepaside.locomotion.control_settings import LegsSettings
+from stepaside.locomotion.policy.policy_legs import PolicyLegs, load_policy
 from stepaside.perception.measurement import RobotState
 from stepaside.robots.description import load_robot
 from stepaside.robots.tree_cache import load_tree

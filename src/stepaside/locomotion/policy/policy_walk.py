@@ -1,30 +1,21 @@
 """Locomotion by a walking policy: decisions in, joint targets out."""
 
-from typing import Protocol
-
 from ...core.poses import Array, Pose
 from ...perception.measurement import RobotState
 from ...planning import Foot, GaitSettings
 from ...strategies.knowledge import Intent
-from ...strategies.velocity_set import STILL, BodyVelocity, VelocitySet
-from ..locomotion import IntentSource, template_velocity
-from ..walk_snapshots import Phase, StepStarted, WalkState
+from ...strategies.velocity_set import STILL, VelocitySet
+from ..guard import VelocityGuard
+from ..locomotion import (
+    IntentSource,
+    Phase,
+    StepStarted,
+    template_velocity,
+)
 from ..zmp.current_step import CurrentStep, resting_step
 from .policy_legs import PolicyLegs
 
 VELOCITY_INTERVAL = 0.08  # between decisions on a body velocity, in [s]
-
-
-class VelocityFilter(Protocol):
-    """Filter of the velocities that a robot walks."""
-
-    def admit(
-        self, velocity: BodyVelocity, pose: Pose, duration: float
-    ) -> BodyVelocity:
-        """Return the velocity that is walked instead of a desired one.
-
-        ``pose``: Pose of the robot in odometry.
-        """
 
 
 def decision_interval(intent: Intent, gait: GaitSettings) -> float:
@@ -41,7 +32,7 @@ class PolicyWalk:
     """
 
     begun: StepStarted | None = None  # none: a policy plans no steps
-    state: WalkState | None = None  # likewise
+    maneuvers: None = None  # likewise
     heading_delay = pose_delay = 0.0
     feels = True
 
@@ -49,7 +40,7 @@ class PolicyWalk:
         self,
         legs: PolicyLegs,
         gait: GaitSettings,
-        guard: VelocityFilter | None = None,
+        guard: VelocityGuard | None = None,
     ) -> None:
         """Begin standing, with a guard against obstacles, if any."""
         self.legs, self.gait, self._guard = legs, gait, guard

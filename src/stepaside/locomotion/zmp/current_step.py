@@ -7,7 +7,7 @@ from ...core.poses import Pose
 from ...planning import Foot, GaitSettings, ManeuverPlan
 from ...planning.swing import swing_progress
 from ...robots.leg_kinematics import BodyReference
-from .control_settings import StabiliserSettings
+from ..control_settings import StabiliserSettings
 
 Box = tuple[tuple[float, float], tuple[float, float]]
 

@@ -27,7 +27,7 @@ from ...core.errors import ConfigurationError
 from ...core.poses import Array
 from ...planning import GaitSettings, ManeuverPlan
 from ...planning.zmp import evaluate
-from .control_settings import MpcSettings
+from ..control_settings import MpcSettings
 
 EQUALITY = 5  # flag of an equality constraint in the solver
 INFEASIBLE = -1  # exit flag; other values below 1 mean no convergence

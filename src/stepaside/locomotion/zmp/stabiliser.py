@@ -27,7 +27,7 @@ from ...planning import CenterState, Foot, GaitSettings, ManeuverPlan
 from ...robots.description import RobotDescription
 from ...robots.forward_kinematics import ForwardKinematics
 from ...robots.leg_kinematics import BodyReference, LegKinematics
-from .control_settings import ControlSettings, StabiliserSettings
+from ..control_settings import ControlSettings, StabiliserSettings
 from .current_step import (
     CurrentStep,
     adapted_landing,

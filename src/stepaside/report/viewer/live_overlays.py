@@ -8,7 +8,7 @@ import viser
 from ...core.convex import convex_hull
 from ...core.poses import Array, Pose
 from ...games.duel_settings import EVADER, PURSUER
-from ...locomotion.walk_snapshots import WalkState
+from ...locomotion.maneuver_walk import ManeuverWalk
 from ...planning import Foot
 from ...planning.support_polygon import sole_corners
 from ..overlays import (
@@ -60,7 +60,7 @@ def places_of(session: LiveSession) -> dict[str, Array]:
 
 
 def _walk_lines(
-    name: str, walk: WalkState, steps: list[Array], frame: Pose, now: float
+    name: str, walk: ManeuverWalk, steps: list[Array], frame: Pose, now: float
 ) -> list[SceneLines]:
     """Return plan, footsteps and support polygon of a walking robot.
 

@@ -1,7 +1,7 @@
 """State of a live game as text."""
 
 from ...games.player import Player
-from ...locomotion.walk_snapshots import Phase
+from ...locomotion.locomotion import Phase
 from ..text_escaping import for_markdown
 from .live_session import LiveSession
 

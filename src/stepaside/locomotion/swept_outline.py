@@ -6,16 +6,16 @@ from typing import Literal
 
 import numpy as np
 
-from ...core.errors import ConfigurationError
-from ...core.poses import Array, Pose
-from ...planning import (
+from ..core.errors import ConfigurationError
+from ..core.poses import Array, Pose
+from ..planning import (
     Direction,
     Foot,
     GaitSettings,
     ManeuverPlan,
     ManeuverPlanner,
 )
-from ...planning.schedule import Sampler, Schedule
+from ..planning.schedule import Sampler, Schedule
 
 SAMPLES = 8  # of a motion; it is nearly straight between two of them
 SETTLING = 1.0  # time until the CoM is at rest after a halt, in [s]

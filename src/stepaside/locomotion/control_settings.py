@@ -1,14 +1,16 @@
-"""Settings of walking control."""
+"""Settings of walking control, of learned legs, and of the map."""
 
 from dataclasses import dataclass
 from typing import Literal, get_args
 
-from ...core.errors import ConfigurationError, shown
-from ...core.ranges import Range
-from ...core.setting import check_settings, setting
+from ..core.errors import ConfigurationError, shown
+from ..core.ranges import Range
+from ..core.setting import check_settings, setting
 
 Method = Literal["closed-form", "measured", "mpc"]
 METHODS: tuple[str, ...] = get_args(Method)
+MAPS = ("given", "seen", "none")
+UNSEEN = ("free", "taken")
 SIZE = "about a hundred foot lengths"
 TICKS = "a faster rate acts within one tick"
 
@@ -197,3 +199,59 @@ class ControlSettings:
 
 OPEN_LOOP = ControlSettings("closed-form", False)
 STABILISED = ControlSettings("measured", True)
+
+
+@dataclass(frozen=True, slots=True)
+class LegsSettings:
+    """Walking policy of a robot, in place of the paper's walk."""
+
+    network: str = setting(
+        "",
+        "ONNX file of a walking policy; empty for the paper's walk",
+    )
+    contract: str = setting(
+        "",
+        "Convention of the policy's trainer, as in docs/legs.md; empty to "
+        "recognise it",
+    )
+    learn: bool = setting(
+        True,
+        "Correct the velocity of a walking policy by gyro and leg odometry",
+    )
+
+    def __post_init__(self) -> None:
+        """Check the ranges."""
+        check_settings(self)
+
+    @property
+    def walks(self) -> bool:
+        """Whether the robot walks by a policy."""
+        return bool(self.network)
+
+
+@dataclass(frozen=True, slots=True)
+class MapSettings:
+    """Map of the room that robots use."""
+
+    source: str = setting(
+        "given",
+        "Map of the room that each robot has: the true map with its true "
+        "pose (given), a map built from its depth camera and odometry (seen, "
+        "which implies camera sensing), or none",
+        names=MAPS,
+    )
+    margin: float = setting(
+        0.02,
+        "Clearance that a body keeps from known obstacles",
+        Range(0.0, 1.0, "m", "a larger margin leaves no free floor"),
+    )
+    unseen: str = setting(
+        "taken",
+        "State of map cells that have not been observed",
+        names=UNSEEN,
+        needs=("map.source", "seen"),
+    )
+
+    def __post_init__(self) -> None:
+        """Validate the settings."""
+        check_settings(self, prefix="map.")

@@ -19,11 +19,11 @@ is smaller, and K is the reachable region of a leg.
 
 import numpy as np
 
-from ...arena import ObstacleSet
-from ...core.poses import Array, Pose
-from ...locomotion.zmp.control_settings import StabiliserSettings
-from ...locomotion.zmp.mpc import load_solver
-from ...planning import GaitSettings, ManeuverPlan, ManeuverPlanner
+from ..arena import ObstacleSet
+from ..core.poses import Array, Pose
+from ..planning import ManeuverPlan, ManeuverPlanner
+from .control_settings import StabiliserSettings
+from .zmp.mpc import load_solver
 
 SOLVED = 1  # smallest exit flag of the solver for a solution
 NEGLIGIBLE = 1e-9  # violation that is tolerated, in [m]
@@ -84,75 +84,50 @@ class FootstepAdjustment:
 
         Shapes (m, 2 count), (m,).
         """
-        beside = _offsets_to_middle(plan)
+        steps, sides = plan.placements[2:, :2], _sides(plan)
+        theta = plan.placements[2:, 2]
+        right = np.stack([np.sin(theta), -np.cos(theta)], axis=-1)
+        half = 0.5 * plan.gait.foot_spacing * sides
         here = 0.5 * (plan.placements[0, :2] + plan.placements[1, :2])
-        middles = plan.placements[2:, :2] + beside
+        middles = steps + half[:, None] * right
         places = pose_plan_in_map.transform_points(np.vstack([here, middles]))
-        back, count = Pose(0.0, 0.0, -pose_plan_in_map.theta), len(middles)
         span = float(np.hypot(*(middles - here).T).max())
-        rows: list[Array] = []
-        least: list[float] = []
         clear = solids.clearances(places)
-        out = solids.directions_out(places[1:])
-        for n, now in enumerate(clear[0].tolist()):
-            if now > self.radius + 2.0 * span:
-                continue
-            away, normals = clear[1:, n], back.transform_points(out[:, n])
-            keeps = min(self.radius, now)
-            for i in range(count):
-                row = np.zeros((count, 2))
-                row[i] = normals[i]
-                rows.append(row.ravel())
-                least.append(
-                    keeps
-                    - float(away[i])
-                    + float(normals[i] @ plan.placements[i + 2, :2])
-                )
-        return np.array(rows).reshape(-1, 2 * count), np.array(least)
+        near = clear[0] <= self.radius + 2.0 * span
+        back = Pose(0.0, 0.0, -pose_plan_in_map.theta)
+        out = solids.directions_out(places[1:])[:, near]
+        normals = back.transform_points(out)
+        least = np.minimum(self.radius, clear[0, near]) - clear[1:, near]
+        least += (normals * steps[:, None]).sum(axis=2)
+        each = np.arange(len(steps))
+        rows = np.zeros((*least.shape, len(steps), 2))
+        rows[each, :, each] = normals
+        return rows.reshape(least.size, 2 * len(steps)), least.ravel()
 
     def _within_reach(self, plan: ManeuverPlan) -> tuple[Array, Array, Array]:
-        """Return the limits on the displacement from one foot to the next.
+        """Return limits on the way from one foot to the next, as rows.
 
-        Rows on all footsteps, with lower and upper bounds. Shapes (2 count, 2
-        count), (2 count,), (2 count,).
+        Shapes (2 count, 2 count), (2 count,), (2 count,).
         """
         gait, own = plan.gait, self._reach
         before, steps = plan.placements[1:-1], plan.placements[2:]
-        count = len(steps)
-        c, s = np.cos(before[:, 2]), np.sin(before[:, 2])
-        side = plan.first_foot.value * (-1.0) ** np.arange(count)
-        ahead = np.stack([c, s], axis=-1)
-        out = np.stack([-s * side, c * side], axis=-1)
-        rows = np.zeros((2 * count, count, 2))
-        low, high = np.zeros(2 * count), np.zeros(2 * count)
-        near, far = (
-            _least_distance(gait, own),
-            gait.foot_spacing + own.reach_outward,
-        )
-        for i in range(count):
-            for n, (axis, least, most) in enumerate(
-                ((ahead, -gait.stride, gait.stride), (out, near, far))
-            ):
-                at = 2 * i + n
-                rows[at, i] = axis[i]
-                if i:
-                    rows[at, i - 1] = -axis[i]
-                wanted = axis[i] @ (steps[i, :2] - before[i, :2])
-                low[at], high[at] = min(least, wanted), max(most, wanted)
+        c, s, side = np.cos(before[:, 2]), np.sin(before[:, 2]), _sides(plan)
+        axes = np.array([[c, s], [-s * side, c * side]]).transpose(2, 0, 1)
+        each = np.arange(len(steps))
+        rows = np.zeros((len(steps), 2, len(steps), 2))
+        rows[each, :, each] = axes
         # The first step begins at the support foot, the origin.
-        return rows.reshape(2 * count, 2 * count), low, high
+        rows[each[1:], :, each[:-1]] = -axes[1:]
+        wanted = (axes @ (steps - before)[:, :2, None])[..., 0]
+        near = 2.0 * gait.sole.inner + own.gap
+        far = gait.foot_spacing + own.reach_outward
+        low = np.minimum((-gait.stride, near), wanted)
+        high = np.maximum((gait.stride, far), wanted)
+        return rows.reshape(low.size, -1), low.ravel(), high.ravel()
 
 
-def _least_distance(gait: GaitSettings, own: StabiliserSettings) -> float:
-    """Return the least coronal distance between the feet, in [m]."""
-    return 2.0 * gait.sole.inner + own.gap
-
-
-def _offsets_to_middle(plan: ManeuverPlan) -> Array:
-    """Return offsets from footsteps to mid-feet, in [m]. Shape (count, 2)."""
-    theta = plan.placements[2:, 2]
-    side = plan.first_foot.value * (-1.0) ** np.arange(len(theta))
-    half = 0.5 * plan.gait.foot_spacing * side
-    found: Array = np.stack([np.sin(theta), -np.cos(theta)], axis=-1)
-    found *= half[:, None]
-    return found
+def _sides(plan: ManeuverPlan) -> Array:
+    """Return 1 for each left footstep and -1 for each right one."""
+    sides: Array = np.ones(len(plan.placements) - 2)
+    sides[1::2] = -1.0
+    return plan.first_foot.value * sides

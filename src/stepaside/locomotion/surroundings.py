@@ -1,9 +1,9 @@
 """Obstacles known to a robot: none, a given room, or a map."""
 
-from ...arena import NO_OBSTACLES, ObstacleSet, Room
-from ...core.poses import Pose
-from ...perception.floor_map import CELL, FloorMap
-from ...perception.measurement import RobotState
+from ..arena import NO_OBSTACLES, ObstacleSet, Room
+from ..core.poses import Pose
+from ..perception.floor_map import CELL, FloorMap
+from ..perception.measurement import RobotState
 
 HERE = Pose(0.0, 0.0, 0.0)
 AHEAD = 2.0  # horizon for moving obstacles: two steps, in [s]

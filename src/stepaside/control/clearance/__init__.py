@@ -1,1 +1,0 @@
-"""Obstacle clearance, independent of the strategy."""
