@@ -25,8 +25,7 @@ COMMANDS = {
     "game": f"run {EXAMPLES}/two-pursuers.toml --duration 1",
     "plan": "theory plan --role evader --bearing 40deg",
     "unicycles": "run unicycles --speed 0.1 --gain 0.2",
-    "circle": "theory circle --starts 0 --sweep",
-    "ratios": "theory circle --starts 0",
+    "circle": "theory circle --starts 0",
     "map": "theory map --grid 3 --set distances=2 --set duration=5",
     "bound": "theory bound --grid 16 --games 0 --set horizon=0.1",
     "chauffeur": "theory bound --against person --evader-speed 0.6 --grid 16",
@@ -59,7 +58,7 @@ def drawn(monkeypatch: pytest.MonkeyPatch) -> Iterator[list[Figure]]:
 
 def draw(words: str, file: Path) -> None:
     """Run a command that writes a figure; a warning is an error."""
-    option = [] if words.endswith("--sweep") else ["--figure"]
+    option = ["--figure"]
     if words.startswith(("duel", "run walk", f"run {EXAMPLES}")):
         option, file = ["--output"], file.with_suffix("")
     with warnings.catch_warnings():

@@ -22,7 +22,6 @@ from stepaside.theory.unicycle.circles import (
 )
 from stepaside.theory.unicycle.start_maps import (
     find_basins,
-    map_ratios,
     random_starts,
 )
 from stepaside.theory.unicycle.unicycle_game import (
@@ -268,28 +267,6 @@ def test_measured_game_names_its_circle() -> None:
     )
     assert seen.turning_rate_rad_s == pytest.approx(other.turning_rate_rad_s)
     assert seen.centers_apart_m < 1e-4
-
-
-@pytest.mark.parametrize("law", list(TurningLaw))
-def test_map_over_ratios_agrees_with_the_circles_of_each_game(
-    law: TurningLaw,
-) -> None:
-    speeds, gains = [0.8, 1.5, 2.5], [0.5, 1.7, 6.0]
-    found = map_ratios(1.4, law, speeds, gains)
-    for i, ratio in enumerate(speeds):
-        for j, gain in enumerate(gains):
-            circles = circles_of(make_game(ratio, 1.0, 1.0, gain, 1.4, law))
-            onward = [c.distance_m for c in circles if c.direction > 0]
-            back = [c for c in circles if c.direction < 0]
-            firm = [c.distance_m for c in back if c.stable]
-            loose = [c.distance_m for c in back if not c.stable]
-            for values, array in (
-                (onward[:1], found.main),
-                (firm, found.reversed_stable),
-                (loose, found.reversed_unstable),
-            ):
-                expected = min(values) if values else np.nan
-                np.testing.assert_allclose(array[i, j], expected, rtol=1e-9)
 
 
 def test_side_of_the_smaller_error_is_the_side_behind() -> None:

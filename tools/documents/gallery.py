@@ -163,7 +163,7 @@ ENTRIES = (
     ),
     Entry(
         "Circles of any speeds and gains",
-        "All circles of a faster pursuer, stable and unstable "
+        "The circle over angle and ratios, of a faster pursuer "
         "([Unicycles](unicycles.md)).",
         (
             "stepaside theory circle --set pursuer_speed=2 "

@@ -1,6 +1,7 @@
 """``stepaside theory bound``: upper bound of the closest approach."""
 
-from dataclasses import asdict, dataclass
+from collections.abc import Callable
+from dataclasses import dataclass
 from functools import partial
 from itertools import pairwise
 from math import pi
@@ -9,19 +10,18 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
+from ..core.errors import PlanError
+from ..core.progress import show_progress
 from ..core.ranges import Range
 from ..core.setting import check_settings, setting
 from ..games.unicycle_settings import positive
-from .bound_grids import solve_grids
-from .options import figure_option, figure_width, json_option, output_file
+from .options import figure_option, json_option, output_file
 from .settings import refuse_settings, takes_settings
-from .tables import print_table, scalar_rows, table_rows
-from .terminal import print_json
+from .tables import plain, print_rows, print_table, result_rows
+from .terminal import echo, print_json
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
-
-    from ..theory.value import CarGame, ValueTable
+    from ..theory.value import CarGame, ChauffeurGame, ValueTable
 
 AGAINST = ("pursuit", "any", "person")
 OF_CARS = ("pursuer_gain", "evader_turn", "horizon", "games")
@@ -30,6 +30,9 @@ NAMED = (
     *("against", "pursuer_speed", "evader_speed", "pursuer_gain"),
     *("capture", "grid", "games"),
 )
+RADIUS = 2.5  # of a person's turns by default, in [m]
+CONTACT = 0.55  # sum of the half widths of a robot and a person, in [m]
+RESPONSE = 0.4  # of a robot that starts to walk by default, in [s]
 
 
 @dataclass(frozen=True, slots=True)
@@ -43,19 +46,11 @@ class BoundSettings:
         names=AGAINST,
     )
     pursuer_speed: float = setting(
-        1.0,
-        "Speed of the pursuer",
-        positive("m/s"),
+        1.0, "Speed of the pursuer", positive("m/s")
     )
-    evader_speed: float = setting(
-        1.0,
-        "Speed of the evader",
-        positive("m/s"),
-    )
+    evader_speed: float = setting(1.0, "Speed of the evader", positive("m/s"))
     pursuer_gain: float = setting(
-        0.5,
-        "Steering gain k of eq. (2)",
-        positive("1/s"),
+        0.5, "Steering gain k of eq. (2)", positive("1/s")
     )
     pursuer_turn: float | None = setting(
         None,
@@ -137,7 +132,7 @@ class BoundSettings:
         """Validate ranges and names."""
         check_settings(self)
 
-    def game(self) -> "CarGame":
+    def cars(self) -> "CarGame":
         """Return the game against a pursuer that steers like a car."""
         from ..theory.value import CarGame
 
@@ -146,6 +141,21 @@ class BoundSettings:
             gain, turn = 0.0, self.pursuer_turn or pi * gain
         own = self.evader_turn or 0.0
         return CarGame(self.pursuer_speed, self.evader_speed, gain, turn, own)
+
+    def chauffeur(self) -> "ChauffeurGame":
+        """Return the game of a person and an evader of any direction."""
+        from ..theory.value import ChauffeurGame, SpeedEllipse
+
+        speed = self.evader_speed
+        return ChauffeurGame(
+            self.pursuer_speed,
+            self.person_turning_radius or RADIUS,
+            SpeedEllipse(
+                self.evader_forward or speed,
+                speed,
+                self.evader_sideways or speed,
+            ),
+        )
 
 
 @click.command("bound")
@@ -156,7 +166,6 @@ class BoundSettings:
     help="Write the table of the value (.npz).",
 )
 @figure_option()
-@figure_width
 @json_option
 def bound(
     settings: BoundSettings,
@@ -169,14 +178,43 @@ def bound(
     Solves the game on a grid.
     """
     if settings.against == "person":
-        from .bound_person import bound_person
-
         refuse_settings(OF_CARS, "against pursuit or any, got person")
         if output is not None:
             raise click.UsageError("--output requires against pursuit or any")
-        bound_person(settings, figure, as_json=as_json)
+        result = _bound_person(settings, figure, quiet=as_json)
+    else:
+        result = _bound_cars(settings, output, figure, quiet=as_json)
+    if as_json:
+        print_json(plain(result))
         return
-    game, capture, far = settings.game(), settings.capture, settings.farthest
+    shown = {k: v for k, v in result.items() if k not in ("game", "grid")}
+    print_table(result_rows(plain(shown)))
+    if result.get("avoidable") is False:
+        echo("  no start is safe: the person can always make contact")
+    played = result.get("played")
+    if played:
+        echo()
+        print_rows(played, tuple(played[0]), left=(0,))
+
+
+def _bound_cars(
+    settings: BoundSettings,
+    output: Path | None,
+    figure: Path | None,
+    *,
+    quiet: bool,
+) -> dict[str, Any]:
+    """Solve the game of cars, with its figure; return its values."""
+    from ..theory.value import solve_cars
+    from ..theory.value.checks import (
+        compare_evaders,
+        differences,
+        draw_starts,
+        reference_evaders,
+    )
+    from ..theory.value.two_cars import barrier
+
+    game, capture, far = settings.cars(), settings.capture, settings.farthest
     if capture is None:
         capture = 0.7 * settings.evader_speed / settings.pursuer_gain
     if far is None:  # beyond the barrier
@@ -187,46 +225,80 @@ def bound(
             f"capture must be below {far:g} [m], the edge of the grid, got "
             f"{capture}"
         )
-    from ..theory.value import solve_cars
-
     solve = partial(solve_cars, game, far, horizon=settings.horizon)
-    tables = list(solve_grids(settings, 3, solve, quiet=as_json).values())
+    tables = list(_solve(settings, 3, solve, quiet=quiet).values())
     table = tables[-1]
-    result = _describe(game, table, capture) | _describe_refinement(tables)
-    if settings.games:
-        reach = 0.5 * capture, 0.75 * far
-        result["played"] = _play(game, table, reach, settings.games)
-    print_json(result) if as_json else _print(result)
-    if output is not None:
-        table.save(output)
-    if figure is not None:
-        from ..report.value_figures import draw_bound
-
-        draw_bound(game, table, capture, str(figure))
-
-
-def _describe(
-    game: "CarGame", table: "ValueTable", capture: float
-) -> dict[str, Any]:
-    """Return the values of a bound table, for JSON."""
-    from ..theory.value.two_cars import barrier
-
     reach = barrier(table, capture)
     result: dict[str, Any] = {
-        "game": asdict(game),
-        "grid": table.grid._asdict(),
-        "seconds": table.seconds,
+        "game": game,
+        "grid": table.grid,
+        "seconds_s": table.seconds,
         "falling_m": table.change,
         "capture_m": capture,
         "barrier_reach_m": float(reach.max()),
         "barrier_mean_m": float(reach.mean()),
     }
     if game.identical:
-        result["analytic"] = _analytic(game, table, capture)
+        result["closed_form"] = _closed_form(game, table, capture)
+    for coarse, fine in list(pairwise(tables))[-1:]:
+        result |= _spread("grid_error", differences(coarse, fine))
+    if settings.games:
+        starts = draw_starts(0.5 * capture, 0.75 * far, settings.games)
+        rows = compare_evaders(game, table, reference_evaders(game), starts)
+        result["played"] = [
+            {f"{k}_m" if k in IN_METERS else k: v for k, v in row.items()}
+            for row in rows
+        ]
+    if output is not None:
+        table.save(output)
+    if figure is not None:
+        from ..report.value_figures import draw_bound
+
+        draw_bound(game, table, capture, str(figure))
     return result
 
 
-def _analytic(
+def _solve(
+    settings: BoundSettings,
+    axes: int,
+    solve: "Callable[..., ValueTable]",
+    *,
+    quiet: bool,
+) -> "dict[int, ValueTable]":
+    """Return tables by cells, each with twice as many as that before.
+
+    ``solve`` is a function of the number of cells along each axis, and of
+    ``progress``, which takes the fraction done since its last call.
+    """
+    counts = [settings.grid // 2**n for n in range(settings.refine, -1, -1)]
+    work, found = sum(count**axes for count in counts), {}
+    look = "{l_bar}{bar}| {elapsed}<{remaining}"
+    with show_progress("bound", 1.0, bar_format=look, quiet=quiet) as bar:
+        for count in counts:
+            share = count**axes / work
+
+            def progress(part: float, share: float = share) -> None:
+                bar.update(share * part)
+
+            found[count] = solve(count, progress=progress)
+    return found
+
+
+def _spread(name: str, offsets: Any) -> dict[str, float]:
+    """Return mean, 95th percentile and largest of magnitudes, in [m].
+
+    Of a grid they are an estimate and bound no single value.
+    """
+    import numpy as np
+
+    return {
+        f"{name}_m": float(offsets.mean()),
+        f"{name}_95_m": float(np.quantile(offsets, 0.95)),
+        f"{name}_worst_m": float(offsets.max()),
+    }
+
+
+def _closed_form(
     game: "CarGame", table: "ValueTable", capture: float
 ) -> dict[str, Any]:
     """Compare the table with the closed-form barrier."""
@@ -242,83 +314,74 @@ def _analytic(
     apart = np.abs(barrier_offsets(table, poses, capture))
     return {
         "points": len(values),
-        "value_error_mean_m": float(values.mean()),
-        "value_error_median_m": float(np.median(values)),
-        "value_error_worst_m": float(values.max()),
-        "distance_error_mean_m": float(apart.mean()),
-        "distance_error_median_m": float(np.median(apart)),
-        "distance_error_worst_m": float(apart.max()),
+        **_spread("value_error", values),
+        **_spread("distance_error", apart),
     }
 
 
-def _describe_refinement(tables: "Sequence[ValueTable]") -> dict[str, Any]:
-    """Return the differences from coarser tables, for JSON.
+def _bound_person(
+    settings: BoundSettings, figure: Path | None, *, quiet: bool
+) -> dict[str, Any]:
+    """Solve the game of a person, with its figure; return its values."""
+    from ..theory.value import solve_chauffeur
+    from ..theory.value.chauffeur import standing_table
 
-    The grid error is the mean difference of the last comparison over all
-    nodes. It is an estimate and does not bound any single value; the 95th
-    percentile, the maximum and the fraction above the mean follow it.
-    """
+    game, response = settings.chauffeur(), settings.response
+    capture = settings.capture or CONTACT
+    response = RESPONSE if response is None else response
+    solve = partial(solve_chauffeur, game, farthest=settings.farthest)
+    tables = list(_solve(settings, 2, solve, quiet=quiet).values())
+    table, found = tables[-1], tables[-1].rules.outside
+    standing = standing_table(table, game, response)
+    result: dict[str, Any] = {
+        "game": game,
+        "period_s": game.period,
+        "seconds_s": table.seconds,
+        "guaranteed_m": found,
+        "closed_form_m": game.guaranteed_distance,
+        "capture_m": capture,
+        "avoidable": capture < found,
+        "barrier_reach_m": _reach(table, capture),
+        "response_s": response,
+        "start_ahead_m": _reach(standing, capture),
+        **_barrier_error(game, table, capture),
+    }
+    if tables[:-1]:
+        result["grid_error_m"] = abs(found - tables[-2].rules.outside)
+    if figure is not None:
+        from ..report.value_figures import draw_chauffeur
+
+        draw_chauffeur(game, table, standing, capture, str(figure))
+    return result
+
+
+def _barrier_error(
+    game: "ChauffeurGame", table: "ValueTable", capture: float
+) -> dict[str, float]:
+    """Compare the barrier with the closed form, where there is one."""
     import numpy as np
 
-    from ..theory.value.checks import differences
+    from ..theory.value.chauffeur import barrier_of
+    from ..theory.value.checks import barrier_offsets
 
-    rows = []
-    for coarse, fine in pairwise(tables):
-        off = differences(coarse, fine)
-        rows.append(
-            {
-                "cells": coarse.grid.shape[1] - 1,
-                "seconds": coarse.seconds,
-                "mean_difference_m": float(off.mean()),
-                "most_difference_m": float(np.quantile(off, 0.95)),
-                "worst_difference_m": float(off.max()),
-                "above_mean_share": float((off > off.mean()).mean()),
-            }
-        )
-    last = rows[-1] if rows else {}
-    return {
-        "refinement": rows,
-        "grid_error_m": last.get("mean_difference_m"),
-        "grid_error_95_m": last.get("most_difference_m"),
-        "grid_error_worst_m": last.get("worst_difference_m"),
-        "grid_error_above_mean_share": last.get("above_mean_share"),
-    }
+    if not capture < table.rules.outside:
+        return {}
+    try:
+        poses = barrier_of(game, capture)
+    except PlanError:
+        return {}
+    off = np.abs(barrier_offsets(table, poses, capture))
+    return _spread("barrier_error", off)
 
 
-def _play(
-    game: "CarGame",
-    table: "ValueTable",
-    reach: tuple[float, float],
-    games: int,
-) -> list[dict[str, Any]]:
-    """Simulate games from distances within reach, and compare the table."""
-    from ..theory.value.checks import (
-        compare_evaders,
-        draw_starts,
-        reference_evaders,
-    )
+def _reach(table: "ValueTable", capture: float) -> float | None:
+    """Return the distance up to which contact threatens, in [m].
 
-    starts = draw_starts(*reach, games)
-    rows = compare_evaders(game, table, reference_evaders(game), starts)
-    return [
-        {f"{k}_m" if k in IN_METERS else k: v for k, v in row.items()}
-        for row in rows
-    ]
+    None if it threatens from everywhere.
+    """
+    if capture >= table.rules.outside:
+        return None
+    import numpy as np
 
-
-def _print(result: dict[str, Any]) -> None:
-    """Print the result in two columns."""
-    renamed = {"seconds": "seconds_s"}
-    rows = scalar_rows({renamed.get(k, k): v for k, v in result.items()}, 4)
-    analytic = result.get("analytic", {})
-    numbers = (n for n, v in analytic.items() if isinstance(v, int | float))
-    found = table_rows(analytic, numbers, 4)
-    rows += [(f"closed form: {name}", text) for name, text in found]
-    for row in result["refinement"]:
-        off = f"{row['mean_difference_m']:.4g} m"
-        rows.append((f"difference to {row['cells']} cells", off))
-    for played in result.get("played", []):
-        text = f"{played['over_bound']:.3f} of the bound"
-        text += f", at most {played['above_m']:.3g} m above it"
-        rows.append((f"simulated {played['name']}", text))
-    print_table(rows)
+    far = table.grid.distances(np.inf)
+    return float(far[table.values < capture].max(initial=capture))

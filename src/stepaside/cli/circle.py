@@ -15,38 +15,16 @@ from ..core.setting import setting
 from ..games.unicycle_settings import UnicycleGameSettings, positive
 from ..report.result_labels import CIRCLES
 from ..theory.unicycle.unicycle_game import Game
-from .options import figure_option, figure_width, json_option
+from .options import figure_option, json_option
 from .settings import takes_settings
-from .tables import (
-    finite,
-    format_value,
-    print_columns,
-    print_table,
-    table_rows,
-)
+from .tables import plain, print_rows, print_table, result_rows
 from .terminal import echo, print_json
 
 NAMED = ("speed", "gain", "angle", "law", "starts")
-OF_CIRCLE = (
-    "distance_m",
-    "radius_pursuer_m",
-    "radius_evader_m",
-    "turning_rate_rad_s",
-    "headings_apart_rad",
-    "motions_apart_rad",
-    "pursuer_error_rad",
-    "evader_error_rad",
-    "time_constant_s",
+COLUMNS = (
+    *("circle", "side_rule", "distance_m", "radius_evader_m", "stable"),
+    *("time_constant_s", "share"),
 )
-COLUMNS = {
-    "direction": "direction",
-    "side_rule": "side rule",
-    "distance_m": "distance",
-    "radius_evader_m": "evader's radius",
-    "stable": "stable",
-    "time_constant_s": "time constant",
-    "starts_share": "basin",
-}
 
 
 @dataclass(frozen=True, slots=True)
@@ -72,17 +50,10 @@ class CircleSettings(UnicycleGameSettings):
 
 @click.command("circle")
 @takes_settings(NAMED, settings=CircleSettings)
-@figure_option(help="Write a map of the reversed circle over the ratios.")
-@figure_option(
-    "--sweep", help="Write a figure of the circle over angle and ratios."
-)
-@figure_width
+@figure_option(help="Write a figure of the circle over angle and ratios.")
 @json_option
 def circle(
-    settings: CircleSettings,
-    figure: Path | None,
-    sweep: Path | None,
-    as_json: bool,
+    settings: CircleSettings, figure: Path | None, as_json: bool
 ) -> None:
     """Find the circles of a game, their stability and basins of attraction."""
     game = settings.game
@@ -91,13 +62,16 @@ def circle(
         result |= _find_circles(settings, b.update)
     print_json(result) if as_json else print_circles(result)
     if figure is not None:
-        from ..report.unicycle_figures import draw_ratios
-
-        draw_ratios(game, str(figure))
-    if sweep is not None:
         from ..report.unicycle_figures import draw_sweep
 
-        draw_sweep(game, str(sweep))
+        draw_sweep(game, str(figure))
+
+
+def _entries_of(found: Any) -> dict[str, Any]:
+    """Return one circle for JSON."""
+    entries: dict[str, Any] = plain(found)
+    entries["eigenvalues_per_s"] = entries.pop("eigenvalues")
+    return entries
 
 
 def describe_circle(
@@ -107,20 +81,14 @@ def describe_circle(
     from ..theory.unicycle.circles import circle_of
 
     found = circle_of(game)
-    result: dict[str, Any] = {
-        "exists": found.exists,
-        "radius_m": finite(found.radius_pursuer_m),
-        **{name: finite(getattr(found, name)) for name in OF_CIRCLE},
-        "eigenvalues_per_s": _pairs(found.eigenvalues),
-        "stable": found.stable if found.exists else None,
-        "sliding": found.sliding,
+    result = _entries_of(found) | {
+        "radius_m": plain(found.radius_pursuer_m),
         "sample_time_s": sample_time,
         "delay_s": delay,
     }
     if found.exists:
         result |= _describe_sampling(game, found.sliding, sample_time, delay)
-    result["game"] = to_entries(game)
-    return result
+    return result | {"game": to_entries(game)}
 
 
 def _describe_sampling(
@@ -137,39 +105,29 @@ def _describe_sampling(
         undefined = {"stable": None, "time_constant_s": None}
         return undefined if sampled_or_delayed else {}
     result: dict[str, Any] = {
-        "largest_stable_sample_time_s": finite(
+        "largest_stable_sample_time_s": plain(
             sampled.largest_stable_sample_time(game, delay)
         ),
-        "largest_stable_delay_s": _largest_delay(game, sample_time),
     }
+    try:
+        largest = sampled.largest_stable_delay(game, sample_time)
+        result["largest_stable_delay_s"] = plain(largest)
+    except PlanError:  # sampling is too fine
+        result["largest_stable_delay_s"] = None
     if sample_time > 0.0:
         values = sampled.step_eigenvalues(game, sample_time, delay)
         size = abs(values[0])
-        result["step_eigenvalues"] = _pairs(values)
+        result["step_eigenvalues"] = plain(values)
         result["stable"] = size < 1.0
         settle = -sample_time / log(size) if 0.0 < size < 1.0 else None
         result["time_constant_s"] = settle
     elif delay > 0.0:
         values = sampled.delayed_eigenvalues(game, delay)
         rate = values[0].real
-        result["delayed_eigenvalues_per_s"] = _pairs(values)
+        result["delayed_eigenvalues_per_s"] = plain(values)
         result["stable"] = rate < 0.0
         result["time_constant_s"] = -1.0 / rate if rate < 0.0 else None
     return result
-
-
-def _largest_delay(game: Game, sample_time: float) -> float | None:
-    """Return the largest stable delay; None if sampling is too fine."""
-    from ..theory.unicycle.sampled_stability import largest_stable_delay
-
-    try:
-        return finite(largest_stable_delay(game, sample_time))
-    except PlanError:
-        return None
-
-
-def _pairs(values: tuple[complex, ...]) -> list[list[float]]:
-    return [[value.real, value.imag] for value in values]
 
 
 def _find_circles(settings: CircleSettings, progress: Any) -> dict[str, Any]:
@@ -178,75 +136,48 @@ def _find_circles(settings: CircleSettings, progress: Any) -> dict[str, Any]:
     from ..theory.unicycle.start_maps import find_basins, random_starts
 
     game = settings.game
-    if settings.starts == 0:
-        found = [_describe(each, None) for each in circles_of(game)]
-        return {"circles": found, "starts": None}
-    drawn = random_starts(game, settings.starts, seed=settings.seed)
-    basins = find_basins(
-        game, drawn, capture_distance=settings.capture, progress=progress
-    )
-    return {
-        "circles": [
-            _describe(each, share)
-            for each, share in zip(basins.circles, basins.shares, strict=True)
-        ],
-        "starts": {
+    circles = circles_of(game)
+    shares: tuple[float | None, ...] = (None,) * len(circles)
+    starts = None
+    if settings.starts:
+        drawn = random_starts(game, settings.starts, seed=settings.seed)
+        basins = find_basins(
+            game, drawn, capture_distance=settings.capture, progress=progress
+        )
+        shares = basins.shares
+        starts = {
             "number": settings.starts,
-            "seed": settings.seed,
-            "nearest_m": float(drawn[:, 0].min()),
-            "farthest_m": float(drawn[:, 0].max()),
-            "duration_s": basins.duration,
-            "capture_m": settings.capture,
             "captured_share": basins.captured,
             "unsettled_share": basins.unsettled,
             "mean_closest_distance_m": basins.closest_distance,
-        },
-    }
-
-
-def _describe(found: Any, share: float | None) -> dict[str, Any]:
-    """Return one circle for JSON."""
+        }
     return {
-        "exists": found.exists,
-        "direction": found.direction,
-        "side_rule": "behind" if found.behind else "latched",
-        **{name: finite(getattr(found, name)) for name in OF_CIRCLE},
-        "bearing_rad": found.bearing_rad,
-        "sliding": found.sliding,
-        "stable": found.stable,
-        "eigenvalues_per_s": _pairs(found.eigenvalues),
-        "share": share,
+        "circles": [
+            {
+                "circle": CIRCLES[each.direction],
+                "direction": each.direction,
+                "side_rule": "behind" if each.behind else "latched",
+                **_entries_of(each),
+                "share": share,
+            }
+            for each, share in zip(circles, shares, strict=True)
+        ],
+        "starts": starts,
     }
 
 
 def print_circles(result: dict[str, Any]) -> None:
-    """Print the result as tables."""
-    lists = ("circles", "game", "starts")
+    """Print the main circle, then all circles as a table."""
     if result["exists"]:
-        print_table(table_rows(result, (k for k in result if k not in lists)))
+        aside = ("circles", "game", "starts", "step_eigenvalues")
+        shown = {k: v for k, v in result.items() if k not in aside}
+        print_table(result_rows(shown, 6))
     else:
         which = "main circle" if result["circles"] else "circle"
         echo(f"There is no {which} for these speeds, gains and angle.")
-    rows = [
-        each
-        | {
-            "direction": CIRCLES[each["direction"]],
-            "starts_share": each["share"],
-        }
-        for each in result["circles"]
-    ]
-    if rows:
+    if result["circles"]:
         echo()
-        print_columns(
-            list(COLUMNS.values()),
-            [
-                [format_value(name, row[name]) for name in COLUMNS]
-                for row in rows
-            ],
-            left=range(len(COLUMNS)),
-            indent="  ",
-        )
+        print_rows(result["circles"], COLUMNS, left=range(7), digits=6)
     if result["starts"] is not None:
-        echo("\n  games that did not end on a circle")
-        names = ("captured_share", "unsettled_share")
-        print_table(table_rows(result["starts"], names))
+        echo("\n  games from random starts")
+        print_table(result_rows(result["starts"]))

@@ -13,16 +13,17 @@ from ..core.ranges import Range
 from ..core.setting import setting
 from ..games.unicycle_settings import UnicycleGameSettings, positive
 from ..report.result_labels import CIRCLES
-from .options import figure_option, figure_width, json_option
+from .options import figure_option, json_option
 from .settings import takes_settings
-from .tables import finite, print_table, scalar_rows, table_rows
-from .terminal import print_json
+from .tables import plain, print_rows, print_table, result_rows
+from .terminal import echo, print_json
 
 if TYPE_CHECKING:
-    from ..theory.unicycle.start_maps import StartBox, StartMap, WorstStart
+    from ..theory.unicycle.start_maps import StartMap, WorstStart
 
 NAMED = ("speed", "gain", "angle", "law", "nearest", "farthest", "grid")
 HALF_TURN = Range(0.0, pi, "rad", "half a turn")
+POINTS = Range(1, 400, "1", "more take hours", whole=True)
 
 
 @dataclass(frozen=True, slots=True)
@@ -51,16 +52,8 @@ class StartMapSettings(UnicycleGameSettings):
         "Maximum initial bearing of the pursuer in the evader's frame",
         HALF_TURN,
     )
-    grid: int = setting(
-        25,
-        "Grid points along each bearing",
-        Range(2, 400, "1", "more take hours", whole=True),
-    )
-    distances: int = setting(
-        6,
-        "Grid points along the distance",
-        Range(1, 400, "1", "more take hours", whole=True),
-    )
+    grid: int = setting(25, "Grid points along each bearing", POINTS)
+    distances: int = setting(6, "Grid points along the distance", POINTS)
     duration: float | None = setting(
         None,
         "Simulated time of each game",
@@ -84,7 +77,6 @@ class StartMapSettings(UnicycleGameSettings):
 @click.command("map")
 @takes_settings(NAMED, settings=StartMapSettings)
 @figure_option()
-@figure_width
 @json_option
 def map(  # noqa: A001 (the command's name)
     settings: StartMapSettings, figure: Path | None, as_json: bool
@@ -102,29 +94,27 @@ def map(  # noqa: A001 (the command's name)
     gain = min(game.pursuer.gain, game.evader.gain)
     settings = replace(
         settings,
+        nearest=settings.nearest or 1.6 * unit,
+        farthest=settings.farthest or 4.0 * unit,
         duration=settings.duration or 30.0 / gain,
         step=settings.step or accurate_step(game),
         capture=settings.capture or 0.1 * unit,
     )
-    box = StartBox(
-        settings.nearest or 1.6 * unit,
-        settings.farthest or 4.0 * unit,
-        settings.aim,
-        settings.facing,
-    )
+    near: Any = settings.nearest
+    far: Any = settings.farthest
+    box = StartBox(near, far, settings.aim, settings.facing)
     shape = settings.distances, settings.grid, settings.grid
-    rules: dict[str, Any] = {
+    rules: Any = {
         "step": settings.step,
         "capture_distance": settings.capture,
     }
-    duration = settings.duration
-    assert duration is not None
+    duration: Any = settings.duration
     with show_progress("map", prod(shape), "games", quiet=as_json) as bar:
         found = map_starts(
             game, box, duration, shape=shape, progress=bar.update, **rules
         )
     worst = find_worst_start(game, found, box, duration, **rules)
-    result = _result(settings, box, found, worst)
+    result = _result(settings, found, worst)
     print_json(result) if as_json else _print(result)
     if figure is not None:
         from ..report.unicycle_figures import draw_map
@@ -135,10 +125,7 @@ def map(  # noqa: A001 (the command's name)
 
 
 def _result(
-    settings: StartMapSettings,
-    box: "StartBox",
-    found: "StartMap",
-    worst: "WorstStart",
+    settings: StartMapSettings, found: "StartMap", worst: "WorstStart"
 ) -> dict[str, Any]:
     """Return all results for JSON."""
     import numpy as np
@@ -147,14 +134,13 @@ def _result(
     from ..theory.unicycle.start_maps import settled_fractions
 
     out, game = found.outcomes, settings.game
-    total = settings.distances * settings.grid**2
+    total = len(out.settled_time)
     settled = out.settled_time[np.isfinite(out.settled_time)]
     times = settled if len(settled) else np.array([np.inf])
     circles = circles_of(game)
     shares = settled_fractions(out, len(circles))
     return {
         "games": total,
-        "games_to_refine": worst.games - total,
         "min_distance_m": worst.closest_distance,
         "worst_start": {
             "distance_m": worst.start.distance,
@@ -167,6 +153,7 @@ def _result(
         "settled_share": len(settled) / total,
         "circles": [
             {
+                "circle": CIRCLES[circle.direction],
                 "direction": circle.direction,
                 "distance_m": circle.distance_m,
                 "stable": circle.stable,
@@ -174,28 +161,19 @@ def _result(
             }
             for circle, share in zip(circles, shares, strict=True)
         ],
-        "settled_time_median_s": finite(float(np.median(times))),
-        "settled_time_largest_s": finite(float(times.max())),
+        "settled_time_median_s": plain(float(np.median(times))),
+        "settled_time_largest_s": plain(float(times.max())),
         "capture_m": settings.capture,
         "duration_s": settings.duration,
         "step_s": settings.step,
-        "box": {
-            "nearest_m": box.nearest,
-            "farthest_m": box.farthest,
-            "aim_rad": box.aim,
-            "facing_rad": box.facing,
-        },
         "game": to_entries(game),
     }
 
 
 def _print(result: dict[str, Any]) -> None:
-    """Print the values, the circles and the worst start."""
-    rows = scalar_rows(result)
-    for circle in result["circles"]:
-        percent = 100.0 * circle["share"]
-        text = f"{percent:.6g} % at {circle['distance_m']:.6g} m"
-        rows.append((f"on the {CIRCLES[circle['direction']]} circle", text))
-    start = result["worst_start"]
-    worst = table_rows(start, start)
-    print_table([*rows, *((f"worst start: {k}", v) for k, v in worst)])
+    """Print the values, the worst start and the circles."""
+    shown = {k: v for k, v in result.items() if k != "game"}
+    print_table(result_rows(shown))
+    if result["circles"]:
+        echo()
+        print_rows(result["circles"], ("circle", "distance_m", "share"))

@@ -11,7 +11,6 @@ import click
 
 from ..core.atomic_output import FIGURES, check_file
 from ..core.errors import StepAsideError
-from ..report.figure_sizes import SHEETS, figures_on
 from .terminal import reserve_stdout
 
 
@@ -64,24 +63,6 @@ def json_option(function: Callable[..., Any]) -> Callable[..., Any]:
     return click.option(
         "--json", "as_json", is_flag=True, help="Print one JSON object."
     )(command)
-
-
-def _choose_sheet(
-    context: click.Context, _: click.Parameter, name: str
-) -> None:
-    """Set the figure size until the command ends."""
-    context.with_resource(figures_on(name))
-
-
-figure_width = click.option(
-    "--figure-width",
-    type=click.Choice(tuple(SHEETS)),
-    default="screen",
-    callback=_choose_sheet,
-    expose_value=False,
-    help="Size and fonts of figures: for a screen, or for the page or a "
-    "column of a paper.",
-)
 
 
 def figure_option(

@@ -1,6 +1,6 @@
 """``stepaside theory plan``: one maneuver as a table, a figure or JSON."""
 
-from dataclasses import dataclass, fields, replace
+from dataclasses import dataclass, fields
 from math import degrees, pi
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -13,8 +13,9 @@ from ..core.setting import check_settings, setting
 from ..games.duel_settings import DuelSettings
 from ..games.walk_settings import WalkSettings
 from ..planning import PRESETS, Direction, Foot, GaitSettings
-from .options import figure_option, figure_width, json_option
+from .options import figure_option, json_option
 from .settings import takes_settings
+from .tables import print_columns
 from .terminal import echo, print_json
 
 if TYPE_CHECKING:
@@ -63,15 +64,6 @@ class PlanSettings:
         """Check all values."""
         check_settings(self, PlanError)
 
-    @property
-    def preset(self) -> str | None:
-        """Gait preset up to the ZMP profile; None for any other gait."""
-        for name, gait in PRESETS.items():
-            profile = self.gait.zmp_profile
-            if replace(gait, zmp_profile=profile) == self.gait:
-                return name
-        return None
-
 
 # Entries of walks and duels, which the file of a plan may contain.
 ENTRIES_OF_GAMES = frozenset(
@@ -86,7 +78,6 @@ NAMED = ("role", "bearing", "steps", "first_foot", "saturated", "gait")
 @click.command("plan")
 @takes_settings(NAMED, aside=ENTRIES_OF_GAMES, settings=PlanSettings)
 @figure_option()
-@figure_width
 @json_option
 def plan(settings: PlanSettings, figure: Path | None, as_json: bool) -> None:
     """Plan one maneuver from standing: path, footsteps, ZMP and CoM.
@@ -129,7 +120,6 @@ def _to_json(settings: PlanSettings, maneuver: "ManeuverPlan") -> Any:
     return {
         "role": settings.role,
         "bearing_rad": settings.bearing,
-        "preset": settings.preset,
         "frame": "support foot of the first step",
         "eta_per_s": settings.gait.eta,
         "margin_m": maneuver.margin(),
@@ -157,12 +147,17 @@ def _to_json(settings: PlanSettings, maneuver: "ManeuverPlan") -> Any:
 
 
 def _print(maneuver: "ManeuverPlan") -> None:
-    echo("  foot       x [m]     y [m]  theta [deg]")
-    for step in maneuver.footsteps:
-        echo(
-            f"  {step.foot.name.lower():<6} {step.x:9.4f} {step.y:9.4f}"
-            f"  {degrees(step.theta):11.2f}"
-        )
+    print_columns(
+        ("foot", "x [m]", "y [m]", "theta [deg]"),
+        [
+            (
+                *(step.foot.name.lower(), f"{step.x:.4f}", f"{step.y:.4f}"),
+                f"{degrees(step.theta):.2f}",
+            )
+            for step in maneuver.footsteps
+        ],
+        left=(0,),
+    )
     echo(
         f"  {maneuver.schedule.duration:.2f} s; the ZMP stays "
         f"{1e3 * maneuver.margin():.1f} mm inside the support polygon"

@@ -14,7 +14,7 @@ from .options import (
     seed_option,
 )
 from .settings import refuse_settings, takes_settings
-from .tables import print_table, scalar_rows
+from .tables import print_table, result_rows
 from .terminal import print_json
 
 NAMED = ("width", "depth", "discs", "boxes", "polygons", "doors")
@@ -54,7 +54,7 @@ def room(
         if made.starts is not None:
             check_initial_poses(made, made.starts)
     result = measure_room(made)
-    print_json(result) if as_json else print_table(scalar_rows(result, 4))
+    print_json(result) if as_json else print_table(result_rows(result))
     if output is not None:
         _write(made, output)
     if figure is not None:

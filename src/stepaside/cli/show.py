@@ -14,7 +14,7 @@ from ..core.progress import counter, show_progress
 from ..report.film_settings import FilmSettings
 from ..report.result_labels import label_of
 from ..report.text_escaping import visible
-from .options import browser_option, figure_width, json_option
+from .options import browser_option, json_option
 from .settings import GIVEN, refuse_settings, takes_settings
 from .tables import (
     format_value,
@@ -87,7 +87,6 @@ COLUMNS = {
     "IMU, foot forces, plans, strategy, images (.mcap, .csv, .parquet).",
 )
 @takes_settings(NAMED, film=FilmSettings)
-@figure_width
 @browser_option
 @json_option
 def show(

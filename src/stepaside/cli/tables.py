@@ -1,10 +1,35 @@
 """Printed tables of result entries."""
 
 from collections.abc import Container, Iterable, Mapping, Sequence
+from dataclasses import fields, is_dataclass
+from math import isfinite
 from typing import Any
 
 from ..report.result_labels import in_unit, label_of, unit_of
 from .terminal import echo
+
+Row = Mapping[str, Any]
+
+
+def plain(value: Any) -> Any:
+    """Return a result as JSON has it.
+
+    Dataclasses and named tuples become objects, NaN and infinity null, and
+    complex numbers pairs.
+    """
+    if is_dataclass(value) and not isinstance(value, type):
+        value = {f.name: getattr(value, f.name) for f in fields(value)}
+    elif hasattr(value, "_asdict"):
+        value = value._asdict()
+    if isinstance(value, Mapping):
+        return {name: plain(each) for name, each in value.items()}
+    if isinstance(value, list | tuple):
+        return [plain(each) for each in value]
+    if isinstance(value, complex):
+        return [value.real, value.imag]
+    if isinstance(value, float) and not isfinite(value):
+        return None
+    return value
 
 
 def format_value(name: str, value: Any, digits: int = 6) -> str:
@@ -35,7 +60,7 @@ def format_value(name: str, value: Any, digits: int = 6) -> str:
 
 
 def table_rows(
-    result: Mapping[str, Any], names: Iterable[str], digits: int = 6
+    result: Row, names: Iterable[str], digits: int = 6
 ) -> list[tuple[str, str]]:
     """Return labels and formatted values of some entries of a result."""
     return [
@@ -44,17 +69,7 @@ def table_rows(
     ]
 
 
-def scalar_rows(
-    result: Mapping[str, Any], digits: int = 6
-) -> list[tuple[str, str]]:
-    """Return labels and values of the entries without entries of their own."""
-    names = (n for n, v in result.items() if not isinstance(v, dict | list))
-    return table_rows(result, names, digits)
-
-
-def result_rows(
-    result: Mapping[str, Any], digits: int = 4
-) -> list[tuple[str, str]]:
+def result_rows(result: Row, digits: int = 4) -> list[tuple[str, str]]:
     """Return labels and values of all entries, of inner ones as well.
 
     Tables in lists are left out.
@@ -68,15 +83,27 @@ def result_rows(
             ]
         elif not isinstance(value, list | tuple):
             rows.append((label_of(name), format_value(name, value, digits)))
+        elif name.endswith("_per_s"):  # eigenvalues
+            rows.append((label_of(name), format_value(name, value, digits)))
         elif not any(isinstance(each, Mapping | list) for each in value):
             texts = (format_value(name, each, digits) for each in value)
             rows.append((label_of(name), ", ".join(texts) or "none"))
     return rows
 
 
-def finite(value: float) -> float | None:
-    """Return a value for JSON: None for NaN and infinity."""
-    return value if abs(value) < float("inf") else None
+def print_rows(
+    rows: Sequence[Row],
+    names: Sequence[str],
+    *,
+    left: Container[int] = (),
+    digits: int = 4,
+) -> None:
+    """Print some entries of each row in columns, below their labels."""
+    cells = [
+        [format_value(name, row.get(name), digits) for name in names]
+        for row in rows
+    ]
+    print_columns([label_of(name) for name in names], cells, left=left)
 
 
 def print_columns(
@@ -84,15 +111,10 @@ def print_columns(
     rows: Iterable[Sequence[str]],
     *,
     left: Container[int],
-    indent: str = "",
 ) -> None:
     """Print one line per row, below a header, in aligned columns.
 
-    Args:
-        heads: Heads of the columns.
-        rows: Cells of each row.
-        left: Columns that are aligned to the left.
-        indent: Text before each line.
+    The columns in ``left`` are aligned to the left.
     """
     table = [heads, *rows]
     widths = [max(map(len, column)) for column in zip(*table, strict=True)]
@@ -101,10 +123,10 @@ def print_columns(
             cell.ljust(width) if k in left else cell.rjust(width)
             for k, (cell, width) in enumerate(zip(line, widths, strict=True))
         ]
-        echo(indent + "  ".join(cells).rstrip())
+        echo("  ".join(cells).rstrip())
 
 
-def print_table(rows: list[tuple[str, str]]) -> None:
+def print_table(rows: Sequence[tuple[str, str]]) -> None:
     """Print names and values in two columns."""
     width = max(len(name) for name, _ in rows)
     for name, value in rows:

@@ -11,15 +11,16 @@ from ..core.errors import PlanError
 from ..games.unicycle_settings import PAPER, UnicycleSettings
 from ..report.result_labels import CIRCLES, label_of
 from .circle import describe_circle
-from .options import figure_option, figure_width, json_option
+from .options import figure_option, json_option
 from .settings import refuse_settings, takes_settings
 from .tables import (
-    finite,
     format_value,
+    plain,
     print_table,
+    result_rows,
     table_rows,
 )
-from .terminal import echo, print_json
+from .terminal import print_json
 
 if TYPE_CHECKING:
     from ..theory.unicycle.unicycle_game import Game, RelativeStart
@@ -41,7 +42,6 @@ COMPARED = (
 @click.command("unicycles")
 @takes_settings(NAMED, settings=UnicycleSettings)
 @figure_option()
-@figure_width
 @json_option
 def unicycles(
     settings: UnicycleSettings, figure: Path | None, as_json: bool
@@ -71,8 +71,12 @@ def unicycles(
         result["theory"] = {name: theory[name] for name in named}
     if as_json:
         print_json(result)
+    elif "theory" in result:
+        _print(result)
     else:
-        _print(result) if "theory" in result else _print_named(result)
+        aside = ("game", "start")
+        shown = {k: v for k, v in result.items() if k not in aside}
+        print_table(result_rows(shown))
     if figure is not None:
         from ..report.unicycle_figures import draw_game
 
@@ -101,7 +105,7 @@ def _simulate(
         "switch_times_s": list(run.switches),
     }
     if not run.captured:
-        found = {k: finite(v) for k, v in asdict(measure(run)).items()}
+        found = plain(measure(run))
         result |= {"radius_m": found["radius_pursuer_m"]} | found
         result["turning_rate_rad_s"] = abs(found["turning_rate_rad_s"] or 0.0)
         last = run.states([run.end_time])[0, :3]
@@ -122,7 +126,8 @@ def _certify(game: "Game", start: "RelativeStart") -> dict[str, Any] | None:
         found = certify(game, start)
     except PlanError:  # unequal players, the saturated law or moving back
         return None
-    return {"holds": found.holds, "distance_m": found.distance_m}
+    entries: dict[str, Any] = plain(found)
+    return entries
 
 
 def _play_named(
@@ -162,12 +167,6 @@ def _play_named(
         "floor_used_pursuer_m": floor[0],
         "floor_used_evader_m": floor[1],
     }
-
-
-def _print_named(result: dict[str, Any]) -> None:
-    names = ("closest_distance_m", "distance_m", "floor_used_evader_m")
-    echo(f"{result['evader_strategy']} against {result['pursuer_strategy']}")
-    print_table(table_rows(result, (*names, "captured", "end_time_s")))
 
 
 def _print(result: dict[str, Any]) -> None:

@@ -18,7 +18,6 @@ from cycler import cycler  # noqa: E402
 from ..core.atomic_output import atomic_draft  # noqa: E402
 from ..core.errors import AnyPath, as_path  # noqa: E402
 from ..games.run import Run  # noqa: E402
-from .figure_sizes import sheet  # noqa: E402
 from .palette import PALETTES, colours_in  # noqa: E402
 
 LIGHT = PALETTES["light"]
@@ -30,6 +29,7 @@ LINES = ("-", "--", ":", "-.")
 MARGIN = 0.75  # left of the panels, for ticks and label, in [inch]
 AXIS = 0.42  # below a row of panels, for ticks and label, in [inch]
 LEGEND_LINE = 0.19  # height of a line of a legend, in [inch]
+FONT = 9.0  # in [pt]
 # Without dates, the same run gives the same file.
 UNDATED: dict[str, dict[str, Any]] = {
     "pdf": {"CreationDate": None},
@@ -38,6 +38,13 @@ UNDATED: dict[str, dict[str, Any]] = {
 
 plt.rcParams.update(
     {
+        "font.size": FONT,
+        "axes.titlesize": FONT + 0.5,
+        "axes.labelsize": FONT,
+        "xtick.labelsize": FONT - 1.0,
+        "ytick.labelsize": FONT - 1.0,
+        "legend.fontsize": FONT - 1.0,
+        "figure.titlesize": FONT + 2.0,
         "figure.dpi": 110,
         "savefig.dpi": 150,
         "axes.prop_cycle": cycler(color=[EVADER, PURSUER, LEFT, RIGHT]),
@@ -76,11 +83,9 @@ def panels(
 
     Args:
         rows: Panels of each row, a letter each; a panel covers all places of
-            its letter, and "." is an empty place. On a narrow sheet panels
-            are stacked.
-        width: Of the figure on the sheet "screen", in [inch].
-        heights: Of each row, in [inch]; on a narrower sheet they shrink less
-            than the width, since fonts do not shrink.
+            its letter, and "." is an empty place.
+        width: Of the figure, in [inch].
+        heights: Of each row, in [inch].
         title: Title of the figure.
         legend: Lines that :func:`legend_below` has.
         right: Margin to the right, in [inch].
@@ -90,13 +95,6 @@ def panels(
     Returns:
         Figure and axes of Matplotlib by their letter.
     """
-    _set_fonts()
-    sheet_width = sheet().width
-    if sheet_width is not None:
-        scale, width = sheet_width / width, sheet_width
-        heights = [max(scale, scale**0.75) * each for each in heights]
-    if sheet().narrow:
-        rows, heights = _stacked(rows, heights, gaps[1])
     top = 0.75 if title else 0.45
     bottom = AXIS + 0.06 + LEGEND_LINE * legend
     height = top + sum(heights) + gaps[1] * (len(rows) - 1) + bottom
@@ -121,44 +119,6 @@ def panels(
     return figure, axes
 
 
-def _stacked(
-    rows: Sequence[str], heights: Sequence[float], gap: float
-) -> tuple[list[str], list[float]]:
-    """Return the panels of a narrow sheet: one in a row, small ones two."""
-    found: dict[str, float] = {}
-    for row in rows:
-        new = [n for n in dict.fromkeys(row) if n not in "".join(found) + "."]
-        step = 2 if len(new) > 2 else 1
-        for i in range(0, len(new), step):
-            names = "".join(new[i : i + step])
-            covered = [
-                h for r, h in zip(rows, heights, strict=True) if new[i] in r
-            ]
-            gaps = gap * (len(covered) - 1)
-            pair = names * 2 if step == 1 else names.ljust(2, ".")
-            found[pair] = sum(covered) + gaps
-    return list(found), list(found.values())
-
-
-def _set_fonts() -> None:
-    """Set fonts and line widths of the sheet; read when figures are drawn."""
-    sheet_width, font, family, _ = sheet()
-    line = 0.8 if sheet_width is None else 0.5
-    sizes = {
-        "font.": 0.0,
-        "axes.title": 0.5,
-        "axes.label": 0.0,
-        "xtick.label": -1.0,
-        "ytick.label": -1.0,
-        "legend.font": -1.0,
-        "figure.title": 2.0,
-    }
-    widths = ("axes.line", "grid.line", "xtick.major.", "ytick.major.")
-    look: dict[Any, Any] = {"font.family": list(family)}
-    look |= {f"{name}size": font + more for name, more in sizes.items()}
-    plt.rcParams.update(look | {f"{name}width": line for name in widths})
-
-
 def colours_of(run: Run) -> dict[str, str]:
     """Return the colours of the players of a run in figures, by name."""
     return colours_in("light", run.players, run.identities)
@@ -172,11 +132,7 @@ def legend_below(
 ) -> None:
     """Add one legend below a figure, with every label of its axes once.
 
-    Args:
-        figure: Figure of Matplotlib, with space for the legend.
-        axes: Axes with labels.
-        further: Handles of Matplotlib that are in no axes, by label.
-        style: Further arguments of the legend.
+    Further handles of Matplotlib, by label, are in no axes.
     """
     handles: dict[str, Any] = {}
     for axis in axes:
@@ -212,14 +168,7 @@ def mark_level(
 ) -> None:
     """Draw a horizontal line across a plot and label it beside the plot.
 
-    Args:
-        axes: Matplotlib axes.
-        level: Height of the line, in units of the axes.
-        text: Label, to the right of the axes.
-        colour: Of line and label.
-        line: Style of the line.
-        va: Vertical alignment of the label: "bottom" is over the line, "top"
-            under it.
+    With ``va`` "bottom" the label is over the line, with "top" under it.
     """
     axes.axhline(level, color=colour, ls=line, lw=1.0)
     axes.annotate(
@@ -230,16 +179,12 @@ def mark_level(
         textcoords="offset points",
         va=va,
         color=colour,
-        fontsize=sheet().font - 1.0,
+        fontsize=FONT - 1.0,
     )
 
 
 def save(figure: Any, file: AnyPath) -> None:
-    """Write a figure atomically and close it.
-
-    Args:
-        figure: Figure of Matplotlib.
-        file: File to write; its suffix gives the format.
+    """Write a figure atomically, in the format of the suffix; close it.
 
     Raises:
         OutputError: If it cannot be written.

@@ -12,7 +12,7 @@ UNITS = {
     "_rad": "deg",
     "_deg": "deg",
     "_hz": "Hz",
-    "_share": "%",
+    "share": "%",
     "_m2": "m^2",
     "_kg": "kg",
     "_m": "m",
@@ -46,11 +46,15 @@ LABELS = {
     "radius_pursuer_m": "pursuer's radius",
     "relative_orientation_deg": "angle between headings",
     "settled_share": "games settled",
+    "share": "share of games",
     "settled_time_largest_s": "maximum settling time",
     "settled_time_median_s": "median settling time",
     "seconds_s": "solver time",
     "sliding": "evader slides at zero error",
     "unsettled_share": "games not settled",
+    "value_error_m": "mean error of the value",
+    "distance_error_m": "mean distance between the barriers",
+    "grid_error_m": "mean difference to the coarser grid",
 }
 CIRCLES = {1: "main", -1: "reversed"}
 """Names of the circles of a game of unicycles, by their direction."""
@@ -74,7 +78,7 @@ def label_of(name: str, *, unit: bool = False) -> str:
         unit: Whether to append the unit in brackets.
     """
     label = LABELS.get(name) or name.removesuffix(_unit_suffix(name))
-    label = label.replace("_", " ")
+    label = label.replace("_", " ").strip()
     symbol = unit_of(name)
     return f"{label} [{symbol}]" if unit and symbol else label
 

@@ -13,7 +13,7 @@ from ..core.poses import Array
 from ..theory.unicycle.adaptive_simulation import PlayedGame, simulate
 from ..theory.unicycle.circle_fit import FittedCircle, measure, settling_time
 from ..theory.unicycle.circles import Circle, circle_of
-from ..theory.unicycle.start_maps import RatioMap, StartMap, map_ratios
+from ..theory.unicycle.start_maps import StartMap
 from ..theory.unicycle.unicycle_game import (
     Game,
     RelativeStart,
@@ -22,7 +22,6 @@ from ..theory.unicycle.unicycle_game import (
 )
 from .figure_style import (
     COLOURS,
-    EVADER,
     LEFT,
     RIGHT,
     THEORY,
@@ -35,9 +34,6 @@ from .result_labels import CIRCLES
 
 TICK = 0.5  # [m], as in Fig. 2
 _FRACTIONS = (0.0, 0.12, 0.4, 1.0)  # of the time shown
-_COUNT = 121  # along each ratio
-_SPEEDS = (0.8, 4.0)  # pursuer's over evader's
-_GAINS = (0.25, 16.0)  # evader's over pursuer's
 # Colours of Okabe and Ito, distinct with colour blindness, too.
 _COLOURS = ("#f0e442", "#0072b2", "#cc79a7", "#d55e00", "#009e73", "#56b4e9")
 _STYLES = {
@@ -60,12 +56,7 @@ def time_shown(run: PlayedGame) -> float:
 
 
 def draw_game(run: PlayedGame, path: AnyPath) -> None:
-    """Write four snapshots of a game in the manner of the paper's Fig. 2.
-
-    Args:
-        run: The game.
-        path: File to write; its suffix gives the format.
-    """
+    """Write four snapshots of a game in the manner of the paper's Fig. 2."""
     times = np.linspace(0.0, time_shown(run), 1200)
     poses = run.poses(times)
     both = np.vstack([own[:, :2] for own in poses])
@@ -106,19 +97,12 @@ def _ticks(middle: float, half: float) -> Array:
 
 
 class ParameterSweep(NamedTuple):
-    """Range of one parameter.
+    """Range of one parameter."""
 
-    Attributes:
-        label: Name of the parameter, with its unit.
-        low: Smallest value.
-        high: Largest value.
-        vary: Function that returns the game with a value.
-    """
-
-    label: str
+    label: str  # with its unit
     low: float
     high: float
-    vary: Callable[[Game, float], Game]
+    vary: Callable[[Game, float], Game]  # the game with a value
 
 
 def _with_gain(game: Game, ratio: float) -> Game:
@@ -147,9 +131,7 @@ _SWEEPS = (
 def draw_sweep(game: Game, path: AnyPath) -> None:
     """Write radius and distance over angle, gain ratio and speed ratio.
 
-    Args:
-        game: Game whose parameters are varied one at a time.
-        path: File to write; its suffix gives the format.
+    The parameters of the game are varied one at a time.
     """
     figure, axes = panels(
         ["abc", "def"],
@@ -160,7 +142,9 @@ def draw_sweep(game: Game, path: AnyPath) -> None:
         legend=1,
         gaps=(0.3, 0.2),
     )
-    high = 6.0 * game.evader.speed / game.evader.gain
+    here = circle_of(game)
+    unit = game.evader.speed / game.evader.gain
+    high = 3.3 * here.distance_m if here.exists else 6.0 * unit
     for over, under, sweep in zip("abc", "def", _SWEEPS, strict=True):
         for law in TurningLaw:
             line, mark, colour = _STYLES[law]
@@ -213,98 +197,14 @@ def simulate_circle(game: Game) -> FittedCircle | None:
     return None if played.captured else measure(played)
 
 
-def draw_ratios(game: Game, path: AnyPath) -> None:
-    """Draw the ratios at which a stable reversed circle exists.
-
-    Args:
-        game: Game with the evasion angle; its ratios are marked.
-        path: File to write; its suffix gives the format.
-    """
-    speeds = np.geomspace(*_SPEEDS, _COUNT)
-    gains = np.geomspace(*_GAINS, _COUNT)
-    maps = {
-        law: map_ratios(game.angle, law, speeds, gains) for law in TurningLaw
-    }
-    stacked = [m.reversed_stable for m in maps.values()]
-    finite = np.isfinite(stacked)
-    high = float(np.max(stacked, where=finite, initial=1e-9))
-    degrees = np.rad2deg(game.angle)
-    figure, axes = panels(
-        ["ab"],
-        9.6,
-        [3.6],
-        title="Coloured: a second stable circle, in the opposite direction; "
-        f"evasion angle {degrees:.0f}°",
-        legend=1,
-    )
-    for ax, (law, found) in zip(axes.values(), maps.items(), strict=True):
-        image = _draw_law(ax, found, high)
-        place = (
-            game.pursuer.speed / game.evader.speed,
-            game.evader.gain / game.pursuer.gain,
-        )
-        look = {"mfc": "w", "mec": EVADER, "mew": 2.0, "ms": 8, "zorder": 5}
-        ax.plot(*place, "o", clip_on=False, label="this game", **look)
-        ax.set(
-            title=f"{law} law", xlabel="pursuer's speed / evader's speed [1]"
-        )
-    axes["a"].set_ylabel("evader's gain / pursuer's gain [1]")
-    label = (
-        "distance between the players on that circle\n"
-        "[evader's speed / pursuer's gain]"
-    )
-    figure.colorbar(image, ax=list(axes.values()), label=label)
-    legend_below(figure, axes.values(), ncols=4)
-    save(figure, path)
-
-
-def _draw_law(ax: Any, found: RatioMap, high: float) -> Any:
-    """Draw one law; both axes are logarithmic."""
-    speeds, gains = found.speed_ratios, found.gain_ratios
-    ax.set_xscale("log", base=2)
-    ax.set_yscale("log", base=2)
-    ax.grid(visible=False)
-    look = {"cmap": "viridis", "shading": "nearest", "rasterized": True}
-    values = found.reversed_stable.T
-    image = ax.pcolormesh(speeds, gains, values, vmin=0.0, vmax=high, **look)
-    only_unstable = np.isfinite(found.reversed_unstable)
-    only_unstable &= ~np.isfinite(found.reversed_stable)
-    masks = (
-        (only_unstable, "..", "second circle, unstable"),
-        (~np.isfinite(found.main), "////", "no main circle"),
-    )
-    for mask, hatch, name in masks:
-        if mask.any():
-            area = mask.T.astype(float)
-            look = {"colors": "none", "hatches": [hatch]}
-            ax.contourf(speeds, gains, area, [0.5, 1.5], **look)
-            ax.fill([], [], fill=False, hatch=hatch, label=name)
-    share = found.reversed_stable / found.main
-    if np.nanmin(share, initial=1.0) < 0.5:
-        levels = [0.25, 0.5]
-        lines = ax.contour(
-            speeds, gains, share.T, levels, colors="w", linewidths=1.3
-        )
-        ax.clabel(lines, fmt=lambda v: f"{v:g} of the main circle", fontsize=8)
-    ticks = {"x": (1, 1.5, 2, 3, 4), "y": (0.25, 0.5, 1, 2, 4, 8, 16)}
-    ax.set_xticks(ticks["x"], [f"{t:g}" for t in ticks["x"]])
-    ax.set_yticks(ticks["y"], [f"{t:g}" for t in ticks["y"]])
-    return image
-
-
 def draw_map(
     found: StartMap, path: AnyPath, *, circles: tuple[Circle, ...], body: float
 ) -> None:
     """Draw closest approach, settling time and circle over the bearings.
 
-    Grey is where the evader is captured or the game does not settle.
-
-    Args:
-        found: The map; at most four of its distances are drawn.
-        path: File to write; its suffix gives the format.
-        circles: Circles of the game. If there are several, the one that each
-            game ends on is drawn.
-        body: Capture distance, in [m], drawn as a line.
+    Grey is where the evader is captured or the game does not settle. At most
+    four distances are drawn; if there are several circles, the one that each
+    game ends on, too. The capture distance is drawn as a line, in [m].
     """
     count = len(found.distances)
     picks = np.unique(np.linspace(0, count - 1, min(4, count)).astype(int))
