@@ -1,7 +1,6 @@
 """``stepaside reproduce``: measurement of every claim of the paper."""
 
 import json
-from math import tau
 from pathlib import Path
 from typing import Any
 
@@ -107,8 +106,6 @@ def _write_page(
         rows: Rows of all claims.
     """
     from ..report.claims_page import markdown_page
-    from ..report.unicycle_figures import time_shown
-    from ..studies.paper_figures import paper_figures
     from ..studies.results_version import RESULTS, library_versions
     from ..studies.unicycle_claims import FIG_2, play
 
@@ -124,13 +121,9 @@ def _write_page(
     with atomic_draft(output / "claims.json") as draft:
         text = json.dumps(made | {"rows": rows}, indent=1, allow_nan=False)
         draft.write_text(text + "\n", encoding="utf-8")
-    end = time_shown(run)
-    pursuer, _ = run.poses([0.0, end])
-    turns = abs(float(pursuer[1, 2] - pursuer[0, 2])) / tau
-    beside = paper_figures(rows, turns, end)
     page = output / "claims.md"
     with atomic_draft(page) as draft:
-        text = markdown_page(rows, beside, figures, made)
+        text = markdown_page(rows, figures, made)
         draft.write_text(text, encoding="utf-8")
     return page
 

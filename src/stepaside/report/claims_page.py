@@ -16,16 +16,6 @@ if every run is on its side. A run without such a value, as after a fall,
 makes its row fail.
 
 """
-FIGURES = """## What the paper's own figures show
-
-Read from captions and text only: the drawings themselves were not at hand, so
-what can only be measured in them (the radius and the number of turns of
-Fig. 2, against its ticks) stands here as not given. Figs. 1, 3 and 4 show no
-measurement.
-
-| figure | what | paper | where | ours |
-|---|---|---|---|---|
-"""
 MADE = """## How this page was made
 
 `stepaside reproduce --seed {seed} --runs {runs}`, results version
@@ -36,7 +26,6 @@ COLUMNS = "section", "claim", "level", "expected", "measured", "as printed"
 
 def markdown_page(
     rows: Sequence[Mapping[str, Any]],
-    beside: Sequence[tuple[str, ...]],
     figures: Sequence[tuple[str, str]],
     made: Mapping[str, Any],
 ) -> str:
@@ -44,8 +33,6 @@ def markdown_page(
 
     Args:
         rows: Claims as JSON objects.
-        beside: Rows about the paper's figures: figure, quantity, value in
-            the paper, its source, value measured here.
         figures: Pairs of a caption and the name of a file beside the page.
         made: First seed, number of runs, results version, libraries.
     """
@@ -57,7 +44,6 @@ def markdown_page(
         "|" + "---|" * len(COLUMNS),
     ]
     lines += [_line(_cells(row)) for row in rows]
-    lines += ["", FIGURES + "\n".join(_line(row) for row in beside)]
     for caption, file in figures:
         lines += ["", f"![{caption}]({file})", "", f"*{caption}*"]
     with_what = ", ".join(f"{k} {v}" for k, v in made["libraries"].items())

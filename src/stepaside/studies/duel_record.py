@@ -9,21 +9,13 @@ import numpy as np
 from ..core.errors import PlanError
 from ..core.poses import Pose
 from ..games.duel_settings import DuelSettings
-from ..games.recorded_game import run_duels
+from ..games.recorded_game import run_duel
 from ..games.run import DuelRun
 from ..theory.unicycle.certificate import certify
 from ..theory.unicycle.unicycle_game import RelativeStart, make_game
 from .tabulation import Record
 
 BEFORE = 2.0 / 3.0  # of a duel; means are taken over the rest
-
-
-def play_duels(settings: list[DuelSettings]) -> list[Record]:
-    """Play duels side by side and return their records."""
-    began = perf_counter()
-    runs = run_duels(settings)
-    wall = (perf_counter() - began) / len(settings)
-    return [_record_of(run.uninterrupted(), wall) for run in runs]
 
 
 def play_duel(settings: DuelSettings) -> Record:
@@ -36,7 +28,9 @@ def play_duel(settings: DuelSettings) -> Record:
     Raises:
         KeyboardInterrupt: If the duel was interrupted.
     """
-    return play_duels([settings])[0]
+    began = perf_counter()
+    run = run_duel(settings).uninterrupted()
+    return _record_of(run, perf_counter() - began)
 
 
 def _record_of(run: DuelRun, wall: float) -> Record:

@@ -10,7 +10,7 @@ from ..core.poses import wrap_angle
 from ..core.random_streams import named_generator
 from ..games.duel_settings import DuelSettings, StartSettings
 from ..games.outcome import Outcome
-from ..games.recorded_game import run_duels
+from ..games.recorded_game import run_duel
 from ..games.run import DuelRun
 from ..sim.crowd_motion import REACTIONS
 from ..sim.person_settings import PersonSettings
@@ -140,20 +140,8 @@ class Encounter:
 
 def play_encounter(encounter: Encounter) -> Record:
     """Play an encounter and return its record."""
-    return play_encounters([encounter])[0]
-
-
-def play_encounters(encounters: list[Encounter]) -> list[Record]:
-    """Play encounters side by side and return their records."""
-    people = [encounter.person for encounter in encounters]
-    runs = run_duels([person.settings for person in people])
-    return [
-        _record_of(person, run.uninterrupted())
-        for person, run in zip(people, runs, strict=True)
-    ]
-
-
-def _record_of(person: Encounter, run: DuelRun) -> Record:
+    person = encounter.person
+    run = run_duel(person.settings).uninterrupted()
     summary = run.summary
     triggered = summary.triggered_at_s is not None
     return {

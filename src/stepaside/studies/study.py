@@ -64,9 +64,6 @@ class Study(Generic[C]):
             depend neither on other cases nor on the executor.
         key_of: Returns the key of a case: a text that tells apart all cases
             with different results. Not called where nothing is stored.
-        measure_together: Function from several cases to their records, equal
-            to those of ``measure``; None to measure one after the other.
-        together: Number of cases that are measured together.
         by: Values that tell the rows of the table apart.
         values: Values of the table.
     """
@@ -75,8 +72,6 @@ class Study(Generic[C]):
     cases: Sequence[C]
     measure: Callable[[C], Record]
     key_of: Callable[[C], str]
-    measure_together: Callable[[list[C]], list[Record]] | None = None
-    together: int = 1
     by: tuple[str, ...] = ()
     values: tuple[str, ...] = ()
 
@@ -388,25 +383,17 @@ class _BlockResult(NamedTuple):
 
 
 def measure_block(
-    measure: Callable[[C], Record],
-    measure_together: Callable[[list[C]], list[Record]] | None,
-    together: int,
-    cases: list[C],
+    measure: Callable[[C], Record], cases: list[C]
 ) -> _BlockResult:
-    """Measure cases one after the other, or some together, in a worker."""
+    """Measure cases one after the other, in a worker."""
     began, error = perf_counter(), None
     columns: dict[str, None] = {}
     texts: list[str] = []
     try:
-        for first in range(0, len(cases), together):
-            group = cases[first : first + together]
-            for record in (
-                [measure(case) for case in group]
-                if measure_together is None
-                else measure_together(group)
-            ):
-                texts.append(json.dumps(record, allow_nan=False))
-                columns |= dict.fromkeys(record)
+        for case in cases:
+            record = measure(case)
+            texts.append(json.dumps(record, allow_nan=False))
+            columns |= dict.fromkeys(record)
     except BaseException as raised:
         error = raised
     elapsed = perf_counter() - began
@@ -540,13 +527,7 @@ class _Work(Generic[C]):
                 return False
             cases = [study.cases[number] for number in numbers]
             try:
-                future = executor.submit(
-                    measure_block,
-                    study.measure,
-                    study.measure_together,
-                    study.together,
-                    cases,
-                )
+                future = executor.submit(measure_block, study.measure, cases)
             except BrokenExecutor:
                 self._again.append(numbers)
                 raise
@@ -556,8 +537,7 @@ class _Work(Generic[C]):
     def _next(self, workers: int) -> list[int]:
         """Take the next block of cases."""
         share = ceil(self._run.left / (2 * max(workers, 1)))
-        size = max(self._size, self._run.study.together)
-        return self._run.take(max(1, min(size, share)))
+        return self._run.take(max(1, min(self._size, share)))
 
     def _take(self, future: Future[_BlockResult]) -> None:
         """Store the answer of a worker."""

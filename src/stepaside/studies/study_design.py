@@ -18,7 +18,7 @@ from ..core.errors import AnyPath, ConfigurationError, as_path, check_choice
 from ..games.settings_reader import nested
 from ..strategies.registry import file_of
 from .study import MOST_CASES, Study
-from .study_games import GAMES, on_legs, settings_of_study
+from .study_games import GAMES, settings_of_study
 from .tabulation import Record
 
 PRESETS = Path(__file__).with_name("presets")
@@ -27,7 +27,6 @@ SECTIONS = ("game", "settings", "grid", "variants", "cases", "by", "values")
 COMMA = re.compile(r",(?![^(\[{]*[)\]}])")  # not one within brackets
 SPACING = {"first", "last", "number"}  # of evenly spaced values
 SEEDS_OF_A_GAME = "0:20"  # of a game file
-TOGETHER = 16  # games on learned legs side by side; each takes about 10 MB
 
 Case = Mapping[str, Any]
 """Varied settings by name with dots; the name of each variant."""
@@ -81,16 +80,6 @@ class _Design(NamedTuple):
     def measure(self, case: Case) -> Record:
         """Play the game of a case; return its record."""
         return {**case, **GAMES[self.game].play(self.settings_of(case))}
-
-    def measure_together(self, cases: list[Case]) -> list[Record]:
-        """Play games side by side; return their records."""
-        play = GAMES[self.game].play_together
-        assert play is not None
-        records = play([self.settings_of(case) for case in cases])
-        return [
-            {**case, **record}
-            for case, record in zip(cases, records, strict=True)
-        ]
 
     def fingerprint(self, axes: Sequence[tuple[str, Sequence[Any]]]) -> str:
         """Return a hash of what all share and of the strategy files."""
@@ -163,19 +152,14 @@ def make_study(
     check_choice(game, GAMES, "game")
     design = _Design(game, shared, variants)
     _check(design, every)
-    together = GAMES[game].play_together is not None and on_legs(
-        design.settings_of(every[0])
-    )
     own_of = cache(lambda: design.fingerprint(axes))
     return Study(
         name,
         every,
         design.measure,
         lambda case: f"{own_of()} {_json(case)}",
-        design.measure_together if together else None,
-        TOGETHER if together else 1,
-        varied,
-        tuple(values) or GAMES[game].values,
+        by=varied,
+        values=tuple(values) or GAMES[game].values,
     )
 
 

@@ -16,8 +16,8 @@ from ..games.unicycle_settings import UnicycleSettings
 from ..games.walk_settings import WalkSettings
 from ..strategies.registry import check_strategy_name
 from ..theory.unicycle.adaptive_simulation import simulate
-from .duel_record import play_duel, play_duels
-from .person_encounters import Encounter, play_encounter, play_encounters
+from .duel_record import play_duel
+from .person_encounters import Encounter, play_encounter
 from .push_limit import PushSettings, play_push
 from .tabulation import Record, flat
 from .tournament import PairingSettings, play_pairing
@@ -69,14 +69,11 @@ class StudyGame(NamedTuple):
         settings: Class of its settings.
         play: Plays a game; returns its record.
         values: Values of a record that are tabulated by default.
-        play_together: Plays several games side by side, where the robots
-            walk on learned legs; returns their records.
     """
 
     settings: type[Any]
     play: Callable[[Any], Record]
     values: tuple[str, ...]
-    play_together: Callable[[list[Any]], list[Record]] | None = None
 
 
 def settings_of_study(kind: type[Any], entries: Mapping[str, Any]) -> Any:
@@ -105,14 +102,6 @@ def settings_of_study(kind: type[Any], entries: Mapping[str, Any]) -> Any:
     }
     made = settings_of(kind, entries, "the settings")
     return replace(made, **inner)
-
-
-def on_legs(settings: Any) -> bool:
-    """Return whether a robot of a game walks on learned legs."""
-    duel = getattr(settings, "duel", settings)
-    return isinstance(duel, DuelSettings) and any(
-        duel.robot_of(each).legs.walks for each in duel.robots
-    )
 
 
 def _play_walk(settings: WalkSettings) -> Record:
@@ -194,9 +183,7 @@ def _play_game(settings: TeamGame) -> Record:
 
 
 GAMES: Mapping[str, StudyGame] = {
-    "duel": StudyGame(
-        DuelSettings, play_duel, ("outcome", "min_distance_m"), play_duels
-    ),
+    "duel": StudyGame(DuelSettings, play_duel, ("outcome", "min_distance_m")),
     "walk": StudyGame(WalkSettings, _play_walk, ("survived", "speed_ratio")),
     "push": StudyGame(
         PushSettings, play_push, ("limit_n_s", "bound_n_s", "of_bound")
@@ -205,7 +192,6 @@ GAMES: Mapping[str, StudyGame] = {
         Encounter,
         play_encounter,
         ("contact", "fell", "closest_m"),
-        play_encounters,
     ),
     "game": StudyGame(
         TeamGame, _play_game, ("captured", "contact", "fell", "closest_m")
