@@ -150,8 +150,10 @@ def test_a_step_of_the_environment_is_a_footstep() -> None:
 
 
 def lonely() -> GameSettings:
-    """Return a game of an evader alone."""
-    return replace(game(), players=game().players[2:])
+    """Return a game of an evader among bystanders."""
+    *others, evader = game().players
+    players = (replace(p, role="bystander", strategy="stand") for p in others)
+    return replace(game(), players=(*players, evader))
 
 
 @pytest.mark.parametrize(
@@ -161,7 +163,7 @@ def lonely() -> GameSettings:
         ({"learners": []}, "learners must be .*none"),
         ({"period": 0.0}, "period must"),
         ({"action": "both"}, "action must be one of"),
-        ({"game": lonely()}, "game must have an evader, and a pursuer"),
+        ({"game": lonely()}, "game must have an evader and a pursuer"),
     ],
 )
 def test_invalid_arguments_are_refused(

@@ -166,9 +166,8 @@ def learning_players(
         learners: Their names; None for all that can.
 
     Raises:
-        ConfigurationError: If one cannot, or an evader has no pursuer.
+        ConfigurationError: If one cannot, or there are no opponents.
     """
-    ids = game.identities
     able = [
         p.name
         for p in game.players
@@ -186,12 +185,9 @@ def learning_players(
         raise ConfigurationError(
             f"learners must differ, got {', '.join(chosen)}"
         )
-    evaders = [own for own in ids.values() if own.role == "evader"]
-    if not evaders or not all(
-        any(own.opposes(other) for other in ids.values()) for own in evaders
-    ):
+    if not {"pursuer", "evader"} <= {p.role for p in game.players}:
         raise ConfigurationError(
-            "game must have an evader, and a pursuer of each, got roles "
+            "game must have an evader and a pursuer, got roles "
             f"{', '.join(sorted({p.role for p in game.players}))}"
         )
     return tuple(chosen)
