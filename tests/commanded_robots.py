@@ -3,7 +3,7 @@
 from stepaside.games.duel_settings import PLAYERS, DuelSettings
 from stepaside.games.physics_world import RemoteControl
 from stepaside.games.recorded_game import RecordedGame
-from stepaside.games.velocity_walker import VelocityWalker
+from stepaside.games.robot_player import VelocityWalker
 
 
 def commanded_robots(

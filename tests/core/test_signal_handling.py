@@ -13,8 +13,8 @@ from stepaside.core.signal_handling import (
 )
 from stepaside.games.outcome import Outcome
 from stepaside.games.recorded_game import run_walk
+from stepaside.games.robot_player import WalkerLog
 from stepaside.games.walk_settings import WalkSettings
-from stepaside.games.walker_log import WalkerLog
 
 SIGNALS = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
 

@@ -10,7 +10,7 @@ import pytest
 from stepaside.games.duel_settings import DuelSettings, StartSettings
 from stepaside.games.outcome import Outcome
 from stepaside.games.recorded_game import RecordedGame, run_duel
-from stepaside.games.walker import SimulatedPlayer
+from stepaside.games.robot_player import RobotPlayer
 from stepaside.sim.camera_settings import RoomObject, SceneSettings
 from stepaside.sim.ground_truth import torsos_apart
 from stepaside.sim.world import World
@@ -22,11 +22,11 @@ def begun(**changes: Any) -> RecordedGame:
     return RecordedGame(DuelSettings(**{"start": START, **changes}))
 
 
-def walkers(duel: RecordedGame) -> list[SimulatedPlayer]:
+def walkers(duel: RecordedGame) -> list[RobotPlayer]:
     return [
         player
         for player in duel.in_physics.players
-        if isinstance(player, SimulatedPlayer)
+        if isinstance(player, RobotPlayer)
     ]
 
 

@@ -16,9 +16,9 @@ from stepaside.games.game_file import parse_game
 from stepaside.games.game_settings import GameSettings
 from stepaside.games.outcome import Outcome
 from stepaside.games.recorded_game import RecordedGame, run_game
+from stepaside.games.robot_player import RobotPlayer
 from stepaside.games.run import MatchRun
 from stepaside.games.run_archive import load_run
-from stepaside.games.walker import SimulatedPlayer
 from stepaside.report.run_folder import write_run
 
 
@@ -149,7 +149,7 @@ def test_cameras_see_several_pursuers_but_do_not_name_them(
     )
     play(match)
     blue = match.in_physics.player("blue")
-    assert isinstance(blue, SimulatedPlayer)
+    assert isinstance(blue, RobotPlayer)
     known = blue.scheme.senses.in_sight
     assert known is not None and known.identity.name == "blue"
     assert len(known.sightings) == seen

@@ -14,8 +14,8 @@ from stepaside.control.sight_sources import CameraSight
 from stepaside.core.poses import Pose
 from stepaside.games.duel_settings import DuelSettings
 from stepaside.games.outcome import Outcome
-from stepaside.games.policy_player import PolicyPlayer
 from stepaside.games.recorded_game import RecordedGame, run_duel
+from stepaside.games.robot_player import RobotPlayer
 from stepaside.games.robot_settings import with_robot
 from stepaside.sim.camera_settings import CameraSettings, ColourSettings
 from stepaside.sim.person_settings import PersonSettings
@@ -62,7 +62,7 @@ def test_cameras_on_learned_legs_are_where_the_loaded_foot_puts_them(
     )
     duel = RecordedGame(settings, endless=True)
     evader = duel.in_physics.players[1]
-    assert isinstance(evader, PolicyPlayer)
+    assert isinstance(evader, RobotPlayer)
     senses = evader.scheme.senses
     assert isinstance(senses, CameraSight)
     head = duel.in_physics.model.body("evader/head").id

@@ -18,9 +18,9 @@ from stepaside.games.play_rows import monotonic_times
 from stepaside.games.play_settings import PlaySettings
 from stepaside.games.player import Snapshot
 from stepaside.games.recorded_game import RecordedGame
+from stepaside.games.robot_player import RobotPlayer
 from stepaside.games.run_archive import complete_play, load_run
 from stepaside.games.run_captions import describe_state
-from stepaside.games.walker import SimulatedPlayer
 from stepaside.robots.description import load_robot
 from stepaside.robots.tree_cache import load_tree
 from stepaside.sim.body_settings import BODIES
@@ -37,7 +37,7 @@ def log_at(folder: Path, settings: PlaySettings) -> PlayLog:
     return PlayLog(folder, {"role": settings.role}, beside)
 
 
-def look_at(log: PlayLog, walker: SimulatedPlayer) -> None:
+def look_at(log: PlayLog, walker: RobotPlayer) -> None:
     """Log measurements and intents of a walker, tick by tick."""
     read, write = walker.robot.read, walker.robot.write
     measured: list[Any] = []
@@ -74,7 +74,7 @@ class Walked:
         duel = RecordedGame(settings, recorded=False, endless=True)
         self.folder, log = folder, log_at(folder, EVADER)
         evader = duel.in_physics.players[1]
-        assert isinstance(evader, SimulatedPlayer)
+        assert isinstance(evader, RobotPlayer)
         look_at(log, evader)
         self.true: list[tuple[Snapshot, Array]] = []
         self.others: list[tuple[float, float]] = []

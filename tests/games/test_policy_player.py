@@ -10,12 +10,12 @@ pytest.importorskip("onnxruntime")
 from legs_robot import nao_on_legs
 from stepaside.games.duel_settings import DuelSettings
 from stepaside.games.game import play
-from stepaside.games.policy_player import PolicyPlayer
 from stepaside.games.recorded_game import (
     RecordedGame,
     run_duel,
     run_duels,
 )
+from stepaside.games.robot_player import RobotPlayer
 from stepaside.games.robot_settings import with_robot
 from stepaside.locomotion.policy.policy_walk import PolicyWalk
 from stepaside.planning import Direction
@@ -72,7 +72,7 @@ def test_a_body_velocity_reaches_the_policy_every_80_ms(
     strategy = Sidestepper()
     duel = RecordedGame(replace(standing, evader_strategy=strategy))
     _, evader = duel.in_physics.players
-    assert isinstance(evader, PolicyPlayer)
+    assert isinstance(evader, RobotPlayer)
     walk = evader.scheme.locomotion
     assert isinstance(walk, PolicyWalk)
     play(duel)

@@ -12,8 +12,8 @@ from stepaside.core.poses import wrap_angle, wrap_angles
 from stepaside.games import DuelSettings, Outcome, Run, run_duel
 from stepaside.games.duel_settings import StartSettings
 from stepaside.games.recorded_game import RecordedGame
+from stepaside.games.robot_player import RobotPlayer
 from stepaside.games.run_archive import results_of
-from stepaside.games.walker import SimulatedPlayer
 from stepaside.perception.gaze import MAX_YAW, SCAN_SPEED
 from stepaside.perception.images import ColourImage
 from stepaside.perception.pipeline import Perception
@@ -39,15 +39,15 @@ def play() -> Run:
     return run_duel(SEEING)
 
 
-def walkers(duel: RecordedGame) -> list[SimulatedPlayer]:
+def walkers(duel: RecordedGame) -> list[RobotPlayer]:
     return [
         player
         for player in duel.in_physics.players
-        if isinstance(player, SimulatedPlayer)
+        if isinstance(player, RobotPlayer)
     ]
 
 
-def perception_of(walker: SimulatedPlayer) -> Perception:
+def perception_of(walker: RobotPlayer) -> Perception:
     assert isinstance(walker.scheme.senses, CameraSight)
     return walker.scheme.senses.perception
 

@@ -19,10 +19,9 @@ from stepaside.drivers.safety import SafetyState
 from stepaside.drivers.scheme_factory import scheme_factory
 from stepaside.games.duel_settings import DuelSettings, StartSettings
 from stepaside.games.recorded_game import run_duel
-from stepaside.games.robot_endpoints import LolaEndpoint
 from stepaside.games.run import DuelRun
 from stepaside.games.run_archive import load_run, results_of
-from stepaside.games.served_duel import serve_duel
+from stepaside.games.served_duel import lola_endpoint, serve_duel
 from stepaside.locomotion.control_settings import ControlSettings
 from stepaside.planning import GaitSettings
 from stepaside.report.run_folder import write_run
@@ -89,7 +88,7 @@ def test_in_lock_step_the_duel_is_the_one_played_in_one_process(
     )
     with clients(tmp_path) as (addresses, ticks):
         endpoints = {
-            name: LolaEndpoint(str(path)) for name, path in addresses.items()
+            name: lola_endpoint(str(path)) for name, path in addresses.items()
         }
         over = serve_duel(settings, endpoints, lock_step=True)
     served, played = over.to_json(), run_duel(settings)
@@ -126,7 +125,7 @@ def check_record(served: DuelRun, played: DuelRun, folder: Path) -> None:
 def test_the_wait_for_clients_is_limited(
     tmp_path: Path,
 ) -> None:
-    endpoints = {"evader": LolaEndpoint(str(tmp_path / "e"))}
+    endpoints = {"evader": lola_endpoint(str(tmp_path / "e"))}
     settings = DuelSettings(body=BODIES["delayed"])
     with pytest.raises(ConfigurationError, match="1 of 1 robots had no"):
         serve_duel(settings, endpoints, patience=0.02)
@@ -135,5 +134,5 @@ def test_the_wait_for_clients_is_limited(
 
 def test_a_duel_with_another_tick_is_not_served(tmp_path: Path) -> None:
     with pytest.raises(ConfigurationError, match="tick of 0.012"):
-        endpoints = {"evader": LolaEndpoint(str(tmp_path / "e"))}
+        endpoints = {"evader": lola_endpoint(str(tmp_path / "e"))}
         serve_duel(DuelSettings(), endpoints)

@@ -12,7 +12,7 @@ from stepaside.core.poses import Pose, wrap_angle
 from stepaside.core.rotations import rotation
 from stepaside.drivers.velocity_limits import REST
 from stepaside.games.duel_settings import DuelSettings, StartSettings
-from stepaside.games.velocity_walker import VelocityWalker
+from stepaside.games.robot_player import VelocityWalker
 from stepaside.locomotion.control_settings import STABILISED, LegsSettings
 from stepaside.sim.body_settings import BODIES
 from stepaside.strategies.velocity_set import BodyVelocity

@@ -9,7 +9,7 @@ from stepaside.core.errors import ConfigurationError
 from stepaside.core.poses import Array, wrap_angle
 from stepaside.games.duel_settings import DuelSettings, StartSettings
 from stepaside.games.recorded_game import RecordedGame
-from stepaside.games.walker import SimulatedPlayer
+from stepaside.games.robot_player import RobotPlayer
 from stepaside.perception.lidar_perception import (
     find_people,
     nearest_ranges,
@@ -79,7 +79,7 @@ def test_a_robot_sees_who_comes_from_behind() -> None:
     while duel.world.time < 2.0:
         assert duel.tick() is None
         player = duel.in_physics.players[1]
-        assert isinstance(player, SimulatedPlayer)
+        assert isinstance(player, RobotPlayer)
         sighting = player.scheme.sighting
         if sighting is None or duel.world.time < 0.8:
             continue

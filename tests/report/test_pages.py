@@ -30,8 +30,8 @@ from stepaside.cli.main import main
 from stepaside.games.configuration_file import dump_configuration
 from stepaside.games.duel_settings import DuelSettings, StartSettings
 from stepaside.games.recorded_game import RecordedGame
+from stepaside.games.robot_player import RobotPlayer
 from stepaside.games.run_archive import load_run
-from stepaside.games.walker import SimulatedPlayer
 from stepaside.report.replay_page import write_page
 from stepaside.report.scene import RunScene
 from stepaside.report.text_escaping import visible
@@ -92,7 +92,7 @@ def test_a_live_duel_can_be_watched_pushed_and_driven(browser: Any) -> None:
 
     slowing = observe_ticks(session.game, slow_down)
     pursuer = session.world.players[0]
-    assert isinstance(pursuer, SimulatedPlayer)
+    assert isinstance(pursuer, RobotPlayer)
     try:
         page = open_page(browser)
         page.goto(f"http://127.0.0.1:{live.server.get_port()}")

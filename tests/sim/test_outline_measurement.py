@@ -8,7 +8,7 @@ from stepaside.arena import BODY_RADIUS
 from stepaside.core.poses import Array, Pose
 from stepaside.games.duel_settings import DuelSettings, StartSettings
 from stepaside.games.recorded_game import RecordedGame
-from stepaside.games.walker import SimulatedPlayer
+from stepaside.games.robot_player import RobotPlayer
 from stepaside.robots.description import load_robot
 from stepaside.sim.outline_measurement import measure_outline
 
@@ -65,7 +65,7 @@ def test_a_walking_body_stays_within_its_outline_by_the_margin() -> None:
         if duel.in_physics.ticks % 10:
             continue
         for player in duel.in_physics.players:
-            assert isinstance(player, SimulatedPlayer)
+            assert isinstance(player, RobotPlayer)
             body = player.scheme.walk.reference
             corners = np.concatenate(
                 [

@@ -9,12 +9,8 @@ import pytest
 from stepaside.control import ControlScheme
 from stepaside.control.sight_sources import MeasuredSight
 from stepaside.core.poses import Array, Pose
-from stepaside.games.walker import SimulatedPlayer
-from stepaside.games.walker_factory import (
-    RobotSensing,
-    WalkerSetup,
-    place_walker,
-)
+from stepaside.games.robot_placing import RobotSetup, robot_with_strategy
+from stepaside.games.robot_player import RobotPlayer
 from stepaside.locomotion.control_settings import OPEN_LOOP, STABILISED
 from stepaside.perception.measurement import Sighting
 from stepaside.planning import GaitSettings
@@ -36,25 +32,26 @@ def walker(
     feedback: bool = False,
     sights: Any = (),
     **effects: Any,
-) -> SimulatedPlayer:
+) -> RobotPlayer:
     """The second of two robots in a world."""
     body = BodySettings(**effects)
     physics = PhysicsSettings(tick=0.012)
     world = World({"first": NAO, "second": NAO}, physics, body)
     world.data.qpos[:3] = (-9.0, 0.0, 0.33)  # out of the way
-    made = place_walker(
+    made = robot_with_strategy(
         world,
-        WalkerSetup(
+        RobotSetup(
             "second",
             NAO,
             GaitSettings(),
             STABILISED if feedback else OPEN_LOOP,
-            body,
-            odometry_in_world=frame,
+            body=body,
+            start=frame,
             seed=5,
+            source=MeasuredSight(Sighting(0.0, 0.2, 2.0)),
+            sights=sights,
         ),
         Pursuit(),
-        sensing=RobotSensing(MeasuredSight(Sighting(0.0, 0.2, 2.0)), sights),
     )
     mujoco.mj_forward(world.model, world.data)
     return made

@@ -7,7 +7,7 @@ from stepaside.core.errors import ConfigurationError
 from stepaside.games.duel_settings import DuelSettings, StartSettings
 from stepaside.games.outcome import Outcome
 from stepaside.games.recorded_game import RecordedGame
-from stepaside.games.walker import SimulatedPlayer
+from stepaside.games.robot_player import RobotPlayer
 from stepaside.sim.physics_settings import PhysicsSettings
 
 
@@ -16,11 +16,11 @@ def standing(distance: float = 2.0, **changes: object) -> RecordedGame:
     return RecordedGame(DuelSettings(start=start, **changes))  # type: ignore[arg-type]
 
 
-def walkers(duel: RecordedGame) -> list[SimulatedPlayer]:
+def walkers(duel: RecordedGame) -> list[RobotPlayer]:
     return [
         player
         for player in duel.in_physics.players
-        if isinstance(player, SimulatedPlayer)
+        if isinstance(player, RobotPlayer)
     ]
 
 

@@ -39,7 +39,7 @@ def record(file: Path) -> None:
     """Record the measurements and joint targets of two robots."""
     from stepaside.games.duel_settings import DuelSettings
     from stepaside.games.recorded_game import RecordedGame
-    from stepaside.games.walker import SimulatedPlayer
+    from stepaside.games.robot_player import RobotPlayer
     from stepaside.locomotion.control_settings import STABILISED
     from stepaside.sim.body_settings import BODIES
 
@@ -53,7 +53,7 @@ def record(file: Path) -> None:
     rows: dict[str, list[Any]] = {role: [] for role in ROLES}
     for _ in range(round(SECONDS / TICK)):
         for player in world.players:
-            assert isinstance(player, SimulatedPlayer)
+            assert isinstance(player, RobotPlayer)
             m = player.robot.read()
             targets = player.scheme.update(m).copy()
             player.robot.write(targets)

@@ -17,7 +17,7 @@ from .settings import takes_settings
 from .tables import format_value, print_table, table_rows
 
 if TYPE_CHECKING:
-    from ..games.robot_endpoints import RobotEndpoint
+    from ..games.served_duel import RobotEndpoint
 
 NAMED = ("seed", "duration", "robot", "start.distance")
 
@@ -90,14 +90,13 @@ def serve(
     stiffness on. LoLA has a cycle of 12 ms; an ideal body is therefore
     replaced by the delayed one.
     """  # noqa: D301 (\b is a character for click)
-    from ..games.robot_endpoints import LolaEndpoint, Ros2Endpoint
-    from ..games.served_duel import serve_duel
+    from ..games.served_duel import lola_endpoint, ros2_endpoint, serve_duel
 
     if not ros2 and (network or domain is not None):
         raise click.UsageError("--domain and --network require --ros2")
     folder, sees = run_folder(output, as_json, None), sight == "ideal"
     endpoints: dict[str, RobotEndpoint] = {
-        name: LolaEndpoint(place, sees)
+        name: lola_endpoint(place, ideal_sight=sees)
         for name, place in _players("--lola", lola, "PATH", ())
     }
     served_over_ros2 = _players("--ros2", ros2, "/NAMESPACE", endpoints)
@@ -115,8 +114,8 @@ def serve(
             stack.callback(dds.close)
             clock = WorldClock(dds)
             for name, place in served_over_ros2:
-                endpoints[name] = Ros2Endpoint(
-                    dds, clock, parse_namespace(place), sees
+                endpoints[name] = ros2_endpoint(
+                    dds, clock, parse_namespace(place), ideal_sight=sees
                 )
         gc.collect()
         gc.freeze()

@@ -12,9 +12,8 @@ import numpy as np
 from ..core.errors import PolicyError
 from ..core.poses import Array, Pose
 from ..core.random_streams import named_generator
-from ..games.policy_player import place_on_legs, policy_physics
-from ..games.walker_factory import WalkerSetup
-from ..locomotion.control_settings import ControlSettings, LegsSettings
+from ..games.robot_placing import RobotSetup, policy_physics
+from ..locomotion.control_settings import LegsSettings
 from ..locomotion.policy.contract import CommandRanges
 from ..locomotion.policy.policy_legs import PolicyLegs, load_policy
 from ..locomotion.policy.velocity_response import (
@@ -167,9 +166,15 @@ class _LegsWalk:
     def __init__(self, trial: LegsTrial) -> None:
         """Stand in the default posture of the policy."""
         description = trial.description
-        physics = policy_physics(
-            PhysicsSettings(), trial.body, [(trial.legs, description)]
+        setup = RobotSetup(
+            "robot",
+            description,
+            GaitSettings(zmp_forward=0.0),
+            legs=trial.legs,
+            seed=trial.seed,
         )
+        physics = policy_physics(PhysicsSettings(), trial.body, [setup])
+        setup = setup._replace(body=at_tick(trial.body, physics.tick))
         contract, network = load_policy(trial.legs, description)
         self.world = World(
             {"robot": description}, physics, trial.body, trial.seed
@@ -182,19 +187,9 @@ class _LegsWalk:
             response=trial.response,
             learns=trial.response is not None,
         )
-        setup = WalkerSetup(
-            "robot",
-            description,
-            GaitSettings(zmp_forward=0.0),
-            ControlSettings(),
-            at_tick(trial.body, physics.tick),
-            Pose(0.0, 0.0, 0.0),
-            trial.seed,
-        )
         self.truth = setup.true_state_in(self.world)
-        self._robot = place_on_legs(
-            self.world, setup, self.legs, truth=self.truth
-        )
+        setup = setup._replace(truth=self.truth)
+        self._robot = setup.place(self.world, self.legs)
         mujoco.mj_forward(self.world.model, self.world.data)
 
     def advance(self, command: BodyVelocity) -> bool:

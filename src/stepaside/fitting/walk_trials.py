@@ -12,9 +12,9 @@ from ..games.game import GameInPlay, GameObserver, play
 from ..games.outcome import Outcome
 from ..games.physics_world import PhysicsWorld
 from ..games.recorded_game import RecordedGame
+from ..games.robot_player import RobotPlayer
 from ..games.robot_settings import settings_from_description
 from ..games.walk_settings import WalkSettings
-from ..games.walker import SimulatedPlayer
 from ..locomotion.control_settings import ControlSettings
 from ..planning import GaitSettings
 from ..robots.description import RobotDescription
@@ -69,7 +69,7 @@ class StrainGauge(GameObserver):
         if now < STANDING_UNTIL:
             self._standing += 1
             (walker,) = world.players
-            assert isinstance(walker, SimulatedPlayer)
+            assert isinstance(walker, RobotPlayer)
             height = walker.scheme.walk.reference.com[2]
             actual = float(walker.truth.position_com_in_world[2])
             self._sags.append(height - actual)

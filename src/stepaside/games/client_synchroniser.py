@@ -54,10 +54,9 @@ class RobotServer(Protocol):
 
 
 class ClientSynchroniser(GameObserver):
-    """Match observer that synchronises a match with its clients.
+    """Observer that synchronises a game with its clients.
 
     Attributes:
-        late: Ticks that began more than 6 ms late.
         lateness: Delay of the beginning of each tick, in [s].
         unanswered: Frames that were not answered in their tick.
     """
@@ -69,13 +68,7 @@ class ClientSynchroniser(GameObserver):
         *,
         lock_step: bool = False,
     ) -> None:
-        """Synchronise a match with servers.
-
-        Args:
-            servers: Servers of the robots that other processes control.
-            tick: Control period of the world, in [s].
-            lock_step: Wait for every answer instead of for the clock.
-        """
+        """Wait for the clock at each tick, or in lock step for answers."""
         self._servers, self._tick = servers, tick
         self._lock_step = lock_step
         self._due = monotonic()
@@ -99,14 +92,10 @@ class ClientSynchroniser(GameObserver):
 
         The simulation does not advance meanwhile. Walking begins with the
         frame that reports the released button, which is the first of the
-        match.
-
-        Args:
-            longest: Longest time to wait, in [s].
+        game.
 
         Raises:
-            ConfigurationError: If a client does not connect or is not ready
-                in time.
+            ConfigurationError: If a client is not ready in time, in [s].
         """
         until = monotonic() + longest
         ready_ticks = 0

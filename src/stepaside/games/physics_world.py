@@ -18,11 +18,8 @@ from ..core.errors import ConfigurationError
 from ..core.player_identity import Role
 from ..core.poses import Pose
 from ..core.random_streams import named_generator
-from ..locomotion.zmp.reference_table import initial_stance
 from ..perception.measurement import Sighting
 from ..robots.description import RobotDescription, load_robot
-from ..robots.head import load_head
-from ..robots.leg_kinematics import LegKinematics
 from ..sim.body_settings import at_tick, with_control_period
 from ..sim.camera_settings import RoomObject
 from ..sim.crowd_motion import CrowdMotion
@@ -46,15 +43,15 @@ from .game_strategies import strategy_of
 from .outcome import Outcome
 from .player import Player
 from .recorded_motion import RecordedMotion
-from .served_player import ServedPlayer
-from .walker import RobotPlayer
-from .walker_factory import (
-    RobotSensing,
-    WalkerSetup,
+from .robot_placing import (
+    RobotSetup,
     clearance_in,
-    place_robot,
-    place_walker,
+    policy_physics,
+    robot_at_velocities,
+    robot_with_served_joints,
+    robot_with_strategy,
 )
+from .robot_player import RobotPlayer
 
 if TYPE_CHECKING:
     from .camera_senses import CameraSenses, SightObserver
@@ -238,11 +235,7 @@ class PhysicsWorld(World):
             player.close()
 
     def _camera_senses(self, tick: float) -> "CameraSenses | None":
-        """Return the camera sensing of the robots; None without cameras.
-
-        Args:
-            tick: Control period, in [s].
-        """
+        """Return the camera sensing of the robots; None without cameras."""
         seeing = self._settings.sensing_by("cameras")
         if not seeing:
             return None
@@ -317,145 +310,84 @@ class PhysicsWorld(World):
 
     def _robot(self, own: PlayerSettings) -> Player:
         """Place a robot in the world, with sensors and controller."""
-        remote = self._remote.get(own.name)
-        if remote is not None:
-            return self._remote_robot(own, remote)
-        settings, setup = self._settings, self._setups[own.name]
-        strategy, truth = self._strategies[own.name], self._states[own.name]
-        clearance = clearance_in(
-            settings.room,
-            settings.map,
-            setup,
-            self._senses.perceptions.get(own.name) if self._senses else None,
-        )
-        if own.legs.walks:
-            from .policy_player import place_policy_player
-
-            return place_policy_player(
-                self,
-                setup,
-                own.legs,
-                strategy,
-                sensing=self._sensing(own),
-                truth=truth,
-                clearance=clearance,
+        settings, remote = self._settings, self._remote.get(own.name)
+        setup = self._setups[own.name]._replace(truth=self._states[own.name])
+        if remote is None:
+            seen = {} if self._senses is None else self._senses.perceptions
+            known = clearance_in(
+                settings.room, settings.map, setup, seen.get(own.name)
             )
-        return place_walker(
-            self,
-            setup,
-            strategy,
-            sensing=self._sensing(own),
-            truth=truth,
-            clearance=clearance,
-        )
-
-    def _remote_robot(
-        self, own: PlayerSettings, remote: RemoteControl
-    ) -> Player:
-        """Place a robot that another process controls."""
-        settings, setup = self._settings, self._setups[own.name]
-        truth = self._states[own.name]
+            setup = self._with_senses(own, setup._replace(clearance=known))
+            strategy = self._strategies[own.name]
+            return robot_with_strategy(self, setup, strategy)
         if own.senses == "lidar":
             raise ConfigurationError(
                 "sensing must be ideal or cameras for a robot that another "
                 "process controls, got 'lidar'"
             )
-        sensing, clearance = None, None
         if own.senses == "cameras" or remote.ideal_sight:
-            sensing = self._sensing(own)
+            setup = self._with_senses(own, setup)
         if settings.map.source == "given":  # it builds no map of its own
-            clearance = clearance_in(settings.room, settings.map, setup)
+            known = clearance_in(settings.room, settings.map, setup)
+            setup = setup._replace(clearance=known)
         if remote.balances:
-            from .velocity_walker import place_velocity_walker
+            return robot_at_velocities(self, setup)
+        return robot_with_served_joints(self, setup)
 
-            return place_velocity_walker(
-                self,
-                setup,
-                own.legs,
-                truth=truth,
-                sensing=sensing,
-                clearance=clearance,
-            )
-        description = setup.description
-        kinematics = LegKinematics(description, tick=self.physics.tick)
-        kinematics.stand(initial_stance(setup.gait))
-        robot = place_robot(
-            self,
-            setup,
-            kinematics,
-            sensing=sensing,
-            truth=truth,
-            clearance=clearance,
-        )
-        head: tuple[int, ...] = ()
-        if own.senses == "cameras":
-            joints = load_head(description)
-            names = kinematics.joint_names
-            head = names.index(joints.yaw), names.index(joints.pitch)
-        return ServedPlayer(robot, head)
-
-    def _sensing(self, own: PlayerSettings) -> RobotSensing:
-        """Return the senses of a robot."""
-        tick = self.physics.tick
+    def _with_senses(
+        self, own: PlayerSettings, setup: RobotSetup
+    ) -> RobotSetup:
+        """Return the setup of a robot with its senses."""
+        settings, tick = self._settings, self.physics.tick
         if own.senses == "cameras":
             assert self._senses is not None
             seen = self._senses.perceptions.get(own.name)
-            alike = self._settings.unnamed_opponents(own)
+            alike = settings.unnamed_opponents(own)
             unnamed = (own.identity, Role(alike[0].role)) if alike else None
-            return RobotSensing(
-                MeasuredSight()
+            return setup._replace(
+                source=MeasuredSight()
                 if seen is None
                 else CameraSight(seen, tick=tick, unnamed=unnamed),
                 eyes=self._senses.eyes_of(self, own.name),
             )
-        if own.senses == "ideal" and len(self._settings.players) == 1:
-            return RobotSensing(MeasuredSight(Sighting(0.0, 0.0, inf)))
+        if own.senses == "ideal" and len(settings.players) == 1:
+            return setup._replace(
+                source=MeasuredSight(Sighting(0.0, 0.0, inf))
+            )
         if own.senses == "ideal":
-            return RobotSensing(
-                SightOfPlayers(own.identity, own.target), self._sights(own)
+            return setup._replace(
+                source=SightOfPlayers(own.identity, own.target),
+                sights=self._sights(own),
             )
         from ..perception.lidar_perception import LidarPerception
         from ..sim.ranging import Lidar
 
-        description = self._setups[own.name].description
-        settings = self._settings
-        perception = LidarPerception(description, settings.lidar.far)
-        return RobotSensing(
-            LidarSight(perception, tick=tick),
-            eyes=Lidar(
-                self,
-                own.name,
-                description.torso,
-                settings.lidar,
-                settings.seed,
-            ),
+        torso, lidar = setup.description.torso, settings.lidar
+        perception = LidarPerception(setup.description, lidar.far)
+        return setup._replace(
+            source=LidarSight(perception, tick=tick),
+            eyes=Lidar(self, own.name, torso, lidar, settings.seed),
         )
 
     def _sights(self, own: PlayerSettings) -> tuple[IdealLineOfSight, ...]:
         """Return the ideal sensors of all other players on a robot."""
-        settings = self._settings
-        sights = []
-        for other in settings.players:
-            if other.name == own.name:
-                continue
-            between = [
-                truth
-                for name, truth in self._truths.items()
-                if name not in (own.name, other.name)
-            ]
-            sights.append(
-                IdealLineOfSight(
-                    self._truths[own.name],
-                    self._truths[other.name],
-                    own.sight,
-                    named_generator(
-                        settings.seed, f"sight/{own.name}/{other.name}"
-                    ),
-                    identity=other.identity,
-                    between=between,
-                )
+        seed, truths = self._settings.seed, self._truths
+        return tuple(
+            IdealLineOfSight(
+                truths[own.name],
+                truths[other.name],
+                own.sight,
+                named_generator(seed, f"sight/{own.name}/{other.name}"),
+                identity=other.identity,
+                between=[
+                    truth
+                    for name, truth in truths.items()
+                    if name not in (own.name, other.name)
+                ],
             )
-        return tuple(sights)
+            for other in self._settings.players
+            if other.name != own.name
+        )
 
     def sight_observer(
         self, things: Sequence[RoomObject] = (), *, every: int
@@ -485,40 +417,37 @@ class PhysicsWorld(World):
 
 def _setups_of(
     settings: GameSettings, descriptions: Mapping[str, RobotDescription]
-) -> dict[str, WalkerSetup]:
+) -> dict[str, RobotSetup]:
     """Return the robots of a game before they stand in the world."""
     robots = [p for p in settings.players if p.body == "robot"]
     body = settings.body
     if any(own.legs.walks for own in robots):
         body = at_tick(body, settings.physics.tick)
     return {
-        own.name: WalkerSetup(
+        own.name: RobotSetup(
             own.name,
             descriptions.get(own.name) or load_robot(own.robot),
             own.gait,
             own.control,
+            own.legs,
             body,
-            odometry_in_world=_start_of(own),
-            seed=settings.seed,
+            _start_of(own),
+            settings.seed,
         )
         for own in robots
     }
 
 
 def _physics_of(
-    settings: GameSettings, setups: Mapping[str, WalkerSetup]
+    settings: GameSettings, setups: Mapping[str, RobotSetup]
 ) -> PhysicsSettings:
     """Return the physics of a game, at the control period of its robots."""
-    legs = {name: settings.player(name).legs for name in setups}
-    walking = [each.walks for each in legs.values()]
+    walking = [setup.legs.walks for setup in setups.values()]
     if not any(walking):
         return with_control_period(settings.physics, settings.body)
     if settings.sensing_by("cameras") or not all(walking):
         return settings.physics  # heads move between decisions of the policy
-    from .policy_player import policy_physics
-
-    walkers = [(legs[name], own.description) for name, own in setups.items()]
-    return policy_physics(settings.physics, settings.body, walkers)
+    return policy_physics(settings.physics, settings.body, setups.values())
 
 
 def _start_of(own: PlayerSettings) -> Pose:

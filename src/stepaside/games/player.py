@@ -9,13 +9,11 @@ from ..core.poses import Array, Pose
 from ..core.row_table import RowTable
 from ..locomotion.locomotion import StepStarted
 from ..locomotion.maneuver_walk import ManeuverWalk
-from ..perception.measurement import RobotState
 from ..sim.ground_truth import GroundTruth
 from ..sim.push import Push, ScheduledPush
 
 if TYPE_CHECKING:
     from ..perception.pipeline import FrameReport
-    from ..sim.simulated_robot import SimulatedRobot
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -47,34 +45,6 @@ class Snapshot:
     walk: ManeuverWalk | None = None
     zmp: tuple[float, float] | None = None
     pushes: tuple[ScheduledPush, ...] = ()
-
-
-def snapshot_of(
-    robot: "SimulatedRobot",
-    *,
-    frame: Pose | None = None,
-    walk: ManeuverWalk | None = None,
-) -> Snapshot:
-    """Return the state of a robot in the world at this instant.
-
-    Args:
-        robot: The robot.
-        frame: Pose of its odometry in the world, if known.
-        walk: State of its walk, if known.
-    """
-    truth = robot.truth
-    x, y, z = truth.position_com_in_world.tolist()
-    return Snapshot(
-        name=robot.name,
-        time=robot.world.time,
-        place=Pose(*truth.position_reference_in_world, truth.heading_in_world),
-        torso=Pose(*truth.position_torso_in_world, truth.heading_in_world),
-        com=(x, y, z),
-        frame=frame,
-        walk=walk,
-        zmp=robot.measured_zmp(),
-        pushes=robot.pushes,
-    )
 
 
 class MotionLog(Protocol):
@@ -193,45 +163,3 @@ class Player:
 
     def close(self) -> None:
         """Release its resources."""
-
-
-class PhysicalPlayer(Player):
-    """Simulated robot in a match; what moves it is up to subclasses.
-
-    Attributes:
-        robot: Simulated robot.
-    """
-
-    def __init__(self, robot: "SimulatedRobot") -> None:
-        """Take a robot that stands in its world."""
-        self.name, self.robot = robot.name, robot
-        self.truth = robot.truth
-        self._measured: tuple[int, RobotState] | None = None
-
-    def measure(self) -> RobotState:
-        """Return the measurement of this tick; noise is drawn once."""
-        ticks = self.robot.world.ticks
-        if self._measured is None or self._measured[0] != ticks:
-            self._measured = ticks, self.robot.read()
-        return self._measured[1]
-
-    @property
-    def has_fallen(self) -> bool:
-        """Whether it has fallen."""
-        return self.truth.has_fallen
-
-    def snapshot(self) -> Snapshot:
-        """Return the state at this instant, without plans."""
-        return snapshot_of(self.robot)
-
-    def motion_log(self, *, closely: bool) -> MotionLog:
-        """Return an empty log of its motion, without estimates."""
-        return self.robot.state_log()
-
-    def push(self, *pushes: Push) -> None:
-        """Schedule pushes of the torso, now or later."""
-        self.robot.push(*pushes)
-
-    def close(self) -> None:
-        """Close the cameras."""
-        self.robot.close()

@@ -18,6 +18,7 @@ from .game_settings import GameSettings
 from .outcome import Outcome
 from .physics_world import PhysicsWorld, RemoteControl
 from .recorder import Recorder
+from .robot_player import RobotPlayer
 from .run import DuelRun, GameRun, MatchRun, WalkRun
 from .settings_as_game import (
     PlayableSettings,
@@ -29,7 +30,6 @@ from .settings_as_game import (
 from .trajectory import Trajectory
 from .walk_evaluation import summarise_walk
 from .walk_settings import WALKER, WalkSettings
-from .walker import SimulatedPlayer
 
 if TYPE_CHECKING:
     from .camera_senses import SightObserver
@@ -151,7 +151,7 @@ class RecordedGame(GameInPlay):
         if isinstance(self.settings, GameSettings):
             return summarise_game(GameRecord(self.settings, *record))
         walker = self.in_physics.player(WALKER)
-        assert isinstance(walker, SimulatedPlayer)
+        assert isinstance(walker, RobotPlayer)
         return summarise_walk(self.settings, *record, walker, self.solved)
 
 
@@ -166,7 +166,7 @@ class SolverRecorder(GameObserver):
         """Collect the result of this tick, if there is one."""
         assert isinstance(game.world, PhysicsWorld)
         (walker,) = game.world.players
-        assert isinstance(walker, SimulatedPlayer)
+        assert isinstance(walker, RobotPlayer)
         solved = walker.scheme.walk.balance.solved
         if solved is not None:
             self._solved.append(solved)

@@ -20,9 +20,9 @@ from .outcome import Outcome
 from .physics_world import PhysicsWorld
 from .recorded_game import RecordedGame
 from .recorder import samples_every
+from .robot_player import RobotPlayer
 from .run import Run
 from .settings_as_game import PlayableSettings
-from .walker import RobotPlayer, SimulatedPlayer
 
 Image = ColourImage | DepthImage
 
@@ -142,7 +142,7 @@ class RobotSignalRecord:
             self._awaits_targets = False
             self._targets.append()[:] = self._player.scheme.joint_targets
         begun = self._player.begun
-        if begun is not None and isinstance(self._player, SimulatedPlayer):
+        if begun is not None:
             self._plans.append(self._plan(self._player, begun))
         eyes = self._player.robot.eyes
         for percept in () if eyes is None else eyes.exposed:
@@ -151,7 +151,7 @@ class RobotSignalRecord:
                     self._images.append(percept)
 
     def _plan(
-        self, player: SimulatedPlayer, begun: StepStarted
+        self, player: RobotPlayer, begun: StepStarted
     ) -> PlannedFootsteps:
         frame = player.frame.compose(player.scheme.walk.plan_frame)
         rows = [
@@ -171,7 +171,7 @@ class RobotSignalRecord:
         self._log.truncate(count)
         arrays = self._log.arrays()
         dcm = None
-        if isinstance(self._player, SimulatedPlayer):
+        if self._player.plans:
             eta = self._player.scheme.gait.eta
             dcm = com[:, :2] + arrays["com_velocity"] / eta
         targets = self._targets.rows[:count]
@@ -299,7 +299,7 @@ def _strategy_numbers(player: RobotPlayer) -> Iterator[tuple[str, float]]:
     if sighting is not None:
         yield "sighting_bearing_rad", sighting.bearing
         yield "sighting_distance_m", sighting.distance
-    if isinstance(player, SimulatedPlayer):
+    if player.plans:
         plan = player.scheme.walk.plan
         if plan is not None:
             yield "desired_heading_rad", plan.bearing

@@ -2,17 +2,88 @@
 
 from collections.abc import Callable, Mapping
 from contextlib import ExitStack
-from typing import Any, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 from ..core.errors import ConfigurationError
 from .client_synchroniser import TICK, ClientSynchroniser, RobotServer
 from .duel_settings import DuelSettings
 from .game import Progress, play
+from .physics_world import RemoteControl
 from .recorded_game import RecordedGame
-from .robot_endpoints import RobotEndpoint
+from .robot_player import ServedPlayer, VelocityWalker
 from .run import DuelRun
 from .run_archive import results_of
-from .served_player import ServedPlayer
+
+if TYPE_CHECKING:
+    from ..drivers.ros2_dds import DdsParticipant
+    from ..drivers.ros2_server import WorldClock
+
+
+class RobotEndpoint(NamedTuple):
+    """Protocol and address at which a robot is served.
+
+    Attributes:
+        control: How the client controls the robot.
+        serve: Serves the robot, with whether the simulation waits for
+            commands.
+    """
+
+    control: RemoteControl
+    serve: Callable[[Any, bool], RobotServer]
+
+
+def lola_endpoint(path: str, *, ideal_sight: bool = True) -> RobotEndpoint:
+    """Return the socket at which the joints of a robot are served over LoLA.
+
+    The client has to balance the robot.
+    """
+
+    def serve(player: ServedPlayer, lock_step: bool) -> RobotServer:
+        from ..drivers.lola_server import LolaServer
+
+        return LolaServer(
+            path,
+            player,
+            player.robot.joint_names,
+            lock_step=lock_step,
+            ideal_sight=ideal_sight,
+        )
+
+    return RobotEndpoint(RemoteControl(False, ideal_sight), serve)
+
+
+def ros2_endpoint(
+    dds: "DdsParticipant",
+    clock: "WorldClock",
+    namespace: str,
+    *,
+    ideal_sight: bool = True,
+) -> RobotEndpoint:
+    """Return the topics of a robot that walks at commanded velocities.
+
+    Args:
+        dds: DDS participant of the simulation.
+        clock: Publisher of the simulated time.
+        namespace: Namespace with a leading slash, or empty.
+        ideal_sight: Whether the true line of sight is published.
+    """
+
+    def serve(player: VelocityWalker, lock_step: bool) -> RobotServer:
+        from ..drivers.ros2_server import Ros2Server
+        from ..robots.urdf_writer import urdf_of
+
+        return Ros2Server(
+            dds,
+            namespace,
+            player,
+            player.robot.joint_names,
+            clock,
+            tick=player.robot.tick,
+            lock_step=lock_step,
+            urdf=urdf_of(player.description),
+        )
+
+    return RobotEndpoint(RemoteControl(True, ideal_sight), serve)
 
 
 class ServedDuel(NamedTuple):
@@ -60,30 +131,28 @@ def serve_duel(
         patience: Longest time to wait for clients, in [s].
         report: Called about five times a second with the progress.
     """
-    balances = {name: e.control.balances for name, e in endpoints.items()}
-    for name in endpoints:
+    remote = {name: each.control for name, each in endpoints.items()}
+    for name, control in remote.items():
         if name not in settings.robots:
             raise ConfigurationError(
                 f"a served player must be a robot, got {name}"
             )
-        if settings.robot_of(name).legs.walks and not balances[name]:
+        if settings.robot_of(name).legs.walks and not control.balances:
             raise ConfigurationError(
                 "a player that is served over LoLA must be a robot that "
                 f"walks by maneuvers, got {name}"
             )
-    remote = {name: each.control for name, each in endpoints.items()}
     game = RecordedGame(settings, remote=remote)
     world, servers = game.in_physics, list[RobotServer]()
     tick = world.physics.tick
-    if tick != TICK and not all(balances.values()):
+    if tick != TICK and not all(own.balances for own in remote.values()):
         raise ConfigurationError(
             f"a duel over LoLA needs a tick of {TICK:g} [s], got {tick:g}; "
             "choose --body delayed or hardware"
         )
     with ExitStack() as stack:
         for name, endpoint in endpoints.items():
-            player = world.player(name)
-            servers.append(endpoint.serve(player, lock_step=lock_step))
+            servers.append(endpoint.serve(world.player(name), lock_step))
             stack.callback(servers[-1].close)
         exchange = ClientSynchroniser(servers, tick, lock_step=lock_step)
         game.observers += (exchange,)

@@ -9,6 +9,7 @@ import numpy as np
 from ..core.poses import Array
 from ..locomotion.zmp.mpc import MpcResult
 from .game import GameInPlay
+from .robot_player import RobotPlayer
 from .support_foot_columns import express_in_support_foot, upright_samples
 from .trajectory import PlanningTimes, Trajectory
 from .walk_settings import WALKER, WalkSettings
@@ -19,7 +20,6 @@ from .walk_summary import (
     TrackingErrors,
     WalkSummary,
 )
-from .walker import SimulatedPlayer
 
 WARM_UP = 3.0  # left out of the evaluation, in [s]
 ESTIMATED = {
@@ -56,7 +56,7 @@ def summarise_walk(
     times: Array,
     tracks: Mapping[str, Trajectory],
     planning: Mapping[str, PlanningTimes],
-    walker: SimulatedPlayer,
+    walker: RobotPlayer,
     solved: Sequence[MpcResult],
 ) -> WalkSummary:
     """Compute the summary of a walk.

@@ -254,6 +254,10 @@ class VelocityGuard:
         ]
         self._changes = [change[1:] for change in sorted(changes)]
 
+    def note(self, measurement: RobotState, pose: Pose) -> None:
+        """Update the known obstacles."""
+        self._surroundings.note(measurement, pose)
+
     def admit(
         self, velocity: BodyVelocity, pose: Pose, duration: float
     ) -> BodyVelocity:

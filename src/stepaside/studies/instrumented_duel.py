@@ -10,8 +10,8 @@ from ..games.duel_settings import PLAYERS, DuelSettings
 from ..games.game import GameInPlay, GameObserver, play
 from ..games.physics_world import PhysicsWorld
 from ..games.recorded_game import RecordedGame
+from ..games.robot_player import RobotPlayer
 from ..games.run import DuelRun
-from ..games.walker import SimulatedPlayer
 from ..robots.description import load_robot
 
 
@@ -88,7 +88,7 @@ class _TickObserver(GameObserver):
         if len(self.rows) == world.ticks:
             return
         player = world.player(self._name)
-        assert isinstance(player, SimulatedPlayer)
+        assert isinstance(player, RobotPlayer)
         walk = player.scheme.walk
         world.update_sensors()
         data = world.data

@@ -99,6 +99,8 @@ class PolicyWalk:
         """Return the joint targets of a tick, in [rad]; decide if due."""
         now = measurement.time
         stands = self.phase is Phase.STANDING
+        if self._guard is not None:
+            self._guard.note(measurement, self.pose)
         if self.decides(now) and (not stands or decisions.starts(now)):
             self._decide(now, decisions)
         return self.legs.update(measurement, self._velocity)

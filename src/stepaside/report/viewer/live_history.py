@@ -10,8 +10,9 @@ from ...games.duel_circle import angle_between
 from ...games.duel_settings import PLAYERS
 from ...games.game import GameInPlay, GameObserver
 from ...games.physics_world import PhysicsWorld
-from ...games.player import PhysicalPlayer, Player
+from ...games.player import Player
 from ...games.recorded_game import RecordedGame
+from ...games.robot_player import PhysicalPlayer
 from ...perception.pipeline import FrameReport
 from ...planning import Foot
 

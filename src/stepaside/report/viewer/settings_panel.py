@@ -14,7 +14,7 @@ from ...core.errors import StepAsideError
 from ...core.setting import Setting, settings_of
 from ...games.duel_settings import EVADER, DuelSettings
 from ...games.implied_settings import EVASION
-from ...games.walker import RobotPlayer
+from ...games.robot_player import RobotPlayer
 from ...planning import PRESETS as GAITS
 from .live_session import LiveSession, LiveSettings
 

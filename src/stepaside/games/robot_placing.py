@@ -1,0 +1,278 @@
+"""Simulated robots placed in a world, with sensors and controller."""
+
+from collections.abc import Iterable
+from dataclasses import is_dataclass, replace
+from typing import TYPE_CHECKING, NamedTuple
+
+from ..arena import Room
+from ..control.scheme import ControlScheme
+from ..control.scheme_builder import ClearanceSetup, build_scheme, build_walk
+from ..control.sight_sources import MeasuredSight, SightSource
+from ..control.strategy_runner import StrategyRunner
+from ..control.velocity_scheme import VelocityScheme
+from ..core.poses import Pose
+from ..core.random_streams import named_generator
+from ..locomotion.control_settings import (
+    ControlSettings,
+    LegsSettings,
+    MapSettings,
+)
+from ..locomotion.maneuver_walk import ManeuverWalk
+from ..locomotion.surroundings import (
+    KnownRoom,
+    MappedRoom,
+    Surroundings,
+)
+from ..locomotion.swept_outline import lateral_sway
+from ..locomotion.zmp.reference_table import initial_stance
+from ..planning import GaitSettings
+from ..robots.description import RobotDescription
+from ..robots.head import load_head
+from ..robots.leg_kinematics import LegKinematics
+from ..sim.body_settings import BodySettings
+from ..sim.ground_truth import IdealLineOfSight, TrueRobotState
+from ..sim.outline_measurement import measure_outline
+from ..sim.physics_settings import PhysicsSettings
+from ..sim.simulated_robot import SensorSetup, SimulatedRobot
+from ..sim.world import World
+from ..strategies import Strategy
+from .robot_player import RobotPlayer, ServedPlayer, VelocityWalker
+
+if TYPE_CHECKING:
+    from ..locomotion.policy.policy_legs import InitialPosture, PolicyLegs
+    from ..locomotion.policy.policy_walk import PolicyWalk
+    from ..perception.pipeline import Perception
+    from ..sim.ranging import Lidar
+    from ..sim.sensor_suite import SensorSuite
+
+
+class RobotSetup(NamedTuple):
+    """Robot of a game, before it stands in the world.
+
+    Attributes:
+        name: Name of the robot in the world.
+        description: Description of the robot.
+        gait: Gait; speed, steering gain and decision interval of the
+            template of learned legs.
+        control: Control settings.
+        legs: Walking policy, if it has one.
+        body: Deviations of the body from an ideal one.
+        start: Initial pose of its odometry in the world.
+        seed: Seed of sensor errors.
+        truth: Its true state in the world, if that exists.
+        source: Source of sightings for its controller.
+        sights: Ideal sensors, one for each other player.
+        eyes: Cameras and sonars, or the lidar.
+        clearance: Knowledge of the room and required clearance; a robot that
+            knows the room also knows its pose in it.
+    """
+
+    name: str
+    description: RobotDescription
+    gait: GaitSettings
+    control: ControlSettings = ControlSettings()
+    legs: LegsSettings = LegsSettings()
+    body: BodySettings = BodySettings()
+    start: Pose = Pose(0.0, 0.0, 0.0)
+    seed: int = 0
+    truth: TrueRobotState | None = None
+    source: SightSource | None = None
+    sights: tuple[IdealLineOfSight, ...] = ()
+    eyes: "SensorSuite | Lidar | None" = None
+    clearance: ClearanceSetup | None = None
+
+    def true_state_in(self, world: World) -> TrueRobotState:
+        """Return the true state of the robot in a world that contains it."""
+        return TrueRobotState(
+            world.model,
+            world.data,
+            f"{self.name}/{self.description.torso}",
+            com_forward=self.gait.zmp_forward,
+            place=self.description.place,
+        )
+
+    def place(
+        self, world: World, standing: "LegKinematics | PolicyLegs"
+    ) -> SimulatedRobot:
+        """Place it in the posture of kinematics, or on learned legs.
+
+        Learned legs drive it by the torques of their policy.
+        """
+        gains = None
+        posture: LegKinematics | InitialPosture
+        if isinstance(standing, LegKinematics):
+            posture = standing
+        else:
+            own, posture = standing.contract, standing.standing
+            pairs = zip(own.stiffness, own.damping, strict=True)
+            gains = dict(zip(own.joints, pairs, strict=True))
+        around = self.clearance and self.clearance.surroundings
+        return SimulatedRobot(
+            world,
+            self.name,
+            self.description,
+            posture,
+            self.start,
+            self.body,
+            SensorSetup(
+                generator=named_generator(self.seed, f"sensors/{self.name}"),
+                integrates_imu=gains is not None
+                or bool(self.control.feedback),
+                sights=self.sights,
+                eyes=self.eyes,
+                truth=self.truth or self.true_state_in(world),
+                knows_pose=isinstance(around, KnownRoom),
+            ),
+            gains=gains,
+        )
+
+    def place_on_legs(
+        self, world: World
+    ) -> tuple[SimulatedRobot, "PolicyWalk"]:
+        """Place it on learned legs, with a guard against obstacles."""
+        from ..locomotion.guard import VelocityGuard
+        from ..locomotion.policy.policy_legs import load_legs
+        from ..locomotion.policy.policy_walk import PolicyWalk
+
+        legs = load_legs(self.legs, self.description, tick=world.physics.tick)
+        guard, known = None, self.clearance
+        if known is not None:
+            distance = known.outline.radius + known.margin
+            guard = VelocityGuard(
+                known.surroundings, legs.velocities, distance
+            )
+        return self.place(world, legs), PolicyWalk(legs, self.gait, guard)
+
+
+def robot_with_strategy(
+    world: World, setup: RobotSetup, strategy: Strategy
+) -> RobotPlayer:
+    """Place a robot in a world that contains it, with its controller.
+
+    Raises:
+        ReachError: If the legs cannot reach the initial stance of the gait.
+        PolicyError: If the network cannot run on the robot.
+    """
+    strategy, tick = with_body_radius(strategy, setup), world.physics.tick
+    if not setup.legs.walks:
+        scheme = build_scheme(
+            strategy,
+            setup.description,
+            setup.gait,
+            setup.control,
+            tick=tick,
+            delay=setup.body.delay_cycles * tick,
+            senses=setup.source,
+            clearance=setup.clearance,
+        )
+        robot = setup.place(world, scheme.kinematics)
+        return RobotPlayer(robot, scheme, setup.start)
+    robot, walk = setup.place_on_legs(world)
+    source = setup.source or MeasuredSight()
+    runner = StrategyRunner(
+        strategy,
+        setup.gait,
+        setup.clearance and setup.clearance.surroundings,
+        velocities=walk.velocities,
+        views=source.views,
+    )
+    scheme = ControlScheme(runner, walk, source)
+    return RobotPlayer(robot, scheme, setup.start)
+
+
+def robot_at_velocities(world: World, setup: RobotSetup) -> VelocityWalker:
+    """Place a robot that walks at velocities of another process."""
+    tick = world.physics.tick
+    walk: PolicyWalk | ManeuverWalk
+    if setup.legs.walks:
+        robot, walk = setup.place_on_legs(world)
+    else:
+        walk = build_walk(
+            setup.description,
+            setup.gait,
+            setup.control,
+            tick=tick,
+            delay=setup.body.delay_cycles * tick,
+            clearance=setup.clearance,
+        )
+        robot = setup.place(world, walk.kinematics)
+    scheme = VelocityScheme(walk, tick)
+    return VelocityWalker(robot, scheme, setup.start, setup.description)
+
+
+def robot_with_served_joints(world: World, setup: RobotSetup) -> ServedPlayer:
+    """Place a robot whose joints another process commands."""
+    legs = LegKinematics(setup.description, tick=world.physics.tick)
+    legs.stand(initial_stance(setup.gait))
+    head: tuple[int, ...] = ()
+    if setup.eyes is not None:
+        joints, names = load_head(setup.description), legs.joint_names
+        head = names.index(joints.yaw), names.index(joints.pitch)
+    return ServedPlayer(setup.place(world, legs), head)
+
+
+def clearance_in(
+    room: Room | None,
+    known: MapSettings,
+    setup: RobotSetup,
+    perception: "Perception | None" = None,
+) -> ClearanceSetup | None:
+    """Return the knowledge that a robot has of the room; None without any.
+
+    Args:
+        room: Room of the game; None on an open floor.
+        known: Settings of the map.
+        setup: The robot; the room is in the world.
+        perception: Perception with a map of the floor, if the robot maps the
+            room.
+    """
+    if room is None or known.source == "none":
+        return None
+    surroundings: Surroundings = KnownRoom(room, setup.start)
+    if known.source == "seen":
+        assert perception is not None and perception.floor is not None
+        surroundings = MappedRoom(
+            perception.floor, unknown_is_free=known.unseen == "free"
+        )
+    outline = measure_outline(setup.description, setup.gait)
+    return ClearanceSetup(surroundings, outline, known.margin)
+
+
+def with_body_radius(strategy: Strategy, setup: RobotSetup) -> Strategy:
+    """Return a strategy whose body radius is at least that of the robot.
+
+    One without an attribute ``body_radius`` is returned unchanged.
+    """
+    known = setup.clearance
+    if known is None or not is_dataclass(strategy):
+        return strategy
+    radius = known.outline.radius + known.margin + lateral_sway(setup.gait)
+    if getattr(strategy, "body_radius", radius) >= radius:
+        return strategy
+    enlarged: Strategy = replace(strategy, body_radius=radius)
+    return enlarged
+
+
+def policy_physics(
+    physics: PhysicsSettings, body: BodySettings, robots: Iterable[RobotSetup]
+) -> PhysicsSettings:
+    """Return physics settings whose tick is the period of the policies.
+
+    With an ideal body nothing happens between two evaluations of a policy:
+    the actuators apply its gains at every time step. One with delays or
+    sensor errors keeps its tick.
+
+    Raises:
+        PolicyError: If a network cannot run on its robot.
+    """
+    from ..locomotion.policy.policy_legs import load_policy
+
+    if body.has_sensor_errors or not body.has_ideal_servos:
+        return physics
+    periods = {load_policy(r.legs, r.description)[0].period for r in robots}
+    if len(periods) != 1:
+        return physics
+    steps = periods.pop() / physics.time_step
+    if round(steps) < 1 or abs(steps - round(steps)) > 1e-6:
+        return physics
+    return replace(physics, tick=round(steps) * physics.time_step)

@@ -1,0 +1,423 @@
+"""Players that are simulated robots: with a strategy, or served."""
+
+import logging
+from collections.abc import Sequence
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from ..control.scheme import ControlScheme
+from ..control.sight_sources import CameraSight
+from ..control.velocity_scheme import VelocityScheme
+from ..core.constants import GRAVITY
+from ..core.errors import PolicyError
+from ..core.poses import Array, Pose, wrap_angle
+from ..core.row_table import RowTable
+from ..locomotion.locomotion import Phase, StepStarted
+from ..locomotion.maneuver_walk import ManeuverWalk
+from ..perception.images import ColourImage
+from ..perception.measurement import RobotState, Sighting
+from ..planning import Foot
+from ..robots.description import RobotDescription
+from ..robots.forward_kinematics import ForwardKinematics, torso_pose_on_foot
+from ..sim.push import Push
+from ..sim.simulated_robot import SimulatedRobot
+from ..strategies.velocity_set import BodyVelocity
+from .player import MotionLog, Player, Snapshot
+
+if TYPE_CHECKING:
+    from ..drivers.ros2_server import BodyPlace
+    from ..locomotion.policy.policy_walk import PolicyWalk
+    from ..perception.pipeline import FrameReport, Perception
+
+log = logging.getLogger(__name__)
+
+ORIGIN = Pose(0.0, 0.0, 0.0)
+AT_ONCE = 1.0  # a fall until then is one of the policy, in [s]
+MOVING = 0.05  # change of a target from which a robot moves, in [rad]
+
+
+class PhysicalPlayer(Player):
+    """Simulated robot; what moves it is up to subclasses.
+
+    Attributes:
+        robot: Simulated robot.
+        walk: Its locomotion; None if another process moves its joints.
+        frame: Pose of its odometry in the world.
+        plans: Whether it walks by maneuvers.
+    """
+
+    def __init__(
+        self,
+        robot: SimulatedRobot,
+        walk: "ManeuverWalk | PolicyWalk | None" = None,
+        frame: Pose = ORIGIN,
+    ) -> None:
+        """Take a robot that stands in its world."""
+        self.name, self.truth, self.robot = robot.name, robot.truth, robot
+        self.walk, self.frame = walk, frame
+        self.plans = isinstance(walk, ManeuverWalk)
+        if walk is not None and not self.plans:
+            robot.world.measures_always = True
+        self._measured: tuple[int, RobotState] | None = None
+
+    def measure(self) -> RobotState:
+        """Return the measurement of this tick; noise is drawn once."""
+        ticks = self.robot.world.ticks
+        if self._measured is None or self._measured[0] != ticks:
+            self._measured = ticks, self.robot.read()
+        return self._measured[1]
+
+    @property
+    def begun(self) -> StepStarted | None:
+        """Step begun at the last tick, if any."""
+        return None if self.walk is None else self.walk.begun
+
+    @property
+    def is_moving(self) -> bool:
+        """Whether it has left its standing state."""
+        return self.walk is None or self.walk.phase is not Phase.STANDING
+
+    @property
+    def has_fallen(self) -> bool:
+        """Whether it has fallen, or has detected a fall.
+
+        Raises:
+            PolicyError: If a robot on learned legs fell before it could walk.
+        """
+        fallen, now = self.truth.has_fallen, self.robot.world.time
+        if self.walk is None or not fallen or self.plans or now > AT_ONCE:
+            detected = self.walk and self.walk.phase is Phase.FALLEN
+            return fallen or bool(detected)
+        raise PolicyError(
+            f"legs: {self.name} fell at {now:.2f} s, while it was to "
+            "stand: the contract does not fit the network"
+        )
+
+    def snapshot(self) -> Snapshot:
+        """Return the state at this instant."""
+        robot, truth, walk = self.robot, self.truth, self.walk
+        heading = truth.heading_in_world
+        x, y, z = truth.position_com_in_world.tolist()
+        return Snapshot(
+            self.name,
+            robot.world.time,
+            Pose(*truth.position_reference_in_world, heading),
+            Pose(*truth.position_torso_in_world, heading),
+            (x, y, z),
+            None if walk is None else self.frame,
+            None if walk is None else walk.maneuvers,
+            robot.measured_zmp(),
+            robot.pushes,
+        )
+
+    def motion_log(self, *, closely: bool) -> MotionLog:
+        """Return an empty log of its motion."""
+        if isinstance(self.walk, ManeuverWalk):
+            return WalkerLog(
+                self.robot, self.walk, self.frame, closely=closely
+            )
+        return self.robot.state_log()
+
+    def push(self, *pushes: Push) -> None:
+        """Schedule pushes of the torso, now or later."""
+        self.robot.push(*pushes)
+
+    def close(self) -> None:
+        """Close the cameras."""
+        self.robot.close()
+
+
+class RobotPlayer(PhysicalPlayer):
+    """Simulated robot with a strategy.
+
+    Attributes:
+        scheme: Controller.
+    """
+
+    def __init__(
+        self, robot: SimulatedRobot, scheme: ControlScheme, frame: Pose
+    ) -> None:
+        """Combine a robot and its controller."""
+        super().__init__(robot, scheme.locomotion, frame)
+        self.scheme = scheme
+        # Exact sightings are read when a decision is due.
+        self._coasts = robot.sees_exactly
+        self._feels = scheme.feels or not self._coasts
+
+    @property
+    def _perception(self) -> "Perception | None":
+        senses = self.scheme.senses
+        return senses.perception if isinstance(senses, CameraSight) else None
+
+    @property
+    def reports(self) -> "Sequence[FrameReport]":
+        """Detections of the images that arrived at the last tick."""
+        perception = self._perception
+        return () if perception is None else perception.reports
+
+    @property
+    def is_ready(self) -> bool:
+        """Whether it has scanned the room, if it maps it."""
+        perception = self._perception
+        return perception is None or perception.head.is_ready
+
+    def start(self) -> None:
+        """Receive the signal that the game begins."""
+        if self._perception is not None:
+            self._perception.head.start()
+
+    def tick(self) -> None:
+        """Read the sensors, decide, and send joint targets."""
+        robot, scheme = self.robot, self.scheme
+        now, targets = robot.world.time, None
+        if self._coasts:
+            targets = scheme.coast(now)
+        if targets is None:
+            sees = not self._coasts or scheme.decides(now)
+            targets = scheme.update(robot.read(sees=sees, feels=self._feels))
+        robot.write(targets)
+
+
+class VelocityWalker(PhysicalPlayer):
+    """Simulated robot that walks at velocities that another process commands.
+
+    Attributes:
+        scheme: Controller.
+        description: Description of the robot.
+    """
+
+    def __init__(
+        self,
+        robot: SimulatedRobot,
+        scheme: VelocityScheme,
+        frame: Pose,
+        description: RobotDescription,
+    ) -> None:
+        """Combine a robot and its controller."""
+        super().__init__(robot, scheme.locomotion, frame)
+        self.scheme, self.description = scheme, description
+        self._forward = ForwardKinematics(description)
+        self._image: ColourImage | None = None
+        self._ignores_lateral = False
+
+    def command(self, velocity: BodyVelocity) -> None:
+        """Walk at a velocity from the next tick on.
+
+        A walk by maneuvers has no sidesteps.
+        """
+        self.scheme.command(velocity)
+        ignores = velocity.lateral and not self.velocity.lateral
+        if ignores and not self._ignores_lateral:
+            self._ignores_lateral = True
+            log.warning(
+                "%s does not step sideways; its lateral velocity is ignored",
+                self.name,
+            )
+
+    @property
+    def velocity(self) -> BodyVelocity:
+        """Velocity that it follows."""
+        return self.scheme.velocity
+
+    def tick(self) -> None:
+        """Walk at the commanded velocity."""
+        self.robot.write(self.scheme.update(self.measure()))
+
+    def measure(self) -> RobotState:
+        """Return the measurement of this tick, and keep its last image."""
+        measured = super().measure()
+        for percept in measured.percepts:
+            if isinstance(percept, ColourImage):
+                self._image = percept
+        return measured
+
+    def state(self) -> RobotState:
+        """Return the state that the robot reports to its client."""
+        measured = self.measure()
+        return RobotState(
+            measured.time,
+            measured.joint_positions,
+            sighting=self._seen(measured.sighting),
+            percepts=() if self._image is None else (self._image,),
+            pose=self.scheme.templates.at(measured.time),
+        )
+
+    def _seen(self, sighting: Sighting | None) -> Sighting | None:
+        """Return a sighting with its bearing relative to the template."""
+        if sighting is None:
+            return None
+        scheme, time = self.scheme, sighting.time
+        turned = scheme.headings.at(time) - scheme.templates.at(time).theta
+        bearing = wrap_angle(turned + sighting.bearing)
+        return Sighting(time, bearing, sighting.distance)
+
+    def torso(self) -> "BodyPlace":
+        """Return the pose of the torso by the stance foot and the tilt."""
+        measured, walk = self.measure(), self.scheme.locomotion
+        step, tilt = walk.step(measured.time), walk.tilt or (0.0, 0.0)
+        torso = torso_pose_on_foot(
+            self._forward.posture(measured.joint_positions),
+            0 if step.swing is Foot.RIGHT else 1,
+            step.support,
+            tilt,
+        )
+        x, y, z = torso.position_in_odometry.tolist()
+        place = Pose(x, y, torso.heading_in_odometry)
+        template = self.scheme.templates.at(measured.time)
+        planar = template.inverse().compose(place)
+        return (planar.x, planar.y, z), (*tilt, wrap_angle(planar.theta))
+
+
+class ServedPlayer(PhysicalPlayer):
+    """Simulated robot whose joints another process commands.
+
+    Until the game begins the simulation does not advance: the sensors
+    constantly report a robot at rest, and commands are ignored. Its plans and
+    detections are unknown to this process.
+    """
+
+    def __init__(
+        self, robot: SimulatedRobot, head: Sequence[int] = ()
+    ) -> None:
+        """Take a robot, and the numbers of its head joints."""
+        super().__init__(robot)
+        self._moves, self._waiting = False, True
+        self._head = list(head)
+        self._stance: Array | None = None
+
+    @property
+    def is_moving(self) -> bool:
+        """Whether its targets have left the initial stance."""
+        return self._moves
+
+    def begin(self) -> None:
+        """Begin the game: apply commands from now on."""
+        self._waiting = False
+
+    def sensors(self) -> RobotState:
+        """Return the measurement of this tick, as the client gets it.
+
+        Before the first step of physics there are no forces: gravity and foot
+        forces are then those of a robot that stands.
+        """
+        measured = self.measure()
+        if not self._waiting:
+            return measured
+        soles = measured.foot_forces
+        return measured._replace(
+            accelerometer=np.array([0.0, 0.0, GRAVITY]),
+            foot_forces=np.full_like(soles, self.robot.weight / soles.size),
+        )
+
+    def command(self, targets: Array, stiffness: Array) -> None:
+        """Set joint targets, in [rad], and stiffness from 0 to 1."""
+        if self._waiting:
+            return
+        if self._stance is None:
+            self._stance = targets
+        change = np.abs(targets - self._stance)
+        change[self._head] = 0.0
+        self._moves = self._moves or bool(change.max() > MOVING)
+        self.robot.servos.soften(stiffness)
+        self.robot.write(targets)
+
+
+CLOSE_COLUMNS = {
+    "velocity": 2,
+    "tilt": 2,
+    "sole": 3,
+    "support": 5,
+    "heading_reference": 1,
+    "estimate": 8,
+}
+
+
+class WalkerLog:
+    """Samples of a simulated robot, with its plan and estimates.
+
+    Samples are raw rows; planned and estimated quantities are in odometry
+    until the log is read. Only a close record has foot states and estimates.
+    """
+
+    def __init__(
+        self,
+        robot: SimulatedRobot,
+        locomotion: ManeuverWalk,
+        frame: Pose,
+        *,
+        closely: bool,
+    ) -> None:
+        """Begin without samples."""
+        self._robot, self._locomotion, self._frame = robot, locomotion, frame
+        self._states = robot.state_log()
+        self._references = RowTable(4)
+        self._close = (
+            RowTable(sum(CLOSE_COLUMNS.values())) if closely else None
+        )
+
+    def add(self) -> None:
+        """Sample the present state."""
+        self._states.add()
+        self._references.append()[:] = self._locomotion.planned_centers
+        if self._close is not None:
+            self._close.append()[:] = self._close_row()
+
+    def truncate(self, count: int) -> None:
+        """Keep only the first samples."""
+        self._states.truncate(count)
+        self._references.truncate(count)
+        if self._close is not None:
+            self._close.truncate(count)
+
+    def arrays(self) -> dict[str, Array]:
+        """Return true, planned and estimated arrays, in the world."""
+        frame, planned = self._frame, self._references.rows
+        arrays = self._states.arrays()
+        arrays["com_reference"] = frame.transform_points(planned[:, :2])
+        arrays["zmp_reference"] = frame.transform_points(planned[:, 2:])
+        if self._close is not None:
+            arrays |= _close_arrays(self._close.rows, frame)
+        return arrays
+
+    def _close_row(self) -> tuple[float, ...]:
+        """Return foot states and estimates, in the order of their columns."""
+        walk, stance = self._locomotion, self._robot.stance
+        step = walk.step(self._robot.world.time)
+        foot, state = step.swing.other, walk.balance.state
+        sole = stance.left_sole if foot is Foot.LEFT else stance.right_sole
+        estimate = (np.nan,) * CLOSE_COLUMNS["estimate"]
+        if state is not None:
+            estimate = *state.com, *state.velocity, *state.zmp, *state.tilt
+        return (
+            *stance.velocity,
+            *stance.tilt,
+            *sole,
+            foot.value,
+            float(step.walking and step.remaining > 0.0),
+            *step.support,
+            walk.balance.planned_heading,
+            *estimate,
+        )
+
+
+def _close_arrays(rows: Array, frame: Pose) -> dict[str, Array]:
+    """Return :data:`CLOSE_COLUMNS` in the world, by name.
+
+    An estimate that is NaN throughout is left out.
+    """
+    ends = np.cumsum(list(CLOSE_COLUMNS.values()))[:-1]
+    parts = np.split(rows.copy(), ends, axis=1)
+    arrays = dict(zip(CLOSE_COLUMNS, parts, strict=True))
+    support, rotation = arrays["support"], Pose(0.0, 0.0, frame.theta)
+    support[:, 2:4] = frame.transform_points(support[:, 2:4])
+    support[:, 4] += frame.theta
+    arrays["heading_reference"] += frame.theta
+    estimate = arrays["estimate"]
+    if np.isnan(estimate).all():
+        del arrays["estimate"]
+        return arrays
+    estimate[:, 0:2] = frame.transform_points(estimate[:, 0:2])
+    estimate[:, 2:4] = rotation.transform_points(estimate[:, 2:4])
+    estimate[:, 4:6] = frame.transform_points(estimate[:, 4:6])
+    return arrays
