@@ -30,10 +30,10 @@ from .planning import Foot as Foot
 from .planning import GaitSettings as GaitSettings
 from .planning import ManeuverPlan as ManeuverPlan
 from .planning import ManeuverPlanner as ManeuverPlanner
-from .report.compare_figure import draw_runs as draw_runs
-from .report.plan_figure import draw_plan as draw_plan
+from .report.plan_view import draw_plan as draw_plan
 from .report.replay_page import write_page as write_page
 from .report.run_figure import draw_run as draw_run
+from .report.run_figure import draw_runs as draw_runs
 from .report.run_folder import write_run as write_run
 from .robots.description import load_robot as load_robot
 from .robots.tree_cache import load_tree as load_tree

@@ -4,12 +4,18 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+from PIL import Image
 
 from stepaside.studies.result_files import header, write_result
 from tools.documents.__main__ import old_results
 from tools.documents.blocks import with_tables
 from tools.documents.document import complaints, remade
-from tools.documents.pictures import PICTURES, draw_picture, drawn_from
+from tools.documents.pictures import (
+    PICTURES,
+    Picture,
+    draw_picture,
+    drawn_from,
+)
 from tools.documents.store import ROOT, Store
 
 FOUND: dict[str, Any] = {
@@ -110,19 +116,16 @@ def test_a_page_that_is_right_has_no_complaints(
 def test_a_picture_is_drawn_again_only_when_results_change(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    rows = [
-        {"method": "mpc", "direction": "left", "phase": phase}
-        | {"limit_n_s": 1.0, "bound_n_s": 2.0, "impulse_bound_n_s": 2.5}
-        for phase in (0.0, 0.5)
-    ]
-    head = header({}, command="none")
-    write_result(tmp_path / "pushes.json", head, rows=rows)
-    name = "push-limits.png"
+    def draw(_: Store, file: Path) -> None:
+        Image.new("RGB", (2, 2)).save(file, format="PNG")
+
+    name, head = "walk.png", header({}, command="none")
+    monkeypatch.setitem(PICTURES, name, Picture(("walk",), draw))
+    write_result(tmp_path / "walk.json", head, rows=[1.0])
     assert draw_picture(name, Store(tmp_path), tmp_path)
     assert not draw_picture(name, Store(tmp_path), tmp_path)
-    assert drawn_from(tmp_path / name).startswith("pushes.json ")
-    rows[0]["limit_n_s"] = 1.5
-    write_result(tmp_path / "pushes.json", head, rows=rows)
+    assert drawn_from(tmp_path / name).startswith("walk.json ")
+    write_result(tmp_path / "walk.json", head, rows=[1.5])
     store = Store(tmp_path)
     assert drawn_from(tmp_path / name) != PICTURES[name].source(store)
     assert draw_picture(name, store, tmp_path)

@@ -25,7 +25,7 @@ from stepaside.games.game_settings import (  # noqa: E402
     PlayerSettings,
 )
 from stepaside.games.run_archive import load_run  # noqa: E402
-from stepaside.report.landed_footsteps import footsteps_in  # noqa: E402
+from stepaside.report.overlays import footsteps_in  # noqa: E402
 from stepaside.report.scene import wall_corners  # noqa: E402
 from stepaside.report.viewer.live_overlays import (  # noqa: E402
     live_overlays,
@@ -164,7 +164,7 @@ def test_a_saved_game_has_its_footsteps_where_the_page_drew_them(
     passed(session, 6.0)
     run = load_run(session.save(tmp_path))
     assert run.times[-1] == pytest.approx(6.0, abs=0.03)
-    landed = footsteps_in(run)["pursuer"]
+    landed = footsteps_in(run, "pursuer")
     drawn = np.array(session.history.steps["pursuer"])[: len(landed)]
     assert len(landed) > 4
     np.testing.assert_array_equal(drawn[:, 0], landed[:, 1])

@@ -8,17 +8,20 @@ import pytest
 from stepaside.games.duel_settings import DuelSettings, StartSettings
 from stepaside.games.recorded_game import run_duel
 from stepaside.games.run import DuelRun
-from stepaside.report.landed_footsteps import footsteps_in
+from stepaside.locomotion.control_settings import ControlSettings
 from stepaside.report.overlays import (
     LAYERS,
     PUSH_LENGTH,
     PUSH_SHOWN,
+    footsteps_in,
     line_of_sight,
     overlays_of,
     push_arrows,
     safety_ring,
     soles,
 )
+from stepaside.report.scene import RunScene
+from stepaside.sim.body_settings import BODIES
 
 PLACES = {"a": np.array([1.0, 2.0, 0.3]), "b": np.array([-1.0, 0.5, 0.0])}
 PUSHES = np.array([[2.0, 0.1, 0.5, -0.5, 0.3, 0.4]])
@@ -73,7 +76,7 @@ def test_a_path_grows_and_forgets_what_is_older_than_the_trail(
 
 
 def test_outlines_of_soles_lie_where_the_soles_landed(run: DuelRun) -> None:
-    rows = footsteps_in(run)["pursuer"]
+    rows = footsteps_in(run, "pursuer")
     sole = run.settings.robot_of("pursuer").gait.sole
     outlines = soles(rows[:, 1:], sole).reshape(len(rows), 4, 2, 2)
     for (_, side, x, y, heading), outline in zip(rows, outlines, strict=True):
@@ -103,3 +106,31 @@ def test_colours_are_those_of_the_players_or_of_the_layer(
     assert found["footsteps", "pursuer"] == "#ff0000"
     assert found["pushes", "pursuer"] not in colours.values()
     assert found["line of sight", "pursuer-evader"] not in colours.values()
+
+
+def test_footsteps_of_a_run_are_where_the_soles_landed() -> None:
+    """Without feedback, the odometry of a pursuer that turns drifts."""
+    run = run_duel(
+        DuelSettings(
+            start=StartSettings(1.2, 1.4, 0.0),
+            body=BODIES["hardware"],
+            control=ControlSettings(feedback=False),
+            duration=12.0,
+        )
+    )
+    found, planned = footsteps_in(run, "pursuer"), run.pursuer.landings
+    assert planned is not None
+    np.testing.assert_array_equal(found[:, :2], planned[: len(found), :2])
+    assert len(found) in (len(planned), len(planned) - 1)
+    assert found[-1, 0] <= run.times[-1]
+    scene, stood = RunScene(run), []
+    inside = found[found[:, 0] < run.times[-1] - 0.2]
+    for time, side, *_ in inside.tolist():  # in the middle of the next step
+        scene.put(run.index_at(time + 0.15))
+        site = f"pursuer/{'l' if side > 0.0 else 'r'}_sole_center"
+        stood.append(scene.data.site(site).xpos[:2].copy())
+    away = np.linalg.norm(inside[:, 2:4] - stood, axis=1)
+    assert away.max() < 5e-3
+    # Those of the plan, in odometry, are elsewhere.
+    wrong = planned[: len(inside), 2:4] - stood
+    assert np.linalg.norm(wrong, axis=1).max() > 0.03

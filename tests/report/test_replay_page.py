@@ -12,13 +12,13 @@ import numpy as np
 import pytest
 
 from stepaside.core.poses import Array
+from stepaside.games.duel_circle import whole_cycles
 from stepaside.games.duel_settings import DuelSettings, StartSettings
 from stepaside.games.recorded_game import run_duel
 from stepaside.games.run import DuelRun
 from stepaside.games.run_captions import describe_state
 from stepaside.games.trajectory import Trajectory
 from stepaside.report import replay_page
-from stepaside.report.cycle_means import whole_cycles
 from stepaside.report.overlays import overlays_of
 from stepaside.report.replay_page import write_page
 from stepaside.report.scene import RunScene

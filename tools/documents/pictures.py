@@ -10,10 +10,10 @@ from hashlib import sha256
 from json import dumps
 from pathlib import Path
 
+import numpy as np
 from PIL import Image
 from PIL.PngImagePlugin import PngInfo
 
-from . import drawings
 from .store import ROOT, Store
 
 IMAGES = ROOT / "docs" / "images"
@@ -41,18 +41,21 @@ class Picture:
         return f"{names} {digest.hexdigest()[:12]}"
 
 
-PICTURES = {
-    "duel.png": Picture(("duel-seed7",), drawings.duel),
-    "duels.png": Picture(
-        ("duels-ideal", "duels-hardware", "duels-cameras"),
-        drawings.many_duels,
-    ),
-    "people.png": Picture(("people-ideal",), drawings.people),
-    "push-limits.png": Picture(("pushes",), drawings.push_limits),
-    "survival-hardware.png": Picture(
-        ("survival-hardware",), drawings.survival_on_hardware
-    ),
-}
+def draw_duel(store: Store, file: Path) -> None:
+    """Draw the duel of the README from its stored trajectories."""
+    from stepaside.games.duel_settings import DuelSettings
+    from stepaside.games.run_archive import read_record
+    from stepaside.report.run_figure import draw_run
+
+    result = store.result("duel-seed7")
+    with np.load(store.folder / result["trajectories"]["file"]) as arrays:
+        tracks = {name: arrays[name] for name in arrays.files}
+    settings = DuelSettings(seed=result["settings"]["seed"])
+    run = read_record("duel-seed7", settings, result["summary"], tracks)
+    draw_run(run, file)
+
+
+PICTURES = {"duel.png": Picture(("duel-seed7",), draw_duel)}
 
 
 def drawn_from(file: Path) -> str:

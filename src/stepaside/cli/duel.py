@@ -56,8 +56,6 @@ def _warn_of_expected_end(settings: DuelSettings) -> None:
 
 def print_duel(run: "DuelRun") -> None:
     """Print the summary of a duel beside theory."""
-    from ..report.settling_report import explain_missing_circle
-
     summary = run.summary
     converged = summary.converged_at_s
     plans = summary.plan_time_us
@@ -69,7 +67,7 @@ def print_duel(run: "DuelRun") -> None:
         ("captured", _capture_text(summary.captured_at_s)),
         (
             "on the circle",
-            explain_missing_circle(run)
+            missing_circle(summary)
             if converged is None
             else f"since {converged:.1f} s",
         ),
@@ -86,6 +84,19 @@ def print_duel(run: "DuelRun") -> None:
     if summary.sight is not None:
         rows += _sight_rows(summary, summary.sight)
     print_table(rows)
+
+
+def missing_circle(summary: "DuelSummary") -> str:
+    """Return why a duel did not end on its circle."""
+    theory = summary.theory
+    if theory.expected in ("contact", "no circle"):
+        return "not expected"
+    if summary.triggered_at_s is None:
+        return "not reached: the evader was never triggered"
+    if theory.circle_since_s is not None:
+        since = f"{theory.circle_since_s:.0f} s"
+        return f"not reached: the template reaches it at {since}"
+    return "not reached"
 
 
 def _circle_rows(

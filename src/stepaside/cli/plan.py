@@ -105,7 +105,7 @@ def plan(settings: PlanSettings, figure: Path | None, as_json: bool) -> None:
     else:
         _print(maneuver)
     if figure is not None:
-        from ..report.plan_figure import draw_plan
+        from ..report.plan_view import draw_plan
 
         draw_plan(maneuver, role, figure)
 

@@ -233,14 +233,9 @@ def _write(
 
 def _draw(runs: "list[Run]", file: Path) -> None:
     """Draw the figure of one run, or several runs in one figure."""
-    if len(runs) == 1:
-        from ..report.run_figure import draw_run
+    from ..report.run_figure import draw_run, draw_runs
 
-        draw_run(runs[0], file)
-    else:
-        from ..report.compare_figure import draw_runs
-
-        draw_runs(runs, file)
+    draw_run(runs[0], file) if len(runs) == 1 else draw_runs(runs, file)
 
 
 def _even(film: FilmSettings) -> FilmSettings:

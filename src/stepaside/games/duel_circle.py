@@ -156,6 +156,16 @@ def cycle_mean(values: Array, times: Array, period: float) -> Array:
     return mean
 
 
+def whole_cycles(values: Array, times: Array, period: float) -> Array:
+    """Return :func:`cycle_mean`, with NaN where the cycle is not whole."""
+    mean = cycle_mean(values, times, period).astype(float)
+    if len(times) < 3:
+        return np.full(len(times), np.nan)
+    half = round(period / float(times[1] - times[0])) // 2
+    mean[:half] = mean[max(len(mean) - half, 0) :] = np.nan
+    return mean
+
+
 def convergence_time(
     times: Array,
     pursuer: Array,

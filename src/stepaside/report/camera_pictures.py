@@ -15,14 +15,9 @@ TRUE = (235, 0, 190)  # of the true direction of the opponent
 def camera_picture(report: FrameReport, truth: float | None = None) -> Pixels:
     """Return an enlarged image with a line in every detected direction.
 
-    Args:
-        report: Image with its detections.
-        truth: True direction of the opponent from the camera's axis, in
-            [rad], which is a short line at the lower edge.
-
-    Returns:
-        Image; depth is shown as brightness, missing values are black. Shape
-        (height, width, 3).
+    The true direction of the opponent from the camera's axis, in [rad], is a
+    short line at the lower edge. Depth is shown as brightness, missing
+    values are black. Shape (height, width, 3).
     """
     image = report.image
     if isinstance(image, ColourImage):

@@ -4,33 +4,26 @@ Films, pages, bags and top views draw the same lines, each in its own way.
 """
 
 from collections.abc import Mapping
-from math import inf
+from math import atan2, inf
 from typing import NamedTuple
 
+import mujoco
 import numpy as np
 
 from ..core.poses import Array
 from ..games.run import Run
 from ..planning import Foot, SoleRectangle
 from ..planning.support_polygon import sole_corners
-from .landed_footsteps import footsteps_in
+from ..robots.description import load_robot
 from .palette import PALETTES
 
 
 class Layer(NamedTuple):
-    """Kind of overlays that is switched on and off as one.
+    """Kind of overlays that is switched on and off as one."""
 
-    Attributes:
-        meaning: Its meaning, for a legend.
-        height: Height over the floor at which it is drawn, in [m].
-        colour: Name of a colour of a
-            :class:`~stepaside.report.palette.Palette`; empty for that of the
-            player.
-    """
-
-    meaning: str
-    height: float
-    colour: str = ""
+    meaning: str  # for a legend
+    height: float  # over the floor at which it is drawn, in [m]
+    colour: str = ""  # field of Palette; empty for that of the player
 
 
 LAYERS = {
@@ -51,6 +44,8 @@ LAYERS = {
 PUSH_LENGTH = 0.25  # of an arrow, in [m] per [N s]
 PUSH_SHOWN = 1.0  # time for which an arrow is shown, in [s]
 NO_SEGMENTS = np.zeros((0, 2, 2))
+NO_FOOTSTEPS = np.zeros((0, 5))
+LANDED = 0.02  # after its landing time a foot is on the floor, in [s]
 
 
 class SceneLines(NamedTuple):
@@ -89,13 +84,8 @@ class SceneLines(NamedTuple):
     ) -> Array:
         """Return the segments of a time, in the world, in [m].
 
-        Args:
-            now: The time, in [s].
-            places: Positions (x, y) of the players then, in [m], by name.
-            trail: Longest time for which segments remain, in [s].
-
-        Returns:
-            Start and end of each segment. Shape (n, 2, 3).
+        Places are the positions (x, y) of the players then, in [m], by name;
+        segments remain no longer than a trail, in [s]. Shape (n, 2, 3).
         """
         flat = self.segments
         if self.times is not None:
@@ -117,12 +107,7 @@ class SceneLines(NamedTuple):
 
 
 def polyline(points: Array, *, closed: bool = False) -> Array:
-    """Return the segments of a polyline. Shape (n, 2, 2).
-
-    Args:
-        points: Its points, in [m]. Shape (m, 2).
-        closed: Whether the last point is connected to the first.
-    """
+    """Return the segments of a polyline of points (m, 2). Shape (n, 2, 2)."""
     if closed:
         points = np.concatenate([points, points[:1]])
     return np.stack([points[:-1], points[1:]], axis=1)
@@ -165,10 +150,7 @@ def line_of_sight(one: str, other: str) -> SceneLines:
 def soles(rows: Array, sole: SoleRectangle) -> Array:
     """Return the outlines of soles, four segments each. Shape (4 m, 2, 2).
 
-    Args:
-        rows: Side (1 left, -1 right), x [m], y [m], heading [rad]. Shape (m,
-            4).
-        sole: Shape of a left sole.
+    Rows are side (1 left, -1 right), x [m], y [m], heading [rad].
     """
     outlines = [
         polyline(sole_corners(row[1:], Foot(int(row[0])), sole), closed=True)
@@ -180,10 +162,7 @@ def soles(rows: Array, sole: SoleRectangle) -> Array:
 def push_arrows(player: str, pushes: Array) -> SceneLines:
     """Return arrows that end where pushes act.
 
-    Args:
-        player: Name of the player.
-        pushes: Rows (time [s], duration [s], x [m], y [m], impulse x and y
-            [N s]). Shape (j, 6).
+    Rows are time [s], duration [s], x [m], y [m], impulse x and y [N s].
     """
     arrows = [NO_SEGMENTS]
     for x, y, *impulse in pushes[:, 2:].tolist():
@@ -201,12 +180,9 @@ def push_arrows(player: str, pushes: Array) -> SceneLines:
 def overlays_of(run: Run, every: int = 1) -> list[SceneLines]:
     """Return all that lies over the scene of a run.
 
-    Args:
-        run: The run.
-        every: Number of samples from one point of a path to the next.
+    ``every`` is the number of samples from one point of a path to the next.
     """
     found = []
-    landed = footsteps_in(run)
     for name, track in run.tracks.items():
         times = run.times[::every]
         for layer, points in {
@@ -220,7 +196,7 @@ def overlays_of(run: Run, every: int = 1) -> list[SceneLines]:
             found.append(
                 SceneLines(layer, name, segments[known], times[1:][known])
             )
-        steps = landed[name]
+        steps = footsteps_in(run, name)
         if len(steps):
             sole = run.settings.robot_of(name).gait.sole
             outlines = soles(steps[:, 1:], sole)
@@ -233,3 +209,34 @@ def overlays_of(run: Run, every: int = 1) -> list[SceneLines]:
     if run.circle is not None:
         found.append(theory_ring(*run.circle))
     return found
+
+
+def footsteps_in(run: Run, name: str) -> Array:
+    """Return where the soles of a player landed in the world. Shape (m, 5).
+
+    Rows are time [s], side (1 left, -1 right), x [m], y [m], heading [rad].
+    Footsteps that land after the end of the run are left out. Recorded
+    landings are those of the plans, in odometry, which drifts: they are
+    returned where no joint angles were recorded.
+    """
+    track = run.tracks[name]
+    landings = NO_FOOTSTEPS if track.landings is None else track.landings
+    if track.qpos is None or not len(landings):
+        return landings
+    robot = load_robot(run.settings.robot_of(name).robot)
+    model = robot.compile()
+    feet = robot.left_foot, robot.right_foot
+    left, right = (model.site(foot).id for foot in feet)
+    data = mujoco.MjData(model)
+    rows = []
+    for time, side, *_ in landings.tolist():
+        index = int(np.searchsorted(run.times, time + LANDED))
+        if index >= len(run.times):
+            continue
+        data.qpos[:] = track.qpos[index]
+        mujoco.mj_kinematics(model, data)
+        sole = left if side > 0.0 else right
+        axes = data.site_xmat[sole]
+        heading = atan2(axes[3], axes[0])
+        rows.append((time, side, *data.site_xpos[sole, :2], heading))
+    return np.array(rows, dtype=np.float64).reshape(-1, 5)

@@ -1,4 +1,4 @@
-"""Top views of a run: room, paths, footsteps, pushes, players."""
+"""Top views: room, paths, footsteps, pushes, players; and of one plan."""
 
 from collections.abc import Iterable
 from math import cos, sin
@@ -10,30 +10,30 @@ from matplotlib.patches import Circle, Patch
 from matplotlib.patches import Polygon as Outline
 
 from ..arena import BODY_RADIUS, Obstacle, Room
+from ..core.errors import AnyPath
 from ..core.player_colours import markers_of
 from ..core.poses import Array
 from ..games.run import Run, is_match
+from ..planning import ManeuverPlan
 from .figure_style import (
     COLOURS,
+    MEAN,
     PUSHED,
+    THEORY,
     colours_of,
+    legend_above,
     legend_below,
     panels,
     save,
 )
-from .overlays import overlays_of
+from .overlays import overlays_of, soles
 
 SOLID, MOVING = "#8a8f98", "#99704a"
 MARKED = 12  # markers along a path, at most
 
 
 def solid_patches(solids: Iterable[Obstacle], **look: Any) -> list[Patch]:
-    """Return walls and obstacles as patches of Matplotlib.
-
-    Args:
-        solids: In the frame of the axes, in [m].
-        look: Further arguments of the patches.
-    """
+    """Return walls and obstacles as patches of Matplotlib."""
     look = {"facecolor": SOLID, "edgecolor": "none", "zorder": 1} | look
     return [Outline(solid.outline, closed=True, **look) for solid in solids]
 
@@ -54,12 +54,7 @@ def draw_solids(axes: Any, room: Room | None, time: float = 0.0) -> None:
 
 
 def draw_room(room: Room, path: str) -> None:
-    """Write a figure of a room with the initial poses.
-
-    Args:
-        room: The room.
-        path: File to write; its suffix gives the format.
-    """
+    """Write a figure of a room with the initial poses."""
     figure, axes = panels(["a"], 4.0, [3.2], legend=1)
     draw_solids(axes["a"], room)
     for (x, y, theta), (name, colour) in zip(
@@ -77,14 +72,7 @@ def draw_room(room: Room, path: str) -> None:
 
 
 def draw_heading(axes: Any, pose: Array, colour: str, size: float) -> None:
-    """Draw a player as a wedge that points along its heading.
-
-    Args:
-        axes: Matplotlib axes.
-        pose: (x [m], y [m], theta [rad]). Shape (3,).
-        colour: Fill.
-        size: Length, in [m].
-    """
+    """Draw a player as a wedge along its heading, of a length in [m]."""
     shape = size * np.array(
         [[0.6, 0.0], [-0.4, 0.35], [-0.2, 0.0], [-0.4, -0.35]]
     )
@@ -147,12 +135,7 @@ def _frame(run: Run) -> tuple[Array, Array]:
 
 
 def draw_paths(axes: Any, run: Run) -> None:
-    """Draw CoM paths with all footsteps and pushes.
-
-    Args:
-        axes: Matplotlib axes.
-        run: The run.
-    """
+    """Draw CoM paths with all footsteps and pushes."""
     draw_solids(axes, run.plan, float(run.times[-1]))
     every = np.concatenate([track.com[:, :2] for track in run.tracks.values()])
     extent = float(np.ptp(every, axis=0).max())
@@ -185,3 +168,41 @@ def draw_paths(axes: Any, run: Run) -> None:
     axes.set(xlabel="x [m]", ylabel="y [m]")
     axes.set_aspect("equal", adjustable="datalim")
     axes.set_title("top view; dot: start, wedge: end", pad=18)
+
+
+def draw_plan(plan: ManeuverPlan, role: str, path: AnyPath) -> None:
+    """Write the figure of a maneuver: footsteps, ZMP and CoM.
+
+    Args:
+        plan: Plan of the maneuver.
+        role: "pursuer" or "evader", for the colour.
+        path: File to write; its suffix gives the format.
+    """
+    colour = COLOURS[role]
+    sole = plan.schedule.settings.sole
+    samples = plan.sample(np.arange(0.0, plan.schedule.duration, 0.01))
+    _, axes = panels(["px", "py"], 9.5, [1.6, 1.6])
+    above = axes["p"]
+    sides = plan.first_foot.value * (-1.0) ** np.arange(len(plan.placements))
+    outlines = soles(np.column_stack([sides, plan.placements]), sole)
+    draw_lines(above, outlines[:8], THEORY, ls=":")  # of both feet at first
+    draw_lines(above, outlines[8:], colour, alpha=0.7)
+    above.plot(*samples.zmp.T, color=THEORY, lw=0.8, label="ZMP")
+    above.plot(*samples.com.T, color=colour, lw=2.0, label="CoM")
+    above.set(xlabel="x in the plan frame [m]", ylabel="y [m]")
+    above.set_aspect("equal", adjustable="datalim")
+    title = f"{role}: desired heading {np.degrees(plan.bearing):.1f}°"
+    legend_above(above, title, 2)
+    lines = (
+        ("ZMP", samples.zmp, {"color": THEORY, "lw": 0.9}),
+        ("DCM", samples.dcm, {"color": MEAN, "lw": 0.9, "ls": "--"}),
+        ("CoM", samples.com, {"color": colour, "lw": 1.8}),
+    )
+    for index, name in enumerate("xy"):
+        for label, points, look in lines:
+            axes[name].plot(
+                samples.times, points[:, index], label=label, **look
+            )
+        axes[name].set(xlabel="time [s]", ylabel=f"{name} [m]")
+    legend_above(axes["x"], "", 3)
+    save(above.figure, path)

@@ -27,10 +27,6 @@ TICK = 0.004  # of the leg kinematics, in [s]
 def draw_robot(description: RobotDescription, file: Path) -> None:
     """Draw a robot in the initial stance of its gait.
 
-    Args:
-        description: The robot.
-        file: Figure to write.
-
     Raises:
         StepAsideError: If the stance is out of reach.
         OutputError: If the figure cannot be written.

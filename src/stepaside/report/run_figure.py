@@ -1,6 +1,6 @@
 """Figure of a game of any kind, in the manner of the paper's Fig. 5."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from functools import partial
 from itertools import combinations
 from typing import Any
@@ -11,12 +11,12 @@ from ..arena import BODY_RADIUS, Room
 from ..core.errors import AnyPath
 from ..core.player_colours import markers_of
 from ..core.poses import Array
-from ..games.duel_circle import cycle_mean, distance_between
+from ..games.duel_circle import cycle_mean, distance_between, whole_cycles
 from ..games.run import Run, is_match, is_play
 from ..games.support_foot_columns import express_in_support_foot
-from .cycle_means import whole_cycles
 from .figure_style import (
     LEFT,
+    LIGHT,
     LINES,
     MEAN,
     PUSHED,
@@ -25,28 +25,25 @@ from .figure_style import (
     THEORY,
     colours_of,
     legend_above,
+    legend_below,
     mark_level,
     panels,
     save,
 )
-from .plan_view import MARKED, draw_paths, draw_snapshots
+from .plan_view import MARKED, draw_paths, draw_pushes, draw_snapshots
 from .text_escaping import for_figure
 
 STEPS = 6.0  # last steps whose balance is shown
 BEFORE, AFTER = 1.0, 4.0  # time shown before and after a push, in [s]
 MAX_SAMPLES = 1500  # of a curve of clearance, approximately
 MOST_CURVES = 10  # of distances between pairs; beyond, the nearest of each
+RUNS = ("#222222", *LIGHT.others)  # colours of compared runs
 PERSONAL, SOCIAL = 0.45, 1.2  # limits of personal and social space, in [m]
 Draw = Callable[[Any], None]
 
 
 def draw_run(run: Run, file: AnyPath) -> None:
-    """Write the figure of a game of any kind.
-
-    Args:
-        run: The game.
-        file: Figure to write; its suffix gives the format.
-    """
+    """Write the figure of a game of any kind, in the format of the suffix."""
     rows, heights, drawn = _layout_of(run)
     many = len(run.players) > 2
     lines = 2 + len(run.players) // 2 if many else 0
@@ -94,10 +91,7 @@ def _layout_of(run: Run) -> tuple[list[str], list[float], dict[str, Draw]]:
     if run.plan is not None and (run.plan.solids or run.plan.moving):
         below = {"b": partial(_draw_clearance, run, run.plan)}
     elif len(run.players) == 1 and walkers:
-        below = {
-            letter: partial(_draw_balance, run, walkers[0], forward=forward)
-            for letter, forward in (("b", False), ("c", True))
-        }
+        below = {"b": partial(_draw_balance, run, walkers[0])}
     elif len(run.players) == 2:
         below = {
             letter: partial(_draw_balance, run, name)
@@ -107,11 +101,8 @@ def _layout_of(run: Run) -> tuple[list[str], list[float], dict[str, Draw]]:
         rows, heights, drawn = ["pppp"], [2.0], dict[str, Draw]()
         (track,) = run.tracks.values()
         if track.sole is not None:
-            rows, heights = [*rows, "tttt", "eeee"], [*heights, 1.1, 1.1]
-            drawn = {
-                "t": partial(_draw_in_support_foot, run, tilt=True),
-                "e": partial(_draw_in_support_foot, run, tilt=False),
-            }
+            rows, heights = [*rows, "tttt"], [*heights, 1.1]
+            drawn = {"t": partial(_draw_tilt, run)}
     elif len(run.players) == 2:
         rows, heights = ["0123", "ppdd", "ppaa"], [1.6, 1.25, 1.25]
         drawn = {
@@ -172,18 +163,15 @@ def _mark_pushes(axes: Any, run: Run) -> None:
             label = None
 
 
-def _draw_balance(
-    run: Run, name: str, axes: Any, *, forward: bool = False
-) -> None:
-    """Draw CoM and ZMP around the first push or of the last steps.
+def _draw_balance(run: Run, name: str, axes: Any) -> None:
+    """Draw CoM and ZMP to the left, around the first push or at the end.
 
     References are in odometry, true values in the world, so that each are
-    relative to their own mean. Forward, the mean motion of the reference is
-    subtracted.
+    relative to their own mean.
     """
     times, track = run.times, run.tracks[name]
-    zmp, zmp_reference = track.zmp, track.zmp_reference
-    com_reference = track.com_reference
+    com, zmp = track.com[:, :2], track.zmp
+    zmp_reference, com_reference = track.zmp_reference, track.com_reference
     assert zmp is not None and zmp_reference is not None
     assert com_reference is not None
     last, when = float(times[-1]), "last steps"
@@ -195,14 +183,8 @@ def _draw_balance(
         first, last, when = push - BEFORE, push + AFTER, "around the push"
     show = (times >= first) & (times <= last)
     heading = float(track.torso[show][:, 2].mean())
-    c, s = np.cos(heading), np.sin(heading)
-    axis = np.array([c, s] if forward else [-s, c])
+    axis = np.array([-np.sin(heading), np.cos(heading)])
     colour = colours_of(run)[name]
-    com: Array = track.com[:, :2]
-    way: Any = np.zeros(int(show.sum()))
-    if forward and show.sum() > 1:
-        along = (com_reference[show] - com_reference[show].mean(axis=0)) @ axis
-        way = np.polyval(np.polyfit(times[show], along, 1), times[show])
     for label, points, middle, look in (
         ("ZMP", zmp, com, {"color": "#a0a0a0", "lw": 0.8}),
         (
@@ -221,43 +203,31 @@ def _draw_balance(
         ),
     ):
         across = (points[show, :2] - middle[show].mean(axis=0)) @ axis
-        axes.plot(times[show], 1e3 * (across - way), label=label, **look)
+        axes.plot(times[show], 1e3 * across, label=label, **look)
     _mark_pushes(axes, run)
     axes.set_xlim(times[show][0], max(times[show][-1], times[show][0] + 0.02))
-    label = "forward,\nless mean [mm]" if forward else "leftward [mm]"
-    axes.set(xlabel="time [s]", ylabel=label)
+    axes.set(xlabel="time [s]", ylabel="leftward [mm]")
     legend_above(axes, f"{name}: balance, {when}", 5)
 
 
-def _draw_in_support_foot(run: Run, axes: Any, *, tilt: bool) -> None:
-    """Draw tilt of the torso or CoM error of a walk, in the support foot."""
+def _draw_tilt(run: Run, axes: Any) -> None:
+    """Draw the tilt of the torso of a walk, in the support foot."""
     (track,) = run.tracks.values()
     seen = express_in_support_foot(run.times, track)
-    for lean, axis, colour, label in (
-        ("roll", "y", LEFT, "leftward"),
-        ("pitch", "x", RIGHT, "forward"),
-    ):
-        values = 1e3 * (seen[f"com_{axis}"] - seen[f"com_reference_{axis}"])
-        if tilt:
-            values, label = np.degrees(seen[lean]), lean
-        axes.plot(run.times, values, color=colour, lw=1.0, label=label)
+    for lean, colour in (("roll", LEFT), ("pitch", RIGHT)):
+        values = np.degrees(seen[lean])
+        axes.plot(run.times, values, color=colour, lw=1.0, label=lean)
     _mark_pushes(axes, run)
-    axes.set_ylabel("tilt [deg]" if tilt else "error [mm]")
-    axes.set_xlabel("time [s]")
+    axes.set(xlabel="time [s]", ylabel="tilt [deg]")
     axes.margins(x=0.0)
-    legend_above(axes, "torso" if tilt else "CoM", 3)
+    legend_above(axes, "torso", 3)
 
 
 def clearance_of(room: Room, places: Array, times: Array) -> Array:
     """Return the distance to the nearest wall or obstacle, in [m].
 
-    Args:
-        room: The room.
-        places: Positions (x, y) in the room, in [m]. Shape (n, 2).
-        times: Time at each position, in [s]. Shape (n,).
-
-    Returns:
-        Signed distances, negative inside. Shape (n,).
+    It is negative inside. Places are (x, y), in [m], shape (n, 2), at times
+    in [s], shape (n,).
     """
     found = room.clearance(places)
     for mover in room.moving:
@@ -372,3 +342,67 @@ def _mark_changes(axes: Any, run: Run) -> None:
     for change in run.summary.changes[:50] if is_play(run) else ():
         axes.axvline(change.time_s, color="#c0c0c0", lw=0.6)
     axes.set_xlim(0.0, max(0.02, float(run.times[-1])))
+
+
+def draw_runs(runs: Sequence[Run], file: AnyPath) -> None:
+    """Draw paths and, over gait cycles, what several runs have in common.
+
+    Of games, that is the distance and, of two players, the angle between
+    the headings, with theory dotted; of walks, tilt and speed.
+
+    Args:
+        runs: The runs; each has its own colour and line style.
+        file: Figure to write; its suffix gives the format.
+    """
+    walks = all(len(run.players) == 1 for run in runs)
+    turned = any(run.has_orientation for run in runs)
+    rows = ["pd", "pa"] if turned or walks else ["pd"]
+    heights = [1.9] * len(rows) if len(rows) > 1 else [3.6]
+    lines = -(-len(runs) // 3)
+    figure, axes = panels(rows, 9.5, heights, legend=lines)
+    for number, run in enumerate(runs):
+        line, colour = LINES[number % len(LINES)], RUNS[number % len(RUNS)]
+        look: dict[str, Any] = {"color": colour, "ls": line, "lw": 1.1}
+        for track in run.tracks.values():
+            axes["p"].plot(*track.com[:, :2].T, **look)
+            draw_pushes(axes["p"], track.pushes)
+        values = (
+            _walk_measures(run)
+            if walks
+            else (
+                whole_cycles(each, run.times, run.settings.cycle)
+                for each in (run.distance, run.orientation)
+            )
+        )
+        levels = run.theory[1:] if run.theory else (None, None)
+        for key, each, level in zip("da", values, levels, strict=True):
+            if key in axes:
+                label = for_figure(run.name)
+                axes[key].plot(run.times, each, label=label, **look)
+                if level is not None:
+                    axes[key].axhline(level, color=colour, ls=":", lw=0.8)
+    axes["p"].set_aspect("equal", adjustable="datalim")
+    axes["p"].set(title="CoM paths", xlabel="x [m]", ylabel="y [m]")
+    labels = ("distance [m]", "angle between headings [deg]")
+    if walks:
+        labels = ("tilt [deg]", "speed [m/s]")
+    for key, label in zip("da", labels, strict=True):
+        if key in axes:
+            axes[key].set(xlabel="time [s]", ylabel=label)
+    legend_below(figure, [axes["d"]], ncols=3)
+    save(figure, file)
+
+
+def _walk_measures(run: Run) -> tuple[Array, Array]:
+    """Return tilt [deg], and speed over the gait cycle around, in [m/s]."""
+    (track,) = run.tracks.values()
+    tilt, speed = np.full((2, len(run.times)), np.nan)
+    if track.sole is not None:
+        seen = express_in_support_foot(run.times, track)
+        tilt = np.degrees(np.hypot(seen["roll"], seen["pitch"]))
+    half = max(1, int(np.searchsorted(run.times, 0.5 * run.settings.cycle)))
+    if len(run.times) > 2 * half:
+        way = track.unicycle[2 * half :, :2] - track.unicycle[: -2 * half, :2]
+        passed = run.times[2 * half :] - run.times[: -2 * half]
+        speed[half:-half] = np.hypot(*way.T) / passed
+    return tilt, speed

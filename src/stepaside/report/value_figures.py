@@ -27,13 +27,8 @@ def draw_bound(
     """Draw slices of the value function in the pursuer's frame.
 
     Each slice has one angle between the directions of motion; the evader is
-    at (x, y), and an arrow shows its direction of motion.
-
-    Args:
-        game: Game of cars.
-        table: Its table.
-        capture: Capture distance whose barrier is drawn, in [m].
-        path: File to write; its suffix gives the format.
+    at (x, y), and an arrow shows its direction of motion. The barrier is
+    that of a capture distance, in [m].
     """
     far = min(table.grid.edge, 1.4 * float(barrier(table, capture).max()))
     side = np.linspace(-far, far, POINTS)
@@ -107,16 +102,12 @@ def draw_chauffeur(
 ) -> None:
     """Draw the guaranteed distance around a person, and its requirement.
 
-    Args:
-        game: The game.
-        table: Table of the game.
-        standing: Table of an evader that stands for its response time.
-        capture: Contact distance, in [m].
-        path: File to write; its suffix gives the format.
+    ``standing`` is the table of an evader that stands for its response time;
+    the capture distance is that of contact, in [m].
     """
     figure, axes = panels(["ab"], 9.6, [3.2], legend=1, gaps=(1.4, 0.8))
     _draw_map(axes["a"], table, standing, capture)
-    draw_agility(axes["b"], game.pursuer_speed, capture)
+    _draw_agility(axes["b"], game.pursuer_speed, capture)
     own = game.velocities.smallest, game.turning_radius
     axes["b"].plot(*own, "o", c=EVADER)
     further = {
@@ -132,14 +123,8 @@ def draw_chauffeur(
     save(figure, path)
 
 
-def draw_agility(ax: Any, pursuer_speed: float, capture: float) -> None:
-    """Draw the distance that a speed guarantees, over turning radii.
-
-    Args:
-        ax: Matplotlib axes.
-        pursuer_speed: Speed of the person, in [m/s].
-        capture: Contact distance, whose line is drawn, in [m].
-    """
+def _draw_agility(ax: Any, pursuer_speed: float, capture: float) -> None:
+    """Draw the distance that a speed guarantees, over turning radii."""
     speeds = np.linspace(0.05, 0.99, 95) * pursuer_speed
     radii = np.linspace(*RADII, 116)
     ratios = np.array([guaranteed_distance(w / pursuer_speed) for w in speeds])

@@ -7,7 +7,7 @@ import numpy as np
 
 from ...core.poses import Array
 from ...games.replayed_signals import RobotSignals
-from ..landed_footsteps import landed_footsteps
+from ..overlays import footsteps_in
 from .recording import Recording
 
 # Arrays of a trajectory that have one row per sample, with their columns.
@@ -118,11 +118,8 @@ def _events_of(recording: Recording, player: str) -> Iterator[Rows]:
     if track.landings is not None:
         landings = f"{player}-footsteps-planned"
         yield landings, step, track.landings
-        model = recording.models.get(player)
-        if model is not None and track.qpos is not None:
-            landed = landed_footsteps(
-                model.description, recording.run.times, track
-            )
+        if track.qpos is not None:
+            landed = footsteps_in(recording.run, player)
             yield f"{player}-footsteps-landed", step, landed
     signals = recording.signals.get(player)
     if signals is not None and signals.plans:
