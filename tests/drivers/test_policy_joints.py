@@ -33,7 +33,7 @@ from stepaside.robots.description import RobotDescription, load_robot
 from stepaside.robots.forward_kinematics import ForwardKinematics
 from stepaside.sim.body_errors import set_joint_gains
 from stepaside.sim.physics_settings import PhysicsSettings
-from stepaside.sim.simulated_robot import SimulatedRobot, motor_of
+from stepaside.sim.simulated_robot import SimulatedRobot
 from stepaside.sim.world import World
 from stepaside.strategies import Pursuit
 
@@ -64,8 +64,9 @@ class GainsRobot(JointRobot):
         )
         mujoco.mj_forward(world.model, world.data)
         self.joints = posture.joint_names
+        moved = world.model.actuator_trnid[:, 0].tolist()
         ids = [
-            motor_of(world.model, world.model.joint(f"robot/{name}").id)
+            moved.index(world.model.joint(f"robot/{name}").id)
             for name in self.joints
         ]
         self._actuators, model = np.array(ids), world.model

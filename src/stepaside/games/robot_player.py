@@ -57,8 +57,6 @@ class PhysicalPlayer(Player):
         self.name, self.truth, self.robot = robot.name, robot.truth, robot
         self.walk, self.frame = walk, frame
         self.plans = isinstance(walk, ManeuverWalk)
-        if walk is not None and not self.plans:
-            robot.world.measures_always = True
         self._measured: tuple[int, RobotState] | None = None
 
     def measure(self) -> RobotState:

@@ -7,16 +7,13 @@ from typing import NamedTuple
 
 import mujoco
 import numpy as np
-from numpy.typing import NDArray
 
 from ..core.player_identity import PlayerIdentity
 from ..core.poses import Array, Pose, wrap_angle
-from ..core.rotations import angles_of
 from ..core.row_table import RowTable
 from ..perception.measurement import Sighting
 from ..robots.description_types import ReferencePoint
 from .physics_settings import SightSettings
-from .world import World
 
 FALLEN = cos(radians(45.0))  # upward component of the torso's axis
 
@@ -135,23 +132,6 @@ class TrueStance(NamedTuple):
     right_sole: Pose
 
 
-def true_stance(
-    model: mujoco.MjModel, data: mujoco.MjData, torso: int, soles: list[int]
-) -> TrueStance:
-    """Return the stance, by torso body and sites of left and right sole."""
-    mujoco.mj_subtreeVel(model, data)
-    vx, vy, _ = data.subtree_linvel[torso].tolist()
-    roll, pitch, _ = angles_of(data.xmat[torso].reshape(3, 3))
-    left, right = (_pose(data, sole) for sole in soles)
-    return TrueStance((vx, vy), (roll, pitch), left, right)
-
-
-def _pose(data: mujoco.MjData, site: int) -> Pose:
-    x, y, _ = data.site_xpos[site].tolist()
-    frame = data.site_xmat[site]
-    return Pose(x, y, atan2(frame[3], frame[0]))
-
-
 HALF_WIDTH = 0.35  # of a body that hides others, relative to its reach
 TALL_ENOUGH = 0.8  # CoM height of a body that hides another, relative to it
 
@@ -240,19 +220,18 @@ Columns = dict[str, Array]
 
 
 class RobotLog:
-    """Samples of arrays of the simulation."""
+    """Samples of arrays of the simulation, views of shape (n,).
+
+    ``convert`` makes what the log gives of all samples, shapes (samples, n);
+    ``prepare`` is called before each.
+    """
 
     def __init__(
         self,
         sources: Mapping[str, Array],
-        prepare: Callable[[], None],
         convert: Callable[[Columns], Columns],
+        prepare: Callable[[], None] = lambda: None,
     ) -> None:
-        """Begin without samples of some arrays, views of shape (n,).
-
-        ``prepare`` computes them for a sample; ``convert`` makes what the log
-        gives of all samples, shapes (samples, n).
-        """
         self._names, self._sources = tuple(sources), tuple(sources.values())
         self._prepare, self._convert = prepare, convert
         widths = [source.size for source in self._sources]
@@ -272,87 +251,6 @@ class RobotLog:
         """Return the samples by name."""
         parts = np.split(self._table.rows, self._ends, axis=1)
         return self._convert(dict(zip(self._names, parts, strict=True)))
-
-
-def state_log(
-    world: World,
-    truth: TrueRobotState,
-    qpos: slice,
-    forces: NDArray[np.int_],
-    corners: NDArray[np.int_],
-) -> RobotLog:
-    """Return a log of CoM, poses, ZMP and posture; see ``Trajectory``."""
-    data = world.data
-    # One contiguous range that contains all is copied faster.
-    sensors = slice(int(forces.min()), int(forces.max()) + 1)
-    sites = slice(int(corners.min()), int(corners.max()) + 1)
-
-    def convert(found: Columns) -> Columns:
-        place, torso = truth.poses_at(
-            found["com"], found["origin"], found["axes"]
-        )
-        points = found["sites"].reshape(-1, sites.stop - sites.start, 3)
-        zmp = centers_of_pressure(
-            found["sensors"].take(forces - sensors.start, axis=1),
-            points.take(corners - sites.start, axis=1),
-        )
-        return {
-            "com": found["com"].copy(),
-            "place": place,
-            "torso": torso,
-            "zmp": zmp,
-            "qpos": found["qpos"].astype(np.float32),
-        }
-
-    sources: Columns = {
-        "com": truth.position_com_in_world,
-        "origin": truth.origin_torso_in_world,
-        "axes": truth.axes_torso_in_world,
-        "sensors": data.sensordata[sensors],
-        "sites": data.site_xpos[sites].reshape(-1),
-        "qpos": data.qpos[qpos],
-    }
-    return RobotLog(sources, world.update_sensors, convert)
-
-
-def sensor_log(
-    model: mujoco.MjModel,
-    data: mujoco.MjData,
-    torso: int,
-    dofs: slice,
-    gyro: slice,
-    accelerometer: slice,
-    forces: NDArray[np.int_],
-) -> RobotLog:
-    """Return a log of exact sensors and efforts; see ``RobotSignals``.
-
-    ``dofs`` are free joint, then hinges in the order of qpos.
-    """
-    sensors = slice(int(forces.min()), int(forces.max()) + 1)
-
-    def convert(found: Columns) -> Columns:
-        velocity, effort = found.pop("velocity"), found.pop("effort")
-        found["foot_forces"] = found["foot_forces"].take(
-            forces - sensors.start, axis=1
-        )
-        return {
-            "torso_velocity": velocity[:, :6].copy(),
-            "joint_velocity": velocity[:, 6:].copy(),
-            "joint_effort": effort[:, 6:].copy(),
-            **{name: values.copy() for name, values in found.items()},
-        }
-
-    sources: Columns = {
-        "velocity": data.qvel[dofs],
-        "effort": data.qfrc_actuator[dofs],
-        "gyro": data.sensordata[gyro],
-        "accelerometer": data.sensordata[accelerometer],
-        "foot_forces": data.sensordata[sensors],
-        "com_velocity": data.subtree_linvel[torso, :2],
-    }
-    return RobotLog(
-        sources, lambda: mujoco.mj_subtreeVel(model, data), convert
-    )
 
 
 def centers_of_pressure(forces: Array, corners: Array) -> Array:

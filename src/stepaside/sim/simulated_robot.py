@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from math import atan2
 from typing import TYPE_CHECKING
 
 import mujoco
@@ -12,6 +13,7 @@ from numpy.typing import NDArray
 from ..core.constants import GRAVITY
 from ..core.errors import ModelError
 from ..core.poses import Array, Pose
+from ..core.rotations import angles_of
 from ..perception.measurement import RobotState, Sighting
 from ..robots.description import REMEDY, RobotDescription
 from .body_errors import (
@@ -23,14 +25,12 @@ from .body_errors import (
 )
 from .body_settings import BodySettings
 from .ground_truth import (
+    Columns,
     IdealLineOfSight,
     RobotLog,
     TrueRobotState,
     TrueStance,
     centers_of_pressure,
-    sensor_log,
-    state_log,
-    true_stance,
 )
 from .push import Push, PushApplier, ScheduledPush
 from .world import World, transform_free_joint
@@ -42,20 +42,6 @@ if TYPE_CHECKING:
     from ..robots.leg_kinematics import LegKinematics
     from .ranging import Lidar
     from .sensor_suite import SensorSuite
-
-
-def motor_of(model: mujoco.MjModel, joint: int) -> int:
-    """Return the index of the one actuator of a joint, by its index."""
-    moving = (model.actuator_trnid[:, 0] == joint) & (
-        model.actuator_trntype == mujoco.mjtTrn.mjTRN_JOINT
-    )
-    found = np.flatnonzero(moving)
-    if len(found) != 1:
-        raise ModelError(
-            f"joint {model.joint(joint).name!r} must have one actuator, got "
-            f"{len(found)}"
-        )
-    return int(found[0])
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -106,7 +92,8 @@ class SimulatedRobot:
         self.joint_names = names = kinematics.joint_names
         joints = [model.joint(f"{name}/{n}") for n in names]
         self._qpos = np.array([j.qposadr[0] for j in joints])
-        ids = np.array([motor_of(model, j.id) for j in joints])
+        moved = model.actuator_trnid[:, 0].tolist()
+        ids = np.array([moved.index(j.id) for j in joints])
         if gains is not None:
             set_joint_gains(model, ids, names, gains)
         self._dofs = (
@@ -162,18 +149,13 @@ class SimulatedRobot:
         return servos
 
     def _find_sensors(self, description: RobotDescription) -> None:
-        """Find the sensors, and make views of their values once."""
-        model, data = self.world.model, self.world.data
-        sensors = description.sensors
+        """Find the sensors of the model."""
+        model, sensors = self.world.model, description.sensors
         self._gyro = self._sensor(sensors.gyro)
         self._accelerometer = self._sensor(sensors.accelerometer)
-        self._qpos_view: Array = data.qpos
-        self._qvel_view: Array = data.qvel
-        self._sensordata: Array = data.sensordata
-        self._gyro_view: Array = data.sensordata[self._gyro]
-        self._accelerometer_view: Array = data.sensordata[self._accelerometer]
         pressing = [self._sensor(foot).start for foot in sensors.feet]
         self._force_addresses = np.array(pressing)
+        self._force_range = slice(min(pressing), max(pressing) + 1)
         sites = [model.site(f"{self.name}/{f}").id for f in sensors.feet]
         self._corner_sites = np.array(sites)
 
@@ -212,17 +194,17 @@ class SimulatedRobot:
             return RobotState(
                 now, *(EMPTY,) * 4, first, percepts, place, players=seen
             )
-        self.world.update_sensors()
-        angles = self._qpos_view.take(self._qpos)
+        data = self.world.data
+        angles = data.qpos[self._qpos]
         velocities = latest = None
         if self._dofs is not None:
-            velocities = self._qvel_view.take(self._dofs)
+            velocities = data.qvel[self._dofs]
         if self._imu is not None:
             gyro, specific_force, latest = self._imu.read()
         else:
-            gyro = self._gyro_view.copy()
-            specific_force = self._accelerometer_view.copy()
-        forces = self._sensordata.take(self._force_addresses)
+            gyro = data.sensordata[self._gyro].copy()
+            specific_force = data.sensordata[self._accelerometer].copy()
+        forces = data.sensordata[self._force_addresses]
         if self._errors is not None:
             angles = self._errors.encoders(angles)
             if velocities is not None:
@@ -281,8 +263,16 @@ class SimulatedRobot:
     @property
     def stance(self) -> TrueStance:
         """True stance at this instant."""
-        world = self.world
-        return true_stance(world.model, world.data, self._torso, self._soles)
+        model, data = self.world.model, self.world.data
+        mujoco.mj_subtreeVel(model, data)
+        vx, vy, _ = data.subtree_linvel[self._torso].tolist()
+        roll, pitch, _ = angles_of(data.xmat[self._torso].reshape(3, 3))
+        soles = []
+        for site in self._soles:
+            x, y, _ = data.site_xpos[site].tolist()
+            frame = data.site_xmat[site]
+            soles.append(Pose(x, y, atan2(frame[3], frame[0])))
+        return TrueStance((vx, vy), (roll, pitch), *soles)
 
     @property
     def pushes(self) -> tuple[ScheduledPush, ...]:
@@ -301,28 +291,74 @@ class SimulatedRobot:
 
     def measured_zmp(self) -> tuple[float, float]:
         """Return the centre of pressure in the world, [m]; NaN in flight."""
-        self.world.update_sensors()
-        forces = self._sensordata.take(self._force_addresses)
+        forces = self.world.data.sensordata[self._force_addresses]
         corners = self.world.data.site_xpos[self._corner_sites]
         x, y = centers_of_pressure(forces[None], corners[None])[0].tolist()
         return x, y
 
     def state_log(self) -> RobotLog:
-        """Return an empty log of the true state."""
-        return state_log(
-            self.world,
-            self.truth,
-            self.qpos_slice,
-            self._force_addresses,
-            self._corner_sites,
-        )
+        """Return an empty log of CoM, poses, ZMP and posture."""
+        truth, data, sites = self.truth, self.world.data, self._corner_sites
+        # One contiguous range that contains all is copied faster.
+        first, after = int(sites.min()), int(sites.max()) + 1
+
+        def convert(found: Columns) -> Columns:
+            place, torso = truth.poses_at(
+                found["com"], found["origin"], found["axes"]
+            )
+            points = found["sites"].reshape(-1, after - first, 3)
+            zmp = centers_of_pressure(
+                self._of_feet(found["forces"]), points[:, sites - first]
+            )
+            return {
+                "com": found["com"].copy(),
+                "place": place,
+                "torso": torso,
+                "zmp": zmp,
+                "qpos": found["qpos"].astype(np.float32),
+            }
+
+        sources: Columns = {
+            "com": truth.position_com_in_world,
+            "origin": truth.origin_torso_in_world,
+            "axes": truth.axes_torso_in_world,
+            "forces": data.sensordata[self._force_range],
+            "sites": data.site_xpos[first:after].reshape(-1),
+            "qpos": data.qpos[self.qpos_slice],
+        }
+        return RobotLog(sources, convert)
+
+    def _of_feet(self, values: Array) -> Array:
+        """Return the foot forces of logged ranges. Shape (samples, 8)."""
+        forces: Array = values[
+            :, self._force_addresses - self._force_range.start
+        ]
+        return forces
 
     def sensor_log(self) -> RobotLog:
-        """Return an empty log of exact sensor values and joint efforts."""
-        return sensor_log(
-            *(self.world.model, self.world.data, self._torso),
-            *(self._dof_slice, self._gyro, self._accelerometer),
-            self._force_addresses,
+        """Return an empty log of exact sensors and joint efforts."""
+        model, data, dofs = self.world.model, self.world.data, self._dof_slice
+
+        def convert(found: Columns) -> Columns:
+            velocity, effort = found.pop("velocity"), found.pop("effort")
+            found["foot_forces"] = self._of_feet(found["foot_forces"])
+            return {
+                "torso_velocity": velocity[:, :6].copy(),
+                "joint_velocity": velocity[:, 6:].copy(),
+                "joint_effort": effort[:, 6:].copy(),
+                **{name: values.copy() for name, values in found.items()},
+            }
+
+        sources: Columns = {
+            "velocity": data.qvel[dofs],
+            "effort": data.qfrc_actuator[dofs],
+            "gyro": data.sensordata[self._gyro],
+            "accelerometer": data.sensordata[self._accelerometer],
+            "foot_forces": data.sensordata[self._force_range],
+            "com_velocity": data.subtree_linvel[self._torso, :2],
+        }
+        return RobotLog(
+            sources, convert, lambda: mujoco.mj_subtreeVel(model, data)
         )
 
     def close(self) -> None:

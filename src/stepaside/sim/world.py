@@ -99,9 +99,7 @@ def _contact_types() -> Iterator[int]:
 class World:
     """Physics of a model that its robots advance together.
 
-    Time advances when every robot has called :meth:`advance`. Sensors are
-    current after :meth:`update_sensors`; the last step of a tick computes
-    them where ``measures_always``.
+    Time advances when every robot has called :meth:`advance`.
     """
 
     def __init__(
@@ -126,12 +124,6 @@ class World:
         )
         self.data = mujoco.MjData(self.model)
         self.before_step: list[Callable[[float], None]] = []
-        # State, and that before the last step while its sensors are missing.
-        self._state = self.data.qpos, self.data.qvel
-        self._stepped = (self.data.qpos.copy(), self.data.qvel.copy())
-        self._option = self.model.opt
-        self._lacks_sensors = False
-        self.measures_always = False
         self.ticks = 0
         self._waiting = self._robots = len(robots)
         roots = [
@@ -160,52 +152,21 @@ class World:
             self.step()
 
     def step(self) -> None:
-        """Advance by one control tick."""
-        steps = self.physics.steps_per_tick
+        """Advance by one control tick, whose last step computes sensors."""
+        model, data, steps = self.model, self.data, self.physics.steps_per_tick
         if self.before_step:
-            self._step_singly(steps)
-        else:
-            model, data, option = self.model, self.data, self._option
-            option.disableflags = NO_SENSORS
-            if steps > 1:
-                mujoco.mj_step(model, data, nstep=steps - 1)
-            if self.measures_always:
-                option.disableflags = 0
+            now, time_step = self.time, self.physics.time_step
+            for step in range(steps):
+                for call in self.before_step:
+                    call(now + step * time_step)
                 mujoco.mj_step(model, data)
-                self.ticks += 1
-                return
-            (qpos, qvel), (old_qpos, old_qvel) = self._state, self._stepped
-            old_qpos[:], old_qvel[:] = qpos, qvel
+        else:
+            if steps > 1:
+                model.opt.disableflags = NO_SENSORS
+                mujoco.mj_step(model, data, nstep=steps - 1)
+                model.opt.disableflags = 0
             mujoco.mj_step(model, data)
-            option.disableflags = 0
-            self._lacks_sensors = True
         self.ticks += 1
-
-    def update_sensors(self) -> None:
-        """Compute the sensors of the last physics step, if not done yet.
-
-        MuJoCo computes them within a step, from the state at its begin:
-        positions and velocities are set back meanwhile.
-        """
-        if not self._lacks_sensors:
-            return
-        self._lacks_sensors = False
-        model, data = self.model, self.data
-        qpos, qvel = self._state
-        now = qpos.copy(), qvel.copy()
-        qpos[:], qvel[:] = self._stepped
-        mujoco.mj_sensorPos(model, data)
-        mujoco.mj_sensorVel(model, data)
-        mujoco.mj_sensorAcc(model, data)
-        qpos[:], qvel[:] = now
-
-    def _step_singly(self, steps: int) -> None:
-        """Advance by physics steps, with the functions before each."""
-        now, time_step = self.time, self.physics.time_step
-        for step in range(steps):
-            for call in self.before_step:
-                call(now + step * time_step)
-            mujoco.mj_step(self.model, self.data)
 
     def robots_touch(self) -> bool:
         """Return whether robots touch each other or an object."""

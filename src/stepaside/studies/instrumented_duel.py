@@ -90,7 +90,6 @@ class _TickObserver(GameObserver):
         player = world.player(self._name)
         assert isinstance(player, RobotPlayer)
         walk = player.scheme.walk
-        world.update_sensors()
         data = world.data
         forces = [
             data.sensor(f"{self._name}/{sensor}").data[0]
