@@ -16,8 +16,8 @@ from train_evader import (
 from stepaside.envs import VectorDuel
 from stepaside.planning import Direction
 from stepaside.strategies import StepGame
-from stepaside.strategies.learned.observation_terms import observe
-from stepaside.strategies.strategy_validation import trial_knowledge
+from stepaside.strategies.learned.strategy_contract import observe
+from stepaside.strategies.registry import trial_knowledge
 
 RANDOM = np.random.default_rng(8)
 

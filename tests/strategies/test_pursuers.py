@@ -8,12 +8,11 @@ import numpy as np
 import pytest
 
 from stepaside.core.poses import Pose, wrap_angle
-from stepaside.games import Outcome, play_strategies
+from stepaside.games import play_strategies
 from stepaside.strategies import (
     Evasion,
     Knowledge,
     Limits,
-    OptimalPursuit,
     Pursuit,
     StepGame,
 )
@@ -75,20 +74,6 @@ def test_noise_depends_on_seed_and_step_alone() -> None:
     ]
     assert errors[0] == errors[1] != errors[2]
     assert np.std(errors[0]) == pytest.approx(0.5, rel=0.2)
-
-
-def test_the_optimal_pursuer_captures_an_evader_moving_aside(
-    tmp_path: object, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    """Moving aside keeps the paper's pursuer off for ever, not this one."""
-    monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path))
-    game = StepGame(duration=60.0)
-    best, paper = (
-        play_strategies(pursuer, ASIDE, START, game=game).outcome
-        for pursuer in (OptimalPursuit(24), Pursuit())
-    )
-    assert best is Outcome.CAPTURED
-    assert paper is Outcome.COMPLETED
 
 
 def known(bearing: float, distance: float = 1.0, **more: Any) -> Knowledge:

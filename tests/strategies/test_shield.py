@@ -12,10 +12,10 @@ from stepaside.strategies import StandStill
 from stepaside.strategies.knowledge import Intent, Knowledge, Limits
 from stepaside.strategies.shield import (
     ShieldedStrategy,
+    TemplatePoint,
     shielded,
 )
 from stepaside.strategies.shield_settings import ShieldSettings
-from stepaside.strategies.shield_template import TemplatePoint
 
 LIMITS = Limits(0.1, 0.2, 0.04, 0.5)  # 0.08 m/s of gait time
 PERSON = ShieldSettings(True, 0.1, 8.0, 0.3)

@@ -7,7 +7,7 @@ import pytest
 
 from stepaside.core.poses import wrap_angle
 from stepaside.strategies.opponent_track import SeenOpponent
-from stepaside.strategies.shield_course import Course, observed_course
+from stepaside.strategies.shield import Course, observed_course
 
 Trace = tuple[tuple[float, float, float], ...]
 

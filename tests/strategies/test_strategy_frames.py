@@ -19,7 +19,6 @@ from stepaside.strategies import (
     Knowledge,
     Limits,
     LookAhead,
-    OptimalPursuit,
     Pursuit,
 )
 from stepaside.strategies.strategy_game import StepGame
@@ -33,7 +32,6 @@ SOLIDS = (Disc(0.9, 0.5, 0.2), Box(-0.4, 0.7, 0.5, 0.3, 0.4))
 STRATEGIES: dict[str, Any] = {
     "pursuit": Pursuit(),
     "lead": Pursuit(lead=0.5),
-    "optimal pursuit": OptimalPursuit(cells=16),
     "evasion": Evasion(angle=1.0, safety_radius=1e6),
     "evasion in time": Evasion(trigger="time", contact_time=20.0),
     "look-ahead": LookAhead(cells=16),

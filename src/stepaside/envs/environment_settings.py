@@ -41,13 +41,11 @@ from ..games.duel_settings import PLAYERS, DuelSettings
 from ..games.floor_world import PARTS
 from ..planning import Direction
 from ..strategies.knowledge import STAND, Intent
-from ..strategies.learned.observation_terms import (
+from ..strategies.learned.strategy_contract import (
     FULL_STATE_TERMS,
+    HEADINGS,
     SENSED_TERMS,
     ObservedTerm,
-)
-from ..strategies.learned.strategy_contract import (
-    HEADINGS,
     StrategyContract,
     discrete_headings,
 )

@@ -18,14 +18,14 @@ from ..games.game_settings import GameSettings
 from ..games.game_starts import with_starts
 from ..games.physics_world import PhysicsWorld
 from ..strategies.knowledge import Knowledge, OtherPlayer
-from ..strategies.learned.observation_terms import (
+from ..strategies.learned.strategy_contract import (
     FARTHEST,
     FASTEST,
+    HEADINGS,
     SENSED_TERMS,
     length_unit,
     observe,
 )
-from ..strategies.learned.strategy_contract import HEADINGS
 from .environment_settings import (
     SEEDS,
     STRIDE,

@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from ..arena.obstacles import PackedObstacles, hull_clearance
 from ..core.compilation import compiled, copy_values, inlined
 from ..core.poses import Array
-from ..strategies.learned.observation_terms import (
+from ..strategies.learned.strategy_contract import (
     CLEAREST,
     FARTHEST,
     FASTEST,

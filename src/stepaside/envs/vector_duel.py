@@ -19,11 +19,10 @@ from ..core.errors import (
 )
 from ..core.poses import Array
 from ..games.duel_settings import PLAYERS
-from ..strategies.constant_walk import StandStill
 from ..strategies.evasion import Evasion
 from ..strategies.learned import LearnedStrategy
 from ..strategies.pursuit import Pursuit
-from ..strategies.strategy import Strategy
+from ..strategies.strategy import StandStill, Strategy
 from ..strategies.strategy_game import StepGame
 from .duel_v0 import load_opponent
 from .environment_settings import (

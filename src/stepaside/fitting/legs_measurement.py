@@ -25,7 +25,7 @@ from ..robots.description import RobotDescription
 from ..sim.body_settings import BodySettings, at_tick
 from ..sim.physics_settings import PhysicsSettings
 from ..sim.world import World
-from ..strategies.shield_template import TemplatePoint
+from ..strategies.shield import TemplatePoint
 from ..strategies.velocity_set import STILL, BodyVelocity
 
 STANDING = 1.5  # before the command, in [s]: the gyro is calibrated in 1 s
@@ -134,7 +134,7 @@ def run_tracking_walk(trial: LegsTrial) -> float:
     4 s.
 
     Greatest distance of the body from its template point, see
-    :mod:`stepaside.strategies.shield_template`, in [m]; NaN after a fall.
+    :mod:`stepaside.strategies.shield`, in [m]; NaN after a fall.
     """
     assert trial.response is not None
     walk, legs = _LegsWalk(trial), trial.response.velocities

@@ -1,5 +1,3 @@
-from .constant_walk import StandStill as StandStill
-from .constant_walk import Walk as Walk
 from .dash_evasion import DashEvasion as DashEvasion
 from .evasion import Evasion as Evasion
 from .evasion import EvasionMemory as EvasionMemory
@@ -10,12 +8,13 @@ from .knowledge import Knowledge as Knowledge
 from .knowledge import Limits as Limits
 from .learned import LearnedStrategy as LearnedStrategy
 from .look_ahead import LookAhead as LookAhead
-from .pursuit import OptimalPursuit as OptimalPursuit
 from .pursuit import Pursuit as Pursuit
 from .registry import STRATEGIES as STRATEGIES
 from .registry import load_strategy as load_strategy
 from .robust_evasion import RobustEvasion as RobustEvasion
+from .strategy import StandStill as StandStill
 from .strategy import Strategy as Strategy
+from .strategy import Walk as Walk
 from .strategy_game import StepGame as StepGame
 from .team_evasion import TeamEvasion as TeamEvasion
 from .team_pursuit import AssignedPursuit as AssignedPursuit
@@ -34,7 +33,6 @@ __all__ = [
     "LearnedStrategy",
     "Limits",
     "LookAhead",
-    "OptimalPursuit",
     "Pincer",
     "Pursuit",
     "RobustEvasion",

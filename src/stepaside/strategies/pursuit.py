@@ -17,7 +17,6 @@ from ..theory import laws
 from .approach import correcting_heading
 from .knowledge import STAND, Intent, Knowledge, Limits
 from .opponent_track import OpponentTrack, track_of_steps
-from .table_cache import cars_bound, unit_cars
 
 FREE_STRIDES = 3.0  # straight ahead that allow turning by (2)
 DETOUR = 1e-3  # angle between target and evader that is a detour, [rad]
@@ -205,46 +204,6 @@ class Pursuit:
             side,
         )
         return wrap_angle(atan2(v - y, u - x) - theta)
-
-
-@dataclass(frozen=True, slots=True)
-class OptimalPursuit:
-    """Pursuer with the smallest closest approach to an optimal evader.
-
-    The evader may turn as fast as the pursuer; the floor is open.
-    """
-
-    direction: ClassVar = Direction.FORWARD
-    saturated: ClassVar = False
-    cells: int = setting(
-        64,
-        "Cells along each axis of the value table of two identical cars",
-        Range(16, 200, "1", "accuracy, and time to solve", whole=True),
-    )
-
-    def __post_init__(self) -> None:
-        """Validate the settings."""
-        check_settings(self)
-
-    def begin(self) -> OpponentTrack | None:
-        """Return no track."""
-        return None
-
-    def decide(
-        self, knowledge: Knowledge, memory: OpponentTrack | None
-    ) -> tuple[Intent, OpponentTrack]:
-        """Turn as the table says, once the course of the evader is known."""
-        track = track_of_steps(memory, knowledge)
-        if track.course is None:
-            return Intent(knowledge.bearing), track
-        limits = knowledge.limits
-        unit = limits.speed / (pi * limits.gain)  # tightest radius, in [m]
-        x, y = knowledge.position
-        # The evader is a car that faces its direction of motion.
-        pose = x / unit, y / unit, track.course - knowledge.pose_in_map.theta
-        answer = cars_bound(self.cells).decisions(pose)[1]
-        turn = unit_cars().pursuer_twists[answer, 2]
-        return Intent(pi * float(turn)), track
 
 
 @dataclass(frozen=True, slots=True)

@@ -1,7 +1,8 @@
 """Shield: a least-restrictive filter around the strategy of a robot."""
 
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from math import inf, pi
+from math import asin, atan2, ceil, hypot, inf, pi
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -11,15 +12,126 @@ from ..core.poses import Array, Pose, rotate, wrap_angle
 from ..planning import Direction
 from .knowledge import STAND, Intent, Knowledge
 from .opponent_track import OpponentTrack, SeenOpponent
-from .shield_course import Course, observed_course
-from .shield_model import ShieldModel
+from .shield_model import LEGS_LOSS, LEGS_PERIOD, ShieldModel
 from .shield_settings import ShieldSettings
-from .shield_template import TemplatePoint
 from .strategy import Strategy, unicycle_intent
-from .velocity_set import BodyVelocity
+from .velocity_set import BodyVelocity, response_share
 
 TRACE = 4.0  # windows for which positions of the opponent are kept
 KEEPING = 0.005  # value of the last choice before others, in [m]
+LEAST_MOTION = 0.002  # between two sightings that show a heading, in [m]
+SPACING = 0.25  # of the headings of an opponent who stands, in [rad]
+
+Vector = tuple[float, float]
+
+
+class Course(NamedTuple):
+    """Heading of an opponent, and how far it may be off.
+
+    Attributes:
+        time: Time of the last sighting, in [s].
+        heading: Heading in the map, in [rad].
+        error: Greatest error of the heading, in [rad].
+    """
+
+    time: float
+    heading: float
+    error: float
+
+    def headings(self, known: float) -> list[float]:
+        """Return the heading, and others if its error is above a bound."""
+        if self.error <= known + 1e-9:
+            return [self.heading]
+        count = ceil(self.error / SPACING)
+        return [
+            self.heading + self.error * i / count
+            for i in range(-count, count + 1)
+        ]
+
+
+def observed_course(
+    before: Course | None,
+    seen: Sequence[SeenOpponent],
+    window: float,
+    person: tuple[float, float],
+    known: float,
+) -> Course | None:
+    """Return the heading of an opponent after its last sighting.
+
+    The direction of the chord between two positions, at least a window [s]
+    apart, is off by at most the turn between them, and by the errors of both.
+    The heading follows it no faster than the opponent turns: then it turns as
+    the opponent may, and stays within the error of the chord.
+
+    The person is given by its greatest turning rate [rad/s] and the error of a
+    position [m]; errors of a heading up to a bound [rad] count as known. None
+    before a window has passed for the first time.
+    """
+    turn, sighting_error = person
+    last = seen[-1]
+    turned = (
+        0.0 if before is None else turn * max(0.0, last.time - before.time)
+    )
+    before_it = last.time - window + 1e-6
+    earlier = [row for row in seen if row.time <= before_it]
+    if not earlier:
+        if before is None:
+            return None
+        return Course(
+            last.time, before.heading, min(pi, before.error + turned)
+        )
+    time, x, y, _ = earlier[-1]
+    chord = hypot(last.x - x, last.y - y)
+    error, hidden = pi, 2.0 * sighting_error
+    if chord > max(LEAST_MOTION, hidden):
+        error = min(pi, turn * (last.time - time) + asin(hidden / chord))
+    error = max(error, known)
+    direction = atan2(last.y - y, last.x - x)
+    if before is None:
+        return Course(last.time, direction, error)
+    if error > before.error + turned:  # the chord shows less than is known
+        return Course(last.time, before.heading, before.error + turned)
+    off = wrap_angle(direction - before.heading)
+    if error < before.error:
+        return Course(last.time, direction, error)
+    heading = before.heading + min(max(off, -turned), turned)
+    return Course(last.time, heading, error)
+
+
+class TemplatePoint(NamedTuple):
+    """Template point of a body on learned legs, which follows at once.
+
+    A body that follows commands with a lag comes to rest at its position
+    plus the lag times its velocity. The point moves with the commanded
+    velocity, and towards that place of rest by no more than a loss per
+    period; so the distance of the body from it is bounded: the tube that
+    ``robot legs measure`` finds.
+
+    Attributes:
+        position: Its position in the map, in [m].
+        drift: Velocity of the body over the floor, by the lag of its legs, in
+            [m/s].
+    """
+
+    position: Vector
+    drift: Vector = (0.0, 0.0)
+
+    def advance(
+        self, command: Vector, body: Vector, lag: float, duration: float
+    ) -> "TemplatePoint":
+        """Return the point a duration [s] later, at a position of the body.
+
+        The velocity over the floor is commanded, and legs lag by ``lag``.
+        """
+        (u, v), share = self.drift, response_share(duration, lag)
+        drift = u + share * (command[0] - u), v + share * (command[1] - v)
+        x = self.position[0] + duration * command[0]
+        y = self.position[1] + duration * command[1]
+        dx = body[0] + lag * drift[0] - x
+        dy = body[1] + lag * drift[1] - y
+        most = LEGS_LOSS * duration / LEGS_PERIOD
+        share = min(1.0, most / max(hypot(dx, dy), 1e-12))
+        return TemplatePoint((x + share * dx, y + share * dy), drift)
 
 
 class HeldMotion(NamedTuple):

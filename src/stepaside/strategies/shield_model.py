@@ -13,7 +13,6 @@ from ..planning import Direction
 from .dash_rollouts import greatest_velocity
 from .knowledge import ON_THE_SPOT, Intent, Limits
 from .shield_settings import ShieldSettings
-from .shield_template import LEGS_LOSS, LEGS_PERIOD
 from .table_cache import cached
 from .velocity_set import STILL, BodyVelocity, VelocitySet
 
@@ -24,6 +23,9 @@ LOG = logging.getLogger(__name__)
 
 CELLS = 10  # of the grid of the table in the required distance
 
+LEGS_PERIOD = 0.48  # of the motions of legs: several cells of the grid, [s]
+# Per period, in [m]; with it a G1 with 29 joints has a tube of 0.28 m.
+LEGS_LOSS = 0.08
 LEGS_INTERVAL = 0.08  # between decisions on a body velocity, in [s]
 LEGS_DIRECTIONS = 16
 SIGHTING_INTERVAL = 0.02  # by which a chord may be longer than a window, [s]

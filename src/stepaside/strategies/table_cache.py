@@ -14,10 +14,9 @@ from ..core.compilation import cache_folder
 from ..core.poses import Array
 
 if TYPE_CHECKING:  # the solver imports Numba
-    from ..theory.value import CarGame, ValueTable
+    from ..theory.value import ValueTable
 
 FAR = 4.5  # of the game against eqs. (1)-(2), in v/k
-CARS_FAR = 8.0  # of the two cars, in turning radii
 FORMAT = 7  # of the files
 UNREADABLE = (OSError, ValueError, KeyError, EOFError, BadZipFile)
 
@@ -52,30 +51,10 @@ def pursuit_bound(cells: int) -> "ValueTable":
 
     The table has a number of cells along each axis.
     """
-    from ..theory.value import CarGame
+    from ..theory.value import CarGame, ValueTable, solve_cars
 
     game = CarGame(1.0, 1.0, pursuer_gain=1.0)
-    return _load_or_solve("pursuit", game, FAR, cells)
-
-
-@lru_cache(maxsize=8)
-def cars_bound(cells: int) -> "ValueTable":
-    """Load or solve the bound of two identical cars of unit speed and turn."""
-    return _load_or_solve("cars", unit_cars(), CARS_FAR, cells)
-
-
-def unit_cars() -> "CarGame":
-    """Return the game of :func:`cars_bound`."""
-    from ..theory.value import CarGame
-
-    return CarGame(1.0, 1.0, pursuer_turn=1.0)
-
-
-def _load_or_solve(
-    name: str, game: "CarGame", far: float, cells: int
-) -> "ValueTable":
-    """Load a table from the cache, or solve its game."""
-    from ..theory.value import ValueTable, solve_cars
-
-    arrays = cached(name, cells, lambda: solve_cars(game, far, cells).arrays())
+    arrays = cached(
+        "pursuit", cells, lambda: solve_cars(game, FAR, cells).arrays()
+    )
     return ValueTable.from_arrays(arrays)

@@ -18,8 +18,7 @@ from .decision_network import (
     read_network,
     with_metadata,
 )
-from .observation_terms import observe
-from .strategy_contract import StrategyContract, contract_of
+from .strategy_contract import StrategyContract, contract_of, observe
 
 
 @dataclass(frozen=True, slots=True)
