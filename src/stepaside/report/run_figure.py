@@ -364,7 +364,7 @@ def draw_runs(runs: Sequence[Run], file: AnyPath) -> None:
         line, colour = LINES[number % len(LINES)], RUNS[number % len(RUNS)]
         look: dict[str, Any] = {"color": colour, "ls": line, "lw": 1.1}
         for track in run.tracks.values():
-            axes["p"].plot(*track.com[:, :2].T, **look)
+            axes["p"].plot(*track.torso[:, :2].T, **look)
             draw_pushes(axes["p"], track.pushes)
         values = (
             _walk_measures(run)
@@ -382,7 +382,7 @@ def draw_runs(runs: Sequence[Run], file: AnyPath) -> None:
                 if level is not None:
                     axes[key].axhline(level, color=colour, ls=":", lw=0.8)
     axes["p"].set_aspect("equal", adjustable="datalim")
-    axes["p"].set(title="CoM paths", xlabel="x [m]", ylabel="y [m]")
+    axes["p"].set(title="paths of the torsos", xlabel="x [m]", ylabel="y [m]")
     labels = ("distance [m]", "angle between headings [deg]")
     if walks:
         labels = ("tilt [deg]", "speed [m/s]")
