@@ -13,7 +13,6 @@ from stepaside.core.poses import Array, Pose
 from stepaside.games import game as loop
 from stepaside.games.game import GameInPlay, GameObserver, GameRules
 from stepaside.games.outcome import Outcome
-from stepaside.games.player import Snapshot
 
 TICK = 0.004
 
@@ -23,11 +22,11 @@ class FakeLog:
 
     def __init__(self, player: "FakePlayer") -> None:
         self._player = player
-        self._seen: list[Snapshot] = []
+        self._seen: list[float] = []
 
     def add(self) -> None:
         """Take a sample."""
-        self._seen.append(self._player.snapshot())
+        self._seen.append(self._player.x)
 
     def truncate(self, count: int) -> None:
         """Keep the first samples."""
@@ -35,29 +34,20 @@ class FakeLog:
 
     def arrays(self) -> dict[str, Array]:
         """Return what every player has."""
-        return {
-            name: np.array(
-                [getattr(seen, name) for seen in self._seen], dtype=float
-            ).reshape(-1, 3)
-            for name in ("com", "place", "torso")
-        }
+        poses = np.array([(x, 0.0, 0.0) for x in self._seen]).reshape(-1, 3)
+        com = poses + (0.0, 0.0, 0.3)
+        return {"com": com, "place": poses, "torso": poses.copy()}
 
 
 class FakePlayer:
     """Stands where it is told, and does what it is told at a tick."""
 
-    begun = None
+    begun = frame = None
+    pushes = ()
 
     def __init__(self, world: "FakeWorld", name: str, x: float) -> None:
         self.world, self.name, self.x = world, name, x
         self.does: dict[int, Callable[[], None]] = {}
-
-    def snapshot(self) -> Snapshot:
-        """Return where it stands."""
-        pose, com = Pose(self.x, 0.0, 0.0), (self.x, 0.0, 0.3)
-        return Snapshot(
-            self.name, self.world.time, place=pose, torso=pose, com=com
-        )
 
     def motion_log(self, *, closely: bool) -> FakeLog:
         """Return an empty log."""

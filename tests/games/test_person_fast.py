@@ -6,8 +6,8 @@ import pytest
 
 from stepaside.core.poses import Pose
 from stepaside.games.duel_settings import DuelSettings
+from stepaside.games.floor_games import play_template
 from stepaside.games.initial_poses import draw_start
-from stepaside.games.template_game import play_template
 from stepaside.planning import PRESETS
 from stepaside.sim.person_motion import PersonMotion
 from stepaside.sim.person_settings import PersonSettings

@@ -16,7 +16,6 @@ from stepaside.games.duel_settings import DuelSettings, StartSettings
 from stepaside.games.outcome import Outcome
 from stepaside.games.play_rows import monotonic_times
 from stepaside.games.play_settings import PlaySettings
-from stepaside.games.player import Snapshot
 from stepaside.games.recorded_game import RecordedGame
 from stepaside.games.robot_player import RobotPlayer
 from stepaside.games.run_archive import complete_play, load_run
@@ -76,11 +75,17 @@ class Walked:
         evader = duel.in_physics.players[1]
         assert isinstance(evader, RobotPlayer)
         look_at(log, evader)
-        self.true: list[tuple[Snapshot, Array]] = []
+        self.true: list[tuple[Pose, Pose, Array]] = []
         self.others: list[tuple[float, float]] = []
         self.frame = evader.frame
         while duel.world.time < 4.0:
-            self.true.append((evader.snapshot(), evader.robot.posture))
+            self.true.append(
+                (
+                    evader.torso_in_world,
+                    evader.place_in_world,
+                    evader.robot.posture,
+                )
+            )
             self.others.append(
                 duel.in_physics.players[0].truth.position_reference_in_world
             )
@@ -104,13 +109,13 @@ def test_the_replayed_path_is_the_true_one_up_to_slip(
     true = walked.true[:: round(float(run.times[1]) / 0.012)]
     assert len(run.times) in (len(true), len(true) + 1)
     assert run.summary.steps and run.summary.steps >= 4
-    for own, (seen, _) in zip(run.evader.torso, true, strict=False):
-        wanted = frame.compose(seen.torso)
+    for own, (seen, _, _) in zip(run.evader.torso, true, strict=False):
+        wanted = frame.compose(seen)
         assert hypot(own[0] - wanted.x, own[1] - wanted.y) < 0.01
         assert abs(wrap_angle(own[2] - wanted.theta)) < 0.02
     qpos = run.evader.qpos
     assert qpos is not None
-    truly = np.array([posture for _, posture in true])[: len(qpos)]
+    truly = np.array([posture for *_, posture in true])[: len(qpos)]
     off = np.abs(qpos[: len(truly)] - truly)
     own = load_tree(load_robot("nao"))
     coupled = [own.joints.index(name) for name in own.followers]
@@ -129,8 +134,10 @@ def test_the_opponent_is_at_its_sightings(walked: Walked) -> None:
         off = hypot(other[row, 0] - wanted.x, other[row, 1] - wanted.y)
         assert off < 0.03  # at 0.1 m/s a sighting is some ticks old
     closest = min(
-        hypot(x - s.place.x, y - s.place.y)
-        for (x, y), (s, _) in zip(walked.others, walked.true, strict=True)
+        hypot(x - place.x, y - place.y)
+        for (x, y), (_, place, _) in zip(
+            walked.others, walked.true, strict=True
+        )
     )
     assert run.summary.closest_m == pytest.approx(closest, abs=0.01)
 

@@ -5,7 +5,7 @@ from math import atan2, cos, pi, sin
 import pytest
 
 from stepaside.core.poses import Pose
-from stepaside.games.template_game import play_template
+from stepaside.games.floor_games import play_template
 from stepaside.planning import PRESETS, Direction
 from stepaside.sim.person_motion import PersonMotion, Place
 from stepaside.sim.person_settings import PersonSettings

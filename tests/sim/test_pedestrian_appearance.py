@@ -9,8 +9,8 @@ import pytest
 
 from stepaside.core.errors import ConfigurationError
 from stepaside.core.poses import Array, Pose
-from stepaside.games.floor_player import FloorPlayer
 from stepaside.games.floor_world import FloorPerson
+from stepaside.games.player import FloorPlayer
 from stepaside.sim.person_body import (
     PARTS,
     STEP,

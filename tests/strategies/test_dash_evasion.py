@@ -8,7 +8,7 @@ import pytest
 
 from stepaside.core.poses import ALL_AROUND, Pose, Sector
 from stepaside.games import StrategyTrack
-from stepaside.games.template_game import play_template
+from stepaside.games.floor_games import play_template
 from stepaside.planning import GaitSettings
 from stepaside.sim.person_motion import PersonMotion, Place
 from stepaside.sim.person_settings import PersonSettings

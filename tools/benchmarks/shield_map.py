@@ -25,7 +25,7 @@ from resumable_jobs import Row, finished, gather
 
 from stepaside.core.poses import Pose, wrap_angle
 from stepaside.core.random_streams import named_generator
-from stepaside.games.template_game import play_template
+from stepaside.games.floor_games import play_template
 from stepaside.locomotion.control_settings import LegsSettings
 from stepaside.locomotion.policy.policy_legs import load_legs
 from stepaside.planning import Direction, GaitSettings
@@ -38,7 +38,7 @@ from stepaside.strategies.shield_settings import ShieldSettings
 from stepaside.strategies.velocity_set import BodyVelocity, VelocitySet
 from stepaside.studies.result_files import header, write_result
 
-MODULES = ("theory/value", "strategies/shield", "games/template_game")
+MODULES = ("theory/value", "strategies/shield", "games/floor_games")
 STEP = 0.04  # of the integration, in [s]; a part of a step
 SLOW_STEP = 0.547 / 7  # likewise, for the paper's gait
 LEGS_GAIT = GaitSettings(speed=0.5, gain=0.4, stride=0.2)

@@ -35,10 +35,10 @@ from .duel_summary import (
     StartSummary,
     TheorySummary,
 )
+from .floor_games import play_template
 from .forecast import ExpectedEnd, forecast
 from .game import GameInPlay
 from .sight_summary import SightReport
-from .template_game import play_template
 from .trajectory import PlanningTimes, Trajectory
 
 FirstMoves = Mapping[str, tuple[float, Mapping[str, Pose]]]

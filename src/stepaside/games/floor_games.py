@@ -1,5 +1,6 @@
 """Games on the floor: of two strategies, and of the settings of a game."""
 
+from collections.abc import Callable
 from math import pi
 from typing import NamedTuple
 
@@ -11,20 +12,23 @@ from ..core.constants import CAPTURE_DISTANCE
 from ..core.errors import ConfigurationError, StrategyError
 from ..core.player_identity import PlayerIdentity, Role
 from ..core.poses import Array, Pose, wrap_angles
+from ..planning import GaitSettings
 from ..sim.crowd_motion import CrowdMotion
-from ..sim.person_motion import PersonMotion
+from ..sim.person_motion import PersonMotion, Place
 from ..strategies.evasion import Evasion
-from ..strategies.knowledge import Limits
+from ..strategies.knowledge import Limits, limits_of
 from ..strategies.registry import load_strategy
 from ..strategies.strategy import Strategy
 from ..strategies.strategy_game import StepGame
+from ..strategies.velocity_set import VelocitySet
 from ..theory.unicycle.unicycle_game import Game, RelativeStart
 from .floor_world import (
     PARTS,
+    PERIOD,
     FloorAgent,
-    FloorBulk,
     FloorMotion,
     FloorPerson,
+    FloorPoint,
     FloorRecorder,
     FloorReplay,
     FloorWalk,
@@ -34,7 +38,6 @@ from .game import GameInPlay, GameRules, play
 from .game_settings import GameSettings, PlayerSettings
 from .game_strategies import MARGIN, strategy_of
 from .outcome import Outcome
-from .recorded_motion import RecordedMotion
 
 UNBOUNDED = 1e9  # safety radius of a game without safety area, in [m]
 PAIR = {
@@ -223,6 +226,58 @@ def rules_of_two(game: StepGame) -> GameRules:
     return GameRules(game.whole_duration, game.capture, PAIR)
 
 
+def play_template(
+    motion: Callable[[Pose, Place], PersonMotion],
+    start: Pose,
+    evader: Pose,
+    strategy: Strategy,
+    gait: GaitSettings,
+    *,
+    duration: float,
+    velocities: VelocitySet | None = None,
+    step: float = 0.01,
+) -> StrategyTrack:
+    """Play the template of an evader against a prescribed motion.
+
+    The evader decides once per footstep; while it stands it decides at any
+    time, and moves after its first double support. One on learned legs is
+    the point that stands for them.
+
+    Args:
+        motion: Returns the motion of the pursuer from its initial pose and
+            the evader's position.
+        start: Initial pose of the pursuer in the world.
+        evader: Initial pose of the evader in the world.
+        strategy: Strategy of the evader.
+        gait: Gait of the evader.
+        duration: Duration of the game, in [s].
+        velocities: Velocities that learned legs deliver; None for a unicycle.
+        step: Step of the integration, in [s].
+    """
+    agent = FloorAgent(
+        strategy,
+        limits_of(gait, velocities),
+        PAIR["evader"],
+        list(PAIR.values()),
+    )
+    own: FloorMotion
+    if velocities is not None:
+        own = FloorPoint(agent, evader, gait, step)
+    else:
+        own = FloorWalk(agent, evader, delay=gait.start_support, alert=step)
+    walk = motion(start, (evader.x, evader.y))
+    world = FloorWorld(
+        {
+            "pursuer": FloorPerson("pursuer", walk, {}, "evader", step),
+            "evader": own,
+        }
+    )
+    recorder = FloorRecorder(world, step)
+    game = GameInPlay(world, GameRules(duration), (recorder,))
+    play(game)
+    return track_of(game, recorder)
+
+
 def floor_of(settings: GameSettings) -> FloorWorld:
     """Return the world of a game at level "unicycle" or "steps".
 
@@ -234,7 +289,7 @@ def floor_of(settings: GameSettings) -> FloorWorld:
     """
     room = settings.room
     return FloorWorld(
-        {own.name: _motion(settings, own) for own in settings.players},
+        {own.name: motion_of(settings, own) for own in settings.players},
         NO_OBSTACLES if room is None else room.solid_set,
         [p.name for p in settings.players if p.role != Role.PURSUER],
     )
@@ -250,44 +305,37 @@ def rules_of(settings: GameSettings) -> GameRules:
     return GameRules(settings.duration, capture, settings.identities, goals)
 
 
-def _motion(settings: GameSettings, own: PlayerSettings) -> FloorMotion:
-    """Return the motion of a player."""
-    pose, room = own.pose, settings.room
+def motion_of(
+    settings: GameSettings, own: PlayerSettings, period: float = PERIOD
+) -> FloorMotion:
+    """Return the motion of a player that physics does not move.
+
+    A person on a path decides after each period, in [s].
+    """
+    pose, room, physics = own.pose, settings.room, settings.level == "physics"
     assert pose is not None
     solids = NO_OBSTACLES if room is None else room.solid_set
     if own.decides:
         return FloorWalk(
             agent_of(settings, own),
             pose,
-            parts=PARTS[settings.level],
+            parts=PARTS.get(settings.level, 1),
+            delay=own.gait.start_support if physics else 0.0,
             walls=solids if own.role == Role.PURSUER else NO_OBSTACLES,
             radius=own.radius + MARGIN,
         )
     if own.body == "run":
-        return FloorReplay(RecordedMotion(own.run, own.run_player))
-    if own.goal:
-        x, y = own.goal
-        motion = CrowdMotion(own.crowd, pose, (x, y), solids)
-        return FloorPerson(own.name, motion, bodies_of(settings, own))
-    return FloorPerson(
-        own.name,
-        walk_on_path(settings, own),
-        {},
-        target_of_person(settings, own),
-    )
-
-
-def bodies_of(
-    settings: GameSettings, own: PlayerSettings
-) -> dict[str, FloorBulk]:
-    """Return the bodies of all players, by name, as a person sees them."""
+        return FloorReplay(own.run, own.run_player)
+    if not own.goal:
+        walk, target = walk_on_path(settings, own), _target_of(settings, own)
+        return FloorPerson(own.name, walk, {}, target, period)
     people = settings.people_around(own)
-    return {
-        p.name: FloorBulk(
-            p.name in people, p.radius, people.get(p.name, False)
-        )
+    bodies = {
+        p.name: (p.name in people, p.radius, people.get(p.name, False))
         for p in settings.players
     }
+    crowd = CrowdMotion(own.crowd, pose, (own.goal[0], own.goal[1]), solids)
+    return FloorPerson(own.name, crowd, bodies)
 
 
 def agent_of(settings: GameSettings, own: PlayerSettings) -> FloorAgent:
@@ -312,7 +360,7 @@ def walk_on_path(settings: GameSettings, own: PlayerSettings) -> PersonMotion:
         ConfigurationError: If there is no other player.
     """
     pose = own.pose
-    aim = settings.player(target_of_person(settings, own)).pose
+    aim = settings.player(_target_of(settings, own)).pose
     assert pose is not None and aim is not None
     room = settings.room
     course = pose.theta + (pi if own.person.backward else 0.0)
@@ -324,12 +372,8 @@ def walk_on_path(settings: GameSettings, own: PlayerSettings) -> PersonMotion:
     )
 
 
-def target_of_person(settings: GameSettings, own: PlayerSettings) -> str:
-    """Return the name of the player that a person without a goal walks to.
-
-    Raises:
-        ConfigurationError: If there is no other player.
-    """
+def _target_of(settings: GameSettings, own: PlayerSettings) -> str:
+    """Return the name of the player that a person without a goal walks to."""
     others = [p for p in settings.players if p.name != own.name]
     if own.target:
         return own.target

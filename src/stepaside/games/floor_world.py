@@ -7,12 +7,12 @@ step, and follows the exact arc of each decision. Times are gait times.
 from collections.abc import Mapping, Sequence
 from math import atan2, cos, hypot, inf, pi, sin
 from time import thread_time
-from typing import NamedTuple, Protocol
 
 import numpy as np
 
 from ..arena import NO_OBSTACLES, ObstacleSet
 from ..arena.obstacles import clearance_at
+from ..core.errors import ConfigurationError
 from ..core.player_identity import PlayerIdentity
 from ..core.poses import Array, Pose, wrap_angle
 from ..locomotion.locomotion import MotionRequest, template_velocity
@@ -21,12 +21,12 @@ from ..planning import Direction, GaitSettings
 from ..sim.crowd_motion import CrowdMotion, Neighbour
 from ..sim.person_motion import PersonMotion
 from ..strategies.decision_maker import DecisionMaker, choose_opponent
-from ..strategies.knowledge import Intent, Knowledge, Limits, OtherPlayer
+from ..strategies.knowledge import Knowledge, Limits, OtherPlayer
 from ..strategies.strategy import Strategy
 from ..strategies.velocity_set import STILL, respond
 from .game import GameInPlay, GameObserver
 from .outcome import Outcome
-from .recorded_motion import RecordedMotion
+from .run_archive import load_run
 from .trajectory import PlanningTimes, Trajectory
 
 PERIOD = 0.02  # of records, and of the decisions of people, in [s]
@@ -38,7 +38,7 @@ Seen = Mapping[str, Pose]
 """Pose of each player in the world, by name."""
 
 
-class FloorMotion(Protocol):
+class FloorMotion:
     """Motion of a player on the floor.
 
     Attributes:
@@ -47,25 +47,23 @@ class FloorMotion(Protocol):
     """
 
     pose: Pose
-    due: float
+    due = 0.0
 
     def decide(self, now: float, seen: Seen) -> None:
         """Decide at a time, in [s], how to move until the next decision."""
+        raise NotImplementedError
 
     def pose_at(self, time: float) -> Pose:
         """Return the pose at a time before the next decision, in [s]."""
+        raise NotImplementedError
 
     def advance(self, until: float) -> None:
         """Move to a time, in [s], at most to the next decision."""
+        self.pose = self.pose_at(until)
 
 
 class FloorAgent(DecisionMaker):
-    """Strategy of a template that sees all others exactly.
-
-    Attributes:
-        identity: Own identity.
-        obstacles: Known obstacles, in the world.
-    """
+    """Strategy of a template that sees all others exactly."""
 
     identity: PlayerIdentity
 
@@ -81,13 +79,8 @@ class FloorAgent(DecisionMaker):
     ) -> None:
         """Begin without knowledge.
 
-        Args:
-            strategy: Strategy of the player.
-            limits: Limits of its gait.
-            identity: Its identity.
-            others: Identities of all other players.
-            target: Name of its target; empty for the nearest opponent.
-            obstacles: Known obstacles, in the world.
+        Without the name of a target it is the nearest opponent; known
+        obstacles are in the world.
         """
         super().__init__(strategy, limits)
         self.identity, self.obstacles = identity, obstacles
@@ -148,17 +141,13 @@ class FloorAgent(DecisionMaker):
         return OtherPlayer(who, bearing, hypot(dx, dy), velocity)
 
 
-class FloorWalk:
+class FloorWalk(FloorMotion):
     """Template of a robot, or unicycle.
 
     It follows the arc of its last decision for a step, or a part of it.
 
     Attributes:
         agent: Strategy of the player.
-        pose: Present pose in the world.
-        due: Time of its next decision, in [s].
-        given: Intent that is given from outside; None while the strategy
-            decides.
         is_walking: Whether it walks.
         decision_times: Processor time of each decision, in [s].
     """
@@ -190,8 +179,7 @@ class FloorWalk:
             walls: Obstacles that stop it.
             radius: Least distance from them, in [m].
         """
-        self.agent, self.pose, self.due = agent, pose, 0.0
-        self.given: Intent | None = None
+        self.agent, self.pose = agent, pose
         self.is_walking = False
         self.decision_times: list[float] = []
         limits = agent.limits
@@ -216,9 +204,8 @@ class FloorWalk:
     def decide(self, now: float, seen: Seen) -> None:
         """Decide, and follow the intent until the next decision."""
         begun = thread_time()
-        intent, known = self.given, self.look(now, seen)
-        if intent is None and known is not None:
-            intent = self.agent.evaluate(known)
+        known = self.look(now, seen)
+        intent = None if known is None else self.agent.evaluate(known)
         self.decision_times.append(thread_time() - begun)
         limits, parts = self.agent.limits, self._parts
         duration, self._since = limits.step_duration / parts, now
@@ -270,30 +257,23 @@ class FloorWalk:
         return clearance_at(walls.packed, pose.x, pose.y, radius) >= radius
 
 
-class FloorPoint:
+class FloorPoint(FloorMotion):
     """Point that stands for learned legs: it walks in any direction.
 
-    Its velocity follows the commands with the lags of the legs.
-
-    Attributes:
-        pose: Present pose in the world.
-        due: Time of its next sample, in [s].
+    Its velocity follows the commands with the lags of the legs. It decides
+    in each step of its integration.
     """
 
     def __init__(
         self, agent: FloorAgent, pose: Pose, gait: GaitSettings, step: float
     ) -> None:
-        """Begin standing.
+        """Begin standing; the agent's limits hold the velocities of the legs.
 
-        Args:
-            agent: Strategy, with the velocities of the legs in its limits.
-            pose: Initial pose in the world.
-            gait: Speed, steering gain and decision interval of headings.
-            step: Step of the integration, in [s].
+        The gait has speed, steering gain and decision interval of headings.
         """
         assert agent.limits.velocities is not None
         self._agent, self._legs = agent, agent.limits.velocities
-        self.pose, self.due = pose, 0.0
+        self.pose = pose
         self._gait, self._step, self._decides_at = gait, step, 0.0
         self._command = self._actual = STILL
 
@@ -326,39 +306,15 @@ class FloorPoint:
         left = self._step - (self.due - time)
         return self.pose.compose(Pose(*(left * rate for rate in self._actual)))
 
-    def advance(self, until: float) -> None:
-        """Move to a time, in [s], that of the next sample."""
-        self.pose = self.pose_at(until)
 
-
-class FloorBulk(NamedTuple):
-    """Body of a player, as a person gives way to it.
-
-    Attributes:
-        is_person: Whether it is a person.
-        radius: Radius of the body, in [m].
-        is_companion: Whether it walks with the person.
-    """
-
-    is_person: bool
-    radius: float
-    is_companion: bool
-
-
-class FloorPerson:
-    """Person who walks to a goal among others, or relative to a player.
-
-    Attributes:
-        motion: The walk.
-        pose: Present pose in the world.
-        due: Time of its next decision, in [s].
-    """
+class FloorPerson(FloorMotion):
+    """Person who walks to a goal among others, or relative to a player."""
 
     def __init__(
         self,
         name: str,
         motion: CrowdMotion | PersonMotion,
-        bodies: Mapping[str, FloorBulk],
+        bodies: Mapping[str, tuple[bool, float, bool]],
         target: str = "",
         period: float = PERIOD,
     ) -> None:
@@ -367,11 +323,12 @@ class FloorPerson:
         Args:
             name: Name of the person.
             motion: Its walk.
-            bodies: Bodies of all players, by name.
+            bodies: Whether each player is a person, its radius, in [m], and
+                whether it is a companion, by name.
             target: Player that a walk without a goal is relative to.
             period: Time between decisions, in [s].
         """
-        self.motion, self.pose, self.due = motion, motion.pose, 0.0
+        self.motion, self.pose = motion, motion.pose
         self._name, self._bodies, self._target = name, bodies, target
         self._period, self._now = period, 0.0
 
@@ -401,21 +358,33 @@ class FloorPerson:
 
     def advance(self, until: float) -> None:
         """Move to a time, in [s]."""
-        self.pose, self._now = self.pose_at(until), until
+        super().advance(until)
+        self._now = until
 
 
-class FloorReplay:
-    """Player whose motion was recorded.
+class FloorReplay(FloorMotion):
+    """Player of a recorded run, in the world of that run.
 
-    Attributes:
-        pose: Present pose in the world.
-        due: Time of its next sample, in [s].
+    It rests at the end of the recording.
     """
 
-    def __init__(self, motion: RecordedMotion) -> None:
-        """Take a recorded motion."""
-        self._motion, self.due = motion, 0.0
-        self.pose = motion.pose_at(0.0)
+    def __init__(self, folder: str, player: str) -> None:
+        """Read a run folder; the player's name may be empty if it is alone.
+
+        Raises:
+            ConfigurationError: If there is no such run or player.
+        """
+        run = load_run(folder)
+        name = player
+        if not player and len(run.players) == 1:
+            (name,) = run.players
+        if name not in run.tracks:
+            raise ConfigurationError(
+                f"run_player must be one of {', '.join(run.players)}, got "
+                f"{name!r}"
+            )
+        self._times, self._poses = run.times, run.tracks[name].unicycle
+        self.pose = self.pose_at(0.0)
 
     def decide(self, now: float, seen: Seen) -> None:
         """Go on for one period."""
@@ -423,11 +392,11 @@ class FloorReplay:
 
     def pose_at(self, time: float) -> Pose:
         """Return the pose at a time, in [s]."""
-        return self._motion.pose_at(time)
-
-    def advance(self, until: float) -> None:
-        """Move to a time, in [s]."""
-        self.pose = self.pose_at(until)
+        x, y, theta = (
+            float(np.interp(time, self._times, column))
+            for column in self._poses.T
+        )
+        return Pose(x, y, theta)
 
 
 class FloorWorld:
@@ -449,13 +418,7 @@ class FloorWorld:
         obstacles: ObstacleSet = NO_OBSTACLES,
         bodies: Sequence[str] = (),
     ) -> None:
-        """Place the players.
-
-        Args:
-            motions: Motion of each player, by name.
-            obstacles: Obstacles, in the world.
-            bodies: Players whose contact with an obstacle ends the game.
-        """
+        """Place the players; bodies that touch obstacles end the game."""
         self.motions, self.time, self.until = dict(motions), 0.0, 0.0
         self.acting = ""
         self._seen = {name: own.pose for name, own in self.motions.items()}

@@ -14,8 +14,8 @@ from .duel_circle import (
     time_scale,
 )
 from .duel_settings import EVADER, PURSUER, DuelSettings
+from .floor_games import play_template
 from .initial_poses import initial_poses
-from .template_game import play_template
 
 MAX_DURATION = 600.0  # of a game of templates, in [s]
 STEP = 0.05  # of its integration, in [s]

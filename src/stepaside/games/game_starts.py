@@ -13,8 +13,8 @@ from ..sim.crowd_motion import RADIUS
 from ..sim.person_motion import PersonMotion
 from ..sim.person_settings import PATHS
 from .floor_games import walk_on_path
+from .floor_world import FloorReplay
 from .game_settings import GameSettings, PlayerSettings
-from .recorded_motion import RecordedMotion
 
 MOST_DRAWS = 2000  # of one position, before the floor counts as full
 WALL_MARGIN = 0.3  # clearance of a start from walls and obstacles, in [m]
@@ -63,7 +63,7 @@ def with_starts(settings: GameSettings) -> GameSettings:
 def _given_pose(player: PlayerSettings) -> Pose | None:
     """Return the initial pose that is not drawn; None if it is."""
     if player.body == "run":
-        return RecordedMotion(player.run, player.run_player).pose_at(0.0)
+        return FloorReplay(player.run, player.run_player).pose
     own, walks = player.person, not (player.goal or player.draws_goal)
     if player.body == "person" and walks and own.path not in PATHS:
         return PersonMotion(own, Pose(0.0, 0.0, 0.0), (0.0, 0.0)).pose

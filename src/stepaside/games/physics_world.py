@@ -22,27 +22,19 @@ from ..perception.measurement import Sighting
 from ..robots.description import RobotDescription, load_robot
 from ..sim.body_settings import at_tick, with_control_period
 from ..sim.camera_settings import RoomObject
-from ..sim.crowd_motion import CrowdMotion
 from ..sim.ground_truth import GroundTruth, IdealLineOfSight, torsos_apart
 from ..sim.person_body import PersonBody
 from ..sim.physics_settings import PhysicsSettings
 from ..sim.push import pushes_by_robot
 from ..sim.world import World
 from ..strategies import Strategy
-from .floor_games import (
-    agent_of,
-    bodies_of,
-    target_of_person,
-    walk_on_path,
-)
-from .floor_player import FloorBody, FloorPlayer, MarkerBody
-from .floor_world import FloorMotion, FloorPerson, FloorReplay, FloorWalk, Seen
+from .floor_games import motion_of
+from .floor_world import Seen
 from .game_furnishing import Scenery, scenery_of_game
 from .game_settings import GameSettings, PlayerSettings
 from .game_strategies import strategy_of
 from .outcome import Outcome
-from .player import Player
-from .recorded_motion import RecordedMotion
+from .player import FloorPlayer, MarkerBody, Player
 from .robot_placing import (
     RobotSetup,
     clearance_in,
@@ -139,15 +131,17 @@ class PhysicsWorld(World):
             name: setup.true_state_in(self)
             for name, setup in self._setups.items()
         }
-        self._walks = {
-            own.name: walk_on_path(settings, own)
-            for own in settings.players
-            if own.body == "person" and not own.goal
-        }
-        self._bodies = {
-            own.name: self._floor_body(own)
+        self._motions = {
+            own.name: motion_of(settings, own, self.physics.tick)
             for own in settings.players
             if own.body != "robot"
+        }
+        self._bodies = {
+            own.name: PersonBody(self, own.name, motion.pose)
+            if own.body == "person"
+            else MarkerBody(self, own.name, motion.pose)
+            for own in settings.players
+            if (motion := self._motions.get(own.name)) is not None
         }
         # An ideal sensor needs the true states of all other players.
         self._truths: dict[str, GroundTruth] = {
@@ -252,20 +246,11 @@ class PhysicsWorld(World):
             tick=tick,
         )
 
-    def _floor_body(self, own: PlayerSettings) -> FloorBody:
-        """Return the body of a player that moves without physics."""
-        pose = _start_of(own)
-        if own.body == "person":
-            if own.name in self._walks:
-                pose = self._walks[own.name].pose  # it looks along its path
-            return PersonBody(self, own.name, pose)
-        return MarkerBody(self, own.name, pose)
-
     def _player(self, own: PlayerSettings) -> Player:
         """Return a player of the world."""
         if own.body == "robot":
             return self._robot(own)
-        motion = self._floor_motion(own)
+        motion = self._motions[own.name]
 
         def seen() -> Seen:
             poses = {
@@ -275,32 +260,6 @@ class PhysicsWorld(World):
             return poses | {own.name: motion.pose}
 
         return FloorPlayer(self._bodies[own.name], motion, seen)
-
-    def _floor_motion(self, own: PlayerSettings) -> FloorMotion:
-        """Return the motion of a player that moves without physics."""
-        settings, pose = self._settings, _start_of(own)
-        if own.body == "unicycle":
-            return FloorWalk(
-                agent_of(settings, own), pose, delay=own.gait.start_support
-            )
-        if own.body == "run":
-            return FloorReplay(RecordedMotion(own.run, own.run_player))
-        if own.goal:
-            room = settings.room
-            walk = CrowdMotion(
-                own.crowd,
-                pose,
-                (own.goal[0], own.goal[1]),
-                *(() if room is None else (room.solid_set,)),
-            )
-            return FloorPerson(own.name, walk, bodies_of(settings, own))
-        return FloorPerson(
-            own.name,
-            self._walks[own.name],
-            {},
-            target_of_person(settings, own),
-            self.physics.tick,
-        )
 
     def _map_in_world(self, own: PlayerSettings) -> Pose:
         """Return the pose of the frame in which a robot knows places."""

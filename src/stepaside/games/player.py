@@ -1,7 +1,10 @@
-"""Interface of a player: a simulated robot, a person or a served robot."""
+"""Players of a game in physics, and those that physics does not move.
 
-from collections.abc import Sequence
-from dataclasses import dataclass
+A body on the floor shows the player and gives its true state. Its motion is
+that of a game without bodies (:mod:`.floor_world`).
+"""
+
+from collections.abc import Callable, Sequence
 from typing import TYPE_CHECKING, Protocol
 
 from ..core.errors import ConfigurationError
@@ -9,42 +12,17 @@ from ..core.poses import Array, Pose
 from ..core.row_table import RowTable
 from ..locomotion.locomotion import StepStarted
 from ..locomotion.maneuver_walk import ManeuverWalk
-from ..sim.ground_truth import GroundTruth
+from ..sim.ground_truth import FloorTruth, GroundTruth
+from ..sim.person_body import PersonBody, pose_template
 from ..sim.push import Push, ScheduledPush
+from ..sim.world import World
+from .floor_world import AT_ONCE, FloorMotion, Seen
 
 if TYPE_CHECKING:
     from ..perception.pipeline import FrameReport
 
-
-@dataclass(frozen=True, slots=True, eq=False)
-class Snapshot:
-    """State of a player at one instant.
-
-    Quantities that a player does not have are None: a person has no plan.
-
-    Attributes:
-        name: Name of the player.
-        time: The instant, in [s].
-        place: Reference point and heading in the world. The reference point
-            of a robot is midway between its feet, that of a person on the
-            axis of the trunk.
-        torso: Origin and heading of the torso in the world.
-        com: CoM (x, y, z) in the world, in [m].
-        frame: Pose of its odometry in the world.
-        walk: State of its walk: plan, references and estimates.
-        zmp: Center of its foot forces in the world, in [m]; NaN in flight.
-        pushes: Pushes that have been applied or scheduled.
-    """
-
-    name: str
-    time: float
-    place: Pose
-    torso: Pose
-    com: tuple[float, float, float]
-    frame: Pose | None = None
-    walk: ManeuverWalk | None = None
-    zmp: tuple[float, float] | None = None
-    pushes: tuple[ScheduledPush, ...] = ()
+MARKER_HEIGHT = 0.27  # that stands for the CoM of a marker, in [m]
+MARKER_REACH = 0.1  # of a marker, which touches nothing, in [m]
 
 
 class MotionLog(Protocol):
@@ -93,15 +71,43 @@ class TruthLog:
 
 
 class Player:
-    """Player of a game in physics: a robot, a person or a moved body.
+    """Player of a game in physics: a robot, a person or a moved marker.
 
     Attributes:
-        name: Name of the player.
         truth: True state, for the rules of the game and the record.
+        frame: Pose of its odometry in the world; None if that is unknown.
     """
 
     name: str
     truth: GroundTruth
+    frame: Pose | None = None
+
+    @property
+    def place_in_world(self) -> Pose:
+        """Reference point and heading."""
+        truth = self.truth
+        return Pose(*truth.position_reference_in_world, truth.heading_in_world)
+
+    @property
+    def torso_in_world(self) -> Pose:
+        """Origin and heading of the torso."""
+        truth = self.truth
+        return Pose(*truth.position_torso_in_world, truth.heading_in_world)
+
+    @property
+    def maneuvers(self) -> ManeuverWalk | None:
+        """Walk of a robot that plans its steps."""
+        return None
+
+    @property
+    def zmp(self) -> tuple[float, float] | None:
+        """Center of its foot forces in the world, in [m]; NaN in flight."""
+        return None
+
+    @property
+    def pushes(self) -> tuple[ScheduledPush, ...]:
+        """Pushes that have been applied or scheduled."""
+        return ()
 
     @property
     def begun(self) -> StepStarted | None:
@@ -139,16 +145,8 @@ class Player:
             StrategyError: If its strategy gives no intent.
         """
 
-    def snapshot(self) -> Snapshot:
-        """Return the state at this instant."""
-        raise NotImplementedError
-
     def motion_log(self, *, closely: bool) -> MotionLog:
-        """Return an empty log of its motion.
-
-        Args:
-            closely: Whether to include foot states and estimates.
-        """
+        """Return an empty log of its motion, closely with foot states."""
         return TruthLog(self.truth)
 
     def push(self, *pushes: Push) -> None:
@@ -163,3 +161,42 @@ class Player:
 
     def close(self) -> None:
         """Release its resources."""
+
+
+class MarkerBody:
+    """Marker of a unicycle or of a recorded player, without contacts."""
+
+    def __init__(self, world: World, name: str, pose: Pose) -> None:
+        """Set the marker to a pose."""
+        self.name, self.world = name, world
+        self.truth = FloorTruth(pose, reach=MARKER_REACH, height=MARKER_HEIGHT)
+        self.move(pose)
+
+    def move(self, pose: Pose) -> None:
+        """Move to a pose in the world."""
+        self.truth.pose = pose
+        pose_template(self.world.model, self.world.data, self.name, pose)
+
+
+class FloorPlayer(Player):
+    """Player that physics does not move."""
+
+    def __init__(
+        self,
+        body: PersonBody | MarkerBody,
+        motion: FloorMotion,
+        seen: Callable[[], Seen],
+    ) -> None:
+        """Combine a body, its motion, and what it sees of all players."""
+        self.name, self._body, self.motion = body.name, body, motion
+        self.truth, self._seen = body.truth, seen
+
+    def tick(self) -> None:
+        """Advance the motion by one tick."""
+        world, motion = self._body.world, self.motion
+        until = world.time + world.physics.tick
+        while motion.due < until - AT_ONCE:
+            motion.advance(motion.due)
+            motion.decide(motion.due, self._seen())
+        motion.advance(until)
+        self._body.move(motion.pose)

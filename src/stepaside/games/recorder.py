@@ -38,11 +38,11 @@ class PlayerRecord:
         arrays = self.log.arrays()
         for name in ("place", "torso"):
             arrays[name][:, 2] = np.unwrap(arrays[name][:, 2])
-        last = self._player.snapshot()
-        if last.frame is not None:
-            arrays["landings"] = self._landings(last.frame)
-        if last.pushes:
-            arrays["pushes"] = np.array(last.pushes)
+        player = self._player
+        if player.frame is not None:
+            arrays["landings"] = self._landings(player.frame)
+        if player.pushes:
+            arrays["pushes"] = np.array(player.pushes)
         return Trajectory(**arrays)
 
     def _landings(self, frame: Pose) -> Array:

@@ -20,10 +20,10 @@ from ..perception.measurement import RobotState, Sighting
 from ..planning import Foot
 from ..robots.description import RobotDescription
 from ..robots.forward_kinematics import ForwardKinematics, torso_pose_on_foot
-from ..sim.push import Push
+from ..sim.push import Push, ScheduledPush
 from ..sim.simulated_robot import SimulatedRobot
 from ..strategies.velocity_set import BodyVelocity
-from .player import MotionLog, Player, Snapshot
+from .player import MotionLog, Player
 
 if TYPE_CHECKING:
     from ..drivers.ros2_server import BodyPlace
@@ -32,7 +32,6 @@ if TYPE_CHECKING:
 
 log = logging.getLogger(__name__)
 
-ORIGIN = Pose(0.0, 0.0, 0.0)
 AT_ONCE = 1.0  # a fall until then is one of the policy, in [s]
 MOVING = 0.05  # change of a target from which a robot moves, in [rad]
 
@@ -43,7 +42,6 @@ class PhysicalPlayer(Player):
     Attributes:
         robot: Simulated robot.
         walk: Its locomotion; None if another process moves its joints.
-        frame: Pose of its odometry in the world.
         plans: Whether it walks by maneuvers.
     """
 
@@ -51,12 +49,12 @@ class PhysicalPlayer(Player):
         self,
         robot: SimulatedRobot,
         walk: "ManeuverWalk | PolicyWalk | None" = None,
-        frame: Pose = ORIGIN,
+        frame: Pose | None = None,
     ) -> None:
         """Take a robot that stands in its world."""
         self.name, self.truth, self.robot = robot.name, robot.truth, robot
         self.walk, self.frame = walk, frame
-        self.plans = isinstance(walk, ManeuverWalk)
+        self.plans = self.maneuvers is not None
         self._measured: tuple[int, RobotState] | None = None
 
     def measure(self) -> RobotState:
@@ -65,6 +63,21 @@ class PhysicalPlayer(Player):
         if self._measured is None or self._measured[0] != ticks:
             self._measured = ticks, self.robot.read()
         return self._measured[1]
+
+    @property
+    def maneuvers(self) -> ManeuverWalk | None:
+        """Walk of a robot that plans its steps."""
+        return None if self.walk is None else self.walk.maneuvers
+
+    @property
+    def zmp(self) -> tuple[float, float]:
+        """Center of its foot forces in the world, in [m]; NaN in flight."""
+        return self.robot.measured_zmp()
+
+    @property
+    def pushes(self) -> tuple[ScheduledPush, ...]:
+        """Pushes that have been applied or scheduled."""
+        return self.robot.pushes
 
     @property
     def begun(self) -> StepStarted | None:
@@ -92,29 +105,11 @@ class PhysicalPlayer(Player):
             "stand: the contract does not fit the network"
         )
 
-    def snapshot(self) -> Snapshot:
-        """Return the state at this instant."""
-        robot, truth, walk = self.robot, self.truth, self.walk
-        heading = truth.heading_in_world
-        x, y, z = truth.position_com_in_world.tolist()
-        return Snapshot(
-            self.name,
-            robot.world.time,
-            Pose(*truth.position_reference_in_world, heading),
-            Pose(*truth.position_torso_in_world, heading),
-            (x, y, z),
-            None if walk is None else self.frame,
-            None if walk is None else walk.maneuvers,
-            robot.measured_zmp(),
-            robot.pushes,
-        )
-
     def motion_log(self, *, closely: bool) -> MotionLog:
         """Return an empty log of its motion."""
-        if isinstance(self.walk, ManeuverWalk):
-            return WalkerLog(
-                self.robot, self.walk, self.frame, closely=closely
-            )
+        walk, frame = self.maneuvers, self.frame
+        if walk is not None and frame is not None:
+            return WalkerLog(self.robot, walk, frame, closely=closely)
         return self.robot.state_log()
 
     def push(self, *pushes: Push) -> None:
@@ -132,6 +127,8 @@ class RobotPlayer(PhysicalPlayer):
     Attributes:
         scheme: Controller.
     """
+
+    frame: Pose
 
     def __init__(
         self, robot: SimulatedRobot, scheme: ControlScheme, frame: Pose
@@ -184,6 +181,8 @@ class VelocityWalker(PhysicalPlayer):
         scheme: Controller.
         description: Description of the robot.
     """
+
+    frame: Pose
 
     def __init__(
         self,

@@ -30,12 +30,10 @@ def true_odometry(player: Player) -> Pose | None:
     simulation: plans drawn in it begin at the robot's foot, though its
     odometry drifts. None for a player that does not plan.
     """
-    if not isinstance(player, PhysicalPlayer):
+    walk = player.maneuvers
+    if walk is None or not isinstance(player, PhysicalPlayer):
         return None
-    snapshot = player.snapshot()
-    if snapshot.walk is None:
-        return None
-    step = snapshot.walk.step(snapshot.time)
+    step = walk.step(player.robot.world.time)
     stance, foot = player.robot.stance, step.swing.other
     sole = stance.left_sole if foot is Foot.LEFT else stance.right_sole
     return sole.compose(step.support.inverse())
@@ -74,19 +72,21 @@ class LiveHistory(GameObserver):
         every = max(1, round(PERIOD / world.physics.tick))
         if world.ticks == 0 or world.ticks % every:
             return
-        snapshots = [player.snapshot() for player in world.players]
         distance, angle = game.distance, nan
-        if tuple(s.name for s in snapshots) == PLAYERS:
-            pursuer, evader = (np.array([s.place]) for s in snapshots)
+        if tuple(player.name for player in world.players) == PLAYERS:
+            pursuer, evader = (
+                np.array([player.place_in_world]) for player in world.players
+            )
             angle = degrees(float(angle_between(pursuer, evader)[0]))
         apart = nan if distance is None else distance
         self.closest = min(self.closest, inf if distance is None else apart)
         self.history.append((world.time, apart, angle))
-        for snapshot in snapshots:
-            self._trace("CoM trace", snapshot.name, snapshot.com[:2])
+        for player in world.players:
+            x, y, _ = player.truth.position_com_in_world.tolist()
+            self._trace("CoM trace", player.name, (x, y))
             # The ZMP is NaN while no foot is in contact.
-            if snapshot.zmp is not None and np.isfinite(snapshot.zmp[0]):
-                self._trace("ZMP trace", snapshot.name, snapshot.zmp)
+            if (zmp := player.zmp) is not None and np.isfinite(zmp[0]):
+                self._trace("ZMP trace", player.name, zmp)
 
     def _trace(self, layer: str, name: str, point: tuple[float, ...]) -> None:
         new = deque[Array](maxlen=MAX_TRACE)

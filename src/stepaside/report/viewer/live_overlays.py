@@ -34,13 +34,13 @@ def live_overlays(session: LiveSession) -> list[SceneLines]:
     found = []
     places = places_of(session)
     for player in session.world.players:
-        snapshot, name = player.snapshot(), player.name
+        walk, name = player.maneuvers, player.name
         frame = true_odometry(player)
-        if snapshot.walk is not None and frame is not None:
+        if walk is not None and frame is not None:
             steps = session.history.steps.get(name, ())
             now = session.world.time
-            found += _walk_lines(name, snapshot.walk, [*steps], frame, now)
-        pushes = np.array(snapshot.pushes[-MAX_PUSHES:]).reshape(-1, 6)
+            found += _walk_lines(name, walk, [*steps], frame, now)
+        pushes = np.array(player.pushes[-MAX_PUSHES:]).reshape(-1, 6)
         found.append(push_arrows(name, pushes))
     for (layer, name), points in session.history.traces.items():
         found.append(SceneLines(layer, name, polyline(np.array(points))))
@@ -54,7 +54,7 @@ def live_overlays(session: LiveSession) -> list[SceneLines]:
 def places_of(session: LiveSession) -> dict[str, Array]:
     """Return the positions of all players, in [m], by name."""
     return {
-        player.name: np.array(player.snapshot().torso[:2])
+        player.name: np.array(player.torso_in_world[:2])
         for player in session.world.players
     }
 
@@ -115,7 +115,7 @@ def circle_through(
     half, radius = 0.5 * float(np.hypot(*sight)), theory[0]
     if half >= radius or half < 1e-6:
         return []
-    walk = session.world.player(PURSUER).snapshot().walk
+    walk = session.world.player(PURSUER).maneuvers
     plan = None if walk is None else walk.plan
     side = 1.0 if plan is None or plan.bearing >= 0.0 else -1.0
     normal = side * np.array([-sight[1], sight[0]]) / (2.0 * half)

@@ -231,7 +231,10 @@ class Page:
             )
             overlays, now = live_overlays(session), world.time
             places, text = places_of(session), page_text(session)
-            heights = {p.name: p.snapshot().com[2] for p in world.players}
+            heights = {
+                p.name: float(p.truth.position_com_in_world[2])
+                for p in world.players
+            }
             first = session.opponents[0] if session.opponents else ()
             colours, walls = session.colours, wall_corners(session.played.room)
         with self.server.atomic():

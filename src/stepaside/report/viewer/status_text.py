@@ -10,7 +10,7 @@ def phase_of(player: Player) -> Phase:
     """Return the phase of a player; a player without phases is walking."""
     if player.has_fallen:
         return Phase.FALLEN
-    walk = player.snapshot().walk
+    walk = player.maneuvers
     return Phase.WALKING if walk is None else walk.phase
 
 
