@@ -3,7 +3,6 @@
 from math import hypot
 from typing import Any
 
-import mujoco
 import numpy as np
 import pytest
 
@@ -17,7 +16,6 @@ from stepaside.core.poses import Pose
 from stepaside.locomotion.surroundings import AHEAD, KnownRoom
 from stepaside.perception.measurement import RobotState
 from stepaside.robots.leg_kinematics import BodyReference
-from stepaside.sim.room_furnishing import add_solids, obstacle_mover
 
 BOX = MovingBox(0.2, -0.9, 0.3, 0.2, (0.5, 0.6), 0.1, 0.4)
 ROOM = Room(
@@ -67,30 +65,6 @@ def test_box_stays_between_the_walls_and_off_the_initial_poses() -> None:
     on_it = Pose(0.2, -0.7, 0.0), ROOM.starts[1]
     with pytest.raises(ConfigurationError, match="pursuer must start"):
         check_initial_poses(ROOM, on_it)
-
-
-def test_simulated_box_follows_the_room() -> None:
-    spec = mujoco.MjSpec()
-    add_solids(spec, ROOM)
-    model = spec.compile()
-    data = mujoco.MjData(model)
-    move = obstacle_mover(model, data, ROOM)
-    geom = model.body("moving box 1").geomadr[0]
-    for time in (0.0, 3.0, HALF + 2.0):
-        move(time)
-        mujoco.mj_forward(model, data)
-        assert data.geom_xpos[geom, :2] == pytest.approx(BOX.place_at(time))
-        down = mujoco.mj_ray(
-            model,
-            data,
-            [*BOX.at(time).points.mean(axis=0), 2.0],
-            [0.0, 0.0, -1.0],
-            None,
-            1,
-            -1,
-            np.zeros(1, dtype=np.int32),
-        )
-        assert down == pytest.approx(1.4)
 
 
 def test_given_map_covers_the_floor_swept_in_the_near_future() -> None:

@@ -1,6 +1,6 @@
 """Test discs, polygons and distances between them."""
 
-from math import cos, nan, pi, sin, sqrt
+from math import cos, nan, pi, sin
 
 import numpy as np
 import pytest
@@ -13,11 +13,8 @@ from stepaside.arena import (
     ObstacleSet,
     Polygon,
     clearance_between,
-    hull,
 )
-from stepaside.arena.shapes import CentreLine
 from stepaside.core.errors import ConfigurationError
-from stepaside.core.poses import Pose
 
 SQUARE = Box(0.0, 0.0, 2.0, 2.0)
 SHAPES = (
@@ -34,13 +31,6 @@ def outline(shape: Obstacle, count: int = 400) -> np.ndarray:
     ends = np.roll(shape.outline, -1, axis=0)
     pairs = zip(shape.outline, ends, strict=True)
     return np.concatenate([a + fraction * (b - a) for a, b in pairs])
-
-
-def test_clearance_of_a_square_has_closed_forms() -> None:
-    points = [[3.0, 0.5], [2.0, 2.0], [0.3, 0.0], [1.0, 0.0]]
-    np.testing.assert_allclose(
-        SQUARE.clearance(points), [2.0, sqrt(2.0), -0.7, 0.0], atol=1e-15
-    )
 
 
 @pytest.mark.parametrize(
@@ -108,33 +98,6 @@ def test_segment_intersects_a_shape_that_contains_one_of_its_points(
     found = ObstacleSet((shape,)).segments_intersect(starts, ends)[:, 0]
     assert 50 < found[clear].sum() < 250
     np.testing.assert_array_equal(found[clear], nearest[clear] < 0.0)
-
-
-def test_clearance_is_invariant_under_transformations() -> None:
-    pose = Pose(0.7, -0.4, 1.1)
-    points = np.random.default_rng(4).uniform(-2.0, 2.0, (50, 2))
-    for shape in (Disc(0.2, 0.1, 0.3), Box(0.1, 0.5, 0.6, 0.2, 0.3)):
-        np.testing.assert_allclose(
-            shape.moved(pose).clearance(pose.transform_points(points)),
-            shape.clearance(points),
-            atol=1e-14,
-        )
-
-
-def test_wall_runs_from_point_to_point() -> None:
-    wall = CentreLine((1.0, 1.0), (1.0, 3.0), 0.2).box
-    np.testing.assert_allclose(
-        wall.clearance([[1.0, 2.0], [1.5, 2.0], [1.0, 3.5]]), [-0.1, 0.4, 0.5]
-    )
-    assert wall.area == pytest.approx(0.4)
-
-
-def test_hull_contains_its_points_and_has_corners_among_them() -> None:
-    points = np.random.default_rng(5).normal(size=(60, 2))
-    found = hull(points)
-    assert found.clearance(points).max() < 1e-12
-    assert {tuple(p) for p in points.tolist()} >= set(found.corners)
-    assert hull(found.points[::-1]).area == pytest.approx(found.area)
 
 
 PENTAGRAM = tuple((cos(4 * pi * i / 5), sin(4 * pi * i / 5)) for i in range(5))

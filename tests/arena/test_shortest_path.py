@@ -123,33 +123,6 @@ def test_pursuer_goes_around_a_pillar(side: int) -> None:
     assert Pursuit().decide(free, Pursuit().begin())[0].heading == 0.4
 
 
-@pytest.mark.parametrize("side", [-1, 0, 1])
-@pytest.mark.parametrize("seed", range(8))
-def test_path_is_equivariant_under_transformations_and_mirroring(
-    side: int, seed: int
-) -> None:
-    random = np.random.default_rng(seed)
-    turn, beside = random.uniform(-0.2, 0.2, 2).tolist()
-    walls = (Box(0.0, beside, 0.1, 1.0, turn), Box(0.8, -0.4, 0.3, 0.4))
-    start, end = (-1.0, 0.1), (1.6, -0.05)
-    found = first_waypoint(ObstacleSet(walls), start, end, RADIUS, side)
-    frame = Pose(*random.uniform(-3.0, 3.0, 3).tolist())
-
-    def transform(point: Point) -> Point:
-        x, y = frame.transform_points([point])[0].tolist()
-        return x, y
-
-    moved = tuple(wall.moved(frame) for wall in walls)
-    again = first_waypoint(
-        ObstacleSet(moved), transform(start), transform(end), RADIUS, side
-    )
-    assert again == pytest.approx(transform(found), abs=1e-9)
-    mirrored = (Box(0.0, -beside, 0.1, 1.0, -turn), Box(0.8, 0.4, 0.3, 0.4))
-    ends = (start[0], -start[1]), (end[0], -end[1])
-    x, y = first_waypoint(ObstacleSet(mirrored), *ends, RADIUS, -side)
-    assert (x, -y) == pytest.approx(found, abs=1e-9)
-
-
 @pytest.mark.parametrize("side", [-1, 1])
 @pytest.mark.parametrize("turn", [0.0, 2.0, -2.5])
 def test_path_takes_the_preferred_side(side: int, turn: float) -> None:

@@ -1,6 +1,6 @@
 """Test the pinhole camera."""
 
-from math import degrees, radians, tan
+from math import radians, tan
 
 import numpy as np
 import pytest
@@ -11,26 +11,12 @@ from stepaside.perception.camera_model import CameraModel
 XTION = CameraModel.of_field_of_view(80, 60, radians(58.0), radians(45.0))
 
 
-def test_image_edges_span_the_field_of_view() -> None:
-    left = XTION.ray(0.0, 30.0)
-    top = XTION.ray(40.0, 0.0)
-    assert degrees(np.arctan2(left[1], left[0])) == pytest.approx(29.0)
-    assert degrees(np.arctan2(top[2], top[0])) == pytest.approx(22.5)
-
-
 def test_projection_inverts_rays() -> None:
     rays = XTION.rays().reshape(-1, 3)
     columns, rows = XTION.project(2.7 * rays).T
     u, v = np.meshgrid(np.arange(80) + 0.5, np.arange(60) + 0.5)
     np.testing.assert_allclose(columns, u.ravel(), atol=1e-9)
     np.testing.assert_allclose(rows, v.ravel(), atol=1e-9)
-
-
-def test_points_behind_the_camera_have_no_pixel() -> None:
-    assert XTION.sees([1.0, 0.0, 0.0])
-    assert not XTION.sees([-1.0, 0.0, 0.0])
-    assert XTION.sees([1.0, tan(radians(28.9)), 0.0])
-    assert not XTION.sees([1.0, tan(radians(29.1)), 0.0])
 
 
 @pytest.mark.parametrize(
@@ -51,13 +37,6 @@ def test_axes_are_forward_left_and_up() -> None:
     assert left[1] == pytest.approx(30.0)
     assert above[1] == pytest.approx(30.0 - 30.0 / tan(radians(22.5)) / 4.0)
     assert above[0] == pytest.approx(40.0)
-
-
-def test_the_ray_of_a_pixel_matches_the_grid() -> None:
-    for row, column in ((0, 0), (7, 50), (59, 79)):
-        ray = XTION.ray(column + 0.5, row + 0.5)
-        np.testing.assert_allclose(ray, XTION.rays()[row, column])
-        assert ray[0] == 1.0
 
 
 @pytest.mark.parametrize("side", [-1.0, 1.0])

@@ -114,11 +114,6 @@ def test_a_box_beside_a_robot_does_not_move_it(gap: int, tall: int) -> None:
     assert look_for(RED, pixels) == pytest.approx(160, abs=8.0)
 
 
-def test_an_empty_room_gives_no_detection() -> None:
-    assert look_for(RED, empty()) is None
-    assert look_for(BLUE, empty()) is None
-
-
 def test_a_cut_by_an_image_edge_is_reported() -> None:
     pixels = empty()
     draw_robot(pixels, "blue", 160, 260)
@@ -155,18 +150,3 @@ def test_one_pixel_wide_ears_are_the_upper_end(colour: str) -> None:
     strong, faint, absent = tops
     assert faint == pytest.approx(strong, abs=2.0)
     assert absent > strong + 10.0
-
-
-@pytest.mark.parametrize("colour", PAINT)
-def test_faint_patches_away_from_the_ears_are_ignored(colour: str) -> None:
-    """A poster on the wall behind it, and its own arm beside it."""
-    pixels = empty()
-    draw_robot(pixels, colour, 160, 100)
-    detector = ColourDetector(LOOKS[colour])
-    plain = detector.detect_all(ColourImage(0.0, CAMERA, pixels), most=1)
-    assert plain
-    for left, top, right, bottom in ((100, 10, 220, 90), (190, 90, 200, 96)):
-        behind = pixels.copy()
-        behind[top:bottom, left:right] = pale(colour)
-        image = ColourImage(0.0, CAMERA, behind)
-        assert detector.detect_all(image, most=1) == plain

@@ -65,19 +65,6 @@ def test_a_block_is_measured_at_its_size_and_position(
     assert thing.whole
 
 
-@pytest.mark.parametrize(
-    ("columns", "behind"), [(4, 0.11), (11, None), (30, 0.16)]
-)
-def test_the_axis_lies_half_a_depth_behind_the_front(
-    columns: int, behind: float | None
-) -> None:
-    (thing,) = draw((10, 40, 40, 40 + columns, 1.6)).obstacles
-    x, y = thing.x_in_odometry - 0.3, thing.y_in_odometry + 0.2
-    expected = behind or 0.5 * thing.width
-    assert 0.11 <= expected <= 0.16
-    assert np.hypot(x, y) - thing.nearest == pytest.approx(expected)
-
-
 @pytest.mark.parametrize("dark", [1, 2])
 def test_missing_depth_does_not_join_an_object_to_the_wall(dark: int) -> None:
     """The camera's own shadow beside a near edge answers nothing."""
@@ -113,16 +100,6 @@ def test_a_shadow_is_as_wide_as_the_hidden_floor(yaw: float) -> None:
         assert shadow.width == pytest.approx(angle(left) - angle(right))
         middle = 0.5 * (angle(left) + angle(right))
         assert shadow.azimuth == pytest.approx(middle)
-
-
-def test_only_floor_within_the_range_can_be_hidden() -> None:
-    """Between 1.1 of the near limit and 0.85 of the far one."""
-    near = [(55, 60, 30, 40, 0.0), (51, 55, 30, 40, 0.0)]
-    seen = [draw(block, height=0.3).shadows for block in near]
-    assert [len(shadows) for shadows in seen] == [0, 1]
-    far = [(50, 54, 30, 40, 0.0), (54, 58, 30, 40, 0.0)]
-    seen = [draw(block, height=1.0).shadows for block in far]
-    assert [len(shadows) for shadows in seen] == [0, 1]
 
 
 def test_a_measured_leg_gives_the_distance_of_both() -> None:

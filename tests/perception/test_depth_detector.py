@@ -51,21 +51,6 @@ def test_a_post_is_detected_at_its_position(roll: float, yaw: float) -> None:
     assert post.width == pytest.approx(0.24, abs=0.06)
 
 
-def test_an_unmeasured_tilt_gives_false_obstacles() -> None:
-    """This shows that the other tests depend on the compensation."""
-    axes = rotation(0.0, radians(18.0), 0.0)
-    image = take(axes, [])
-    level = rotation(0.0, radians(0.0), 0.0)
-    scene = detect_obstacles(image, CameraPose(EYE, level, (0.0, 0.0)))
-    assert scene != DepthScene((), ())
-
-
-def test_the_nearest_obstacle_is_first() -> None:
-    scene = find([(2.2, -0.5, 0.15, 1.7), (1.4, 0.3, 0.1, 0.4)])
-    assert [round(o.x_in_odometry, 1) for o in scene.obstacles] == [1.4, 2.2]
-    assert scene.obstacles[1].height > 0.8
-
-
 def test_an_object_too_near_gives_a_shadow_at_its_bearing() -> None:
     bearing = radians(7.0)
     x, y = 0.6 * np.cos(bearing), 0.6 * np.sin(bearing)
@@ -95,17 +80,3 @@ def test_the_own_body_is_removed() -> None:
         CameraPose(EYE, rotation(0.0, radians(10.0), 0.0), (1.2, 0.0)),
     )
     assert scene.obstacles == ()
-
-
-@pytest.mark.parametrize("side", [-1.0, 1.0])
-def test_only_points_within_the_own_radius_are_removed(side: float) -> None:
-    """The post's flank is 0.19 m or 0.25 m away from the own axis."""
-    axes = rotation(0.0, radians(10.0), 0.0)
-    image = take(axes, [(1.2, 0.0, 0.1, 0.5)])
-    width = {}
-    for gap in (0.19, 0.25, 5.0):
-        own = 1.2, side * (0.1 + gap)
-        (post,) = detect_obstacles(image, CameraPose(EYE, axes, own)).obstacles
-        width[gap] = post.width
-    assert width[0.25] == width[5.0]
-    assert width[0.19] < width[5.0] - 0.005

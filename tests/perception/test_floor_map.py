@@ -139,27 +139,6 @@ def test_hits_on_the_opponent_are_erased_when_it_is_recognised() -> None:
     assert not seen.occupied()
 
 
-def test_obstacles_beside_the_opponent_stay() -> None:
-    """A player who walks along a wall does not remove it from the map."""
-    wall = Box(1.4, 0.0, 0.1, 2.0)
-    seen = looked(FloorMap(), (wall,), times=4)
-    cells = seen.occupied_cells()
-    assert len(cells) == 40
-    for place in ((0.9, 0.0), (1.22, 0.0), None, (1.22, 0.0)):
-        both = (wall,) if place is None else (wall, Disc(*place, 0.09))
-        facing = pi if place is None else 0.0  # a glance away
-        seen.take(*view_at(both, facing), place)
-        assert np.array_equal(seen.occupied_cells(), cells)
-
-
-def test_the_map_tells_what_belongs_to_the_room() -> None:
-    seen = looked(FloorMap(), (Disc(1.2, 0.3, 0.15),))
-    assert seen.is_occupied(1.1, 0.25) and seen.is_occupied(1.25, 0.3)
-    assert not seen.is_occupied(1.2, -0.2) and not FloorMap().is_occupied(
-        0.0, 0.0
-    )
-
-
 @pytest.mark.parametrize("heading", [0.0, 0.3, pi / 4])
 def test_a_corner_of_two_walls_becomes_few_polygons(heading: float) -> None:
     c, s = np.cos(heading), np.sin(heading)
@@ -174,24 +153,6 @@ def test_a_corner_of_two_walls_becomes_few_polygons(heading: float) -> None:
     clearance = np.min([p.clearance(cells) for p in found], axis=0)
     assert clearance.max() <= 1e-9
     assert sum(p.area for p in found) < 2.5 * len(cells) * CELL**2
-
-
-def test_columns_beside_a_blocked_one_start_at_the_near_limit() -> None:
-    """While the head turns, where it looks is known to some degrees."""
-    near, seen = Disc(0.6, 0.0, 0.12), FloorMap()
-    for wrong in np.radians([-3.0, 0.0, 3.0]):  # what is believed is off
-        for heading in np.arange(-0.6, 0.7, 0.1):
-            image, eye, _ = view((near,), (0.0, 0.0), heading)
-            turned = heading + wrong
-            c, s = np.cos(turned), np.sin(turned)
-            axes = np.array([[c, -s, 0.0], [s, c, 0.0], [0.0, 0.0, 1.0]])
-            seen.take(image, CameraPose(eye, axes, (0.0, 0.0)), None)
-    grid = np.mgrid[0.3:1.2:0.02, -0.5:0.5:0.02].reshape(2, -1).T
-    inside = grid[near.clearance(grid) < -0.5 * CELL]
-    beyond = np.array([[0.6, 0.35], [0.6, -0.35], [1.2, 0.5]])
-    for places, hidden in ((inside, True), (beyond, False)):
-        parts = [p.clearance(places) for p in seen.unknown((0.0, 0.0))]
-        assert ((np.min(parts, axis=0) <= 0.0) == hidden).all()
 
 
 def test_the_rim_of_what_is_unseen_is_unseen() -> None:

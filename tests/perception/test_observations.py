@@ -15,7 +15,6 @@ from stepaside.perception.images import ColourImage, DepthImage
 from stepaside.perception.observations import (
     DEFAULT_DISTANCE,
     DEVIATION_BOUND,
-    DEVIATION_UNKNOWN,
     SHADOW_MARGIN,
     TRIM_FORWARD,
     TRIM_WIDTH,
@@ -144,26 +143,6 @@ def test_a_shadow_is_no_farther_than_the_near_limit() -> None:
     assert seen.along == DEVIATION_BOUND
     assert seen.across == pytest.approx(0.08 * away)
     assert not seen.identified and not seen.ranged
-
-
-def test_within_its_bounds_a_shadow_tells_no_distance() -> None:
-    """Memory that came back as a measurement would believe itself."""
-    shadow = Shadow(-0.15, 0.15)
-    nearer = observe_shadow(DEPTH, shadow, EYE, (track(0.5, YAW),))
-    assert distance_of(nearer) == pytest.approx(0.5)
-    assert nearer.along == DEVIATION_UNKNOWN > 1.0
-    followed = track(0.6, YAW)
-    before = followed.deviation_at(4.5)
-    for _ in range(20):
-        one = observe_shadow(DEPTH, shadow, EYE, (followed,))
-        followed.update(one._replace(time=4.5))
-    assert followed.deviation_at(4.5) > 0.8 * before
-
-
-def test_columns_to_the_right_have_positive_angles() -> None:
-    assert angle_of(IMAGE, 320.0) == 0.0
-    assert angle_of(IMAGE, 420.0) == pytest.approx(atan2(100.0, 550.0))
-    assert angle_of(DEPTH, 220.0) == pytest.approx(-atan2(100.0, 550.0))
 
 
 @pytest.mark.parametrize("behind", [False, True])

@@ -209,15 +209,3 @@ def test_a_camera_on_the_back_shows_who_comes_from_behind() -> None:
     x, y = place(89 * TICK)
     assert abs(wrap_angle(seen.bearing - atan2(y, x))) < radians(3.0)
     assert seen.distance == pytest.approx(hypot(x, y), abs=0.1)
-
-
-def test_the_head_searches_ahead_while_the_back_watches_a_person() -> None:
-    watch, place = WatchBehind([]), coming(180.0, 0.8, 3.2)
-    yaws = []
-    for tick in range(130):
-        watch.see([place(tick * TICK)])
-        yaws.append(watch.perception.head.yaw)
-    assert watch.perception.sighting is not None
-    assert watch.perception.gaze_target is None
-    assert not watch.perception.searching  # for it is not lost
-    assert min(yaws) < radians(-80.0) and max(yaws) > radians(80.0)

@@ -6,12 +6,10 @@ import numpy as np
 import pytest
 
 from stepaside.core.poses import Pose, wrap_angle
-from stepaside.core.rotations import rotation
 from stepaside.perception.measurement import RobotState
 from synthetic_cameras import (
     HEAD,
     JOINTS,
-    NAO,
     SUPPORT,
     TICK,
     UP,
@@ -26,36 +24,6 @@ def eyes() -> Eyes:
     made = Eyes()
     made.see(0.0)
     return made
-
-
-def test_the_body_pose_follows_from_the_support_foot(eyes: Eyes) -> None:
-    """Straight joints: the torso is half a hip to the right of the left."""
-    x, y, heading = SUPPORT.inverse().compose(eyes.torso)
-    assert heading == pytest.approx(0.0, abs=1e-6)
-    assert y == pytest.approx(-0.05, abs=0.002)
-    eyes.perception.see(
-        RobotState(0.1, np.zeros(JOINTS), np.zeros(3), UP, np.zeros(8), None),
-        SUPPORT,
-        False,
-        (0.0, 0.0),
-    )
-    right = SUPPORT.inverse().compose(eyes.torso)
-    assert right.y == pytest.approx(-y, abs=1e-6)
-    assert right.x == pytest.approx(x, abs=1e-6)
-
-
-@pytest.mark.parametrize("tilt", [(0.1, 0.0), (0.0, -0.2), (-0.15, 0.1)])
-def test_the_torso_has_the_measured_tilt(
-    eyes: Eyes, tilt: tuple[float, float]
-) -> None:
-    """Roll and pitch after the heading of the standing foot."""
-    eyes.see(TICK, tilt=tilt)
-    body = eyes.perception.body
-    assert body is not None
-    expected = rotation(*tilt, SUPPORT.theta)
-    np.testing.assert_allclose(
-        body.axes_torso_in_odometry, expected, atol=1e-6
-    )
 
 
 @pytest.mark.parametrize("column", [40.0, 80.0, 130.0])
@@ -133,13 +101,3 @@ def test_tracks_age_without_images(people: bool, period: float) -> None:
     assert times == sorted(times) and times[-1] > 1.0
     assert np.diff(np.unique(times)) == pytest.approx(period)
     assert perception.sighting is None and perception.searching
-
-
-def test_the_head_targets_are_those_of_the_gaze(eyes: Eyes) -> None:
-    targets = np.full(JOINTS, 9.0)
-    eyes.perception.aim(targets)
-    names = [NAO.compile().actuator(i).name for i in range(JOINTS)]
-    head = eyes.perception.head
-    assert targets[names.index("HeadYaw")] == head.yaw != 0.0
-    assert targets[names.index("HeadPitch")] == head.pitch
-    assert (targets == 9.0).sum() == JOINTS - 2

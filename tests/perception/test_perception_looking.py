@@ -1,13 +1,8 @@
 """Test the gaze, and the tracks meanwhile."""
 
-from math import pi
-from typing import Any
-
 import pytest
 
-from stepaside.core.poses import Pose
 from stepaside.perception.gaze import MAX_YAW, SCAN_SPEED, RoomScan
-from stepaside.perception.target_selection import GAZE_RADIUS
 from synthetic_cameras import TICK, Eyes
 
 
@@ -18,39 +13,6 @@ def eyes() -> Eyes:
     return made
 
 
-@pytest.mark.parametrize(
-    ("changes", "distance", "speed", "looks"),
-    [
-        ({}, 3.0, 0.0, True),  # the other, recognised
-        ({"identified": False}, GAZE_RADIUS - 0.05, 0.0, True),  # near
-        (
-            {"identified": False},
-            GAZE_RADIUS + 0.05,
-            0.0,
-            False,
-        ),  # far, at rest
-        ({"identified": False}, 3.0, 0.09, True),  # far, moving
-        ({"identified": False}, 3.0, 0.07, False),  # hardly moving
-    ],
-)
-def test_the_head_follows_the_main_track(
-    eyes: Eyes,
-    changes: dict[str, Any],
-    distance: float,
-    speed: float,
-    looks: bool,
-) -> None:
-    eyes.know(*eyes.beside(distance, -0.8), (0.0, speed), **changes)
-    eyes.see(0.0)
-    assert eyes.perception.searching is not looks
-    if looks:
-        assert eyes.target is not None
-        assert eyes.target[:2] == pytest.approx((-0.8, distance))
-    else:
-        assert eyes.target is None
-    assert GAZE_RADIUS == 1.2
-
-
 def test_the_head_prefers_the_main_track(eyes: Eyes) -> None:
     eyes.know(*eyes.beside(0.6, 1.0), identified=False)
     eyes.know(*eyes.beside(1.5, -0.5))
@@ -58,15 +20,6 @@ def test_the_head_prefers_the_main_track(eyes: Eyes) -> None:
     assert seen.bearing == pytest.approx(-0.5)
     assert eyes.target is not None
     assert eyes.target[:2] == pytest.approx((-0.5, 1.5))
-
-
-def test_a_bearing_behind_is_wrapped_to_pi(eyes: Eyes) -> None:
-    eyes.support = Pose(0.0, 0.0, 3.0)
-    eyes.see(0.0)
-    eyes.know(*eyes.beside(1.5, 2.9))
-    seen = eyes.see(0.0)
-    assert seen.bearing == pytest.approx(2.9)
-    assert abs(seen.bearing) <= pi
 
 
 def test_a_lost_opponent_gives_no_sighting(eyes: Eyes) -> None:

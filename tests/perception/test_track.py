@@ -42,17 +42,6 @@ def test_one_wrong_frame_confirms_no_track() -> None:
         assert tracker.main(time, 0.0, 0.0) is None
 
 
-def test_one_wrong_frame_does_not_move_a_track() -> None:
-    tracker = Tracker()
-    now = watch(tracker, 20, 1.5, 0.0)
-    tracker.observe([look(now + FRAME, 0.5)])
-    track = tracker.main(now + FRAME, 0.0, 0.0)
-    assert track is not None
-    assert track.distance_from(0.0, 0.0, now + FRAME) == pytest.approx(
-        1.5, abs=0.02
-    )
-
-
 def test_steady_motion_is_predicted() -> None:
     tracker = Tracker()
     now = watch(tracker, 60, 2.0, -0.1)
@@ -78,18 +67,6 @@ def test_delayed_frames_count_at_their_exposure() -> None:
     )
 
 
-def test_the_recognised_robot_comes_before_a_nearer_object() -> None:
-    tracker = Tracker()
-    for i in range(5):
-        time = i * FRAME
-        tracker.observe(
-            [look(time, 1.5), look(time, 1.0, 0.8, identified=False)]
-        )
-    track = tracker.main(time, 0.0, 0.0)
-    assert track is not None
-    assert track.distance_from(0.0, 0.0, time) == pytest.approx(1.5, abs=0.02)
-
-
 def test_without_a_recognised_robot_the_nearest_is_main() -> None:
     tracker = Tracker()
     for i in range(5):
@@ -111,14 +88,6 @@ def test_covariance_does_not_depend_on_axes() -> None:
     seen = Observation(0.0, 1.0, 1.0, 0.7, 0.2, 0.05, True, True)
     deviations = np.sqrt(np.linalg.eigvalsh(seen.covariance))
     np.testing.assert_allclose(deviations, [0.05, 0.2], atol=1e-12)
-
-
-def test_deviations_are_along_and_across_the_bearing() -> None:
-    seen = Observation(0.0, 1.0, 1.0, 0.7, 0.2, 0.05, True, True)
-    sight = np.array([np.cos(0.7), np.sin(0.7)])
-    aside = np.array([-np.sin(0.7), np.cos(0.7)])
-    np.testing.assert_allclose(seen.covariance @ sight, 0.2**2 * sight)
-    np.testing.assert_allclose(seen.covariance @ aside, 0.05**2 * aside)
 
 
 def unseen_for(step: float) -> tuple[float, float, float]:
@@ -208,24 +177,3 @@ def test_a_delayed_observation_does_not_turn_back_times() -> None:
     track.update(Observation(1.4, 2.0, 0.0, 0.0, 0.1, 0.1, False, False))
     assert (track.time, track.observed_at) == (1.4, 1.4)
     assert track.identified_at == 1.2
-
-
-def test_a_delayed_frame_is_compared_at_its_time() -> None:
-    track = TargetTrack(look(0.0, 2.0))
-    for i in range(1, 60):
-        track.update(look(i * FRAME, 2.0 - 0.3 * i * FRAME))
-    now = 59 * FRAME
-    assert (
-        track.mahalanobis_squared(look(now - 0.3, 2.0 - 0.3 * (now - 0.3)))
-        < 0.01
-    )
-    assert track.mahalanobis_squared(look(now - 0.3, 2.0 - 0.3 * now)) > 1.0
-
-
-def test_drift_forgets_an_earlier_speed() -> None:
-    track = TargetTrack(look(0.0, 1.0, 0.0))
-    for i in range(1, 200):
-        time = 0.02 * i
-        x = 1.0 + 0.5 * time if time < 2.0 else 2.0 - 0.3 * (time - 2.0)
-        track.update(look(time, x, 0.0))
-    assert track.drift[0] == pytest.approx(-0.3, abs=1e-9)

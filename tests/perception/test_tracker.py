@@ -61,22 +61,6 @@ def test_of_several_alike_the_nearest_pair_associates_first() -> None:
     assert tracker.observe([look(0.2, 1.11)]) == [other]
 
 
-def test_the_most_recent_track_associates_first() -> None:
-    """Otherwise a lost track would take the observation of another."""
-    for order in (1, -1):
-        old, new = known(0.0, 1.0), known(0.5, 1.05)
-        tracker = tracker_of(*[old, new][::order])
-        assert tracker.observe([look(0.6, 1.03)]) == [new]
-
-
-def test_an_unassociated_observation_may_start_a_track() -> None:
-    tracker = Tracker()
-    assert tracker.observe([look(0.0, 1.0)], may_start=False) == []
-    assert tracker.tracks == []
-    begun = tracker.observe([look(0.0, 1.0), look(0.0, 2.0)])
-    assert begun == tracker.tracks and len(begun) == 2
-
-
 @pytest.mark.parametrize(("gap", "one"), [(0.13, True), (0.17, False)])
 def test_two_tracks_at_one_position_merge_into_the_older(
     gap: float, one: bool
@@ -89,26 +73,6 @@ def test_two_tracks_at_one_position_merge_into_the_older(
         assert main is (older if one else younger)
         assert len(tracker.tracks) == (1 if one else 2)
         assert older.identified_at == (0.1 if one else float("-inf"))
-
-
-def test_merging_uses_predicted_positions() -> None:
-    moving, resting = known(0.0, 1.0), known(0.01, 1.5)
-    for i in range(1, 7):
-        moving.update(look(0.1 * i, 1.0 + 0.05 * i))
-        resting.update(look(0.1 * i, 1.5))
-    tracker = tracker_of(moving, resting)
-    tracker.main(0.61, 0.0, 0.0)
-    assert len(tracker.tracks) == 2
-    tracker.main(0.85, 0.0, 0.0)
-    assert tracker.tracks == [moving]
-
-
-def test_the_nearest_is_measured_from_the_own_position() -> None:
-    left, right = known(0.0, 1.0), known(0.0, 4.0)
-    tracker = tracker_of(left, right)
-    assert tracker.main(0.1, 0.0, 0.0) is left
-    assert tracker.main(0.1, 5.0, 0.0) is right
-    assert tracker_of().main(0.1, 0.0, 0.0) is None
 
 
 @pytest.mark.parametrize(("lapse", "older"), [(0.45, True), (0.55, False)])

@@ -98,34 +98,6 @@ def test_the_body_moves_with_its_stance_foot() -> None:
     )
 
 
-def test_measured_posture_is_that_of_the_model() -> None:
-    """In the frame of the torso, wherever that is."""
-    _, data, angles = bent()
-    posture = forward().posture(angles)
-    torso = data.body("torso")
-    axes = torso.xmat.reshape(3, 3)
-    com = axes.T @ (data.subtree_com[torso.id] - torso.xpos)
-    np.testing.assert_allclose(posture.position_com_in_torso, com, atol=1e-12)
-    for i, name in enumerate((NAO.left_foot, NAO.right_foot)):
-        foot = axes.T @ (data.site(name).xpos - torso.xpos)
-        np.testing.assert_allclose(
-            posture.positions_feet_in_torso[i], foot, atol=1e-12
-        )
-        frame = axes.T @ data.site(name).xmat.reshape(3, 3)
-        np.testing.assert_allclose(
-            posture.axes_feet_in_torso[i], frame, atol=1e-12
-        )
-    # The CoM is a copy: it stays when the robot moves on.
-    kept = posture.position_com_in_torso.copy()
-    forward().posture(0.5 * angles)
-    np.testing.assert_array_equal(posture.position_com_in_torso, kept)
-
-
-def test_the_mass_equals_that_of_the_model() -> None:
-    model = NAO.compile()
-    assert forward().mass == pytest.approx(model.body_mass.sum())
-
-
 def test_force_sensors_sit_at_the_corners_of_the_soles() -> None:
     """Left before right; front-left, front-right, rear-left, rear-right."""
     assert [name[0] for name in FOOT_FORCES] == 4 * ["l"] + 4 * ["r"]

@@ -65,13 +65,3 @@ def test_wrong_description_is_refused_by_name(
     folder = copy_of_nao(tmp_path, **{old: new})
     with pytest.raises(ModelError, match=message):
         load_robot(folder).compile()
-
-
-def test_joints_that_share_a_motor_must_move_alike(tmp_path: Path) -> None:
-    folder = copy_of_nao(tmp_path)
-    text = NAO.mjcf().replace('polycoef="0 1 0 0 0"', 'polycoef="0 -1 0 0 0"')
-    assert text != NAO.mjcf()
-    (folder / "model.xml").write_text(text)
-    robot = load_robot(folder)
-    with pytest.raises(ModelError, match=r"RHipYawPitch and LHip.*0\.0, -1\."):
-        robot.coupled_joints(robot.compile())

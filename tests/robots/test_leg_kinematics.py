@@ -110,14 +110,6 @@ def test_one_step_closes_a_small_gap_in_every_row(
     assert gap < 6e-6
 
 
-def test_the_torso_stays_level() -> None:
-    kinematics = stood()
-    kinematics.stand(STANCE)
-    for row in (0, 5, 9, 12, 14):
-        kinematics.track(moved(row, 0.01))
-        assert np.abs(reached(kinematics)[15:]).max() < 1e-15
-
-
 def test_no_joint_moves_faster_than_its_motor() -> None:
     kinematics = stood()
     before = kinematics.stand(STANCE)
@@ -182,37 +174,6 @@ def test_the_range_of_heights_moves_nothing() -> None:
     assert lowest < STANCE.com[2] < highest
     np.testing.assert_array_equal(kinematics.joint_targets, before)
     np.testing.assert_allclose(kinematics.track(STANCE), before, atol=1e-5)
-
-
-def test_a_torso_waits_for_joints_that_are_too_slow() -> None:
-    """A jump of 2 cm from straight knees: soles stay flat, the CoM comes."""
-    kinematics = stood()
-    _, high = kinematics.com_heights(STANCE)
-    kinematics.stand(STANCE._replace(com=(*STANCE.com[:2], high)))
-    request = STANCE._replace(com=(*STANCE.com[:2], high - 0.02))
-    before = 0.02
-    for _ in range(60):
-        kinematics.track(request)
-        off = np.abs(asked(request) - reached(kinematics))
-        assert off.max() < max(before, 1e-5)
-        assert off[[3, 4, 5, 9, 10, 11]].max() < 1e-3
-        before = off.max()
-    assert before < 1e-5
-
-
-def test_the_torso_heading_is_the_mean_of_the_feet() -> None:
-    kinematics = stood()
-    for turn in (-2.0, 0.0, 1.0, 0.5 * np.pi, -0.5 * np.pi):
-        c, s = np.cos(turn), np.sin(turn)
-        kinematics.stand(
-            BodyReference(
-                (0.01 * c, 0.01 * s, 0.26),
-                (-0.05 * s, 0.05 * c, 0.0, turn + 0.1),
-                (0.05 * s, -0.05 * c, 0.0, turn - 0.1),
-            )
-        )
-        # The heading is that of the pose before the last of the steps.
-        assert kinematics.torso_heading == pytest.approx(turn, abs=1e-3)
 
 
 @pytest.mark.parametrize("yaw", [0.0, 0.7, -2.0])

@@ -3,7 +3,6 @@
 import numpy as np
 import pytest
 
-from stepaside.core.errors import ReachError
 from stepaside.core.poses import Array
 from stepaside.locomotion.zmp.open_loop import LoadFeedforward
 from stepaside.robots.description import load_robot
@@ -80,13 +79,3 @@ def test_rows_have_the_bits_of_single_ticks(
     np.testing.assert_array_equal(found, expected)
     speeds = np.abs(np.diff(found, axis=0)).max() / TICK
     assert (speeds > 6.0) == (jump != 0.0)  # a limit acts
-
-
-def test_rows_end_before_a_reference_that_is_out_of_reach() -> None:
-    bodies = references(1, 0.0)
-    kinematics, _ = legs()
-    rows = np.array([body.row() for body in bodies])
-    rows[5:, 0] += 1.0
-    assert len(kinematics.track_rows(rows).targets) == 5
-    with pytest.raises(ReachError, match="cannot follow: CoM x"):
-        kinematics.track_rows(rows[5:])

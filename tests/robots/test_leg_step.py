@@ -143,59 +143,6 @@ def test_mirrored_references_have_mirrored_targets() -> None:
             assert second[twin] == pytest.approx(sign * first[name], abs=1e-6)
 
 
-def heading_of(legs: LegKinematics) -> float:
-    posture = legs.posture
-    return float(2.0 * np.arctan2(posture[6], posture[3]))
-
-
-def turning(turns: int) -> list[BodyReference]:
-    """Feet that turn in place, one after the other, 0.2 rad at a time."""
-    requests = []
-    left = right = 0.0
-    for turn in range(turns):
-        for i in range(50):
-            yaw = 0.2 * (turn + (i + 1) / 50)
-            left, right = (yaw, right) if turn % 2 else (left, yaw)
-            requests.append(
-                BodyReference(
-                    (0.02, 0.0, 0.6),
-                    (-0.1 * np.sin(left), 0.1 * np.cos(left), 0.0, left),
-                    (0.1 * np.sin(right), -0.1 * np.cos(right), 0.0, right),
-                )
-            )
-    return requests
-
-
-@pytest.mark.parametrize("name", ["synthetic", "seven"])
-def test_with_independent_hip_yaws_the_torso_heading_is_the_mean_of_the_feet(
-    name: str,
-) -> None:
-    """It does not drift, however far they turn: more than once round."""
-    legs = LegKinematics(robot(name), tick=0.02)
-    requests = turning(33)
-    legs.stand(requests[0])
-    for request in requests:
-        legs.track(request)
-        middle = request.heading
-        gap = np.remainder(heading_of(legs) - middle + np.pi, 2 * np.pi)
-        assert gap - np.pi == pytest.approx(0.0, abs=1e-3)
-    assert requests[-1].left_foot[3] > 2.0 * np.pi
-
-
-def test_a_jump_of_the_whole_body_is_refused() -> None:
-    """No joint would have to move for it."""
-    legs = LegKinematics(NAO, tick=TICK)
-    stance = BodyReference(
-        (0.02, 0.0, 0.26), (0.0, 0.05, 0.0, 0.0), (0.0, -0.05, 0.0, 0.0)
-    )
-    legs.stand(stance)
-    jumped = BodyReference(
-        (0.62, 0.0, 0.26), (0.6, 0.05, 0.0, 0.0), (0.6, -0.05, 0.0, 0.0)
-    )
-    with pytest.raises(ReachError, match="off by 0.600"):
-        legs.track(jumped)
-
-
 def test_nan_and_inf_in_a_reference_are_refused() -> None:
     legs = LegKinematics(NAO, tick=TICK)
     stance = BodyReference(

@@ -133,60 +133,6 @@ def test_touch_sensors_are_at_the_corners_of_the_sole(foot: int) -> None:
         assert sensor.objid == site.id
 
 
-def test_only_the_sole_of_a_foot_collides() -> None:
-    model = model_with_overlay()
-    feet = {model.body(name).id for name in ("left", "right", "toe")}
-    for number in range(model.ngeom):
-        geom = model.geom(number)
-        meets = geom.contype[0], geom.conaffinity[0]
-        if geom.name.endswith("_box"):
-            assert meets == (1, 1) and geom.bodyid[0] in feet
-            assert model.body(geom.bodyid[0]).mass > 0.0
-            np.testing.assert_allclose(geom.friction, [0.8, 0.005, 0.0001])
-        else:
-            assert meets == ((0, 0) if geom.bodyid[0] in feet else (1, 1))
-
-
-def test_a_sole_has_no_mass() -> None:
-    bare = mujoco.MjModel.from_xml_string(MODEL.format(joints=""))
-    laid = model_with_overlay()
-    for name in ("trunk", "left", "right"):
-        assert laid.body(name).mass == pytest.approx(bare.body(name).mass)
-
-
-@pytest.mark.parametrize(
-    "joints",
-    [
-        "",
-        "<freejoint/>",
-        '<joint type="slide" axis="1 0 0"/><joint axis="0 0 1"/>',
-    ],
-)
-def test_the_torso_gets_a_free_joint(joints: str) -> None:
-    model = model_with_overlay(joints)
-    free = mujoco.mjtJoint.mjJNT_FREE
-    assert [j == free for j in model.jnt_type] == [True, False, False]
-    assert model.body("trunk").jntnum == 1
-
-
-def test_the_environment_is_removed() -> None:
-    model = model_with_overlay()
-    bodies = {model.body(i).name for i in range(model.nbody)}
-    assert bodies == {"world", "trunk", "left", "right", "toe"}
-    assert not (model.nlight or model.ncam or model.nkey)
-    assert model.nu == 2 and model.nsensor == 2 + 8
-    sites = {model.site(i).name for i in range(model.nsite)}
-    assert sites == {IMU, "l_sole", "r_sole", *SENSORS.feet}
-    plain = mujoco.MjSpec().compile()
-    np.testing.assert_array_equal(model.opt.gravity, plain.opt.gravity)
-    assert model.opt.timestep == plain.opt.timestep
-    assert model.opt.integrator == mujoco.mjtIntegrator.mjINT_IMPLICITFAST
-    assert model.vis.map.znear == plain.vis.map.znear
-    np.testing.assert_array_equal(
-        model.vis.headlight.ambient, plain.vis.headlight.ambient
-    )
-
-
 def test_the_imu_measures_rotation_and_acceleration() -> None:
     model, sensors = model_with_overlay(), SENSORS
     site = model.site(IMU)

@@ -26,14 +26,6 @@ def numbers(row: dict[str, str], *names: str) -> np.ndarray:
     return np.array([float(row[name]) for name in names])
 
 
-def zero_posture() -> mujoco.MjData:
-    data = mujoco.MjData(MODEL)
-    data.qpos[:] = 0.0
-    data.qpos[3] = 1.0
-    mujoco.mj_forward(MODEL, data)
-    return data
-
-
 def test_masses_of_25_links_equal_the_table() -> None:
     assert len(LINKS) == MODEL.nbody - 1 == 25
     assert MODEL.body_subtreemass[0] == pytest.approx(5.30535, abs=2e-4)
@@ -80,48 +72,6 @@ def test_torque_and_speed_of_a_motor(row: dict[str, str]) -> None:
     np.testing.assert_allclose(motor.forcerange, [-torque, torque], rtol=1e-5)
     speed = float(row["v6_noload_speed_rad_s"])
     assert NAO.speed_limits[row["joint"]] == pytest.approx(speed, abs=1e-3)
-
-
-def test_hip_yaw_pitch_joints_share_one_motor() -> None:
-    assert len(JOINTS) == MODEL.njnt - 1 == 24
-    assert MODEL.nu == 23
-    coupled = NAO.coupled_joints(MODEL)
-    assert coupled == {"RHipYawPitch": "LHipYawPitch"}
-
-
-def test_shared_hip_joint_turns_both_toes_outwards() -> None:
-    data = zero_posture()
-    for side in "LR":
-        data.joint(f"{side}HipYawPitch").qpos = -0.5
-    mujoco.mj_forward(MODEL, data)
-    left = data.body("l_foot").xmat.reshape(3, 3)[:, 0]
-    right = data.body("r_foot").xmat.reshape(3, 3)[:, 0]
-    np.testing.assert_allclose(left, [0.878, 0.339, 0.339], atol=1e-3)
-    np.testing.assert_allclose(right, [0.878, -0.339, 0.339], atol=1e-3)
-
-
-def test_sole_lies_inside_the_published_outline() -> None:
-    """Box of the outline: x -0.0507..0.0994, y -0.0388..0.0500."""
-    geom = MODEL.geom("l_sole")
-    low, high = geom.pos - geom.size, geom.pos + geom.size
-    np.testing.assert_allclose(low[:2], [-0.05, -0.035], atol=1e-9)
-    np.testing.assert_allclose(high[:2], [0.095, 0.042], atol=1e-9)
-    assert low[2] == pytest.approx(-0.04519)
-    assert MODEL.geom("r_sole").pos[1] == pytest.approx(-geom.pos[1])
-
-
-def test_robot_is_as_tall_as_a_nao() -> None:
-    """0.574 m from the soles to the top of the head."""
-    data = zero_posture()
-    top = -np.inf
-    for i in range(MODEL.ngeom):
-        center = data.geom_xpos[i]
-        frame = data.geom_xmat[i].reshape(3, 3)
-        half = MODEL.geom_aabb[i, 3:]
-        shift = frame @ MODEL.geom_aabb[i, :3]
-        top = max(top, center[2] + shift[2] + np.abs(frame[2]) @ half)
-    height = top - data.site("l_sole_center").xpos[2]
-    assert height == pytest.approx(0.574, abs=0.03)
 
 
 def test_foot_force_sensors_are_at_the_published_positions() -> None:

@@ -5,15 +5,12 @@ import sys
 from dataclasses import replace
 from pathlib import Path
 from shutil import copytree
-from typing import Any
 
 import pytest
 
-from stepaside.cli.main import main
-from stepaside.core.entries import read_entries, to_entries
+from stepaside.core.entries import to_entries
 from stepaside.core.errors import ModelError
 from stepaside.robots.description import load_robot
-from stepaside.robots.robot_tree import RobotTree
 from stepaside.robots.tree_cache import FILE, load_tree, store_tree
 from stepaside.robots.tree_compiler import compile_tree
 from synthetic_humanoid import synthetic_humanoid
@@ -43,10 +40,6 @@ def test_the_stored_nao_is_up_to_date(
     copytree(NAO.folder, tmp_path / "nao")
     copy = replace(NAO, folder=tmp_path / "nao")
     assert load_tree(copy).mass == pytest.approx(5.305, abs=2e-3)
-
-
-def test_a_tree_is_loaded_once() -> None:
-    assert load_tree(NAO) is load_tree(load_robot("nao"))
 
 
 def test_a_stored_tree_comes_back_as_it_was(
@@ -99,25 +92,6 @@ def test_without_mujoco_a_stored_tree_is_required(
         load_tree(robot)
 
 
-def test_a_tree_is_checked_against_the_description(tmp_path: Path) -> None:
-    """The description may change after the tree was stored."""
-    robot = synthetic_humanoid(tmp_path)
-    store_tree(robot)
-    text = (tmp_path / "robot.toml").read_text()
-    text = text.replace('left_foot = "l_sole"', 'left_foot = "l_toe"')
-    (tmp_path / "robot.toml").write_text(text)
-    with pytest.raises(ModelError, match="there is no site 'l_toe'"):
-        load_tree(load_robot(tmp_path))
-
-
-@pytest.mark.parametrize("missing", ["links", "sites", "motors"])
-def test_a_tree_with_entries_missing_is_refused(missing: str) -> None:
-    entries: dict[str, Any] = to_entries(compile_tree(NAO))
-    del entries[missing]
-    with pytest.raises(ModelError, match=missing):
-        read_entries(RobotTree, entries, error=ModelError)
-
-
 @pytest.mark.parametrize(
     ("old", "new", "words"),
     [
@@ -140,11 +114,3 @@ def test_a_model_that_cannot_be_moved_is_refused(
     model.write_text(text.replace(old, new))
     with pytest.raises(ModelError, match=words):
         load_tree(robot)
-
-
-def test_the_command_line_stores_a_tree(tmp_path: Path) -> None:
-    robot = synthetic_humanoid(tmp_path)
-    with pytest.raises(SystemExit) as ended:
-        main(["robot", str(tmp_path), "--compile"])
-    assert not ended.value.code
-    assert (robot.folder / FILE).is_file()

@@ -12,7 +12,7 @@ from stepaside.core.poses import Array
 from stepaside.games.recorded_game import RecordedGame
 from stepaside.games.walk_settings import WalkSettings
 from stepaside.robots.description import load_robot
-from stepaside.sim.body_settings import BODIES, BodySettings
+from stepaside.sim.body_settings import BodySettings
 from stepaside.sim.physics_settings import PhysicsSettings
 from stepaside.sim.simulated_robot import SimulatedRobot
 from walkers import walker_of
@@ -63,11 +63,3 @@ def test_body_settings_refuse_values_out_of_range(name: str) -> None:
     changes: dict[str, Any] = {name: -1}
     with pytest.raises(ConfigurationError, match=name):
         replace(BodySettings(), **changes)
-
-
-def test_presets_go_from_ideal_to_hardware() -> None:
-    assert BODIES["ideal"].has_ideal_servos
-    assert not BODIES["ideal"].has_sensor_errors
-    hardware = BODIES["hardware"]
-    assert hardware.delay_cycles * hardware.cycle == pytest.approx(0.036)
-    assert not hardware.has_ideal_servos and hardware.has_sensor_errors

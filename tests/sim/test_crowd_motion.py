@@ -69,11 +69,6 @@ def test_two_who_meet_head_on_pass_each_other_on_the_right() -> None:
     assert all(motion.arrived_at is not None for motion in pair)
 
 
-def test_nobody_gives_way_without_a_reaction() -> None:
-    assert closest(walk("none")) < 0.25
-    assert closest(walk("regular")) > 0.5
-
-
 def test_a_surprised_person_halts_and_looks_then_walks_on() -> None:
     poses = walk("surprised", duration=50.0)
     # It notices the robot at 4 m, and needs some way to halt.
@@ -83,16 +78,6 @@ def test_a_surprised_person_halts_and_looks_then_walks_on() -> None:
     assert notice.within - 1.0 < hypot(*then[:2]) < notice.within
     assert cos(then.theta - atan2(-then.y, -then.x)) > 0.999
     assert poses[-1].x < -4.0
-
-
-def test_a_robot_behind_surprises_nobody() -> None:
-    """The person walks away from a robot 2 m behind."""
-    settings = CrowdSettings(1.0, "surprised")
-    motion = CrowdMotion(settings, Pose(2.0, 0.0, 0.0), (8.0, 0.0))
-    for i in range(500):
-        robot = Neighbour(*ROBOT, is_person=False)
-        motion.advance((i + 1) * STEP, STEP, [robot])
-    assert motion.arrived_at is not None
 
 
 def test_curious_and_scared_people_keep_their_distances() -> None:

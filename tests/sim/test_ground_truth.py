@@ -8,7 +8,7 @@ import pytest
 
 from stepaside.core.poses import Pose
 from stepaside.core.rotations import rotation
-from stepaside.sim.ground_truth import TrueRobotState, torsos_apart
+from stepaside.sim.ground_truth import TrueRobotState
 
 
 def put(
@@ -67,9 +67,3 @@ def test_a_torso_has_fallen_beyond_45_degrees(sign: float, yaw: float) -> None:
             lean *= sign
             truth = put(0, 0, roll * lean, pitch * lean, yaw)
             assert truth.has_fallen is fallen
-
-
-def test_distance_is_horizontal_and_mutual() -> None:
-    one, other = put(1.0, -2.0, 0, 0, 0), put(-0.5, -1.0, 0, 30.0, 9.0)
-    assert torsos_apart(one, other) == pytest.approx(hypot(1.5, 1.0))
-    assert torsos_apart(other, one) == torsos_apart(one, other)

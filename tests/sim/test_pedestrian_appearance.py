@@ -1,29 +1,16 @@
 """Test the body of a person: size, gait and role in a duel."""
 
-from types import SimpleNamespace
-from typing import Any
-
 import mujoco
 import numpy as np
 import pytest
 
-from stepaside.core.errors import ConfigurationError
 from stepaside.core.poses import Array, Pose
-from stepaside.games.floor_world import FloorPerson
-from stepaside.games.player import FloorPlayer
 from stepaside.sim.person_body import (
     PARTS,
-    STEP,
-    PersonBody,
     add_person,
     mocap_indices,
     set_person_pose,
 )
-from stepaside.sim.person_motion import PersonMotion
-from stepaside.sim.person_settings import PersonSettings
-from stepaside.sim.push import Push
-
-TICK = 0.05
 
 
 def figure() -> tuple[mujoco.MjModel, mujoco.MjData]:
@@ -76,42 +63,3 @@ def test_a_person_has_human_size() -> None:
     assert high[2] == pytest.approx(1.465)
     assert low[1] == pytest.approx(0.195)
     assert high[0] == pytest.approx(0.075)
-
-
-@pytest.mark.parametrize("way", [0.0, 0.1, 0.125, 0.3])
-def test_left_and_right_are_mirror_images_half_a_walk_apart(
-    way: float,
-) -> None:
-    now, later = posed(STANDING, way), posed(STANDING, way + STEP)
-    for part in ("leg", "arm"):
-        left = box(*now, f"left {part}") * (1, -1, 1)
-        right = box(*later, f"right {part}")
-        np.testing.assert_allclose(np.sort(left, axis=0), right, atol=1e-12)
-
-
-def world_of(model: mujoco.MjModel, data: mujoco.MjData) -> Any:
-    physics = SimpleNamespace(tick=TICK)
-    return SimpleNamespace(model=model, data=data, physics=physics, time=0.0)
-
-
-def walker(
-    world: Any, motion: PersonMotion, evader: tuple[float, float]
-) -> tuple[FloorPlayer, Any]:
-    """A person, and the position of the evader, which may be changed."""
-    other: Any = SimpleNamespace(position_torso_in_world=evader)
-    body = PersonBody(world, "her", motion.pose)
-    walk = FloorPerson("her", motion, {}, "evader", TICK)
-
-    def seen() -> dict[str, Pose]:
-        x, y = other.position_torso_in_world
-        return {"evader": Pose(x, y, 0.0)}
-
-    return FloorPlayer(body, walk, seen), other
-
-
-def test_a_person_cannot_be_pushed() -> None:
-    model, data = figure()
-    motion = PersonMotion(PersonSettings("steer"), STANDING, (4.0, 2.0))
-    player, _ = walker(world_of(model, data), motion, (4.0, 2.0))
-    with pytest.raises(ConfigurationError, match="a robot .* got her"):
-        player.push(Push(1.0, 0.0, 0.0))

@@ -3,9 +3,7 @@
 from math import atan2, cos, hypot, pi, sin
 from pathlib import Path
 
-import numpy as np
 import pytest
-from scipy.integrate import solve_ivp
 
 from stepaside.arena import Disc, Room
 from stepaside.core.errors import ConfigurationError
@@ -14,10 +12,8 @@ from stepaside.sim.person_motion import (
     PersonMotion,
     Place,
     read_path,
-    template_approach,
 )
 from stepaside.sim.person_settings import PersonSettings
-from stepaside.theory.unicycle.unicycle_game import Unicycle
 
 EVADER = (1.0, -2.0)
 
@@ -136,78 +132,6 @@ def test_invalid_rows_are_refused(
 ) -> None:
     with pytest.raises(ConfigurationError, match=message):
         read_path(recorded(tmp_path, lines))
-
-
-SPEED, GAIN, RADIUS = 0.1, 0.25, 0.8
-UNICYCLE = Unicycle(SPEED, GAIN)
-
-
-def approach(
-    start: Pose,
-    evader: Pose,
-    angle: float,
-    person: PersonSettings | None = None,
-    *,
-    unicycle: Unicycle = UNICYCLE,
-    duration: float = 18.0,
-) -> float:
-    walk = person or PersonSettings("straight", 0.15)
-    return template_approach(
-        lambda pose, place: PersonMotion(walk, pose, place),
-        start,
-        evader,
-        angle=angle,
-        safety_radius=RADIUS,
-        unicycle=unicycle,
-        duration=duration,
-    )
-
-
-def computed(
-    start: Pose, evader: Pose, angle: float, miss: float = 0.0
-) -> float:
-    """The same by an integrator that knows nothing of the package."""
-    aim = atan2(evader.y - start.y, evader.x - start.x)
-    away = hypot(evader.x - start.x, evader.y - start.y)
-    off = atan2(miss, away)
-    aim += off
-    # Where the straight way comes into the safety area.
-    way = away * cos(off) - (RADIUS**2 - (away * sin(off)) ** 2) ** 0.5
-    begun = way / 0.15
-    u, v = start.x + way * cos(aim), start.y + way * sin(aim)
-    seen = wrap_angle(atan2(v - evader.y, u - evader.x) - evader.theta)
-    side = 1.0 if seen >= 0.0 else -1.0
-
-    def person(time: float) -> tuple[float, float]:
-        way = 0.15 * time
-        return start.x + way * cos(aim), start.y + way * sin(aim)
-
-    def rate(time: float, state: np.ndarray) -> list[float]:
-        x, y, theta = state
-        u, v = person(time)
-        bearing = wrap_angle(atan2(v - y, u - x) - theta)
-        turn = GAIN * wrap_angle(bearing - side * angle)
-        return [-SPEED * cos(theta), -SPEED * sin(theta), turn]
-
-    times = np.linspace(begun, 18.0, 2001)
-    found = solve_ivp(
-        rate, (begun, 18.0), tuple(evader), t_eval=times, rtol=1e-7
-    )
-    places = np.array([person(t) for t in times])
-    return float(np.hypot(*(places.T - found.y[:2])).min())
-
-
-@pytest.mark.parametrize("bearing", [-2.5, -0.4, 0.4, 2.5])
-@pytest.mark.parametrize("angle", [0.0, 0.6, pi / 2])
-@pytest.mark.parametrize("heading", [0.3, 2.9])
-def test_the_template_moves_by_the_law_of_the_paper(
-    bearing: float, angle: float, heading: float
-) -> None:
-    """The person comes from that bearing, left or right of the evader."""
-    evader = Pose(5.0, -3.0, heading)
-    there = evader.compose(Pose(1.2 * cos(bearing), 1.2 * sin(bearing), 0.0))
-    least = approach(there, evader, angle)
-    assert least == pytest.approx(computed(there, evader, angle), abs=3e-3)
 
 
 @pytest.mark.parametrize("path", ["straight", "steer"])

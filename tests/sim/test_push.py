@@ -9,7 +9,7 @@ import pytest
 
 from stepaside.core.errors import ConfigurationError
 from stepaside.core.poses import Array
-from stepaside.sim.push import Push, PushApplier, check_pushes, pushes_by_robot
+from stepaside.sim.push import Push, PushApplier
 
 STEP = 0.002
 MODEL = f"""
@@ -84,17 +84,6 @@ def test_the_impulse_changes_the_momentum() -> None:
     np.testing.assert_allclose(2.0 * bench.data.qvel[6:8], expected)
 
 
-def test_simultaneous_pushes_add_up_in_any_order() -> None:
-    late, early = Push(2.0, 0.04, 0.0), Push(1.0, 0.02, pi / 2)
-    bench = Bench(turned(0.0), late, early)
-    found = bench.forces(100)
-    np.testing.assert_allclose(found[15], [0.0, 10.0, 0.0], atol=1e-9)
-    np.testing.assert_allclose(found[30], [20.0, 10.0, 0.0], atol=1e-9)
-    np.testing.assert_allclose(found[65], [20.0, 0.0, 0.0], atol=1e-9)
-    np.testing.assert_array_equal(found[75], 0.0)
-    np.testing.assert_allclose(bench.pusher.impulse, [2.0, 1.0])
-
-
 @pytest.mark.parametrize(
     ("values", "name"),
     [
@@ -112,15 +101,3 @@ def test_simultaneous_pushes_add_up_in_any_order() -> None:
 def test_pushes_out_of_range_are_refused(values: Any, name: str) -> None:
     with pytest.raises(ConfigurationError, match=name):
         Push(*values)
-
-
-def test_pushes_are_grouped_by_robot() -> None:
-    """Without a name the last player is pushed: the walker, or the evader."""
-    one, other = Push(1.0, 2.0, 0.0), Push(2.0, 1.0, 0.0, player="pursuer")
-    players = ("pursuer", "evader")
-    found = pushes_by_robot([one, other], players)
-    assert found == {"pursuer": (other,), "evader": (one,)}
-    assert pushes_by_robot([], players) == {"pursuer": (), "evader": ()}
-    check_pushes([one, other], players)
-    with pytest.raises(ConfigurationError, match="one of evader.*'pursuer'"):
-        check_pushes([one, other], ("evader",))

@@ -63,15 +63,6 @@ def test_a_ray_goes_from_its_mount_on_a_turned_body() -> None:
     np.testing.assert_allclose(caster.along, (0.5, 1.0 / sqrt(13.0)))
 
 
-def test_rays_ignore_invisible_geoms() -> None:
-    rays = np.array([[1.0, 0.0, 0.0]])
-    for group, there in ((0, True), (2, True), (3, False), (5, False)):
-        thing = wall(1.1).replace("<geom", f'<geom group="{group}"')
-        _, caster = cast(thing, rays)
-        caster.cast(1.1)
-        assert caster.distances[0] == (pytest.approx(1.0) if there else -1.0)
-
-
 def depths(
     things: str,
     settings: DepthSettings,
@@ -133,21 +124,3 @@ def test_the_shadow_of_an_edge_is_dark_in_the_image() -> None:
     near = np.flatnonzero(np.abs(image - 0.95) < 0.01)
     dark = np.flatnonzero(image == 0.0)
     assert dark.tolist() == [near[0] - 1]
-
-
-EYE = np.array([0.1, -0.2, 0.5])
-
-
-def balls(places: Array, radii: Array) -> tuple[mujoco.MjModel, mujoco.MjData]:
-    """Return balls above a floor, which is geom 0."""
-    text = "".join(
-        f'<geom size="{r}" pos="{x} {y} {z}"/>'
-        for (x, y, z), r in zip(places.tolist(), radii.tolist(), strict=True)
-    )
-    model = mujoco.MjModel.from_xml_string(
-        "<mujoco><worldbody>"
-        f'<geom type="plane" size="9 9 1"/>{text}</worldbody></mujoco>'
-    )
-    data = mujoco.MjData(model)
-    mujoco.mj_kinematics(model, data)
-    return model, data

@@ -87,13 +87,6 @@ def test_the_imu_is_delayed_by_whole_cycles(delay: int) -> None:
         np.testing.assert_array_equal(force, FORCE * then)
 
 
-def test_encoders_round_to_their_nearest_step() -> None:
-    angles = np.linspace(-0.1, 0.1, 1001)
-    encoded = errors_of(encoder_step=0.01).encoders(angles)
-    np.testing.assert_allclose(np.round(encoded / 0.01), encoded / 0.01)
-    assert np.abs(encoded - angles).max() <= 0.005 + 1e-12
-
-
 def test_foot_noise_has_the_set_deviation_and_stays_positive() -> None:
     sensors = errors_of(force_noise=0.4)
     nine = np.full(8, 9.0)
@@ -150,19 +143,3 @@ def test_only_the_torso_has_its_com_shifted_and_level() -> None:
     assert 0.95 < found[:, :2].max(axis=0).min()
     assert np.abs(found).max() <= 1.0 + 1e-12
     assert abs(np.corrcoef(found[:, 0], found[:, 1])[0, 1]) < 0.2
-
-
-def test_errors_scale_with_the_robot() -> None:
-    body = BodySettings(force_noise=0.4, com_error=0.01)
-    noises, shifts = [], []
-    for unit in (1.0, 6.0):
-        generator = named_generator(1, "s")
-        sensors = SensorErrors(body, generator, force_unit=unit)
-        noises.append(feet(sensors, np.full(8, 50.0)) - 50.0)
-        parts = [part("torso")]
-        generator = named_generator(1, "m")
-        perturb_masses(parts, body, "torso", generator, length_unit=unit)
-        shifts.append(parts[0].ipos - [0.1, 0.2, 0.3])
-    assert np.abs(noises[0]).max() > 0.0 and np.abs(shifts[0]).max() > 0.0
-    np.testing.assert_allclose(noises[1], 6.0 * noises[0], atol=1e-12)
-    np.testing.assert_allclose(shifts[1], 6.0 * shifts[0], atol=1e-12)

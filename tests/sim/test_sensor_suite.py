@@ -23,7 +23,7 @@ from stepaside.sim.camera_settings import (
     DepthSettings,
 )
 from stepaside.sim.ranging import SensorStream
-from stepaside.sim.sensor_suite import ImageNoise, SensorSuite
+from stepaside.sim.sensor_suite import SensorSuite
 
 TICK = 0.004
 NAO = load_robot("nao")
@@ -171,20 +171,3 @@ def test_the_rear_camera_looks_backward_from_the_torso() -> None:
     assert first.depths[30, 53] == pytest.approx(2.0 - 0.075, abs=0.05)
     # Above the box there is nothing; the other box lies ahead.
     assert first.depths[0].max() == 0.0
-
-
-def test_pixel_noise_has_the_set_deviation() -> None:
-    camera = CameraModel.of_field_of_view(80, 60, 1.0, 0.8)
-    grey = np.full((60, 80, 3), 128, dtype=np.uint8)
-    grain = ImageNoise(camera, 6.0, np.random.default_rng(2))
-    one, other = grain.add_to(grey), grain.add_to(grey)
-    assert one.shape == grey.shape and one.dtype == np.uint8
-    assert not np.array_equal(one, other)
-    for noise in (one.astype(float) - 128.0, other.astype(float) - 128.0):
-        assert noise.std() == pytest.approx(6.0, rel=0.03)
-        assert abs(noise.mean()) < 0.15
-    # Bright stays bright: noise does not wrap around.
-    white = np.full((60, 80, 3), 254, dtype=np.uint8)
-    assert grain.add_to(white).min() > 200
-    still = ImageNoise(camera, 0.0, np.random.default_rng(2))
-    np.testing.assert_array_equal(still.add_to(grey), grey)

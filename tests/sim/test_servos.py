@@ -139,19 +139,6 @@ def test_backlash_subtracts_half_its_width_from_the_error(side: float) -> None:
         np.testing.assert_allclose(error, side * np.array([seen, off]))
 
 
-def test_a_gain_scales_torque_but_not_the_equilibrium() -> None:
-    servos, model, data = realistic(servo_gain=0.75)
-    data.qpos[QPOS] = [0.3, -0.2]
-    servos.reset(np.array([0.31, -0.21]))
-    servos.before_step(0.0)
-    pull = 0.75 * KP * np.array([0.01, -0.02])
-    np.testing.assert_allclose(torques(model, data), pull)
-    servos.reset(data.qpos[QPOS].copy())
-    servos.before_step(0.0)
-    np.testing.assert_allclose(torques(model, data), 0.0, atol=1e-12)
-    assert model.actuator_gainprm[0, 0] == 7.0
-
-
 def limits_at(share: float, **effects: Any) -> tuple[Array, Array]:
     """Return torque limits at a fraction of the no-load speeds."""
     servos, model, data = realistic(**effects)
@@ -183,13 +170,3 @@ def test_the_torque_limit_falls_in_the_direction_of_motion(
     found = limits_at(share, torque_speed=True)
     np.testing.assert_allclose(found[0], low, atol=1e-12)
     np.testing.assert_allclose(found[1], high, atol=1e-12)
-
-
-def test_stall_torque_scales_with_efficiency_and_stiffness() -> None:
-    for share in (0.0, 0.5, -0.5):
-        low, high = limits_at(share, efficiency=0.6, stiffness=0.5)
-        np.testing.assert_allclose(low, -0.3)
-        np.testing.assert_allclose(high, 0.3)
-    low, high = limits_at(-0.5, efficiency=0.6, torque_speed=True)
-    np.testing.assert_allclose(low, -0.3)
-    np.testing.assert_allclose(high, 0.6)

@@ -1,19 +1,14 @@
 """Test a world of robots: contacts, time and placement."""
 
-from math import cos, pi, sin
-from typing import Any
-
 import mujoco
 import numpy as np
 import pytest
 
-from stepaside.core.poses import Pose
 from stepaside.robots.description import load_robot
 from stepaside.sim.physics_settings import PhysicsSettings
 from stepaside.sim.world import (
     World,
     build_model,
-    transform_free_joint,
 )
 
 NAO = load_robot("nao")
@@ -71,19 +66,6 @@ def test_every_pair_of_robots_collides_once(number: int) -> None:
     np.testing.assert_array_equal(meets | meets.T, roots[:, None] != roots)
 
 
-def test_the_last_of_ten_robots_touches_the_one_before() -> None:
-    robots = dict.fromkeys([f"robot {i}" for i in range(10)], NAO)
-    world = World(robots, PhysicsSettings())
-    places = world.data.qpos.reshape(10, -1)[:, :7]
-    places[:] = 0.0, 0.0, 2.0, 1.0, 0.0, 0.0, 0.0
-    for apart, touch in ((3.0, False), (0.12, True)):
-        places[:, 0] = 3.0 * np.arange(10)
-        places[9, 0] = places[8, 0] + apart
-        mujoco.mj_forward(world.model, world.data)
-        assert (world.data.ncon > 0) is touch
-        assert world.robots_touch() is touch
-
-
 def test_steps_are_the_same_one_by_one_and_together() -> None:
     states = []
     for calls in ([], [lambda time: None]):
@@ -118,26 +100,3 @@ def test_sensors_are_those_of_the_last_physics_step(ticks: int) -> None:
     mujoco.mj_step(reference.model, reference.data, nstep=3)
     np.testing.assert_array_equal(found.qpos, expected.qpos)
     np.testing.assert_array_equal(found.sensordata, expected.sensordata)
-
-
-def rotation(quaternion: Any) -> np.ndarray:
-    out = np.zeros(9)
-    mujoco.mju_quat2Mat(out, np.array(quaternion, dtype=float))
-    return out.reshape(3, 3)
-
-
-@pytest.mark.parametrize("theta", [0.0, 0.7, -2.1, pi])
-def test_a_placed_body_is_turned_about_the_vertical(theta: float) -> None:
-    """Whatever its own posture: the matrix is the product of both."""
-    own = np.array([0.6, -0.2, 0.5, 0.3])
-    own /= np.linalg.norm(own)
-    pose = Pose(1.0, -2.0, theta)
-    placed_at = transform_free_joint([0.3, 0.1, 0.4, *own], pose)
-    np.testing.assert_allclose(
-        placed_at[:3], [*pose.transform_points([[0.3, 0.1]])[0], 0.4]
-    )
-    c, s = cos(theta), sin(theta)
-    turn = np.array([[c, -s, 0.0], [s, c, 0.0], [0.0, 0.0, 1.0]])
-    np.testing.assert_allclose(
-        rotation(placed_at[3:]), turn @ rotation(own), atol=1e-12
-    )
