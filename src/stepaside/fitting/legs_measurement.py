@@ -1,6 +1,6 @@
 """Measurement of learned legs: what velocities commands lead to."""
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Sequence
 from concurrent.futures import Executor
 from dataclasses import dataclass, replace
 from math import hypot, isfinite, nan
@@ -71,134 +71,126 @@ class LegsTrialResult(NamedTuple):
     odometry: tuple[float, float] = (0.0, 0.0)  # by the legs [m/s]
 
 
+class LegsMotion(NamedTuple):
+    """Recorded walk, a row for each tick and one for the end."""
+
+    poses: Array  # of the reference point in the world (n + 1, 3)
+    estimates: Array  # of the leg odometry (n + 1, 3)
+    wanted: list[BodyVelocity]
+    tick: float  # [s]
+    fell_at: float | None  # [s]
+
+
+def _walk(
+    trial: LegsTrial,
+    wanted_at: Callable[[float], BodyVelocity],
+    duration: float,
+) -> LegsMotion:
+    """Walk alone in a world from the default posture of the policy."""
+    description = trial.description
+    setup = RobotSetup(
+        "robot",
+        description,
+        GaitSettings(zmp_forward=0.0),
+        legs=trial.legs,
+        seed=trial.seed,
+    )
+    physics = policy_physics(PhysicsSettings(), trial.body, [setup])
+    setup = setup._replace(body=at_tick(trial.body, physics.tick))
+    world = World({"robot": description}, physics, trial.body, trial.seed)
+    legs = PolicyLegs(
+        *load_policy(trial.legs, description),
+        description,
+        tick=physics.tick,
+        response=trial.response,
+        learns=trial.response is not None,
+    )
+    truth = setup.true_state_in(world)
+    robot = setup._replace(truth=truth).place(world, legs)
+    mujoco.mj_forward(world.model, world.data)
+    poses, estimates, wanted = [], [], []
+    while True:
+        x, y = truth.position_reference_in_world
+        poses.append((x, y, truth.heading_in_world))
+        estimates.append(legs.pose)
+        fell_at = world.time if truth.has_fallen else None
+        if fell_at is not None or world.time >= duration:
+            break
+        wanted.append(wanted_at(world.time))
+        robot.write(legs.update(robot.read(), wanted[-1]))
+        world.step()
+    rows = np.array(poses), np.array(estimates)
+    return LegsMotion(*rows, wanted, physics.tick, fell_at)
+
+
 def run_trial(trial: LegsTrial) -> LegsTrialResult:
     """Walk at a constant command from rest to rest."""
-    walk = _LegsWalk(trial)
-    ends = STANDING + SETTLING + STEADY
-    poses, estimates = [], []
-    while walk.world.time < ends + HALTING:
-        walks = STANDING <= walk.world.time + 1e-9 < ends
-        place = walk.truth.position_reference_in_world
-        poses.append((*place, walk.truth.heading_in_world))
-        estimates.append(walk.legs.pose)
-        if not walk.advance(trial.command if walks else STILL):
-            nothing = BodyVelocity(nan, nan, nan)
-            return LegsTrialResult(
-                trial.command, nothing, nan, nan, walk.world.time
-            )
-    tick = walk.world.physics.tick
-    result = _evaluate(trial.command, np.array(poses), tick)
-    estimated = _evaluate(trial.command, np.array(estimates), tick)
+    command, ends = trial.command, STANDING + SETTLING + STEADY
+
+    def wanted_at(now: float) -> BodyVelocity:
+        return command if STANDING <= now + 1e-9 < ends else STILL
+
+    motion = _walk(trial, wanted_at, ends + HALTING)
+    if motion.fell_at is not None:
+        nothing = BodyVelocity(nan, nan, nan)
+        return LegsTrialResult(command, nothing, nan, nan, motion.fell_at)
+    result = _evaluate(command, motion.poses, motion.tick)
+    estimated = _evaluate(command, motion.estimates, motion.tick)
     return result._replace(odometry=estimated.delivered[:2])
 
 
-def _random_commands(
-    generator: np.random.Generator, ranges: Sequence[tuple[float, float]]
-) -> Iterator[tuple[BodyVelocity, float]]:
-    """Yield random commands, and the times until which they hold, in [s]."""
-    until = STANDING
-    yield STILL, until
+def _drawn(
+    generator: np.random.Generator,
+    ranges: Sequence[tuple[float, float]],
+    nearest: Callable[[BodyVelocity], BodyVelocity],
+) -> Callable[[float], BodyVelocity]:
+    """Return velocities drawn from ranges by time, held for 1 to 4 s."""
     low, high = np.array(ranges).T
-    while True:
-        command = BodyVelocity(*generator.uniform(low, high).tolist())
-        until += float(generator.uniform(*HOLDS))
-        yield command, until
+    wanted, until = STILL, STANDING
+
+    def wanted_at(now: float) -> BodyVelocity:
+        nonlocal wanted, until
+        if now + 1e-9 >= until:
+            drawn = BodyVelocity(*generator.uniform(low, high).tolist())
+            wanted, until = nearest(drawn), until + generator.uniform(*HOLDS)
+        return wanted
+
+    return wanted_at
 
 
 def run_random_walk(trial: LegsTrial) -> float | None:
-    """Walk for a minute at commands that change at random.
-
-    Each command is drawn from the ranges of the contract, and holds for 1 to
-    4 s.
+    """Walk for a minute at random commands of the contract.
 
     Time of a fall, in [s]; None without one.
     """
-    walk = _LegsWalk(trial)
-    ranges = walk.legs.contract.command_ranges
-    commands = _random_commands(
-        named_generator(trial.seed, "random walk"), ranges
-    )
-    command, until = next(commands)
-    while walk.world.time < RANDOM_WALK:
-        if walk.world.time + 1e-9 >= until:
-            command, until = next(commands)
-        if not walk.advance(command):
-            return walk.world.time
-    return None
+    ranges = load_policy(trial.legs, trial.description)[0].command_ranges
+    generator = named_generator(trial.seed, "random walk")
+    commands = _drawn(generator, ranges, lambda drawn: drawn)
+    return _walk(trial, commands, RANDOM_WALK).fell_at
 
 
 def run_tracking_walk(trial: LegsTrial) -> float:
     """Walk at random velocities; return the tube of the body.
 
-    Velocities are drawn from the set that the legs deliver, and hold for 1 to
-    4 s.
-
     Greatest distance of the body from its template point, see
     :mod:`stepaside.strategies.shield`, in [m]; NaN after a fall.
     """
     assert trial.response is not None
-    walk, legs = _LegsWalk(trial), trial.response.velocities
-    commands = _random_commands(
-        named_generator(trial.seed, "tracking walk"), legs[:3]
-    )
-    wanted, until = next(commands)
-    lag, tick = max(legs.lags[:2]), walk.world.physics.tick
-    template = TemplatePoint(walk.truth.position_reference_in_world)
-    tube = 0.0
-    while walk.world.time < TRACKING_WALK:
-        if walk.world.time + 1e-9 >= until:
-            drawn, until = next(commands)
-            wanted = legs.nearest(drawn)
-        theta = walk.truth.heading_in_world
+    legs = trial.response.velocities
+    generator = named_generator(trial.seed, "tracking walk")
+    velocities = _drawn(generator, legs[:3], legs.nearest)
+    motion = _walk(trial, velocities, TRACKING_WALK)
+    if motion.fell_at is not None:
+        return nan
+    lag, tube = max(legs.lags[:2]), 0.0
+    (x, y, theta), *after = motion.poses.tolist()
+    template = TemplatePoint((x, y))
+    for wanted, (x, y, heading) in zip(motion.wanted, after, strict=True):
         u, v, _ = Pose(0.0, 0.0, theta).compose(Pose(*wanted[:2], 0.0))
-        if not walk.advance(wanted):
-            return nan
-        body = walk.truth.position_reference_in_world
-        template = template.advance((u, v), body, lag, tick)
-        x, y = template.position
-        tube = max(tube, hypot(body[0] - x, body[1] - y))
+        template = template.advance((u, v), (x, y), lag, motion.tick)
+        u, v = template.position
+        tube, theta = max(tube, hypot(x - u, y - v)), heading
     return tube
-
-
-class _LegsWalk:
-    """Robot on a policy in a world of its own."""
-
-    def __init__(self, trial: LegsTrial) -> None:
-        """Stand in the default posture of the policy."""
-        description = trial.description
-        setup = RobotSetup(
-            "robot",
-            description,
-            GaitSettings(zmp_forward=0.0),
-            legs=trial.legs,
-            seed=trial.seed,
-        )
-        physics = policy_physics(PhysicsSettings(), trial.body, [setup])
-        setup = setup._replace(body=at_tick(trial.body, physics.tick))
-        contract, network = load_policy(trial.legs, description)
-        self.world = World(
-            {"robot": description}, physics, trial.body, trial.seed
-        )
-        self.legs = PolicyLegs(
-            contract,
-            network,
-            description,
-            tick=physics.tick,
-            response=trial.response,
-            learns=trial.response is not None,
-        )
-        self.truth = setup.true_state_in(self.world)
-        setup = setup._replace(truth=self.truth)
-        self._robot = setup.place(self.world, self.legs)
-        mujoco.mj_forward(self.world.model, self.world.data)
-
-    def advance(self, command: BodyVelocity) -> bool:
-        """Run one tick; return whether the robot stands."""
-        if self.truth.has_fallen:
-            return False
-        self._robot.write(self.legs.update(self._robot.read(), command))
-        self.world.step()
-        return True
 
 
 def _evaluate(
