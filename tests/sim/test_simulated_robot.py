@@ -74,7 +74,7 @@ def test_a_robot_starts_at_its_odometry_frame() -> None:
     assert abs(place[0]) < 0.03 and abs(place[1]) < 1e-6
     assert robot.truth.heading_in_world == pytest.approx(FRAME.theta)
     data = robot.world.data
-    wanted = scheme.kinematics.posture
+    wanted = scheme.walk.kinematics.posture
     assert robot.qpos_slice.stop - robot.qpos_slice.start == wanted.size
     np.testing.assert_array_equal(data.qpos[robot.qpos_slice][7:], wanted[7:])
     kept = robot.posture

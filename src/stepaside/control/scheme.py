@@ -10,8 +10,7 @@ from ..locomotion.locomotion import (
 )
 from ..locomotion.maneuver_walk import ManeuverWalk
 from ..perception.measurement import RobotState, Sighting
-from ..planning import Foot, GaitSettings
-from ..robots.leg_kinematics import LegKinematics
+from ..planning import Foot
 from .sight_sources import SightSource
 from .strategy_runner import StrategyRunner
 
@@ -97,11 +96,6 @@ class ControlScheme:
         return self.locomotion.phase
 
     @property
-    def pose(self) -> Pose:
-        """Pose of the template in odometry."""
-        return self.locomotion.pose
-
-    @property
     def begun(self) -> StepStarted | None:
         """Step that began at the last tick; None if none did."""
         return self.locomotion.begun
@@ -112,29 +106,15 @@ class ControlScheme:
         return self.locomotion.joint_targets
 
     @property
-    def gait(self) -> GaitSettings:
-        """Gait of the robot."""
-        return self.locomotion.gait
-
-    @property
     def walk(self) -> ManeuverWalk:
         """Locomotion of a robot that walks by maneuvers."""
         assert isinstance(self.locomotion, ManeuverWalk)
         return self.locomotion
 
     @property
-    def kinematics(self) -> LegKinematics:
-        """Joints of a robot that walks by maneuvers."""
-        return self.walk.kinematics
-
-    @property
     def feels(self) -> bool:
         """Whether it uses joint angles, IMU or forces on the soles."""
         return self.locomotion.feels or self.decisions.turns is not None
-
-    def decides(self, now: float) -> bool:
-        """Return whether a decision is due at a tick, at a time in [s]."""
-        return self.locomotion.decides(now)
 
     def coast(self, now: float) -> Array | None:
         """Run a control tick without measurement, in the middle of a step.

@@ -3,22 +3,22 @@
 from math import pi
 from typing import TYPE_CHECKING
 
-from ..core.history import History
-from ..core.poses import Array, Pose
-from ..locomotion.locomotion import MotionRequest, Phase
+from ..core.poses import Pose
+from ..locomotion.locomotion import MotionRequest
 from ..locomotion.maneuver_walk import ManeuverWalk, velocity_limits
-from ..perception.measurement import RobotState
 from ..planning import Direction, Foot, GaitSettings
+from ..strategies import Walk
 from ..strategies.knowledge import STAND, Intent
-from ..strategies.velocity_set import BodyVelocity
-from .strategy_runner import MEMORY
+from ..strategies.velocity_set import STILL, BodyVelocity
+from .scheme import ControlScheme
+from .sight_sources import MeasuredSight
+from .strategy_runner import StrategyRunner
 from .turn_calibration import TurnCalibration
 
 if TYPE_CHECKING:
     from ..locomotion.policy.policy_walk import PolicyWalk
 
-STILL = 1e-3  # speed [m/s] or turning rate [rad/s] that counts as zero
-REST = BodyVelocity()
+SLOW = 1e-3  # speed [m/s] or turning rate [rad/s] that counts as zero
 IN_PLACE = 1e-3  # speed factor of a turn on the spot
 
 
@@ -48,9 +48,9 @@ def request_at_velocity(
     forward, turn = limit_velocity(forward, turn, gait)
     speed, rate = velocity_limits(gait)
     direction = Direction.FORWARD if forward >= 0.0 else Direction.BACKWARD
-    if abs(forward) < STILL:
+    if abs(forward) < SLOW:
         direction = under_way or Direction.FORWARD
-    rests = abs(forward) < STILL and abs(turn) < STILL
+    rests = abs(forward) < SLOW and abs(turn) < SLOW
     if rests or under_way not in (None, direction):
         return MotionRequest(STAND, direction, saturated=False)
     share = max(IN_PLACE, min(1.0, abs(forward) / speed))
@@ -59,7 +59,7 @@ def request_at_velocity(
     )
 
 
-class VelocityScheme:
+class VelocityScheme(ControlScheme):
     """Control of one robot whose steps follow a velocity command.
 
     Turns of a walk by maneuvers, which is a unicycle's, are calibrated
@@ -71,21 +71,18 @@ class VelocityScheme:
         self, locomotion: "ManeuverWalk | PolicyWalk", tick: float
     ) -> None:
         """Begin standing, at a control period in [s]."""
-        self.locomotion = locomotion
-        self.headings: History[float] = History(MEMORY)  # [rad]
-        self.headings.note(0.0, locomotion.torso_heading)
-        self.templates: History[Pose] = History(MEMORY)
-        self.templates.note(0.0, locomotion.pose)
-        self._commanded = REST
-        self._plans = locomotion.maneuvers is not None
-        self._turns = TurnCalibration(tick)
-        self._walking_direction: Direction | None = None
+        self._turns, gait = TurnCalibration(tick), locomotion.gait
+        decisions = StrategyRunner(Walk(0.0), gait, turns=self._turns)
+        super().__init__(decisions, locomotion, MeasuredSight())
+        decisions.headings.note(0.0, locomotion.torso_heading)
+        self._commanded = STILL
+        self._under_way: Direction | None = None
 
     @property
     def velocity(self) -> BodyVelocity:
         """Velocity that it follows."""
         forward, _, turn = self._commanded
-        if not self._plans:
+        if self.locomotion.maneuvers is None:
             return self.locomotion.velocities.nearest(self._commanded)
         forward, turn = limit_velocity(forward, turn, self.locomotion.gait)
         return BodyVelocity(forward, 0.0, turn)
@@ -94,44 +91,30 @@ class VelocityScheme:
         """Walk at a velocity from the next tick on."""
         self._commanded = velocity
 
-    def update(self, measurement: RobotState) -> Array:
-        """Return the joint targets of one control tick, in [rad]."""
-        walk, now = self.locomotion, measurement.time
-        if walk.phase is Phase.STANDING:
-            self._walking_direction = None
-        self.headings.note(now + walk.heading_delay, walk.torso_heading)
-        request = self._request()
-        targets = walk.update(measurement, self)
-        self.templates.note(now + walk.pose_delay, walk.pose)
-        self._turns.note(
-            float(measurement.gyro[2]),
-            self.templates.at(now).theta,
-            stands=walk.phase is Phase.STANDING,
-        )
-        if self._walking_direction is None and walk.phase is Phase.WALKING:
-            self._walking_direction = request.direction
-        return targets
-
     def starts(self, now: float) -> bool:
         """Return whether a standing robot starts; see `.IntentSource`."""
+        self._under_way = None
         return self._request().intent.walks
 
     def decide(
         self, now: float, support: Pose, side: Foot, *, moving: bool
     ) -> MotionRequest:
         """Return the step that follows the command; see `.IntentSource`."""
-        return self._request()
+        request = self._request()
+        if request.intent.walks:
+            self._under_way = request.direction
+        return request
 
     def _request(self) -> MotionRequest:
         """Return the request of the present command."""
         velocity = self.velocity
-        if not self._plans:
-            walks = velocity != REST
+        if self.locomotion.maneuvers is None:
+            walks = velocity != STILL
             intent = Intent(velocity=velocity) if walks else STAND
             return MotionRequest(intent, Direction.FORWARD, saturated=False)
         return request_at_velocity(
             velocity.forward,
             velocity.turn / self._turns.share,
             self.locomotion.gait,
-            under_way=self._walking_direction,
+            under_way=self._under_way,
         )

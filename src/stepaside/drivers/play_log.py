@@ -210,7 +210,7 @@ def joint_row(
         begun: Step that began at this tick; None if none did.
     """
     walk = scheme.locomotion.maneuvers
-    support = np.array([*scheme.pose, np.nan])
+    support = np.array([*scheme.locomotion.pose, np.nan])
     com = zmp = np.full(2, np.nan)
     if walk is not None:
         step = walk.step(measurement.time)

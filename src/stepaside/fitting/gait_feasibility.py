@@ -39,7 +39,7 @@ def speed_ratio(description: RobotDescription, gait: GaitSettings) -> float:
     greatest = 0.0
     for direction in Direction:
         scheme = _scheme(description, gait, direction)
-        motors = scheme.kinematics.legs.tree.motors
+        motors = scheme.walk.kinematics.legs.tree.motors
         limits = [description.speed_limits[name] for name in motors]
         path = np.array([scheme.joint_targets, *_walk(scheme, gait)])
         speeds = np.abs(np.diff(path, axis=0)) / TICK
@@ -63,7 +63,7 @@ def step_loads(
     """Compute the joint loads of a step by inverse dynamics."""
     scheme = _scheme(description, gait, Direction.FORWARD)
     # The scheme computes many ticks at once; loads need them one by one.
-    legs = LegKinematics(scheme.kinematics.description, tick=TICK)
+    legs = LegKinematics(scheme.walk.kinematics.description, tick=TICK)
     walk = scheme.walk
     legs.stand(walk.reference)
     dynamics = LegLoads(legs, zmp_forward=gait.zmp_forward, tick=TICK)

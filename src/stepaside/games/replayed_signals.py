@@ -172,7 +172,7 @@ class RobotSignalRecord:
         arrays = self._log.arrays()
         dcm = None
         if self._player.plans:
-            eta = self._player.scheme.gait.eta
+            eta = self._player.scheme.locomotion.gait.eta
             dcm = com[:, :2] + arrays["com_velocity"] / eta
         targets = self._targets.rows[:count]
         # No command follows the last sample of a finished game.

@@ -165,7 +165,7 @@ def robot_with_strategy(
             senses=setup.source,
             clearance=setup.clearance,
         )
-        robot = setup.place(world, scheme.kinematics)
+        robot = setup.place(world, scheme.walk.kinematics)
         return RobotPlayer(robot, scheme, setup.start)
     robot, walk = setup.place_on_legs(world)
     source = setup.source or MeasuredSight()

@@ -169,7 +169,7 @@ class RobotPlayer(PhysicalPlayer):
         if self._coasts:
             targets = scheme.coast(now)
         if targets is None:
-            sees = not self._coasts or scheme.decides(now)
+            sees = not self._coasts or scheme.locomotion.decides(now)
             targets = scheme.update(robot.read(sees=sees, feels=self._feels))
         robot.write(targets)
 
@@ -237,7 +237,7 @@ class VelocityWalker(PhysicalPlayer):
             measured.joint_positions,
             sighting=self._seen(measured.sighting),
             percepts=() if self._image is None else (self._image,),
-            pose=self.scheme.templates.at(measured.time),
+            pose=self.scheme.decisions.templates.at(measured.time),
         )
 
     def _seen(self, sighting: Sighting | None) -> Sighting | None:
@@ -245,7 +245,7 @@ class VelocityWalker(PhysicalPlayer):
         if sighting is None:
             return None
         scheme, time = self.scheme, sighting.time
-        turned = scheme.headings.at(time) - scheme.templates.at(time).theta
+        turned = scheme.decisions.headings.at(time) - scheme.decisions.templates.at(time).theta
         bearing = wrap_angle(turned + sighting.bearing)
         return Sighting(time, bearing, sighting.distance)
 
@@ -261,7 +261,7 @@ class VelocityWalker(PhysicalPlayer):
         )
         x, y, z = torso.position_in_odometry.tolist()
         place = Pose(x, y, torso.heading_in_odometry)
-        template = self.scheme.templates.at(measured.time)
+        template = self.scheme.decisions.templates.at(measured.time)
         planar = template.inverse().compose(place)
         return (planar.x, planar.y, z), (*tilt, wrap_angle(planar.theta))
 
