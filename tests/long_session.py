@@ -13,7 +13,7 @@ import sys
 import numpy as np
 
 from fake_body import FakeBody
-from stepaside.control.scheme_builder import build_scheme
+from stepaside.control.scheme import build_scheme
 from stepaside.locomotion.control_settings import ControlSettings
 from stepaside.locomotion.locomotion import Phase
 from stepaside.planning import GaitSettings

@@ -9,7 +9,7 @@ from importlib import import_module
 
 from fake_body import FakeBody
 from fake_robot import FakeStrategy
-from stepaside.control.scheme_builder import build_scheme
+from stepaside.control.scheme import build_scheme
 from stepaside.locomotion.control_settings import ControlSettings
 from stepaside.planning import GaitSettings
 from stepaside.robots.description import load_robot

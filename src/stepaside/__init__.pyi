@@ -1,5 +1,5 @@
 from .control import ControlScheme as ControlScheme
-from .control.scheme_builder import build_scheme as build_scheme
+from .control.scheme import build_scheme as build_scheme
 from .core.errors import StepAsideError as StepAsideError
 from .core.poses import Pose as Pose
 from .drivers.robot import CameraImage as CameraImage

@@ -11,7 +11,7 @@ from fake_robot import GAIT, FakeLegs, scheme_of
 from stepaside.arena import check_initial_poses, load_room
 from stepaside.core.poses import Pose, wrap_angle
 from stepaside.locomotion.guard import Guard
-from stepaside.locomotion.surroundings import KnownRoom
+from stepaside.locomotion.guard import KnownRoom
 from stepaside.locomotion.swept_outline import BodyOutline, lateral_sway
 from stepaside.perception.measurement import RobotState, Sighting
 from stepaside.planning import ManeuverPlanner

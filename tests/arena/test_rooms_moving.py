@@ -13,7 +13,7 @@ from stepaside.arena import (
 )
 from stepaside.core.errors import ConfigurationError
 from stepaside.core.poses import Pose
-from stepaside.locomotion.surroundings import AHEAD, KnownRoom
+from stepaside.locomotion.guard import AHEAD, KnownRoom
 from stepaside.perception.measurement import RobotState
 from stepaside.robots.leg_kinematics import BodyReference
 

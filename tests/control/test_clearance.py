@@ -23,7 +23,7 @@ from stepaside.control.scheme import ControlScheme
 from stepaside.core.poses import Array, Pose
 from stepaside.locomotion.guard import Guard, GuardDecision
 from stepaside.locomotion.locomotion import Phase
-from stepaside.locomotion.surroundings import KnownRoom
+from stepaside.locomotion.guard import KnownRoom
 from stepaside.locomotion.swept_outline import BodyOutline
 from stepaside.perception.measurement import RobotState, Sighting
 from stepaside.planning import (

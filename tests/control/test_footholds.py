@@ -10,7 +10,7 @@ from stepaside.core.poses import Array, Pose
 from stepaside.locomotion.control_settings import (
     StabiliserSettings,
 )
-from stepaside.locomotion.footstep_adjustment import FootstepAdjustment
+from stepaside.locomotion.guard import FootstepAdjustment
 from stepaside.planning import (
     CenterState,
     Direction,

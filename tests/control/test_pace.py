@@ -21,7 +21,7 @@ from stepaside.planning import (
     ManeuverPlanner,
     TemplateDrive,
 )
-from stepaside.planning.steady_gait import landing_state
+from stepaside.planning.maneuver import landing_state
 from stepaside.strategies import Evasion, Knowledge, Limits, Walk
 from walkers import walker_of
 

@@ -8,7 +8,7 @@ import pytest
 from stepaside.arena import Box, Disc, Obstacle, Room
 from stepaside.core.poses import Pose
 from stepaside.locomotion.guard import VelocityGuard
-from stepaside.locomotion.surroundings import KnownRoom
+from stepaside.locomotion.guard import KnownRoom
 from stepaside.strategies.velocity_set import (
     STILL,
     AxisValues,

@@ -19,7 +19,7 @@ from small_policies import (  # noqa: E402
     constant_policy,
     write_policy,
 )
-from stepaside.locomotion.policy.network import (  # noqa: E402
+from stepaside.locomotion.policy.runner import (  # noqa: E402
     PolicyNetwork,
 )
 from stepaside.strategies.learned import (  # noqa: E402

@@ -11,7 +11,7 @@ from stepaside.core.poses import Pose
 from stepaside.fitting import derivation as leaning
 from stepaside.fitting.derivation import LEAN_CANDIDATES, least_lean
 from stepaside.fitting.gait_feasibility import JointLoads
-from stepaside.fitting.walk_trials import WalkTrialResult
+from stepaside.fitting.robot_verification import WalkTrialResult
 from stepaside.games.robot_settings import settings_from_description
 from stepaside.locomotion.control_settings import StabiliserSettings
 from stepaside.locomotion.zmp.stabiliser import Ankles

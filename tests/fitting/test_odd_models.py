@@ -15,7 +15,7 @@ from stepaside.fitting.derivation import (
     choose_com_height,
     derive,
 )
-from stepaside.fitting.gait_scaling import RobotSize
+from stepaside.fitting.gait_feasibility import RobotSize
 from stepaside.fitting.leg_detection import DetectedLeg
 from stepaside.fitting.model_analysis import analyse_model, forward_score
 from stepaside.robots.description import load_robot

@@ -21,7 +21,7 @@ from stepaside.games.recorded_game import run_duel
 from stepaside.games.robot_settings import with_legs, with_robot
 from stepaside.locomotion.control_settings import LegsSettings
 from stepaside.locomotion.policy.contract_reader import read_contract
-from stepaside.locomotion.policy.network import PolicyNetwork
+from stepaside.locomotion.policy.runner import PolicyNetwork
 from stepaside.robots.description import load_robot
 from stepaside.sim.body_settings import BodySettings
 from stepaside.sim.person_settings import PersonSettings

@@ -13,14 +13,14 @@ import vendor_humanoid as stranger
 from stepaside.cli.main import main
 from stepaside.fitting.derivation import DerivedDescription, derive
 from stepaside.fitting.description_writer import write_description
-from stepaside.fitting.gait_scaling import RobotSize, gait_of, game_of_size
+from stepaside.fitting.gait_feasibility import RobotSize, gait_of, game_of_size
 from stepaside.fitting.motor_data import (
     LEAST_STIFFNESS,
     SATURATION_ANGLE,
     STIFFNESS,
     gains_of,
 )
-from stepaside.fitting.walk_trials import (
+from stepaside.fitting.robot_verification import (
     PATHS,
     WalkTrial,
     trials_of,

@@ -23,7 +23,7 @@ from stepaside.fitting.robot_verification import (
     check_requirements,
     check_robot,
 )
-from stepaside.fitting.walk_trials import (
+from stepaside.fitting.robot_verification import (
     PATHS,
     JointStrain,
     WalkTrial,

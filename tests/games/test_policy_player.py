@@ -17,7 +17,7 @@ from stepaside.games.recorded_game import (
 )
 from stepaside.games.robot_player import RobotPlayer
 from stepaside.games.robot_settings import with_robot
-from stepaside.locomotion.policy.policy_walk import PolicyWalk
+from stepaside.locomotion.policy.policy_legs import PolicyWalk
 from stepaside.planning import Direction
 from stepaside.strategies import Intent, Knowledge
 from stepaside.strategies.velocity_set import BodyVelocity

@@ -19,7 +19,7 @@ from stepaside.planning import (
     ManeuverPlan,
     ManeuverPlanner,
 )
-from stepaside.planning.steady_gait import landing_state
+from stepaside.planning.maneuver import landing_state
 
 GAIT = GaitSettings()
 TICK = 0.004

@@ -5,8 +5,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy.integrate import quad, solve_ivp
 
-from stepaside.planning.com import BoundedCom
-from stepaside.planning.zmp import PiecewisePolynomial
+from stepaside.planning.com import BoundedCom, PiecewisePolynomial
 
 ETA = 6.05  # [1/s]
 

@@ -9,8 +9,7 @@ from hypothesis import strategies as st
 
 from stepaside.core.poses import Array
 from stepaside.planning import Direction, Foot
-from stepaside.planning.footsteps import place_footsteps
-from stepaside.planning.path import UnicycleTrajectory
+from stepaside.planning.path import UnicycleTrajectory, place_footsteps
 
 SPEED, GAIN = 0.1, 0.2
 WALK = {"count": 20, "stride": 0.04, "foot_spacing": 0.1}

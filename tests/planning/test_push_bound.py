@@ -20,13 +20,13 @@ from stepaside.planning import (
     ManeuverPlan,
     ManeuverPlanner,
 )
+from stepaside.planning.maneuver import steady_plan
 from stepaside.planning.push_bound import (
     FootReach,
     held_regions,
     push_bound,
     ray_interval,
 )
-from stepaside.planning.steady_gait import steady_plan
 
 MASS = 5.305  # [kg], of the NAO
 GAIT = GaitSettings()

@@ -8,9 +8,9 @@ import pytest
 
 from stepaside.core.poses import Array
 from stepaside.planning import GaitSettings
+from stepaside.planning.com import evaluate
 from stepaside.planning.schedule import Schedule
 from stepaside.planning.swing import swing_height, swing_progress
-from stepaside.planning.zmp import evaluate
 
 GAIT = GaitSettings()
 SINGLE, DOUBLE = GAIT.single_support, GAIT.double_support

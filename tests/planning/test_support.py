@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 from reference_plans import KINDS, plan_of, reference_corners, reference_feet
 from stepaside.core.convex import half_planes
 from stepaside.planning import Direction, Foot, ManeuverPlan
-from stepaside.planning.zmp import least_values
+from stepaside.planning.com import least_values
 
 ANGLES = np.linspace(0.0, 6.28, 25)
 AROUND = np.column_stack([np.cos(ANGLES), np.sin(ANGLES)])

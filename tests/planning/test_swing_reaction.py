@@ -16,7 +16,7 @@ from stepaside.planning import (
     ManeuverPlanner,
     TemplateDrive,
 )
-from stepaside.planning.steady_gait import landing_state, steady_plan
+from stepaside.planning.maneuver import landing_state, steady_plan
 from stepaside.planning.swing import SwingProfile
 
 FAST = PRESETS["fast"]

@@ -13,7 +13,7 @@ from stepaside.planning import (
     GaitSettings,
     ManeuverPlanner,
 )
-from stepaside.planning.steady_gait import steady_plan
+from stepaside.planning.maneuver import steady_plan
 from stepaside.planning.template_path import (
     path_samples,
     poses_on_path,

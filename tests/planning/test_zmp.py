@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from stepaside.planning.zmp import PiecewisePolynomial, evaluate
+from stepaside.planning.com import PiecewisePolynomial, evaluate
 
 DURATIONS = np.array([0.5, 0.2, 0.3])
 DRAW = np.random.default_rng(2)

@@ -18,7 +18,7 @@ from stepaside.arena import (
 from stepaside.control.strategy_runner import StrategyRunner
 from stepaside.core.poses import Pose
 from stepaside.games import play_strategies
-from stepaside.locomotion.surroundings import KnownRoom, MappedRoom
+from stepaside.locomotion.guard import KnownRoom, MappedRoom
 from stepaside.perception.floor_map import CELL, FloorMap
 from stepaside.perception.measurement import Sighting
 from stepaside.planning import Direction

@@ -18,8 +18,7 @@ from stepaside.planning import (
     ManeuverPlanner,
     maneuver,
 )
-from stepaside.planning.footsteps import place_footsteps
-from stepaside.planning.path import UnicycleTrajectory
+from stepaside.planning.path import UnicycleTrajectory, place_footsteps
 from stepaside.planning.plan import PlanSamples
 from stepaside.studies import planner_claims, unicycle_claims
 from stepaside.studies.claims import ONCE, load_claims

@@ -17,7 +17,7 @@ from benchmark_options import ask
 
 from stepaside.fitting.derivation import derive
 from stepaside.fitting.description_writer import write_description
-from stepaside.fitting.model_report import report_of
+from stepaside.fitting.derivation import report_of
 from stepaside.games.duel_settings import DuelSettings
 from stepaside.games.recorded_game import run_duel
 from stepaside.games.robot_settings import with_robot

@@ -30,7 +30,7 @@ def inspect(
     if the network cannot run.
     """
     from ..locomotion.policy.contract_reader import RobotJoints, read_contract
-    from ..locomotion.policy.network import PolicyNetwork
+    from ..locomotion.policy.runner import PolicyNetwork
 
     loaded, joints = PolicyNetwork(network), RobotJoints()
     if robot is not None:

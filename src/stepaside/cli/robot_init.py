@@ -46,7 +46,7 @@ def init(
     """
     from ..fitting.derivation import derive
     from ..fitting.description_writer import write_description
-    from ..fitting.model_report import report_of
+    from ..fitting.derivation import report_of
     from ..robots.description import FILE, load_robot
 
     folder = output or Path(model.stem)

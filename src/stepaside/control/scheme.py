@@ -15,7 +15,7 @@ from .sight_sources import SightSource
 from .strategy_runner import StrategyRunner
 
 if TYPE_CHECKING:
-    from ..locomotion.policy.policy_walk import PolicyWalk
+    from ..locomotion.policy.policy_legs import PolicyWalk
 
 
 class ControlScheme:

@@ -3,10 +3,10 @@
 from typing import NamedTuple
 
 from ..locomotion.control_settings import ControlSettings
-from ..locomotion.footstep_adjustment import FootstepAdjustment
+from ..locomotion.guard import FootstepAdjustment
 from ..locomotion.guard import Guard
 from ..locomotion.maneuver_walk import ManeuverWalk
-from ..locomotion.surroundings import Surroundings
+from ..locomotion.guard import Surroundings
 from ..locomotion.swept_outline import BodyOutline, lateral_sway
 from ..locomotion.zmp.stabiliser import build_balance
 from ..planning import GaitSettings, ManeuverPlanner

@@ -16,7 +16,7 @@ from .strategy_runner import StrategyRunner
 from .turn_calibration import TurnCalibration
 
 if TYPE_CHECKING:
-    from ..locomotion.policy.policy_walk import PolicyWalk
+    from ..locomotion.policy.policy_legs import PolicyWalk
 
 SLOW = 1e-3  # speed [m/s] or turning rate [rad/s] that counts as zero
 IN_PLACE = 1e-3  # speed factor of a turn on the spot

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from ..control.scheme import ControlScheme
-from ..control.scheme_builder import build_scheme
+from ..control.scheme import build_scheme
 from ..control.sight_sources import CameraSight, MeasuredSight, SightSource
 from ..control.strategy_runner import StrategyRunner
 from ..core.errors import ConfigurationError, ModelError
@@ -14,7 +14,7 @@ from ..core.poses import Array
 from ..locomotion.control_settings import ControlSettings, LegsSettings
 from ..locomotion.policy.contract import PolicyContract
 from ..locomotion.policy.policy_legs import load_legs
-from ..locomotion.policy.policy_walk import PolicyWalk
+from ..locomotion.policy.policy_legs import PolicyWalk
 from ..planning import GaitSettings
 from ..robots.description import RobotDescription
 from ..strategies import Strategy

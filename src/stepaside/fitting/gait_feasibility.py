@@ -11,7 +11,7 @@ from typing import NamedTuple
 import numpy as np
 
 from ..control.scheme import ControlScheme
-from ..control.scheme_builder import build_scheme
+from ..control.scheme import build_scheme
 from ..control.sight_sources import MeasuredSight
 from ..core.poses import Array
 from ..locomotion.control_settings import OPEN_LOOP

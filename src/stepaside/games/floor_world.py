@@ -288,7 +288,7 @@ class FloorPoint(FloorMotion):
 
     def _begin(self, now: float, seen: Seen) -> None:
         """Choose the command of the legs."""
-        from ..locomotion.policy.policy_walk import decision_interval
+        from ..locomotion.policy.policy_legs import decision_interval
 
         moving = self._command != STILL
         known = self._agent.look(now, seen, moving=moving)

@@ -6,10 +6,10 @@ from typing import TYPE_CHECKING, NamedTuple
 
 from ..arena import Room
 from ..control.scheme import ControlScheme
-from ..control.scheme_builder import ClearanceSetup, build_scheme, build_walk
+from ..control.scheme import ClearanceSetup, build_scheme, build_walk
 from ..control.sight_sources import MeasuredSight, SightSource
 from ..control.strategy_runner import StrategyRunner
-from ..control.velocity_scheme import VelocityScheme
+from ..control.scheme import VelocityScheme
 from ..core.poses import Pose
 from ..core.random_streams import named_generator
 from ..locomotion.control_settings import (
@@ -18,7 +18,7 @@ from ..locomotion.control_settings import (
     MapSettings,
 )
 from ..locomotion.maneuver_walk import ManeuverWalk
-from ..locomotion.surroundings import (
+from ..locomotion.guard import (
     KnownRoom,
     MappedRoom,
     Surroundings,
@@ -40,7 +40,7 @@ from .robot_player import RobotPlayer, ServedPlayer, VelocityWalker
 
 if TYPE_CHECKING:
     from ..locomotion.policy.policy_legs import InitialPosture, PolicyLegs
-    from ..locomotion.policy.policy_walk import PolicyWalk
+    from ..locomotion.policy.policy_legs import PolicyWalk
     from ..perception.pipeline import Perception
     from ..sim.ranging import Lidar
     from ..sim.sensor_suite import SensorSuite
@@ -132,7 +132,7 @@ class RobotSetup(NamedTuple):
         """Place it on learned legs, with a guard against obstacles."""
         from ..locomotion.guard import VelocityGuard
         from ..locomotion.policy.policy_legs import load_legs
-        from ..locomotion.policy.policy_walk import PolicyWalk
+        from ..locomotion.policy.policy_legs import PolicyWalk
 
         legs = load_legs(self.legs, self.description, tick=world.physics.tick)
         guard, known = None, self.clearance

@@ -8,7 +8,7 @@ import numpy as np
 
 from ..control.scheme import ControlScheme
 from ..control.sight_sources import CameraSight
-from ..control.velocity_scheme import VelocityScheme
+from ..control.scheme import VelocityScheme
 from ..core.constants import GRAVITY
 from ..core.errors import PolicyError
 from ..core.poses import Array, Pose, wrap_angle
@@ -27,7 +27,7 @@ from .player import MotionLog, Player
 
 if TYPE_CHECKING:
     from ..drivers.ros2_server import BodyPlace
-    from ..locomotion.policy.policy_walk import PolicyWalk
+    from ..locomotion.policy.policy_legs import PolicyWalk
     from ..perception.pipeline import FrameReport, Perception
 
 log = logging.getLogger(__name__)

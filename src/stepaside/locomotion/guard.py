@@ -22,7 +22,7 @@ import numpy as np
 from ..core.poses import Array, Pose, arc, rotate
 from ..perception.measurement import RobotState
 from ..planning import ManeuverPlan, ManeuverPlanner
-from ..planning.steady_gait import landing_state
+from ..planning.maneuver import landing_state
 from ..strategies.knowledge import Intent
 from ..strategies.velocity_set import STILL, BodyVelocity, VelocitySet
 from .footstep_adjustment import FootstepAdjustment

@@ -15,7 +15,7 @@ from ..planning import (
     ManeuverPlanner,
     TemplateDrive,
 )
-from ..planning.steady_gait import landing_state
+from ..planning.maneuver import landing_state
 from ..robots.leg_kinematics import BodyReference, LegKinematics
 from ..strategies.velocity_set import VelocitySet
 from .guard import Guard, GuardDecision

@@ -29,10 +29,9 @@ import numpy as np
 from ..core.convex import convex_hull, half_planes
 from ..core.errors import check_within
 from ..core.poses import Array, Pose
-from .footsteps import Foot
 from .gait_settings import GaitSettings
-from .plan import ManeuverPlan
-from .support_polygon import sole_corners
+from .path import Foot
+from .plan import ManeuverPlan, sole_corners
 
 
 class FootReach(NamedTuple):

@@ -13,10 +13,9 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ..core.poses import Array
-from .com import BoundedCom
+from .com import BoundedCom, PiecewisePolynomial, evaluate
 from .gait_settings import GaitSettings
 from .swing import swing_acceleration, swing_height, swing_progress
-from .zmp import PiecewisePolynomial, evaluate
 
 DEGREE = 3
 

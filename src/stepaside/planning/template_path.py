@@ -8,8 +8,8 @@ which leads it by as much as the ZMP leads the foot frames.
 import numpy as np
 
 from ..core.poses import Array, Pose, rotate
-from .footsteps import Foot
 from .gait_settings import GaitSettings
+from .path import Foot
 from .schedule import Schedule
 
 STILL = 1e-6  # samples closer than this coincide, in [m]

@@ -13,7 +13,7 @@ import numpy as np
 from ..core.poses import Array
 from ..games.run import Run
 from ..planning import Foot, SoleRectangle
-from ..planning.support_polygon import sole_corners
+from ..planning.plan import sole_corners
 from ..robots.description import load_robot
 from .palette import PALETTES
 

@@ -12,7 +12,7 @@ from ..core.poses import Array
 from ..games.robot_settings import settings_from_description
 from ..locomotion.zmp.reference_table import initial_stance
 from ..planning import Foot
-from ..planning.support_polygon import sole_corners
+from ..planning.plan import sole_corners
 from ..robots.description import RobotDescription
 from ..robots.geom_points import geom_points_in_world
 from ..robots.leg_kinematics import LegKinematics

@@ -11,8 +11,8 @@ from ..games.recorded_game import run_walk
 from ..games.robot_settings import game_settings_from_description
 from ..games.walk_settings import WalkSettings
 from ..planning import Direction, Foot, ManeuverPlanner
+from ..planning.maneuver import steady_plan
 from ..planning.push_bound import FootReach, push_bound
-from ..planning.steady_gait import steady_plan
 from ..robots.description import load_robot
 from ..robots.forward_kinematics import ForwardKinematics
 from ..sim.push import Push

@@ -19,7 +19,7 @@ from stepaside.locomotion.policy.contract_reader import (
     conventions,
     read_contract,
 )
-from stepaside.locomotion.policy.network import PolicyNetwork
+from stepaside.locomotion.policy.runner import PolicyNetwork
 
 
 def read(

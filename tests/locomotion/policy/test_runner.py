@@ -18,7 +18,7 @@ from stepaside.locomotion.policy.contract import (
     PhaseClock,
     PolicyContract,
 )
-from stepaside.locomotion.policy.network import PolicyNetwork
+from stepaside.locomotion.policy.runner import PolicyNetwork
 from stepaside.locomotion.policy.runner import BodyMotion, PolicyRunner
 
 Term = ObservationTerm

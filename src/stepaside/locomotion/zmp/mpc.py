@@ -9,7 +9,7 @@ plan's, the motion is bounded if and only if
    \kappa_i = e^{-i \eta \delta} \frac{1 - e^{-\eta \delta}}{\eta},
 
 with the plan's own ZMP beyond the horizon. The ZMP has to stay in the support
-polygon (:mod:`stepaside.planning.support_polygon`) at the end of each sample
+polygon (:mod:`stepaside.planning.plan`) at the end of each sample
 and whenever a foot lands or lifts off. Between these instants the added ZMP is
 linear in time, and so is the plan's, except for its correction (27 a / T^2 in
 curvature, at most 0.06 of its amplitude a between two samples) and for the
@@ -26,7 +26,7 @@ import numpy as np
 from ...core.errors import ConfigurationError
 from ...core.poses import Array
 from ...planning import GaitSettings, ManeuverPlan
-from ...planning.zmp import evaluate
+from ...planning.com import evaluate
 from ..control_settings import MpcSettings
 
 EQUALITY = 5  # flag of an equality constraint in the solver

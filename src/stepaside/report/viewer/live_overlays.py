@@ -10,7 +10,7 @@ from ...core.poses import Array, Pose
 from ...games.duel_settings import EVADER, PURSUER
 from ...locomotion.maneuver_walk import ManeuverWalk
 from ...planning import Foot
-from ...planning.support_polygon import sole_corners
+from ...planning.plan import sole_corners
 from ..overlays import (
     LAYERS,
     SceneLines,
