@@ -10,8 +10,7 @@ import pytest
 from fake_robot import GAIT, FakeLegs, scheme_of
 from stepaside.arena import check_initial_poses, load_room
 from stepaside.core.poses import Pose, wrap_angle
-from stepaside.locomotion.guard import Guard
-from stepaside.locomotion.guard import KnownRoom
+from stepaside.locomotion.guard import Guard, KnownRoom
 from stepaside.locomotion.swept_outline import BodyOutline, lateral_sway
 from stepaside.perception.measurement import RobotState, Sighting
 from stepaside.planning import ManeuverPlanner

@@ -7,8 +7,7 @@ import pytest
 
 from stepaside.arena import Box, Disc, Obstacle, Room
 from stepaside.core.poses import Pose
-from stepaside.locomotion.guard import VelocityGuard
-from stepaside.locomotion.guard import KnownRoom
+from stepaside.locomotion.guard import KnownRoom, VelocityGuard
 from stepaside.strategies.velocity_set import (
     STILL,
     AxisValues,

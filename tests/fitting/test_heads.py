@@ -3,8 +3,8 @@
 from pathlib import Path
 
 import vendor_humanoid as stranger
-from stepaside.fitting.model_analysis import analyse_model
 from stepaside.fitting.derivation import head_of
+from stepaside.fitting.model_analysis import analyse_model
 
 HEAD = """
 <body name="neck" pos="0.06 0 0.4">

@@ -20,14 +20,12 @@ from stepaside.fitting.description_writer import (
 )
 from stepaside.fitting.gait_search import Candidate, search_gait
 from stepaside.fitting.robot_verification import (
-    check_requirements,
-    check_robot,
-)
-from stepaside.fitting.robot_verification import (
     PATHS,
     JointStrain,
     WalkTrial,
     WalkTrialResult,
+    check_requirements,
+    check_robot,
 )
 from stepaside.games.robot_settings import settings_from_description
 from stepaside.robots.description import (

@@ -15,9 +15,8 @@ from typing import Any, NamedTuple
 
 from benchmark_options import ask
 
-from stepaside.fitting.derivation import derive
+from stepaside.fitting.derivation import derive, report_of
 from stepaside.fitting.description_writer import write_description
-from stepaside.fitting.derivation import report_of
 from stepaside.games.duel_settings import DuelSettings
 from stepaside.games.recorded_game import run_duel
 from stepaside.games.robot_settings import with_robot

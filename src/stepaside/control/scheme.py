@@ -1,18 +1,31 @@
-"""The control scheme of one robot (paper, Fig. 4)."""
+"""The control scheme of one robot (paper, Fig. 4), and how it is built."""
 
-from typing import TYPE_CHECKING
+from math import pi
+from typing import TYPE_CHECKING, NamedTuple
 
 from ..core.poses import Array, Pose
+from ..locomotion.control_settings import ControlSettings
+from ..locomotion.guard import FootstepAdjustment, Guard, Surroundings
 from ..locomotion.locomotion import (
     MotionRequest,
     Phase,
     StepStarted,
 )
-from ..locomotion.maneuver_walk import ManeuverWalk
+from ..locomotion.maneuver_walk import ManeuverWalk, velocity_limits
+from ..locomotion.swept_outline import BodyOutline, lateral_sway
+from ..locomotion.zmp.stabiliser import build_balance
 from ..perception.measurement import RobotState, Sighting
-from ..planning import Foot
-from .sight_sources import SightSource
+from ..planning import Direction, Foot, GaitSettings, ManeuverPlanner
+from ..robots.description import RobotDescription
+from ..robots.forward_kinematics import ForwardKinematics
+from ..robots.leg_kinematics import LegKinematics
+from ..strategies import Walk
+from ..strategies.knowledge import STAND, Intent
+from ..strategies.strategy import Strategy
+from ..strategies.velocity_set import STILL, BodyVelocity
+from .sight_sources import CameraSight, MeasuredSight, SightSource
 from .strategy_runner import StrategyRunner
+from .turn_calibration import TurnCalibration
 
 if TYPE_CHECKING:
     from ..locomotion.policy.policy_legs import PolicyWalk
@@ -139,3 +152,213 @@ class ControlScheme:
         elif targets is not None:
             self._coasted = now
         return targets
+
+
+class ClearanceSetup(NamedTuple):
+    """Known obstacles, body outline and required clearance of one robot."""
+
+    surroundings: Surroundings  # known obstacles
+    outline: BodyOutline
+    margin: float  # required clearance [m]
+
+
+def build_scheme(
+    strategy: Strategy,
+    description: RobotDescription,
+    gait: GaitSettings,
+    control: ControlSettings,
+    *,
+    tick: float,
+    delay: float = 0.0,
+    senses: SightSource | None = None,
+    clearance: ClearanceSetup | None = None,
+) -> ControlScheme:
+    """Build the control scheme of one robot that walks by maneuvers.
+
+    Args:
+        strategy: Strategy of the player.
+        description: Robot description.
+        gait: Gait.
+        control: Control settings.
+        tick: Control period, in [s].
+        delay: Time from a command to the motion, in [s].
+        senses: Source of sightings; by default those that measurements
+            bring.
+        clearance: Known obstacles and required clearance, if any.
+
+    Raises:
+        ReachError: If the standing posture of the gait is out of reach.
+    """
+    forward = None
+    if isinstance(senses, CameraSight):
+        body = senses.perception.kinematics
+        forward = None if body is None else body.forward
+    walk = build_walk(
+        *(description, gait, control),
+        tick=tick,
+        delay=delay,
+        clearance=clearance,
+        forward=forward,
+    )
+    decisions = StrategyRunner(
+        strategy,
+        gait,
+        None if clearance is None else clearance.surroundings,
+        TurnCalibration(tick) if control.learn_turns else None,
+    )
+    return ControlScheme(decisions, walk, senses or MeasuredSight())
+
+
+def build_walk(
+    description: RobotDescription,
+    gait: GaitSettings,
+    control: ControlSettings,
+    *,
+    tick: float,
+    delay: float = 0.0,
+    clearance: ClearanceSetup | None = None,
+    forward: ForwardKinematics | None = None,
+) -> ManeuverWalk:
+    """Build the walk by maneuvers of one robot; see :func:`build_scheme`.
+
+    ``forward`` are the kinematics of the measured body; built if not given.
+    """
+    legs = LegKinematics(description, tick=tick)
+    balance = build_balance(
+        *(description, gait, control),
+        tick=tick,
+        delay=delay,
+        kinematics=legs,
+        forward=forward,
+    )
+    guard = None
+    if clearance is not None:
+        guard = build_guard(clearance, gait, control)
+    return ManeuverWalk(
+        gait, legs, balance, tick=tick, delay=delay, guard=guard
+    )
+
+
+def build_guard(
+    clearance: ClearanceSetup, gait: GaitSettings, control: ControlSettings
+) -> Guard:
+    """Build the guard; with the MPC it also adjusts footsteps."""
+    planner = ManeuverPlanner(gait)
+    footholds = None
+    if control.method == "mpc":
+        radius = (
+            clearance.outline.radius + clearance.margin + lateral_sway(gait)
+        )
+        footholds = FootstepAdjustment(planner, control.stabiliser, radius)
+    return Guard(
+        clearance.surroundings,
+        clearance.outline,
+        planner,
+        margin=clearance.margin,
+        footholds=footholds,
+    )
+
+
+if TYPE_CHECKING:
+    from ..locomotion.policy.policy_legs import PolicyWalk
+
+SLOW = 1e-3  # speed [m/s] or turning rate [rad/s] that counts as zero
+IN_PLACE = 1e-3  # speed factor of a turn on the spot
+
+
+def limit_velocity(
+    forward: float, turn: float, gait: GaitSettings
+) -> tuple[float, float]:
+    """Limit a driving velocity, in [m/s], and a turning rate, in [rad/s].
+
+    Both are scaled alike to what a gait can walk, on the same path.
+    """
+    speed, rate = velocity_limits(gait)
+    share = 1.0 / max(1.0, abs(forward) / speed, abs(turn) / rate)
+    return share * forward, share * turn
+
+
+def request_at_velocity(
+    forward: float,
+    turn: float,
+    gait: GaitSettings,
+    *,
+    under_way: Direction | None,
+) -> MotionRequest:
+    """Return the request that walks at a velocity.
+
+    A reversal of the direction under way halts the robot first.
+    """
+    forward, turn = limit_velocity(forward, turn, gait)
+    speed, rate = velocity_limits(gait)
+    direction = Direction.FORWARD if forward >= 0.0 else Direction.BACKWARD
+    if abs(forward) < SLOW:
+        direction = under_way or Direction.FORWARD
+    rests = abs(forward) < SLOW and abs(turn) < SLOW
+    if rests or under_way not in (None, direction):
+        return MotionRequest(STAND, direction, saturated=False)
+    share = max(IN_PLACE, min(1.0, abs(forward) / speed))
+    return MotionRequest(
+        Intent(pi * turn / rate, share), direction, saturated=False
+    )
+
+
+class VelocityScheme(ControlScheme):
+    """Control of one robot whose steps follow a velocity command.
+
+    Turns of a walk by maneuvers, which is a unicycle's, are calibrated
+    against the commanded ones; learned legs follow the command itself, also
+    sideways.
+    """
+
+    def __init__(
+        self, locomotion: "ManeuverWalk | PolicyWalk", tick: float
+    ) -> None:
+        """Begin standing, at a control period in [s]."""
+        self._turns, gait = TurnCalibration(tick), locomotion.gait
+        decisions = StrategyRunner(Walk(0.0), gait, turns=self._turns)
+        super().__init__(decisions, locomotion, MeasuredSight())
+        decisions.headings.note(0.0, locomotion.torso_heading)
+        self._commanded = STILL
+        self._under_way: Direction | None = None
+
+    @property
+    def velocity(self) -> BodyVelocity:
+        """Velocity that it follows."""
+        forward, _, turn = self._commanded
+        if self.locomotion.maneuvers is None:
+            return self.locomotion.velocities.nearest(self._commanded)
+        forward, turn = limit_velocity(forward, turn, self.locomotion.gait)
+        return BodyVelocity(forward, 0.0, turn)
+
+    def command(self, velocity: BodyVelocity) -> None:
+        """Walk at a velocity from the next tick on."""
+        self._commanded = velocity
+
+    def starts(self, now: float) -> bool:
+        """Return whether a standing robot starts; see `.IntentSource`."""
+        self._under_way = None
+        return self._request().intent.walks
+
+    def decide(
+        self, now: float, support: Pose, side: Foot, *, moving: bool
+    ) -> MotionRequest:
+        """Return the step that follows the command; see `.IntentSource`."""
+        request = self._request()
+        if request.intent.walks:
+            self._under_way = request.direction
+        return request
+
+    def _request(self) -> MotionRequest:
+        """Return the request of the present command."""
+        velocity = self.velocity
+        if self.locomotion.maneuvers is None:
+            walks = velocity != STILL
+            intent = Intent(velocity=velocity) if walks else STAND
+            return MotionRequest(intent, Direction.FORWARD, saturated=False)
+        return request_at_velocity(
+            velocity.forward,
+            velocity.turn / self._turns.share,
+            self.locomotion.gait,
+            under_way=self._under_way,
+        )

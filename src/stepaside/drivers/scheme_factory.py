@@ -5,16 +5,14 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ..control.scheme import ControlScheme
-from ..control.scheme import build_scheme
+from ..control.scheme import ControlScheme, build_scheme
 from ..control.sight_sources import CameraSight, MeasuredSight, SightSource
 from ..control.strategy_runner import StrategyRunner
 from ..core.errors import ConfigurationError, ModelError
 from ..core.poses import Array
 from ..locomotion.control_settings import ControlSettings, LegsSettings
 from ..locomotion.policy.contract import PolicyContract
-from ..locomotion.policy.policy_legs import load_legs
-from ..locomotion.policy.policy_legs import PolicyWalk
+from ..locomotion.policy.policy_legs import PolicyWalk, load_legs
 from ..planning import GaitSettings
 from ..robots.description import RobotDescription
 from ..strategies import Strategy

@@ -4,6 +4,7 @@ import os
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from pathlib import Path
+from typing import Any
 
 import mujoco
 import numpy as np
@@ -24,22 +25,26 @@ from .gait_feasibility import (
     GREATEST_LOAD,
     TICK,
     JointLoads,
+    RobotSize,
     choose_zmp_offset,
     feasible_lengths,
+    gait_of,
+    game_of_size,
+    stabiliser_of,
     step_loads,
 )
-from .gait_scaling import RobotSize, gait_of, game_of_size, stabiliser_of
+from .leg_detection import ALIGNED, JOINT_TYPES, check_size
 from .model_analysis import ModelAnalysis, analyse_model
 from .motor_data import (
     DEFAULT_SPEED,
     WEAK_LOAD,
+    followers_of,
     gains_of,
     plausible_torques,
     published_speeds,
     published_torques,
     published_values,
 )
-from .sole_detection import check_size
 from .standing_posture import knee_limits, reach_of, standing_of, stiff_joints
 
 # CoM heights that are tried, as fractions of the greatest one in reach: the
@@ -373,3 +378,70 @@ def name_of(analysis: ModelAnalysis) -> str:
 def _relative_path(folder: Path, path: Path) -> str:
     """Return a path relative to the folder of a description."""
     return Path(os.path.relpath(path.resolve(), folder.resolve())).as_posix()
+
+
+GREATEST_HEAD = 0.2  # mass of a head, by that of the robot
+MIDDLE = 0.05  # distance from the sagittal plane, by the length of a leg
+
+
+def head_of(analysis: ModelAnalysis) -> dict[str, Any]:
+    """Return the joints of the head and the cameras of a model.
+
+    The head joints are those over the hips in the sagittal plane with a
+    vertical axis (yaw) and a lateral axis (pitch) that carry the least mass.
+
+    Joints ``yaw`` and ``pitch``, each None if there is none, and the names of
+    all ``cameras`` of the model.
+    """
+    model, data = analysis.model, analysis.data
+    hips = max(leg.hip[2] for leg in analysis.legs)
+    carried = model.body_subtreemass[model.jnt_bodyid]
+    fits = (
+        np.isin(model.jnt_type, JOINT_TYPES)
+        & (data.xanchor[:, 2] > hips)
+        & (np.abs(data.xanchor[:, 1]) < MIDDLE * analysis.length)
+        & (carried < GREATEST_HEAD * analysis.mass)
+    )
+    found: dict[str, Any] = {}
+    for name, axis in (("yaw", 2), ("pitch", 1)):
+        joints = np.flatnonzero(fits & (np.abs(data.xaxis[:, axis]) > ALIGNED))
+        found[name] = None
+        if len(joints):
+            lightest = int(joints[carried[joints].argmin()])
+            found[name] = model.joint(lightest).name
+    cameras = [model.camera(i).name for i in range(model.ncam)]
+    return found | {"cameras": cameras}
+
+
+def report_of(derived: DerivedDescription) -> dict[str, Any]:
+    """Return the report as values for JSON."""
+    analysis, size = derived.analysis, derived.size
+    own = derived.description
+    return {
+        "name": own.name,
+        "model": str(analysis.path),
+        "mass_kg": round(analysis.mass, 3),
+        "leg_length_m": round(analysis.length, 4),
+        "com_height_m": round(size.com_height, 4),
+        "com_heights_m": [round(derived.lowest, 4), round(derived.highest, 4)],
+        "foot_spacing_m": round(size.foot_spacing, 4),
+        "hip_width_m": round(
+            float(analysis.legs[0].hip[1] - analysis.legs[1].hip[1]), 4
+        ),
+        "sole_m": dict(own.sole),
+        "legs": [list(leg.joints) for leg in analysis.legs],
+        "gait": dict(own.gait),
+        "lengths_share": round(derived.lengths, 3),
+        "zmp_share": derived.zmp_offset,
+        "lean_rad": own.lean,
+        "torque_share": round(derived.loads.usual, 3),
+        "game": dict(own.game),
+        "coupled": sorted(followers_of(analysis.model)),
+        "head": head_of(analysis),
+        "omitted_meshes": len(analysis.missing),
+        "missing_values": {
+            "sole": any(leg.is_guessed for leg in analysis.legs),
+            "torques": derived.assumed_torques,
+            "speed_limits": derived.assumed_speeds,
+        },
+    }

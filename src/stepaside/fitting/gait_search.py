@@ -22,7 +22,13 @@ from ..robots.tree_cache import digest_of
 from ..studies.study import Study, run_study
 from ..studies.tabulation import Record
 from .derivation import LEAST_SPACING
-from .walk_trials import FALLEN, PATHS, WalkTrial, control_with, walk_trial
+from .robot_verification import (
+    FALLEN,
+    PATHS,
+    WalkTrial,
+    control_with,
+    walk_trial,
+)
 
 ROUNDS = 6
 GOOD = 0.2  # unsteadiness at which the search stops

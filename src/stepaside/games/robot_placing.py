@@ -5,11 +5,15 @@ from dataclasses import is_dataclass, replace
 from typing import TYPE_CHECKING, NamedTuple
 
 from ..arena import Room
-from ..control.scheme import ControlScheme
-from ..control.scheme import ClearanceSetup, build_scheme, build_walk
+from ..control.scheme import (
+    ClearanceSetup,
+    ControlScheme,
+    VelocityScheme,
+    build_scheme,
+    build_walk,
+)
 from ..control.sight_sources import MeasuredSight, SightSource
 from ..control.strategy_runner import StrategyRunner
-from ..control.scheme import VelocityScheme
 from ..core.poses import Pose
 from ..core.random_streams import named_generator
 from ..locomotion.control_settings import (
@@ -17,12 +21,12 @@ from ..locomotion.control_settings import (
     LegsSettings,
     MapSettings,
 )
-from ..locomotion.maneuver_walk import ManeuverWalk
 from ..locomotion.guard import (
     KnownRoom,
     MappedRoom,
     Surroundings,
 )
+from ..locomotion.maneuver_walk import ManeuverWalk
 from ..locomotion.swept_outline import lateral_sway
 from ..locomotion.zmp.reference_table import initial_stance
 from ..planning import GaitSettings
@@ -39,8 +43,11 @@ from ..strategies import Strategy
 from .robot_player import RobotPlayer, ServedPlayer, VelocityWalker
 
 if TYPE_CHECKING:
-    from ..locomotion.policy.policy_legs import InitialPosture, PolicyLegs
-    from ..locomotion.policy.policy_legs import PolicyWalk
+    from ..locomotion.policy.policy_legs import (
+        InitialPosture,
+        PolicyLegs,
+        PolicyWalk,
+    )
     from ..perception.pipeline import Perception
     from ..sim.ranging import Lidar
     from ..sim.sensor_suite import SensorSuite
@@ -131,8 +138,7 @@ class RobotSetup(NamedTuple):
     ) -> tuple[SimulatedRobot, "PolicyWalk"]:
         """Place it on learned legs, with a guard against obstacles."""
         from ..locomotion.guard import VelocityGuard
-        from ..locomotion.policy.policy_legs import load_legs
-        from ..locomotion.policy.policy_legs import PolicyWalk
+        from ..locomotion.policy.policy_legs import PolicyWalk, load_legs
 
         legs = load_legs(self.legs, self.description, tick=world.physics.tick)
         guard, known = None, self.clearance

@@ -6,9 +6,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ..control.scheme import ControlScheme
+from ..control.scheme import ControlScheme, VelocityScheme
 from ..control.sight_sources import CameraSight
-from ..control.scheme import VelocityScheme
 from ..core.constants import GRAVITY
 from ..core.errors import PolicyError
 from ..core.poses import Array, Pose, wrap_angle
@@ -245,7 +244,8 @@ class VelocityWalker(PhysicalPlayer):
         if sighting is None:
             return None
         scheme, time = self.scheme, sighting.time
-        turned = scheme.decisions.headings.at(time) - scheme.decisions.templates.at(time).theta
+        past = scheme.decisions
+        turned = past.headings.at(time) - past.templates.at(time).theta
         bearing = wrap_angle(turned + sighting.bearing)
         return Sighting(time, bearing, sighting.distance)
 

@@ -18,8 +18,11 @@ from stepaside.locomotion.policy.contract import (
     PhaseClock,
     PolicyContract,
 )
-from stepaside.locomotion.policy.runner import PolicyNetwork
-from stepaside.locomotion.policy.runner import BodyMotion, PolicyRunner
+from stepaside.locomotion.policy.runner import (
+    BodyMotion,
+    PolicyNetwork,
+    PolicyRunner,
+)
 
 Term = ObservationTerm
 CONTRACT = PolicyContract(

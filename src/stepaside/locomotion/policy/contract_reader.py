@@ -22,7 +22,7 @@ from ...core.setting import EntryReader, settings_of
 from ...robots.description import RobotDescription
 from ...robots.tree_cache import load_tree
 from .contract import PER_JOINT, PolicyContract
-from .network import PolicyNetwork
+from .runner import PolicyNetwork
 
 OWN_ENTRY = "stepaside_contract"
 """Metadata entry with such entries as JSON."""

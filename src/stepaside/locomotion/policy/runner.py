@@ -1,16 +1,221 @@
-"""Evaluation of a walking policy at its control period."""
+"""Evaluation of a walking policy, and of its network by ONNX Runtime."""
 
-from collections.abc import Sequence
+import re
+from collections.abc import Mapping, Sequence
 from math import cos, pi, sin
-from typing import NamedTuple
+from pathlib import Path
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ...core.compilation import bound, compiled
+from ...core.errors import PolicyError
+from ...core.onnx_sessions import check_readable, open_session
 from ...core.poses import Array
 from .contract import PolicyContract
-from .network import Memory, PolicyNetwork
+
+Memory = tuple[NDArray[np.floating[Any]], ...]  # states of one walker
+KINDS: Mapping[str, type[np.floating[Any]]] = {
+    "tensor(float16)": np.float16,
+    "tensor(float)": np.float32,
+    "tensor(double)": np.float64,
+}
+LARGEST_ACTION = 1e4  # beyond, a simulation becomes unstable
+DIRECTIONS = {"in", "out", "input", "output", "prev", "next", "new", "old"}
+
+
+class TensorShape(NamedTuple):
+    """Input or output of a network."""
+
+    name: str
+    # its shape; None for a size that the network leaves open
+    shape: tuple[int | None, ...]
+    # type of its numbers, as ONNX Runtime writes it
+    kind: str = "tensor(float)"
+
+    @property
+    def width(self) -> int | None:
+        """Size of the last axis."""
+        return self.shape[-1] if self.shape else None
+
+    def __str__(self) -> str:
+        """Return name and shape, as in a message."""
+        sizes = ("any" if size is None else str(size) for size in self.shape)
+        return f"{self.name} [{', '.join(sizes)}]"
+
+    def zeros(self) -> NDArray[np.floating[Any]]:
+        """Return zeros for one walker."""
+        return np.zeros([size or 1 for size in self.shape], KINDS[self.kind])
+
+
+class PolicyNetwork:
+    """Network that maps observations to actions.
+
+    Inputs beside the observation are recurrent states: each is fed back from
+    the output of its name and shape, see :func:`_stem`, and is zero at the
+    start.
+    """
+
+    def __init__(self, path: Path) -> None:
+        """Load a network."""
+        self.path = path
+        try:
+            check_readable(path)
+        except PolicyError as error:
+            raise PolicyError(f"legs: {error}") from error
+        try:
+            self._session = open_session(str(path))
+        except PolicyError as error:
+            raise PolicyError(
+                f"legs: {path} is not an ONNX network: {error}"
+            ) from error
+        ports = self._session.get_inputs(), self._session.get_outputs()
+        self.metadata: Mapping[str, str] = dict(
+            self._session.get_modelmeta().custom_metadata_map
+        )
+        pairs = _pair_ports(path, *([_shape_of(x) for x in p] for p in ports))
+        (self.observation, self.action), *self.states = pairs
+        self._outputs = [out.name for _, out in pairs]
+        self._inputs = [given for given, _ in pairs]
+        for port in (port for pair in pairs for port in pair):
+            if port.kind not in KINDS:
+                raise PolicyError(
+                    f"legs: {port.name} of {path} must be of "
+                    f"{', '.join(KINDS)}, got {port.kind}"
+                )
+            if not 1 <= len(port.shape) <= 3:
+                raise PolicyError(
+                    f"legs: {port} of {path} must have one to three axes"
+                )
+        self.draws = self._try()
+        self._bind()
+
+    def _try(self) -> bool:
+        """Evaluate once, and again to see whether outputs repeat."""
+        draw = np.random.default_rng(0).standard_normal
+        feed = {}
+        for port in self._inputs:
+            zeros = port.zeros()
+            feed[port.name] = draw(zeros.shape).astype(zeros.dtype)
+        try:
+            once, again = (
+                self._session.run(self._outputs, feed) for _ in range(2)
+            )
+        except Exception as error:  # no common base in ONNX Runtime
+            raise PolicyError(
+                f"legs: {self.path} cannot run for one walker: "
+                + " ".join(str(error).split())
+            ) from error
+        width = once[0].size
+        self.action = self.action._replace(shape=(1, width))
+        return any(
+            not np.array_equal(*both, equal_nan=True)
+            for both in zip(once, again, strict=True)
+        )
+
+    def initial_memory(self) -> Memory:
+        """Return recurrent states of zero, for one walker."""
+        return tuple(given.zeros() for given, _ in self.states)
+
+    def evaluate(
+        self, observation: Array, memory: Memory
+    ) -> tuple[Array, Memory]:
+        """Return action and new recurrent states.
+
+        ``observation``: Shape (width of the input,).
+        """
+        first, *states = self._given
+        first.reshape(-1)[:] = observation
+        for state, before in zip(states, memory, strict=True):
+            state[:] = before
+        self._session.run_with_iobinding(self._binding)
+        action: Array = self._found[0].astype(np.float64).ravel()
+        if not action @ action < 0.5 * LARGEST_ACTION**2:  # most often it is
+            self._check(action)
+        return action, tuple(state.copy() for state in self._found[1:])
+
+    def _check(self, action: Array) -> None:
+        """Refuse an action that is NaN, infinite or huge."""
+        usable = np.abs(action) <= LARGEST_ACTION  # NaN is not
+        if not usable.all():
+            at = int(np.argmin(usable))
+            raise PolicyError(
+                f"legs: output {at} of {self.path} must be finite and at most "
+                f"{LARGEST_ACTION:g}, got {action[at]:g}"
+            )
+
+    def _bind(self) -> None:
+        """Bind arrays to the session; to pass them takes a third longer."""
+        # Networks may leave sizes of outputs open: a run shows them.
+        feed = {port.name: port.zeros() for port in self._inputs}
+        self._given = list(feed.values())
+        self._found = self._session.run(self._outputs, feed)
+        self._binding = binding = self._session.io_binding()
+        names = list(feed), self._outputs
+        binds = binding.bind_input, binding.bind_output
+        arrays = self._given, self._found
+        for bind, keys, own in zip(binds, names, arrays, strict=True):
+            for key, array in zip(keys, own, strict=True):
+                place = array.__array_interface__["data"][0]
+                bind(key, "cpu", 0, array.dtype.type, array.shape, place)
+
+
+def _shape_of(node: Any) -> TensorShape:
+    sizes = (s if isinstance(s, int) else None for s in node.shape)
+    return TensorShape(node.name, tuple(sizes), node.type)
+
+
+def _stem(port: TensorShape) -> str:
+    """Return what the names of a state's input and output share.
+
+    They are like "h_in" and "h_out", or "h0" and "hn".
+    """
+    words = re.split(r"[^a-z0-9]+", port.name.lower())
+    return "_".join(w for w in words if w not in DIRECTIONS).rstrip("0n")
+
+
+def _fit(one: TensorShape, other: TensorShape) -> bool:
+    """Return whether two shapes may be the same."""
+    return len(one.shape) == len(other.shape) and all(
+        a == b or None in (a, b)
+        for a, b in zip(one.shape, other.shape, strict=True)
+    )
+
+
+def _pair_ports(
+    path: Path, inputs: list[TensorShape], outputs: list[TensorShape]
+) -> list[tuple[TensorShape, TensorShape]]:
+    """Pair the observation with the action, then states with their outputs.
+
+    A state whose name tells nothing has the only output of its shape.
+    """
+    named = [
+        (given, out)
+        for given in inputs
+        for out in outputs
+        if _stem(given) == _stem(out) != "" and _fit(given, out)
+    ]
+    rest = [x for x in inputs if x not in [given for given, _ in named]]
+    free = [x for x in outputs if x not in [out for _, out in named]]
+    if not (rest and free):
+        raise PolicyError(
+            f"legs: {path} must have an observation and an action beside its "
+            "recurrent states"
+        )
+    pairs = [(rest[0], free[0])]
+    for given in rest[1:]:
+        fits = [out for out in free[1:] if _fit(given, out)]
+        if len(fits) != 1:
+            names = ", ".join(map(str, free[1:])) or "none"
+            raise PolicyError(
+                f"legs: input {given} of {path} must be fed back from one "
+                f"output of its name, like h_in from h_out, or of its shape, "
+                f"got {names}"
+            )
+        pairs.append((given, fits[0]))
+    return pairs + named
+
 
 STANDS_BELOW = 0.01  # magnitude of a command that counts as zero
 
