@@ -301,14 +301,14 @@ class PolicyOptimiser:
         steps, games = rollout.actions.shape
         whole = rollout.observations.reshape((steps + 1) * games, -1)
         values = self.critic.forward(whole)[-1].reshape(steps + 1, games)
-        discount, trace = self._games.settings.discount, self._settings.trace
+        trace = self._settings.trace
         advantages = np.empty_like(rollout.rewards)
         later = np.zeros(games, np.float32)
         for t in range(steps - 1, -1, -1):
             goes_on = 1.0 - rollout.ends[t]
             error = rollout.rewards[t] - values[t]
-            error += discount * goes_on * values[t + 1]
-            later = error + discount * trace * goes_on * later
+            error += goes_on * values[t + 1]
+            later = error + trace * goes_on * later
             advantages[t] = later
         return advantages, advantages + values[:-1]
 

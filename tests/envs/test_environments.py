@@ -23,7 +23,7 @@ SHORT: dict[str, Any] = {"arenas": 8, "duration": 8.0}
 VARIANTS: list[dict[str, Any]] = [
     {"level": "unicycle", **SHORT},
     {"level": "steps", **SHORT, **ROOM, "action": "discrete"},
-    {"level": "steps", **SHORT, "full_state": True, "shaping": 0.5},
+    {"level": "steps", **SHORT, "full_state": True},
 ]
 BACK = np.array([0.0, 1.0], np.float32)
 
@@ -114,52 +114,6 @@ def test_contact_with_an_obstacle_counts_as_no_distance() -> None:
         assert not late
     assert info["outcome"] == "touched" and info["closest_m"] == 0.0
     assert 0.5 * total == pytest.approx(-start)
-
-
-@pytest.mark.parametrize("discount", [1.0, 0.9])
-def test_shaping_telescopes(discount: float) -> None:
-    """Its discounted sum depends on the first and the last state only."""
-    shaped, plain = (
-        DuelEnv(
-            "evader",
-            level="steps",
-            shaping=weight,
-            discount=discount,
-            **SHORT,
-        )
-        for weight in (0.7, 0.0)
-    )
-    _, first = shaped.reset(seed=1)
-    plain.reset(seed=1)
-    total, factor, over = 0.0, 1.0, False
-    while not over:
-        _, reward, _, over, info = shaped.step(BACK)
-        total += factor * (reward - plain.step(BACK)[1])
-        factor *= discount
-    potential = [0.7 * i["distance_m"] / 0.5 for i in (first, info)]
-    expected = factor * potential[1] - potential[0]
-    assert total == pytest.approx(expected)
-
-
-def test_shaping_ends_with_the_game() -> None:
-    """After capture the potential is zero, so its sum is minus the first."""
-    settings: dict[str, Any] = {
-        "level": "steps",
-        "opponent": "stand",
-        "arenas": 4,
-    }
-    shaped, plain = (
-        DuelEnv("pursuer", shaping=weight, **settings) for weight in (0.7, 0.0)
-    )
-    observation, first = shaped.reset(seed=1)
-    plain.reset(seed=1)
-    total, ended = 0.0, False
-    while not ended:
-        ahead = [np.arctan2(observation[2], observation[1]), 1.0]
-        observation, reward, ended, late, _ = shaped.step(ahead)
-        total += reward - plain.step(ahead)[1]
-        assert not late
-    assert total == pytest.approx(0.7 * first["distance_m"] / 0.5)
 
 
 def test_any_strategy_is_an_opponent() -> None:

@@ -70,16 +70,13 @@ def test_pettingzoo_finds_no_fault_in_games_of_a_file() -> None:
     [
         (3.2, STILL, {}),
         (3.2, 7, {"action": "discrete", "headings": 7}),
-        (60.0, STILL, {"shaping": 0.5}),
+        (60.0, STILL, {}),
     ],
 )
 def test_rewards_add_up_to_the_closest_approach(
     duration: float, still: Any, more: dict[str, Any]
 ) -> None:
-    """Of an evader who stands, to a pursuer who walks up to it.
-
-    Shaping adds half the change of the distance, which is 0 after the end.
-    """
+    """Of an evader who stands, to a pursuer who walks up to it."""
     env = calls.environment("Evade", **SHORT | more | {"duration": duration})
     _, first = env.reset(seed=3)
     total, steps = 0.0, 0
@@ -92,9 +89,7 @@ def test_rewards_add_up_to_the_closest_approach(
     nearer = first["distance_m"] - info["distance_m"]
     assert steps / 2 * STRIDE < nearer <= steps * STRIDE + 1e-6  # it turns
     assert info["closest_m"] == pytest.approx(info["distance_m"])
-    change = (0.0 if ended else info["distance_m"]) - first["distance_m"]
-    shaped = more.get("shaping", 0.0) * change
-    assert UNIT * total == pytest.approx(shaped - nearer)
+    assert UNIT * total == pytest.approx(-nearer)
 
 
 def test_a_vector_of_64_games_is_64_games() -> None:

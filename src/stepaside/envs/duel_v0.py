@@ -84,11 +84,7 @@ class DuelParallelEnv(ParallelGames):
         self._arenas = None if physics else given.draw_arenas()
 
     def begin(self, seed: int, number: int) -> Episode:
-        """Begin an episode.
-
-        Raises:
-            StrategyError: If a learner in physics does not see the other.
-        """
+        """Begin an episode; in physics, when the learners see the others."""
         settings, arenas = self.settings, self._arenas
         held = {n: HeldIntent(direction_of(n)) for n in self.possible_agents}
         played: dict[str, Any] = {**self._strategies, **held}
@@ -107,8 +103,13 @@ class DuelParallelEnv(ParallelGames):
         if duel.pursuer == "robot":
             duel = replace(duel, pursuer_strategy=played["pursuer"])
         game = RecordedGame(duel, recorded=False)
-        room = duel.room.plan or OPEN_FLOOR
-        episode = Episode(game, held, room, patience=LONGEST_WAIT)
+        episode = Episode(
+            game,
+            held,
+            duel.room.plan or OPEN_FLOOR,
+            period=duel.robot_of("evader").gait.step_duration,
+            patience=LONGEST_WAIT,
+        )
         if not episode.sees:
             game.world.close()
             raise StrategyError(
@@ -157,26 +158,16 @@ def _full(episode: Episode, term: str, name: str) -> Sequence[float]:
 
 
 def parallel_env(**settings: Any) -> DuelParallelEnv:
-    """Build the environment; see :class:`DuelParallelEnv`.
-
-    Args:
-        settings: ``render_mode`` and the fields of
-            :class:`.EnvironmentSettings`, such as ``level``.
-    """
+    """Build the environment; see :class:`DuelParallelEnv`."""
     return DuelParallelEnv(**settings)
 
 
 def load_opponent(
     name: str | Strategy | None, role: str
 ) -> dict[str, Strategy]:
-    """Load the strategy of the opponent of a role, by its own role.
+    """Load the opponent of the role that learns, by its own role.
 
-    Args:
-        name: Name or file of a strategy, or a strategy; None for the paper's.
-        role: "pursuer" or "evader", the role that learns.
-
-    Raises:
-        ConfigurationError: If there is none, or it is of the same role.
+    None stands for the paper's strategy.
     """
     check_choice(role, PLAYERS, "role")
     loaded = load_strategy(USUAL[role] if name is None else name)
@@ -193,7 +184,7 @@ class DuelEnv(gymnasium.Env[NDArray[np.float32], Any]):
     """One player against a strategy; a step is one decision.
 
     The observation holds the terms of ``settings.terms``; the reward is that
-    of :mod:`.environment_settings`. Capture and contact with an obstacle, in
+    of :class:`.ParallelGames`. Capture and contact with an obstacle, in
     physics falls and contacts, terminate an episode; the time limit
     truncates it. ``info`` holds "closest_m", "distance_m", "time_s" and
     "outcome", in one word.

@@ -1,20 +1,9 @@
-r"""Settings, arenas, actions and rewards of learning environments.
-
-The reward of the evader is the change of the closest approach so far, in
-units of v/k, zero or negative; contact with an obstacle counts as a closest
-approach of zero. So its return, undiscounted, is the closest approach of the
-episode less the initial distance: what
-:mod:`stepaside.theory.value.two_cars` bounds. The pursuer has the negative.
-
-Shaping adds :math:`\gamma \Phi(s') - \Phi(s)` to the evader's reward, where
-the potential :math:`\Phi` is a weight times the distance, and zero after the
-end of a game; that changes no optimal policy (Ng, Harada and Russell 1999).
-"""
+"""Settings, arenas and actions of learning environments."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
 from math import pi
-from typing import Any, NamedTuple, TypeVar
+from typing import Any, NamedTuple
 
 import numpy as np
 from gymnasium.spaces import Box, Discrete, Space
@@ -32,7 +21,6 @@ from ..core.errors import (
     ConfigurationError,
     PlanError,
     check_choice,
-    check_not_negative,
     check_within,
     shown,
 )
@@ -58,7 +46,6 @@ SEEDS = 2**31
 # divides no usual number of arenas, so that all of them come.
 STRIDE = 7919
 FLOAT = np.float32
-Values = TypeVar("Values", float, Array)
 
 
 class Arenas(NamedTuple):
@@ -106,8 +93,6 @@ class EnvironmentSettings:
         action: "continuous" (heading and speed factor) or "discrete".
         headings: Number of headings of discrete actions; one more action
             stands.
-        shaping: Weight of the potential-based shaping reward.
-        discount: Discount of the learner, for the shaping.
         game: Rules at levels "unicycle" and "steps"; its duration and its
             decisions are set by the level.
         duel: Settings of the duel in physics: robots, bodies, sensing,
@@ -123,8 +108,6 @@ class EnvironmentSettings:
     full_state: bool = False
     action: str = "continuous"
     headings: int = HEADINGS
-    shaping: float = 0.0
-    discount: float = 1.0
     game: StepGame = field(default_factory=StepGame)
     duel: DuelSettings = field(default_factory=DuelSettings)
 
@@ -135,8 +118,6 @@ class EnvironmentSettings:
         error = ConfigurationError
         check_within(self.duration, 0.01, 3600.0, "duration", "s", error)
         check_within(self.headings, 2, 1000, "headings", "1", error)
-        check_not_negative(self.shaping, "shaping", "1", error)
-        check_within(self.discount, 0.0, 1.0, "discount", "1", error)
         check_within(self.arenas, 1, 100_000, "arenas", "1", error)
         check_within(self.first_arena, 0, SEEDS, "first_arena", "1", error)
         if not isinstance(self.room, Room | RoomRecipe | None):
@@ -221,23 +202,6 @@ class EnvironmentSettings:
         return StrategyContract(
             direction_of(role), self.sensed_terms, self.action_headings
         )
-
-    def evader_reward(
-        self,
-        closest: tuple[Values, Values],
-        distance: tuple[Values, Values],
-        ended: Values,
-    ) -> Values:
-        """Return the reward of an evader for one step, in [m].
-
-        Args:
-            closest: Closest approach so far, before and after, in [m].
-            distance: Distance before and after the step, in [m].
-            ended: 1 if the game ended with the step, else 0; a game that was
-                truncated did not end.
-        """
-        potential = self.discount * (1.0 - ended) * distance[1] - distance[0]
-        return closest[1] - closest[0] + self.shaping * potential
 
 
 class IntentActions:

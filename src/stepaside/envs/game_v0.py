@@ -46,11 +46,9 @@ LONGEST_WAIT = 1.0  # for the first decisions in physics, in [s]
 class GameParallelEnv(ParallelGames):
     """Several players of one game; a step lasts one decision period.
 
-    The reward of an evader is the change of its closest approach to any
-    pursuer so far, in units of v/k of its gait, that of a pursuer the
-    negative mean of those of all evaders. Capture of one evader ends the
-    episode, in physics also a fall or a contact; the time limit truncates
-    it. Players that do not learn follow their own strategies.
+    Capture of one evader ends the episode, in physics also a fall or a
+    contact; the time limit truncates it. Players that do not learn follow
+    their own strategies.
 
     Attributes:
         game: Settings of the game.
@@ -126,10 +124,9 @@ class GameParallelEnv(ParallelGames):
         )
 
     def observe(self, episode: Episode, name: str) -> NDArray[np.float32]:
-        """Return the observation of a player.
+        """Return own terms, then those of the others, the nearest first.
 
-        Its own terms, then the values of each other player, the nearest
-        first; zeros for those that it has not seen.
+        Values of players that it has not seen are zero.
         """
         known = episode.knowledge(name)
         width = sum(SENSED_TERMS[term].width for term in self._terms)
@@ -159,15 +156,7 @@ class GameParallelEnv(ParallelGames):
 def learning_players(
     game: GameSettings, learners: Sequence[str] | None
 ) -> tuple[str, ...]:
-    """Return the names of the players that learn.
-
-    Args:
-        game: Settings of the game.
-        learners: Their names; None for all that can.
-
-    Raises:
-        ConfigurationError: If one cannot, or there are no opponents.
-    """
+    """Return the names of the players that learn: by default all that can."""
     able = [
         p.name
         for p in game.players
@@ -217,10 +206,5 @@ def _describe(known: Knowledge, other: OtherPlayer) -> list[float]:
 def parallel_env(
     game: GameSettings | AnyPath, **settings: Any
 ) -> GameParallelEnv:
-    """Build the environment; see :class:`GameParallelEnv`.
-
-    Args:
-        game: Settings of a game, or a game file.
-        settings: Further arguments of :class:`GameParallelEnv`.
-    """
+    """Build the environment; see :class:`GameParallelEnv`."""
     return GameParallelEnv(game, **settings)

@@ -35,7 +35,6 @@ class HeldIntent:
     Attributes:
         intent: The intent.
         known: Knowledge at the last decision; None before.
-        steps: Number of decisions while walking.
     """
 
     saturated = False
@@ -49,7 +48,6 @@ class HeldIntent:
         """Forget all decisions."""
         self.intent = STAND
         self.known: Knowledge | None = None
-        self.steps = 0
 
     def begin(self) -> None:
         """Return no memory."""
@@ -59,18 +57,15 @@ class HeldIntent:
     ) -> tuple[Intent, None]:
         """Store the knowledge and return the intent."""
         self.known = knowledge
-        self.steps += knowledge.moving
         return self.intent, None
 
 
 class Episode:
     """Game of one episode, in which some players hold given intents.
 
-    A step lasts a period, or one decision. A robot in physics decides when a
-    foot has landed: there a step lasts until the next decision of the leader,
-    or one step duration while it stands. That decision already takes the
-    given intent: the knowledge after the step is that of the decision, and
-    the next action serves the next one.
+    A step lasts a period, or one decision on the floor. A robot in physics
+    decides when a foot has landed, by the intent that it holds then; its
+    knowledge is that of its last decision.
 
     Attributes:
         game: The game.
@@ -91,15 +86,13 @@ class Episode:
 
         Args:
             game: The game.
-            held: Strategy of each controlled player, by name; the last one
-                leads.
+            held: Strategy of each controlled player, by name.
             room: Its room.
             period: Duration of a step, in [s]; one decision by default.
             patience: Longest time until they see others, in [s].
         """
         self.game, self.room, self._held = game, room, held
         self.identities, self._period = game.rules.identities, period
-        self._leader = [*held.values()][-1]
         for own in held.values():
             own.reset()  # decisions of its validation
         if not isinstance(game.world, FloorWorld):
@@ -126,23 +119,8 @@ class Episode:
             self._until += self._period
             while not self.over and self.time < self._until - 1e-9:
                 self.game.tick(self._until)
-        elif isinstance(self.game.world, FloorWorld):
-            self.game.tick()
         else:
-            self._step_of_leader()
-
-    def _step_of_leader(self) -> None:
-        leader = self._leader
-        assert leader.known is not None
-        steps, lasts = leader.steps, leader.known.limits.step_duration
-        until = self.time + lasts
-        while not self.over and leader.steps == steps:
             self.game.tick()
-            if self.time >= until - 1e-9 and not leader.known.moving:
-                if not leader.intent.walks:
-                    return
-            if self.time >= until + lasts:
-                return  # it is held up: it starts, halts or has lost sight
 
     @property
     def time(self) -> float:
@@ -208,6 +186,13 @@ class Episode:
 class ParallelGames(ParallelEnv[str, NDArray[np.float32], Any]):
     """Players of a game act at the same time; a step is one decision.
 
+    The reward of an evader is the change of its closest approach so far, in
+    units of v/k, zero or negative; contact with an obstacle counts as a
+    closest approach of zero. So its return is the closest approach of the
+    episode less the initial distance: what
+    :mod:`stepaside.theory.value.two_cars` bounds. A pursuer has the negative
+    mean of those of all evaders.
+
     Attributes:
         possible_agents: Names of the players that learn.
         agents: The same during an episode, else empty.
@@ -233,14 +218,14 @@ class ParallelGames(ParallelEnv[str, NDArray[np.float32], Any]):
 
         Args:
             names: Names of the players that learn.
-            choice: Settings of actions and rewards.
+            choice: Settings of the actions.
             space: Space of the observations of each.
             render_mode: "rgb_array" for images from above, or None.
         """
         if render_mode is not None:
             modes = tuple(self.metadata["render_modes"])
             check_choice(render_mode, modes, "render_mode")
-        self.render_mode, self._choice = render_mode, choice
+        self.render_mode = render_mode
         self.possible_agents = list(names)
         self.agents: list[str] = []
         self._actions = {n: IntentActions(choice) for n in names}
@@ -329,17 +314,9 @@ class ParallelGames(ParallelEnv[str, NDArray[np.float32], Any]):
                 f"{', '.join(actions) or 'no agent'}"
             )
         intents = {n: self._actions[n].intent(actions[n]) for n in names}
-        closest, distances = episode.closest, episode.distances
+        before = episode.closest
         episode.step(intents)
-        ended, nearest = bool(episode.ended), episode.closest
-        gains = {
-            name: self._choice.evader_reward(
-                (closest[name], nearest[name]),
-                (distances[name], apart),
-                float(ended),
-            )
-            for name, apart in episode.distances.items()
-        }
+        gains = {n: now - before[n] for n, now in episode.closest.items()}
         taken = -sum(gains.values()) / len(gains)  # by each pursuer
         observations, infos = self._look(episode)
         if episode.over:
@@ -347,7 +324,7 @@ class ParallelGames(ParallelEnv[str, NDArray[np.float32], Any]):
         return (
             observations,
             {n: gains.get(n, taken) / self.unit(episode, n) for n in names},
-            dict.fromkeys(names, ended),
+            dict.fromkeys(names, bool(episode.ended)),
             dict.fromkeys(names, episode.truncated),
             infos,
         )

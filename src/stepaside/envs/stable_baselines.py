@@ -15,9 +15,6 @@ class StableBaselinesDuel(VecEnv):
     Seeds, observations, actions and rewards are the same. An episode that
     ends has "terminal_observation", "TimeLimit.truncated" and "closest_m" in
     its info.
-
-    Attributes:
-        games: The games.
     """
 
     def __init__(self, games: VectorDuel) -> None:

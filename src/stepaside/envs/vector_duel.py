@@ -53,11 +53,7 @@ Integers = NDArray[np.int64]
 
 
 def rules_of(game: StepGame) -> BatchRules:
-    """Return the rules of a game as numbers.
-
-    Raises:
-        ConfigurationError: If its turns are too large for the kernel.
-    """
+    """Return the rules of a game as numbers."""
     parts = game.decisions
     if game.turn / parts > LARGEST_TURN:
         raise ConfigurationError(
@@ -83,11 +79,7 @@ def rules_of(game: StepGame) -> BatchRules:
 
 
 def law_of(strategy: Strategy) -> BatchLaw:
-    """Return the law of a strategy as numbers.
-
-    Raises:
-        ConfigurationError: If it has none that the kernel knows.
-    """
+    """Return the law of a strategy as numbers, if the kernel knows it."""
     if isinstance(strategy, Pursuit):
         plain = replace(
             Pursuit(),
@@ -133,14 +125,8 @@ class BatchedDuel:
     ) -> None:
         """Draw the arenas; games begin with :meth:`start`.
 
-        Args:
-            settings: Settings of the environment.
-            number: Number of games.
-            strategies: Strategies of pursuer and evader; None for a player
-                whose intents are given.
-
-        Raises:
-            ConfigurationError: If the settings do not suit many games.
+        Strategies are those of pursuer and evader; None for a player whose
+        intents are given.
         """
         if settings.level == "physics":
             raise ConfigurationError(
@@ -189,9 +175,8 @@ class BatchedDuel:
     def step(self, given: Sequence[Array | None]) -> None:
         """Play one decision of all games.
 
-        Args:
-            given: Heading [rad] and speed factor of pursuer and evader, each
-                of shape (n, 2); None for a player with a strategy.
+        Given are headings [rad] and speed factors of pursuer and evader, each
+        of shape (n, 2); None for a player with a strategy.
         """
         for player, rows in enumerate(given):
             own, intents = self._strategies[player], self._intents[:, player]
@@ -210,16 +195,6 @@ class BatchedDuel:
             self.rules,
             self.outcomes,
         )
-
-    @property
-    def distances(self) -> Array:
-        """Distance of each game, in [m]. Shape (n,)."""
-        sights = self.state.sights
-        history = sights.shape[1]
-        at = self.state.decisions & (history - 1)
-        at += np.arange(0, len(at) * history, history)
-        found: Array = sights.reshape(-1, 3)[:, 2].take(at)
-        return found
 
     def observations(self, player: int) -> Batch:
         """Return the observations of a player, 0 or 1. Shape (n, width)."""
@@ -301,9 +276,8 @@ class VectorDuel(VectorEnv[Batch, Any, Any]):
         self.observation_space = batch_space(
             self.single_observation_space, self.num_envs
         )
-        self._seeds: NDArray[np.int64] | None = None
+        self._seeds, self._begun = np.zeros(self.num_envs, np.int64), False
         self._numbers = np.zeros(self.num_envs, np.int64)
-        self._distances = np.zeros(self.num_envs)
 
     def reset(
         self,
@@ -319,11 +293,9 @@ class VectorDuel(VectorEnv[Batch, Any, Any]):
             options: "reset_mask": the games to begin, shape (num_envs,);
                 all the first time.
         """
-        games = self._chosen(options)
-        if self._seeds is None:
-            games = np.arange(self.num_envs)
-        if seed is not None or self._seeds is None:
-            self._seeds = self._seeds_of(seed)
+        games = self._chosen(options if self._begun else None)
+        if seed is not None or not self._begun:
+            self._seeds, self._begun = self._seeds_of(seed), True
             self._numbers[:] = 0
         else:
             self._numbers[games] += 1
@@ -342,7 +314,7 @@ class VectorDuel(VectorEnv[Batch, Any, Any]):
         Raises:
             PlanError: If the actions are invalid, or nothing was reset.
         """
-        if self._seeds is None:
+        if not self._begun:
             raise PlanError("reset the environment first: no episode is on")
         rows = self._actions.rows(actions)
         if len(rows) != self.num_envs:
@@ -354,13 +326,7 @@ class VectorDuel(VectorEnv[Batch, Any, Any]):
         games.step((rows, None) if self._index == 0 else (None, rows))
         ended = games.outcomes != RUNNING
         late = games.state.decisions >= games.rules.limit
-        distances = games.distances
-        rewards = self._scale * self.settings.evader_reward(
-            (closest, games.state.closest),
-            (self._distances, distances),
-            ended.astype(np.float64),
-        )
-        self._distances = distances
+        rewards = self._scale * (games.state.closest - closest)
         over, info = ended | late, self._info()
         observations = games.observations(self._index)
         if over.any():
@@ -375,16 +341,9 @@ class VectorDuel(VectorEnv[Batch, Any, Any]):
             info |= self._info()
         return observations, rewards, ended, late & ~ended, info
 
-    @property
-    def episode_arenas(self) -> NDArray[np.int64]:
-        """Arena of the present episode of each game."""
-        if self._seeds is None:
-            raise PlanError("reset the environment first: no episode is on")
-        return self._games.arenas.indices(self._seeds, self._numbers)
-
-    def _begin(self, games: NDArray[np.int64]) -> None:
-        self._games.start(games, self.episode_arenas[games])
-        self._distances = self._games.distances
+    def _begin(self, games: Integers) -> None:
+        arenas = self._games.arenas.indices(self._seeds, self._numbers)
+        self._games.start(games, arenas[games])
 
     def _info(self) -> dict[str, Any]:
         everyone = np.ones(self.num_envs, np.bool_)
@@ -393,7 +352,7 @@ class VectorDuel(VectorEnv[Batch, Any, Any]):
             "_closest_m": everyone,
         }
 
-    def _chosen(self, options: dict[str, Any] | None) -> NDArray[np.int64]:
+    def _chosen(self, options: dict[str, Any] | None) -> Integers:
         """Return the indices of the games to begin."""
         every = np.ones(self.num_envs, np.bool_)
         flags = np.asarray((options or {}).get("reset_mask", every))
@@ -404,9 +363,7 @@ class VectorDuel(VectorEnv[Batch, Any, Any]):
             )
         return np.flatnonzero(flags)
 
-    def _seeds_of(
-        self, seed: int | Sequence[int | None] | None
-    ) -> NDArray[np.int64]:
+    def _seeds_of(self, seed: int | Sequence[int | None] | None) -> Integers:
         """Return the seed of each game."""
         if seed is None:
             drawn = self.np_random.integers(SEEDS, size=self.num_envs)
