@@ -5,7 +5,7 @@ from math import inf, pi
 import numpy as np
 import pytest
 
-from stepaside.arena import NO_OBSTACLES, Room, RoomRecipe, generate_room
+from stepaside.arena import NO_OBSTACLES, Room
 from stepaside.core.poses import Pose
 from stepaside.games import play_strategies
 from stepaside.strategies import Pursuit, StepGame, Strategy
@@ -65,18 +65,6 @@ def test_path_survives_as_long_as_it_says() -> None:
     assert RULES.capture < least < 0.8
 
 
-def test_cautious_path_stays_further_away() -> None:
-    packed, actions = Room(3.0, 3.0).solid_set.packed, actions_of(0.25)
-    least = []
-    for caution in (0.0, 2.0):
-        rules = RULES._replace(caution=caution)
-        path = beam_search(START, actions, MODEL, packed, rules)
-        steps, nearest = play_moves(START, actions[path], MODEL, packed, rules)
-        assert steps == rules.horizon
-        least.append(nearest)
-    assert least[1] > least[0] + 0.05
-
-
 def test_evader_that_is_too_near_to_a_wall_may_only_leave_it() -> None:
     wall = Room(3.0, 3.0).solid_set.packed
     inside = np.array([-1.32, 0.0, 0.0, 1.0, 0.0, pi])
@@ -99,19 +87,3 @@ def test_captured_and_touching_moves_do_not_survive() -> None:
     back = np.array([[0.0, 1.0]])
     assert play_moves(beside, back, SHARP, wall, RULES)[0] == 0
     assert play_moves(beside, back, SHARP, none, RULES)[0] == 1
-
-
-def test_alike_states_fill_the_places_that_are_left() -> None:
-    """A start in a corner, where the best of each cell alone is captured."""
-    room = generate_room(RoomRecipe(), 2018)
-    assert room.starts is not None
-    pursuer, evader = room.starts
-    rules = RULES._replace(width=200, horizon=100)
-    path = beam_search(
-        np.array([*evader, *pursuer]),
-        actions_of(STEP.largest),
-        SHARP,
-        room.solid_set.packed,
-        rules,
-    )
-    assert len(path) > 50

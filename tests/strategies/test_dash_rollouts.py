@@ -18,9 +18,7 @@ from stepaside.strategies.dash_rollouts import (
 from stepaside.strategies.velocity_set import (
     STILL,
     AxisValues,
-    BodyVelocity,
     VelocitySet,
-    respond,
 )
 
 FAST, SLOW = 0.8, 0.4
@@ -42,19 +40,6 @@ def test_someone_who_passes_is_unseen_while_behind() -> None:
         shares = unseen_shares(paths, headings, passer, views)
         np.testing.assert_allclose(shares, 20 / 41, atol=0.03)
     assert not unseen_shares(paths, headings, passer, ALL_AROUND).any()
-
-
-def test_a_lag_delays_motion_by_its_own_length() -> None:
-    dashes = make_dashes(4, HERE.theta, WITH_LAG, 0.6)
-    paths, _ = roll_out(HERE, STILL, dashes, WITH_LAG, 6.0)
-    moved = np.hypot(*(paths[-1] - paths[0]).T)
-    assert moved[1] == pytest.approx(FAST * (6.0 - 0.3), abs=FAST * STEP)
-    walking = BodyVelocity(FAST)
-    same, _ = roll_out(HERE, walking, dashes, WITH_LAG, 6.0)
-    assert np.hypot(*(same[-1, 1] - same[0, 1])) == pytest.approx(FAST * 6.0)
-    assert respond(walking, STILL, WITH_LAG.lags, 0.3)[0] == pytest.approx(
-        FAST / np.e
-    )
 
 
 def test_the_greatest_velocity_is_on_the_edge_of_the_set() -> None:
@@ -85,18 +70,6 @@ def test_an_opponent_cannot_turn_within_its_radius() -> None:
     found = closest_approaches(stands, opponent, radius, NO_FEINT)
     assert found[0] == pytest.approx(aside, abs=0.5 * STEP**2)
     assert closest_approaches(stands, opponent, 0.3, NO_FEINT)[0] < 0.2
-
-
-def test_feints_only_reduce_the_worst_case() -> None:
-    opponent = Opponent(-3.0, 0.2, 0.1, 1.4)
-    dashes = make_dashes(12, HERE.theta, WITH_LAG, 0.6)
-    pose = Pose(0.0, 0.0, 0.0)
-    paths, _ = roll_out(pose, STILL, dashes, WITH_LAG, 4.0)
-    plain = closest_approaches(paths, opponent, 2.5, NO_FEINT)
-    feints = np.array([0.0, 1.0, -1.0])
-    worst = closest_approaches(paths, opponent, 2.5, feints)
-    assert (worst <= plain).all()
-    assert (worst < plain - 0.01).any()
 
 
 def test_mirrored_games_mirror_the_values() -> None:

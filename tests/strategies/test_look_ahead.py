@@ -1,7 +1,7 @@
 """Test predictive evaders, alone and in step games."""
 
 from dataclasses import replace
-from math import cos, hypot, pi, sin
+from math import cos, pi, sin
 from pathlib import Path
 
 import numpy as np
@@ -22,11 +22,6 @@ from stepaside.strategies import (
 )
 from stepaside.strategies import (
     table_cache as tables,
-)
-from stepaside.strategies.opponent_track import (
-    PREDICTION_STD,
-    OpponentTrack,
-    track_of_steps,
 )
 
 NAO = Limits(0.1, 0.2, 0.04, 0.4)
@@ -155,43 +150,3 @@ def test_the_optimal_evader_maximises_its_table() -> None:
     assert np.mean(kept) >= 0.97 * np.mean(promised)
     assert np.max(np.subtract(kept, promised)) < 0.02
     assert np.mean(aside) < 0.8 * np.mean(kept)
-
-
-def test_a_step_turns_no_farther_than_it_may() -> None:
-    game = StepGame(largest_turn=0.02, duration=4.0)
-    track = play_strategies(Pursuit(), ASIDE, FACING, game=game)
-    for poses in (track.pursuer, track.evader):
-        turns = np.diff(np.unwrap(poses[:, 2]))
-        assert np.abs(turns).max() == pytest.approx(0.02)
-
-
-def walked_past(spread: float, jump: float) -> OpponentTrack:
-    """Return the trace of a walk along x with an outlier at its end."""
-    track: OpponentTrack | None = None
-    for n in range(4):
-        y = jump if n == 3 else 0.0
-        x = 1.0 - 0.03 * n
-        known = know(float(np.arctan2(y, x)), hypot(x, y), Pose(0, 0, 0), n)
-        known = replace(known, time=0.4 * n, spread=spread)
-        track = track_of_steps(track, known)
-    assert track is not None
-    return track
-
-
-def test_uncertain_sightings_are_weighted_by_variance() -> None:
-    """Beside where the other would be by now."""
-    exact = walked_past(0.0, 0.2)
-    assert (exact.rows[-1].x, exact.rows[-1].y) == pytest.approx((0.91, 0.2))
-    steady = walked_past(0.1, 0.0)
-    assert steady.rows[-1].y == pytest.approx(0.0, abs=1e-12)
-    half = walked_past(PREDICTION_STD, 0.2)
-    assert half.rows[-1].y == pytest.approx(0.1)
-    assert walked_past(10.0, 0.2).rows[-1].y == pytest.approx(0.0, abs=1e-4)
-    # Who goes on as before is found there, however vague it is.
-    track: OpponentTrack | None = exact._replace(rows=exact.rows[:1])
-    for n in range(1, 9):
-        known = know(0.0, 1.0 - 0.03 * n, Pose(0.0, 0.0, 0.0), 0.4 * n)
-        track = track_of_steps(track, replace(known, spread=PREDICTION_STD))
-    assert track is not None and track.rows[-1].x == pytest.approx(
-        1.0 - 0.03 * 8, abs=0.01
-    )

@@ -20,14 +20,6 @@ def sighted(
     return track.note(time, (x, y), OWN)
 
 
-def test_nothing_is_known_from_the_first_sightings() -> None:
-    track = OpponentTrack(STEP)
-    for time in (0.0, 0.0, 0.1, 0.3):
-        track = sighted(track, time, 0.3, 1.0)
-        assert track.velocity is None and track.course is None
-        assert track.sight_rates == (None, None)
-
-
 @pytest.mark.parametrize("every", [0.004, 0.1, STEP])
 def test_a_steady_motion_gives_its_rates(every: float) -> None:
     """Closing is positive, turning to the left too."""
@@ -39,12 +31,6 @@ def test_a_steady_motion_gives_its_rates(every: float) -> None:
     assert len(track.rows) < 30
 
 
-def test_the_line_of_sight_wraps() -> None:
-    track = sighted(OpponentTrack(STEP), 0.0, pi - 0.1, 1.0)
-    track = sighted(track, 1.0, -pi + 0.1, 1.0)
-    assert track.sight_rates[0] == pytest.approx(0.2)
-
-
 def test_the_sway_of_a_gait_cycle_drops_out() -> None:
     """Sighted at the end of every step, on the left and on the right."""
     track = OpponentTrack(STEP)
@@ -53,15 +39,6 @@ def test_the_sway_of_a_gait_cycle_drops_out() -> None:
         track = sighted(track, step * STEP, sway, 1.0 + sway)
         if step >= 2:
             assert track.sight_rates == pytest.approx((0.0, 0.0), abs=1e-12)
-
-
-def test_nothing_is_known_after_a_gap() -> None:
-    track = OpponentTrack(STEP)
-    for time in (0.0, 0.5, 1.0):
-        track = sighted(track, time, time, 1.0)
-    track = sighted(track, 9.0, 0.0, 5.0)
-    assert track.velocity is None and track.course is None
-    assert track.sight_rates == (None, None)
 
 
 @pytest.mark.parametrize("every", [0.004, 0.1, STEP])

@@ -133,16 +133,6 @@ def test_plans_keep_a_margin_to_walls(walks: bool, least: float) -> None:
     assert least - 0.004 < min(found) < least + 0.002
 
 
-def test_faster_pursuer_is_seen_to_be_faster() -> None:
-    model = PursuerModel(2.0, speed=1.3)
-    pursuer, own, fit = (-0.6, 0.1, 1.2), (1.4, -0.2, 2.0), ModelFit()
-    for n in range(5):
-        fit = fit.observe(0.4 * n, Pose(*own), pursuer[:2], STEPS, 0.4)
-        turn = pursuer_turn(pair_of(own, pursuer), model, STEPS)
-        pursuer = Pose(*pursuer).along_arc(1.3 * 0.04, turn)
-    assert fit.speed == pytest.approx(1.3, abs=0.01)
-
-
 def sights_of_walkers(
     model: PursuerModel, sway: float, noise: float, seed: int = 0
 ) -> Iterator[tuple[ModelFit, tuple[float, float, float]]]:
@@ -182,14 +172,6 @@ def test_model_of_a_swaying_pursuer_stays_and_others_are_ruled_out(
         for fit in fits[15:]:
             assert number in fit.plausible()
             assert not wrong & set(fit.plausible())
-
-
-def test_it_looks_further_ahead_the_fewer_opponents_are_plausible() -> None:
-    planned = {
-        len(memory.assumed): memory.planned
-        for _, memory in decisions(RobustEvasion(20, 20), MODELS[4], 40)
-    }
-    assert planned == {3: 20, 2: 30, 1: 60}
 
 
 def decisions(
@@ -255,22 +237,6 @@ def test_faster_pursuer_of_the_paper_is_survived_on_an_open_floor() -> None:
     _, starts = settings.arena()
     track = play_strategies(Pursuit(), RobustEvasion(), starts, game=game)
     assert not track.captured
-
-
-def test_same_knowledge_gives_the_same_game() -> None:
-    noisy = Pursuit(gain=2.0, noise=0.5, seed=3)
-    tracks = [
-        play_strategies(
-            noisy,
-            RobustEvasion(width=20, horizon=20),
-            arena(1004)[1],
-            room=arena(1004)[0],
-            game=StepGame(duration=12.0),
-        )
-        for _ in range(2)
-    ]
-    np.testing.assert_array_equal(tracks[0].pursuer, tracks[1].pursuer)
-    np.testing.assert_array_equal(tracks[0].evader, tracks[1].evader)
 
 
 def test_walker_that_is_nearer_than_the_capture_distance_still_flees() -> None:

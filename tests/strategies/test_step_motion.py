@@ -1,7 +1,7 @@
 """Test the step game: one step, clearance, values, and the search."""
 
 from itertools import product
-from math import atan2, cos, hypot, inf, pi, sin
+from math import atan2, cos, inf, pi, sin
 from typing import Any
 
 import numpy as np
@@ -43,7 +43,6 @@ from stepaside.strategies.search.turn_search import (
 )
 from stepaside.theory.value import PoseGrid, ValueTable
 from stepaside.theory.value.solver import make_rules
-from stepaside.theory.value.two_cars import car_poses
 
 RULES, MODEL = StepRules(0.04, 0.08, 0.08 * pi), PursuerModel()
 ROOM = generate_room(RoomRecipe(discs=3, boxes=2, polygons=2, doors=1), 4)
@@ -91,15 +90,6 @@ def test_a_step_is_the_arc_of_both_unicycles(
         np.testing.assert_allclose(got, (after.x, after.y, c, s), atol=1e-9)
 
 
-def test_moving_aside_in_steps_ends_on_the_circle_of_the_theory() -> None:
-    both = place(Pose(1.0, 0.0, 3.3), Pose(0.0, 0.0, 0.2))
-    for _ in range(600):
-        turn = law_turn(both, 1.0, pi / 2, 0.08)
-        both = step_both(both, turn)
-    apart = hypot(both.ex - both.px, both.ey - both.py)
-    assert apart == pytest.approx(2 * 0.1 * 2**0.5 / (0.2 * pi / 2), rel=1e-4)
-
-
 @pytest.mark.parametrize("seed", range(3))
 def test_the_distance_field_is_a_safe_and_tight_bound(seed: int) -> None:
     """Within its cells and beyond, also where a cell has many neighbours."""
@@ -135,21 +125,6 @@ def bound() -> ValueTable:
 def value_table(bound: ValueTable) -> PursuitValues:
     grid = bound.grid
     return PursuitValues(bound.values, grid.left, grid.spacing, 0.5)
-
-
-def test_the_value_in_loops_is_that_of_the_table(bound: ValueTable) -> None:
-    table = value_table(bound)
-    for r, a, psi in np.random.default_rng(3).uniform(
-        [0.0, -pi, -pi], [2.5, pi, pi], (200, 3)
-    ):
-        pursuer = Pose(0.4, 0.1, 0.7)
-        sight = 0.7 + a
-        evader = Pose(
-            0.4 + r * cos(sight), 0.1 + r * sin(sight), sight + pi - psi
-        )
-        expected = 0.5 * float(bound.value(car_poses(r / 0.5, a, psi)))
-        found = value_at(table, place(evader, pursuer))
-        assert found == pytest.approx(min(r, expected), abs=1e-6)
 
 
 def brute(

@@ -10,22 +10,16 @@ import pytest
 
 from stepaside.arena import Box, ObstacleSet
 from stepaside.core.player_identity import PlayerIdentity, Role
-from stepaside.core.poses import Pose, wrap_angle
 from stepaside.strategies.goal_walk import GoalWalk
 from stepaside.strategies.knowledge import Knowledge, Limits, OtherPlayer
-from stepaside.strategies.pursuit import Pursuit
-from stepaside.strategies.search.step_motion import StepRules
 from stepaside.strategies.team_evasion import (
     TeamEvasion,
-    candidate_turns,
-    roll_out_all,
 )
 from stepaside.strategies.team_pursuit import (
     AssignedPursuit,
     CyclicPursuit,
     Pincer,
     assign,
-    keep_apart,
 )
 from stepaside.strategies.velocity_set import BodyVelocity, VelocitySet
 
@@ -111,35 +105,6 @@ def test_the_pincer_closes_from_both_sides() -> None:
     assert heading(Pincer(), right) == pytest.approx(-heading(Pincer(), left))
     near = known("r1", r2=(0.0, -1.0), b1=(0.6, 0.1))
     assert heading(Pincer(), near) == pytest.approx(atan2(0.1, 0.6))
-
-
-def test_pursuers_turn_away_from_teammates_that_are_near() -> None:
-    intent, _ = Pursuit().decide(known("r1", b1=(2.0, 0.0)), Pursuit().begin())
-    for side in (1.0, -1.0):
-        near = known("r1", r2=(0.4, 0.4 * side), b1=(2.0, 0.0))
-        assert keep_apart(near, intent).heading * side < -0.1
-        behind = known("r1", r2=(-0.5, 0.1 * side), b1=(2.0, 0.0))
-        assert keep_apart(behind, intent) == intent
-    blocked = known("r1", r2=(0.4, 0.0), b1=(2.0, 0.0))
-    assert not keep_apart(blocked, intent).walks
-
-
-def test_the_rollout_agrees_with_a_step_by_step_game() -> None:
-    turns, rules = candidate_turns(0.25), StepRules(0.04, 0.08, 0.25)
-    pursuers = [Pose(1.0, 0.3, 3.0), Pose(0.2, -1.1, 1.5)]
-    least, last = np.full((2, len(turns)), np.inf)
-    roll_out_all(np.array(pursuers), turns, rules, least, last)
-    row, own = 123, Pose(0.0, 0.0, 0.0)
-    nearest = min(hypot(p.x, p.y) for p in pursuers)
-    for turn in turns[row]:
-        for i, p in enumerate(pursuers):  # all move at once, as in games
-            error = wrap_angle(atan2(own.y - p.y, own.x - p.x) - p.theta)
-            pursuers[i] = p.along_arc(0.04, 0.08 * error)
-        own = own.along_arc(-0.04, turn)
-        away = min(hypot(own.x - p.x, own.y - p.y) for p in pursuers)
-        nearest = min(nearest, away)
-    assert least[row] == pytest.approx(nearest, abs=1e-7)
-    assert last[row] == pytest.approx(away, abs=1e-7)
 
 
 def test_an_evader_between_two_pursuers_leaves_through_the_gap() -> None:

@@ -14,7 +14,6 @@ from stepaside.strategies.velocity_set import (
 )
 
 LEGS = VelocitySet((-0.5, 1.0), (-0.3, 0.4), (-2.0, 1.0))
-UNICYCLE = VelocitySet((-0.1, 0.1), (0.0, 0.0), (-0.6, 0.6))
 LIMITS = Limits(0.1, 0.2, 0.04, 0.4)
 
 
@@ -36,11 +35,6 @@ def test_a_velocity_inside_is_unchanged_and_one_outside_keeps_its_curve() -> (
     assert LEGS.nearest(inside) == inside
     found = LEGS.nearest(BodyVelocity(0.5, 0.0, -4.0))
     assert found == BodyVelocity(0.25, 0.0, -2.0)
-
-
-def test_legs_without_lateral_velocity_leave_it_out() -> None:
-    found = UNICYCLE.nearest(BodyVelocity(0.05, 0.9, 0.1))
-    assert found == BodyVelocity(0.05, 0.0, 0.1)
 
 
 @pytest.mark.parametrize("direction", Direction)

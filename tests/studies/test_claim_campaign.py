@@ -6,13 +6,10 @@ from concurrent.futures import ThreadPoolExecutor
 from dataclasses import replace
 from math import degrees, pi, sqrt
 from pathlib import Path
-from statistics import fmean, stdev
 from typing import Any
 
 import pytest
 from click.testing import CliRunner
-from hypothesis import given
-from hypothesis import strategies as st
 
 from stepaside.cli.main import main
 from stepaside.core import worker_pool as workers
@@ -63,16 +60,6 @@ def test_verdict(
     assert claim.holds(values) is holds
     row = claim.row("a.it", values)
     assert row["verdict"] == ("holds" if holds else "fails")
-
-
-@given(st.lists(st.floats(-5.0, 5.0), min_size=1, max_size=9))
-def test_measured_value_is_the_mean_of_all_runs(values: list[float]) -> None:
-    row = IT.row("job.x", values)
-    assert row["measured"] == pytest.approx(fmean(values))
-    spread = stdev(values) if len(values) > 1 else 0.0
-    assert row["spread"] == pytest.approx(spread, abs=1e-9)
-    assert (row["least"], row["greatest"]) == (min(values), max(values))
-    assert row["runs"] == len(values)
 
 
 # --- the table --------------------------------------------------------------
@@ -170,24 +157,6 @@ def again(bench: Bench, folder: Path, *seeds: int) -> list[tuple[str, int]]:
     bench.measured.clear()
     run_study(claim_study(seeds), folder / "kept.sqlite")
     return sorted(bench.measured)
-
-
-def test_stored_reading_is_not_measured_again(
-    bench: Bench, tmp_path: Path
-) -> None:
-    store = tmp_path / "kept.sqlite"
-    rows = rows_of(store, 1, 2)
-    assert sorted(bench.measured) == [
-        ("once", 0),
-        ("seeded", 1),
-        ("seeded", 2),
-    ]
-    assert [row["name"] for row in rows] == ["once.it", "seeded.it"]
-    assert [row["runs"] for row in rows] == [1, 2]
-    assert again(bench, tmp_path, 1, 2) == []
-    assert rows_of(store, 1, 2) == rows
-    assert again(bench, tmp_path, 1, 2, 3) == [("seeded", 3)]
-    assert rows_of(None, 1, 2) == rows
 
 
 def test_interrupted_study_keeps_finished_readings(

@@ -9,18 +9,13 @@ import pytest
 
 from instrumented_duels import RADIUS, changed, standing_duel, walked_duel
 from stepaside.core.poses import Array
-from stepaside.games import DuelSettings, run_duel
-from stepaside.games.duel_settings import PLAYERS
 from stepaside.games.outcome import Outcome
 from stepaside.studies import physics_claims as read
-from stepaside.studies import walk_measures
 from stepaside.studies.claims import SEEDED, Claim, Readings, load_claims
 from stepaside.studies.instrumented_duel import (
     InstrumentedDuel,
-    WalkedPlan,
     play_instrumented,
 )
-from stepaside.studies.walk_measures import swing_intervals
 
 Fault = Callable[[InstrumentedDuel], InstrumentedDuel]
 
@@ -259,58 +254,7 @@ def test_every_claim_on_slip_holds_and_fails(key: str) -> None:
 # --- measures -------------------------------------------------------------
 
 
-def test_bounce_is_not_a_swing() -> None:
-    ticks = np.arange(500, dtype=np.float64) * 0.004
-    load = np.full(500, 26.0)
-    load[100:200] = 0.0
-    load[210:230] = 0.0
-    assert swing_intervals(ticks, load, 0.425).tolist() == [
-        [ticks[100], ticks[200]]
-    ]
-
-
-def test_slip_is_the_motion_during_contact() -> None:
-    for slide in (0.0, 0.005):
-        found = walk_measures.mean_foot_slip(walked_duel(slide=slide))
-        assert found == pytest.approx(slide, abs=1e-12)
-
-
-def test_walked_arc_fraction_is_in_path_time_after_the_start_support() -> None:
-    gait = DuelSettings().gait
-    first = WalkedPlan(0.0, 0.0, True)
-    second = WalkedPlan(1.347, 0.8 + 0.547, False)
-    assert walk_measures.walked_arc_fraction(
-        (first, second), gait
-    ) == pytest.approx(0.4 / 5.0)
-    assert isnan(walk_measures.walked_arc_fraction((first,), gait))
-
-
-def test_reference_jump_has_its_size() -> None:
-    fault = change_reference(
-        lambda t: np.where(t > 0.0, 0.002, 0.0) + 0.03 * t
-    )
-    jumps = walk_measures.reference_jumps(fault(walked_duel()), "evader")
-    assert jumps == pytest.approx((0.002, 0.03), rel=1e-6)
-
-
 # --- real duels, for a few seconds ----------------------------------------
-
-
-def test_recording_does_not_change_the_duel() -> None:
-    settings = DuelSettings(seed=5, duration=2.0)
-    duel, recorded = run_duel(settings), play_instrumented(settings)
-    assert recorded.run.outcome is duel.outcome
-    assert len(recorded.ticks) == pytest.approx(2.0 / 0.004)
-    for key, values in duel.arrays().items():
-        np.testing.assert_array_equal(recorded.run.arrays()[key], values)
-    for name in PLAYERS:  # loads and positions of standing feet
-        assert len(recorded.loads[name]) == len(recorded.ticks)
-        weight = recorded.loads[name].sum(axis=1)[50:100].mean()
-        assert weight == pytest.approx(5.3 * 9.81, rel=0.05)
-        left, right = recorded.feet[name][0]
-        facing = duel.tracks[name].torso[0, 2]
-        across = np.array([-np.sin(facing), np.cos(facing)])
-        assert (left - right) @ across == pytest.approx(0.1, abs=1e-3)
 
 
 def holding(job: str, found: Readings) -> set[str]:

@@ -1,16 +1,13 @@
 """Test games of tournaments, and their records."""
 
 from dataclasses import replace
-from math import cos, pi, sin
-from types import SimpleNamespace
+from math import pi, sin
 from typing import Any
 
 import numpy as np
 import pytest
 
 from stepaside.arena import RoomRecipe
-from stepaside.core.convex import grown_hull_area
-from stepaside.core.poses import wrap_angles
 from stepaside.games.outcome import Outcome
 from stepaside.games.run import GameRun
 from stepaside.strategies import StepGame
@@ -52,66 +49,6 @@ def test_a_record_is_what_the_game_was() -> None:
     )
     steps = record["walked_m"] / 0.04
     assert 39.5 < steps <= 40.0 + 1e-9  # arcs are longer than their chords
-
-
-@pytest.mark.parametrize(
-    ("level", "decisions"), [("steps", 1), ("unicycle", 8)]
-)
-def test_the_figures_of_a_game_are_those_of_its_track(
-    level: str, decisions: int, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    """An evader that turns by 0.1 at each of 12 moves; who is 1 to 2 m off."""
-    heading = pi - 0.65 + 0.1 * np.arange(13)
-    ways = 0.03 * np.stack([np.cos(heading), np.sin(heading)], axis=-1)
-    places = np.cumsum([np.zeros(2), *ways[:-1]], axis=0)
-    track = SimpleNamespace(
-        outcome=Outcome.COMPLETED,
-        distances=np.linspace(2.0, 1.0, 13),
-        pursuer=np.full((13, 3), 5.0),
-        evader=np.column_stack([places, wrap_angles(heading)]),
-        clearances=np.linspace(0.1, 0.7, 13),
-        bearings=np.where(np.arange(13) < 3, -2.6, 2.0),
-        decision=1e-3,
-        longest_decision=2e-3,
-    )
-    monkeypatch.setattr(studied, "play_track", lambda *_: track)
-    asked: list[Any] = []
-
-    def bound_of(*words: Any) -> int:
-        asked.append(words)
-        return 9
-
-    monkeypatch.setattr(studied, "bound_of", bound_of)
-    settings = replace(SETTINGS, level=level, evader=ASIDE)
-    record = play_pairing(settings)
-    seconds = 12.0 * SHORT.period / decisions
-    assert record["survived_s"] == pytest.approx(seconds)
-    assert record["closest_m"] == 1.0 and record["clearance_m"] == 0.1
-    assert record["walked_m"] == pytest.approx(12 * 0.03)
-    assert record["turning_rad_s"] == pytest.approx(12 * 0.1 / seconds)
-    assert record["unseen"] == pytest.approx(3 / 13)
-    assert record["floor_m2"] == pytest.approx(
-        grown_hull_area(places, SHORT.body_radius)
-    )
-    assert record["bound_m"] == 9 and asked[0][2] is SHORT
-    np.testing.assert_array_equal(asked[0][0], track.pursuer[0])
-    np.testing.assert_array_equal(asked[0][1], track.evader[0])
-    assert (record["decision_s"], record["longest_decision_s"]) == (1e-3, 2e-3)
-    track.clearances = np.full(13, np.inf)
-    assert play_pairing(settings)["clearance_m"] is None
-
-
-def test_the_bound_is_that_of_the_start() -> None:
-    """Facing each other the evader backs off for ever: it keeps it all."""
-    x, y = 1.1 * cos(0.3), 1.1 * sin(0.3)
-    found = studied.bound_of(
-        np.array([0.0, 0.0, 0.3]), np.array([x, y, 0.3 + pi]), SHORT
-    )
-    assert found == pytest.approx(1.1, abs=0.02)
-    away = studied.bound_of(
-        np.array([0.0, 0.0, 0.3]), np.array([x, y, 0.3]), SHORT
-    )
-    assert away < 0.8  # it walks into the pursuer first
 
 
 @pytest.mark.parametrize("ratio", [0.5, 1.7, 2.9])

@@ -105,28 +105,6 @@ def test_without_a_stable_circle_the_side_changes_without_end() -> None:
             assert len(changes) > 2 and changes[-1] > 10.0 / slow
 
 
-def test_a_stable_circle_does_not_draw_every_game() -> None:
-    assert not circles_of(NO_CIRCLE)
-    (circle,) = circles_of(ONE_CIRCLE)
-    assert circle.stable and circle.behind
-    near = (circle.distance_m, circle.pursuer_error_rad, circle.bearing_rad)
-    assert play_games(ONE_CIRCLE, [near], 20.0).circle[0] == 0
-
-
-def test_pursuer_that_drives_past_is_closest_at_the_perpendicular() -> None:
-    """Both hardly turn; the evader hardly moves: a straight line."""
-    game = make_game(1.0, 1e-9, 1e-9, 1e-9)
-    a, r = np.arctan2(0.3, 0.5), np.hypot(0.3, 0.5)
-    out = play_games(game, [[r, a, -a]], 2.0, step=2.0)
-    assert out.closest_distance[0] == pytest.approx(0.3)
-    assert out.closest_time[0] == pytest.approx(0.5)
-    assert out.states[0, 0] == pytest.approx(np.hypot(0.3, 1.5))
-    out = play_games(game, [[r, a, -a]], 2.0, step=2.0, capture_distance=0.5)
-    assert out.capture_time[0] == pytest.approx(0.1)
-    out = play_games(game, [[r, np.pi - a, -a]], 0.5)
-    assert (out.closest_distance[0], out.closest_time[0]) == (r, 0.0)
-
-
 @pytest.mark.parametrize("sign", [1, -1])
 def test_return_to_an_edge_within_a_step_is_located(sign: int) -> None:
     """The line of sight outruns the evader for some milliseconds only."""

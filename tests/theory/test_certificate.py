@@ -8,9 +8,7 @@ import pytest
 from stepaside.core.errors import PlanError
 from stepaside.theory.unicycle.batch import play_games
 from stepaside.theory.unicycle.certificate import (
-    _largest_spread,
     certify,
-    largest_change,
 )
 from stepaside.theory.unicycle.circles import circle_of
 from stepaside.theory.unicycle.unicycle_game import (
@@ -30,11 +28,6 @@ def random_starts(game: Game, count: int, spread: float = pi) -> np.ndarray:
     unit = game.evader.speed / game.evader.gain
     angles = rng.uniform(-spread, spread, (count, 2))
     return np.column_stack([rng.uniform(0.3, 4.0, count) * unit, angles])
-
-
-def motion(v: float, r: float, a: float, psi: float) -> tuple[float, float]:
-    """Rates of the distance and of the line of sight at equal speeds."""
-    return v * (np.cos(psi) - np.cos(a)), v * (np.sin(a) - np.sin(psi)) / r
 
 
 @pytest.mark.parametrize("game", [ASIDE, LATCHED, WIDE])
@@ -78,37 +71,6 @@ def test_sharpened_bound_certifies_more_than_the_plain_one() -> None:
     assert len(sharp) > 3 * np.count_nonzero(plain > 0.0) > 60
 
 
-def test_upper_sum_is_just_above_the_comparison_equation() -> None:
-    """The error d falls as e^-t; rho grows at the smaller of two rates."""
-    for d0, rho0 in ((1.2, 0.3), (-1.4, 0.2), (-5.0, 0.1), (2.0, 0.0)):
-        alpha, radius, h = 1.1, circle_of(make_game(1, 1, 1, 1, 1.1)), 1e-3
-        r_star, rho = radius.distance_m, rho0
-        for t in np.arange(0.0, 25.0, h) + h / 2:
-            d = d0 * np.exp(-t)
-            delta = 2 * abs(np.sin((alpha + d) / 2) - np.sin(alpha / 2))
-            slow = np.inf
-            if rho > 0.0:
-                slow = (r_star + rho) * delta**2 / (4 * r_star * rho)
-            rho += h * min(delta, slow)
-        game = make_game(1, 1, 1, 1, alpha)
-        upper = _largest_spread(rho0, d0, game, r_star)
-        assert rho - 1e-3 < upper < 1.05 * rho + 1e-3
-
-
-@pytest.mark.parametrize("alpha", [0.3, pi / 2, 2.9])
-def test_largest_change_is_that_of_a_fine_grid(alpha: float) -> None:
-    """Also where d < 0 passes the minimum of the sine, at -pi - alpha."""
-    rng = np.random.default_rng(1)
-    middle = [pi - alpha, -pi - alpha, *rng.uniform(-5.0, 5.0, 20)]
-    for center in middle:
-        for half in (0.01, 0.3):
-            grid = np.linspace(center - half, center + half, 4001)
-            fine = np.abs(np.sin((alpha + grid) / 2) - np.sin(alpha / 2))
-            found = largest_change(alpha, center - half, center + half)
-            assert fine.max() <= found + 1e-15
-            assert found == pytest.approx(fine.max(), abs=1e-6)
-
-
 @pytest.mark.parametrize(
     ("game", "start", "holds"),
     [
@@ -141,43 +103,6 @@ def test_no_certificate_where_the_side_may_change_otherwise() -> None:
     loose = make_game(1.0, 1.0, 1.0, 1.0, hysteresis=0.1)
     assert not certify(loose, start).holds
     assert certify(LATCHED, start, side=1).holds
-
-
-def test_lyapunov_rate_matches_the_proof() -> None:
-    """Along the printed law, by the chain rule at random states."""
-    rng = np.random.default_rng(5)
-    v, k, alpha = 0.8, 0.6, 1.1
-    game = make_game(v, v, k, k, alpha)
-    radius = circle_of(game).distance_m
-    for r, a, b in rng.uniform([0.2, -2, -2], [3, 2, 2], (100, 3)):
-        psi = b - alpha
-        r_dot, omega = motion(v, r, a, psi)
-        a_dot, b_dot = omega - k * a, omega - k * b
-        d, x = a - b, 0.5 * (a + b - alpha)
-        z = r * np.exp(1j * x)
-        turn = 0.5 * (a_dot + b_dot)
-        z_dot = (r_dot + 1j * r * turn) * np.exp(1j * x)
-        rate = (np.conj(z - radius) * z_dot).real
-        change = 2 * v * (np.sin((alpha + d) / 2) - np.sin(alpha / 2))
-        expected = r * np.sin(x) * (change - k * radius * x)
-        assert rate == pytest.approx(expected, abs=1e-12)
-        assert a_dot - b_dot == pytest.approx(-k * d, abs=1e-12)
-
-
-def test_dulac_function_has_a_divergence_of_one_sign() -> None:
-    """On d = 0: divergence of r (r', x') is -k r, so nothing is periodic."""
-    v, k, alpha, h = 1.0, 0.5, 1.3, 1e-5
-
-    def field(r: float, x: float) -> np.ndarray:
-        a = x + alpha / 2
-        psi = a - alpha
-        rate, omega = motion(v, r, a, psi)
-        return r * np.array([rate, omega - k * a])
-
-    for r, x in [(0.5, 0.3), (2.0, -1.0), (4.0, 2.0)]:
-        by_r = (field(r + h, x)[0] - field(r - h, x)[0]) / (2 * h)
-        by_x = (field(r, x + h)[1] - field(r, x - h)[1]) / (2 * h)
-        assert by_r + by_x == pytest.approx(-k * r, abs=1e-8)
 
 
 def test_unequal_players_are_refused() -> None:

@@ -7,13 +7,7 @@ import pytest
 
 from stepaside.core.errors import PlanError
 from stepaside.core.poses import wrap_angle
-from stepaside.theory.unicycle.adaptive_simulation import simulate
 from stepaside.theory.unicycle.batch import play_games
-from stepaside.theory.unicycle.circle_fit import (
-    circle_at,
-    measure,
-    settling_time,
-)
 from stepaside.theory.unicycle.circles import (
     Circle,
     circle_of,
@@ -26,7 +20,6 @@ from stepaside.theory.unicycle.start_maps import (
 )
 from stepaside.theory.unicycle.unicycle_game import (
     Game,
-    RelativeStart,
     TurningLaw,
     make_game,
 )
@@ -253,43 +246,12 @@ def test_every_game_settles_on_one_of_two_circles(game: Game) -> None:
     assert out.sides.tolist() == [1, 1, -1, -1]
 
 
-def test_measured_game_names_its_circle() -> None:
-    main, other = circles_of(FAST)
-    start = RelativeStart(0.6, -1.7, -2.1)
-    run = simulate(FAST, start, settling_time(FAST))
-    last = run.states([run.end_time])[0, :3]
-    assert circle_at((main, other), last, run.sides[-1]) == other
-    assert circle_at((main, other), last * [1.1, 1, 1], 1) is None
-    assert circle_at((), last, 1) is None
-    seen = measure(run)
-    assert seen.radius_evader_m == pytest.approx(
-        other.radius_evader_m, abs=1e-4
-    )
-    assert seen.turning_rate_rad_s == pytest.approx(other.turning_rate_rad_s)
-    assert seen.centers_apart_m < 1e-4
-
-
 def test_side_of_the_smaller_error_is_the_side_behind() -> None:
     for angle in (0.4, pi / 2, 2.9):
         for psi in np.linspace(-3.1, 3.1, 41):
             errors = {s: abs(wrap_angle(psi + s * angle)) for s in (-1, 1)}
             smaller = min(errors, key=lambda s: errors[s])
             assert smaller == (-1 if psi > 0.0 else 1) or psi == 0.0
-
-
-def test_circle_of_figure_2() -> None:
-    circle = find_circle(1.0, 1.0, 0.5, 0.5, pi / 2)
-    assert circle.radius_pursuer_m == pytest.approx(8.0 / pi, rel=1e-12)
-    assert circle.distance_m == pytest.approx(3.6012652646, abs=1e-9)
-    assert circle.headings_apart_rad == pytest.approx(pi / 2)
-    assert circle.time_constant_s == pytest.approx(4.0)
-
-
-def test_circle_of_the_humanoids() -> None:
-    circle = find_circle(0.1, 0.1, 0.2, 0.2)
-    assert circle.radius_evader_m == pytest.approx(0.6366197724, abs=1e-9)
-    assert circle.distance_m == pytest.approx(0.9003163162, abs=1e-9)
-    assert circle.time_constant_s == pytest.approx(10.0)
 
 
 @pytest.mark.parametrize("alpha", [1e-6, 0.1, 0.9, pi / 2, 2.5, pi])
@@ -312,13 +274,6 @@ def test_equal_players_follow_the_closed_form(alpha: float) -> None:
     assert circle.stable
 
 
-def test_radius_grows_without_bound_towards_move_back() -> None:
-    angles = np.linspace(pi, 1e-3, 50)
-    radii = [find_circle(1, 1, 1, 1, a).radius_pursuer_m for a in angles]
-    assert np.all(np.diff(radii) > 0.0)
-    assert not find_circle(1, 1, 1, 1, 0.0).exists
-
-
 def test_saturated_circle_at_full_rate() -> None:
     circle = find_circle(1, 1, 1, 1, pi / 2, SATURATED)
     assert circle.radius_pursuer_m == pytest.approx(1.0)
@@ -339,13 +294,6 @@ def test_saturated_circle_slides_below_one_radian(alpha: float) -> None:
     assert circle.sliding and circle.stable
     assert circle.radius_pursuer_m == pytest.approx(v / (k * alpha))
     assert circle.distance_m == pytest.approx(2 * v * sin(alpha) / (k * alpha))
-
-
-def test_saturated_radius_is_smaller() -> None:
-    for alpha in np.linspace(0.1, 1.9, 19):
-        slow = find_circle(1, 1, 1, 1, alpha).radius_pursuer_m
-        fast = find_circle(1, 1, 1, 1, alpha, SATURATED).radius_pursuer_m
-        assert fast < slow
 
 
 def test_closed_forms_of_equal_speeds_and_of_equal_gains() -> None:
@@ -385,17 +333,6 @@ def test_every_circle_balances() -> None:
                 # Equal to rounding is the full rate, not sliding.
                 assert circle.sliding == (omega < ke * (1 - 1e-12))
     assert found > 300
-
-
-def test_faster_pursuer_still_circles() -> None:
-    circle = find_circle(1.2, 1.0, 1.0, 1.0, pi / 2)
-    assert circle.stable
-    assert circle.turning_rate_rad_s == pytest.approx(np.arctan(1.2))
-
-
-def test_much_slower_pursuer_never_circles() -> None:
-    assert not find_circle(0.5, 1.0, 1.0, 1.0, 0.3).exists
-    assert not find_circle(0.5, 1.0, 1.0, 1.0, 0.3, SATURATED).exists
 
 
 @pytest.mark.parametrize("value", [0.0, -1.0, nan, inf])

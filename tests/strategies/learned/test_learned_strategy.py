@@ -56,13 +56,6 @@ def test_continuous_outputs_are_heading_and_speed() -> None:
     assert intent.speed_factor == pytest.approx(0.25)
 
 
-def test_continuous_outputs_are_limited() -> None:
-    fast, _ = linear([[0, 0], [0, 0]], [-9.0, 7.0]).decide(KNOWN, None)
-    assert fast == Intent(-pi, 1.0)
-    slow, _ = linear([[0, 0], [0, 0]], [9.0, -7.0]).decide(KNOWN, None)
-    assert not slow.walks
-
-
 def test_the_largest_discrete_output_decides() -> None:
     headings = discrete_headings(3)
     third = 2.0 * pi / 3.0
