@@ -38,9 +38,10 @@ for name, gait in gaits.items():
         run = run_walk(walk)
         x, y, _ = run.walker.com.T
         speed = hypot(x[-1] - x[0], y[-1] - y[0]) / run.duration
-        tilt = run.summary.tilt_max_deg or 0.0
+        walking = run.summary.walking
+        tilt = walking.tilt_max_deg if walking else None
         loop = "feedback" if control.feedback else "open loop"
         print(
             f"{name:<16} {loop:<11} {run.outcome.value:<12} {speed:11.3f}"
-            f"{tilt:12.2f}"
+            f"{tilt or 0.0:12.2f}"
         )

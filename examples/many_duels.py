@@ -28,10 +28,12 @@ def main(seconds: float, seeds: range) -> None:
     with ProcessPoolExecutor() as pool:
         runs = pool.map(run_duel, duels.values())
         for (body, seed), run in zip(duels, runs, strict=True):
+            planning = run.summary.planning
+            replans = planning.replans if planning else 0
             print(
                 f"{body:<9} {seed:4d}  {run.outcome.value:<11}"
                 f"{run.summary.min_distance_m:12.3f}"
-                f"{run.distance[-1]:16.3f}{run.summary.replans:9d}"
+                f"{run.distance[-1]:16.3f}{replans:9d}"
             )
 
 

@@ -10,7 +10,7 @@ import numpy as np
 from stepaside.core.poses import Array
 from stepaside.games.duel_settings import PLAYERS, DuelSettings
 from stepaside.games.outcome import Outcome
-from stepaside.games.run import DuelRun
+from stepaside.games.run import Run
 from stepaside.games.trajectory import Trajectory
 from stepaside.studies.instrumented_duel import InstrumentedDuel, WalkedPlan
 
@@ -76,7 +76,7 @@ def _run(
     duration: float,
     times: Array,
     tracks: dict[str, Trajectory],
-) -> DuelRun:
+) -> Run:
     """Return a run without summary."""
     run = SimpleNamespace(
         settings=settings,
@@ -85,7 +85,7 @@ def _run(
         times=times,
         tracks=tracks,
     )
-    return cast(DuelRun, run)
+    return cast(Run, run)
 
 
 def _plans(settings: DuelSettings, duration: float) -> tuple[WalkedPlan, ...]:

@@ -4,12 +4,12 @@ from functools import cache
 from typing import Any
 
 import stepaside
-from stepaside import Direction, DuelRun, DuelSettings, Foot, GaitSettings
+from stepaside import Direction, DuelSettings, Foot, GaitSettings, Run
 from stepaside.theory.value import CarGame, solve_cars
 
 
 @cache
-def a_run() -> DuelRun:
+def a_run() -> Run:
     return stepaside.run_duel(DuelSettings(seed=3, duration=0.4))
 
 

@@ -8,39 +8,25 @@ import numpy as np
 
 from stepaside.core.poses import Array
 from stepaside.games.duel_settings import DuelSettings
-from stepaside.games.duel_summary import (
-    DuelSummary,
-    PlanTimes,
-    PlayerSummary,
-    StartSummary,
-    TheorySummary,
-)
 from stepaside.games.outcome import Outcome
-from stepaside.games.run import DuelRun, Run
+from stepaside.games.run import Run
+from stepaside.games.summary import PlayerSummary, Summary, TheorySummary
 from stepaside.games.trajectory import Trajectory
 
-NO_THEORY = TheorySummary(None, False, None, None, None)
+CIRCLE = TheorySummary(
+    radius_m=0.6366, distance_m=0.9003, relative_orientation_deg=90.0
+)
 
 
-def figures(**changes: Any) -> DuelSummary:
+def figures(**changes: Any) -> Summary:
     """Figures of a duel without a trigger."""
-    told = DuelSummary(
-        seed=7,
-        start=StartSummary(1.0, 0.0, 0.0),
-        triggered_at_s=None,
-        triggered_at_distance_m=None,
+    told = Summary(
         distance_m=1.0,
         relative_orientation_deg=90.0,
         min_distance_m=0.9,
-        converged_at_s=None,
-        replans=0,
-        max_com_velocity_jump_m_s=0.0,
-        min_zmp_margin_m=None,
-        theory=NO_THEORY,
-        plan_time_us=PlanTimes(None, None),
         real_time_factor=1.0,
-        pursuer=PlayerSummary(None),
-        evader=PlayerSummary(None),
+        players={n: PlayerSummary(0.0, None) for n in ("pursuer", "evader")},
+        theory=TheorySummary(),
     )
     return replace(told, **changes)
 
@@ -55,7 +41,7 @@ def run_of(
     message: str = "played 18.00 s",
     stills: Any = None,
     **changes: Any,
-) -> DuelRun:
+) -> Run:
     """Run with these tracks.
 
     Args:
@@ -68,7 +54,7 @@ def run_of(
         stills: What was seen, by player and camera.
         changes: Of the figures.
     """
-    return DuelRun(
+    return Run(
         name=name,
         settings=settings or DuelSettings(),
         outcome=outcome,
@@ -81,12 +67,12 @@ def run_of(
     )
 
 
-def changed(run: DuelRun, **figures: Any) -> DuelRun:
+def changed(run: Run, **figures: Any) -> Run:
     """The same run with other figures."""
     return replace(run, summary=replace(run.summary, **figures))
 
 
-def drifted(run: DuelRun, times: Array) -> DuelRun:
+def drifted(run: Run, times: Array) -> Run:
     """The same run at other times, in which both players slide apart.
 
     Args:

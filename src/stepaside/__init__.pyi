@@ -9,12 +9,10 @@ from .drivers.robot import JointRobot as JointRobot
 from .drivers.robot import JointTargets as JointTargets
 from .drivers.robot import VelocityRobot as VelocityRobot
 from .drivers.velocity_limits import VelocityLimits as VelocityLimits
-from .games import DuelRun as DuelRun
 from .games import DuelSettings as DuelSettings
 from .games import Outcome as Outcome
 from .games import RecordedGame as RecordedGame
 from .games import Run as Run
-from .games import WalkRun as WalkRun
 from .games import run_duel as run_duel
 from .games import run_walk as run_walk
 from .games.configuration_file import load_configuration as load_configuration
@@ -68,7 +66,7 @@ __all__ = [
     "ControlScheme",
     "ControlSettings",
     "Direction",
-    "DuelRun",
+    "Run",
     "DuelSettings",
     "Evasion",
     "Foot",
@@ -87,7 +85,6 @@ __all__ = [
     "RecordedGame",
     "RobotState",
     "RobotStatus",
-    "Run",
     "Sighting",
     "RelativeStart",
     "StartSettings",
@@ -95,7 +92,6 @@ __all__ = [
     "Strategy",
     "VelocityLimits",
     "VelocityRobot",
-    "WalkRun",
     "WalkSettings",
     "build_scheme",
     "certify",

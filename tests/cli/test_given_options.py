@@ -99,7 +99,7 @@ def test_printed_configuration_repeats_the_run(tmp_path: Path) -> None:
         json.loads(run(f"{asked} --json").stdout)
         for asked in (line, f"duel --config {made}")
     )
-    for name in ("plan_time_us", "real_time_factor"):
+    for name in ("planning", "real_time_factor"):
         del first[name], again[name]
     assert first == again
 

@@ -119,7 +119,7 @@ def test_duel_writes_a_run_folder_that_repeats_it(tmp_path: Path) -> None:
     configuration = folder / "configuration.toml"
     assert tomllib.loads(configuration.read_text())["seed"] == 9
     again = run_json("duel", "--config", str(configuration))
-    for name in ("plan_time_us", "real_time_factor", "run_folder"):
+    for name in ("planning", "real_time_factor", "run_folder"):
         first.pop(name)
         again.pop(name, None)
     assert first == again
@@ -131,7 +131,7 @@ def test_duel_ends_with_a_table_and_two_paths(tmp_path: Path) -> None:
     folder = tmp_path / "run"
     result = run("duel", "--duration", "1", "--output", str(folder))
     assert result.exit_code == 0
-    assert "theory 0.637" in result.stdout
+    assert "(theory 0.9003 m)" in result.stdout
     assert str(folder / "duel.png") in result.stdout
 
 
@@ -246,4 +246,4 @@ def test_zero_is_a_given_value() -> None:
         "duel", "--seed", "0", "--set", "strategy.angle=0", "--duration", "0.2"
     )
     assert found["seed"] == 0
-    assert found["theory"]["exists"] is False
+    assert found["theory"]["radius_m"] is None

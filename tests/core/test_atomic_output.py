@@ -22,7 +22,7 @@ from stepaside.core.atomic_output import (
 from stepaside.core.errors import ConfigurationError, OutputError
 from stepaside.games.duel_settings import DuelSettings
 from stepaside.games.recorded_game import run_duel
-from stepaside.games.run import DuelRun
+from stepaside.games.run import Run
 from stepaside.report import run_figure
 from stepaside.report.run_folder import save_run, write_run
 
@@ -138,12 +138,12 @@ def test_a_failed_write_leaves_the_old_file(tmp_path: Path) -> None:
 
 
 @pytest.fixture(scope="module")
-def short() -> DuelRun:
+def short() -> Run:
     return run_duel(DuelSettings(duration=0.1))
 
 
 def test_two_runs_into_one_folder_are_both_saved(
-    tmp_path: Path, short: DuelRun
+    tmp_path: Path, short: Run
 ) -> None:
     figures: list[Path] = []
 
@@ -163,14 +163,14 @@ def test_two_runs_into_one_folder_are_both_saved(
 
 
 def test_a_run_that_cannot_be_written_is_saved_in_the_temporary_folder(
-    tmp_path: Path, short: DuelRun, monkeypatch: pytest.MonkeyPatch
+    tmp_path: Path, short: Run, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     there, spare = tmp_path / "there", tmp_path / "spare"
     there.mkdir()
     spare.mkdir()
     monkeypatch.setattr("tempfile.tempdir", str(spare))
 
-    def full(run: DuelRun, path: Path) -> None:
+    def full(run: Run, path: Path) -> None:
         if there in path.parents:
             raise FULL
 
@@ -195,7 +195,7 @@ OUTPUTS = {  # words of commands that write a file, and its suffix
 
 
 @pytest.fixture(scope="module")
-def folder(tmp_path_factory: pytest.TempPathFactory, short: DuelRun) -> Path:
+def folder(tmp_path_factory: pytest.TempPathFactory, short: Run) -> Path:
     path = tmp_path_factory.mktemp("runs") / "run"
     write_run(path, short)
     return path

@@ -63,7 +63,7 @@ def test_a_pursuer_turns_to_the_opponent_and_rests_at_the_end(
     assert max(robot.moves) == pytest.approx((0.1, 0.0, 0.2 * 0.5))
     run = load_run(folder, "play")
     assert run.outcome is Outcome.COMPLETED
-    assert run.summary.language == "naoqi"
+    assert run.settings.language == "naoqi"
 
 
 def test_a_robot_whose_controller_is_killed_is_stopped(

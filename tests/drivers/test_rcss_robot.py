@@ -26,7 +26,6 @@ from stepaside.drivers.rcss import (
 from stepaside.drivers.robot import JointTargets
 from stepaside.drivers.robot_loader import RobotRequest
 from stepaside.games.play_settings import PlaySettings
-from stepaside.games.play_summary import PlaySummary
 
 LONGEST = 60.0  # for what takes seconds on an idle machine, in [s]
 STANDING = {
@@ -243,8 +242,8 @@ def test_a_k1_is_played_in_the_real_simulator(
     assert "walking" in evader.stderr
     found = load_run(run)
     assert isinstance(found.settings, PlaySettings)
-    assert isinstance(found.summary, PlaySummary)
+    assert found.summary.play is not None
     assert found.settings.language == "rcss"
-    assert found.summary.walking_s == pytest.approx(3.0, abs=0.1)
-    closest = found.summary.closest_m
+    assert found.summary.play.walking_s == pytest.approx(3.0, abs=0.1)
+    closest = found.summary.min_distance_m
     assert closest is not None and 3.5 < closest < 4.5

@@ -17,7 +17,7 @@ import pytest
 import stepaside as sa
 from expected.asking import GAME, answer, command, own_evader
 from legs_robot import nao_on_legs
-from stepaside.cli.duel import print_duel
+from stepaside.cli.run_output import print_run
 from stepaside.envs import game_v0  # registers the environments, too
 from stepaside.games.recorded_game import run_duels
 from stepaside.games.served_duel import serve_duel
@@ -94,7 +94,7 @@ def test_a_step_takes_the_same_time_in_games_and_tournaments(
             "SELECT walked_m, survived_s FROM results"
         ).fetchone()
     file.write_text(GAME.replace("1.0", "10.0") + f'strategy = "{own}"')
-    blue = answer("run", "game", file, "--level", "steps")["results"][1]
+    blue = answer("run", "game", file, "--level", "steps")["players"]["blue"]
     speed = blue["path_m"] / (10.0 - blue["moved_at_s"])
     assert speed == pytest.approx(walked / lasted, rel=0.05)
 
@@ -128,8 +128,8 @@ body = "person"
 person = { path = "straight", speed = 1.0 }
 start = [2.0, 0.0, 3.14159]
 """)
-    (robot,) = answer("run", "game", file)["crowd"]
-    assert robot["collisions"] == 1 and not robot["success"]
+    met = answer("run", "game", file)["players"]["blue"]["crowd"]
+    assert met["collisions"] == 1 and not met["success"]
 
 
 def test_the_closest_approach_of_a_team_game_is_that_of_opponents(
@@ -310,22 +310,19 @@ def test_games_are_written_to_any_path(file: Path, tmp_path: Path) -> None:
 
 
 @pytest.fixture(scope="module")
-def circled() -> Iterator[sa.DuelRun]:
+def circled() -> Iterator[sa.Run]:
     run = sa.run_duel(replace(SHORT, duration=3.0))
-    assert run.summary.theory.radius_m is not None
+    assert run.theory is not None
     yield run
 
 
 @pytest.mark.parametrize(("since", "marked"), [(1.0, False), (2.5, True)])
 def test_values_from_before_the_circle_are_marked(
-    circled: sa.DuelRun,
+    circled: sa.Run,
     since: float,
     marked: bool,
     capsys: pytest.CaptureFixture[str],
 ) -> None:
     summary = replace(circled.summary, converged_at_s=since)
-    print_duel(replace(circled, summary=summary))
-    rows = capsys.readouterr().out.splitlines()
-    beside = [row for row in rows if "theory" in row and "closest" not in row]
-    assert len(beside) == 4
-    assert all(("measured from 2.0 s" in row) == marked for row in beside)
+    print_run(replace(circled, summary=summary))
+    assert ("measured from 2.0 s on" in capsys.readouterr().out) is marked

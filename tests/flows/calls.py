@@ -118,7 +118,7 @@ def configuration(folder: Path) -> dict[str, Any]:
 
 def play_duel(
     start: tuple[float, float, float], duration: float, **evasion: Any
-) -> sa.DuelRun:
+) -> sa.Run:
     """Play a duel from Python.
 
     Args:

@@ -55,10 +55,9 @@ def test_a_robot_on_ros2_walks_as_the_laws_say_and_is_recorded(
     faces = run.tracks["pursuer"].torso[-1, 2] - heading - BEARING
     assert np.cos(faces) == pytest.approx(-1.0, abs=1e-3)
     told = run.summary
-    assert told.closest_m == pytest.approx(1.0, abs=1e-3)
-    # Of the last second, at whose end the mean of a cycle is cut off.
-    assert told.radius_m == pytest.approx(SPEED / abs(command[1]), rel=0.2)
-    assert told.path_length_m == pytest.approx(3.0 * SPEED, rel=0.25)
+    assert told.min_distance_m == pytest.approx(1.0, abs=1e-3)
+    own = told.players["evader"]
+    assert own.path_m == pytest.approx(3.0 * SPEED, rel=0.25)
     page = write_page_of(folder, tmp_path / "page.html")
     assert "evader" in page.read_text(encoding="utf-8")
 
@@ -202,12 +201,12 @@ def check_evasion(run: Any) -> None:
     """Check gait and turns of an evader that sees its opponent at 0.4 rad."""
     gait = GaitSettings()
     began, ended = (
-        next(c.time_s for c in run.summary.changes if c.state == state)
+        next(c.time_s for c in run.summary.play.changes if c.state == state)
         for state in ("walking", "stopping")
     )
     assert ended - began == pytest.approx(8.0, abs=0.05)
     steps = (ended - began - gait.start_support) // gait.step_duration
-    assert abs(run.summary.steps - steps) <= 1
+    assert abs(run.summary.planning.steps - steps) <= 1
     walk = (run.times > began + 3.0) & (run.times < ended)
     path, times = run.tracks["evader"].torso[walk], run.times[walk]
     share = gait.path_interval / gait.step_duration  # of path per gait time
@@ -332,7 +331,7 @@ def test_motion_that_others_recorded_is_measured(tmp_path: Path) -> None:
     summary = measure_bag(bag, folder, pursuer="a", evader="/b/pose")
     chord = 2.0 * radius * sin(0.5 * apart)
     for player in ("pursuer", "evader"):
-        found = summary["measured"][player]["radius_m"]
+        found = summary["players"][player]["radius_m"]
         assert found == pytest.approx(radius, rel=1e-3)
     assert summary["distance_m"] == pytest.approx(chord, rel=1e-3)
     assert summary["min_distance_m"] == pytest.approx(chord, rel=1e-3)

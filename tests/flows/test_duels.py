@@ -33,7 +33,7 @@ def test_a_duel_ends_on_the_circle_of_theory(tmp_path: Path) -> None:
     assert seen["outcome"] == "completed"
     assert seen["triggered_at_distance_m"] == pytest.approx(0.8, abs=0.02)
     for player in ("pursuer", "evader"):
-        radius = seen[player]["radius_m"]
+        radius = seen["players"][player]["radius_m"]
         assert radius == pytest.approx(goal.radius, rel=0.03)
     assert seen["distance_m"] == pytest.approx(goal.distance, rel=0.03)
     assert seen["relative_orientation_deg"] == pytest.approx(90.0, abs=3.0)

@@ -38,7 +38,7 @@ evasion = {{ safety_radius = 1.2 }}
 
 
 @pytest.fixture(scope="module")
-def duel() -> sa.DuelRun:
+def duel() -> sa.Run:
     return play_duel(START, SECONDS, safety_radius=1.2)
 
 
@@ -59,7 +59,7 @@ def folders(tmp_path_factory: pytest.TempPathFactory) -> dict[str, Path]:
     return {level: folder / level for level in levels}
 
 
-def test_a_duel_from_python_ends_on_the_circle(duel: sa.DuelRun) -> None:
+def test_a_duel_from_python_ends_on_the_circle(duel: sa.Run) -> None:
     goal = circle()
     assert duel.outcome is sa.Outcome.COMPLETED
     assert duel.theory is not None
@@ -83,7 +83,7 @@ def test_a_duel_from_python_ends_on_the_circle(duel: sa.DuelRun) -> None:
 
 @pytest.mark.parametrize("level", ["unicycle", "steps", "physics"])
 def test_a_game_of_two_ends_on_the_circle_at_each_level(
-    level: str, folders: dict[str, Path], duel: sa.DuelRun
+    level: str, folders: dict[str, Path], duel: sa.Run
 ) -> None:
     goal = circle()
     kept = trajectories(folders[level])
@@ -103,7 +103,7 @@ def test_a_game_of_two_ends_on_the_circle_at_each_level(
 
 
 def test_a_game_in_physics_is_the_duel(
-    folders: dict[str, Path], duel: sa.DuelRun
+    folders: dict[str, Path], duel: sa.Run
 ) -> None:
     kept = trajectories(folders["physics"])
     near = apart(kept["red_place"], kept["blue_place"])

@@ -43,15 +43,15 @@ def test_two_pursuers_walk_at_their_evader(tmp_path: Path) -> None:
     assert seen["outcome"] == "completed" and seen["fallen"] == []
     assert len(seen["pairs"]) == 3
     kept = trajectories(tmp_path / "run")
-    for pair in seen["pairs"]:
-        one, other = (kept[f"{name}_torso"] for name in pair["players"])
+    for both, pair in seen["pairs"].items():
+        one, other = (kept[f"{name}_torso"] for name in both.split(" - "))
         near = apart(one, other)
         # Torso points are less than 2 cm from the origins of the torsos.
         assert pair["closest_m"] == pytest.approx(near.min(), abs=0.04)
         assert pair["captured_at_s"] is None
-        if "blue" in pair["players"]:
+        if "blue" in both:
             assert near[-1] < near[0] - 0.2
-    paths = {player["name"]: player["path_m"] for player in seen["results"]}
+    paths = {name: own["path_m"] for name, own in seen["players"].items()}
     for name in ("ruby", "scarlet"):
         assert paths[name] == pytest.approx((10.0 - 0.8) * PACE, rel=0.03)
     assert paths["blue"] < 0.3  # it stands until one is near
@@ -155,10 +155,10 @@ def test_cyclic_pursuit_ends_on_its_polygon() -> None:
     assert (radius, side) == pytest.approx((0.4775, 0.8270), abs=1e-4)
     game = EXAMPLES / "cyclic-pursuit.toml"
     seen = summary("run", "game", game, "--level", "steps")
-    assert seen["outcome"] == "completed" and len(seen["results"]) == 3
-    for player in seen["results"]:
+    assert seen["outcome"] == "completed" and len(seen["players"]) == 3
+    for player in seen["players"].values():
         assert player["radius_m"] == pytest.approx(radius, rel=0.01)
-    for pair in seen["pairs"]:
+    for pair in seen["pairs"].values():
         assert pair["distance_m"] == pytest.approx(side, rel=0.01)
         assert pair["angle_deg"] == pytest.approx(120.0, abs=0.5)
 
@@ -167,7 +167,8 @@ def test_a_robot_crosses_a_crowd(tmp_path: Path) -> None:
     """The summary says what its arrays say of people and the goal."""
     (tmp_path / "crowd.toml").write_text(CROWD)
     seen = kept_summary("run", tmp_path / "run", tmp_path / "crowd.toml")
-    (robot,) = seen["crowd"]
+    own = seen["players"]["robot"]
+    robot = own["crowd"]
     kept = trajectories(tmp_path / "run")
     names = [f"person-{n}" for n in range(1, 5)]
     assert robot["people"] == len(names)
@@ -175,14 +176,16 @@ def test_a_robot_crosses_a_crowd(tmp_path: Path) -> None:
     place, times = kept["robot_place"], kept["times_s"]
     near = np.min([apart(place, each) for each in people], axis=0)
     step = times[1] - times[0]
-    for limit, key in ((0.45, "below_0_45_m_s"), (1.2, "below_1_2_m_s")):
+    for limit, key in ((0.45, "intimate_s"), (1.2, "personal_s")):
         below = (near < limit).sum() * step
         assert robot[key] == pytest.approx(below, abs=0.1)
-    assert robot["below_1_2_m_s"] > 0.5
+    assert robot["personal_s"] > 0.5
     assert near.min() > 0.39 and robot["collisions"] == 0
     assert robot["success"] is True
     there = np.hypot(*place[-1, :2])
-    assert there < 0.5 and robot["time_s"] == pytest.approx(times[-1], abs=0.1)
+    assert there < 0.5 and own["goal_at_s"] == pytest.approx(
+        times[-1], abs=0.1
+    )
     # People keep off each other and inside of the room.
     for each in people:
         assert abs(each[:, :2]).max() < 3.0

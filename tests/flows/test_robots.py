@@ -138,7 +138,9 @@ def test_a_new_robot_ends_on_the_circle_of_its_gait(folder: Path) -> None:
     assert summary["outcome"] == "completed"
     assert summary["theory"]["radius_m"] == pytest.approx(radius, rel=1e-3)
     for player in ("pursuer", "evader"):
-        assert summary[player]["radius_m"] == pytest.approx(radius, rel=0.03)
+        assert summary["players"][player]["radius_m"] == pytest.approx(
+            radius, rel=0.03
+        )
     chord = sqrt(2.0) * radius
     assert summary["distance_m"] == pytest.approx(chord, rel=0.03)
     angle = summary["relative_orientation_deg"]

@@ -65,7 +65,7 @@ def undisturbed(
 
 
 @pytest.fixture(scope="module")
-def closest(games: Games) -> list[float]:
+def closest(games: Games) -> list[float | None]:
     """Closest approach of each duel, played alone."""
     return [
         sa.run_duel(

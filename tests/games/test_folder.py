@@ -18,7 +18,7 @@ from stepaside.games.outcome import Outcome
 from stepaside.games.recorded_game import run_duel
 from stepaside.games.replayed_signals import repeat_game
 from stepaside.games.robot_settings import with_robot
-from stepaside.games.run import DuelRun
+from stepaside.games.run import Run
 from stepaside.games.run_archive import (
     SUMMARY,
     TRAJECTORIES,
@@ -62,7 +62,7 @@ def person() -> Trajectory:
     return Trajectory(track.com, track.torso)
 
 
-def duel(pursuer: Trajectory, **changes: Any) -> DuelRun:
+def duel(pursuer: Trajectory, **changes: Any) -> Run:
     return run_of(
         TIMES,
         {"pursuer": pursuer, "evader": robot(2.0, sees=True)},
@@ -87,7 +87,7 @@ RUNS = {
 by_run = pytest.mark.parametrize("run", RUNS.values(), ids=RUNS.keys())
 
 
-def folder_of(tmp_path: Path, run: DuelRun) -> Path:
+def folder_of(tmp_path: Path, run: Run) -> Path:
     folder = tmp_path / "run"
     folder.mkdir()
     write_run_files(folder, run)
@@ -102,11 +102,11 @@ def damage(folder: Path, change: Callable[[dict[str, Any]], Any]) -> None:
 
 
 @by_run
-def test_a_run_is_read_as_written(tmp_path: Path, run: DuelRun) -> None:
+def test_a_run_is_read_as_written(tmp_path: Path, run: Run) -> None:
     check_same(load_run(folder_of(tmp_path, run)), run)
 
 
-@pytest.mark.parametrize("number", [5, 3, 1, 0, -1, 4.0, "4", True, None, [4]])
+@pytest.mark.parametrize("number", [4, 6, 0, -1, 5.0, "5", True, None, [5]])
 def test_an_unknown_format_is_refused_by_its_number(
     tmp_path: Path, number: Any
 ) -> None:
@@ -121,7 +121,7 @@ def test_an_unknown_format_is_refused_by_its_number(
     with pytest.raises(ConfigurationError) as refused:
         load_run(folder)
     message = str(refused.value)
-    assert f"format of run run must be 4, got {number!r}" in message
+    assert f"format of run run must be 5, got {number!r}" in message
     assert "\n" not in message
 
 

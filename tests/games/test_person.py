@@ -30,9 +30,11 @@ def test_a_person_that_passes_outside_triggers_nothing() -> None:
     person = PersonSettings("straight", 0.5, miss=1.3)
     result = run_duel(duel_with(person, 6.0))
     summary = result.summary
-    assert summary.triggered_at_s is None and summary.replans == 0
+    assert summary.triggered_at_s is None
+    assert summary.planning is not None and summary.planning.replans == 0
     assert result.outcome.value == "completed"
-    theory = summary.theory.closest_approach_m
+    assert summary.theory is not None
+    theory = summary.theory.min_distance_m
     assert summary.min_distance_m == pytest.approx(theory, abs=0.05)
 
 
@@ -46,7 +48,8 @@ def test_a_slow_person_is_evaded_close_to_theory() -> None:
     assert result.evader.landings is not None
     late = result.evader.landings[0, 0] - summary.triggered_at_s
     assert 1.0 < late < 1.5
-    theory = summary.theory.closest_approach_m
+    assert summary.theory is not None
+    theory = summary.theory.min_distance_m
     assert theory is not None
     assert summary.min_distance_m == pytest.approx(
         theory - 0.073 * late, abs=0.03
@@ -58,7 +61,8 @@ def test_a_person_without_a_solid_body_walks_through_a_robot() -> None:
     standing = replace(duel_with(person, 5.0), evader_strategy="stand")
     result = run_duel(standing)
     assert result.outcome.value == "completed"
-    assert result.summary.min_distance_m < 0.05
+    closest = result.summary.min_distance_m
+    assert closest is not None and closest < 0.05
     model = RecordedGame(standing).in_physics.model
     assert model.body("pursuer/trunk").geomnum[0] > 0  # sensors see it
 

@@ -108,7 +108,8 @@ def test_the_replayed_path_is_the_true_one_up_to_slip(
     run, frame = walked.run, walked.frame.inverse()
     true = walked.true[:: round(float(run.times[1]) / 0.012)]
     assert len(run.times) in (len(true), len(true) + 1)
-    assert run.summary.steps and run.summary.steps >= 4
+    planning = run.summary.planning
+    assert planning is not None and planning.steps >= 4
     for own, (seen, _, _) in zip(run.evader.torso, true, strict=False):
         wanted = frame.compose(seen)
         assert hypot(own[0] - wanted.x, own[1] - wanted.y) < 0.01
@@ -139,7 +140,7 @@ def test_the_opponent_is_at_its_sightings(walked: Walked) -> None:
             walked.others, walked.true, strict=True
         )
     )
-    assert run.summary.closest_m == pytest.approx(closest, abs=0.01)
+    assert run.summary.min_distance_m == pytest.approx(closest, abs=0.01)
 
 
 def test_a_play_is_read_from_its_folder_with_checksums(walked: Walked) -> None:

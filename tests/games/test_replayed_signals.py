@@ -8,31 +8,31 @@ import pytest
 from stepaside.games.duel_settings import DuelSettings, StartSettings
 from stepaside.games.recorded_game import run_duel, run_walk
 from stepaside.games.replayed_signals import RobotSignals, repeat_game
-from stepaside.games.run import DuelRun, Run, WalkRun
+from stepaside.games.run import Run
 from stepaside.games.walk_settings import WALKER, WalkSettings
 from stepaside.robots.description import load_robot
 
 
 @pytest.fixture(scope="module")
-def walk() -> WalkRun:
+def walk() -> Run:
     return run_walk(WalkSettings(duration=4.0))
 
 
 @pytest.fixture(scope="module")
-def signals(walk: WalkRun) -> RobotSignals:
+def signals(walk: Run) -> RobotSignals:
     repeated = repeat_game(walk)
     assert repeated.reason == ""
     return repeated.robots[WALKER]
 
 
 @pytest.fixture(scope="module")
-def duel() -> DuelRun:
+def duel() -> Run:
     start = StartSettings(distance=0.9, pursuer_offset=0.0, evader_offset=0.0)
     return run_duel(DuelSettings(duration=3.0, start=start))
 
 
 def test_a_straight_knee_holds_against_the_weight(
-    signals: RobotSignals, walk: WalkRun
+    signals: RobotSignals, walk: Run
 ) -> None:
     model = load_robot("nao").compile()
     knee = model.joint("LKneePitch").qposadr[0] - 7
@@ -43,7 +43,7 @@ def test_a_straight_knee_holds_against_the_weight(
 
 
 def test_a_game_that_differs_gives_no_signals_but_a_reason(
-    duel: DuelRun,
+    duel: Run,
 ) -> None:
     track = duel.evader
     assert track.qpos is not None
@@ -58,9 +58,7 @@ def test_a_game_that_differs_gives_no_signals_but_a_reason(
     assert "evader moved differently" in repeated.reason
 
 
-def test_joints_follow_their_targets(
-    walk: WalkRun, signals: RobotSignals
-) -> None:
+def test_joints_follow_their_targets(walk: Run, signals: RobotSignals) -> None:
     targets = signals.joint_targets
     assert targets is not None and walk.walker.qpos is not None
     names = signals.target_names

@@ -61,12 +61,13 @@ def test_robots_with_cameras_begin_as_those_with_ideal_sight() -> None:
     assert summary["sight"]["camera"] == "raycast"
     assert summary["sight"]["detection_rate"] > 0.97
     assert summary["sight"]["false_detections"] <= 2
-    for name in ("pursuer", "evader"):
-        error = summary[name]["sight"]["bearing_error_deg"]
+    for own in summary["players"].values():
+        error = own["sight"]["bearing_error_deg"]
         assert error["median"] < 1.5
         assert error["p95"] < 5.0
-        assert summary[name]["sight"]["lost_s"] < 1.0
-    assert summary["evader"]["sight"]["distance_error_m"]["median"] < 0.05
+        assert own["sight"]["lost_s"] < 1.0
+    error = summary["players"]["evader"]["sight"]["distance_error_m"]
+    assert error["median"] < 0.05
 
 
 def test_the_pursuer_finds_an_opponent_outside_its_view() -> None:

@@ -19,7 +19,7 @@ from stepaside.drivers.safety import SafetyState
 from stepaside.drivers.scheme_factory import scheme_factory
 from stepaside.games.duel_settings import DuelSettings, StartSettings
 from stepaside.games.recorded_game import run_duel
-from stepaside.games.run import DuelRun
+from stepaside.games.run import Run
 from stepaside.games.run_archive import load_run, results_of
 from stepaside.games.served_duel import lola_endpoint, serve_duel
 from stepaside.locomotion.control_settings import ControlSettings
@@ -107,7 +107,7 @@ def test_in_lock_step_the_duel_is_the_one_played_in_one_process(
     assert not any(a.exists() for a in addresses.values())
 
 
-def check_record(served: DuelRun, played: DuelRun, folder: Path) -> None:
+def check_record(served: Run, played: Run, folder: Path) -> None:
     """Check that the record is complete except for plans."""
     assert served.settings == played.settings
     np.testing.assert_array_equal(served.times, played.times)

@@ -1,6 +1,6 @@
 """Test summaries of walks on records with known values."""
 
-from dataclasses import asdict, is_dataclass
+from dataclasses import asdict
 from math import degrees, pi, sin
 from typing import Any
 
@@ -8,9 +8,8 @@ import numpy as np
 import pytest
 
 from stepaside.core.poses import Array
-from stepaside.games.support_foot_columns import express_in_support_foot
 from stepaside.games.trajectory import WIDTHS, Trajectory
-from stepaside.games.walk_evaluation import measured
+from stepaside.games.walk_evaluation import express_in_support_foot, measured
 from stepaside.games.walk_settings import WalkSettings
 
 SETTINGS = WalkSettings(seed=4)
@@ -35,11 +34,7 @@ def record(times: Array = TIMES) -> dict[str, Array]:
 
 
 def figures(arrays: dict[str, Array]) -> dict[str, Any]:
-    told = measured(arrays, CYCLE)
-    return {
-        name: asdict(value) if is_dataclass(value) else value  # type: ignore[arg-type]
-        for name, value in told.items()
-    }
+    return asdict(measured(arrays, CYCLE))
 
 
 PAIRS = [

@@ -37,7 +37,8 @@ def walked(
     )
     found = results_of(run_walk(settings))
     assert found["outcome"] == "completed"
-    return found
+    walking: dict[str, Any] = found["walking"]
+    return walking
 
 
 @pytest.mark.parametrize(

@@ -12,7 +12,7 @@ from stepaside.core.errors import ConfigurationError
 from stepaside.games.duel_settings import DuelSettings
 from stepaside.games.outcome import Outcome
 from stepaside.games.recorded_game import run_duel, run_walk
-from stepaside.games.run import WalkRun
+from stepaside.games.run import Run
 from stepaside.games.run_archive import load_run, write_run_files
 from stepaside.games.walk_settings import WalkSettings
 from stepaside.report.run_folder import write_run
@@ -24,7 +24,7 @@ PUSHES = (Push(0.5, 1.0, pi / 2), Push(0.4, 1.1, 0.0))
 
 
 @pytest.fixture(scope="module")
-def walked() -> WalkRun:
+def walked() -> Run:
     settings = WalkSettings(duration=1.5, bearing=0.3, pushes=PUSHES)
     run = run_walk(settings)
     assert run.outcome is Outcome.COMPLETED
@@ -32,18 +32,18 @@ def walked() -> WalkRun:
 
 
 @pytest.fixture(scope="module")
-def folder(walked: WalkRun, tmp_path_factory: pytest.TempPathFactory) -> Path:
+def folder(walked: Run, tmp_path_factory: pytest.TempPathFactory) -> Path:
     place = tmp_path_factory.mktemp("walks") / "walk"
     assert write_run(place, walked) == place / "walk.png"
     return place
 
 
-def test_a_walk_is_read_from_its_folder(folder: Path, walked: WalkRun) -> None:
+def test_a_walk_is_read_from_its_folder(folder: Path, walked: Run) -> None:
     loaded = load_run(folder, "walk")
     check_same(loaded, walked)
     assert loaded.players == ("walker",) and loaded.robots == ("walker",)
     assert loaded.pair is None and np.isnan(loaded.distance).all()
-    assert loaded.theory is None and loaded.safety is None
+    assert loaded.theory is None and not loaded.safety_areas
     assert loaded.settings.pushes == PUSHES
     stage = RunScene(loaded)
     stage.put(40)

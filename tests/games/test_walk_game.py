@@ -9,9 +9,9 @@ import pytest
 
 from stepaside.games.outcome import Outcome
 from stepaside.games.recorded_game import run_walk
-from stepaside.games.run import WalkRun
+from stepaside.games.run import Run
 from stepaside.games.run_archive import results_of
-from stepaside.games.support_foot_columns import express_in_support_foot
+from stepaside.games.walk_evaluation import express_in_support_foot
 from stepaside.games.walk_settings import WalkSettings
 from stepaside.locomotion.control_settings import OPEN_LOOP, STABILISED
 from stepaside.planning import GaitSettings
@@ -37,7 +37,7 @@ def check_rms(errors: dict[str, Any], **limits: float) -> None:
 
 def pushed(
     impulse: float, direction: float, phase: float, *, feedback: bool
-) -> WalkRun:
+) -> Run:
     """Return a straight walk with a push in its fourth cycle."""
     begins = GAIT.start_support + (READY if feedback else 0.0)
     time = begins + (3.0 + phase) * CYCLE
@@ -49,7 +49,7 @@ def pushed(
     return run_walk(settings)
 
 
-def check_recovery(result: WalkRun, heading: float) -> None:
+def check_recovery(result: Run, heading: float) -> None:
     """Check that a walk goes on as if nothing had happened.
 
     Args:
@@ -74,14 +74,15 @@ def test_an_ideal_body_walks_and_estimates_as_planned() -> None:
     result = run_walk(
         WalkSettings(duration=12.0, bearing=0.5, control=STABILISED)
     )
-    summary = results_of(result)
-    assert summary["outcome"] == "completed" and summary["adapted_steps"] == 0
+    found = results_of(result)
+    summary, planning = found["walking"], found["planning"]
+    assert found["outcome"] == "completed" and summary["adapted_steps"] == 0
     walked = 12.0 - READY - GAIT.start_support
-    assert summary["steps"] == 1 + walked // GAIT.step_duration
+    assert planning["steps"] == 1 + walked // GAIT.step_duration
     assert summary["speed_ratio"] == pytest.approx(1.0, abs=0.025)
     assert summary["yaw_ratio"] == pytest.approx(1.0, abs=0.015)
     assert summary["slip_per_step_m"] < 0.0004
-    assert summary["min_zmp_margin_m"] > 0.034
+    assert planning["min_zmp_margin_m"] > 0.034
     assert summary["tilt_max_deg"] < 0.6
     check_rms(summary["tracking"], com=0.0008, zmp=0.016)
     errors = summary["estimation"]
@@ -104,13 +105,14 @@ def test_a_hardware_like_body_walks_and_turns_as_planned(
             control=STABILISED,
         )
     )
-    summary = results_of(result)
-    assert summary["outcome"] == "completed" and summary["adapted_steps"] == 0
+    found = results_of(result)
+    summary, planning = found["walking"], found["planning"]
+    assert found["outcome"] == "completed" and summary["adapted_steps"] == 0
     assert summary["speed_ratio"] == pytest.approx(1.0, abs=0.03)
     assert summary["yaw_ratio"] == pytest.approx(1.0, abs=0.035)
     assert summary["yaw_rate_deg_s"] == pytest.approx(-5.0, abs=0.2)
     assert summary["slip_per_step_m"] < 0.001
-    assert summary["min_zmp_margin_m"] > 0.03
+    assert planning["min_zmp_margin_m"] > 0.03
     assert summary["tilt_max_deg"] < 1.5
     check_rms(summary["tracking"], com=0.008, zmp=0.03)
     errors = summary["estimation"]
@@ -125,7 +127,7 @@ def test_without_feedback_a_hardware_like_body_walks_short_and_slides() -> (
     """The baseline for the tests of feedback."""
     settings = WalkSettings(duration=20.0, body=BODIES["hardware"])
     told = [
-        results_of(run_walk(replace(settings, control=control)))
+        results_of(run_walk(replace(settings, control=control)))["walking"]
         for control in (OPEN_LOOP, STABILISED)
     ]
     alone, helped = told
@@ -138,7 +140,10 @@ def test_feedback_survives_sideways_pushes(phase: float, side: float) -> None:
     result = pushed(1.2, side * pi / 2, phase, feedback=True)
     check_recovery(result, heading=0.03)
     given = (0.0, side * 1.2)
-    assert result.summary.push_impulse_n_s == pytest.approx(given, abs=0.02)
+    assert result.summary.walking is not None
+    assert result.summary.walking.push_impulse_n_s == pytest.approx(
+        given, abs=0.02
+    )
 
 
 def test_the_same_pushes_make_the_open_loop_fall() -> None:
@@ -156,7 +161,8 @@ def test_feedback_adapts_footsteps_to_a_push_along_the_walk(
 ) -> None:
     result = pushed(2.2, direction, 0.0, feedback=True)
     check_recovery(result, heading=0.15)
-    assert least <= result.summary.adapted_steps <= 3
+    assert result.summary.walking is not None
+    assert least <= result.summary.walking.adapted_steps <= 3
 
 
 def test_a_walk_is_repeated_to_the_bit_only_with_its_seed() -> None:

@@ -7,7 +7,7 @@ import pytest
 
 from stepaside.games.outcome import Outcome
 from stepaside.games.recorded_game import RecordedGame, run_walk
-from stepaside.games.support_foot_columns import upright_samples
+from stepaside.games.walk_evaluation import upright_samples
 from stepaside.games.walk_settings import WalkSettings
 from stepaside.sim.push import Push
 from walkers import walker_of
@@ -47,11 +47,13 @@ def test_a_walk_lasts_its_duration(duration: float, ticks: int) -> None:
     even = upright_samples(result.times, result.outcome)
     np.testing.assert_allclose(result.times[even], due, atol=1e-12)
     # The footstep that is being made counts.
-    told = result.summary
-    assert told.steps == 1 and told.adapted_steps == 0
-    assert told.qp is None and told.push_impulse_n_s == (0.0, 0.0)
-    assert told.min_zmp_margin_m is not None
-    assert told.min_zmp_margin_m > 0.02
+    walking, planning = result.summary.walking, result.summary.planning
+    assert walking is not None and planning is not None
+    assert planning.steps == 1 and walking.adapted_steps == 0
+    assert walking.solver is None
+    assert walking.push_impulse_n_s == (0.0, 0.0)
+    assert planning.min_zmp_margin_m is not None
+    assert planning.min_zmp_margin_m > 0.02
 
 
 def test_steps_and_pushes_of_a_walk_are_counted() -> None:
@@ -61,8 +63,10 @@ def test_steps_and_pushes_of_a_walk_are_counted() -> None:
     gait = settings.gait
     # The first step begins after the start support.
     steps = (3.0 - gait.start_support) / gait.step_duration
-    assert abs(result.summary.steps - steps) <= 1.0
-    given = result.summary.push_impulse_n_s
+    walking, planning = result.summary.walking, result.summary.planning
+    assert walking is not None and planning is not None
+    assert abs(planning.steps - steps) <= 1.0
+    given = walking.push_impulse_n_s
     assert given == pytest.approx((0.1, 0.05), abs=0.01)
     rows = result.walker.pushes
     assert rows is not None

@@ -15,7 +15,7 @@ from stepaside.arena import Door, Room
 from stepaside.core.player_colours import from_hex
 from stepaside.core.poses import Array
 from stepaside.games.duel_settings import PLAYERS, DuelSettings
-from stepaside.games.run import DuelRun, Run
+from stepaside.games.run import Run
 from stepaside.games.trajectory import Trajectory
 from stepaside.report import film, film_layers
 from stepaside.report.film import hidden_walls, walls_before
@@ -234,7 +234,7 @@ def test_walls_between_the_camera_and_the_room_are_hidden_for_one_image(
     assert model.ngeom == 5  # two of them beside the door
 
 
-def still(plan: Room | None) -> DuelRun:
+def still(plan: Room | None) -> Run:
     """Return a run of two standing players near the center."""
     times = np.linspace(0.0, 2.0, 21)
     tracks = {}

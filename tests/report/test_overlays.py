@@ -7,7 +7,7 @@ import pytest
 
 from stepaside.games.duel_settings import DuelSettings, StartSettings
 from stepaside.games.recorded_game import run_duel
-from stepaside.games.run import DuelRun
+from stepaside.games.run import Run
 from stepaside.locomotion.control_settings import ControlSettings
 from stepaside.report.overlays import (
     LAYERS,
@@ -28,7 +28,7 @@ PUSHES = np.array([[2.0, 0.1, 0.5, -0.5, 0.3, 0.4]])
 
 
 @pytest.fixture(scope="module")
-def run() -> DuelRun:
+def run() -> Run:
     start = StartSettings(0.7, 0.0, 0.3)
     return run_duel(DuelSettings(seed=3, duration=3.0, start=start))
 
@@ -60,7 +60,7 @@ def test_an_arrow_is_shown_for_a_second_along_its_push() -> None:
 
 
 def test_a_path_grows_and_forgets_what_is_older_than_the_trail(
-    run: DuelRun,
+    run: Run,
 ) -> None:
     (path,) = (
         each
@@ -75,7 +75,7 @@ def test_a_path_grows_and_forgets_what_is_older_than_the_trail(
     assert len(path.shown(1e3, {})) == len(run.times) - 1
 
 
-def test_outlines_of_soles_lie_where_the_soles_landed(run: DuelRun) -> None:
+def test_outlines_of_soles_lie_where_the_soles_landed(run: Run) -> None:
     rows = footsteps_in(run, "pursuer")
     sole = run.settings.robot_of("pursuer").gait.sole
     outlines = soles(rows[:, 1:], sole).reshape(len(rows), 4, 2, 2)
@@ -92,7 +92,7 @@ def test_outlines_of_soles_lie_where_the_soles_landed(run: DuelRun) -> None:
 
 
 def test_colours_are_those_of_the_players_or_of_the_layer(
-    run: DuelRun,
+    run: Run,
 ) -> None:
     pursuer = replace(run.pursuer, pushes=PUSHES)
     tracks = {**run.tracks, "pursuer": pursuer}

@@ -252,7 +252,7 @@ def hostile_run(folder: Path, run: Path, text: str) -> Path:
     summary = json.loads(file.read_text(encoding="utf-8"))
     summary |= {"outcome": "fall", "message": text}
     summary |= {"run_folder": text, text: text}
-    summary["pursuer"] |= {text: [text]}
+    summary["players"]["pursuer"] |= {text: [text]}
     file.write_text(json.dumps(summary), encoding="utf-8")
     (there / "checksums.txt").unlink(missing_ok=True)
     if text.isprintable():

@@ -15,7 +15,7 @@ from stepaside.core.poses import Array
 from stepaside.games.duel_circle import whole_cycles
 from stepaside.games.duel_settings import DuelSettings, StartSettings
 from stepaside.games.recorded_game import run_duel
-from stepaside.games.run import DuelRun
+from stepaside.games.run import Run
 from stepaside.games.run_captions import describe_state
 from stepaside.games.trajectory import Trajectory
 from stepaside.report import replay_page
@@ -29,7 +29,7 @@ TIMES: Array = 0.02 * np.arange(102, dtype=float)  # 2.02 s
 
 
 @cache
-def made() -> DuelRun:
+def made() -> Run:
     """A short run whose robots then are moved by hand."""
     settings = DuelSettings(
         seed=3, duration=2.01, start=StartSettings(1.2, 0.4, -0.2)
@@ -57,7 +57,7 @@ def thinned(track: Trajectory, every: int) -> Trajectory:
     )
 
 
-def content(run: DuelRun, folder: Path) -> Any:
+def content(run: Run, folder: Path) -> Any:
     """Data of the page's script."""
     file = folder / "run.html"
     write_page(run, file)

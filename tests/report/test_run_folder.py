@@ -12,18 +12,16 @@ import pytest
 
 from stepaside.core.errors import ConfigurationError, OutputError
 from stepaside.core.poses import Array
-from stepaside.games.duel_circle import circle_of_theory
 from stepaside.games.duel_settings import DuelSettings, StartSettings
 from stepaside.games.recorded_game import run_duel
-from stepaside.games.run import DuelRun, Run
+from stepaside.games.run import Run
 from stepaside.games.run_archive import FORMAT, load_run, results_of
 from stepaside.games.trajectory import Trajectory
 from stepaside.report import run_figure, sight_figure
 from stepaside.report.run_folder import check_output, free_folder, write_run
 from stepaside.report.scene import RunScene
 from stepaside.sim.body_settings import BODIES
-from stepaside.strategies import Evasion
-from synthetic_run import check_same, run_of
+from synthetic_run import CIRCLE, check_same, run_of
 
 SETTINGS = DuelSettings(
     seed=3, duration=0.4, start=StartSettings(1.3, 0.4, -0.2)
@@ -31,7 +29,7 @@ SETTINGS = DuelSettings(
 
 
 @pytest.fixture(scope="module")
-def result() -> DuelRun:
+def result() -> Run:
     return run_duel(SETTINGS)
 
 
@@ -44,7 +42,7 @@ def quick(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(run_figure, "draw_run", draw_nothing)
 
 
-def test_a_run_comes_back_as_it_was(tmp_path: Path, result: DuelRun) -> None:
+def test_a_run_comes_back_as_it_was(tmp_path: Path, result: Run) -> None:
     folder = tmp_path / "runs" / "first"
     figure = write_run(folder, result)
     assert figure == folder / "duel.png" and figure.is_file()
@@ -70,13 +68,12 @@ def test_a_duration_of_many_cycles_comes_back_to_the_last_digit(
     check_same(load_run(tmp_path / "run"), run)
 
 
-def test_an_empty_folder_is_taken(tmp_path: Path, result: DuelRun) -> None:
+def test_an_empty_folder_is_taken(tmp_path: Path, result: Run) -> None:
     folder = tmp_path / "empty"
     folder.mkdir()
     write_run(folder, result)
     text = (folder / "summary.json").read_text(encoding="utf-8")
-    players = ["pursuer", "evader"]
-    told = {"format": FORMAT, "game": "duel", "players": players}
+    told = {"format": FORMAT, "game": "duel"}
     told |= results_of(result)
     assert text == json.dumps(told, indent=2) + "\n"
 
@@ -85,7 +82,7 @@ def test_an_empty_folder_is_taken(tmp_path: Path, result: DuelRun) -> None:
 def test_an_error_leaves_nothing_behind(
     tmp_path: Path,
     monkeypatch: pytest.MonkeyPatch,
-    result: DuelRun,
+    result: Run,
     error: BaseException,
 ) -> None:
     def fail(*arguments: Any) -> None:
@@ -99,7 +96,7 @@ def test_an_error_leaves_nothing_behind(
 
 
 def test_a_full_disk_is_told_in_one_line(
-    tmp_path: Path, result: DuelRun, monkeypatch: pytest.MonkeyPatch
+    tmp_path: Path, result: Run, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     def full(*_: Any) -> None:
         raise OSError(28, "No space left on device")
@@ -112,7 +109,7 @@ def test_a_full_disk_is_told_in_one_line(
 
 
 def test_what_the_cameras_saw_is_there(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, result: DuelRun
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, result: Run
 ) -> None:
     monkeypatch.setattr(sight_figure, "draw_sight", draw_nothing)
     seen = replace(result, stills={"pursuer": {}})
@@ -193,7 +190,7 @@ def test_checksums_are_those_of_everybody_else(
     "name", ["configuration.toml", "summary.json", "trajectories.npz"]
 )
 def test_a_folder_that_lacks_a_file_is_no_run(
-    tmp_path: Path, result: DuelRun, name: str
+    tmp_path: Path, result: Run, name: str
 ) -> None:
     folder = tmp_path / "run"
     write_run(folder, result)
@@ -204,7 +201,7 @@ def test_a_folder_that_lacks_a_file_is_no_run(
 
 @pytest.mark.parametrize("name", ["summary.json", "trajectories.npz"])
 def test_a_broken_file_is_refused(
-    tmp_path: Path, result: DuelRun, name: str
+    tmp_path: Path, result: Run, name: str
 ) -> None:
     folder = tmp_path / "run"
     write_run(folder, result)
@@ -217,7 +214,7 @@ def test_a_broken_file_is_refused(
 TIMES = np.linspace(0.0, 40.0, 401)
 
 
-def synthetic_duel(**told: Any) -> DuelRun:
+def synthetic_duel(**told: Any) -> Run:
     """Robots that wander, and then go round (3, -2) by halves."""
     angle = 0.5 * TIMES
     away = np.where(TIMES < 20.0, 5.0, 0.0)[:, None]
@@ -239,32 +236,23 @@ def test_a_run_tells_its_distance_and_angle_in_degrees() -> None:
     np.testing.assert_allclose(run.orientation, degrees(1.2))
 
 
-def test_theory_is_radius_distance_and_degrees() -> None:
-    circle = circle_of_theory(DuelSettings())
-    assert synthetic_duel().theory == pytest.approx(
-        (circle.radius_evader_m, circle.distance_m, 90.0)
-    )
-    back = DuelSettings(strategy=Evasion(angle=0.0))
-    assert replace(synthetic_duel(), settings=back).theory is None
-
-
 def test_the_circle_lies_round_the_way_after_they_converged() -> None:
     """A whole turn takes 12.6 s; what was before has another middle."""
-    run = synthetic_duel(converged_at_s=40.0 - 4.0 * np.pi)
+    run = synthetic_duel(theory=CIRCLE, converged_at_s=40.0 - 4.0 * np.pi)
     assert run.circle is not None and run.theory is not None
     assert run.circle[:2] == pytest.approx((3.0, -2.0), abs=0.02)
     assert run.circle[2] == run.theory[0]
-    late = synthetic_duel(converged_at_s=20.0).circle
+    late = synthetic_duel(theory=CIRCLE, converged_at_s=20.0).circle
     assert late is not None and late[0] == pytest.approx(3.0, abs=0.05)
-    early = synthetic_duel(converged_at_s=0.0).circle
+    early = synthetic_duel(theory=CIRCLE, converged_at_s=0.0).circle
     assert early is not None and early[0] == pytest.approx(5.5, abs=0.05)
     assert early[1] == pytest.approx(0.5, abs=0.05)
-    assert synthetic_duel(converged_at_s=None).circle is None
+    assert synthetic_duel(theory=CIRCLE).circle is None
     assert synthetic_duel().circle is None
 
 
 def test_the_stage_puts_the_bodies_where_they_were(
-    result: DuelRun,
+    result: Run,
 ) -> None:
     """At every sample: torsos, CoMs and the cameras of the bodies."""
     tracks = {}

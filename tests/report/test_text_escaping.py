@@ -16,7 +16,7 @@ from hypothesis import strategies as st
 import stepaside
 from injection_strings import HOSTILE
 from stepaside.cli.main import main
-from stepaside.games.run import DuelRun
+from stepaside.games.run import Run
 from stepaside.games.run_archive import write_run_files
 from stepaside.games.trajectory import Trajectory
 from stepaside.report.text_escaping import (
@@ -34,7 +34,7 @@ TEXTS = st.text() | st.sampled_from(HOSTILE)
 UNPAIRED = st.text(st.characters()) | st.sampled_from(HOSTILE)
 
 
-def small_run(message: str) -> DuelRun:
+def small_run(message: str) -> Run:
     """A run of two players who slide."""
     times = np.arange(0.0, 3.0, 0.5)
     rows = np.column_stack([times, 0.0 * times, 0.0 * times])

@@ -21,7 +21,7 @@ GAMES: dict[str, tuple[str, str, list[float]]] = {
         [0.718431413, 0.752657342, 0.751848599],
     ),
     "walk": (
-        "tilt_max_deg",
+        "walking.tilt_max_deg",
         "duration = 4.0",
         [0.140686227, 0.145794602, 0.145991668],
     ),

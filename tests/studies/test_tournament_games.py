@@ -9,7 +9,7 @@ import pytest
 
 from stepaside.arena import RoomRecipe
 from stepaside.games.outcome import Outcome
-from stepaside.games.run import GameRun
+from stepaside.games.run import Run
 from stepaside.strategies import StepGame
 from stepaside.strategies import table_cache as tables
 from stepaside.studies import tournament as studied
@@ -97,9 +97,7 @@ def test_a_duel_that_is_stopped_is_no_game(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
     """Games in this process, without workers, are interrupted."""
-    ended: GameRun[Any, Any] = GameRun(
-        "", None, Outcome.INTERRUPTED, "", 0.0, np.zeros(0), {}, None
-    )
+    ended: Run = Run("", None, Outcome.INTERRUPTED, "", 0.0, np.zeros(0), {})
     played: list[int] = []
 
     def cut_short(settings: Any) -> Any:

@@ -50,18 +50,19 @@ def play(seen: Seen) -> Row:
             cameras=CameraSettings(drop_frames=0.3, added_latency=0.1),
             room=SceneSettings(things=list(CLUTTER)),
         )
-    found = results_of(run_duel(settings))
+    run = run_duel(settings)
+    found = results_of(run)
     row = {key: found[key] for key in PLAIN} | {
         key: found["sight"][key] for key in RATES
     }
     for name in ("pursuer", "evader"):
-        row[f"{name}_misled_s"] = found[name]["sight"]["misled_s"]
+        row[f"{name}_misled_s"] = found["players"][name]["sight"]["misled_s"]
         for which in ("median", "p95"):
-            error = found[name]["sight"]["bearing_error_deg"][which]
+            error = found["players"][name]["sight"]["bearing_error_deg"][which]
             row[f"{name}_bearing_error_{which}_deg"] = error
-    away = found["evader"]["sight"]["distance_error_m"]["median"]
+    away = found["players"]["evader"]["sight"]["distance_error_m"]["median"]
     row["evader_distance_error_median_m"] = away
-    begun = found["start"]["distance_m"]
+    begun = run.settings.start.distance
     at = found["triggered_at_distance_m"]
     row["triggered_at_distance_m"] = at if begun > BEYOND else None
     return {

@@ -58,10 +58,10 @@ def duel_row(settings: DuelSettings) -> dict[str, Any]:
         "duration_s": summary["duration_s"],
         "distance_ratio": ratio(summary["distance_m"], circle.distance_m),
         "pursuer_ratio": ratio(
-            summary["pursuer"]["radius_m"], circle.radius_pursuer_m
+            summary["players"]["pursuer"]["radius_m"], circle.radius_pursuer_m
         ),
         "evader_ratio": ratio(
-            summary["evader"]["radius_m"], circle.radius_evader_m
+            summary["players"]["evader"]["radius_m"], circle.radius_evader_m
         ),
         "angle_deg": None if not isfinite(angle or 0.0) else angle,
         "converged_at_s": summary["converged_at_s"],

@@ -25,8 +25,8 @@ from benchmark_options import ask
 from resumable_jobs import finished, gather
 
 from stepaside.core.random_streams import named_generator
-from stepaside.games.duel_evaluation import template_closest_approach
 from stepaside.games.duel_settings import SENSING, DuelSettings
+from stepaside.games.forecast import forecast
 from stepaside.games.recorded_game import run_duel
 from stepaside.games.robot_settings import with_legs, with_robot
 from stepaside.locomotion.control_settings import LegsSettings
@@ -115,7 +115,7 @@ class Chase:
             if i >= CANDIDATES:
                 drawn = best + SPREAD * generator.standard_normal(3)
                 drawn = np.clip(drawn, 0.0, 1.0)
-            closest = template_closest_approach(self._feinting(drawn))
+            closest = forecast(self._feinting(drawn)).min_distance_m
             if closest is not None and closest < least:
                 best, least = drawn, closest
         return self._feinting(best)
@@ -156,7 +156,7 @@ def play(chase: Chase) -> dict[str, Any]:
         "duration_s": run.duration,
         "triggered_at_s": run.summary.triggered_at_s,
         "closest_m": run.summary.min_distance_m,
-        "template_closest_m": run.summary.theory.closest_approach_m,
+        "template_closest_m": forecast(run.settings).min_distance_m,
     }
 
 

@@ -15,6 +15,7 @@ from stepaside.studies.result_files import header, write_result
 def walk(settings: WalkSettings) -> Row:
     """Return the values of one walk."""
     found: Row = results_of(run_walk(settings))
+    found |= found["planning"] | found["walking"]
     return found
 
 

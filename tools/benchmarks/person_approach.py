@@ -58,7 +58,7 @@ def play(walk: Walk) -> Row:
         "message": found["message"],
         "triggered_at_distance_m": found["triggered_at_distance_m"],
         "min_distance_m": found["min_distance_m"],
-        "theory_closest_m": found["theory"]["closest_approach_m"],
+        "theory_closest_m": found["theory"]["min_distance_m"],
     }
 
 

@@ -237,7 +237,7 @@ def measure(humanoid: Humanoid, model: Path) -> dict[str, Any]:
         "summary": {
             key: value
             for key, value in told.items()
-            if key not in ("plan_time_us", "real_time_factor", "touched")
+            if key not in ("planning", "real_time_factor", "touched")
         },
         "wall_s": monotonic() - begun,
         "load": os.getloadavg()[0],

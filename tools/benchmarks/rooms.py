@@ -58,8 +58,8 @@ def play(played: Played) -> Row:
         "touched": summary.get("touched", []),
         "survived_s": run.duration,
         "closest_m": summary["min_distance_m"],
-        "plan_time_median_us": summary["plan_time_us"]["median"],
-        "plan_time_p99_us": summary["plan_time_us"]["p99"],
+        "plan_time_median_us": summary["planning"]["median_us"],
+        "plan_time_p99_us": summary["planning"]["p99_us"],
         **{f"{name}_clearance_m": clearance(run, name) for name in PLAYERS},
     }
 

@@ -51,10 +51,11 @@ PACE = ("speed_ratio", "yaw_ratio", "slip_per_step_m")
 def walk(settings: WalkSettings) -> Row:
     """Return the values of one walk."""
     summary = results_of(run_walk(settings))
-    errors = summary["estimation"]
+    walking = summary["walking"]
+    errors = walking["estimation"]
     return {
         "outcome": summary["outcome"],
-        **{key: summary[key] for key in PACE},
+        **{key: walking[key] for key in PACE},
         "estimation": {key: errors[key]["rms"] for key in errors},
     }
 

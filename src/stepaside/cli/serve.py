@@ -12,9 +12,9 @@ import click
 from ..games.duel_settings import PLAYERS, DuelSettings
 from .connection_settings import join_domain, with_feedback
 from .options import folder_option, json_option
-from .run_output import finish_run, run_folder
+from .run_output import finish_run, print_run, run_folder
 from .settings import takes_settings
-from .tables import format_value, print_table, table_rows
+from .tables import print_table
 
 if TYPE_CHECKING:
     from ..games.served_duel import RobotEndpoint
@@ -125,17 +125,15 @@ def serve(
             lock_step=lockstep,
             patience=wait,
         )
-    plain = served.to_json()
     late = ", ".join(f"{k} ms: {n}" for k, n in served.lateness_ms.items())
-    rows = [
-        ("outcome", f"{plain['outcome']}: {plain['message']}"),
-        ("pursuer radius", _radius(plain["pursuer"])),
-        ("evader radius", _radius(plain["evader"])),
-        *table_rows(plain, ("distance_m",), 3),
-        ("late ticks", str(served.late_ticks)),
-        ("lateness", late),
-    ]
-    finish_run(served.run, folder, as_json, lambda: print_table(rows), plain)
+
+    def show() -> None:
+        print_run(served.run)
+        print_table(
+            [("late ticks", str(served.late_ticks)), ("lateness", late)]
+        )
+
+    finish_run(served.run, folder, as_json, show, served.to_json())
 
 
 def _players(
@@ -153,11 +151,6 @@ def _players(
             )
         found[name] = place
     return list(found.items())
-
-
-def _radius(player: dict[str, Any]) -> str:
-    """Return the radius of a player's path, with unit."""
-    return format_value("radius_m", player["radius_m"], 3)
 
 
 def _with_cycle(settings: DuelSettings) -> DuelSettings:

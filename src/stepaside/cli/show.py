@@ -15,13 +15,9 @@ from ..report.film_settings import FilmSettings
 from ..report.result_labels import label_of
 from ..report.text_escaping import visible
 from .options import browser_option, json_option
+from .run_output import print_run
 from .settings import GIVEN, refuse_settings, takes_settings
-from .tables import (
-    format_value,
-    print_columns,
-    print_table,
-    result_rows,
-)
+from .tables import format_value, print_columns
 from .terminal import NOTHING_SAVED, echo, exit_interrupted, print_json
 
 if TYPE_CHECKING:
@@ -39,20 +35,12 @@ GIF: dict[str, Any] = {
     "duration": 12.0,
 }
 NAMED = ("width", "height", "rate", "speed", "duration", "camera")
-COLUMNS = {
-    "duel": (
-        *("distance_m", "relative_orientation_deg"),
-        *("min_distance_m", "converged_at_s"),
-    ),
-    "experiment": (
-        *("distance_m", "relative_orientation_deg"),
-        *("min_distance_m", "rate_hz"),
-    ),
-    "game": ("players", "closest_m", "captured_at_s", "mean_path_m"),
-    "play": ("distance_m", "radius_m", "closest_m", "walking_s"),
-    "walk": ("speed_m_s", "speed_ratio", "yaw_ratio", "tilt_max_deg"),
-}
-"""Entries of the summary that a comparison shows, by game."""
+COLUMNS = (
+    *("distance_m", "relative_orientation_deg", "min_distance_m"),
+    *("captured_at_s", "converged_at_s"),
+)
+OF_WALKS = ("speed_m_s", "speed_ratio", "yaw_ratio", "tilt_max_deg")
+"""Values that a comparison shows."""
 
 
 @click.command("show")
@@ -300,9 +288,10 @@ def _print(
 ) -> None:
     """Print values of a bag or of several runs, and what was written."""
     if bag:
-        print_table(result_rows(bag))
+        print_run(runs[0])
     elif len(runs) > 1:
-        columns = COLUMNS[runs[0].game]
+        walks = runs[0].game == "walk"
+        columns = OF_WALKS if walks else COLUMNS
         print_columns(
             ("run", "outcome", *map(label_of, columns)),
             [
@@ -310,11 +299,12 @@ def _print(
                     visible(run.name),
                     run.outcome.value,
                     *(
-                        format_value(name, getattr(run.summary, name), 4)
+                        format_value(name, getattr(summary, name), 4)
                         for name in columns
                     ),
                 )
                 for run in runs
+                for summary in [run.summary.walking if walks else run.summary]
             ],
             left=(0, 1),
         )

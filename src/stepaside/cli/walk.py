@@ -8,16 +8,8 @@ from ..games.walk_settings import WalkSettings
 from .options import folder_option, json_option
 from .run_output import finish_run, play_with_bar, run_folder
 from .settings import takes_settings
-from .tables import print_table, table_rows
 
 NAMED = ("seed", "duration", "robot", "gait", "body", "bearing", "pushes")
-
-
-SHOWN = (
-    *("outcome", "message", "duration_s", "steps", "adapted_steps"),
-    *("speed_m_s", "speed_ratio", "yaw_ratio", "slip_per_step_m"),
-    *("tilt_max_deg", "min_zmp_margin_m", "real_time_factor"),
-)
 
 
 @click.command("walk")
@@ -31,13 +23,7 @@ def walk(settings: WalkSettings, output: Path | None, as_json: bool) -> None:
     after the first three seconds, in the frame of the support foot.
     """
     from ..games.recorded_game import run_walk
-    from ..games.run_archive import results_of
 
     folder = run_folder(output, as_json, None)
     run = play_with_bar(settings, run_walk)
-    finish_run(
-        run,
-        folder,
-        as_json,
-        lambda: print_table(table_rows(results_of(run), SHOWN, 4)),
-    )
+    finish_run(run, folder, as_json)

@@ -216,20 +216,20 @@ def walk_trial(trial: WalkTrial) -> WalkTrialResult:
         return WalkTrialResult(path.name, feedback, str(error))
     play(game)
     run = game.run()
-    summary, tracking = run.summary, run.summary.tracking
-    errors = [
-        axis.rms for axis in (tracking.com_x_m, tracking.com_y_m) if axis
-    ]
+    walking = run.summary.walking
+    assert walking is not None
+    tracked = (walking.tracking[f"com_{axis}_m"] for axis in "xy")
+    errors = [axis.rms for axis in tracked if axis]
     return WalkTrialResult(
         path.name,
         feedback,
         run.message,
         run.outcome is Outcome.COMPLETED,
         run.duration / duration,
-        summary.tilt_max_deg,
+        walking.tilt_max_deg,
         max(errors) / gait.com_height if len(errors) == 2 else None,
-        summary.speed_ratio,
-        summary.yaw_ratio if path.bearing else None,
+        walking.speed_ratio,
+        walking.yaw_ratio if path.bearing else None,
         gauge.strain(),
         degrees(trial.description.lean),
     )

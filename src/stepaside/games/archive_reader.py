@@ -6,15 +6,12 @@ from io import BytesIO
 from math import isfinite
 from pathlib import Path
 from stat import S_ISREG
-from typing import Any, TypeVar
+from typing import Any
 
 import numpy as np
 
-from ..core.entries import read_entries
 from ..core.errors import ConfigurationError
 from ..core.poses import Array
-
-T = TypeVar("T")
 
 MAX_TEXT_BYTES = 2**20  # of a configuration or a summary
 MAX_ARRAY_BYTES = 2**30  # of all arrays together; a game of a day has less
@@ -59,18 +56,6 @@ def read_json(file: Path) -> Any:
         raise ValueError("JSON is nested too deep") from error
 
 
-def parse_object(kind: type[T], plain: Any, source: str) -> T:
-    """Parse a JSON object into a dataclass; further entries are ignored.
-
-    Raises:
-        ConfigurationError: If an entry is missing or of the wrong type;
-            names the entry and the source.
-    """
-    return read_entries(
-        kind, check_object(plain, source), source, ignoring=True
-    )
-
-
 def check_object(plain: Any, source: str) -> dict[str, Any]:
     """Return a JSON object unchanged; reject any other value.
 
@@ -84,11 +69,11 @@ def check_object(plain: Any, source: str) -> dict[str, Any]:
     return plain
 
 
-def read_arrays(file: Path, known: frozenset[str]) -> dict[str, Array]:
+def read_arrays(file: Path) -> dict[str, Array]:
     """Read the arrays of an ``npz`` file by name; all hold real numbers.
 
     Raises:
-        ValueError: If an array is malformed, unknown or too large.
+        ValueError: If an array is malformed, or all are too large.
         OSError: If the file cannot be read; zipfile raises other exceptions
             in addition.
     """
@@ -102,11 +87,6 @@ def read_arrays(file: Path, known: frozenset[str]) -> dict[str, Array]:
             raise ValueError(
                 f"arrays of {file.name} must have at most {MAX_ARRAY_BYTES} "
                 f"bytes, got {size}"
-            )
-        unknown = set(archive.files) - known
-        if unknown:
-            raise ValueError(
-                f"{file.name} holds an unknown array {min(unknown)!r:.40}"
             )
         arrays = {name: np.asarray(archive[name]) for name in archive.files}
     for name, array in arrays.items():

@@ -2,6 +2,7 @@
 
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
+from itertools import chain
 from math import atan2
 from pathlib import Path
 from typing import Any
@@ -79,50 +80,77 @@ def _read(
 ) -> dict[str, PoseSeries]:
     kinds = {c.topic: c.msgtype for c in reader.connections}
     for player, source in sources.items():
-        if source.startswith("/") and source not in kinds:
-            raise ConfigurationError(
-                f"{player}={source} must be a topic of {name}: "
-                f"{_listed(kinds)}"
-            )
         kind = kinds.get(source)
         if source.startswith("/") and kind not in POSE_FIELDS:
             raise ConfigurationError(
                 f"{player}={source} must be a topic of "
-                f"{', '.join(POSE_FIELDS)}, got {kind}"
+                f"{', '.join(POSE_FIELDS)}, got {kind} in {name}: "
+                f"{_listed(kinds)}"
             )
     frames = {p: s for p, s in sources.items() if not s.startswith("/")}
-    tree = TransformTree(frames)
+    above: dict[str, tuple[str, Array]] = {}  # parent and pose in it
     rows: dict[str, list[tuple[float, ...]]] = {p: [] for p in sources}
     worlds: dict[str, set[str]] = {p: set() for p in sources}
-    if frames:  # static transforms hold from the beginning
-        for _, _, _, message in _messages(reader, {STATIC}):
-            tree.place(message)
-    for topic, kind, time, message in _messages(
-        reader, {*sources.values(), *((MOVING,) if frames else ())}
+    # Static transforms hold from the beginning.
+    static = {STATIC} if frames else set()
+    moving = {*sources.values(), *((MOVING,) if frames else ())}
+    for topic, kind, time, message in chain(
+        _messages(reader, static), _messages(reader, moving)
     ):
-        if topic == MOVING:
-            for player, world, row in tree.update(message, time):
-                worlds[player].add(world)
-                rows[player].append(row)
+        if topic in (STATIC, MOVING):
+            changed = _place(message, above)
+            for player, frame in frames.items():
+                links, root, pose = _pose_of(frame, above)
+                stamps = [changed[link] for link in links if link in changed]
+                if stamps and topic == MOVING:
+                    worlds[player].add(root)
+                    rows[player].append(_row(max(stamps), time, pose))
             continue
         for player, source in sources.items():
             if source == topic:
-                pose = message
+                own = message
                 for field in POSE_FIELDS[kind]:
-                    pose = getattr(pose, field)
+                    own = getattr(own, field)
                 worlds[player].add(message.header.frame_id)
-                matrix = _matrix(pose.position, pose.orientation)
-                rows[player].append(_row(_stamp(message), time, matrix))
+                pose = _matrix(own.position, own.orientation)
+                rows[player].append(_row(_stamp(message), time, pose))
+    known = dict.fromkeys(n for c, (p, _) in above.items() for n in (p, c))
     for player, source in sources.items():
         if not rows[player]:
             raise ConfigurationError(
                 f"{player}={source} must be a frame of {name}: "
-                f"{_listed(tree.frames)}"
+                f"{_listed(known)}"
             )
     return {
         player: _series(player, worlds[player], found)
         for player, found in rows.items()
     }
+
+
+def _place(
+    message: Any, above: dict[str, tuple[str, Array]]
+) -> dict[str, float]:
+    """Take transforms; return each child with its time, in [s]."""
+    placed = {}
+    for each in message.transforms:
+        child = each.child_frame_id.removeprefix("/")
+        step = _matrix(each.transform.translation, each.transform.rotation)
+        above[child] = each.header.frame_id.removeprefix("/"), step
+        placed[child] = _stamp(each)
+    return placed
+
+
+def _pose_of(
+    frame: str, above: Mapping[str, tuple[str, Array]]
+) -> tuple[list[str], str, Array]:
+    """Return the frames up to the root, the root, and the pose in it."""
+    links: list[str] = []
+    pose: Array = np.eye(4)
+    while frame in above and frame not in links:
+        links.append(frame)
+        frame, step = above[frame]
+        pose = step @ pose
+    return links, frame, pose
 
 
 def _messages(
@@ -135,60 +163,6 @@ def _messages(
     for connection, stamp, raw in reader.messages(chosen):
         message = reader.deserialize(raw, connection.msgtype)
         yield connection.topic, connection.msgtype, 1e-9 * stamp, message
-
-
-class TransformTree:
-    """Latest transforms of a bag, and the poses that follow from them.
-
-    Attributes:
-        frames: Names of all frames so far.
-    """
-
-    def __init__(self, wanted: Mapping[str, str]) -> None:
-        """Begin without transforms."""
-        self._wanted = {p: f.removeprefix("/") for p, f in wanted.items()}
-        self._above: dict[str, tuple[str, Array]] = {}
-        self.frames: dict[str, None] = {}
-
-    def place(self, message: Any) -> list[tuple[str, float]]:
-        """Take transforms; return each child with its time, in [s]."""
-        placed = []
-        for each in message.transforms:
-            parent = each.header.frame_id.removeprefix("/")
-            child = each.child_frame_id.removeprefix("/")
-            self._above[child] = (
-                parent,
-                _matrix(each.transform.translation, each.transform.rotation),
-            )
-            self.frames |= {parent: None, child: None}
-            placed.append((child, _stamp(each)))
-        return placed
-
-    def update(
-        self, message: Any, time: float
-    ) -> Iterator[tuple[str, str, tuple[float, ...]]]:
-        """Take transforms; yield player, root frame and row of new poses.
-
-        Args:
-            message: Transforms.
-            time: Time of recording, in [s].
-        """
-        changed = dict(self.place(message))
-        for player, frame in self._wanted.items():
-            chain, root, pose = self._pose_of(frame)
-            moved = [changed[link] for link in chain if link in changed]
-            if moved:
-                yield player, root, _row(max(moved), time, pose)
-
-    def _pose_of(self, frame: str) -> tuple[list[str], str, Array]:
-        """Return the frames up to the root, the root, and the pose in it."""
-        chain: list[str] = []
-        pose: Array = np.eye(4)
-        while frame in self._above and frame not in chain:
-            chain.append(frame)
-            frame, step = self._above[frame]
-            pose = step @ pose
-        return chain, frame, pose
 
 
 def _stamp(message: Any) -> float:

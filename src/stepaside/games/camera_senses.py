@@ -32,7 +32,7 @@ from ..sim.world import World
 from .game import GameInPlay, GameObserver
 from .game_settings import GameSettings, PlayerSettings
 from .sight_evaluation import EvaluatedImage, SightEvaluator
-from .sight_summary import PerceptionSummary, SightReport
+from .summary import PerceptionSummary, SightSummary
 
 STILLS = 5  # images that a run stores per camera
 
@@ -221,7 +221,7 @@ class SightObserver(GameObserver):
             for name, evaluator in self.evaluators.items()
         }
 
-    def report(self) -> SightReport:
+    def report(self) -> tuple[PerceptionSummary, dict[str, SightSummary]]:
         """Return errors and detection rates of all robots and of each."""
         tallies = [
             tally
@@ -237,4 +237,4 @@ class SightObserver(GameObserver):
             false_detections=sum(t.false for t in tallies),
             lost_s=sum(own.lost_s for own in by_robot.values()),
         )
-        return SightReport(together, by_robot)
+        return together, by_robot

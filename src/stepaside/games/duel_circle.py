@@ -103,32 +103,14 @@ def last_third(times: Array) -> NDArray[np.bool_]:
 
 
 def distance_between(first: Array, second: Array) -> Array:
-    """Compute the distance between two players over time.
-
-    Args:
-        first: Poses (x, y, heading) of one player in the world, in [m] and
-            [rad]. Shape (n, 3).
-        second: Poses of the other player. Shape (n, 3).
-
-    Returns:
-        Distance, in [m]. Shape (n,).
-    """
+    """Return the distances, in [m], between poses. Shapes (n, 3), (n,)."""
     offset = second - first
     distance: Array = np.hypot(offset[:, 0], offset[:, 1])
     return distance
 
 
 def angle_between(first: Array, second: Array) -> Array:
-    """Compute the angle between two headings over time.
-
-    Args:
-        first: Poses (x, y, heading) of one player in the world, in [m] and
-            [rad]. Shape (n, 3).
-        second: Poses of the other player. Shape (n, 3).
-
-    Returns:
-        Angle in [0, pi], in [rad]. Shape (n,).
-    """
+    """Return the angles between headings of poses (n, 3), in [0, pi]."""
     difference = second[:, 2] - first[:, 2]
     angle: Array = np.abs(wrap_angles(difference))
     return angle
@@ -137,13 +119,7 @@ def angle_between(first: Array, second: Array) -> Array:
 def cycle_mean(values: Array, times: Array, period: float) -> Array:
     """Average over a sliding gait cycle, which removes the sway.
 
-    Args:
-        values: Samples. Shape (n,).
-        times: Evenly spaced times of the samples, in [s]. Shape (n,).
-        period: Duration of a gait cycle (two steps), in [s].
-
-    Returns:
-        Averages, in the unit of the values. Shape (n,).
+    The times are evenly spaced; the period is that of two steps, in [s].
     """
     if len(times) < 3:
         return values
@@ -179,14 +155,6 @@ def convergence_time(
     distance is within 5 % and the angle between their headings within 5
     degrees of the values on the circle, from then to the end, and for at
     least the last 5 s.
-
-    Args:
-        times: Times of the samples, in [s]. Shape (n,).
-        pursuer: Poses (x, y, heading) in the world, in [m] and [rad]. Shape
-            (n, 3).
-        evader: Poses of the evader, likewise. Shape (n, 3).
-        settings: Settings of the duel.
-        theory: Circle of its unicycles.
 
     Returns:
         Time, in [s]; None if the robots do not converge to the circle.

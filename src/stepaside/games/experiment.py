@@ -1,22 +1,18 @@
 """Experiments: a ROS 2 bag of players, recorded elsewhere, as a run."""
 
-from collections.abc import Mapping
-from math import degrees, isfinite
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 
-from ..core.constants import CAPTURE_DISTANCE
 from ..core.errors import ConfigurationError
 from ..core.poses import Array
-from ..theory.unicycle.circle_fit import fit_circle
 from .bag_poses import PoseSeries, read_poses
-from .duel_circle import angle_between, distance_between, last_third
+from .evaluation import measure
 from .experiment_settings import ExperimentSettings
-from .experiment_summary import ExperimentPlayer, ExperimentSummary
 from .outcome import Outcome
 from .player_names import MOST_PLAYERS, PLAYER_NAME
-from .run import ExperimentRun
+from .run import Run
 from .trajectory import Trajectory, check_record
 
 NOTED_GAP = 0.5  # without a pose, from which on a note says so, in [s]
@@ -48,7 +44,7 @@ def parse_sources(words: tuple[str, ...]) -> dict[str, str]:
     return sources
 
 
-def import_experiment(bag: Path, words: tuple[str, ...]) -> ExperimentRun:
+def import_experiment(bag: Path, words: tuple[str, ...]) -> Run:
     """Read a bag as a run.
 
     Samples are at the times of the first player's poses, as far as all
@@ -87,11 +83,7 @@ def import_experiment(bag: Path, words: tuple[str, ...]) -> ExperimentRun:
     tracks = {p: _sampled(one, times) for p, one in series.items()}
     elapsed = times - times[0]
     check_record(elapsed, tracks, bag.name)
-    gaps = {
-        player: _longest_gap(one.times, begin, end)
-        for player, one in series.items()
-    }
-    return ExperimentRun(
+    run = Run(
         name=bag.stem or bag.name,
         settings=ExperimentSettings(
             source=bag.name, frames=words, world=first.world
@@ -101,8 +93,16 @@ def import_experiment(bag: Path, words: tuple[str, ...]) -> ExperimentRun:
         duration=round(float(elapsed[-1]), 9),
         times=elapsed,
         tracks=tracks,
-        summary=_summary(bag.name, elapsed, tracks, gaps, series),
     )
+    notes = []
+    for player, one in series.items():
+        ends = [begin], np.clip(one.times, begin, end), [end]
+        gap = float(np.diff(np.concatenate(ends)).max())
+        if gap > NOTED_GAP:
+            notes.append(f"{player} has no pose for {gap:.2f} s; interpolated")
+        if one.invalid:
+            notes.append(f"{player} has {one.invalid} invalid poses; left out")
+    return replace(run, summary=replace(measure(run), notes=notes))
 
 
 def _sampled(series: PoseSeries, times: Array) -> Trajectory:
@@ -114,64 +114,4 @@ def _sampled(series: PoseSeries, times: Array) -> Trajectory:
     return Trajectory(
         com=np.column_stack([x, y, z]),
         torso=np.column_stack([x, y, heading]),
-    )
-
-
-def _longest_gap(times: Array, begin: float, end: float) -> float:
-    inside = times[(times >= begin) & (times <= end)]
-    edges = np.concatenate([[begin], inside, [end]])
-    return float(np.diff(edges).max())
-
-
-def _summary(
-    source: str,
-    times: Array,
-    tracks: Mapping[str, Trajectory],
-    gaps: Mapping[str, float],
-    series: Mapping[str, PoseSeries],
-) -> ExperimentSummary:
-    names = list(tracks)
-    one, other = (tracks[name].unicycle for name in names[:2])
-    distance = distance_between(one, other)
-    tail = last_third(times)
-    angle = angle_between(one, other)[tail]
-    closest = int(distance.argmin())
-    captured = np.flatnonzero(distance <= CAPTURE_DISTANCE)
-    return ExperimentSummary(
-        source=source,
-        samples=len(times),
-        rate_hz=float((len(times) - 1) / times[-1]),
-        distance_m=float(distance[tail].mean()),
-        relative_orientation_deg=degrees(float(angle.mean())),
-        start_distance_m=float(distance[0]),
-        min_distance_m=float(distance[closest]),
-        min_distance_at_s=float(times[closest]),
-        captured_at_s=float(times[captured[0]]) if len(captured) else None,
-        measured={
-            name: _measured(tracks[name].unicycle, times, gaps[name])
-            for name in names
-        },
-        notes=[
-            f"{name} has no pose for {gap:.2f} s; interpolated"
-            for name, gap in gaps.items()
-            if gap > NOTED_GAP
-        ]
-        + [
-            f"{name} has {one.invalid} invalid poses; left out"
-            for name, one in series.items()
-            if one.invalid
-        ],
-    )
-
-
-def _measured(poses: Array, times: Array, gap: float) -> ExperimentPlayer:
-    steps = np.diff(poses[:, :2], axis=0)
-    length = float(np.hypot(steps[:, 0], steps[:, 1]).sum())
-    tail = poses[last_third(times), :2]
-    radius = fit_circle(tail)[1] if len(tail) > 2 else np.nan
-    return ExperimentPlayer(
-        float(radius) if isfinite(radius) else None,
-        length,
-        length / float(times[-1]),
-        gap,
     )

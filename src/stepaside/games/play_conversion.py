@@ -1,27 +1,27 @@
 """Conversion of the rows recorded by a player at a robot into a run."""
 
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
+from numpy.typing import NDArray
 
 from ..core.poses import Array
 from ..drivers.play_log import METADATA, ROWS
 from ..drivers.safety import SafetyState
 from ..drivers.velocity_loop import DrivingState
 from ..robots.description import load_robot
-from ..theory.unicycle.circle_fit import fit_circle
-from .duel_circle import cycle_mean, distance_between
 from .duel_settings import PLAYERS
+from .evaluation import measure
 from .outcome import Outcome
 from .play_joint_path import OdometryPath, estimate_tilts
 from .play_rows import PlayedRows, read_played
 from .play_settings import PlaySettings
-from .play_summary import PlayStateChange, PlaySummary
-from .run import PlayRun
+from .run import Run
+from .summary import PlanningSummary, PlaySummary, StateChange, Summary
 from .trajectory import Trajectory, check_record
 
 MAX_CHANGES = 2000  # of state, in a summary
-MIN_TURN = 0.5  # of a path to which a circle can be fitted, in [rad]
 SAME = 1e-6  # tolerance within which times are of one sighting, in [s]
 CUT_OFF = "the record was cut off"
 
@@ -36,7 +36,7 @@ def run_of_play(
     settings: PlaySettings,
     outcome: Outcome = Outcome.FAILED,
     message: str = CUT_OFF,
-) -> PlayRun:
+) -> Run:
     """Convert the rows of a player into a run.
 
     Raises:
@@ -54,7 +54,7 @@ def run_of_play(
         both = tracks | {settings.other: other}
         tracks = {player: both[player] for player in PLAYERS}
     check_record(times, tracks, name)
-    return PlayRun(
+    run = Run(
         name=name,
         settings=settings,
         outcome=outcome,
@@ -62,8 +62,8 @@ def run_of_play(
         duration=float(times[-1]),
         times=times,
         tracks=tracks,
-        summary=_summary(rows, settings, times, tracks),
     )
+    return replace(run, summary=_summary(rows, run))
 
 
 def _own(rows: PlayedRows, settings: PlaySettings, sight: Array) -> Trajectory:
@@ -83,58 +83,33 @@ def _own(rows: PlayedRows, settings: PlaySettings, sight: Array) -> Trajectory:
     )
 
 
-def _summary(
-    rows: PlayedRows,
-    settings: PlaySettings,
-    times: Array,
-    tracks: dict[str, Trajectory],
-) -> PlaySummary:
+def _summary(rows: PlayedRows, run: Run) -> Summary:
+    """Summarise a play by the player's own odometry and sightings."""
     states = SafetyState if rows.moves_joints else DrivingState
     walking = rows.columns["state"] == list(states).index(states.WALKING)
     passed = np.diff(rows.times, prepend=0.0)
     walked = float(passed[walking].sum())
-    seen = ~np.isnan(rows.columns["sighting"][:, 0])
-    late = _last_third(walking)[rows.sampled]
-    own = tracks[settings.role]
-    distance = None
-    if len(tracks) > 1:
-        distance = distance_between(*(t.unicycle for t in tracks.values()))
-    smooth = np.column_stack(
-        [cycle_mean(c, times, settings.cycle) for c in own.unicycle[:, :2].T]
-    )
-    steps, spent = None, np.zeros(0)
+    sightings = rows.columns["sighting"]
+    seen = ~np.isnan(sightings[:, 0])
+    share = float(passed[walking & seen].sum() / walked) if walked else None
+    planning = None
     if rows.moves_joints:
         begun = rows.columns["begun"]
-        steps = int((~np.isnan(begun[:, 0])).sum())
-        spent = begun[~np.isnan(begun[:, 5]), 5]
-    nearest = rows.columns["sighting"][seen, 2]
-    return PlaySummary(
-        role=settings.role,
-        language=settings.language,
-        walking_s=walked,
-        steps=steps,
-        path_length_m=float(np.hypot(*np.diff(smooth, axis=0).T).sum()),
-        radius_m=_radius(smooth[late], own.unicycle[late, 2]),
-        distance_m=None
-        if distance is None or not late.any()
-        else float(distance[late].mean()),
-        closest_m=float(nearest.min()) if len(nearest) else None,
-        sighted_share=float(passed[walking & seen].sum() / walked)
-        if walked > 0.0
-        else None,
-        plan_time_us=1e6 * float(np.median(spent)) if len(spent) else None,
-        changes=_changes(rows),
+        spent = 1e6 * begun[~np.isnan(begun[:, 5]), 5]
+        planning = PlanningSummary(
+            steps=int((~np.isnan(begun[:, 0])).sum()),
+            replans=len(spent),
+            median_us=float(np.median(spent)) if len(spent) else None,
+        )
+    return replace(
+        measure(run, _last_third(walking)[rows.sampled]),
+        min_distance_m=float(sightings[seen, 2].min()) if seen.any() else None,
+        planning=planning,
+        play=PlaySummary(walked, share, _changes(rows)),
     )
 
 
-def _radius(path: Array, headings: Array) -> float | None:
-    """Return the radius of a path, in [m]; None if it turns too little."""
-    if len(path) < 3 or np.ptp(headings) < MIN_TURN:
-        return None
-    return fit_circle(path)[1]
-
-
-def _last_third(walking: Array) -> Array:
+def _last_third(walking: Array) -> NDArray[np.bool_]:
     """Return a mask of the rows in the last third of walking."""
     at = np.flatnonzero(walking)
     late = np.zeros(len(walking), dtype=bool)
@@ -142,10 +117,10 @@ def _last_third(walking: Array) -> Array:
     return late
 
 
-def _changes(rows: PlayedRows) -> tuple[PlayStateChange, ...]:
+def _changes(rows: PlayedRows) -> tuple[StateChange, ...]:
     times, changes = rows.times, rows.changes[:MAX_CHANGES]
     return tuple(
-        PlayStateChange(float(times[change.tick]), change.state, change.reason)
+        StateChange(float(times[change.tick]), change.state, change.reason)
         for change in changes
         if 0 <= change.tick < len(times)
     )

@@ -3,18 +3,18 @@
 from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
+from ..core.entries import read_entries
 from ..core.errors import ConfigurationError
 from ..core.poses import Array
 from ..drivers.play_log import METADATA, ROWS, columns_in
 from .archive_reader import (
     MAX_ARRAY_BYTES,
     check_object,
-    parse_object,
     read_bytes,
     read_json,
 )
@@ -39,15 +39,8 @@ JOINTS = ("joint_positions", "targets")  # one column per joint
 BY_VELOCITY = {"pose": 3, "wanted": 3, "velocity": 3}
 
 
-@dataclass(frozen=True, slots=True)
-class StateChange:
-    """Change of a player's state.
-
-    Attributes:
-        tick: Index of its row.
-        state: New state.
-        reason: Reason, as text.
-    """
+class LoggedChange(NamedTuple):
+    """Change of a player's state, at the row with an index."""
 
     tick: int
     state: str
@@ -56,13 +49,9 @@ class StateChange:
 
 @dataclass(frozen=True, slots=True)
 class PlayStateLog:
-    """Content of ``play.json``.
+    """Changes of state in ``play.json``."""
 
-    Attributes:
-        changes: Changes of state.
-    """
-
-    changes: tuple[StateChange, ...]
+    changes: tuple[LoggedChange, ...]
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -77,7 +66,7 @@ class PlayedRows:
 
     columns: Mapping[str, Array]
     times: Array
-    changes: tuple[StateChange, ...]
+    changes: tuple[LoggedChange, ...]
 
     @property
     def moves_joints(self) -> bool:
@@ -117,9 +106,8 @@ def read_played(folder: Path) -> PlayedRows:
     found = columns_in(read_bytes(folder / ROWS, MAX_ARRAY_BYTES), columns)
     if not len(found["times_s"]):
         raise ConfigurationError(f"{ROWS} of {name} has no rows")
-    changes = parse_object(
-        PlayStateLog, notes, f"{METADATA} of {name}"
-    ).changes
+    source = f"{METADATA} of {name}"
+    changes = read_entries(PlayStateLog, notes, source, ignoring=True).changes
     return PlayedRows(found, monotonic_times(found["times_s"]), changes)
 
 

@@ -4,22 +4,22 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 from math import inf
 from types import MappingProxyType
-from typing import TYPE_CHECKING, Any, cast
+from typing import TYPE_CHECKING, Any
 
 from ..locomotion.zmp.mpc import MpcResult
 from ..robots.description import RobotDescription
-from .duel_evaluation import summarise
 from .duel_settings import DuelSettings
+from .evaluation import summarise
 from .floor_games import floor_of, rules_of
 from .floor_world import PERIOD, FloorRecorder, FloorWorld
+from .forecast import evaluate_duel
 from .game import GameInPlay, GameObserver, Progress, play
-from .game_evaluation import GameRecord, summarise_game
 from .game_settings import GameSettings
 from .outcome import Outcome
 from .physics_world import PhysicsWorld, RemoteControl
 from .recorder import Recorder
 from .robot_player import RobotPlayer
-from .run import DuelRun, GameRun, MatchRun, WalkRun
+from .run import Run
 from .settings_as_game import (
     PlayableSettings,
     as_game,
@@ -27,7 +27,6 @@ from .settings_as_game import (
     scenery_of,
     strategies_of,
 )
-from .trajectory import Trajectory
 from .walk_evaluation import summarise_walk
 from .walk_settings import WALKER, WalkSettings
 
@@ -118,41 +117,33 @@ class RecordedGame(GameInPlay):
         assert isinstance(self.world, PhysicsWorld)
         return self.world
 
-    def run(self) -> GameRun[Any, Any]:
+    def run(self) -> Run:
         """Return the game as a value; one that goes on is interrupted."""
-        settings, recorder, eyes = self.settings, self.recorder, None
-        times, tracks = recorder.times, recorder.tracks()
-        if self.sight_observer is not None and isinstance(
-            settings, DuelSettings
-        ):
-            eyes = self.sight_observer
-            for name, rows in eyes.sight().items():
-                tracks[name] = replace(tracks[name], sight=rows)
-        return GameRun(
+        settings, tracks = self.settings, self.recorder.tracks()
+        eyes = self.sight_observer if settings.game == "duel" else None
+        for name, rows in {} if eyes is None else eyes.sight().items():
+            tracks[name] = replace(tracks[name], sight=rows)
+        run = Run(
             name=f"{settings.game}-seed{settings.seed}",
             settings=settings,
             outcome=self.outcome or Outcome.INTERRUPTED,
             message=self.message,
             duration=round(self.world.time, 9),
-            times=times,
+            times=self.recorder.times,
             tracks=tracks,
-            summary=self._summary(tracks),
             stills={} if eyes is None else eyes.stills(),
         )
-
-    def _summary(self, tracks: Mapping[str, Trajectory]) -> Any:
-        """Compute the summary of its kind of game."""
-        record = self, self.recorder.times, tracks, self.recorder.planning()
-        if isinstance(self.settings, DuelSettings):
-            eyes = self.sight_observer
-            seen = None if eyes is None else eyes.report()
+        planning = self.recorder.planning().values()
+        run = replace(run, summary=summarise(run, self, planning, eyes))
+        if run.game == "duel":
             moves = self.in_physics.first_moves
-            return summarise(self.settings, *record, moves, seen)
-        if isinstance(self.settings, GameSettings):
-            return summarise_game(GameRecord(self.settings, *record))
-        walker = self.in_physics.player(WALKER)
-        assert isinstance(walker, RobotPlayer)
-        return summarise_walk(self.settings, *record, walker, self.solved)
+            return replace(run, summary=evaluate_duel(run, moves))
+        if run.game == "walk":
+            walker = self.in_physics.player(WALKER)
+            assert isinstance(walker, RobotPlayer)
+            walking = summarise_walk(run, walker, self.solved)
+            return replace(run, summary=replace(run.summary, walking=walking))
+        return run
 
 
 class SolverRecorder(GameObserver):
@@ -172,7 +163,7 @@ class SolverRecorder(GameObserver):
             self._solved.append(solved)
 
 
-def run_duel(settings: DuelSettings, report: Report | None = None) -> DuelRun:
+def run_duel(settings: DuelSettings, report: Report | None = None) -> Run:
     """Play a duel to its end.
 
     Args:
@@ -188,10 +179,10 @@ def run_duel(settings: DuelSettings, report: Report | None = None) -> DuelRun:
         StepAsideError: If the settings contradict each other or cannot be
             met by the robots.
     """
-    return cast(DuelRun, _run([settings], report)[0])
+    return _run([settings], report)[0]
 
 
-def run_duels(settings: Sequence[DuelSettings]) -> list[DuelRun]:
+def run_duels(settings: Sequence[DuelSettings]) -> list[Run]:
     """Play duels side by side.
 
     Args:
@@ -205,22 +196,22 @@ def run_duels(settings: Sequence[DuelSettings]) -> list[DuelRun]:
         StepAsideError: If settings contradict each other or cannot be met by
             the robots.
     """
-    return cast(list[DuelRun], _run(settings))
+    return _run(settings)
 
 
-def run_game(settings: GameSettings, report: Report | None = None) -> MatchRun:
+def run_game(settings: GameSettings, report: Report | None = None) -> Run:
     """Play a game at its level to its end; see :func:`run_duel`."""
-    return cast(MatchRun, _run([settings], report)[0])
+    return _run([settings], report)[0]
 
 
-def run_walk(settings: WalkSettings, report: Report | None = None) -> WalkRun:
+def run_walk(settings: WalkSettings, report: Report | None = None) -> Run:
     """Simulate a walk to its end, or to a fall; see :func:`run_duel`."""
-    return cast(WalkRun, _run([settings], report)[0])
+    return _run([settings], report)[0]
 
 
 def _run(
     settings: Sequence[PlayableSettings], report: Report | None = None
-) -> list[GameRun[Any, Any]]:
+) -> list[Run]:
     """Play games side by side to their ends."""
     games = [RecordedGame(each) for each in settings]
     play(*games, report=report)

@@ -2,98 +2,30 @@
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
+from functools import cached_property
 from itertools import combinations
-from math import degrees, isfinite
-from typing import (
-    TYPE_CHECKING,
-    Generic,
-    NamedTuple,
-    Self,
-    TypeAlias,
-    TypeGuard,
-    TypeVar,
-)
+from math import isfinite
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from ..arena import Room
 from ..core.player_identity import PlayerIdentity, Role
 from ..core.poses import Array
-from ..sim.camera_settings import RoomObject
-from .duel_circle import angle_between, circle_of_theory, distance_between
-from .duel_settings import EVADER, PURSUER, DuelSettings
-from .duel_summary import DuelSummary
-from .experiment_settings import ExperimentSettings
-from .experiment_summary import ExperimentSummary
-from .game_settings import GameSettings
-from .game_summary import GameSummary
+from .duel_circle import angle_between, distance_between
+from .duel_settings import EVADER, PURSUER
 from .outcome import Outcome
-from .play_settings import PlaySettings
-from .play_summary import PlaySummary
+from .summary import Summary
 from .trajectory import Trajectory
-from .walk_settings import WALKER, WalkSettings
-from .walk_summary import WalkSummary
+from .walk_settings import WALKER
 
 if TYPE_CHECKING:
     from .sight_evaluation import EvaluatedImage
 
-AnySettings: TypeAlias = (
-    DuelSettings
-    | GameSettings
-    | WalkSettings
-    | PlaySettings
-    | ExperimentSettings
-)
-AnySummary: TypeAlias = (
-    DuelSummary | GameSummary | WalkSummary | PlaySummary | ExperimentSummary
-)
-SettingsT = TypeVar("SettingsT", bound=AnySettings, covariant=True)
-SummaryT = TypeVar("SummaryT", bound=AnySummary, covariant=True)
-
-
-class SafetyArea(NamedTuple):
-    """Circular safety area around a player.
-
-    Attributes:
-        player: Name of the player.
-        radius: Radius, in [m].
-    """
-
-    player: str
-    radius: float
-
-
-class TheoryLevels(NamedTuple):
-    """Values on the circle of theory.
-
-    Attributes:
-        radius_m: Radius of the evader's circle, in [m].
-        distance_m: Distance between the players, in [m].
-        angle_deg: Angle between their headings, in [deg].
-    """
-
-    radius_m: float
-    distance_m: float
-    angle_deg: float
-
-
-class CircleInWorld(NamedTuple):
-    """Circle in the world.
-
-    Attributes:
-        x: First coordinate of the center in the world, in [m].
-        y: Second coordinate of the center in the world, in [m].
-        radius: Radius, in [m].
-    """
-
-    x: float
-    y: float
-    radius: float
-
 
 @dataclass(frozen=True, eq=False, repr=False)
-class GameRun(Generic[SettingsT, SummaryT]):
-    """Recorded game of any number of players.
+class Run:
+    """Recorded game of any kind.
 
     Trajectories are in the world; those of a play are in the player's own
     odometry. There the opponent is at its last sighting and is drawn as a
@@ -114,13 +46,13 @@ class GameRun(Generic[SettingsT, SummaryT]):
     """
 
     name: str
-    settings: SettingsT
+    settings: Any
     outcome: Outcome
     message: str
     duration: float
     times: Array
     tracks: Mapping[str, Trajectory]
-    summary: SummaryT
+    summary: Summary = Summary()
     stills: "Mapping[str, Mapping[str, list[EvaluatedImage]]]" = field(
         default_factory=dict
     )
@@ -128,11 +60,11 @@ class GameRun(Generic[SettingsT, SummaryT]):
     def __repr__(self) -> str:
         """Describe the run in one line."""
         return (
-            f"{self.game.capitalize()}Run({self.name!r}, {self.message!r}, "
-            f"{len(self.times)} samples of {' and '.join(self.players)})"
+            f"Run({self.name!r}, {self.message!r}, {len(self.times)} samples "
+            f"of {' and '.join(self.players)})"
         )
 
-    def uninterrupted(self) -> Self:
+    def uninterrupted(self) -> "Run":
         """Return the run.
 
         Raises:
@@ -144,16 +76,17 @@ class GameRun(Generic[SettingsT, SummaryT]):
 
     @property
     def game(self) -> str:
-        """Name of the game: "duel", "game", "walk", "play" or "experiment"."""
-        return self.settings.game
+        """Kind of game: "duel", "game", "walk", "play" or "experiment"."""
+        kind: str = self.settings.game
+        return kind
 
     @property
     def title(self) -> str:
         """Title, for figures and pages."""
         settings = self.settings
-        if isinstance(settings, PlaySettings):
+        if self.game == "play":
             return f"Play of the {settings.role} over {settings.language}"
-        if isinstance(settings, ExperimentSettings):
+        if self.game == "experiment":
             return f"Experiment {settings.source}"
         return f"{self.game.capitalize()}, seed {settings.seed}"
 
@@ -164,28 +97,31 @@ class GameRun(Generic[SettingsT, SummaryT]):
 
     @property
     def robots(self) -> tuple[str, ...]:
-        """Names of the players that are robots."""
-        if isinstance(self.settings, DuelSettings):
-            return self.settings.robots
+        """Names of the players with recorded joint angles."""
         return tuple(n for n, t in self.tracks.items() if t.qpos is not None)
 
     @property
     def persons(self) -> tuple[str, ...]:
         """Names of the players that are drawn as persons."""
-        settings = self.settings
-        if isinstance(settings, GameSettings):
-            return tuple(
-                p.name for p in settings.players if p.body == "person"
-            )
-        if not isinstance(settings, DuelSettings):
-            return ()
-        return tuple(n for n in self.players if n not in self.robots)
+        if self.game == "game":
+            people = [p for p in self.settings.players if p.body == "person"]
+            return tuple(p.name for p in people)
+        is_person = self.game == "duel" and self.settings.pursuer == "person"
+        return (PURSUER,) if is_person else ()
+
+    @property
+    def deciding(self) -> tuple[str, ...]:
+        """Names of the players of a game that have a strategy."""
+        if self.game != "game":
+            return self.players
+        return tuple(p.name for p in self.settings.players if p.decides)
 
     @property
     def identities(self) -> Mapping[str, PlayerIdentity]:
         """Identity of each player that has a role, by name."""
-        if isinstance(self.settings, GameSettings):
-            return self.settings.identities
+        if self.game == "game":
+            found: dict[str, PlayerIdentity] = self.settings.identities
+            return found
         roles = {role.value: role for role in Role}
         return {
             name: PlayerIdentity(name, roles[name], name)
@@ -208,7 +144,7 @@ class GameRun(Generic[SettingsT, SummaryT]):
         """Trajectory of the robot of a walk."""
         return self.tracks[WALKER]
 
-    @property
+    @cached_property
     def opponents(self) -> tuple[tuple[str, str], ...]:
         """Names of each pursuer and evader.
 
@@ -224,10 +160,8 @@ class GameRun(Generic[SettingsT, SummaryT]):
             and roles.get(other) is Role.EVADER
         )
         pairs = tuple(combinations(self.players, 2))
-        if found or not isinstance(self.settings, GameSettings):
-            return found or pairs
-        deciding = {p.name for p in self.settings.players if p.decides}
-        return tuple(p for p in pairs if deciding.intersection(p)) or pairs
+        own = set(self.deciding)
+        return found or tuple(p for p in pairs if own & {*p}) or pairs
 
     @property
     def pair(self) -> tuple[Trajectory, Trajectory] | None:
@@ -267,8 +201,7 @@ class GameRun(Generic[SettingsT, SummaryT]):
     @property
     def has_orientation(self) -> bool:
         """Whether there are two players of known headings; not in a play."""
-        in_play = isinstance(self.settings, PlaySettings)
-        return len(self.tracks) == 2 and not in_play
+        return len(self.tracks) == 2 and self.game != "play"
 
     @property
     def orientation(self) -> Array:
@@ -279,113 +212,60 @@ class GameRun(Generic[SettingsT, SummaryT]):
         if self.pair is None or not self.has_orientation:
             return np.full(len(self.times), np.nan)
         first, second = self.pair
-        angle = angle_between(first.unicycle, second.unicycle)
-        in_degrees: Array = np.degrees(angle)
-        return in_degrees
+        angle: Array = angle_between(first.unicycle, second.unicycle)
+        return np.degrees(angle)
 
     @property
-    def theory(self) -> TheoryLevels | None:
-        """Values on the circle of theory.
+    def theory(self) -> tuple[float, float, float] | None:
+        """Values on the circle of theory of a duel that has one.
 
-        None if the game has no circle, or the forecast was contact before it.
+        They are the radius of the evader [m], the distance between the
+        players [m] and the angle between their headings [deg].
         """
-        settings, summary = self.settings, self.summary
-        if not (
-            isinstance(settings, DuelSettings)
-            and isinstance(summary, DuelSummary)
-        ):
+        own = self.summary.theory
+        if own is None or own.radius_m is None:
             return None
-        circle = circle_of_theory(settings)
-        expects_contact = summary.theory.expected == "contact"
-        if not circle.exists or (
-            expects_contact and summary.converged_at_s is None
-        ):
-            return None
-        return TheoryLevels(
-            circle.radius_evader_m,
-            circle.distance_m,
-            degrees(circle.headings_apart_rad),
-        )
+        angle = own.relative_orientation_deg or 0.0
+        return own.radius_m, own.distance_m or 0.0, angle
 
     @property
-    def circle(self) -> CircleInWorld | None:
-        """Circle of theory, centered where the players walked in the end.
+    def circle(self) -> tuple[float, float, float] | None:
+        """Center (x, y) and radius of the circle in the world, in [m].
 
-        None if the players did not converge to it.
+        It is that of theory, centered where the players walked in the end;
+        None if they did not converge to it.
         """
-        theory, summary = self.theory, self.summary
-        if theory is None or not isinstance(summary, DuelSummary):
+        theory, since = self.theory, self.summary.converged_at_s
+        if theory is None or since is None:
             return None
-        if summary.converged_at_s is None:
-            return None
-        tail = self.times >= summary.converged_at_s
-        centers = [
-            track.unicycle[tail, :2].mean(axis=0)
-            for track in self.tracks.values()
+        tail = self.times >= since
+        paths = [
+            t.unicycle[tail, :2].mean(axis=0) for t in self.tracks.values()
         ]
-        x, y = np.mean(centers, axis=0).tolist()
-        return CircleInWorld(x, y, theory.radius_m)
+        x, y = np.mean(paths, axis=0).tolist()
+        return x, y, theory[0]
 
     @property
-    def safety(self) -> SafetyArea | None:
-        """Safety area of an evader; None if it always evades."""
-        settings = self.settings
-        if isinstance(
-            settings, WalkSettings | GameSettings | ExperimentSettings
-        ):
-            return None
-        if isinstance(settings, PlaySettings) and settings.role != EVADER:
-            return None
-        radius = settings.strategy.area
-        return SafetyArea(EVADER, radius) if isfinite(radius) else None
-
-    @property
-    def safety_areas(self) -> tuple[SafetyArea, ...]:
-        """Safety area of each player that has one."""
-        if not isinstance(self.settings, GameSettings):
-            return () if self.safety is None else (self.safety,)
-        radii = self.settings.safety_radii.items()
-        return tuple(SafetyArea(n, r) for n, r in radii if isfinite(r))
+    def safety_areas(self) -> dict[str, float]:
+        """Radius of the safety area of each player that has one, in [m]."""
+        settings, radii = self.settings, {}
+        if self.game == "game":
+            radii = settings.safety_radii
+        elif self.game == "duel" or getattr(settings, "role", "") == EVADER:
+            radii = {EVADER: settings.strategy.area}
+        return {name: r for name, r in radii.items() if isfinite(r)}
 
     @property
     def plan(self) -> Room | None:
         """Room of the game; None on an open floor."""
-        if isinstance(self.settings, GameSettings):
-            return self.settings.room
-        if not isinstance(self.settings, DuelSettings):
-            return None
-        return self.settings.room.plan
-
-    @property
-    def things(self) -> tuple[RoomObject, ...]:
-        """Objects in the room."""
-        if not isinstance(self.settings, DuelSettings):
-            return ()
-        return tuple(self.settings.room.things)
+        room: Any = getattr(self.settings, "room", None)
+        plan: Room | None = room.plan if self.game == "duel" else room
+        return plan
 
     def index_at(self, time: float) -> int:
         """Return the index of the first sample at or after a time, in [s]."""
         index = int(np.searchsorted(self.times, time - 1e-9))
         return min(index, len(self.times) - 1)
-
-    def has_ended_at(self, index: int) -> bool:
-        """Return whether a sample is the last of a game that ended early.
-
-        A game that was interrupted by the user counts as completed.
-        """
-        last = index >= len(self.times) - 1
-        complete = (Outcome.COMPLETED, Outcome.INTERRUPTED)
-        return last and self.outcome not in complete
-
-    def pushed_at(self, time: float) -> tuple[str, ...]:
-        """Return the players pushed in the last second before a time [s]."""
-        found = []
-        for name, track in self.tracks.items():
-            if track.pushes is not None:
-                since = time - track.pushes[:, 0]
-                if ((since >= 0.0) & (since < 1.0)).any():
-                    found.append(name)
-        return tuple(found)
 
     def arrays(self) -> dict[str, Array]:
         """Return all arrays by name: ``times_s``, ``pursuer_com``, ..."""
@@ -393,31 +273,3 @@ class GameRun(Generic[SettingsT, SummaryT]):
         for name, track in self.tracks.items():
             found |= track.arrays(name)
         return found
-
-
-Run: TypeAlias = GameRun[AnySettings, AnySummary]
-DuelRun: TypeAlias = GameRun[DuelSettings, DuelSummary]
-MatchRun: TypeAlias = GameRun[GameSettings, GameSummary]
-WalkRun: TypeAlias = GameRun[WalkSettings, WalkSummary]
-PlayRun: TypeAlias = GameRun[PlaySettings, PlaySummary]
-ExperimentRun: TypeAlias = GameRun[ExperimentSettings, ExperimentSummary]
-
-
-def is_duel(run: Run) -> TypeGuard[DuelRun]:
-    """Return whether a run is one of a duel."""
-    return isinstance(run.settings, DuelSettings)
-
-
-def is_match(run: Run) -> TypeGuard[MatchRun]:
-    """Return whether a run is one of a game file."""
-    return isinstance(run.settings, GameSettings)
-
-
-def is_walk(run: Run) -> TypeGuard[WalkRun]:
-    """Return whether a run is one of a walk."""
-    return isinstance(run.settings, WalkSettings)
-
-
-def is_play(run: Run) -> TypeGuard[PlayRun]:
-    """Return whether a run is one of a play at a robot."""
-    return isinstance(run.settings, PlaySettings)

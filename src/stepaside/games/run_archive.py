@@ -7,7 +7,7 @@ from dataclasses import asdict, dataclass
 from hashlib import sha256
 from pathlib import Path
 from shutil import copy, copytree
-from typing import Any, Literal, overload
+from typing import Any
 from zipfile import BadZipFile
 from zlib import error as DeflateError
 
@@ -15,14 +15,13 @@ import numpy as np
 import tomli_w
 
 from ..core.atomic_output import atomic_draft
-from ..core.entries import parse_entries
+from ..core.entries import parse_entries, read_entries
 from ..core.errors import AnyPath, ConfigurationError, as_path
 from ..core.poses import Array
 from ..robots.description import known_robots
 from .archive_reader import (
     MAX_ARRAY_BYTES,
     check_object,
-    parse_object,
     read_arrays,
     read_bytes,
     read_json,
@@ -37,21 +36,17 @@ from .configuration_file import (
     settings_entries,
 )
 from .duel_settings import DuelSettings
-from .duel_summary import DuelSummary
 from .experiment_settings import ExperimentSettings
-from .experiment_summary import ExperimentSummary
 from .game_settings import GameSettings
-from .game_summary import GameSummary
 from .outcome import Outcome
 from .play_settings import PlaySettings
-from .play_summary import PlaySummary
 from .player_names import MOST_PLAYERS, PLAYER_NAME
-from .run import DuelRun, GameRun, MatchRun, PlayRun, Run, WalkRun
+from .run import Run
+from .summary import Summary
 from .trajectory import FIELDS, check_record, tracks_in
 from .walk_settings import WalkSettings
-from .walk_summary import WalkSummary
 
-FORMAT = 4  # of a run folder
+FORMAT = 5  # of a run folder
 CONFIGURATION = "configuration.toml"
 SUMMARY = "summary.json"
 TRAJECTORIES = "trajectories.npz"
@@ -68,34 +63,20 @@ READ_ERRORS = (  # raised for damaged files
     RuntimeError,
     MemoryError,
 )
-
-
-KINDS: dict[str, tuple[type[Any], type[Any]]] = {
-    "duel": (DuelSettings, DuelSummary),
-    "game": (GameSettings, GameSummary),
-    "walk": (WalkSettings, WalkSummary),
-    "play": (PlaySettings, PlaySummary),
-    "experiment": (ExperimentSettings, ExperimentSummary),
+KINDS: dict[str, type[Any]] = {
+    "duel": DuelSettings,
+    "game": GameSettings,
+    "walk": WalkSettings,
+    "play": PlaySettings,
+    "experiment": ExperimentSettings,
 }
-"""Types of settings and summary, by kind of game."""
+"""Settings, by kind of game."""
 
 
 @dataclass(frozen=True, slots=True)
 class RunHeader:
-    """Entries that the summary of every game has.
+    """Entries of a summary file beside the summary."""
 
-    Attributes:
-        format: Format of the folder.
-        game: Name of the game.
-        players: Names of the players, in the order in which they act.
-        outcome: How the game ended.
-        message: Reason for the end, as text.
-        duration_s: Simulated or recorded time, in [s].
-    """
-
-    format: int
-    game: str
-    players: tuple[str, ...]
     outcome: str
     message: str
     duration_s: float
@@ -103,9 +84,11 @@ class RunHeader:
 
 def results_of(run: Run) -> dict[str, Any]:
     """Return outcome and summary as ``--json`` prints them."""
+    seed = getattr(run.settings, "seed", None)
     return {
         "outcome": run.outcome.value,
         "message": run.message,
+        "seed": seed,
         "duration_s": run.duration,
         **asdict(run.summary),
     }
@@ -119,7 +102,7 @@ def write_run_files(folder: Path, run: Run) -> None:
     """
     entries = settings_entries(run.settings)
     _keep_robots(entries, folder)
-    header = {"format": FORMAT, "game": run.game, "players": run.players}
+    header = {"format": FORMAT, "game": run.game}
     summary = json.dumps(header | results_of(run), indent=2, allow_nan=False)
     for name, text in (
         (CONFIGURATION, tomli_w.dumps(entries)),
@@ -154,7 +137,7 @@ def _keep_robots(entries: Any, folder: Path) -> None:
 
 def complete_play(
     folder: Path, settings: PlaySettings, outcome: Outcome, message: str
-) -> PlayRun:
+) -> Run:
     """Complete the run folder of a player that has ended.
 
     Summary, trajectories and checksums are added. No figure is drawn, as the
@@ -173,23 +156,13 @@ def complete_play(
     return run
 
 
-@overload
-def load_run(folder: AnyPath) -> Run: ...
-@overload
-def load_run(folder: AnyPath, game: Literal["duel"]) -> DuelRun: ...
-@overload
-def load_run(folder: AnyPath, game: Literal["game"]) -> MatchRun: ...
-@overload
-def load_run(folder: AnyPath, game: Literal["walk"]) -> WalkRun: ...
-@overload
-def load_run(folder: AnyPath, game: Literal["play"]) -> PlayRun: ...
-def load_run(folder: AnyPath, game: str | None = None) -> GameRun[Any, Any]:
+def load_run(folder: AnyPath, game: str | None = None) -> Run:
     """Read a run folder.
 
     Args:
         folder: The run folder.
-        game: Required game, "duel", "game", "walk" or "play"; by default
-            any.
+        game: Required game: "duel", "game", "walk", "play" or "experiment";
+            by default any.
 
     Raises:
         ConfigurationError: If the folder is not a valid run folder, of
@@ -200,12 +173,12 @@ def load_run(folder: AnyPath, game: str | None = None) -> GameRun[Any, Any]:
     folder = as_path(folder, "folder")
     try:
         if not (folder / SUMMARY).exists() and has_play_rows(folder):
-            _check_game("play", folder, game)
             text = read_text(folder / CONFIGURATION)
             source = str(folder / CONFIGURATION)
             settings = read_settings(PlaySettings, text, source)
-            return run_of_play(folder, settings)
-        return _load_complete_run(folder, game)
+            run = run_of_play(folder, settings)
+        else:
+            run = _load_complete_run(folder)
     except ConfigurationError:
         raise
     except READ_ERRORS as error:
@@ -213,9 +186,14 @@ def load_run(folder: AnyPath, game: str | None = None) -> GameRun[Any, Any]:
             f"run {folder} cannot be read: "
             + (str(error).partition("\n")[0] or type(error).__name__)
         ) from error
+    if game not in (None, run.game):
+        raise ConfigurationError(
+            f"run {folder} must be one of a {game}, got one of a {run.game}"
+        )
+    return run
 
 
-def _load_complete_run(folder: Path, game: str | None) -> Run:
+def _load_complete_run(folder: Path) -> Run:
     files = (CONFIGURATION, SUMMARY, TRAJECTORIES)
     for name in files:
         if not (folder / name).is_file():
@@ -223,68 +201,24 @@ def _load_complete_run(folder: Path, game: str | None) -> Run:
                 f"run must be a folder with {CONFIGURATION}, {SUMMARY} and "
                 f"{TRAJECTORIES}; {folder} has no {name}"
             )
-    name = folder.resolve().name
     check_checksums(folder, files)
-    plain = read_json(folder / SUMMARY)
-    header = read_header(plain, name)
-    known = {f"{n}_{key}" for n in header.players for key in FIELDS}
-    arrays = read_arrays(folder / TRAJECTORIES, frozenset({*known, "times_s"}))
-    _check_game(header.game, folder, game)
+    name = folder.resolve().name
+    header = read_header(read_json(folder / SUMMARY), name)
+    arrays = read_arrays(folder / TRAJECTORIES)
     source = str(folder / CONFIGURATION)
     entries = parse_entries(read_text(folder / CONFIGURATION), source)
     find_files(entries, folder)
-    settings = parse_settings(KINDS[header.game][0], entries, source)
-    return read_record(name, settings, plain, arrays)
+    settings = parse_settings(KINDS[header["game"]], entries, source)
+    return read_record(name, settings, header, arrays)
 
 
-def _check_game(found: str, folder: Path, game: str | None) -> None:
-    if game not in (None, found):
-        raise ConfigurationError(
-            f"run {folder} must be one of a {game}, got one of a {found}"
-        )
-
-
-def read_record(
-    name: str, settings: Any, plain: Any, arrays: dict[str, Array]
-) -> Run:
-    """Build a run from the content of a run folder.
+def read_header(plain: Any, run: str) -> dict[str, Any]:
+    """Return the content of a summary, with a valid header.
 
     Raises:
-        ConfigurationError: If the content is invalid, or of another format.
+        ConfigurationError: If format, game or outcome is unknown.
     """
-    header = read_header(plain, name)
-    try:
-        times = arrays["times_s"]
-        tracks = tracks_in(arrays, header.players)
-    except KeyError as error:
-        raise ConfigurationError(
-            f"{TRAJECTORIES} of run {name} has no array {error}; arrays are "
-            f"times_s and, of each player, {', '.join(FIELDS)}"
-        ) from error
-    check_record(times, tracks, name)
-    summary = parse_object(
-        KINDS[header.game][1], plain, f"{SUMMARY} of run {name}"
-    )
-    return GameRun(
-        name=name,
-        settings=settings,
-        outcome=Outcome(header.outcome),
-        message=header.message,
-        duration=header.duration_s,
-        times=times,
-        tracks=tracks,
-        summary=summary,
-    )
-
-
-def read_header(plain: Any, run: str) -> RunHeader:
-    """Parse the entries that the summary of every game has.
-
-    Raises:
-        ConfigurationError: If an entry is missing or invalid.
-    """
-    source = f"{SUMMARY} of run {run}"
-    entries = check_object(plain, source)
+    entries = check_object(plain, f"{SUMMARY} of run {run}")
     outcomes = [outcome.value for outcome in Outcome]
     for key, known in (
         ("format", [FORMAT]),
@@ -298,22 +232,51 @@ def read_header(plain: Any, run: str) -> RunHeader:
             raise ConfigurationError(
                 f"{key} of run {run} must be {rule}, got {value!r:.40}"
             )
-    if not _are_player_names(entries.get("players")):
+    return entries
+
+
+def read_record(
+    name: str, settings: Any, header: dict[str, Any], arrays: dict[str, Array]
+) -> Run:
+    """Build a run from the content of a run folder; see :func:`read_header`.
+
+    Raises:
+        ConfigurationError: If the content is invalid.
+    """
+    source = f"{SUMMARY} of run {name}"
+    about = read_entries(RunHeader, header, source, ignoring=True)
+    summary = read_entries(Summary, header, source, ignoring=True)
+    players = tuple(summary.players)
+    named = all(map(PLAYER_NAME.fullmatch, players))
+    if not named or not 1 <= len(players) <= MOST_PLAYERS:
         raise ConfigurationError(
-            f"players of run {run} must be 1 to {MOST_PLAYERS} unique names "
-            f"in lower case, got {entries.get('players')!r:.80}"
+            f"players of run {name} must be 1 to {MOST_PLAYERS} names in "
+            f"lower case, got {[*players]!r:.80}"
         )
-    return parse_object(RunHeader, entries, source)
-
-
-def _are_player_names(players: Any) -> bool:
-    return (
-        isinstance(players, list)
-        and all(
-            isinstance(n, str) and PLAYER_NAME.fullmatch(n) for n in players
+    known_arrays = {f"{n}_{key}" for n in players for key in FIELDS}
+    unknown = arrays.keys() - known_arrays - {"times_s"}
+    if unknown:
+        raise ConfigurationError(
+            f"{TRAJECTORIES} of run {name} holds an unknown array "
+            f"{min(unknown)!r:.40}"
         )
-        and len(set(players)) == len(players)
-        and 1 <= len(players) <= MOST_PLAYERS
+    try:
+        times, tracks = arrays["times_s"], tracks_in(arrays, players)
+    except KeyError as error:
+        raise ConfigurationError(
+            f"{TRAJECTORIES} of run {name} has no array {error}; arrays are "
+            f"times_s and, of each player, {', '.join(FIELDS)}"
+        ) from error
+    check_record(times, tracks, name)
+    return Run(
+        name=name,
+        settings=settings,
+        outcome=Outcome(about.outcome),
+        message=about.message,
+        duration=about.duration_s,
+        times=times,
+        tracks=tracks,
+        summary=summary,
     )
 
 

@@ -11,7 +11,7 @@ from .game import Progress, play
 from .physics_world import RemoteControl
 from .recorded_game import RecordedGame
 from .robot_player import ServedPlayer, VelocityWalker
-from .run import DuelRun
+from .run import Run
 from .run_archive import results_of
 
 if TYPE_CHECKING:
@@ -96,7 +96,7 @@ class ServedDuel(NamedTuple):
         unanswered: Frames that were not answered in their tick.
     """
 
-    run: DuelRun
+    run: Run
     late_ticks: int
     lateness_ms: dict[str, int]
     unanswered: int

@@ -18,7 +18,7 @@ from ..perception.pipeline import FrameReport, Perception
 from ..robots.head import HeadDescription, Mount
 from ..sim.ground_truth import GroundTruth, torsos_apart
 from ..sim.simulated_robot import SimulatedRobot
-from .sight_summary import ErrorSpread, SightSummary
+from .summary import ErrorSpread, SightSummary
 
 MATCH_ANGLE = radians(10.0)  # within which a detection matches the truth
 MISLED_ANGLE = radians(20.0)  # bearing error from which a robot is misled

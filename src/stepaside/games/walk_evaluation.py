@@ -1,128 +1,166 @@
-"""Summary of a finished walk."""
+"""Evaluation of a walk, in the frame of the support foot.
 
-from collections.abc import Mapping, Sequence
+Odometry drifts from the world by slip. Therefore references, estimates and
+true values are compared in the frame of the support foot.
+"""
+
+from collections.abc import Sequence
+from dataclasses import replace
 from math import degrees
-from typing import Any, NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 
 from ..core.poses import Array
 from ..locomotion.zmp.mpc import MpcResult
-from .game import GameInPlay
+from .outcome import Outcome
 from .robot_player import RobotPlayer
-from .support_foot_columns import express_in_support_foot, upright_samples
-from .trajectory import PlanningTimes, Trajectory
-from .walk_settings import WALKER, WalkSettings
-from .walk_summary import (
-    ErrorStatistics,
-    EstimationErrors,
-    SolverSummary,
-    TrackingErrors,
-    WalkSummary,
-)
+from .run import Run
+from .summary import ErrorStatistics, SolverSummary, WalkingSummary
+from .trajectory import Trajectory
+from .walk_settings import WALKER
 
 WARM_UP = 3.0  # left out of the evaluation, in [s]
+TRACKED = ("com_x", "com_y", "zmp_x", "zmp_y")  # in [m]
 ESTIMATED = {
-    "com_x": "m",
-    "com_y": "m",
-    "velocity_x": "m_s",
-    "velocity_y": "m_s",
-    "zmp_x": "m",
-    "zmp_y": "m",
-    "roll": "rad",
-    "pitch": "rad",
+    **dict.fromkeys(("com_x", "com_y", "zmp_x", "zmp_y"), "m"),
+    **dict.fromkeys(("velocity_x", "velocity_y"), "m_s"),
+    **dict.fromkeys(("roll", "pitch"), "rad"),
 }
 
 
-class WalkingPace(NamedTuple):
-    """Speed and yaw rate of a walk; None where too short to measure.
+def express_in_support_foot(
+    times: Array, track: Trajectory
+) -> dict[str, Array]:
+    """Express a walk in the frame of the support foot.
 
-    Attributes:
-        speed: Speed, in [m/s].
-        way: Path length over its reference.
-        yaw_rate: Yaw rate, in [deg/s].
-        turn: Turn over its reference.
+    True quantities are in the frame of the true sole, references and
+    estimates in that of the planned sole, unless their names say otherwise.
+    References in the world are those of odometry, placed there at its start.
+
+    Args:
+        times: Times of the samples, in [s]. Shape (n,).
+        track: Trajectory with foot states and estimates.
+
+    Returns:
+        Columns by name: ``time``, ``support``, ``single``, angles, and x and
+        y of each other quantity, like ``com_x``. Shape (n,) each.
+
+    Raises:
+        ValueError: If the trajectory has no foot states.
     """
+    sole, support, tilt = track.sole, track.support, track.tilt
+    if sole is None or support is None or tilt is None:
+        raise ValueError("the trajectory must have sole, support and tilt")
+    com, planned = track.com[:, :2], support[:, 2:]
+    estimate = track.estimate
+    if estimate is None:
+        estimate = np.full((len(times), 8), np.nan)
+    pairs = {
+        "com": _point(sole, com),
+        "velocity": _vector(sole, track.velocity),
+        "com_reference": _point(planned, track.com_reference),
+        "zmp": _point(sole, track.zmp),
+        "zmp_reference": _point(planned, track.zmp_reference),
+        "estimated_com": _point(planned, estimate[:, 0:2]),
+        "estimated_velocity": _vector(planned, estimate[:, 2:4]),
+        "estimated_zmp": _point(planned, estimate[:, 4:6]),
+        "com_in_world": com,
+        "com_reference_in_world": track.com_reference,
+        "foot_in_world": sole[:, :2],
+    }
+    found = {"time": times, "support": support[:, 0], "single": support[:, 1]}
+    for name, points in pairs.items():
+        assert points is not None
+        found |= {f"{name}_x": points[:, 0], f"{name}_y": points[:, 1]}
+    assert track.heading_reference is not None
+    return found | {
+        "roll": tilt[:, 0],
+        "pitch": tilt[:, 1],
+        "estimated_roll": estimate[:, 6],
+        "estimated_pitch": estimate[:, 7],
+        "heading": track.torso[:, 2],
+        "heading_reference": track.heading_reference[:, 0],
+    }
 
-    speed: float | None = None
-    way: float | None = None
-    yaw_rate: float | None = None
-    turn: float | None = None
+
+def _point(frames: Array, points: Array | None) -> Array:
+    """Transform points from the world to frames. Shape (n, 2)."""
+    assert points is not None
+    return _vector(frames, points - frames[:, :2])
+
+
+def _vector(frames: Array, vectors: Array | None) -> Array:
+    """Rotate vectors from the world to frames. Shape (n, 2)."""
+    assert vectors is not None
+    c, s = np.cos(frames[:, 2]), np.sin(frames[:, 2])
+    x, y = vectors[:, 0], vectors[:, 1]
+    return np.column_stack([c * x + s * y, c * y - s * x])
+
+
+def upright_samples(
+    times: Array, outcome: Outcome | None
+) -> NDArray[np.bool_]:
+    """Return a mask of the evenly spaced samples of an upright robot.
+
+    The last sample is at the end of the game, which may come between two
+    periods or after a fall.
+    """
+    mask: NDArray[np.bool_] = np.ones(len(times), dtype=bool)
+    if len(times) > 2:
+        period = times[1] - times[0]
+        mask[-1] = abs(times[-1] - times[-2] - period) < 0.1 * period
+    if outcome in (Outcome.FALL, Outcome.CONTACT):
+        mask[-1:] = False
+    return mask
 
 
 def summarise_walk(
-    settings: WalkSettings,
-    game: GameInPlay,
-    times: Array,
-    tracks: Mapping[str, Trajectory],
-    planning: Mapping[str, PlanningTimes],
-    walker: RobotPlayer,
-    solved: Sequence[MpcResult],
-) -> WalkSummary:
-    """Compute the summary of a walk.
-
-    Args:
-        settings: Settings of the walk.
-        game: The game that was played.
-        times: Times of the samples, in [s]. Shape (n,).
-        tracks: Trajectory with foot states and estimates.
-        planning: Planning times of the robot.
-        walker: The robot.
-        solved: Results of the solver of the MPC, if there is one.
-    """
-    mask = upright_samples(times, game.outcome)
-    in_foot = express_in_support_foot(times, tracks[WALKER])
+    run: Run, walker: RobotPlayer, solved: Sequence[MpcResult]
+) -> WalkingSummary:
+    """Compute the summary of a walk; with the results of its MPC, if any."""
+    mask = upright_samples(run.times, run.outcome)
+    in_foot = express_in_support_foot(run.times, run.tracks[WALKER])
     columns = {name: values[mask] for name, values in in_foot.items()}
-    own, pusher = planning[WALKER], walker.robot.pusher
-    return WalkSummary(
-        seed=settings.seed,
-        steps=own.steps,
+    pusher = walker.robot.pusher
+    return replace(
+        measured(columns, 2.0 * walker.scheme.gait.step_duration),
         adapted_steps=walker.scheme.walk.balance.adapted,
-        method=str(settings.control.method),
-        feedback=bool(settings.control.feedback),
         push_impulse_n_s=(0.0, 0.0) if pusher is None else pusher.impulse,
-        min_zmp_margin_m=own.zmp_margin,
-        qp=_solver(solved),
-        real_time_factor=game.real_time_factor,
-        **measured(columns, 2.0 * settings.gait.step_duration),
+        solver=_solver(solved),
     )
 
 
-def measured(columns: dict[str, Array], cycle: float) -> dict[str, Any]:
-    """Return the values of a summary that columns of a walk give.
+def measured(columns: dict[str, Array], cycle: float) -> WalkingSummary:
+    """Return what columns of a walk give.
 
     Args:
-        columns: Evenly spaced samples; see
-            :func:`.express_in_support_foot`.
+        columns: Evenly spaced samples; see :func:`express_in_support_foot`.
         cycle: Duration of a gait cycle, in [s].
     """
     steady = columns["time"] >= WARM_UP
     a = {name: values[steady] for name, values in columns.items()}
-    pace = _pace(a, cycle)
-    return {
-        "speed_m_s": pace.speed,
-        "speed_ratio": pace.way,
-        "yaw_rate_deg_s": pace.yaw_rate,
-        "yaw_ratio": pace.turn,
-        "slip_per_step_m": _slip(a),
-        "tracking": TrackingErrors(
-            com_x_m=_error(a["com_x"], a["com_reference_x"]),
-            com_y_m=_error(a["com_y"], a["com_reference_y"]),
-            zmp_x_m=_error(a["zmp_x"], a["zmp_reference_x"]),
-            zmp_y_m=_error(a["zmp_y"], a["zmp_reference_y"]),
-        ),
-        "estimation": EstimationErrors(
-            **{
-                f"{name}_{unit}": _error(a[f"estimated_{name}"], a[name])
-                for name, unit in ESTIMATED.items()
-            }
-        ),
-        "tilt_max_deg": _tilt(a),
-    }
+    tilt = np.hypot(a["roll"], a["pitch"])
+    speed, speed_ratio, yaw_rate, yaw_ratio = _pace(a, cycle)
+    return WalkingSummary(
+        speed_m_s=speed,
+        speed_ratio=speed_ratio,
+        yaw_rate_deg_s=yaw_rate,
+        yaw_ratio=yaw_ratio,
+        slip_per_step_m=_slip(a),
+        tilt_max_deg=degrees(float(tilt.max())) if len(tilt) else None,
+        tracking={
+            f"{name}_m": _error(a[name], a[f"{name[:3]}_reference{name[3:]}"])
+            for name in TRACKED
+        },
+        estimation={
+            f"{name}_{unit}": _error(a[f"estimated_{name}"], a[name])
+            for name, unit in ESTIMATED.items()
+        },
+    )
 
 
 def _solver(answers: Sequence[MpcResult]) -> SolverSummary | None:
-    """Summarise the solver of the MPC; None without one."""
     if not answers:
         return None
     times = 1e6 * np.array([a.time for a in answers])
@@ -131,53 +169,47 @@ def _solver(answers: Sequence[MpcResult]) -> SolverSummary | None:
         infeasible=sum(not a.feasible for a in answers),
         median_us=float(np.median(times)),
         p99_us=float(np.quantile(times, 0.99)),
-        iterations=float(np.mean([a.iterations for a in answers])),
         greatest_excess_m=max(float(np.hypot(*a.excess)) for a in answers),
     )
 
 
-def _pace(a: dict[str, Array], cycle: float) -> WalkingPace:
-    """Compute speed and yaw rate over whole gait cycles."""
+def _pace(a: dict[str, Array], cycle: float) -> list[float | None]:
+    """Return speed [m/s] and yaw rate [deg/s], each with its ratio.
+
+    They are over whole gait cycles; None where too short to measure.
+    """
     time = a["time"]
     if len(time) < 3 or time[-1] - time[0] < 2.0 * cycle:
-        return WalkingPace()
+        return [None] * 4
     samples_per_cycle = round(cycle / float(time[1] - time[0]))
     cycles = (len(time) - 1) // samples_per_cycle
     rows = np.arange(cycles + 1) * samples_per_cycle
     elapsed = float(time[rows[-1]] - time[rows[0]])
 
-    def length(x: Array, y: Array) -> float:
-        return float(np.hypot(np.diff(x[rows]), np.diff(y[rows])).sum())
+    def length(name: str) -> float:
+        steps = (np.diff(a[f"{name}_in_world_{axis}"][rows]) for axis in "xy")
+        return float(np.hypot(*steps).sum())
 
-    true_length = length(a["com_in_world_x"], a["com_in_world_y"])
-    planned_length = length(
-        a["com_reference_in_world_x"], a["com_reference_in_world_y"]
+    way, planned_way = length("com"), length("com_reference")
+    heading, planned = (
+        float(np.subtract(*np.unwrap(a[name])[rows[[-1, 0]]]))
+        for name in ("heading", "heading_reference")
     )
-    heading = np.unwrap(a["heading"])[rows]
-    planned_heading = np.unwrap(a["heading_reference"])[rows]
-    true_turn = float(heading[-1] - heading[0])
-    planned_turn = float(planned_heading[-1] - planned_heading[0])
-    return WalkingPace(
-        true_length / elapsed,
-        true_length / planned_length if planned_length > 0.01 else None,
-        degrees(true_turn) / elapsed,
-        true_turn / planned_turn if abs(planned_turn) > 0.05 else None,
-    )
+    return [
+        way / elapsed,
+        way / planned_way if planned_way > 0.01 else None,
+        degrees(heading) / elapsed,
+        heading / planned if abs(planned) > 0.05 else None,
+    ]
 
 
 def _slip(a: dict[str, Array]) -> float | None:
     """Return the mean slip of the support foot in single support, in [m]."""
     single = a["single"] > 0.5
     edges = np.flatnonzero(np.diff(single.astype(int)))
+    x, y = a["foot_in_world_x"], a["foot_in_world_y"]
     slips = [
-        float(
-            np.hypot(
-                a["foot_in_world_x"][end - 1]
-                - a["foot_in_world_x"][start + 2],
-                a["foot_in_world_y"][end - 1]
-                - a["foot_in_world_y"][start + 2],
-            )
-        )
+        np.hypot(x[end - 1] - x[start + 2], y[end - 1] - y[start + 2])
         for start, end in zip(edges[:-1], edges[1:], strict=True)
         if single[start + 1] and end - start > 6
     ]
@@ -194,9 +226,3 @@ def _error(values: Array, references: Array) -> ErrorStatistics | None:
         mean=float(np.mean(errors)),
         max=float(np.abs(errors).max()),
     )
-
-
-def _tilt(a: dict[str, Array]) -> float | None:
-    if a["roll"].size == 0:
-        return None
-    return degrees(float(np.hypot(a["roll"], a["pitch"]).max()))

@@ -204,7 +204,7 @@ def overlays_of(run: Run, every: int = 1) -> list[SceneLines]:
             found.append(SceneLines("footsteps", name, outlines, landed_at))
         if track.pushes is not None:
             found.append(push_arrows(name, track.pushes))
-    found += [safety_ring(*area) for area in run.safety_areas]
+    found += [safety_ring(*area) for area in run.safety_areas.items()]
     found += [line_of_sight(*pair) for pair in run.lines_of_sight]
     if run.circle is not None:
         found.append(theory_ring(*run.circle))

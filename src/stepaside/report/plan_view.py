@@ -13,7 +13,7 @@ from ..arena import BODY_RADIUS, Obstacle, Room
 from ..core.errors import AnyPath
 from ..core.player_colours import markers_of
 from ..core.poses import Array
-from ..games.run import Run, is_match
+from ..games.run import Run
 from ..planning import ManeuverPlan
 from .figure_style import (
     COLOURS,
@@ -162,7 +162,7 @@ def draw_paths(axes: Any, run: Run) -> None:
         axes.plot(*track.com[0, :2], "o", color=colour, ms=5)
         draw_heading(axes, track.torso[-1], colour, size)
         draw_pushes(axes, track.pushes)
-        goal = run.settings.player(name).goal if is_match(run) else ()
+        goal = run.settings.player(name).goal if run.game == "game" else ()
         if goal:
             axes.plot(*goal, marker="+", color=colour, ms=9, mew=1.8)
     axes.set(xlabel="x [m]", ylabel="y [m]")

@@ -162,8 +162,8 @@ def page_data(run: Run) -> dict[str, Any]:
             and _series(whole_cycles(values, run.times, cycle), samples)
             for name, values in measured.items()
         },
-        "theory": run.theory and list(run.theory),
-        "safety": run.safety and run.safety.radius,
+        "theory": run.theory,
+        "safety": next(iter(run.safety_areas.values()), None),
         "messages": distinct,
         "message_index": [distinct.index(text) for text in messages],
         "center": np.round(0.5 * (low + high), 3).tolist(),

@@ -11,6 +11,7 @@ UNITS = {
     "_m_s": "m/s",
     "_rad": "deg",
     "_deg": "deg",
+    "_us": "us",
     "_hz": "Hz",
     "share": "%",
     "_m2": "m^2",

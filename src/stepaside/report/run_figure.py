@@ -12,8 +12,8 @@ from ..core.errors import AnyPath
 from ..core.player_colours import markers_of
 from ..core.poses import Array
 from ..games.duel_circle import cycle_mean, distance_between, whole_cycles
-from ..games.run import Run, is_match, is_play
-from ..games.support_foot_columns import express_in_support_foot
+from ..games.run import Run
+from ..games.walk_evaluation import express_in_support_foot
 from .figure_style import (
     LEFT,
     LIGHT,
@@ -74,7 +74,7 @@ def draw_run(run: Run, file: AnyPath) -> None:
 def _layout_of(run: Run) -> tuple[list[str], list[float], dict[str, Draw]]:
     """Return rows of panels, their heights [inch], and what draws each."""
     walkers = [n for n, t in run.tracks.items() if t.zmp_reference is not None]
-    if is_play(run):
+    if run.game == "play":
         name = run.settings.role
         commanded = run.tracks[name].command is not None
         lower = _draw_command if commanded else _draw_balance
@@ -131,8 +131,8 @@ def _draw_measure(run: Run, axes: Any, *, angle: bool) -> None:
     axes.plot(times, values, color=SWAY, lw=0.8, label="every sample")
     mean = whole_cycles(values, times, run.settings.cycle)
     axes.plot(times, mean, color=MEAN, lw=1.6, label="mean over a gait cycle")
-    level = theory and (theory.angle_deg if angle else theory.distance_m)
-    areas = () if angle else run.safety_areas
+    level = theory and theory[2 if angle else 1]
+    areas = () if angle else run.safety_areas.items()
     for name, radius in areas:
         # The label of the higher line is above it, the other below.
         va = "bottom" if level is not None and level <= radius else "top"
@@ -273,7 +273,7 @@ def _draw_distances(run: Run, axes: Any) -> None:
         nearest = int(values.argmin())
         closest = run.times[nearest], values[nearest]
         axes.plot(*closest, "x", color=colours[name])
-    if is_match(run) and run.summary.crowd:
+    if run.game == "game" and run.persons:
         for limit in (PERSONAL, SOCIAL):
             mark_level(axes, limit, f"{limit:g} m", "#888888", ":")
     axes.set(xlabel="time [s]", ylabel="distance [m]")
@@ -296,11 +296,8 @@ def _curves_of(run: Run) -> list[tuple[str, str, str, Array]]:
             (f"{one} - {other}", one, other, values)
             for (one, other), values in apart.items()
         ]
-    deciding: list[str] = []
-    if is_match(run):
-        deciding = [p.name for p in run.settings.players if p.decides]
     found = []
-    for name in deciding or run.players:
+    for name in run.deciding or run.players:
         own = [values for pair, values in apart.items() if name in pair]
         found.append((f"{name} - nearest", name, "", np.min(own, axis=0)))
     return found
@@ -313,7 +310,7 @@ def _draw_sightings(run: Run, name: str, column: int, axes: Any) -> None:
         values = sight[:, 2] if column == 2 else np.degrees(sight[:, 1])
         axes.plot(sight[:, 0], values, color=MEAN, lw=1.2)
     if column == 2:
-        for _, radius in run.safety_areas:
+        for radius in run.safety_areas.values():
             text = f"safety radius\n{radius:.3g} m"
             mark_level(axes, radius, text, THEORY, ":")
         axes.set_title("sightings of the opponent; grey lines: state changes")
@@ -339,7 +336,8 @@ def _draw_command(run: Run, name: str, axes: Any) -> None:
 
 def _mark_changes(axes: Any, run: Run) -> None:
     """Mark the changes of the robot's state."""
-    for change in run.summary.changes[:50] if is_play(run) else ():
+    play = run.summary.play
+    for change in play.changes[:50] if play else ():
         axes.axvline(change.time_s, color="#c0c0c0", lw=0.6)
     axes.set_xlim(0.0, max(0.02, float(run.times[-1])))
 

@@ -8,10 +8,8 @@ import numpy as np
 from ..arena import Room
 from ..core.errors import ConfigurationError
 from ..core.poses import Array, Pose
-from ..games.experiment_settings import ExperimentSettings
 from ..games.game_furnishing import Scenery, scenery_of_game
-from ..games.play_settings import PlaySettings
-from ..games.run import Run, is_duel, is_match
+from ..games.run import Run
 from ..games.settings_as_game import scenery_of
 from ..robots.description import load_robot
 from ..sim.person_body import (
@@ -49,7 +47,7 @@ class RunScene:
             name: run.settings.robot_of(name).robot for name in run.robots
         }
         physics, seed = PhysicsSettings(), 0
-        if not isinstance(run.settings, PlaySettings | ExperimentSettings):
+        if run.game not in ("play", "experiment"):
             physics, seed = run.settings.physics, run.settings.seed
         scenery = self._scenery_of(run)
         self.model = build_model(
@@ -73,9 +71,9 @@ class RunScene:
 
     def _scenery_of(self, run: Run) -> Scenery:
         """Return everything but robots."""
-        if is_match(run):
+        if run.game == "game":
             return scenery_of_game(run.settings, templates=self._templates)
-        if is_duel(run):
+        if run.game == "duel":
             return scenery_of(run.settings)
         return Scenery(
             tuple(partial(add_template, name=name) for name in self._templates)

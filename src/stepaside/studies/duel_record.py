@@ -8,9 +8,10 @@ import numpy as np
 
 from ..core.errors import PlanError
 from ..core.poses import Pose
-from ..games.duel_settings import DuelSettings
+from ..games.duel_settings import EVADER, PURSUER, DuelSettings
 from ..games.recorded_game import run_duel
-from ..games.run import DuelRun
+from ..games.run import Run
+from ..games.summary import PlanningSummary, TheorySummary
 from ..theory.unicycle.certificate import certify
 from ..theory.unicycle.unicycle_game import RelativeStart, make_game
 from .tabulation import Record
@@ -33,17 +34,19 @@ def play_duel(settings: DuelSettings) -> Record:
     return _record_of(run, perf_counter() - began)
 
 
-def _record_of(run: DuelRun, wall: float) -> Record:
+def _record_of(run: Run, wall: float) -> Record:
     """Return the record of a run that took a computing time, in [s]."""
-    summary = run.summary
+    summary, players = run.summary, run.summary.players
+    theory = summary.theory or TheorySummary()
+    planning = summary.planning or PlanningSummary(0, 0)
     record = {
         "seed": run.settings.seed,
         "outcome": run.outcome.value,
         "message": run.message,
         "duration_s": run.duration,
         "start_distance_m": run.settings.start.distance,
-        "pursuer_radius_m": summary.pursuer.radius_m,
-        "evader_radius_m": summary.evader.radius_m,
+        "pursuer_radius_m": players[PURSUER].radius_m,
+        "evader_radius_m": players[EVADER].radius_m,
         "distance_m": summary.distance_m,
         "relative_orientation_deg": summary.relative_orientation_deg,
         "converged_at_s": summary.converged_at_s,
@@ -52,11 +55,11 @@ def _record_of(run: DuelRun, wall: float) -> Record:
         "min_distance_m": summary.min_distance_m,
         "triggered_at_s": summary.triggered_at_s,
         "triggered_at_distance_m": summary.triggered_at_distance_m,
-        "min_zmp_margin_m": summary.min_zmp_margin_m,
-        "max_com_velocity_jump_m_s": summary.max_com_velocity_jump_m_s,
-        "theory_radius_m": summary.theory.radius_m,
-        "theory_distance_m": summary.theory.distance_m,
-        "theory_orientation_deg": summary.theory.relative_orientation_deg,
+        "min_zmp_margin_m": planning.min_zmp_margin_m,
+        "max_com_velocity_jump_m_s": planning.max_com_velocity_jump_m_s,
+        "theory_radius_m": theory.radius_m,
+        "theory_distance_m": theory.distance_m,
+        "theory_orientation_deg": theory.relative_orientation_deg,
         **_evasion(run),
     }
     closest, certified = (
@@ -73,13 +76,13 @@ def _record_of(run: DuelRun, wall: float) -> Record:
     return record
 
 
-def _in_time(run: DuelRun) -> bool:
+def _in_time(run: Run) -> bool:
     """Return whether a duel is on its circle before its last third."""
     since = run.summary.converged_at_s
     return since is not None and since < BEFORE * run.settings.duration
 
 
-def _evasion(run: DuelRun) -> Record:
+def _evasion(run: Run) -> Record:
     """Return the closest approach while evading, and its certificate.
 
     The certificate is that of two unicycles at the poses of the players when
@@ -120,7 +123,7 @@ def _evasion(run: DuelRun) -> Record:
     return found
 
 
-def digest_of(run: DuelRun) -> str:
+def digest_of(run: Run) -> str:
     """Return a fingerprint of all recorded arrays of a duel."""
     digest = sha256()
     for name, array in sorted(run.arrays().items()):

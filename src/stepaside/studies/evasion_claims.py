@@ -11,7 +11,7 @@ from ..games.duel_settings import PLAYERS, DuelSettings
 from ..games.floor_games import StrategyTrack
 from ..games.outcome import Outcome
 from ..games.recorded_game import run_duel
-from ..games.run import DuelRun
+from ..games.run import Run
 from ..sim.camera_settings import SceneSettings
 from ..strategies.strategy_game import StepGame
 from .tournament import (
@@ -97,7 +97,7 @@ def measure_room(seed: int) -> dict[str, float]:
 
 
 def read_room(
-    run: DuelRun, clear: Callable[[DuelRun, str], float | None] = clearance
+    run: Run, clear: Callable[[Run, str], float | None] = clearance
 ) -> dict[str, float]:
     """Read contacts, clearance and free time of a duel in a room.
 

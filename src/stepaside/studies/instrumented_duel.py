@@ -11,7 +11,7 @@ from ..games.game import GameInPlay, GameObserver, play
 from ..games.physics_world import PhysicsWorld
 from ..games.recorded_game import RecordedGame
 from ..games.robot_player import RobotPlayer
-from ..games.run import DuelRun
+from ..games.run import Run
 from ..robots.description import load_robot
 
 
@@ -45,7 +45,7 @@ class InstrumentedDuel:
         plans: By robot, the plans that were walked.
     """
 
-    run: DuelRun
+    run: Run
     ticks: Array
     loads: dict[str, Array] = field(default_factory=dict)
     feet: dict[str, Array] = field(default_factory=dict)

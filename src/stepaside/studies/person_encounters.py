@@ -11,7 +11,7 @@ from ..core.random_streams import named_generator
 from ..games.duel_settings import DuelSettings, StartSettings
 from ..games.outcome import Outcome
 from ..games.recorded_game import run_duel
-from ..games.run import DuelRun
+from ..games.run import Run
 from ..sim.crowd_motion import REACTIONS
 from ..sim.person_settings import PersonSettings
 from ..strategies import DashEvasion
@@ -156,12 +156,12 @@ def play_encounter(encounter: Encounter) -> Record:
         "triggered_at_s": summary.triggered_at_s,
         "triggered_at_distance_m": summary.triggered_at_distance_m,
         "closest_m": summary.min_distance_m,
-        "theory_closest_m": summary.theory.closest_approach_m,
+        "theory_closest_m": summary.theory and summary.theory.min_distance_m,
         "cause": cause_of(run),
     }
 
 
-def cause_of(run: DuelRun) -> str | None:
+def cause_of(run: Run) -> str | None:
     """Explain how a game with a person ended.
 
     Returns:
@@ -182,8 +182,9 @@ def cause_of(run: DuelRun) -> str | None:
     speed = float(np.hypot(*moved[-1]))
     if speed < RESTING:
         return "walked into"
-    theory = run.summary.theory.closest_approach_m
-    if theory is not None and theory <= run.summary.min_distance_m + SAME:
+    theory, closest = run.summary.theory, run.summary.min_distance_m or 0.0
+    least = None if theory is None else theory.min_distance_m
+    if least is not None and least <= closest + SAME:
         return "point too"
     change = np.hypot(*(moved[recent] - moved[-1]).T).max()
     return "late change" if change > CHANGE * speed else "legs"

@@ -17,7 +17,7 @@ from ..games.duel_settings import PLAYERS, DuelSettings, StartSettings
 from ..games.outcome import Outcome
 from ..games.recorded_game import run_duel
 from ..games.robot_settings import with_robot
-from ..games.run import DuelRun
+from ..games.run import Run
 from ..planning import PRESETS
 from ..theory.unicycle.circle_fit import fit_circle
 from .instrumented_duel import InstrumentedDuel, play_instrumented
@@ -85,7 +85,7 @@ def read_circle(duel: InstrumentedDuel) -> dict[str, float]:
     }
 
 
-def last_circle(run: DuelRun) -> dict[str, float]:
+def last_circle(run: Run) -> dict[str, float]:
     """Measure the circle of the last third; NaN if the duel ended early."""
     keys = (
         *("settled", "pursuer_radius", "evader_radius", "one_circle"),

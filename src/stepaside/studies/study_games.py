@@ -1,7 +1,7 @@
 """Games that a study can play: settings from entries, and flat records."""
 
 from collections.abc import Callable, Mapping
-from dataclasses import asdict, dataclass, fields, replace
+from dataclasses import dataclass, fields, replace
 from typing import Any, NamedTuple, get_type_hints
 
 from ..core.player_identity import Role
@@ -11,6 +11,7 @@ from ..games.game_file import parse_game
 from ..games.game_settings import GameSettings
 from ..games.outcome import Outcome
 from ..games.recorded_game import run_game, run_walk
+from ..games.run_archive import results_of
 from ..games.settings_reader import settings_of
 from ..games.unicycle_settings import UnicycleSettings
 from ..games.walk_settings import WalkSettings
@@ -106,13 +107,8 @@ def settings_of_study(kind: type[Any], entries: Mapping[str, Any]) -> Any:
 
 def _play_walk(settings: WalkSettings) -> Record:
     run = run_walk(settings).uninterrupted()
-    return {
-        "outcome": run.outcome.value,
-        "survived": run.outcome is Outcome.COMPLETED,
-        "message": run.message,
-        "duration_s": run.duration,
-        **flat(asdict(run.summary)),
-    }
+    survived = run.outcome is Outcome.COMPLETED
+    return flat(results_of(run)) | {"survived": survived}
 
 
 def _play_unicycles(settings: UnicycleSettings) -> Record:
@@ -150,15 +146,6 @@ def _play_game(settings: TeamGame) -> Record:
     """
     run = run_game(settings.settings).uninterrupted()
     summary = run.summary
-    opposed = {frozenset(pair) for pair in run.opponents}
-    closest = min(
-        (
-            pair.closest_m
-            for pair in summary.pairs
-            if frozenset(pair.players) in opposed
-        ),
-        default=None,
-    )
     record: Record = {
         "outcome": run.outcome.value,
         "message": run.message,
@@ -167,24 +154,27 @@ def _play_game(settings: TeamGame) -> Record:
         "captured_at_s": summary.captured_at_s,
         "contact": run.outcome is Outcome.CONTACT,
         "fell": bool(summary.fallen),
-        "closest_m": closest,
+        "closest_m": summary.min_distance_m,
         "fallen": list(summary.fallen),
         "touched": list(summary.touched),
     }
-    for each in summary.crowd:
-        record |= {
-            f"{each.name}.success": each.success,
-            f"{each.name}.collided": each.collisions > 0,
-            f"{each.name}.time_s": each.time_s if each.success else None,
-            f"{each.name}.below_0_45_m": each.below_0_45_m_s / run.duration,
-            f"{each.name}.below_1_2_m": each.below_1_2_m_s / run.duration,
-        }
+    for name, own in summary.players.items():
+        if (met := own.crowd) is not None:
+            record |= {
+                f"{name}.success": met.success,
+                f"{name}.collided": met.collisions > 0,
+                f"{name}.time_s": own.goal_at_s if met.success else None,
+                f"{name}.below_0_45_m": met.intimate_s / run.duration,
+                f"{name}.below_1_2_m": met.personal_s / run.duration,
+            }
     return record
 
 
 GAMES: Mapping[str, StudyGame] = {
     "duel": StudyGame(DuelSettings, play_duel, ("outcome", "min_distance_m")),
-    "walk": StudyGame(WalkSettings, _play_walk, ("survived", "speed_ratio")),
+    "walk": StudyGame(
+        WalkSettings, _play_walk, ("survived", "walking.speed_ratio")
+    ),
     "push": StudyGame(
         PushSettings, play_push, ("limit_n_s", "bound_n_s", "of_bound")
     ),

@@ -22,7 +22,8 @@ from ..games.floor_games import StrategyTrack, play_strategies
 from ..games.floor_world import PARTS
 from ..games.outcome import Outcome
 from ..games.recorded_game import run_duel
-from ..games.run import DuelRun
+from ..games.run import Run
+from ..games.summary import PlanningSummary
 from ..locomotion.control_settings import MapSettings
 from ..robots.description import load_robot
 from ..sim.camera_settings import SceneSettings
@@ -202,6 +203,7 @@ def _humanoid_values(settings: PairingSettings) -> Record:
         )
     )
     summary = run.uninterrupted().summary
+    planning = summary.planning or PlanningSummary(0, 0)
     pursuer, evader = (run.tracks[name].unicycle for name in PLAYERS)
     aims = pursuer[:, :2] - evader[:, :2]
     bearings = np.arctan2(aims[:, 1], aims[:, 0]) - evader[:, 2]
@@ -215,8 +217,8 @@ def _humanoid_values(settings: PairingSettings) -> Record:
         "closest_m": summary.min_distance_m,
         "bound_m": bound_of(pursuer[0], evader[0], settings.game),
         **_motion(evader, wrap_angles(bearings), seconds, radius),
-        "decision_s": 1e-6 * (summary.plan_time_us.median or 0.0),
-        "longest_decision_s": 1e-6 * (summary.plan_time_us.p99 or 0.0),
+        "decision_s": 1e-6 * (planning.median_us or 0.0),
+        "longest_decision_s": 1e-6 * (planning.p99_us or 0.0),
         **{f"{name}_clearance_m": clearance(run, name) for name in PLAYERS},
     }
 
@@ -287,13 +289,13 @@ def circle_distance(game: StepGame, pursuer: str) -> float | None:
     return float(circle.distance_m) if circle.exists else None
 
 
-def players_touched(run: DuelRun) -> bool:
+def players_touched(run: Run) -> bool:
     """Return whether a duel ended with contact between its two players."""
     contact = run.outcome is Outcome.CONTACT
     return contact and set(run.summary.touched) == set(PLAYERS)
 
 
-def outcome_of(run: DuelRun) -> Outcome:
+def outcome_of(run: Run) -> Outcome:
     """Return the outcome of a duel as that of a tournament game.
 
     It is captured if the distance was at most the capture distance at any
@@ -306,7 +308,7 @@ def outcome_of(run: DuelRun) -> Outcome:
     return run.outcome
 
 
-def clearance(run: DuelRun, name: str) -> float | None:
+def clearance(run: Run, name: str) -> float | None:
     """Return the least distance of a player's trunk from resting obstacles.
 
     Returns:

@@ -148,8 +148,7 @@ def _samples_of_cycle(duel: InstrumentedDuel) -> int:
     Chords over a cycle have no sway.
     """
     times = duel.run.times
-    step = duel.run.settings.gait.step_duration
-    return round(2.0 * step / float(times[1] - times[0]))
+    return round(float(duel.run.settings.cycle) / float(times[1] - times[0]))
 
 
 def walking_speed(duel: InstrumentedDuel, name: str) -> float:

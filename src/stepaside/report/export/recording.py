@@ -15,7 +15,7 @@ from ...games.game import Progress
 from ...games.game_furnishing import colours_of_players
 from ...games.play_rows import read_played
 from ...games.replayed_signals import RobotSignals, repeat_game
-from ...games.run import Run, is_play
+from ...games.run import Run
 from ...games.run_archive import load_run
 from ...robots.description import RobotDescription, load_robot
 from ...robots.urdf_writer import UrdfTree, urdf_of, urdf_tree
@@ -136,7 +136,7 @@ def load_recording(
         if name not in models
     ]
     signals: Mapping[str, RobotSignals] = {}
-    if is_play(run):
+    if run.game == "play":
         signals = _signals_of_play(folder, run, models)
         absent.append("joint velocities and efforts: a play does not record")
     elif not repeats:

@@ -1,0 +1,195 @@
+"""Evaluation of a recorded game: its summary."""
+
+from collections.abc import Collection
+from dataclasses import replace
+from itertools import combinations
+from math import isfinite
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..core.constants import CAPTURE_DISTANCE
+from ..core.poses import Array
+from ..sim.crowd_motion import RADIUS
+from ..theory.unicycle.circle_fit import fit_circle
+from .duel_circle import (
+    angle_between,
+    cycle_mean,
+    distance_between,
+    last_third,
+)
+from .game import GameInPlay
+from .outcome import Outcome
+from .run import Run
+from .summary import (
+    CrowdSummary,
+    PairSummary,
+    PlanningSummary,
+    PlayerSummary,
+    Summary,
+)
+from .trajectory import PlanningTimes
+
+if TYPE_CHECKING:
+    from .camera_senses import SightObserver
+
+MOVED = 0.02  # distance from the start that counts as motion, in [m]
+MIN_TURN = 0.5  # of a path to which a circle can be fitted, in [rad]
+INTRUSIONS = (0.45, 1.2)  # of crowd navigation: intimate and personal, [m]
+
+
+def measure(run: Run, late: NDArray[np.bool_] | None = None) -> Summary:
+    """Return the part of a summary that trajectories give.
+
+    Args:
+        run: The run; its summary is not used.
+        late: Samples of means and circles; those of the last third by
+            default. Shape (n,).
+    """
+    late = last_third(run.times) if late is None else late
+    pairs = {
+        (one, other): _pair(run, one, other, late)
+        for one, other in combinations(run.players, 2)
+    }
+    facing = {frozenset(names) for names in run.opponents}
+    closest = [p.closest_m for n, p in pairs.items() if frozenset(n) in facing]
+    times = (pair.captured_at_s for pair in pairs.values())
+    return Summary(
+        distance_m=_mean(run.distance[late]),
+        relative_orientation_deg=_mean(run.orientation[late]),
+        min_distance_m=min(closest, default=None),
+        captured_at_s=min((t for t in times if t is not None), default=None),
+        players={name: _player(run, name, late) for name in run.players},
+        pairs={" - ".join(names): pair for names, pair in pairs.items()},
+    )
+
+
+def _mean(values: Array) -> float | None:
+    mean = float(values.mean()) if len(values) else np.nan
+    return mean if isfinite(mean) else None
+
+
+def _pair(
+    run: Run, one: str, other: str, late: NDArray[np.bool_]
+) -> PairSummary:
+    first, second = run.tracks[one], run.tracks[other]
+    apart = distance_between(first.torso, second.torso)
+    closest, ids = int(apart.argmin()), run.identities
+    opposed = one in ids and other in ids and ids[one].opposes(ids[other])
+    caught = np.flatnonzero(opposed & (apart <= CAPTURE_DISTANCE))
+    last = first.unicycle[late], second.unicycle[late]
+    return PairSummary(
+        closest_m=float(apart[closest]),
+        closest_at_s=float(run.times[closest]),
+        captured_at_s=float(run.times[caught[0]]) if len(caught) else None,
+        distance_m=_mean(distance_between(*last)),
+        angle_deg=_mean(np.degrees(angle_between(*last))),
+    )
+
+
+def _player(run: Run, name: str, late: NDArray[np.bool_]) -> PlayerSummary:
+    poses, times, radius = run.tracks[name].unicycle, run.times, None
+    moved = np.flatnonzero(np.hypot(*(poses[:, :2] - poses[0, :2]).T) > MOVED)
+    path = [poses[:, 0], poses[:, 1]]
+    if run.tracks[name].qpos is not None or run.game == "play":
+        path = [cycle_mean(way, times, run.settings.cycle) for way in path]
+    if late.sum() > 2 and np.ptp(poses[late, 2]) > MIN_TURN:
+        radius = fit_circle(poses[late, :2])[1]
+    return PlayerSummary(
+        path_m=float(np.hypot(*np.diff(path, axis=1)).sum()),
+        radius_m=radius if radius is not None and isfinite(radius) else None,
+        moved_at_s=float(times[moved[0]]) if len(moved) else None,
+    )
+
+
+def summarise(
+    run: Run,
+    game: GameInPlay,
+    planning: Collection[PlanningTimes],
+    sight: "SightObserver | None",
+) -> Summary:
+    """Compute the summary of a game that was played.
+
+    Args:
+        run: The run; its summary is not used.
+        game: The game.
+        planning: Planning times of each player.
+        sight: Evaluation of perception.
+    """
+    summary = measure(run)
+    players = {
+        name: replace(own, goal_at_s=game.goals_at.get(name))
+        for name, own in summary.players.items()
+    }
+    if run.game == "game":
+        people = [p for p in run.settings.players if p.body == "person"]
+        for own in run.settings.players:
+            if own.decides and people:
+                crowd = _crowd(run, game, own, [p.name for p in people])
+                players[own.name] = replace(players[own.name], crowd=crowd)
+    together = None
+    if sight is not None:
+        together, by_robot = sight.report()
+        for name, seen in by_robot.items():
+            players[name] = replace(players[name], sight=seen)
+    return replace(
+        summary,
+        real_time_factor=game.real_time_factor,
+        touched=list(game.touched),
+        fallen=list(game.fallen),
+        notes=list(getattr(run.settings, "notes", ())),
+        players=players,
+        planning=_planning(planning),
+        sight=together,
+    )
+
+
+def _planning(players: Collection[PlanningTimes]) -> PlanningSummary:
+    plans = np.sort(1e6 * np.concatenate([p.times for p in players]))
+    margins = [p.zmp_margin for p in players if p.zmp_margin is not None]
+    median, late = None, None
+    if len(plans):
+        # np.median and np.quantile would import numpy.ma for it.
+        ranks = np.arange(len(plans))
+        at = np.array([0.5, 0.99]) * ranks[-1]
+        median, late = np.interp(at, ranks, plans).tolist()
+    return PlanningSummary(
+        steps=sum(p.steps for p in players),
+        replans=len(plans),
+        max_com_velocity_jump_m_s=max(p.velocity_jump for p in players),
+        min_zmp_margin_m=min(margins, default=None),
+        median_us=median,
+        p99_us=late,
+    )
+
+
+def _crowd(
+    run: Run, game: GameInPlay, own: Any, people: list[str]
+) -> CrowdSummary:
+    """Measure the encounter of a robot with people."""
+    poses, times = run.tracks[own.name].unicycle, run.times
+    apart = np.array(
+        [distance_between(poses, run.tracks[p].unicycle) for p in people]
+    )
+    if run.settings.level == "physics" and own.body == "robot":
+        collisions = int(own.name in game.touched)
+    else:
+        touching = apart < own.radius + RADIUS
+        begins = np.diff(touching.astype(int), axis=1, prepend=0) > 0
+        collisions = int(np.count_nonzero(begins))
+    nearest = apart.min(axis=0)
+    period = float(times[1] - times[0]) if len(times) > 1 else 0.0
+    intimate, personal = (
+        period * int(np.count_nonzero(nearest < limit)) for limit in INTRUSIONS
+    )
+    completed = run.outcome is Outcome.COMPLETED
+    reached = own.name in game.goals_at if own.goal else completed
+    harmed = collisions or own.name in (*game.touched, *game.fallen)
+    return CrowdSummary(
+        people=len(people),
+        success=reached and not harmed,
+        collisions=collisions,
+        intimate_s=intimate,
+        personal_s=personal,
+    )
