@@ -7,7 +7,6 @@ from .markdown import number, table
 
 HEAD = (
     "humanoid",
-    "mass [kg]",
     "outcome",
     "distance",
     "radii",
@@ -34,7 +33,6 @@ def _reached(row: Mapping[str, Any]) -> tuple[str, ...]:
     apart = theory["relative_orientation_deg"]
     return (
         row["name"],
-        number(row["mass_kg"], 1),
         outcome,
         _by(summary["distance_m"], theory["distance_m"]),
         f"{pursuer}, {evader}",

@@ -19,10 +19,10 @@ UNITS = ("m/s", "m/s", "rad/s")
 
 
 def tracking(results: Mapping[str, Result]) -> str:
-    """List gain, lag, halting motion and falls by axis."""
+    """List gain, lag and halting motion by axis."""
     head = (
         *("policy", "axis", "delivered", "gain"),
-        *("lag [s]", "halts in [m, rad]", "falls"),
+        *("lag [s]", "halts in [m, rad]"),
     )
     rows = []
     for name, words in POLICIES.items():
@@ -39,17 +39,6 @@ def tracking(results: Mapping[str, Result]) -> str:
                     number(found["gains"][i][i], 2),
                     number(found["lag_s"][i], 2),
                     number(found["halting"][i], 2),
-                    _falls(found) if i == 0 else "",
                 )
             )
     return table(head, rows)
-
-
-def _falls(found: Result) -> str:
-    """Count falls at constant and at random commands."""
-    random = found["random_walks"]
-    fell = len(random["falls_at_s"])
-    return (
-        f"{found['falls']} of {len(found['trials'])}; at random commands "
-        f"{fell} of {random['walks']}"
-    )

@@ -14,7 +14,6 @@ def opponents(result: Result) -> str:
     head = (
         "pursuer",
         "circle [m]",
-        "capture [m]",
         *(
             f"{each['evader']}, {each['world']} (n = {row['games']})"
             for each in met
@@ -25,7 +24,6 @@ def opponents(result: Result) -> str:
         (
             row["pursuer"],
             number(row["circle_distance_m"], 3),
-            number(row["capture_distance_m"], 3),
             *(_survived(each["rows"][i]) for each in met),
         )
         for i, row in enumerate(met[0]["rows"])
@@ -40,7 +38,7 @@ def _survived(row: Mapping[str, Any]) -> str:
 
 
 def ladder(result: Result) -> str:
-    """List survival of both evaders."""
+    """List survival of both evaders, unless it is that of every game."""
     head = (
         *("world", "pursuer", "games"),
         *("look-ahead", "robust", "robust decides, mean, longest [ms]"),
@@ -52,6 +50,8 @@ def ladder(result: Result) -> str:
             evaders.setdefault(row["pursuer"], {})[row["evader"]] = row
         for pursuer, by_name in evaders.items():
             both = [by_name[name] for name in ("look-ahead", "robust")]
+            if all(row["survived"] == 1.0 for row in both):
+                continue
             rows.append(
                 (
                     world,
