@@ -124,7 +124,7 @@ def summarise_walk(
     columns = {name: values[mask] for name, values in in_foot.items()}
     pusher = walker.robot.pusher
     return replace(
-        measured(columns, 2.0 * walker.scheme.gait.step_duration),
+        measured(columns, run.settings.cycle),
         adapted_steps=walker.scheme.walk.balance.adapted,
         push_impulse_n_s=(0.0, 0.0) if pusher is None else pusher.impulse,
         solver=_solver(solved),
