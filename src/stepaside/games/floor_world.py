@@ -404,10 +404,7 @@ class FloorWorld:
 
     Attributes:
         motions: Motion of each player, by name.
-        time: Time, in [s].
         until: Time of the next decision, in [s].
-        acting: Name of the player that decides, or decided last.
-        contact: Outcome of a game that ends by contact with an obstacle.
     """
 
     contact = Outcome.TOUCHED
@@ -440,11 +437,7 @@ class FloorWorld:
         return motion.look(self.time, self._seen)
 
     def decide(self) -> None:
-        """Let the players decide that are due, all from the same state.
-
-        Raises:
-            StrategyError: If a strategy fails.
-        """
+        """Let the players decide that are due, all from the same state."""
         now = self.time + AT_ONCE
         for name, motion in self.motions.items():
             if motion.due <= now:
@@ -484,12 +477,7 @@ class FloorRecorder(GameObserver):
     """Observer that samples the poses of all players on the floor."""
 
     def __init__(self, world: FloorWorld, period: float = 0.0) -> None:
-        """Begin an empty record.
-
-        Args:
-            world: The world.
-            period: Time between samples, in [s]; 0 for one at each decision.
-        """
+        """Sample in each period, in [s]; 0 for one sample at each decision."""
         self.world, self._period = world, period
         self._times: list[float] = []
         self._rows: list[Sequence[Pose]] = []

@@ -19,13 +19,9 @@ REPORT_PERIOD = 0.2  # between two progress reports, in [s]
 
 
 class PlayedWorld(Protocol):
-    """World in which a game is played: in physics, or on a floor.
+    """World in which a game is played: in physics, or on a floor."""
 
-    Attributes:
-        contact: Outcome of a game that ends because players touch something.
-    """
-
-    contact: Outcome
+    contact: Outcome  # of a game that ends because players touch something
 
     @property
     def time(self) -> float:
@@ -44,9 +40,8 @@ class PlayedWorld(Protocol):
     def decide(self) -> None:
         """Let the players decide that are due.
 
-        Raises:
-            StrategyError: If a strategy fails.
-            ReachError: If legs cannot reach their references.
+        A strategy that fails raises a StrategyError, legs that cannot reach
+        their references a ReachError.
         """
 
     def step(self, limit: float) -> None:
@@ -76,63 +71,40 @@ class GameObserver:
 
 
 class Progress(NamedTuple):
-    """Progress of a game.
+    """Progress of a game."""
 
-    Attributes:
-        time: Simulated time, in [s].
-        distance: Smallest distance between opponents, or else between any
-            players, in [m]; None with one player.
-        real_time_factor: Simulated time over time passed.
-    """
-
-    time: float
-    distance: float | None
-    real_time_factor: float
+    time: float  # simulated [s]
+    distance: float | None  # see `GameInPlay.distance`
+    real_time_factor: float  # simulated time over time passed
 
 
 @dataclass(frozen=True)
 class GameRules:
-    """What ends a game.
+    """What ends a game."""
 
-    Attributes:
-        duration: Time limit, in [s].
-        capture: Distance at which an evader is captured, in [m]; 0 if that
-            ends no game.
-        identities: Identities of the players, by name.
-        goals: Positions (x, y) in the world, in [m], by name of the player.
-    """
-
-    duration: float = inf
-    capture: float = 0.0
+    duration: float = inf  # [s]
+    capture: float = 0.0  # distance [m]; 0 if capture ends no game
     identities: Mapping[str, PlayerIdentity] = field(default_factory=dict)
+    # Places (x, y) in the world [m] that all players with one must reach.
     goals: Mapping[str, tuple[float, ...]] = field(default_factory=dict)
 
 
 class Ended(NamedTuple):
-    """End of a game.
-
-    Attributes:
-        outcome: How it ended.
-        message: The reason, as text.
-        players: Names of the players and things that ended it.
-    """
+    """End of a game."""
 
     outcome: Outcome
-    message: str
-    players: tuple[str, ...] = ()
+    message: str  # the reason
+    players: tuple[str, ...] = ()  # and things that ended it
 
 
 class GameInPlay:
     """One game that is being played.
 
     Attributes:
-        world: World of the game.
-        rules: Its rules.
-        observers: Its observers.
         ended: How it ended; None while it goes on.
         closest: Least distance so far of each evader and pursuer, in [m].
-        captured_at: Time at which that distance first was at most the
-            capture distance, in [s]; it ends a game only by its rules.
+        captured_at: Time at which that first was at most the capture
+            distance, in [s]; it ends a game only by its rules.
         goals_at: Time at which players reached their goals, in [s], by name.
         wall_time: Share of the time that the computation took, in [s].
     """
@@ -207,15 +179,9 @@ class GameInPlay:
     def tick(self, limit: float = inf) -> Outcome | None:
         """Let the players decide and move on, and judge; return the outcome.
 
-        Args:
-            limit: Time at which they move no farther, in [s].
+        They move no farther than to a limit, in [s]. If one fails, that ends
+        the game before they move.
         """
-        self.decide()
-        self.advance(limit)
-        return self.outcome
-
-    def decide(self) -> None:
-        """Let the players decide."""
         for observer in self.observers:
             observer.before(self)
         try:
@@ -229,15 +195,12 @@ class GameInPlay:
                 f"{who}{what} at {now:.2f} s: {error}",
                 (who,),
             )
-
-    def advance(self, limit: float = inf) -> None:
-        """Move on after all have decided, unless one failed, and judge."""
-        if self.ended is not None:
-            return
+            return self.outcome
         for observer in self.observers:
             observer.acted(self)
         self.world.step(min(limit, self.rules.duration))
         self.ended = self._judge()
+        return self.outcome
 
     def _judge(self) -> Ended | None:
         """Apply the rules, and note approaches."""
@@ -286,12 +249,8 @@ def play(
     Each game has the same bits as when it is played alone. At any end,
     including a KeyboardInterrupt, which interrupts those that still go on,
     the observers keep the record of what was played, and the worlds are
-    closed.
-
-    Args:
-        games: The games.
-        report: Called about five times a second with the progress of the
-            first game.
+    closed. The progress of the first game is reported about five times a
+    second.
     """
     began = reported = perf_counter()
     try:

@@ -50,16 +50,10 @@ if TYPE_CHECKING:
 
 
 class RemoteControl(NamedTuple):
-    """How another process controls a robot.
+    """How another process controls a robot."""
 
-    Attributes:
-        balances: Whether the robot balances itself and follows commanded
-            velocities; otherwise its joints are commanded.
-        ideal_sight: Whether the true line of sight is measured.
-    """
-
-    balances: bool
-    ideal_sight: bool
+    balances: bool  # by itself, at commanded velocities; else by its joints
+    ideal_sight: bool  # whether the true line of sight is measured
 
 
 class PhysicsWorld(World):
@@ -72,8 +66,6 @@ class PhysicsWorld(World):
         first_moves: Time at which a player first moved in the game, in [s],
             and the poses of all then, by name. Motion before ``started_at``
             does not count.
-        acting: Name of the player that acts, or acted last.
-        contact: Outcome of a game that ends by contact.
     """
 
     contact = Outcome.CONTACT
@@ -97,12 +89,9 @@ class PhysicsWorld(World):
             rendered: Whether to render the world; cameras do so anyway.
             has_things: Whether there are obstacles besides the players; by
                 default, whether there is a room.
-            remote: Control of the robots that other processes control, by
-                name of the player.
-            strategies: Strategies that replace those of the settings, by
-                name of the player.
-            descriptions: Descriptions that replace those of the settings,
-                likewise.
+            remote: Control by other processes, by name of the player.
+            strategies: Replace those of the settings, by name.
+            descriptions: Of robots, likewise.
         """
         self._settings, self._remote = settings, remote
         self._setups = _setups_of(settings, descriptions)
