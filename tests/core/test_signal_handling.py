@@ -12,8 +12,8 @@ from stepaside.core.signal_handling import (
     interruptible,
 )
 from stepaside.games.outcome import Outcome
+from stepaside.games.player import MotionLog
 from stepaside.games.recorded_game import run_walk
-from stepaside.games.robot_player import WalkerLog
 from stepaside.games.walk_settings import WalkSettings
 
 SIGNALS = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
@@ -97,16 +97,16 @@ def test_an_interrupted_record_has_complete_samples(
     times: int, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """Ctrl-C arrives once or twice within a sample."""
-    add = WalkerLog.add
+    add = MotionLog.add
     count = iter(range(100))
 
-    def add_and_interrupt(log: WalkerLog) -> None:
+    def add_and_interrupt(log: MotionLog) -> None:
         add(log)
         if next(count) == 5:
             for _ in range(times):
                 signal.raise_signal(signal.SIGINT)
 
-    monkeypatch.setattr(WalkerLog, "add", add_and_interrupt)
+    monkeypatch.setattr(MotionLog, "add", add_and_interrupt)
     run = run_walk(WalkSettings(duration=0.5))
     assert run.outcome is Outcome.INTERRUPTED and 3 < len(run.times) < 9
     lengths = {

@@ -2,6 +2,7 @@
 
 import logging
 from collections.abc import Sequence
+from functools import partial
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -11,7 +12,6 @@ from ..control.sight_sources import CameraSight
 from ..core.constants import GRAVITY
 from ..core.errors import PolicyError
 from ..core.poses import Array, Pose, wrap_angle
-from ..core.row_table import RowTable
 from ..locomotion.locomotion import Phase, StepStarted
 from ..locomotion.maneuver_walk import ManeuverWalk
 from ..perception.images import ColourImage
@@ -19,6 +19,7 @@ from ..perception.measurement import RobotState, Sighting
 from ..planning import Foot
 from ..robots.description import RobotDescription
 from ..robots.forward_kinematics import ForwardKinematics, torso_pose_on_foot
+from ..sim.ground_truth import RobotLog
 from ..sim.push import Push, ScheduledPush
 from ..sim.simulated_robot import SimulatedRobot
 from ..strategies.velocity_set import BodyVelocity
@@ -32,6 +33,16 @@ if TYPE_CHECKING:
 log = logging.getLogger(__name__)
 
 AT_ONCE = 1.0  # a fall until then is one of the policy, in [s]
+# Columns of a robot that plans its steps, by their name in a trajectory.
+REFERENCES = {"com_reference": 2, "zmp_reference": 2}
+CLOSELY = {
+    "velocity": 2,
+    "tilt": 2,
+    "sole": 3,
+    "support": 5,
+    "heading_reference": 1,
+    "estimate": 8,
+}
 MOVING = 0.05  # change of a target from which a robot moves, in [rad]
 
 
@@ -104,12 +115,53 @@ class PhysicalPlayer(Player):
             "stand: the contract does not fit the network"
         )
 
-    def motion_log(self, *, closely: bool) -> MotionLog:
-        """Return an empty log of its motion."""
-        walk, frame = self.maneuvers, self.frame
-        if walk is not None and frame is not None:
-            return WalkerLog(self.robot, walk, frame, closely=closely)
-        return self.robot.state_log()
+    def motion_log(self, *, closely: bool) -> MotionLog | RobotLog:
+        """Return an empty log of its motion, closely with foot states."""
+        states, walk = self.robot.state_log(), self.maneuvers
+        if walk is None:
+            return states
+        columns, row = REFERENCES, partial(self._planned, walk)
+        if closely:
+            columns, row = REFERENCES | CLOSELY, partial(self._close_row, walk)
+        return MotionLog(columns, row, states)
+
+    def _planned(self, walk: ManeuverWalk) -> tuple[float, ...]:
+        """Return the references of CoM and ZMP in the world."""
+        x, y, u, v = walk.planned_centers
+        return *self._in_world(x, y), *self._in_world(u, v)
+
+    def _in_world(self, x: float, y: float) -> tuple[float, float]:
+        """Return a point of odometry in the world, in [m]."""
+        assert self.frame is not None
+        return self.frame.compose(Pose(x, y, 0.0))[:2]
+
+    def _close_row(self, walk: ManeuverWalk) -> tuple[float, ...]:
+        """Return references, foot states and estimates in the world."""
+        stance, frame = self.robot.stance, self.frame
+        assert frame is not None
+        step = walk.step(self.robot.world.time)
+        foot, state = step.swing.other, walk.balance.state
+        sole = stance.left_sole if foot is Foot.LEFT else stance.right_sole
+        estimate = (np.nan,) * CLOSELY["estimate"]
+        if state is not None:
+            turned = Pose(0.0, 0.0, frame.theta)
+            estimate = (
+                *self._in_world(*state.com),
+                *turned.compose(Pose(*state.velocity, 0.0))[:2],
+                *self._in_world(*state.zmp),
+                *state.tilt,
+            )
+        return (
+            *self._planned(walk),
+            *stance.velocity,
+            *stance.tilt,
+            *sole,
+            foot.value,
+            float(step.walking and step.remaining > 0.0),
+            *frame.compose(step.support),
+            walk.balance.planned_heading + frame.theta,
+            *estimate,
+        )
 
     def push(self, *pushes: Push) -> None:
         """Schedule pushes of the torso, now or later."""
@@ -173,15 +225,14 @@ class RobotPlayer(PhysicalPlayer):
         robot.write(targets)
 
 
-class VelocityWalker(PhysicalPlayer):
+class VelocityWalker(RobotPlayer):
     """Simulated robot that walks at velocities that another process commands.
 
     Attributes:
-        scheme: Controller.
         description: Description of the robot.
     """
 
-    frame: Pose
+    scheme: VelocityScheme
 
     def __init__(
         self,
@@ -191,8 +242,8 @@ class VelocityWalker(PhysicalPlayer):
         description: RobotDescription,
     ) -> None:
         """Combine a robot and its controller."""
-        super().__init__(robot, scheme.locomotion, frame)
-        self.scheme, self.description = scheme, description
+        super().__init__(robot, scheme, frame)
+        self.description = description
         self._forward = ForwardKinematics(description)
         self._image: ColourImage | None = None
         self._ignores_lateral = False
@@ -318,103 +369,3 @@ class ServedPlayer(PhysicalPlayer):
         self._moves = self._moves or bool(change.max() > MOVING)
         self.robot.servos.soften(stiffness)
         self.robot.write(targets)
-
-
-CLOSE_COLUMNS = {
-    "velocity": 2,
-    "tilt": 2,
-    "sole": 3,
-    "support": 5,
-    "heading_reference": 1,
-    "estimate": 8,
-}
-
-
-class WalkerLog:
-    """Samples of a simulated robot, with its plan and estimates.
-
-    Samples are raw rows; planned and estimated quantities are in odometry
-    until the log is read. Only a close record has foot states and estimates.
-    """
-
-    def __init__(
-        self,
-        robot: SimulatedRobot,
-        locomotion: ManeuverWalk,
-        frame: Pose,
-        *,
-        closely: bool,
-    ) -> None:
-        """Begin without samples."""
-        self._robot, self._locomotion, self._frame = robot, locomotion, frame
-        self._states = robot.state_log()
-        self._references = RowTable(4)
-        self._close = (
-            RowTable(sum(CLOSE_COLUMNS.values())) if closely else None
-        )
-
-    def add(self) -> None:
-        """Sample the present state."""
-        self._states.add()
-        self._references.append()[:] = self._locomotion.planned_centers
-        if self._close is not None:
-            self._close.append()[:] = self._close_row()
-
-    def truncate(self, count: int) -> None:
-        """Keep only the first samples."""
-        self._states.truncate(count)
-        self._references.truncate(count)
-        if self._close is not None:
-            self._close.truncate(count)
-
-    def arrays(self) -> dict[str, Array]:
-        """Return true, planned and estimated arrays, in the world."""
-        frame, planned = self._frame, self._references.rows
-        arrays = self._states.arrays()
-        arrays["com_reference"] = frame.transform_points(planned[:, :2])
-        arrays["zmp_reference"] = frame.transform_points(planned[:, 2:])
-        if self._close is not None:
-            arrays |= _close_arrays(self._close.rows, frame)
-        return arrays
-
-    def _close_row(self) -> tuple[float, ...]:
-        """Return foot states and estimates, in the order of their columns."""
-        walk, stance = self._locomotion, self._robot.stance
-        step = walk.step(self._robot.world.time)
-        foot, state = step.swing.other, walk.balance.state
-        sole = stance.left_sole if foot is Foot.LEFT else stance.right_sole
-        estimate = (np.nan,) * CLOSE_COLUMNS["estimate"]
-        if state is not None:
-            estimate = *state.com, *state.velocity, *state.zmp, *state.tilt
-        return (
-            *stance.velocity,
-            *stance.tilt,
-            *sole,
-            foot.value,
-            float(step.walking and step.remaining > 0.0),
-            *step.support,
-            walk.balance.planned_heading,
-            *estimate,
-        )
-
-
-def _close_arrays(rows: Array, frame: Pose) -> dict[str, Array]:
-    """Return :data:`CLOSE_COLUMNS` in the world, by name.
-
-    An estimate that is NaN throughout is left out.
-    """
-    ends = np.cumsum(list(CLOSE_COLUMNS.values()))[:-1]
-    parts = np.split(rows.copy(), ends, axis=1)
-    arrays = dict(zip(CLOSE_COLUMNS, parts, strict=True))
-    support, rotation = arrays["support"], Pose(0.0, 0.0, frame.theta)
-    support[:, 2:4] = frame.transform_points(support[:, 2:4])
-    support[:, 4] += frame.theta
-    arrays["heading_reference"] += frame.theta
-    estimate = arrays["estimate"]
-    if np.isnan(estimate).all():
-        del arrays["estimate"]
-        return arrays
-    estimate[:, 0:2] = frame.transform_points(estimate[:, 0:2])
-    estimate[:, 2:4] = rotation.transform_points(estimate[:, 2:4])
-    estimate[:, 4:6] = frame.transform_points(estimate[:, 4:6])
-    return arrays
