@@ -50,7 +50,6 @@ class ControlScheme:
         locomotion: "ManeuverWalk | PolicyWalk",
         senses: SightSource,
     ) -> None:
-        """Begin standing."""
         self.decisions, self.locomotion = decisions, locomotion
         self.senses = senses
         self.sighting: Sighting | None = None
@@ -350,7 +349,6 @@ class VelocityScheme(ControlScheme):
         return request
 
     def _request(self) -> MotionRequest:
-        """Return the request of the present command."""
         velocity = self.velocity
         if self.locomotion.maneuvers is None:
             walks = velocity != STILL

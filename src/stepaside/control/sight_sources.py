@@ -83,7 +83,6 @@ class SightOfPlayers(SightSource):
     """
 
     def __init__(self, identity: PlayerIdentity, target: str = "") -> None:
-        """Begin without sightings."""
         self._identity, self._target = identity, target
         self._latest: dict[str, Sighting] = {}
         self._numbers: dict[str, int] = {}
@@ -172,7 +171,6 @@ class CameraSight(LidarSight):
         tick: float,
         unnamed: tuple[PlayerIdentity, Role] | None = None,
     ) -> None:
-        """Wrap a perception."""
         super().__init__(perception, tick=tick)
         self._unnamed = unnamed
 

@@ -52,7 +52,6 @@ class StrategyRunner(DecisionMaker):
         velocities: VelocitySet | None = None,
         views: tuple[Sector, ...] = ALL_AROUND,
     ) -> None:
-        """Begin without a sighting."""
         super().__init__(strategy, limits_of(gait, velocities, views))
         self._surroundings = surroundings or Surroundings()
         self.pace = 1.0

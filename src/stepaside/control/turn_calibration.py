@@ -19,7 +19,6 @@ class TurnCalibration:
     """
 
     def __init__(self, tick: float) -> None:
-        """Begin without an estimate."""
         self._tick, self._decay = tick, exp(-tick / TIME_CONSTANT)
         self._standing_ticks, self._bias_sum, self._missing_ticks = 0, 0.0, 0
         self._actual = self._odometric = 0.0

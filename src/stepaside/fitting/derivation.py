@@ -376,7 +376,6 @@ def name_of(analysis: ModelAnalysis) -> str:
 
 
 def _relative_path(folder: Path, path: Path) -> str:
-    """Return a path relative to the folder of a description."""
     return Path(os.path.relpath(path.resolve(), folder.resolve())).as_posix()
 
 

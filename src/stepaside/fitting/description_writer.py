@@ -72,7 +72,6 @@ def _entries(derived: DerivedDescription) -> dict[str, Any]:
 
 
 def _words(derived: DerivedDescription) -> dict[str, str]:
-    """Return what fills the comments."""
     own, analysis, missing = derived.description, derived.analysis, ""
     if analysis.missing:
         missing = (

@@ -128,7 +128,6 @@ def game_of_size(size: RobotSize, gait: dict[str, float]) -> dict[str, float]:
 
 
 def _round(value: float, digits: int = 3) -> float:
-    """Round to significant digits."""
     return float(f"{value:.{digits}g}")
 
 

@@ -246,7 +246,6 @@ class _End(NamedTuple):
 
 
 def _sides(data: mujoco.MjData, ends: list[_End]) -> str:
-    """Return the explanation of missing legs."""
     if not ends:
         return (
             "no body below its torso has a hinge or a slide; the torso must "
@@ -268,7 +267,6 @@ def _sides(data: mujoco.MjData, ends: list[_End]) -> str:
 
 
 def _above(model: mujoco.MjModel, body: int) -> Iterator[int]:
-    """Yield the ancestors of a body."""
     while body := int(model.body_parentid[body]):
         yield body
 
@@ -281,7 +279,6 @@ def _ends(model: mujoco.MjModel) -> list[int]:
 
 
 def _chain(model: mujoco.MjModel, body: int) -> list[int]:
-    """Return the joints from the torso to a body."""
     bodies = body, *_above(model, body)
     moving = np.isin(model.jnt_type, JOINT_TYPES)
     found: list[int] = np.flatnonzero(
@@ -337,7 +334,6 @@ def _leg(
     chain: list[int],
     side: str,
 ) -> DetectedLeg:
-    """Return a leg from its joint chain."""
     pitches = [j for j in chain if abs(data.xaxis[j, 1]) > ALIGNED]
     if len(pitches) == 4 and pitches[3] == chain[-1] and len(chain) > 6:
         # A toe joint: kept fixed, so that the toe is part of the foot.

@@ -53,7 +53,6 @@ class StrainGauge(GameObserver):
     """Observer that measures the joint strain of the only player."""
 
     def __init__(self) -> None:
-        """Begin without data."""
         self._loads: list[Array] = []
         self._sags: list[float] = []
         self._names: list[str] = []

@@ -57,7 +57,6 @@ class KnownRoom(Surroundings):
     """
 
     def __init__(self, room: Room, start: Pose) -> None:
-        """Begin at time zero, with the pose of the odometry in the room."""
         self._room, self._next = room, 0.0
         self.solids = ObstacleSet(room.solids_at(0.0, AHEAD))
         self.pose_odometry_in_map = start
@@ -432,7 +431,6 @@ class FootstepAdjustment:
         reach: StabiliserSettings,
         radius: float,
     ) -> None:
-        """Prepare the adjustment for one gait."""
         self._planner, self._reach = planner, reach
         self._solver = load_solver()
         self.radius = radius  # [m]
@@ -521,7 +519,6 @@ class FootstepAdjustment:
 
 
 def _sides(plan: ManeuverPlan) -> Array:
-    """Return 1 for each left footstep and -1 for each right one."""
     sides: Array = np.ones(len(plan.placements) - 2)
     sides[1::2] = -1.0
     return plan.first_foot.value * sides

@@ -51,7 +51,6 @@ class ManeuverWalk:
         first_foot: Foot = Foot.LEFT,
         guard: Guard | None = None,
     ) -> None:
-        """Take the standing posture."""
         self.gait = gait
         self.kinematics = kinematics
         self.balance = OpenLoop(kinematics) if balance is None else balance
@@ -343,7 +342,6 @@ class ManeuverWalk:
         state: CenterState,
         spent: float | None,
     ) -> None:
-        """Replace the current plan."""
         self.plan, self.plan_frame, self.plan_started = plan, frame, started
         self._plan_ends = started + duration
         self._table.load(plan, frame, started, duration)

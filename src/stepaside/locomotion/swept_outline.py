@@ -85,7 +85,6 @@ Part = Literal["step", "all"]
 
 @lru_cache(maxsize=64)
 def _sampler(schedule: Schedule, part: Part) -> Sampler:
-    """Return the sampler of a schedule; a gait has a few schedules."""
     if part == "step":
         last = schedule.first_step_duration
         return schedule.sampler(np.linspace(0.0, last, SAMPLES + 1))

@@ -210,7 +210,6 @@ def _inputs(
 
 
 def _pair(values: Array) -> tuple[float, float]:
-    """Return the two elements of an array."""
     x, y = values.tolist()
     return x, y
 

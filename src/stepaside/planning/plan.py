@@ -258,7 +258,6 @@ class ManeuverPlan:
 
 
 def _checked(times: ArrayLike) -> Array:
-    """Check and convert times."""
     try:
         row = np.asarray(times)
     except ValueError:  # rows of several lengths

@@ -56,7 +56,6 @@ class Schedule:
     def __init__(
         self, settings: GaitSettings, count: int, *, standing: bool
     ) -> None:
-        """Solve the closed form once for unit inputs."""
         self.settings = settings
         self.count = count
         self.standing = standing

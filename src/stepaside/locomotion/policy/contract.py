@@ -6,6 +6,7 @@ states them for one network, so that one runtime serves all.
 """
 
 from dataclasses import dataclass
+from itertools import accumulate
 from math import inf, pi
 from typing import Literal, NamedTuple
 
@@ -44,10 +45,6 @@ TERMS = {
     "frequency": "previous output for the frequency of the clock [1/s]",
 }
 """Quantities that an observation may contain, by name."""
-
-WIDTHS = {"command_lin_vel": 2, "command_ang_vel": 1, "frequency": 1}
-OF_JOINTS = frozenset({"joint_pos", "joint_vel", "actions"})
-OF_CLOCK = frozenset({"sin_phase", "cos_phase"})
 
 
 @dataclass(frozen=True, slots=True)
@@ -196,7 +193,7 @@ class PolicyContract:
                     f"unknown observation term {term.name!r}; there are "
                     f"{', '.join(TERMS)}"
                 )
-            if term.name in OF_CLOCK and self.clock is None:
+            if self.clock is None and term.name.endswith("_phase"):
                 raise PolicyError(
                     f"observation term {term.name!r} needs a clock"
                 )
@@ -206,13 +203,30 @@ class PolicyContract:
                     f"{self.width_of(term)} values, got {len(term.scale)}"
                 )
 
+    def places(self) -> dict[str, slice]:
+        """Return the place of each quantity among all that are observed."""
+        joints = len(self.joints)
+        phases = 0 if self.clock is None else len(self.clock.offsets)
+        velocities = dict.fromkeys(("base_lin_vel", "base_ang_vel"), 3)
+        widths = {
+            **velocities,
+            **{"projected_gravity": 3, "command": 3},
+            **dict.fromkeys(("joint_pos", "joint_vel", "actions"), joints),
+            **{"sin_phase": phases, "cos_phase": phases, "frequency": 1},
+        }
+        ends = accumulate(widths.values())
+        found = {
+            name: slice(end - width, end)
+            for (name, width), end in zip(widths.items(), ends, strict=True)
+        }
+        first = found["command"].start
+        found["command_lin_vel"] = slice(first, first + 2)
+        return found | {"command_ang_vel": slice(first + 2, first + 3)}
+
     def width_of(self, term: ObservationTerm) -> int:
         """Return the number of values of a term."""
-        if term.name in OF_JOINTS:
-            return len(self.joints)
-        if term.name in OF_CLOCK:
-            return 0 if self.clock is None else len(self.clock.offsets)
-        return WIDTHS.get(term.name, 3)
+        place = self.places()[term.name]
+        return int(place.stop - place.start)
 
     @property
     def action_width(self) -> int:

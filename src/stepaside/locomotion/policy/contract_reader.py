@@ -172,7 +172,6 @@ def read_contract(
 def _convention_of(
     name: str, metadata: Mapping[str, str]
 ) -> Convention | None:
-    """Return a convention by name, else by its metadata keys, if any."""
     known = conventions()
     if name and name not in known:
         raise PolicyError(
@@ -197,7 +196,6 @@ def _own_entries(network: PolicyNetwork) -> dict[str, Any]:
 
 
 def _put_metadata(reading: ContractReading, used: Convention) -> None:
-    """Read the keys of an exporter."""
     for key, target in used.metadata.items():
         text = reading.network.metadata.get(key, "null")
         if text in ("null", ""):
@@ -259,7 +257,6 @@ def _change_terms(reading: ContractReading, key: str, given: Any) -> None:
 
 
 def _property(key: str, value: Any) -> dict[str, Any]:
-    """Return the property of a term by a value of metadata."""
     parts = value.split(";") if isinstance(value, str) else value
     numbers = list(map(float, _listed(parts)))
     if key == "scale":
@@ -351,7 +348,6 @@ def _complete(reading: ContractReading, robot: RobotJoints) -> None:
 
 
 def _by_joint(key: str, value: Any, joints: Any) -> Any:
-    """Spread one value for all, or values by joint, over the joints."""
     if isinstance(value, int | float):
         return [value] * len(joints)
     if not isinstance(value, Mapping):
@@ -459,7 +455,6 @@ def _fitted(
 
 
 def _misfits(contract: PolicyContract, network: PolicyNetwork) -> list[str]:
-    """Compare the widths of contract and network."""
     found = []
     if network.observation.width != contract.observation_width:
         terms = ", ".join(

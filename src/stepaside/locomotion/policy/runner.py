@@ -58,7 +58,6 @@ class PolicyNetwork:
     """
 
     def __init__(self, path: Path) -> None:
-        """Load a network."""
         self.path = path
         try:
             check_readable(path)
@@ -317,35 +316,58 @@ class PolicyRunner:
         motion: BodyMotion,
         joints: Sequence[int],
     ) -> None:
-        """Begin standing in the default posture."""
+        """Begin standing in the default posture, at joints of the motion."""
         self.contract, self.memory = contract, network.initial_memory()
+        places, terms = contract.places(), contract.terms
+        every = np.arange(places["frequency"].stop)
+        parts = [every[places[term.name]] for term in terms]
+        widths = [len(part) for part in parts]
+        scales = [
+            np.broadcast_to(term.scale, width)
+            for term, width in zip(terms, widths, strict=True)
+        ]
+        past = np.arange(contract.history * sum(widths))
+        past = past.reshape(contract.history, -1)
+        if contract.history_order == "term":
+            by_term = np.split(past, np.cumsum(widths)[:-1], axis=1)
+            past = np.concatenate([part.ravel() for part in by_term])
+        self._flat, self._frame = past.ravel(), np.zeros(sum(widths))
+        self._history: Array | None = None
         posture = np.array(contract.default_posture, dtype=np.float64)
         self.targets = posture.copy()  # [rad] (joints,)
-        layout, clock = ObservationLayout.of(contract), contract.clock
-        values, self._raw = (
-            np.zeros(layout.size),
-            np.zeros(contract.action_width),
-        )
-        gait = np.array(clock_values(contract))
-        self._history: Array | None = None
-        self._flat, self._frame = layout.flat, np.zeros(layout.order.size)
+        values, self._raw = every * 0.0, np.zeros(contract.action_width)
+        clock, period = contract.clock, contract.period
+        step = spread = settling = 0.0
+        waits = silent = False
         offsets = np.array(() if clock is None else clock.offsets, dtype=float)
+        if clock is not None:
+            step, spread = 2.0 * pi * period / clock.period, clock.spread
+            waits = clock.standing != "runs"
+            silent = clock.standing == "silent"
+            settling = clock.settling / period
+        # Greatest change of a command, step of the phases, whether the clock
+        # waits or is silent while the robot stands, whether it stood, and for
+        # how many periods the command has been and must be zero until then.
+        change = contract.command_rate * period
+        gait = [change, step, waits, silent, 1.0, settling, settling]
+        state = np.array(gait, dtype=np.float64)
+        # Greatest action, share of the previous targets, whether clipped
+        # actions are observed, greatest change of the frequency [1/s], and
+        # step of the phases without and per change.
+        limits = [contract.action_clip, contract.action_filter]
+        limits += [float(contract.observes_clipped), spread, step]
+        limits += [2.0 * pi * period]
         self.loop = bound(
             *(observe, *motion, np.array(joints, dtype=np.int64), posture),
-            *(values, offsets.copy(), offsets),
-            gait,
-            *(layout.order, layout.clips, layout.scales, self._frame),
+            *(values, offsets.copy(), offsets, state, np.concatenate(parts)),
+            np.repeat([float(term.clip) for term in terms], widths),
+            *(np.concatenate(scales).astype(np.float64), self._frame),
         )
         self._act = bound(
-            *(
-                act,
-                self._raw,
-                posture,
-                np.array(contract.action_scale, dtype=float),
-            ),
-            np.array(action_limits(contract)),
-            *(values[layout.places["actions"]], self.targets),
-            *(values[layout.places["frequency"]], gait),
+            *(act, self._raw, posture),
+            *(np.array(contract.action_scale, dtype=float), np.array(limits)),
+            *(values[places["actions"]], self.targets),
+            *(values[places["frequency"]], state),
         )
 
     def observation(self) -> Array:
@@ -372,106 +394,3 @@ class PolicyRunner:
         self.memory, self._raw[:] = memory, raw
         self._act()
         return self.targets
-
-
-def action_limits(contract: PolicyContract) -> list[float]:
-    """Return the ``limits`` of :func:`act`.
-
-    They are the greatest magnitude of an action, the share of the previous
-    targets, whether clipped actions are observed, the greatest change of the
-    frequency of the clock, in [1/s], and the step of the phases per period,
-    without a change and per [1/s] of it.
-    """
-    observed, spread = float(contract.observes_clipped), 0.0
-    if contract.clock is not None:
-        spread = contract.clock.spread
-    step, turn = clock_values(contract)[1], 2.0 * pi * contract.period
-    clip, share = contract.action_clip, contract.action_filter
-    return [clip, share, observed, spread, step, turn]
-
-
-def clock_values(contract: PolicyContract) -> list[float]:
-    """Return the ``clock`` of :func:`observe`, at the start.
-
-    They are the greatest change of a command and the step of the phases per
-    period, whether the clock waits while the robot stands, whether it is
-    silent then, whether the robot stood, and for how many periods the command
-    has been zero and must be zero before the robot stands.
-    """
-    clock, period = contract.clock, contract.period
-    step, waits, silent, settling = 0.0, False, False, 0.0
-    if clock is not None:
-        step = 2.0 * pi * period / clock.period
-        waits, silent = clock.standing != "runs", clock.standing == "silent"
-        settling = clock.settling / period
-    change = contract.command_rate * period
-    return [change, step, waits, silent, 1.0, settling, settling]
-
-
-class ObservationLayout(NamedTuple):
-    """Places of the observed quantities in the input of a network."""
-
-    size: int  # number of all quantities at one instant
-    places: dict[str, slice]  # place of each quantity among them, by name
-    # quantities of one observation, in order. Shape (n,)
-    order: NDArray[np.int_]
-    scales: Array  # factor on each. Shape (n,)
-    clips: Array  # greatest magnitude of each before scaling. Shape (n,)
-    # order of past observations in the input. Shape (history n,)
-    flat: NDArray[np.int_]
-
-    @classmethod
-    def of(cls, contract: PolicyContract) -> "ObservationLayout":
-        """Return the layout of a contract."""
-        clock = contract.clock
-        phases = 0 if clock is None else len(clock.offsets)
-        size, places = _places(len(contract.joints), phases)
-        terms = [np.arange(size)[places[x.name]] for x in contract.terms]
-        widths = [len(term) for term in terms]
-        scales = [
-            np.broadcast_to(term.scale, contract.width_of(term))
-            for term in contract.terms
-        ]
-        by_term = contract.history_order == "term"
-        return cls(
-            size,
-            places,
-            np.concatenate(terms),
-            np.concatenate(scales).astype(np.float64),
-            np.repeat([float(term.clip) for term in contract.terms], widths),
-            _history_order(widths, contract.history, by_term=by_term),
-        )
-
-
-def _places(joints: int, phases: int) -> tuple[int, dict[str, slice]]:
-    """Return the number of all quantities, and the place of each by name."""
-    widths = {
-        **dict.fromkeys(("base_lin_vel", "base_ang_vel"), 3),
-        **dict.fromkeys(("projected_gravity", "command"), 3),
-        **dict.fromkeys(("joint_pos", "joint_vel", "actions"), joints),
-        **dict.fromkeys(("sin_phase", "cos_phase"), phases),
-        "frequency": 1,
-    }
-    ends = np.cumsum(list(widths.values())).tolist()
-    places = {
-        name: slice(end - width, end)
-        for (name, width), end in zip(widths.items(), ends, strict=True)
-    }
-    first = places["command"].start
-    places["command_lin_vel"] = slice(first, first + 2)
-    places["command_ang_vel"] = slice(first + 2, first + 3)
-    return ends[-1], places
-
-
-def _history_order(
-    widths: Sequence[int], count: int, *, by_term: bool
-) -> NDArray[np.int_]:
-    """Return the order of past observations in the input of a network.
-
-    By term, the past of one term precedes that of the next.
-    """
-    indices = np.arange(count * sum(widths)).reshape(count, -1)
-    if not by_term:
-        return indices.ravel()
-    parts = np.split(indices, np.cumsum(widths)[:-1], axis=1)
-    return np.concatenate([part.ravel() for part in parts])

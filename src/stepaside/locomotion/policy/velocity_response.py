@@ -1,8 +1,7 @@
 """Response of a walking policy: velocities it delivers for its commands."""
 
 import hashlib
-from bisect import bisect_right
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property
 from itertools import chain
@@ -182,18 +181,17 @@ class VelocityResponse:
             for i, rows in enumerate(self._effects)
         )
 
-    def _effect(self, axis: int, command: float) -> BodyVelocity:
-        """Return the velocity that a command along one axis adds."""
-        rows = self._effects[axis]
-        i, share = _locate(self.axes[axis].commands, command)
-        (a, b, c), (u, v, w) = rows[i], rows[i + 1]
-        return BodyVelocity(
-            a + share * (u - a), b + share * (v - b), c + share * (w - c)
-        )
-
     def deliver(self, command: BodyVelocity) -> BodyVelocity:
         """Return the velocity that a command leads to."""
-        effects = [self._effect(i, c) for i, c in enumerate(command)]
+        effects = [
+            [
+                np.interp(own, axis.commands, column)
+                for column in np.transpose(rows)
+            ]
+            for own, axis, rows in zip(
+                command, self.axes, self._effects, strict=True
+            )
+        ]
         return BodyVelocity(*np.sum(effects, axis=0).tolist())
 
     @property
@@ -234,13 +232,6 @@ class VelocityResponse:
         return VelocitySet(
             bounds[0], bounds[1], bounds[2], lags, halting, self.tube
         )
-
-
-def _locate(values: Sequence[float], value: float) -> tuple[int, float]:
-    """Return the interval of a value, and the share of it below the value."""
-    i = min(max(bisect_right(values, value) - 1, 0), len(values) - 2)
-    share = (value - values[i]) / (values[i + 1] - values[i])
-    return i, min(1.0, max(0.0, share))
 
 
 def response_path(folder: Path, network: Path) -> Path:

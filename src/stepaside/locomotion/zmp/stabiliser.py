@@ -324,7 +324,6 @@ class Ankles:
     """Ankle feedback: tilts the loaded feet to rotate the body upright."""
 
     def __init__(self, gains: StabiliserSettings, tick: float) -> None:
-        """Begin with level feet."""
         self._gains, self._tick = gains, tick
         self._reference_roll = 0.0
         self._blend = min(1.0, ANKLE_BANDWIDTH * tick)
