@@ -108,7 +108,6 @@ def test_the_written_description_equals_the_derived_one(
     assert robot.legs == own.legs and robot.standing == own.standing
     assert robot.overlay == own.overlay and robot.place == own.place
     assert robot.gait == own.gait and robot.control == own.control
-    assert robot.control["learn_turns"] is True
     gait = settings_from_description(robot).gait
     assert gait.com_height == pytest.approx(found.size.com_height, abs=1e-4)
     assert gait.sole.front == pytest.approx(stranger.SOLE[1])

@@ -22,7 +22,10 @@ from stepaside.games.recorded_game import run_duel, run_walk
 from stepaside.games.robot_settings import with_legs
 from stepaside.games.settings_reader import settings_of
 from stepaside.games.walk_settings import WalkSettings
-from stepaside.locomotion.control_settings import ControlSettings
+from stepaside.locomotion.control_settings import (
+    ControlSettings,
+    StabiliserSettings,
+)
 from stepaside.planning import PRESETS
 from stepaside.sim.body_settings import BODIES
 from stepaside.strategies import Evasion
@@ -166,9 +169,11 @@ def test_settings_imply_the_same_from_every_door(
 def test_a_choice_that_is_left_open_follows_later_changes(
     tmp_path: Path,
 ) -> None:
-    file = write(tmp_path / "duel.toml", {"control": {"learn_turns": True}})
+    file = write(
+        tmp_path / "duel.toml", {"control": {"stabiliser": {"edge": 0.001}}}
+    )
     settings = replace(load_configuration(file), body=BODIES["hardware"])
-    wanted = ControlSettings("measured", True, learn_turns=True)
+    wanted = ControlSettings("measured", True, StabiliserSettings(edge=0.001))
     assert settings.resolved().control == wanted
     own = RobotSettings(gait=PRESETS["fast"])
     mixed = replace(DUEL, evader_robot=own).resolved()

@@ -1,8 +1,6 @@
 """Test the push bound of the pendulum, against linear programs too."""
 
-from dataclasses import replace
 from math import cos, exp, expm1, pi, sin
-from typing import Literal
 
 import numpy as np
 import pytest
@@ -117,7 +115,6 @@ def test_a_halt_is_held_by_its_two_feet_and_no_third_step() -> None:
     assert len(held_regions(plan, 0.1, REACH)) == 2
 
 
-@pytest.mark.parametrize("profile", ["linear", "cubic"])
 @pytest.mark.parametrize(
     ("kind", "time", "direction", "reach", "lasts"),
     [
@@ -138,15 +135,9 @@ def test_bound_is_the_best_of_all_linear_programs(
     direction: float,
     reach: FootReach,
     lasts: float,
-    profile: Literal["linear", "cubic"],
 ) -> None:
     """Sampled ZMPs, and one landing at a time."""
-    gait = replace(GAIT, zmp_profile=profile)
-    plan = (
-        walking(bearing=0.3, gait=gait)
-        if kind == "walk"
-        else plan_of(kind, gait=gait)
-    )
+    plan = walking(bearing=0.3) if kind == "walk" else plan_of(kind)
     bound = push_bound(plan, time, direction, MASS, reach, lasts=lasts)
     brute = brute_force(
         plan, time, direction, MASS, reach, lasts=lasts, number=3

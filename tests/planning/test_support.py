@@ -1,7 +1,6 @@
 """Test the support polygon over time, and the ZMP of every plan in it."""
 
 from dataclasses import replace
-from typing import Literal
 
 import numpy as np
 import pytest
@@ -31,7 +30,6 @@ def instants(plan: ManeuverPlan) -> list[float]:
     st.sampled_from(KINDS),
     st.floats(-3.1, 3.1),
     st.floats(-3.1, 3.1),
-    st.sampled_from(["linear", "cubic"]),
     st.integers(2, 6),
     st.sampled_from(Foot),
     st.sampled_from(Direction),
@@ -40,7 +38,6 @@ def test_zmp_of_every_plan_is_under_the_feet(
     kind: str,
     bearing: float,
     turn_to: float,
-    profile: Literal["linear", "cubic"],
     horizon: int,
     foot: Foot,
     direction: Direction,
@@ -51,7 +48,6 @@ def test_zmp_of_every_plan_is_under_the_feet(
         turn_to=turn_to,
         foot=foot,
         direction=direction,
-        zmp_profile=profile,
         horizon=horizon,
     )
     for phase in plan.support():

@@ -3,6 +3,7 @@
 import numpy as np
 from call_timing import time_call
 
+from stepaside.core.constants import GRAVITY
 from stepaside.core.poses import Pose
 from stepaside.planning import (
     CenterState,
@@ -83,9 +84,7 @@ def _measure_drake(plan: ManeuverPlan) -> dict[str, float]:
     drake = ZmpPlanner()
 
     def solve() -> None:
-        drake.Plan(
-            zmp, state, gait.com_height, gait.gravity, np.eye(2), weight
-        )
+        drake.Plan(zmp, state, gait.com_height, GRAVITY, np.eye(2), weight)
 
     times = np.arange(0.0, schedule.duration, 0.01)
     nominal = (drake.get_nominal_com, drake.get_nominal_comd)

@@ -245,7 +245,6 @@ def with_feedback(settings: DuelSettings) -> DuelSettings:
     """Enable feedback unless options or settings choose the control."""
     given = click.get_current_context().meta[GIVEN]
     chosen = not given.isdisjoint(CONTROL)
-    learns = settings.control.learn_turns
-    if chosen or replace(settings.control, learn_turns=False) != OPEN_LOOP:
+    if chosen or settings.control != OPEN_LOOP:
         return settings
-    return replace(settings, control=replace(STABILISED, learn_turns=learns))
+    return replace(settings, control=STABILISED)

@@ -25,7 +25,6 @@ from ..strategies.strategy import Strategy
 from ..strategies.velocity_set import STILL, BodyVelocity
 from .sight_sources import CameraSight, MeasuredSight, SightSource
 from .strategy_runner import StrategyRunner
-from .turn_calibration import TurnCalibration
 
 if TYPE_CHECKING:
     from ..locomotion.policy.policy_legs import PolicyWalk
@@ -72,7 +71,6 @@ class ControlScheme:
                 self._coasted + walk.pose_delay, walk.pose
             )
             self._coasted = None
-        decisions.calibrate(measurement, stands=walk.phase is Phase.STANDING)
         decisions.headings.note(now + walk.heading_delay, walk.torso_heading)
         self.sighting = self.senses.see(measurement, walk.step, walk.tilt)
         decisions.note_players(self.senses.in_sight)
@@ -123,11 +121,6 @@ class ControlScheme:
         assert isinstance(self.locomotion, ManeuverWalk)
         return self.locomotion
 
-    @property
-    def feels(self) -> bool:
-        """Whether it uses joint angles, IMU or forces on the soles."""
-        return self.locomotion.feels or self.decisions.turns is not None
-
     def coast(self, now: float) -> Array | None:
         """Run a control tick without measurement, in the middle of a step.
 
@@ -141,8 +134,6 @@ class ControlScheme:
             ReachError: If the legs cannot follow the reference.
         """
         walk, decisions = self.locomotion, self.decisions
-        if decisions.turns is not None:
-            return None
         heading = walk.torso_heading if self._delayed else 0.0
         targets = walk.coast(now)
         if targets is not None and self._delayed:
@@ -203,7 +194,6 @@ def build_scheme(
         strategy,
         gait,
         None if clearance is None else clearance.surroundings,
-        TurnCalibration(tick) if control.learn_turns else None,
     )
     return ControlScheme(decisions, walk, senses or MeasuredSight())
 
@@ -305,17 +295,12 @@ def request_at_velocity(
 class VelocityScheme(ControlScheme):
     """Control of one robot whose steps follow a velocity command.
 
-    Turns of a walk by maneuvers, which is a unicycle's, are calibrated
-    against the commanded ones; learned legs follow the command itself, also
-    sideways.
+    Learned legs follow the command itself, also sideways.
     """
 
-    def __init__(
-        self, locomotion: "ManeuverWalk | PolicyWalk", tick: float
-    ) -> None:
-        """Begin standing, at a control period in [s]."""
-        self._turns, gait = TurnCalibration(tick), locomotion.gait
-        decisions = StrategyRunner(Walk(0.0), gait, turns=self._turns)
+    def __init__(self, locomotion: "ManeuverWalk | PolicyWalk") -> None:
+        """Begin standing."""
+        decisions = StrategyRunner(Walk(0.0), locomotion.gait)
         super().__init__(decisions, locomotion, MeasuredSight())
         decisions.headings.note(0.0, locomotion.torso_heading)
         self._commanded = STILL
@@ -356,7 +341,7 @@ class VelocityScheme(ControlScheme):
             return MotionRequest(intent, Direction.FORWARD, saturated=False)
         return request_at_velocity(
             velocity.forward,
-            velocity.turn / self._turns.share,
+            velocity.turn,
             self.locomotion.gait,
             under_way=self._under_way,
         )

@@ -6,7 +6,7 @@ from math import atan2, cos, hypot, pi, sin
 from ..core.history import History
 from ..core.poses import ALL_AROUND, Pose, Sector
 from ..locomotion.guard import Surroundings
-from ..perception.measurement import RobotState, Sighting
+from ..perception.measurement import Sighting
 from ..planning import Foot, GaitSettings
 from ..planning.template_path import pose_beside_foot
 from ..strategies.decision_maker import DecisionMaker, turned
@@ -21,7 +21,6 @@ from ..strategies.opponent_track import OpponentTrack
 from ..strategies.strategy import Strategy
 from ..strategies.velocity_set import VelocitySet
 from .sight_sources import PlayersInSight
-from .turn_calibration import TurnCalibration
 
 MAX_PACE_CHANGE = 0.25  # from step to step
 MEMORY = 2.0  # how long past states are stored, in [s]
@@ -48,7 +47,6 @@ class StrategyRunner(DecisionMaker):
         strategy: Strategy,
         gait: GaitSettings,
         surroundings: Surroundings | None = None,
-        turns: TurnCalibration | None = None,
         velocities: VelocitySet | None = None,
         views: tuple[Sector, ...] = ALL_AROUND,
     ) -> None:
@@ -57,7 +55,6 @@ class StrategyRunner(DecisionMaker):
         self.pace = 1.0
         self.headings: History[float] = History(MEMORY)  # [rad]
         self.templates: History[Pose] = History(MEMORY)
-        self.turns = turns
         self._spacing = gait.foot_spacing
         self._target_id = 0
         self._in_sight: tuple[Sighting, ...] = ()
@@ -69,25 +66,14 @@ class StrategyRunner(DecisionMaker):
         if in_sight is not None:
             self.identity, self._in_sight = in_sight
 
-    def calibrate(self, measurement: RobotState, *, stands: bool) -> None:
-        """Update the turn calibration, if there is one."""
-        if self.turns is not None:
-            heading = self.templates.at(measurement.time).theta
-            rate = float(measurement.gyro[2])
-            self.turns.note(rate, heading, stands=stands)
-
     def starts(
         self, now: float, sighting: Sighting | None, turning: float = 0.0
     ) -> bool:
         """Return whether a standing robot starts to walk.
 
-        With a turn calibration the robot stands for a while first. If the
-        robot starts, the strategy decides again at the time of the step,
-        and the memory of this decision is discarded. Arguments are those of
-        :meth:`decide`.
+        The strategy then decides again at the time of the step, and the
+        memory of this decision is discarded.
         """
-        if self.turns is not None and not self.turns.ready:
-            return False
         if sighting is None:
             return turning != 0.0
         known = self._knowledge(now, sighting, moving=False)
@@ -120,10 +106,6 @@ class StrategyRunner(DecisionMaker):
             begins = self._surroundings.pose_odometry_in_map.compose(begins)
             known = replace(known, step_start_in_map=begins)
         intent = self.evaluate(known)
-        if self.turns is not None:
-            intent = replace(
-                intent, heading=self.turns.compensate(intent.heading)
-            )
         self.pace = next_pace(self.pace, intent.pace, standing=not moving)
         if intent.pace != self.pace:
             intent = replace(intent, pace=self.pace)

@@ -172,7 +172,6 @@ def derive(
         control={
             "method": "measured" if weak else "closed-form",
             "feedback": weak,
-            "learn_turns": True,
             "stabiliser": stabiliser_of(size),
         },
         game=game_of_size(size, gait),

@@ -202,7 +202,7 @@ def robot_at_velocities(world: World, setup: RobotSetup) -> VelocityWalker:
             clearance=setup.clearance,
         )
         robot = setup.place(world, walk.kinematics)
-    scheme = VelocityScheme(walk, tick)
+    scheme = VelocityScheme(walk)
     return VelocityWalker(robot, scheme, setup.start, setup.description)
 
 

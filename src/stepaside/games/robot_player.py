@@ -189,7 +189,7 @@ class RobotPlayer(PhysicalPlayer):
         self.scheme = scheme
         # Exact sightings are read when a decision is due.
         self._coasts = robot.sees_exactly
-        self._feels = scheme.feels or not self._coasts
+        self._feels = scheme.locomotion.feels or not self._coasts
 
     @property
     def _perception(self) -> "Perception | None":

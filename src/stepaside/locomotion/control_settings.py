@@ -178,11 +178,6 @@ class ControlSettings:
         "Horizon and weights of the MPC",
         needs=("control.method", "mpc"),
     )
-    learn_turns: bool = setting(
-        False,
-        "Learn from the gyro which fraction of a commanded turn is achieved, "
-        "and scale later turns to compensate",
-    )
 
     def __post_init__(self) -> None:
         """Validate the settings."""

@@ -2,7 +2,6 @@
 
 from dataclasses import dataclass, replace
 from math import sqrt
-from typing import Literal
 
 from ..core.constants import GRAVITY
 from ..core.errors import PlanError, check_within
@@ -110,10 +109,6 @@ class GaitSettings:
         "Forward offset of the ZMP reference from the ankle",
         Range(-10.0, 10.0, "m", "and within the sole"),
     )
-    zmp_profile: Literal["linear", "cubic"] = setting(
-        "linear",
-        "ZMP transfer between the feet in double support",
-    )
     swing_profile: SwingProfile = setting(
         "minimum-jerk",
         "Time profile of the swing foot",
@@ -135,11 +130,6 @@ class GaitSettings:
             "and the next one begins with it in a foot",
             whole=True,
         ),
-    )
-    gravity: float = setting(
-        GRAVITY,
-        "Gravitational acceleration",
-        Range(1e-2, 100.0, "m/s^2", WIDE),
     )
     sole: SoleRectangle = setting(
         SoleRectangle(),
@@ -169,7 +159,7 @@ class GaitSettings:
     @property
     def eta(self) -> float:
         r"""Rate :math:`\eta = \sqrt{g / z_{CoM}}` of the LIP, in [1/s]."""
-        return sqrt(self.gravity / self.com_height)
+        return sqrt(GRAVITY / self.com_height)
 
     @property
     def step_duration(self) -> float:

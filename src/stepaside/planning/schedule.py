@@ -59,7 +59,9 @@ class Schedule:
         self.settings = settings
         self.count = count
         self.standing = standing
-        self.durations = self._durations()
+        walk = [settings.single_support, settings.double_support] * count
+        first = [settings.start_support] if standing else []
+        self.durations = np.array(first + walk)
         self.starts = np.concatenate([[0.0], np.cumsum(self.durations)])
         self.has_swing_reaction = settings.swing_reaction > 0.0
         self.input_count = count + 4 + self.has_swing_reaction
@@ -74,45 +76,28 @@ class Schedule:
         """Time from the start to the end of the first step, in [s]."""
         return float(self.starts[3 if self.standing else 2])
 
-    def _durations(self) -> Array:
-        s = self.settings
-        walk = [s.single_support, s.double_support] * self.count
-        return np.array([s.start_support, *walk] if self.standing else walk)
-
     @cached_property
     def zmp_map(self) -> PiecewisePolynomial:
         """ZMP of unit inputs: coefficients (4, pieces, inputs)."""
         n, pieces = self.count, self.durations.size
         w = np.zeros((DEGREE + 1, pieces, self.input_count))
         first = 1 if self.standing else 0
+        unit = np.eye(self.input_count)
+
+        def join(piece: int, start: Array, end: Array) -> None:
+            w[0, piece] = start
+            w[1, piece] = (end - start) / self.durations[piece]
+
         if self.standing:
-            self._join(w, 0, {n + 1: 1.0}, {0: 1.0})
+            join(0, unit[n + 1], unit[0])
         for i in range(n):
             single = first + 2 * i
-            w[0, single, i] = 1.0
-            target = {i + 1: 1.0} if i < n - 1 else {i: 0.5, i + 1: 0.5}
-            self._join(w, single + 1, {i: 1.0}, target)
+            w[0, single] = unit[i]
+            last = 0.5 * (unit[i] + unit[i + 1])
+            join(single + 1, unit[i], unit[i + 1] if i < n - 1 else last)
         bump = 6.75 * np.array([0.0, 1.0, -2.0, 1.0])
         w[:, 0, -2] = bump / self.durations[0] ** np.arange(DEGREE + 1)
         return PiecewisePolynomial(self.durations, w)
-
-    def _join(
-        self, w: Array, piece: int, a: dict[int, float], b: dict[int, float]
-    ) -> None:
-        """Set a piece to move from point ``a`` to point ``b``."""
-        start, change = np.zeros(self.input_count), np.zeros(self.input_count)
-        for index, weight in a.items():
-            start[index] += weight
-            change[index] -= weight
-        for index, weight in b.items():
-            change[index] += weight
-        duration = self.durations[piece]
-        w[0, piece] = start
-        if self.settings.zmp_profile == "linear":
-            w[1, piece] = change / duration
-        else:
-            w[2, piece] = 3.0 * change / duration**2
-            w[3, piece] = -2.0 * change / duration**3
 
     @cached_property
     def pivot_map(self) -> PiecewisePolynomial:

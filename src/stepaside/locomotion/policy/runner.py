@@ -326,8 +326,8 @@ class PolicyRunner:
             np.broadcast_to(term.scale, width)
             for term, width in zip(terms, widths, strict=True)
         ]
-        past = np.arange(contract.history * sum(widths))
-        past = past.reshape(contract.history, -1)
+        shape = contract.history, sum(widths)
+        past: NDArray[np.int_] = np.arange(np.prod(shape)).reshape(shape)
         if contract.history_order == "term":
             by_term = np.split(past, np.cumsum(widths)[:-1], axis=1)
             past = np.concatenate([part.ravel() for part in by_term])
