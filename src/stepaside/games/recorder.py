@@ -20,12 +20,7 @@ def samples_every(world: World) -> int:
 
 
 class PlayerRecord:
-    """Samples and steps of one player.
-
-    Attributes:
-        log: Samples of its motion.
-        begun: Steps that the player has begun.
-    """
+    """Samples and steps of one player."""
 
     def __init__(self, player: Player, *, closely: bool) -> None:
         """Begin an empty record; see :class:`Recorder`."""
@@ -69,21 +64,12 @@ class PlayerRecord:
 
 
 class Recorder(GameObserver):
-    """Observer of a game in physics that samples all players.
-
-    Attributes:
-        every: Control ticks between samples.
-    """
+    """Observer of a game in physics that samples all players."""
 
     def __init__(self, world: PhysicsWorld, *, closely: bool = False) -> None:
-        """Record the players of a world.
-
-        Args:
-            world: The world.
-            closely: Whether to record foot states and estimates.
-        """
+        """Record the players of a world, closely with foot states."""
         self._world = world
-        self.every = samples_every(world)
+        self.every = samples_every(world)  # control ticks between samples
         self._times: list[float] = []
         self._records = {
             player.name: PlayerRecord(player, closely=closely)

@@ -2,12 +2,11 @@
 
 import numpy as np
 
-from ..strategies.approach import Approach
-from .approach_forecast import describe_motion, estimate_approach
-from .duel_settings import EVADER, PURSUER
 from .outcome import Outcome
 from .run import Run
 from .walk_settings import WALKER
+
+LEAST = 0.01  # closing speed below which a distance is constant, in [m/s]
 
 
 def describe_state(run: Run, index: int) -> str:
@@ -30,12 +29,12 @@ def describe_state(run: Run, index: int) -> str:
         return _describe_duel(run, index)
     if not run.opponents:
         return f"{' and '.join(run.players)} in motion"
-    apart = {
-        f"{one} and {other}": np.hypot(*_offset(run, one, other, index))
-        for one, other in run.opponents
+    at = {
+        name: track.unicycle[index, :2] for name, track in run.tracks.items()
     }
-    nearest, least = min(apart.items(), key=lambda item: item[1])
-    return f"nearest: {nearest}, {least:.2f} m"
+    apart = [(np.hypot(*(at[a] - at[b])), a, b) for a, b in run.opponents]
+    least, one, other = min(apart)
+    return f"nearest: {one} and {other}, {least:.2f} m"
 
 
 def _pushed_at(run: Run, time: float) -> list[str]:
@@ -48,37 +47,33 @@ def _pushed_at(run: Run, time: float) -> list[str]:
     return [n for n, s in since.items() if ((s >= 0.0) & (s < 1.0)).any()]
 
 
-def _offset(run: Run, one: str, other: str, i: int) -> tuple[float, float]:
-    """Return the offset from a player to another at a sample, in [m]."""
-    paths = (run.tracks[name].unicycle for name in (other, one))
-    x, y = np.subtract(*(path[i, :2] for path in paths)).tolist()
-    return x, y
-
-
 def _describe_duel(run: Run, index: int) -> str:
     time, summary = float(run.times[index]), run.summary
     triggered, converged = summary.triggered_at_s, summary.converged_at_s
     if triggered is None or time < triggered:
-        moves = describe_motion(_approach_at(run, index))
+        moves = _motion_of_pursuer(run, index)
         return f"the pursuer {moves}; the evader stands"
     if time < triggered + 1.0:
         return "the evader is triggered"
     if converged is not None and time >= converged:
-        return f"{run.settings.both} are on the circle"
+        return f"{' and '.join(run.players)} are on the circle"
     return "the evader is evading"
 
 
-def _approach_at(run: Run, index: int) -> Approach | None:
-    """Return the approach over the gait cycle before a sample."""
-    if len(run.times) < 2:
-        return None
-    # Before one cycle has passed, use the first complete cycle.
-    last = max(index, run.index_at(run.times[0] + run.settings.cycle))
-    first = run.index_at(run.times[last] - run.settings.cycle)
-    was, now = (_offset(run, EVADER, PURSUER, i) for i in (first, last))
-    return estimate_approach(
-        was, now, float(run.times[last] - run.times[first])
-    )
+def _motion_of_pursuer(run: Run, index: int) -> str:
+    """Return "approaches", "moves away" or "walks" for a pursuer.
+
+    It is told from the distances over the gait cycle before a sample; before
+    one cycle has passed, over the first.
+    """
+    cycle = run.settings.cycle
+    last = max(index, run.index_at(run.times[0] + cycle))
+    first = run.index_at(run.times[last] - cycle)
+    approach = run.distance[first] - run.distance[last]
+    least = LEAST * (run.times[last] - run.times[first])
+    if abs(approach) <= least:
+        return "walks"
+    return "approaches" if approach > 0.0 else "moves away"
 
 
 def _describe_walk(run: Run, time: float, pushed: bool) -> str:

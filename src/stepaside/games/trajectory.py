@@ -13,61 +13,43 @@ from ..planning import ManeuverPlan
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Trajectory:
-    """Recorded motion of one player, one row per sample.
+    """Recorded motion of one player, one row per sample unless noted.
 
-    Positions are in the world, in [m], angles in [rad]. Arrays that a player
-    lacks are None. Headings are unwrapped.
-
-    Attributes:
-        com: CoM (x, y, z). Shape (n, 3).
-        torso: Origin and heading of the torso (x, y, heading). Shape (n, 3).
-        place: Reference point and heading (x, y, heading) in the world, in
-            [m] and [rad]. Shape (n, 3).
-        com_reference: Planned CoM (x, y). Shape (n, 2).
-        zmp_reference: Planned ZMP (x, y). Shape (n, 2).
-        zmp: Center of the foot forces (x, y); NaN in flight. Shape (n, 2).
-        qpos: Position and quaternion of the torso, then the joint angles, in
-            single precision. Shape (n, 7 + joints).
-        landings: Time [s], side (1 left, -1 right), x, y, heading of each
-            footstep. Shape (m, 5).
-        sight: Time [s], estimated bearing and distance, true bearing and
-            distance, 1 while the opponent is lost. Shape (k, 6).
-        pushes: Time [s], duration [s], position of the torso (x, y) [m] and
-            impulse (x, y) [N s] of each push. Shape (j, 6).
-        velocity: Velocity of the CoM (x, y), in [m/s]. Shape (n, 2). This
-            and the following arrays up to ``estimate`` are recorded in walks
-            only.
-        tilt: Roll and pitch of the torso. Shape (n, 2).
-        sole: Pose (x, y, heading) of the support sole. Shape (n, 3).
-        support: Support foot (1 left, -1 right), 1 in single support, and
-            planned pose of the sole (x, y, heading). Shape (n, 5).
-        heading_reference: Planned heading of the torso. Shape (n, 1).
-        estimate: Estimated CoM, velocity of the CoM and ZMP (x, y each),
-            roll and pitch; NaN before the first estimate. Shape (n, 8).
-        command: Velocities of a robot with its own walk: of the template and
-            as commanded, forward [m/s], turn [rad/s] and lateral [m/s]
-            each. Shape (n, 6).
+    Positions are in the world, in [m], angles in [rad]; headings are
+    unwrapped. Arrays that a player lacks are None; the last seven but
+    ``command`` are recorded in walks only.
     """
 
     __repr__ = brief_repr
 
-    com: Array
-    torso: Array
-    place: Array | None = None
-    com_reference: Array | None = None
-    zmp_reference: Array | None = None
-    zmp: Array | None = None
+    com: Array  # CoM (x, y, z)
+    torso: Array  # origin and heading of the torso (x, y, heading)
+    place: Array | None = None  # reference point and heading (x, y, heading)
+    com_reference: Array | None = None  # planned CoM (x, y)
+    zmp_reference: Array | None = None  # planned ZMP (x, y)
+    zmp: Array | None = None  # center of the foot forces (x, y); or NaN
     qpos: Array | None = None
+    """Position and quaternion of the torso, and joint angles, as float32."""
     landings: Array | None = None
+    """Of each footstep: time [s], side (1 left, -1 right), x, y, heading."""
     sight: Array | None = None
+    """Of each sighting: time [s], estimated bearing and distance, true bearing
+    and distance, 1 while the opponent is lost."""
     pushes: Array | None = None
-    velocity: Array | None = None
-    tilt: Array | None = None
-    sole: Array | None = None
+    """Of each push: time and duration [s], position of the torso (x, y) [m],
+    impulse (x, y) [N s]."""
+    velocity: Array | None = None  # of the CoM (x, y), in [m/s]
+    tilt: Array | None = None  # roll and pitch of the torso
+    sole: Array | None = None  # pose of the support sole (x, y, heading)
     support: Array | None = None
-    heading_reference: Array | None = None
+    """Support foot (1 left, -1 right), 1 in single support, planned pose of
+    the sole (x, y, heading)."""
+    heading_reference: Array | None = None  # of the torso, one column
     estimate: Array | None = None
+    """Estimated CoM, its velocity and ZMP (x, y each), roll, pitch; or NaN."""
     command: Array | None = None
+    """Velocities of a robot with its own walk: of the template and as
+    commanded, forward [m/s], turn [rad/s] and lateral [m/s] each."""
 
     def __post_init__(self) -> None:
         """Make the arrays read-only."""
@@ -99,22 +81,12 @@ FIELDS = tuple(field.name for field in fields(Trajectory))
 
 @dataclass(frozen=True, slots=True, eq=False)
 class PlanningTimes:
-    """Planning times and plan quality of one player.
+    """Planning times and plan quality of one player."""
 
-    Attributes:
-        steps: Steps begun.
-        times: Processor time of planning each maneuver, in [s]. Shape
-            (replans,).
-        velocity_jump: Greatest jump of the CoM velocity reference, in [m/s].
-        zmp_margin: Smallest distance of the ZMP reference from the edge of
-            the support polygon, in the executed parts of the plans, in [m];
-            None without any.
-    """
-
-    steps: int
-    times: Array
-    velocity_jump: float
-    zmp_margin: float | None
+    steps: int  # begun
+    times: Array  # processor time of planning each maneuver [s]
+    velocity_jump: float  # greatest, of the CoM reference [m/s]
+    zmp_margin: float | None  # least, where plans were executed [m]
 
 
 def margin_of(plans: list[ManeuverPlan]) -> float | None:
@@ -142,11 +114,7 @@ MAX_VALUE = 1e6  # of any number in a run, in [m], [rad] or [s]
 def tracks_in(
     arrays: dict[str, Array], names: tuple[str, ...]
 ) -> dict[str, Trajectory]:
-    """Return the trajectories of players from arrays by name.
-
-    Raises:
-        KeyError: If a required array is missing.
-    """
+    """Return the trajectories of players; KeyError if an array is missing."""
     required = ("com", "torso")
     return {
         name: Trajectory(
