@@ -39,7 +39,6 @@ def run_of(
     name: str = "synthetic",
     outcome: Outcome = Outcome.COMPLETED,
     message: str = "played 18.00 s",
-    stills: Any = None,
     **changes: Any,
 ) -> Run:
     """Run with these tracks.
@@ -51,7 +50,6 @@ def run_of(
         name: What it is called.
         outcome: How it ended.
         message: What ended it.
-        stills: What was seen, by player and camera.
         changes: Of the figures.
     """
     return Run(
@@ -63,7 +61,6 @@ def run_of(
         times=times,
         tracks=tracks,
         summary=figures(**changes),
-        stills=stills or {},
     )
 
 

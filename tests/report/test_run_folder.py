@@ -17,7 +17,7 @@ from stepaside.games.recorded_game import run_duel
 from stepaside.games.run import Run
 from stepaside.games.run_archive import FORMAT, load_run, results_of
 from stepaside.games.trajectory import Trajectory
-from stepaside.report import run_figure, sight_figure
+from stepaside.report import run_figure
 from stepaside.report.run_folder import check_output, free_folder, write_run
 from stepaside.report.scene import RunScene
 from stepaside.sim.body_settings import BODIES
@@ -106,15 +106,6 @@ def test_a_full_disk_is_told_in_one_line(
     with pytest.raises(OutputError, match=said):
         write_run(tmp_path / "run", result)
     assert list(tmp_path.iterdir()) == []
-
-
-def test_what_the_cameras_saw_is_there(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, result: Run
-) -> None:
-    monkeypatch.setattr(sight_figure, "draw_sight", draw_nothing)
-    seen = replace(result, stills={"pursuer": {}})
-    write_run(tmp_path / "run", seen)
-    assert (tmp_path / "run" / "sight.png").read_bytes() == b"picture"
 
 
 def test_output_goes_where_nothing_is_lost(

@@ -31,10 +31,8 @@ from ..sim.simulated_robot import SimulatedRobot
 from ..sim.world import World
 from .game import GameInPlay, GameObserver
 from .game_settings import GameSettings, PlayerSettings
-from .sight_evaluation import EvaluatedImage, SightEvaluator
+from .sight_evaluation import SightEvaluator
 from .summary import PerceptionSummary, SightSummary
-
-STILLS = 5  # images that a run stores per camera
 
 
 class CameraSenses:
@@ -157,12 +155,6 @@ class CameraSenses:
             things: Objects in view of the cameras.
             wears_trim: Whether the opponent wears the known colour.
         """
-        settings = self._settings
-        # More happens early in a duel: the times grow quadratically.
-        times = tuple(
-            0.98 * settings.duration * ((i + 0.5) / (STILLS - 0.5)) ** 2
-            for i in range(STILLS)
-        )
         places = [(thing.x, thing.y) for thing in things]
         perception = self.perceptions[robot.name]
         return SightEvaluator(
@@ -171,7 +163,6 @@ class CameraSenses:
             perception,
             self._head,
             places,
-            times,
             wears_trim=wears_trim,
         )
 
@@ -211,13 +202,6 @@ class SightObserver(GameObserver):
         """Return estimated and true sightings, by name of the robot."""
         return {
             name: evaluator.array()
-            for name, evaluator in self.evaluators.items()
-        }
-
-    def stills(self) -> dict[str, dict[str, list[EvaluatedImage]]]:
-        """Return the stored images, by robot and camera."""
-        return {
-            name: evaluator.stills
             for name, evaluator in self.evaluators.items()
         }
 

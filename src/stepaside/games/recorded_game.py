@@ -131,7 +131,6 @@ class RecordedGame(GameInPlay):
             duration=round(self.world.time, 9),
             times=self.recorder.times,
             tracks=tracks,
-            stills={} if eyes is None else eyes.stills(),
         )
         planning = self.recorder.planning().values()
         run = replace(run, summary=summarise(run, self, planning, eyes))

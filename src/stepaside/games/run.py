@@ -1,11 +1,11 @@
 """Recorded game as a value: settings, outcome, trajectories and summary."""
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from functools import cached_property
 from itertools import combinations
 from math import isfinite
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
@@ -18,9 +18,6 @@ from .outcome import Outcome
 from .summary import Summary
 from .trajectory import Trajectory
 from .walk_settings import WALKER
-
-if TYPE_CHECKING:
-    from .sight_evaluation import EvaluatedImage
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -41,8 +38,6 @@ class Run:
         tracks: Trajectory of each player, by name, in the order in which
             the players act.
         summary: Values measured in the game.
-        stills: Example images of robots with cameras, by robot and camera;
-            not stored on disk.
     """
 
     name: str
@@ -53,9 +48,6 @@ class Run:
     times: Array
     tracks: Mapping[str, Trajectory]
     summary: Summary = Summary()
-    stills: "Mapping[str, Mapping[str, list[EvaluatedImage]]]" = field(
-        default_factory=dict
-    )
 
     def __repr__(self) -> str:
         """Describe the run in one line."""

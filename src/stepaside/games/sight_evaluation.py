@@ -27,17 +27,11 @@ NEAR_MARGIN = 0.15  # beyond the near limit at which a body is in range, [m]
 
 @dataclass(slots=True)
 class FrameCounts:
-    """Counts of the frames of one camera.
+    """Counts of the frames of one kind of camera."""
 
-    Attributes:
-        in_view: Frames with the opponent in the field of view.
-        detected: Frames among them with a detection of the opponent.
-        false: Detections that match no object.
-    """
-
-    in_view: int = 0
-    detected: int = 0
-    false: int = 0
+    in_view: int = 0  # frames with the opponent in the field of view
+    detected: int = 0  # among them, with a detection of it
+    false: int = 0  # detections that match no object
 
     @property
     def rate(self) -> float | None:
@@ -45,28 +39,8 @@ class FrameCounts:
         return self.detected / self.in_view if self.in_view else None
 
 
-@dataclass(slots=True)
-class EvaluatedImage:
-    """Image with its detections and the true direction of the opponent.
-
-    Attributes:
-        report: Image and detections.
-        azimuth: True direction of the opponent from the camera's axis, in
-            [rad].
-    """
-
-    report: FrameReport
-    azimuth: float
-
-
 class SightEvaluator:
-    """Comparison of a robot's detections and sightings with the truth.
-
-    Attributes:
-        colour: Frames of the colour camera.
-        depth: Frames of the depth cameras.
-        stills: Example images, by camera.
-    """
+    """Comparison of a robot's detections and sightings with the truth."""
 
     def __init__(
         self,
@@ -75,7 +49,6 @@ class SightEvaluator:
         perception: Perception,
         head: HeadDescription,
         things: list[tuple[float, float]],
-        still_times: tuple[float, ...] = (),
         *,
         wears_trim: bool = True,
     ) -> None:
@@ -87,7 +60,6 @@ class SightEvaluator:
             perception: Perception of the robot.
             head: Head of the robot.
             things: Positions (x, y) of other objects in the world, in [m].
-            still_times: Times from which example images are stored, in [s].
             wears_trim: Whether the opponent wears the colour of a robot; a
                 person does not, so colour frames cannot detect it.
         """
@@ -97,14 +69,9 @@ class SightEvaluator:
         self._things = things
         self._true: dict[Percept, tuple[float, bool, list[float]]] = {}
         self.colour, self.depth = FrameCounts(), FrameCounts()
-        self.stills: dict[str, list[EvaluatedImage]] = {
-            "colour": [],
-            "depth": [],
-        }
         self._sighting: Sighting | None = None
         self._true_sighting = (np.nan, np.nan)
         self._rows: list[tuple[float, ...]] = []
-        self._still_times = still_times
 
     def evaluate_tick(self) -> None:
         """Evaluate a tick, after perception and before physics."""
@@ -164,13 +131,6 @@ class SightEvaluator:
                 for thing in allowed
             ):
                 counts.false += 1
-        # Of several depth cameras only the one on the head has examples.
-        stills = self.stills.get(report.camera)
-        if stills is None:
-            return
-        if len(stills) < len(self._still_times):
-            if report.image.time >= self._still_times[len(stills)]:
-                stills.append(EvaluatedImage(report, azimuth))
 
     def sample(self, now: float) -> None:
         """Record the latest sighting and the truth at its time."""

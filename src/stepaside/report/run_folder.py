@@ -11,8 +11,6 @@ from ..games.outcome import Outcome
 from ..games.run import Run
 from ..games.run_archive import write_checksums, write_run_files
 
-SIGHT = "sight.png"
-
 
 def check_output(folder: Path) -> None:
     """Check that a run can be written to a folder.
@@ -66,10 +64,6 @@ def write_run(folder: AnyPath, run: Run, *, drawn: bool = True) -> Path:
             from .run_figure import draw_run
 
             draw_run(run, draft / figure)
-        if drawn and run.stills:
-            from .sight_figure import draw_sight
-
-            draw_sight(run, draft / SIGHT)
         write_checksums(draft)
         return _move(draft, folder) / figure
 
