@@ -63,8 +63,6 @@ def test_walls_surround_the_floor_and_doors_are_gaps() -> None:
     assert room.clearance(middle)[0] == pytest.approx(0.3)
     assert room.clearance(beside)[0] < 0.0
     assert room.clearance([[-1.0, 1.05]])[0] == pytest.approx(0.3)
-    area = sum(w.area for w in closed.walls) - sum(w.area for w in room.walls)
-    assert area == pytest.approx(2 * 0.6 * 0.1)
 
 
 @pytest.mark.parametrize(

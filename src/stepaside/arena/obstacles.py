@@ -4,14 +4,13 @@ from abc import ABC, abstractmethod
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from functools import cached_property
-from math import inf, pi, sqrt, tau
+from math import inf, sqrt, tau
 from typing import Any, ClassVar, NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ..core.compilation import compiled, inlined
-from ..core.convex import signed_area
 from ..core.poses import Array, Pose
 
 
@@ -149,6 +148,7 @@ def measure_segments(
 
 
 DIRECTION_COUNT = 64  # uniform directions; the nearest is within 3 degrees
+NUDGE = 1e-6  # of a point, which shows the gradient of a distance, in [m]
 Flags = NDArray[np.bool_]
 
 
@@ -182,11 +182,6 @@ class Obstacle(ABC):
     def outline(self) -> Array:
         """Corners of a polygon for drawing, in [m]. Shape (n, 2)."""
         return self.points
-
-    @property
-    def area(self) -> float:
-        """Area of the footprint, in [m^2]."""
-        return signed_area(self.points) + pi * self.rounding**2
 
     @cached_property
     def alone(self) -> "ObstacleSet":
@@ -278,26 +273,19 @@ class ObstacleSet:
     def directions_out(self, points: ArrayLike) -> Array:
         """Return unit vectors away from each obstacle, (n, obstacles, 2).
 
-        They are zero at the centre of a disc.
+        They are the gradients of the distances; zero at the centre of a disc.
         """
         queries = _rows(points)
-        heights = queries @ self.normals.T - self.offsets
-        away = queries[:, None] - self.points
-        share = (away * self.edges).sum(axis=2)
-        share /= np.maximum((self.edges**2).sum(axis=1), 1e-300)
-        away -= np.clip(share, 0.0, 1.0)[..., None] * self.edges
-        distances = np.hypot(away[..., 0], away[..., 1])
-        rows = np.arange(len(queries))
-        vectors = np.zeros((len(queries), len(self), 2))
-        ends = [*self.firsts[1:].tolist(), len(self.points)]
-        for n, first in enumerate(self.firsts.tolist()):
-            own = slice(first, ends[n])
-            outside = away[rows, first + distances[:, own].argmin(axis=1)]
-            inside = self.normals[first + heights[:, own].argmax(axis=1)]
-            beyond = heights[:, own].max(axis=1, keepdims=True) > 0.0
-            vectors[:, n] = np.where(beyond, outside, inside)
+        vectors = np.stack(
+            [
+                self.clearances(queries + step)
+                - self.clearances(queries - step)
+                for step in ((NUDGE, 0.0), (0.0, NUDGE))
+            ],
+            axis=-1,
+        )
         lengths = np.hypot(vectors[..., 0], vectors[..., 1])[..., None]
-        directions: Array = vectors / np.maximum(lengths, 1e-12)
+        directions: Array = vectors / np.maximum(lengths, 0.1 * NUDGE)
         return directions
 
     def segments_intersect(self, starts: ArrayLike, ends: ArrayLike) -> Flags:

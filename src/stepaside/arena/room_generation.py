@@ -108,35 +108,15 @@ def check_initial_poses(room: Room, starts: tuple[Pose, Pose]) -> None:
 
 
 def measure_room(room: Room) -> dict[str, Any]:
-    """Measure a room, as a JSON object: obstacles, gaps, areas, entries."""
-    result: dict[str, Any] = {
+    """Measure a room, as a JSON object with the entries of its file."""
+    gaps = (clearance_between(*pair) for pair in combinations(room.solids, 2))
+    return {
         "obstacles": len(room.obstacles),
         "doors": len(room.doors),
         "closed": room.is_closed,
-        "narrowest_gap_m": _narrowest_gap(room),
+        "narrowest_gap_m": min((x for x in gaps if x > 1e-6), default=None),
+        "room": room_to_entries(room),
     }
-    if room.width is not None and room.depth is not None:
-        sides = [
-            (np.arange(round(side / CELL)) + 0.5) * CELL - 0.5 * side
-            for side in (room.width, room.depth)
-        ]
-        grid = np.stack(np.meshgrid(*sides), axis=-1).reshape(-1, 2)
-        clearance = room.clearance(grid)
-        floor = room.width * room.depth
-        result["floor_m2"] = floor
-        result["free_m2"] = floor * float((clearance > 0.0).mean())
-        result["body_radius_m"] = BODY_RADIUS
-        result["free_for_body_m2"] = floor * float(
-            (clearance > BODY_RADIUS).mean()
-        )
-    result["room"] = room_to_entries(room)
-    return result
-
-
-def _narrowest_gap(room: Room) -> float | None:
-    """Return the least distance of two solids that do not touch, in [m]."""
-    gaps = (clearance_between(*pair) for pair in combinations(room.solids, 2))
-    return min((gap for gap in gaps if gap > 1e-6), default=None)
 
 
 ERROR = ConfigurationError

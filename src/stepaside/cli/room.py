@@ -41,7 +41,7 @@ def room(
 ) -> None:
     """Generate a random room with initial poses, or inspect a room FILE.
 
-    Prints free floor, obstacles and clearances of the room.
+    Prints the numbers of obstacles and doors, and the narrowest gap.
     """
     from ..arena import check_initial_poses, generate_room, load_room
     from ..arena.room_generation import measure_room

@@ -35,8 +35,6 @@ LABELS = {
     "falling_m": "decrease of a value in the last period, at most",
     "floor_m2": "floor area",
     "floor_used_evader_m": "maximum distance of the evader from its start",
-    "free_for_body_m2": "floor area free for the centre of a body",
-    "free_m2": "floor area without obstacles",
     "headings_apart_rad": "angle between headings",
     "mean_closest_distance_m": "mean closest approach",
     "min_distance_m": "closest approach",
