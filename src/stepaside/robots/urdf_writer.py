@@ -5,8 +5,8 @@ cylinder with two spheres, an ellipsoid a row of spheres, and any other shape,
 such as a mesh, its bounding box. Joint angles mean the same as in the model.
 """
 
-from collections.abc import Iterable, Iterator
-from typing import NamedTuple
+from collections.abc import Iterator
+from typing import Any, NamedTuple
 from xml.etree import ElementTree
 
 import mujoco
@@ -186,6 +186,7 @@ def link_name(model: mujoco.MjModel, body: int) -> str:
     return name or f"body_{body}"
 
 
+RANGE = ("lower", "upper")
 UNLIMITED = 1e6  # effort of a motor without a limit, in [N m]
 VISIBLE_GROUP = 2  # geoms of higher groups are not drawn
 _GEOMS = mujoco.mjtGeom
@@ -201,39 +202,74 @@ def urdf_of(
     name = "_".join(description.name.lower().split())
     robot = ElementTree.Element("robot", name=name)
     for link in tree.links:
-        element = ElementTree.SubElement(robot, "link", name=link.name)
-        if link.body == -1:
-            _add_carrier(element)
+        element = _add(robot, "link", name=link.name)
+        if link.body == -1:  # simulators want an inertia between two hinges
+            _add_inertia(element, 1e-6, np.full(3, 1e-9))
         elif link.body is not None:
             _add_body(element, model, link.body, link.anchor)
     for joint in tree.joints:
-        element = ElementTree.SubElement(
-            robot, "joint", name=joint.name, type=joint.kind
-        )
-        ElementTree.SubElement(element, "parent", link=joint.parent)
-        ElementTree.SubElement(element, "child", link=joint.child)
+        element = _add(robot, "joint", name=joint.name, type=joint.kind)
+        _add(element, "parent", link=joint.parent)
+        _add(element, "child", link=joint.child)
         _add_origin(element, joint.position, joint.axes)
         if joint.number is not None:
-            ElementTree.SubElement(element, "axis", xyz=_texts(joint.axis))
-            _add_limits(element, model, joint.number, description)
+            _add(element, "axis", xyz=joint.axis)
+            limits = {}
+            if model.jnt_limited[joint.number]:
+                limits = dict(
+                    zip(RANGE, model.jnt_range[joint.number], strict=True)
+                )
+            limits["effort"] = _effort(model, joint)
+            speeds = description.speed_limits
+            limits["velocity"] = speeds.get(joint.name, UNLIMITED)
+            _add(element, "limit", **limits)
+            dof = int(model.jnt_dofadr[joint.number])
+            _add(
+                element,
+                "dynamics",
+                damping=model.dof_damping[dof],
+                friction=model.dof_frictionloss[dof],
+            )
         if joint.name in coupled:
-            leader = coupled[joint.name]
-            ElementTree.SubElement(element, "mimic", joint=leader)
+            _add(element, "mimic", joint=coupled[joint.name])
     ElementTree.indent(robot)
     header = f"<!-- {description.name}, from {description.path.name} -->\n"
     return header + ElementTree.tostring(robot, encoding="unicode") + "\n"
 
 
-def _add_carrier(link: ElementTree.Element) -> None:
-    """Add a negligible inertia between two hinges; simulators want one."""
-    inertial = ElementTree.SubElement(link, "inertial")
-    ElementTree.SubElement(inertial, "mass", value="1e-06")
-    ElementTree.SubElement(
-        inertial,
-        "inertia",
-        dict.fromkeys(("ixx", "iyy", "izz"), "1e-09")
-        | dict.fromkeys(("ixy", "ixz", "iyz"), "0"),
-    )
+def _add(
+    parent: ElementTree.Element, tag: str, **values: Any
+) -> ElementTree.Element:
+    """Add an element with texts, numbers and arrays of them."""
+    texts = {}
+    for name, value in values.items():
+        if not isinstance(value, str):
+            numbers = np.ravel(value).tolist()
+            numbers = [0.0 if abs(x) < 1e-12 else x for x in numbers]
+            value = " ".join(f"{x:.12g}" for x in numbers)
+        texts[name] = value
+    return ElementTree.SubElement(parent, tag, texts)
+
+
+def _add_origin(
+    parent: ElementTree.Element, position: Array, axes: Array
+) -> None:
+    """Add an origin with roll, pitch and yaw about fixed axes."""
+    _add(parent, "origin", xyz=position, rpy=angles_of(axes))
+
+
+def _add_inertia(
+    link: ElementTree.Element,
+    mass: float,
+    moments: Array,
+    pose: tuple[Array, Array] | None = None,
+) -> None:
+    inertial = _add(link, "inertial")
+    if pose is not None:
+        _add_origin(inertial, *pose)
+    _add(inertial, "mass", value=mass)
+    x, y, z = moments
+    _add(inertial, "inertia", ixx=x, iyy=y, izz=z, ixy=0, ixz=0, iyz=0)
 
 
 def _add_body(
@@ -245,14 +281,9 @@ def _add_body(
     """Add inertia and shapes of a body to its link."""
     mass = float(model.body_mass[body])
     if mass > 0.0:
-        inertial = ElementTree.SubElement(link, "inertial")
         axes = rotation_of(model.body_iquat[body])
-        _add_origin(inertial, model.body_ipos[body] - anchor, axes)
-        ElementTree.SubElement(inertial, "mass", value=_text(mass))
-        x, y, z = (_text(value) for value in model.body_inertia[body])
-        ElementTree.SubElement(
-            inertial, "inertia", ixx=x, iyy=y, izz=z, ixy="0", ixz="0", iyz="0"
-        )
+        pose = model.body_ipos[body] - anchor, axes
+        _add_inertia(link, mass, model.body_inertia[body], pose)
     first = int(model.body_geomadr[body])
     for geom in range(first, first + int(model.body_geomnum[body])):
         if model.geom_group[geom] <= VISIBLE_GROUP:
@@ -272,100 +303,52 @@ def _add_shapes(
     position = model.geom_pos[geom] - anchor
     material = model.geom_matid[geom]
     rgba = model.geom_rgba[geom] if material < 0 else model.mat_rgba[material]
-    for tag, values, offset, turn in _primitives(model, geom):
-        element = ElementTree.SubElement(link, kind)
-        _add_origin(element, position + axes @ offset, axes @ turn)
-        geometry = ElementTree.SubElement(element, "geometry")
-        ElementTree.SubElement(geometry, tag, values)
+    for tag, values, offset in _primitives(model, geom):
+        element = _add(link, kind)
+        _add_origin(element, position + axes @ offset, axes)
+        _add(_add(element, "geometry"), tag, **values)
         if kind == "visual":
             name = "_".join(f"{round(255 * part)}" for part in rgba[:3])
-            colour = ElementTree.SubElement(
-                element, "material", name=f"rgb_{name}"
-            )
-            ElementTree.SubElement(
-                colour, "color", rgba=_texts([*rgba[:3], 1.0])
-            )
+            colour = _add(element, "material", name=f"rgb_{name}")
+            _add(colour, "color", rgba=[*rgba[:3], 1.0])
 
 
 def _primitives(
     model: mujoco.MjModel, geom: int
-) -> Iterator[tuple[str, dict[str, str], Array, Array]]:
-    """Yield tag, attributes, position and axes in the frame of a geom."""
+) -> Iterator[tuple[str, dict[str, Any], Array]]:
+    """Yield tag, attributes and position in the frame of a geom."""
     kind, size = int(model.geom_type[geom]), model.geom_size[geom]
-    none, straight = np.zeros(3), np.eye(3)
+    none = np.zeros(3)
     if kind == _GEOMS.mjGEOM_BOX:
-        yield "box", {"size": _texts(2.0 * size)}, none, straight
+        yield "box", {"size": 2.0 * size}, none
     elif kind == _GEOMS.mjGEOM_SPHERE:
-        yield "sphere", {"radius": _text(size[0])}, none, straight
+        yield "sphere", {"radius": size[0]}, none
     elif kind in (_GEOMS.mjGEOM_CYLINDER, _GEOMS.mjGEOM_CAPSULE):
         radius, half = size[0], size[1]
-        length = {"radius": _text(radius), "length": _text(2.0 * half)}
-        yield "cylinder", length, none, straight
+        yield "cylinder", {"radius": radius, "length": 2.0 * half}, none
         if kind == _GEOMS.mjGEOM_CAPSULE:
             for end in (-half, half):
-                offset = np.array([0.0, 0.0, end])
-                yield "sphere", {"radius": _text(radius)}, offset, straight
+                yield "sphere", {"radius": radius}, np.array([0.0, 0.0, end])
     elif kind == _GEOMS.mjGEOM_ELLIPSOID:
         along = int(np.argmax(size))
-        across = np.delete(size, along)
-        radius = float(np.sqrt(across.prod()))
+        radius = float(np.sqrt(np.delete(size, along).prod()))
         for share in (-1.0, 0.0, 1.0):
             offset = np.zeros(3)
             offset[along] = share * max(float(size[along]) - radius, 0.0)
-            yield "sphere", {"radius": _text(radius)}, offset, straight
+            yield "sphere", {"radius": radius}, offset
     else:
         center, half_sizes = model.geom_aabb[geom].reshape(2, 3)
-        yield "box", {"size": _texts(2.0 * half_sizes)}, center, straight
+        yield "box", {"size": 2.0 * half_sizes}, center
 
 
-def _add_limits(
-    element: ElementTree.Element,
-    model: mujoco.MjModel,
-    joint: int,
-    description: RobotDescription,
-) -> None:
-    """Add range, effort and speed of a joint, and its damping."""
-    name = model.joint(joint).name
-    limit = ElementTree.SubElement(element, "limit")
-    if model.jnt_limited[joint]:
-        lower, upper = model.jnt_range[joint]
-        limit.set("lower", _text(lower))
-        limit.set("upper", _text(upper))
-    limit.set("effort", _text(_effort(model, joint)))
-    limit.set("velocity", _text(description.speed_limits.get(name, UNLIMITED)))
-    dof = int(model.jnt_dofadr[joint])
-    ElementTree.SubElement(
-        element,
-        "dynamics",
-        damping=_text(model.dof_damping[dof]),
-        friction=_text(model.dof_frictionloss[dof]),
-    )
-
-
-def _effort(model: mujoco.MjModel, joint: int) -> float:
+def _effort(model: mujoco.MjModel, joint: UrdfJoint) -> float:
     """Return the greatest torque of a joint's motor, in [N m]."""
     greatest = UNLIMITED
-    if model.jnt_actfrclimited[joint]:
-        greatest = float(np.abs(model.jnt_actfrcrange[joint]).max())
-    for motor in np.flatnonzero(model.actuator_trnid[:, 0] == joint):
+    if model.jnt_actfrclimited[joint.number]:
+        greatest = float(np.abs(model.jnt_actfrcrange[joint.number]).max())
+    for motor in np.flatnonzero(model.actuator_trnid[:, 0] == joint.number):
         if model.actuator_forcelimited[motor]:
             force = float(np.abs(model.actuator_forcerange[motor]).max())
             gear = abs(float(model.actuator_gear[motor, 0]))
             greatest = min(greatest, force * gear)
     return greatest
-
-
-def _add_origin(
-    parent: ElementTree.Element, position: Array, axes: Array
-) -> None:
-    """Add an origin with roll, pitch and yaw about fixed axes."""
-    rpy = _texts(angles_of(axes))
-    ElementTree.SubElement(parent, "origin", xyz=_texts(position), rpy=rpy)
-
-
-def _text(value: float) -> str:
-    return f"{float(value):.12g}"
-
-
-def _texts(values: Array | Iterable[float]) -> str:
-    return " ".join(_text(0.0 if abs(v) < 1e-12 else v) for v in values)
