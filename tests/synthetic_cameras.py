@@ -56,11 +56,9 @@ class FakeDetector:
     def __init__(self) -> None:
         self.found: ColourDetection | None = None
 
-    def detect_all(
-        self, image: ColourImage, *, most: int
-    ) -> list[ColourDetection]:
+    def detect(self, image: ColourImage) -> ColourDetection | None:
         """Find what was told."""
-        return [] if self.found is None else [self.found]
+        return self.found
 
 
 class Eyes:

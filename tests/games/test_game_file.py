@@ -83,3 +83,6 @@ def test_cameras_look_for_a_player_of_a_colour() -> None:
     watcher = HUNTER | {"senses": "cameras", "target": "grey"}
     with pytest.raises(ConfigurationError, match="target must be a pursuer"):
         game(watcher, {"name": "grey"})
+    prey = {"name": "blue", "role": "evader"}
+    with pytest.raises(ConfigurationError, match="more than two robots"):
+        game(watcher | {"target": "blue"}, prey, {"name": "grey"})

@@ -1,7 +1,7 @@
 """Test games of several players: levels, bodies, rules and summary."""
 
 from functools import cache
-from math import cos, pi, sin
+from math import pi
 from pathlib import Path
 from typing import Any
 
@@ -9,14 +9,12 @@ import numpy as np
 import pytest
 
 from stepaside.core.errors import ConfigurationError
-from stepaside.core.player_identity import Role
 from stepaside.core.poses import Array
 from stepaside.games.game import play
 from stepaside.games.game_file import parse_game
 from stepaside.games.game_settings import GameSettings
 from stepaside.games.outcome import Outcome
 from stepaside.games.recorded_game import RecordedGame, run_game
-from stepaside.games.robot_player import RobotPlayer
 from stepaside.games.run import Run
 from stepaside.games.run_archive import load_run
 from stepaside.report.run_folder import write_run
@@ -117,45 +115,6 @@ def test_a_recorded_player_repeats_its_motion(tmp_path: Path) -> None:
     )
     with pytest.raises(ConfigurationError, match="run_player must be one of"):
         run_game(game(ghost | {"run_player": "nobody"}, THREE[2]))
-
-
-@pytest.mark.parametrize(
-    ("places", "seen"),
-    [
-        (((1.3, 0.35), (1.5, -0.35)), 2),
-        (((1.0, 0.0), (1.9, 0.0)), 1),  # one hides the other
-    ],
-)
-def test_cameras_see_several_pursuers_but_do_not_name_them(
-    places: tuple[tuple[float, float], ...], seen: int
-) -> None:
-    pytest.importorskip("cv2")
-    standing = {"strategy": "stand"}
-    match = RecordedGame(
-        game(
-            robot("red", "pursuer", *places[0], pi, **standing),
-            robot("ruby", "pursuer", *places[1], pi, **standing),
-            robot("blue", "evader", 0.0, 0.0, 0.0, senses="cameras"),
-            cameras={"colour": {"renderer": "raycast"}},
-            duration=2.0,
-        )
-    )
-    play(match)
-    blue = match.in_physics.player("blue")
-    assert isinstance(blue, RobotPlayer)
-    known = blue.scheme.senses.in_sight
-    assert known is not None and known.identity.name == "blue"
-    assert len(known.sightings) == seen
-    for sighting in known.sightings:
-        identity = sighting.identity
-        assert identity is not None and identity.role is Role.PURSUER
-        assert identity.name not in ("red", "ruby")
-        x, y = (
-            sighting.distance * cos(sighting.bearing),
-            sighting.distance * sin(sighting.bearing),
-        )
-        away = min(np.hypot(x - u, y - v) for u, v in places)
-        assert away < 0.15
 
 
 def test_a_lidar_shows_people_to_a_robot_of_a_game() -> None:

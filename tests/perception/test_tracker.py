@@ -53,14 +53,6 @@ def test_each_track_takes_its_nearest_observation() -> None:
     assert tracker.tracks == [far, near]
 
 
-def test_of_several_alike_the_nearest_pair_associates_first() -> None:
-    """An opponent out of view does not take the observation of another."""
-    one, other = known(0.2, 1.0), known(0.0, 1.12)
-    tracker = Tracker(several=True)
-    tracker.tracks = [one, other]
-    assert tracker.observe([look(0.2, 1.11)]) == [other]
-
-
 @pytest.mark.parametrize(("gap", "one"), [(0.13, True), (0.17, False)])
 def test_two_tracks_at_one_position_merge_into_the_older(
     gap: float, one: bool

@@ -3,7 +3,7 @@
 from collections.abc import Callable
 from typing import TYPE_CHECKING, NamedTuple
 
-from ..core.player_identity import PlayerIdentity, Role
+from ..core.player_identity import PlayerIdentity
 from ..core.poses import ALL_AROUND, Array, Sector
 from ..locomotion.zmp.current_step import CurrentStep
 from ..perception.attitude import AttitudeFilter
@@ -163,42 +163,6 @@ class CameraSight(LidarSight):
     """Sightings from images, with a head that looks at the opponent."""
 
     perception: "Perception"
-
-    def __init__(
-        self,
-        perception: "Perception",
-        *,
-        tick: float,
-        unnamed: tuple[PlayerIdentity, Role] | None = None,
-    ) -> None:
-        super().__init__(perception, tick=tick)
-        self._unnamed = unnamed
-
-    @property
-    def in_sight(self) -> PlayersInSight | None:
-        """Recognised robots, named by the number of their track, if any."""
-        if self._unnamed is None:
-            return None
-        sightings = tuple(map(self._numbered, self.perception.unnamed))
-        return PlayersInSight(self._unnamed[0], sightings)
-
-    def see(
-        self,
-        measurement: RobotState,
-        step: StepAt,
-        tilt: tuple[float, float] | None,
-    ) -> Sighting | None:
-        """Return the sighting by the images so far."""
-        seen = super().see(measurement, step, tilt)
-        return None if seen is None else self._numbered(seen)
-
-    def _numbered(self, seen: Sighting) -> Sighting:
-        """Return a sighting with the role of the robot, but no name."""
-        if self._unnamed is None:
-            return seen
-        _, role = self._unnamed
-        name = f"unnamed-{seen.target_id}"
-        return seen._replace(identity=PlayerIdentity(name, role, role.value))
 
     @property
     def turning(self) -> float:

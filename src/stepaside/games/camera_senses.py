@@ -97,7 +97,6 @@ class CameraSenses:
             scan=scan,
             glances=glances,
             people=any(p.body == "person" for p in opponents),
-            unnamed=len(self._settings.unnamed_opponents(own)),
             fixed_views=views,
         )
 

@@ -343,15 +343,6 @@ class GameSettings:
         names = [own.target] if own.target else [*self.opponents_of(own.name)]
         return [self.player(name) for name in names]
 
-    def unnamed_opponents(self, own: PlayerSettings) -> list[PlayerSettings]:
-        """Return the opponents that cameras of a robot do not tell apart.
-
-        They are all robots of the opposing role, which wear one trim, in a
-        game of more than two robots; of two, the other one is the opponent.
-        """
-        robots = [p for p in self.sensed_opponents(own) if p.body == "robot"]
-        return robots if len(self.robots) > 2 else []
-
     @property
     def safety_radii(self) -> dict[str, float]:
         """Safety radius of each player that has one, in [m], by name.
@@ -496,16 +487,11 @@ def check_senses(settings: GameSettings) -> None:
                 "senses 'cameras', which know the colours of these roles, "
                 f"got {sensed[0].name!r}"
             )
-        alike = [
-            p.name
-            for p in settings.players
-            if p.body == "robot" and p.role == sensed[0].role
-        ]
-        if own.target and len(alike) > 1 and sensed[0].body == "robot":
+        if len(settings.robots) > 2 and sensed[0].body == "robot":
             raise ConfigurationError(
-                f"{own.name}: target must be empty with senses 'cameras', as "
-                f"they do not tell {', '.join(alike)} apart, got "
-                f"{own.target!r}"
+                f"{own.name}: senses must be ideal in a game of more than two "
+                "robots, as cameras do not tell robots of one role apart, got "
+                "'cameras'"
             )
         if own.legs.walks and settings.room is not None:
             raise ConfigurationError(

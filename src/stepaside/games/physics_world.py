@@ -15,7 +15,6 @@ from ..control.sight_sources import (
     SightOfPlayers,
 )
 from ..core.errors import ConfigurationError
-from ..core.player_identity import Role
 from ..core.poses import Pose
 from ..core.random_streams import named_generator
 from ..perception.measurement import Sighting
@@ -290,12 +289,10 @@ class PhysicsWorld(World):
         if own.senses == "cameras":
             assert self._senses is not None
             seen = self._senses.perceptions.get(own.name)
-            alike = settings.unnamed_opponents(own)
-            unnamed = (own.identity, Role(alike[0].role)) if alike else None
             return setup._replace(
                 source=MeasuredSight()
                 if seen is None
-                else CameraSight(seen, tick=tick, unnamed=unnamed),
+                else CameraSight(seen, tick=tick),
                 eyes=self._senses.eyes_of(self, own.name),
             )
         if own.senses == "ideal" and len(settings.players) == 1:

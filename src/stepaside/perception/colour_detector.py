@@ -74,10 +74,8 @@ class ColourDetector:
     def __init__(self, appearance: Appearance) -> None:
         self.appearance = appearance
 
-    def detect_all(
-        self, image: ColourImage, *, most: int
-    ) -> list[ColourDetection]:
-        """Detect at most a number of robots, the tallest first."""
+    def detect(self, image: ColourImage) -> ColourDetection | None:
+        """Detect the tallest robot, if any."""
         hsv = smoothed_hsv(image.pixels)
         stats = _patches(self.mask(hsv))
         least = max(3.0, MIN_AREA * (image.camera.width / 160.0) ** 2)
@@ -88,8 +86,10 @@ class ColourDetector:
             for group in _groups(boxes)
             if (found := check_group(group, image.camera)) is not None
         ]
-        fitting.sort(key=lambda found: found.top - found.bottom)
-        return [self._with_ears(own, hsv, least) for own in fitting[:most]]
+        if not fitting:
+            return None
+        tallest = min(fitting, key=lambda found: found.top - found.bottom)
+        return self._with_ears(tallest, hsv, least)
 
     def mask(self, hsv: Pixels, saturation_factor: float = 1.0) -> Mask:
         """Return 255 where a `smoothed_hsv` image has the trim's colour."""

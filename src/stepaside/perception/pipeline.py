@@ -41,7 +41,6 @@ from .target_selection import (
     MAX_GAZE_AGE,
     PeopleSelection,
     TargetSelection,
-    UnnamedSelection,
 )
 from .track import (
     PERSON_MOTION,
@@ -100,7 +99,6 @@ class Perception:
     # opponent
     floor: FloorMap | None = None
     people: bool = False  # whether people may approach
-    most: int = 1  # greatest number of opponents in an image
     # bearings that cameras on the torso show
     fixed_views: tuple[Sector, ...] = ()
     # functions that give the pose of the body, of the last second
@@ -109,9 +107,6 @@ class Perception:
     )
     # estimate of the opponent at the last update; None if lost
     sighting: Sighting | None = None
-    # sightings of all recognised robots by their numbers, where several wear
-    # one trim; else empty
-    unnamed: tuple[Sighting, ...] = ()
     # target of the gaze; None while the head searches
     gaze_target: GazeTarget | None = None
     # detections in the images that arrived at the last tick
@@ -200,7 +195,6 @@ class Perception:
         main = self.selection.main(now, x, y)
         self.sighting = self.gaze_target = None
         self._watched = main is not None and main.is_watched(now)
-        self.unnamed = ()
         if self.head.scans:
             return
         chosen = self.selection.look(main, now, x, y)
@@ -212,11 +206,6 @@ class Perception:
             )
         if main is not None:
             self.sighting = self._sighting_of(main, body, now)
-        if isinstance(self.selection, UnnamedSelection):
-            self.unnamed = tuple(
-                self._sighting_of(track, body, now)
-                for track in self.selection.recognised(now)
-            )
 
     def _sighting_of(
         self, track: TargetTrack, body: BodyPose, now: float
@@ -238,25 +227,22 @@ def _take_colour(
 ) -> FrameReport:
     """Detect the opponent's trim."""
     camera, tracker = camera_pose(body, state.top), state.tracker
-    detected = state.detector.detect_all(image, most=state.most)
-    # In a room a robot may be so near that an image edge hides a part.
-    near = state.floor is not None and not state.people
-    observations = [
-        observe_trim(
-            *(image, found, camera, state.detector.appearance),
-            tracker.tracks,
-            near=near,
+    found = state.detector.detect(image)
+    updated: list[TargetTrack] = []
+    azimuths: tuple[float, ...] = ()
+    if found is not None:
+        # In a room an image edge may hide a part of a robot that is near.
+        near = state.floor is not None and not state.people
+        appearance, tracks = state.detector.appearance, tracker.tracks
+        observation = observe_trim(
+            *(image, found, camera, appearance, tracks), near=near
         )
-        for found in detected
-    ]
-    updated = tracker.observe(observations)
+        updated = tracker.observe([observation])
+        azimuths = (-angle_of(image, found.column),)
     record_misses(
         tracker, updated, image, camera, max_identity_age=MAX_GAZE_AGE
     )
-    azimuths = tuple(-angle_of(image, found.column) for found in detected)
-    return FrameReport(
-        image, azimuths, colour=detected[0] if detected else None
-    )
+    return FrameReport(image, azimuths, colour=found)
 
 
 def _take_depth(
@@ -368,23 +354,17 @@ def build_perception(
     scan: RoomScan | None = None,
     glances: Glances | None = None,
     people: bool = False,
-    unnamed: int = 0,
     fixed_views: tuple[Sector, ...] = (),
 ) -> Perception:
     """Build the perception of a robot, whose opponents are of its model.
 
-    One that scans the room maps its floor. People, who wear no trim, may
-    approach. Several opponents that all wear the trim are unnamed.
+    One that scans the room maps its floor. People wear no trim.
     """
     # Walls and obstacles of a map rest, so a robot's motion may be smooth.
-    calm = (scan is not None and not people) or unnamed > 0
+    calm = scan is not None and not people
     motion = ROBOT_MOTION if calm else PERSON_MOTION
-    tracker = Tracker(motion, several=unnamed > 0)
-    selection = TargetSelection(tracker)
-    if people:
-        selection = PeopleSelection(tracker)
-    elif unnamed:
-        selection = UnnamedSelection(tracker, unnamed)
+    tracker = Tracker(motion)
+    selection = (PeopleSelection if people else TargetSelection)(tracker)
     kinematics = BodyKinematics(description, head)
     size = kinematics.forward.tree.size
     low, high = size.trim
@@ -403,7 +383,6 @@ def build_perception(
         kinematics,
         None if scan is None else FloorMap(),
         people=people,
-        most=max(1, unnamed),
         fixed_views=fixed_views,
     )
 

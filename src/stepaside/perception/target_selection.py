@@ -10,11 +10,7 @@ MAX_GAZE_AGE = 1.0  # of a track at which the head looks, in [s]
 GAZE_RADIUS = 1.2  # within which the head looks at any track, in [m]
 # Of robots.
 MOVING = 0.08  # speed of a moving track, in [m/s]
-NEARER = 0.9  # relative distance from which another opponent is taken
-RECOGNISED = 2.5  # how long an unnamed track stays without trim, in [s]
 GLANCE = 0.6  # duration of a glance at another track, in [s]
-GLANCE_PAUSE = 1.2  # between two glances, in [s]
-UNSEEN = 0.5  # age of the last image from which an opponent is unseen, in [s]
 # Of people.
 HORIZON = 4.0  # of the prediction at constant velocity, in [s]
 APPROACHING = 1.0  # predicted distance below which the gaze stays, in [m]
@@ -71,64 +67,6 @@ def recent_tracks(
     return [
         track for track in ordered if now - track.observed_at <= MAX_GAZE_AGE
     ]
-
-
-class UnnamedSelection(TargetSelection):
-    """Target selection among robots of one trim, which have no names.
-
-    Recognised tracks are opponents, as many as there are; of more, where
-    robots overlap in images, the most certain ones. The nearest is the main
-    one, with hysteresis. The head looks at it, and now and then where another
-    was last seen. Unrecognised objects may be teammates.
-    """
-
-    def __init__(self, tracker: Tracker, most: int) -> None:
-        super().__init__(tracker)
-        self._most = most
-        self._present = 0  # number of the main track
-
-    def recognised(self, now: float) -> list[TargetTrack]:
-        """Return the confirmed tracks recognised by their trim."""
-        self.tracker.prune(now)
-        recognised = [
-            track
-            for track in self.tracker.tracks
-            if track.confirmed and now - track.identified_at < RECOGNISED
-        ]
-        recognised.sort(key=lambda track: track.deviation_at(now))
-        return recognised[: self._most]
-
-    def main(self, now: float, x: float, y: float) -> TargetTrack | None:
-        """Return the nearest recognised track, with hysteresis."""
-        chosen = min(
-            self.recognised(now),
-            key=lambda t: (
-                t.distance_from(x, y, now)
-                * (NEARER if t.number == self._present else 1.0)
-            ),
-            default=None,
-        )
-        self._present = 0 if chosen is None else chosen.number
-        return chosen
-
-    def look(
-        self, main: TargetTrack | None, now: float, x: float, y: float
-    ) -> TargetTrack | None:
-        """Return the main track, or another one that is due for a glance."""
-        if main is None or now - main.observed_at > MAX_GAZE_AGE:
-            return None
-        unseen = [
-            track
-            for track in self.recognised(now)
-            if now - track.observed_at > UNSEEN
-        ]
-        if unseen and now % (GLANCE + GLANCE_PAUSE) < GLANCE:
-            return min(unseen, key=lambda t: t.observed_at)
-        return main
-
-    def target_id(self, track: TargetTrack) -> int:
-        """Return the number of the track."""
-        return track.number
 
 
 class PeopleSelection(TargetSelection):

@@ -266,10 +266,8 @@ class Tracker:
     robot move.
     """
 
-    def __init__(
-        self, motion: MotionModel = PERSON_MOTION, *, several: bool = False
-    ) -> None:
-        self._motion, self._several = motion, several
+    def __init__(self, motion: MotionModel = PERSON_MOTION) -> None:
+        self._motion = motion
         self.tracks: list[TargetTrack] = []
         self._numbers = count(1)
 
@@ -283,7 +281,7 @@ class Tracker:
         """Update or start tracks with observations of a frame; return them."""
         remaining = list(observations)
         updated = []
-        for track in self._ordered(remaining):
+        for track in sorted(self.tracks, key=lambda t: -t.observed_at):
             if not remaining:
                 break
             if walked_only and not track.has_walked:
@@ -302,17 +300,6 @@ class Tracker:
             self.tracks += started
             updated += started
         return updated
-
-    def _ordered(
-        self, observations: Sequence[Observation]
-    ) -> list[TargetTrack]:
-        """Return the tracks in the order in which they take observations."""
-        if not self._several or not observations:
-            return sorted(self.tracks, key=lambda t: -t.observed_at)
-        return sorted(
-            self.tracks,
-            key=lambda t: min(map(t.mahalanobis_squared, observations)),
-        )
 
     def main(self, now: float, x: float, y: float) -> TargetTrack | None:
         """Return the main track for a robot at a position in odometry."""
