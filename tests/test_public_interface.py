@@ -213,7 +213,6 @@ ANGLES: dict[str, Callable[[Any], Any]] = {
     ),
     "Evasion angle": stepaside.Evasion,
     "Evasion side_hysteresis": lambda a: stepaside.Evasion(side_hysteresis=a),
-    "LookAhead angle": lambda a: stepaside.strategies.LookAhead(angle=a),
     "StepGame largest_turn": lambda a: StepGame(largest_turn=a),
     "RelativeStart pursuer_error": lambda a: RelativeStart(1.0, a),
     "RelativeStart bearing": lambda a: RelativeStart(1.0, 0.0, a),

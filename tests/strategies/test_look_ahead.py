@@ -41,19 +41,7 @@ def know(
     return Knowledge(time, bearing, distance, NAO, pose_in_map=pose)
 
 
-@pytest.mark.parametrize("angle", [pi / 2, pi / 8])
-def test_with_an_empty_map_and_no_pieces_it_is_the_law(angle: float) -> None:
-    """The paper's evader, step by step for half a minute."""
-    law = replace(ASIDE, angle=angle)
-    mind = LookAhead(pieces=(), tail=20, angle=angle)
-    tracks = [
-        play_strategies(Pursuit(), evader, FACING, game=SHORT)
-        for evader in (law, mind)
-    ]
-    np.testing.assert_allclose(tracks[1].evader, tracks[0].evader, atol=1e-12)
-
-
-@pytest.mark.parametrize("seed", [1, 3, 5])
+@pytest.mark.parametrize("seed", [1, 3])
 def test_in_a_room_it_survives_where_moving_aside_touches(seed: int) -> None:
     room = generate_room(RoomRecipe(discs=3), seed)
     assert room.starts is not None
@@ -142,7 +130,7 @@ def test_the_optimal_evader_maximises_its_table() -> None:
         )
         promised.append(unit * float(value))
         for found, mind in (
-            (kept, LookAhead((1,), 15, 0, cells=cells)),
+            (kept, LookAhead(cells=cells, obstacles=False)),
             (aside, ASIDE),
         ):
             track = play_strategies(Pursuit(), mind, starts, game=SHORT)

@@ -1,7 +1,6 @@
-"""Test the step game: one step, clearance, values, and the search."""
+"""Test one step, clearance, and the search over turning sequences."""
 
-from itertools import product
-from math import atan2, cos, inf, pi, sin
+from math import cos, pi, sin
 from typing import Any
 
 import numpy as np
@@ -18,9 +17,19 @@ from stepaside.arena import (
 from stepaside.core.poses import Pose
 from stepaside.planning import Direction
 from stepaside.planning.path import UnicycleTrajectory
+from stepaside.strategies.look_ahead import (
+    BLINDNESS,
+    HORIZON,
+    PIECES,
+    SIGHT,
+    Aims,
+    Problem,
+    even_turns,
+    judge,
+    look_ahead,
+)
 from stepaside.strategies.search.distance_field import (
     CELL,
-    DistanceField,
     distance_field,
     field_clearance,
 )
@@ -31,18 +40,6 @@ from stepaside.strategies.search.step_motion import (
     pair_of,
 )
 from stepaside.strategies.search.step_motion import step_both as step
-from stepaside.strategies.search.turn_search import (
-    NO_VALUE,
-    BestManeuver,
-    PursuitValues,
-    TurnSearch,
-    judge,
-    law_turn,
-    look_ahead,
-    value_at,
-)
-from stepaside.theory.value import PoseGrid, ValueTable
-from stepaside.theory.value.solver import make_rules
 
 RULES, MODEL = StepRules(0.04, 0.08, 0.08 * pi), PursuerModel()
 ROOM = generate_room(RoomRecipe(discs=3, boxes=2, polygons=2, doors=1), 4)
@@ -55,20 +52,6 @@ def place(evader: Pose, pursuer: Pose) -> PlayerPair:
 
 def step_both(both: PlayerPair, turn: float, pace: float = 1.0) -> PlayerPair:
     return step(both, turn, pace, MODEL, RULES)
-
-
-def found_by(
-    both: PlayerPair,
-    tried: TurnSearch,
-    packed: Any = NOTHING,
-    table: PursuitValues = NO_VALUE,
-) -> BestManeuver:
-    return look_ahead(both, np.zeros(0), 0, tried, MODEL, RULES, packed, table)
-
-
-def field_of(packed: Any, aims: TurnSearch, both: PlayerPair) -> DistanceField:
-    """Return the field that a search from a state uses."""
-    return distance_field(packed, aims.clearance, both.ex, both.ey, 1.0)
 
 
 @pytest.mark.parametrize(("bearing", "aim"), [(0.4, 0.7), (-2.0, -3.0)])
@@ -112,138 +95,63 @@ def test_the_distance_field_is_a_safe_and_tight_bound(seed: int) -> None:
     assert np.all(bounds >= exact[inside] - diagonal - 1e-12)
 
 
-@pytest.fixture(scope="module")
-def bound() -> ValueTable:
-    """A table of anything; nothing is solved."""
-    grid = PoseGrid.covering(0.25, 3.0, 3.0, 3.0, 12)
-    values = np.random.default_rng(2).uniform(0.1, 0.3, grid.shape)
-    motions = np.zeros((1, 4, 3))
-    rules = make_rules(grid, inf)
-    return ValueTable(values, values, motions, motions, rules, 0.0, 0.0)
+AIMS = Aims(even_turns(7, RULES.largest), 0.8, 0.205, 60.0, 1e-6)
 
 
-def value_table(bound: ValueTable) -> PursuitValues:
-    grid = bound.grid
-    return PursuitValues(bound.values, grid.left, grid.spacing, 0.5)
+def walked(both: PlayerPair, turns: Any, spot: int, packed: Any) -> float:
+    """Return the score of a maneuver, step by step."""
+    reach = len(turns) * RULES.stride
+    field = distance_field(packed, AIMS.clearance, both.ex, both.ey, reach)
+    score = AIMS.enough
+    for n, turn in enumerate(turns):
+        both = step_both(both, turn, 0.05 if n < spot else 1.0)
+        score = judge(both, score, Problem(AIMS, RULES, field))
+    return score
 
 
-def brute(
-    both: PlayerPair,
-    tried: TurnSearch,
-    packed: Any,
-    table: Any,
-    *,
-    law: bool = True,
-) -> float:
-    """Best score of all sequences and of the law, without leaving any out."""
-    best, field = -inf, field_of(packed, tried, both)
-    pieces = tried.pieces.tolist()
-    sequences = [
-        [u for u, n in zip(each, pieces, strict=True) for _ in range(n)]
-        for each in product(tried.turns.tolist(), repeat=len(pieces))
-    ]
-    for turns in [*([[]] if law else []), *sequences]:
-        here, score, side = both, tried.enough, 0.0
-        for n in range(tried.horizon):
-            if n < len(turns):
-                u = turns[n]
-            else:
-                dx, dy = here.px - here.ex, here.py - here.ey
-                left = here.ec * dy - here.es * dx
-                side = side or (-1.0 if left > 0.0 else 1.0)
-                u = law_turn(here, side, tried.angle, RULES.share)
-            here = step_both(here, u)
-            score = judge(here, score, tried, field)
-        if table.values.size:
-            score = min(score, value_at(table, here))
-        best = max(best, score)
-    return best
-
-
-@pytest.mark.parametrize("seed", range(6))
-@pytest.mark.parametrize("valued", [False, True])
-def test_the_search_matches_brute_force(
-    seed: int, valued: bool, bound: ValueTable
-) -> None:
-    """Its score is the best of all, and the turns it gives have it."""
+@pytest.mark.parametrize("seed", range(8))
+def test_the_maneuver_found_has_its_score_and_beats_others(seed: int) -> None:
+    """The law, random sequences, and a given plan, on which it improves."""
     random = np.random.default_rng(seed)
     evader = Pose(*random.uniform([-1, -1, -pi], [1, 1, pi]).tolist())
     pursuer = Pose(*random.uniform([-1, -1, -pi], [1, 1, pi]).tolist())
     both = place(evader, pursuer)
-    tried = TurnSearch(
-        np.array([2, 3, 6]),
-        np.array([0.0, -0.1, 0.1, -0.25, 0.25]),
-        20,
-        enough=0.7,
-        clearance=0.25,
-        sight=2.0,
-        gain=0.0,
+    found = look_ahead(both, np.zeros(0), 0, AIMS, RULES, PACKED)
+    assert walked(both, found.turns, found.spot, PACKED) == pytest.approx(
+        found.score, abs=1e-9
     )
-    packed = NOTHING if valued else PACKED
-    table = value_table(bound) if valued else NO_VALUE
-    found = found_by(both, tried, packed, table)
-    expected = brute(both, tried, packed, table)
-    assert found.score == pytest.approx(expected, abs=1e-7)
-    score, here, field = tried.enough, both, field_of(packed, tried, both)
-    for turn in found.turns:
-        here = step_both(here, turn)
-        score = judge(here, score, tried, field)
-    if valued:
-        score = min(score, value_at(table, here))
-    assert score == pytest.approx(expected, abs=1e-7)
+    for _ in range(30):
+        plan = np.repeat(random.choice(AIMS.turns, len(PIECES)), PIECES)
+        given = look_ahead(both, plan, 0, AIMS, RULES, PACKED)
+        law = given.turns[len(plan) :]
+        assert len(law) == HORIZON - len(plan) + given.spot
+        assert given.score >= found.score - 1e-6
+    kept = look_ahead(both, found.turns, found.spot, AIMS, RULES, PACKED)
+    assert kept.score >= found.score - 1e-9
+
+
+def test_in_a_corner_it_turns_on_the_spot_first() -> None:
+    corner = place(Pose(1.25, 1.25, -pi * 0.75), Pose(0.75, 0.75, pi / 4))
+    found = look_ahead(corner, np.zeros(0), 0, AIMS, RULES, PACKED)
+    assert found.spot > 0 and found.spot % 2 == 0
+    assert len(found.turns) == HORIZON + found.spot
+    assert set(np.abs(found.turns[: found.spot])) == {RULES.largest}
 
 
 def test_missing_clearance_and_lost_sight_are_penalised() -> None:
     both = place(Pose(0.0, 0.0, 0.0), Pose(1.0, 1.0, 0.0))
     x, y, radius = 0.4, -0.3, 0.15
     disc = ObstacleSet((Disc(x, y, radius),)).packed
+
+    def judged(both: PlayerPair, packed: Any) -> float:
+        field = distance_field(packed, AIMS.clearance, both.ex, both.ey, 1.0)
+        return judge(both, 0.9, Problem(AIMS, RULES, field))
+
     near = both._replace(
-        ex=x + radius + 0.15, ey=y, px=x + radius + 1.15, py=y
+        ex=x + radius + 0.195, ey=y, px=x + radius + 1.195, py=y
     )
-    aims = TurnSearch(np.zeros(0), np.zeros(0), 1, enough=0.9, penalty=3.0)
-    assert judge(near, 0.9, aims, field_of(disc, aims, near)) == pytest.approx(
-        0.9 - 3.0 * 0.05
+    assert judged(near, disc) == pytest.approx(0.8 - 60.0 * 0.01)
+    behind = both._replace(px=cos(3.0), py=sin(3.0))
+    assert judged(behind, NOTHING) == pytest.approx(
+        0.8 - BLINDNESS * (3.0 - SIGHT)
     )
-    behind = both._replace(px=cos(2.5), py=sin(2.5))
-    aims = aims._replace(sight=2.0)
-    blind = judge(behind, 0.9, aims, field_of(NOTHING, aims, behind))
-    assert blind == pytest.approx(0.9 - 0.1 * 0.5)
-    assert atan2(behind.py, behind.px) == pytest.approx(2.5)
-
-
-@pytest.mark.parametrize("seed", range(4))
-def test_it_turns_on_the_spot_first_only_if_that_is_better(seed: int) -> None:
-    """The score is the best of all trees, each behind its turns."""
-    random = np.random.default_rng(seed)
-    evader = Pose(1.2, 1.2, float(random.uniform(-pi, pi)))
-    pursuer = Pose(*random.uniform([0.3, 0.3, -pi], [0.7, 0.7, pi]).tolist())
-    both = place(evader, pursuer)
-    tried = TurnSearch(
-        np.array([2, 3]),
-        np.array([0.0, -0.25, 0.25]),
-        9,
-        spots=4,
-        enough=0.8,
-        penalty=60.0,
-        tight=inf,
-    )
-    best = brute(both, tried, PACKED, NO_VALUE)
-    field = field_of(PACKED, tried, both)
-    for side in (-0.25, 0.25):
-        here, score = both, tried.enough
-        for n in range(4):
-            here = step_both(here, side, 0.05)
-            score = judge(here, score, tried, field)
-            if n % 2:
-                behind = tried._replace(enough=score)
-                best = max(
-                    best, brute(here, behind, PACKED, NO_VALUE, law=False)
-                )
-    found = found_by(both, tried, PACKED)
-    assert found.score == pytest.approx(best, abs=1e-5)
-    assert len(found.turns) == 9 + found.spot
-    here, score = both, tried.enough
-    for n, turn in enumerate(found.turns):
-        here = step_both(here, turn, 0.05 if n < found.spot else 1.0)
-        score = judge(here, score, tried, field)
-    assert score == pytest.approx(found.score, abs=1e-9)

@@ -35,9 +35,7 @@ STRATEGIES: dict[str, Any] = {
     "evasion": Evasion(angle=1.0, safety_radius=1e6),
     "evasion in time": Evasion(trigger="time", contact_time=20.0),
     "look-ahead": LookAhead(cells=16),
-    "optimal": LookAhead(
-        pieces=(1,), turns=15, tail=0, cells=16, obstacles=False
-    ),
+    "optimal": LookAhead(cells=16, obstacles=False),
 }
 
 

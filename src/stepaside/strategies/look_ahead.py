@@ -1,69 +1,74 @@
-"""Receding-horizon search over turning sequences."""
+"""Receding-horizon search over turning sequences, with a pursuer model.
 
-from dataclasses import dataclass, replace
+A maneuver is a sequence of pieces with a constant turn each, followed by
+the law of Sec. II-B until the horizon. Its score is the least distance to
+the pursuer, limited to ``enough``, less penalties for missing clearance and
+for losing sight of the pursuer. The score never increases along a maneuver:
+so the search descends the tree of pieces and prunes a branch as soon as it
+is no better than the best maneuver so far. If no sequence is good, it also
+tries sequences that begin with a turn on the spot.
+"""
+
+from dataclasses import dataclass
 from functools import lru_cache
 from math import atan2, hypot, inf, pi, radians
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
-from ..arena import NO_OBSTACLES
-from ..core.errors import ConfigurationError, shown
+from ..core.compilation import compiled, copy_values, inlined
 from ..core.poses import Array, Pose
 from ..core.ranges import Range
 from ..core.setting import check_settings, setting
-from .knowledge import ON_THE_SPOT, STAND, Intent, Knowledge, Limits
+from .knowledge import ON_THE_SPOT, STAND, Intent, Knowledge
 from .opponent_track import OpponentTrack, track_of_steps
+from .search.distance_field import (
+    DistanceField,
+    distance_field,
+    field_clearance,
+)
 from .search.step_motion import (
+    PAPERS,
     PlayerPair,
-    PursuerModel,
     StepRules,
     fit_heading,
+    pair_in,
     pair_of,
     step_both,
-)
-from .search.turn_search import (
-    DEEPEST,
-    NO_VALUE,
-    PursuitValues,
-    TurnSearch,
-    look_ahead,
+    step_rules,
+    store,
 )
 from .strategy import BackwardStrategy
 from .table_cache import pursuit_bound
 
+PIECES = (2, 4, 8, 12, 16)  # steps with a constant turn
+TURNS = 7  # tried per piece, evenly spaced up to the largest
+HORIZON = 52  # steps of a maneuver: the pieces, and ten of the law
+SPOTS = 12  # steps on the spot before the first piece; 12.5 of the sharpest
+# make half a turn
+MOST = 40_000  # rolled-out steps after which no further maneuver is begun
+TIGHT = 0.5  # score below which turns on the spot are tried, in [m]
+BLINDNESS = 0.1  # cost of a bearing beyond sight, in [m] per [rad]
+SIGHT = radians(148.0)  # largest bearing at which the pursuer is visible
 MARGIN = 0.005  # in addition to the required clearance, in [m]
 PENALTY = 60.0  # per metre of missing clearance: 1 cm costs 0.6 m
 MAP_ERROR_COST = 0.5  # of missing clearance as large as the map error, [m]
-SIGHT = radians(148.0)  # largest bearing at which the pursuer is visible
-TIGHT = 0.5  # distance to the pursuer below which maneuvers that begin with a
-# turn on the spot are tried too, with obstacles, in [m]
-SPOT_STEPS = 12  # on the spot: 12.5 of the sharpest make half a turn
-MAX_STEPS = 400  # of a maneuver
-STEPS = Range(1, MAX_STEPS, "1", "decisions take longer", whole=True)
+GAIN = 1e-6  # of a maneuver over the present one to replace it, in [m]
 SIGHTINGS = 3  # a step apart: over two steps the sway cancels
 MIN_MOTION = 0.3  # per step, in strides, that determines a heading
-GAIN = 1e-6  # of a maneuver over the present one to replace it, in [m]
-TABLE_PIECES = 3  # used if a value table gives the cost-to-go
-PAPERS = PursuerModel()
+OPEN_TURNS = 15  # tried by that table
+ROOT: Any = np.int64(0)
+"""Zero steps; a literal zero would compile a version of its own."""
 
 
 class LookAheadMemory(NamedTuple):
-    """Memory of a predictive evader.
-
-    Attributes:
-        evading: Whether it evades.
-        track: Sightings of the pursuer.
-        plan: Turns of the planned steps, in [rad].
-        planned: Time of the first of them, in [s].
-        spot: Number of initial steps that turn on the spot.
-    """
+    """Memory of a predictive evader."""
 
     evading: bool = False
-    track: OpponentTrack | None = None
-    plan: tuple[float, ...] = ()
-    planned: float = 0.0
-    spot: int = 0
+    track: OpponentTrack | None = None  # of the pursuer
+    plan: tuple[float, ...] = ()  # turns of the planned steps [rad]
+    planned: float = 0.0  # time of the first of them [s]
+    spot: int = 0  # number of initial steps that turn on the spot
 
 
 @dataclass(frozen=True, slots=True)
@@ -73,28 +78,12 @@ class LookAhead(BackwardStrategy):
     A maneuver is a sequence of pieces with a constant turn each, followed by
     the paper's law. Rolled out against a model of the pursuer, it is good if
     the pursuer stays far away and within the field of view, and no obstacle
-    is touched. Without pieces and without obstacles it is the paper's law.
-    An inaccurate map changes from step to step: with a map error a plan is
-    kept until another is better by that error, and missing clearance costs
-    less.
+    is touched. An inaccurate map changes from step to step: with a map error
+    a plan is kept until another is better by that error, and missing
+    clearance costs less. Without obstacles it takes the step after which the
+    value table of the open floor promises the largest distance.
     """
 
-    pieces: tuple[int, ...] = (2, 4, 8, 12, 16)
-    turns: int = setting(
-        7,
-        "Turns tried per piece, evenly spaced up to the largest",
-        Range(1, 99, "1", "decisions take longer", whole=True),
-    )
-    tail: int = setting(
-        10,
-        "Steps of the law after the pieces",
-        Range(0, MAX_STEPS, "1", "decisions take longer", whole=True),
-    )
-    angle: float = setting(
-        pi / 2,
-        "Strategy alpha of the law",
-        Range(0.0, pi, "rad", "the sign is given by the side"),
-    )
     enough: float = setting(
         0.8,
         "Distance to the pursuer beyond which no more is gained if there are "
@@ -113,23 +102,14 @@ class LookAhead(BackwardStrategy):
     )
     cells: int = setting(
         64,
-        "Cells along each axis of the value table that gives, without "
-        "obstacles, the cost-to-go after the last piece; 0 uses the law",
-        Range(16, 200, "1", "accuracy, and time to solve", False, True, (0,)),
+        "Cells along each axis of the value table of an open floor",
+        Range(16, 200, "1", "accuracy, and time to solve", whole=True),
     )
     obstacles: bool = setting(True, "Avoid obstacles")
 
     def __post_init__(self) -> None:
         """Validate the settings."""
         check_settings(self)
-        pieces = self.pieces
-        if not isinstance(pieces, tuple) or len(pieces) > DEEPEST - 1:
-            raise ConfigurationError(
-                f"pieces must be a tuple of at most {DEEPEST - 1} numbers of "
-                f"steps [1], got {shown(pieces)}"
-            )
-        for each in (*pieces, sum(pieces) + self.tail):
-            STEPS.check(each, "each of pieces, and pieces and tail together,")
 
     def begin(self) -> LookAheadMemory:
         """Return the memory before the first sighting."""
@@ -139,8 +119,6 @@ class LookAhead(BackwardStrategy):
         self, knowledge: Knowledge, memory: LookAheadMemory
     ) -> tuple[Intent, LookAheadMemory]:
         """Begin the maneuver with the largest closest approach."""
-        if not self.obstacles:
-            knowledge = replace(knowledge, obstacles_in_map=NO_OBSTACLES)
         track = track_of_steps(memory.track, knowledge)
         near = knowledge.distance < self.safety_radius
         if not (memory.evading or near):
@@ -150,54 +128,40 @@ class LookAhead(BackwardStrategy):
         both = poses_at_sighting(track, rules)
         if knowledge.step_start_in_map is not None:
             both = predict_poses(both, knowledge, knowledge.step_start_in_map)
-        bounded = bool(knowledge.obstacles_in_map)
-        valued = not bounded and bool(self.cells and self.pieces)
+        if not (self.obstacles and knowledge.obstacles_in_map):
+            unit = limits.speed / limits.gain
+            turn = open_turn(both, rules, unit, self.cells)
+            return Intent(turn / rules.share), LookAheadMemory(True, track)
         made = round((knowledge.time - memory.planned) / limits.step_duration)
+        made = max(0, made)
+        map_error = max(knowledge.map_error, GAIN)
+        aims = Aims(
+            even_turns(TURNS, rules.largest),
+            self.enough,
+            self.body_radius + MARGIN,
+            min(PENALTY, MAP_ERROR_COST / map_error),
+            map_error,
+        )
         best = look_ahead(
             both,
-            np.array(memory.plan[max(0, made) :], dtype=np.float64),
-            max(0, memory.spot - max(0, made)),
-            self._search(knowledge, rules.largest, valued=valued),
-            PAPERS,
+            np.array(memory.plan[made:], dtype=np.float64),
+            max(0, memory.spot - made),
+            aims,
             rules,
             knowledge.obstacles_in_map.packed,
-            pursuit_table(self.cells, limits.speed / limits.gain)
-            if valued
-            else NO_VALUE,
         )
         turn = float(best.turns[0])
         heading = turn / rules.share
         if best.spot:
             intent = Intent(heading, ON_THE_SPOT)
-        elif bounded and self._touches(both, turn, rules, knowledge):
+        elif self._touches(both, turn, rules, knowledge):
             # A turn on the spot needs no room; standing would block for good.
             return Intent(heading, ON_THE_SPOT), LookAheadMemory(True, track)
         else:
             intent = Intent(heading)
-        ahead = best.turns[: best.spot + sum(self.pieces)]
+        ahead = best.turns[: best.spot + sum(PIECES)]
         return intent, LookAheadMemory(
             True, track, tuple(ahead.tolist()), knowledge.time, best.spot
-        )
-
-    def _search(
-        self, knowledge: Knowledge, largest: float, *, valued: bool
-    ) -> TurnSearch:
-        """Return the maneuvers and what ranks them; fewer with a value."""
-        pieces = self.pieces[:TABLE_PIECES] if valued else self.pieces
-        tail = 0 if valued else self.tail
-        map_error = max(knowledge.map_error, GAIN)
-        return TurnSearch(
-            np.array(pieces, dtype=np.int64),
-            even_turns(self.turns, largest),
-            sum(pieces) + tail,
-            self.angle,
-            0 if valued else SPOT_STEPS,
-            self.enough if knowledge.obstacles_in_map else inf,
-            self.body_radius + MARGIN,
-            min(PENALTY, MAP_ERROR_COST / map_error),
-            SIGHT,
-            map_error,
-            TIGHT,
         )
 
     def _touches(
@@ -247,24 +211,233 @@ def predict_poses(
     return PlayerPair(*pair_of(begins, (x, y, 0.0))[:6], both.pc, both.ps)
 
 
-def step_rules(limits: Limits) -> StepRules:
-    """Return the rules of a step of given limits."""
-    return StepRules(limits.stride, limits.share, pi * limits.share)
-
-
 @lru_cache(maxsize=16)
 def even_turns(count: int, largest: float) -> Array:
     """Return evenly spaced turns, in [rad], the smallest first."""
-    even = np.linspace(-largest, largest, count) if count > 1 else np.zeros(1)
-    return np.array(sorted(even.tolist(), key=abs))
+    even = np.linspace(-largest, largest, count).tolist()
+    return np.array(sorted(even, key=abs))
 
 
-@lru_cache(maxsize=8)
-def pursuit_table(cells: int, unit: float) -> PursuitValues:
-    """Return the table of :func:`pursuit_bound` for compiled loops.
+def open_turn(
+    both: PlayerPair, rules: StepRules, unit: float, cells: int
+) -> float:
+    """Return the turn [rad] to the best state on an open floor.
 
-    The unit of length is speed over gain, in [m].
+    The unit of length of its value table is speed over gain, in [m].
     """
-    bound = pursuit_bound(cells)
-    values = bound.values.astype(np.float32)
-    return PursuitValues(values, bound.grid.left, bound.grid.spacing, unit)
+    turns = even_turns(OPEN_TURNS, rules.largest)
+    ends = [step_both(both, u, 1.0, PAPERS, rules) for u in turns.tolist()]
+    ex, ey, ec, es, px, py, pc, ps = np.array(ends).T
+    dx, dy = (ex - px) / unit, (ey - py) / unit
+    # The evader walks backwards: it moves against its heading.
+    away = np.arctan2(ec * ps - es * pc, -ec * pc - es * ps)
+    poses = np.stack([pc * dx + ps * dy, pc * dy - ps * dx, away], axis=-1)
+    return float(turns[pursuit_bound(cells).value(poses).argmax()])
+
+
+class Aims(NamedTuple):
+    """Turns that a search tries, and the objective that ranks maneuvers."""
+
+    turns: Any  # per step of a piece [rad], the preferred ones first
+    enough: float  # distance to the pursuer beyond which no more is gained
+    clearance: float  # that the own centre requires [m]
+    penalty: float  # of missing clearance, in [m] per [m]
+    gain: float  # over the present maneuver that replaces it [m]
+
+
+class Problem(NamedTuple):
+    """All that a rollout needs."""
+
+    aims: Aims
+    rules: StepRules
+    field: DistanceField
+
+
+class BestManeuver(NamedTuple):
+    """Result of the search."""
+
+    score: float  # in [m]
+    turns: Any  # of each step [rad], those of the law included
+    spot: int  # number of initial steps that turn on the spot
+
+
+@inlined
+def judge(both: PlayerPair, score: float, problem: Problem) -> float:
+    """Return the score after one more step, given the score before it."""
+    aims = problem.aims
+    dx, dy = both.px - both.ex, both.py - both.ey
+    reward = min((dx * dx + dy * dy) ** 0.5, aims.enough)
+    if reward < score:
+        score = reward
+    clear = field_clearance(problem.field, both.ex, both.ey)
+    psi = abs(atan2(both.ec * dy - both.es * dx, both.ec * dx + both.es * dy))
+    if psi > SIGHT:
+        score = min(score, reward - BLINDNESS * (psi - SIGHT))
+    if clear < aims.clearance:
+        score = min(score, reward - aims.penalty * (aims.clearance - clear))
+    return score
+
+
+@inlined
+def law_turn(both: PlayerPair, side: float, share: float) -> float:
+    """Return the turn of a step aside by eqs. (4)-(5), in [rad]."""
+    dx, dy = both.px - both.ex, both.py - both.ey
+    psi = atan2(both.ec * dy - both.es * dx, both.ec * dx + both.es * dy)
+    heading = psi + side * 0.5 * pi
+    if heading > pi:
+        heading -= 2.0 * pi
+    elif heading < -pi:
+        heading += 2.0 * pi
+    return share * heading
+
+
+@compiled
+def roll_out(
+    both: PlayerPair,
+    score: float,
+    turns: Any,
+    given: int,
+    spot: int,
+    worst: float,
+    problem: Problem,
+) -> tuple[PlayerPair, float, int]:
+    """Roll out given turns, then the law; return state, score and steps.
+
+    The turns of the law are filled in. The first steps may turn on the spot;
+    at a score that is no better than the worst the rollout ends.
+    """
+    rules, side = problem.rules, 0.0
+    for n in range(len(turns)):
+        if n >= given:
+            if side == 0.0:
+                dx, dy = both.px - both.ex, both.py - both.ey
+                left = both.ec * dy - both.es * dx
+                side = -1.0 if left > 0.0 else 1.0
+            turns[n] = law_turn(both, side, rules.share)
+        pace = ON_THE_SPOT if n < spot else 1.0
+        both = step_both(both, turns[n], pace, PAPERS, rules)
+        score = judge(both, score, problem)
+        if score <= worst:
+            return both, score, n + 1
+    return both, score, len(turns)
+
+
+@compiled
+def descend(
+    both: PlayerPair,
+    start: float,
+    first: int,
+    made: int,
+    best: float,
+    problem: Problem,
+    chosen: Any,
+    work: Any,
+) -> tuple[float, int]:
+    """Descend the tree of pieces; return best score and steps rolled out.
+
+    The root has a state, a score, and a number of steps before it, whose turns
+    are in the scratch array; turns that are better than the best are written
+    to ``chosen``. Both have shape (HORIZON + SPOTS,).
+    """
+    tried, last, level = problem.aims.turns, len(PIECES) - 1, 0
+    index = np.zeros(len(PIECES), dtype=np.int64)
+    begins = np.zeros(len(PIECES), dtype=np.int64)
+    scores = np.zeros(len(PIECES))
+    states = np.zeros((len(PIECES), 8))
+    scores[0], begins[0] = start, first
+    store(both, states[0])
+    while level >= 0 and made < MOST:
+        if index[level] == len(tried):
+            level -= 1
+            continue
+        at, worst = begins[level], best + problem.aims.gain
+        piece = work[at : at + PIECES[level]]
+        for n in range(len(piece)):
+            piece[n] = tried[index[level]]
+        index[level] += 1
+        here, score, more = roll_out(
+            pair_in(states[level]),
+            scores[level],
+            piece,
+            len(piece),
+            0,
+            worst,
+            problem,
+        )
+        made += more
+        if score <= worst:
+            continue
+        at += len(piece)
+        if level < last:
+            level += 1
+            index[level], begins[level], scores[level] = 0, at, score
+            store(here, states[level])
+            continue
+        rest = work[at : first + HORIZON]
+        here, score, more = roll_out(here, score, rest, 0, 0, worst, problem)
+        made += more
+        if score > worst:
+            best = score
+            copy_values(work, chosen)
+            if best >= start:
+                break
+    return best, made
+
+
+@compiled
+def look_ahead(
+    both: PlayerPair,
+    plan: Any,
+    planned: int,
+    aims: Aims,
+    rules: StepRules,
+    packed: Any,
+) -> BestManeuver:
+    """Find the best maneuver among obstacles.
+
+    The law alone is tried first, then the rest of the plan, of which some
+    initial steps turn on the spot, and then every sequence of pieces; a
+    maneuver is chosen only if it improves on those before it, but a tie keeps
+    the plan. If the best score is below ``TIGHT``, sequences behind turns on
+    the spot, by the sharpest turn, are tried, too.
+    """
+    chosen, work = np.zeros(HORIZON + SPOTS), np.zeros(HORIZON + SPOTS)
+    reach = len(chosen) * rules.stride
+    field = distance_field(packed, aims.clearance, both.ex, both.ey, reach)
+    problem = Problem(aims, rules, field)
+    start, best, spot, made = aims.enough, -inf, 0, 0
+    for given in (0, min(len(plan), HORIZON)):
+        copy_values(plan[:given], work)
+        worst, begins = best - aims.gain, min(planned, given)
+        _, score, more = roll_out(
+            both, start, work[:HORIZON], given, begins, worst, problem
+        )
+        made += more
+        if score > worst:
+            best, spot = score, begins
+            copy_values(work, chosen)
+    if best >= start:
+        return BestManeuver(best, chosen[: HORIZON + spot], spot)
+    found, made = descend(both, start, ROOT, made, best, problem, chosen, work)
+    if found > best:
+        best, spot = found, 0
+    if best < TIGHT:
+        for side in (-1.0, 1.0):
+            here, score = both, start
+            for n in range(SPOTS):
+                work[n] = side * rules.largest
+                worst, turn = best + aims.gain, work[n : n + 1]
+                here, score, more = roll_out(
+                    here, score, turn, 1, 1, worst, problem
+                )
+                made += more
+                if score <= worst:
+                    break
+                if n % 2 == 0:
+                    continue
+                found, made = descend(
+                    here, score, n + 1, made, best, problem, chosen, work
+                )
+                if found > best:
+                    best, spot = found, n + 1
+    return BestManeuver(best, chosen[: HORIZON + spot], spot)

@@ -27,10 +27,7 @@ STRATEGIES: Mapping[str, tuple[str, Mapping[str, Any]]] = {
     "evasion": ("Evasion", {}),
     "look-ahead": ("LookAhead", {}),
     "robust": ("RobustEvasion", {}),
-    "optimal": (
-        "LookAhead",
-        {"pieces": (1,), "turns": 15, "tail": 0, "obstacles": False},
-    ),
+    "optimal": ("LookAhead", {"obstacles": False}),
     "step-aside": ("DashEvasion", {}),
     "matador": (
         "DashEvasion",

@@ -13,10 +13,9 @@ from ..core.poses import Array, Pose, wrap_angle
 from ..core.ranges import Range
 from ..core.setting import check_settings, setting
 from .knowledge import ON_THE_SPOT, Intent, Knowledge
-from .look_ahead import step_rules
 from .opponent_models import ASSUMED, MODELS, ModelFit
 from .search.beam_search import BeamRules, beam_search, play_moves
-from .search.step_motion import PursuerModel
+from .search.step_motion import PursuerModel, step_rules
 from .strategy import BackwardStrategy
 
 MARGIN = 0.005  # in addition to the required clearance, in [m]

@@ -14,8 +14,13 @@ from ..core.setting import check_settings, setting
 from ..theory import laws
 from .evasion import check_release
 from .knowledge import STAND, Intent, Knowledge
-from .look_ahead import PAPERS, step_rules
-from .search.step_motion import StepRules, pair_of, step_both
+from .search.step_motion import (
+    PAPERS,
+    StepRules,
+    pair_of,
+    step_both,
+    step_rules,
+)
 from .strategy import BackwardStrategy
 
 PIECES = (4, 8, 16)  # steps with a constant turn

@@ -7,12 +7,13 @@ those of :class:`~stepaside.strategies.Pursuit`. The headings are unit vectors
 to save trigonometric functions.
 """
 
-from math import atan2, cos, hypot, sin, sqrt
+from math import atan2, cos, hypot, pi, sin, sqrt
 from typing import Any, NamedTuple
 
 import numpy as np
 
 from ...core.compilation import compiled, inlined
+from ..knowledge import Limits
 
 ITERATIONS = 4  # of Gauss-Newton; without noise the error is below 1e-9 m
 DIFFERENCE = 1e-4  # of the headings that give the derivative, in [rad]
@@ -32,35 +33,30 @@ class PlayerPair(NamedTuple):
 
 
 class PursuerModel(NamedTuple):
-    """Model of a pursuer's steps, of the family of :class:`..Pursuit`.
+    """Model of a pursuer's steps, of the family of :class:`..Pursuit`."""
 
-    Attributes:
-        gain: Turn of a step per bearing of its target, by the gait's.
-        pull: Weight of the centre of the room, the origin of the frame, in
-            the direction that it heads for.
-        lead: Distance of its target ahead of the evader, as a fraction of
-            the distance between the players.
-        speed: Its stride over that of the evader.
-    """
+    gain: float = (
+        1.0  # turn of a step per bearing of its target, by the gait's
+    )
+    pull: float = 0.0  # weight of the origin in the direction it heads for
+    lead: float = 0.0  # of its target ahead of the evader, over the distance
+    speed: float = 1.0  # stride over that of the evader
 
-    gain: float = 1.0
-    pull: float = 0.0
-    lead: float = 0.0
-    speed: float = 1.0
+
+PAPERS = PursuerModel()
 
 
 class StepRules(NamedTuple):
-    """Rules of a step, alike for both players.
+    """Rules of a step, alike for both players."""
 
-    Attributes:
-        stride: Stride of the evader, in [m].
-        share: Turn of a step per desired heading, kappa.
-        largest: Largest turn of a step, in [rad]: pi kappa.
-    """
+    stride: float  # of the evader [m]
+    share: float  # turn of a step per desired heading, kappa
+    largest: float  # turn of a step [rad]: pi kappa
 
-    stride: float
-    share: float
-    largest: float
+
+def step_rules(limits: Limits) -> StepRules:
+    """Return the rules of a step of given limits."""
+    return StepRules(limits.stride, limits.share, pi * limits.share)
 
 
 @inlined
