@@ -12,19 +12,12 @@ HORIZON = 24  # steps of the prediction that chooses a side
 
 
 class Approach(NamedTuple):
-    """Motion of the opponent in the own frame, or relative to a player.
+    """Motion of the opponent in the own frame, or relative to a player."""
 
-    Attributes:
-        x: Position ahead, in [m].
-        y: Position to the left, in [m].
-        u: Velocity over the floor, component ahead, in [m/s].
-        v: Velocity over the floor, component to the left, in [m/s].
-    """
-
-    x: float
-    y: float
-    u: float
-    v: float
+    x: float  # position ahead [m]
+    y: float  # position to the left [m]
+    u: float  # velocity over the floor, component ahead [m/s]
+    v: float  # velocity over the floor, component to the left [m/s]
 
     @classmethod
     def of(cls, knowledge: Knowledge) -> "Approach":

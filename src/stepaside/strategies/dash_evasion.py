@@ -45,24 +45,16 @@ FEINTS = np.array([0.0, 1.0, -1.0])
 
 
 class DashMemory(NamedTuple):
-    """Memory of an evader that dashes.
+    """Memory of an evader that dashes."""
 
-    Attributes:
-        track: Last positions of the opponent.
-        time: Time of the last decision, in [s].
-        velocity: Own velocity at that time, by the response of the legs.
-        command: Velocity that was desired since then.
-        angle: Direction of the dash in the map, in [rad]; None while the
-            robot stands.
-        compared: Time at which dashes were last compared, in [s].
-    """
-
-    track: OpponentTrack = TRACK
-    time: float = 0.0
+    track: OpponentTrack = TRACK  # last positions of the opponent
+    time: float = 0.0  # time of the last decision [s]
+    # own velocity at that time, by the response of the legs
     velocity: BodyVelocity = STILL
-    command: BodyVelocity = STILL
+    command: BodyVelocity = STILL  # velocity that was desired since then
+    # direction of the dash in the map [rad]; None while the robot stands
     angle: float | None = None
-    compared: float = -inf
+    compared: float = -inf  # time at which dashes were last compared [s]
 
 
 @dataclass(frozen=True, slots=True)

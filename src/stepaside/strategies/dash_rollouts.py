@@ -16,34 +16,22 @@ FEINT_STEPS = 6  # for which a chaser may turn away first
 
 
 class Dashes(NamedTuple):
-    """Straight dashes, and standing.
+    """Straight dashes, and standing."""
 
-    Attributes:
-        angles: Direction of each in the map, in [rad]. Shape (n,).
-        headings: Heading to which the body turns, in [rad]. Shape (n,).
-        begins: Time at which each begins, in [s]; until then the robot
-            stands. Infinite for standing. Shape (n,).
-    """
-
-    angles: Array
-    headings: Array
+    angles: Array  # direction of each in the map [rad]. (n,)
+    headings: Array  # heading to which the body turns [rad]. (n,)
+    # time at which each begins [s]; until then the robot stands. Infinite for
+    # standing. (n,)
     begins: Array
 
 
 class Opponent(NamedTuple):
-    """Motion of an opponent at constant speed.
+    """Motion of an opponent at constant speed."""
 
-    Attributes:
-        x: Position in the map, in [m].
-        y: Likewise.
-        course: Direction of motion in the map, in [rad].
-        speed: Speed, in [m/s].
-    """
-
-    x: float
-    y: float
-    course: float
-    speed: float
+    x: float  # position in the map [m]
+    y: float  # likewise
+    course: float  # direction of motion in the map [rad]
+    speed: float  # speed [m/s]
 
 
 def make_dashes(

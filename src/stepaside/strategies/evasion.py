@@ -18,18 +18,13 @@ RELEASE_RATIO = 1.25  # release clearance over trigger clearance
 
 
 class EvasionMemory(NamedTuple):
-    """Memory of an evader.
+    """Memory of an evader."""
 
-    Attributes:
-        evading: Whether it evades.
-        side: Side of evasion, +1 or -1, see :mod:`stepaside.theory.laws`; 0
-            while it does not evade.
-        safe: Number of consecutive decisions in which standing was safe.
-    """
-
-    evading: bool = False
+    evading: bool = False  # whether it evades
+    # side of evasion, +1 or -1, see :mod:`stepaside.theory.laws`; 0 while it
+    # does not evade
     side: int = 0
-    safe: int = 0
+    safe: int = 0  # number of consecutive decisions in which standing was safe
 
 
 def check_release(begins: float, ends: float) -> None:

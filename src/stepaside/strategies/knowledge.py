@@ -24,29 +24,20 @@ FASTEST = 100.0  # desired velocity; more is an error, in [m/s] and [rad/s]
 
 @dataclass(frozen=True, slots=True)
 class Limits:
-    """Limits of the own gait.
+    """Limits of the own gait."""
 
-    Attributes:
-        speed: Driving speed of the template at speed factor 1, in [m/s] of
-            path time.
-        gain: Steering gain k, in [1/s] of path time; in (6) the turning
-            rate, in [rad/s].
-        stride: Length of one step at speed factor 1, in [m].
-        step_duration: Time between decisions while walking, in [s].
-        velocities: Velocities that the legs deliver; None for a unicycle.
-        outer_stride: Longest stride of the outer foot in a turn, in [m]; None
-            for any.
-        foot_spacing: Coronal distance between the feet, in [m].
-        views: Bearings at which the robot sees others.
-    """
-
+    # driving speed of the template at speed factor 1 [m/s] of path time
     speed: float
+    # steering gain k [1/s] of path time; in (6) the turning rate [rad/s]
     gain: float
-    stride: float
-    step_duration: float
+    stride: float  # length of one step at speed factor 1 [m]
+    step_duration: float  # time between decisions while walking [s]
+    # velocities that the legs deliver; None for a unicycle
     velocities: VelocitySet | None = None
+    # longest stride of the outer foot in a turn [m]; None for any
     outer_stride: float | None = None
-    foot_spacing: float = 0.0
+    foot_spacing: float = 0.0  # coronal distance between the feet [m]
+    # bearings at which the robot sees others
     views: tuple[Sector, ...] = ALL_AROUND
 
     @property
@@ -75,24 +66,16 @@ def limits_of(
 
 @dataclass(frozen=True, slots=True)
 class OtherPlayer:
-    """Knowledge of one other player, in the frame of :class:`Knowledge`.
+    """Knowledge of one other player, in the frame of :class:`Knowledge`."""
 
-    Attributes:
-        identity: Name, role and team.
-        bearing: Direction in the frame, in [-pi, pi], in [rad].
-        distance: Horizontal distance at the sighting, in [m].
-        velocity: Velocity over the floor, components ahead and to the left
-            in the frame, in [m/s]; None until it is known.
-        age: Time since the sighting, in [s].
-        spread: Standard deviation of the position, in [m].
-    """
-
-    identity: PlayerIdentity
-    bearing: float
-    distance: float
+    identity: PlayerIdentity  # name, role and team
+    bearing: float  # direction in the frame, in [-pi, pi] [rad]
+    distance: float  # horizontal distance at the sighting [m]
+    # velocity over the floor, components ahead and to the left in the frame
+    # [m/s]; None until it is known
     velocity: tuple[float, float] | None = None
-    age: float = 0.0
-    spread: float = 0.0
+    age: float = 0.0  # time since the sighting [s]
+    spread: float = 0.0  # standard deviation of the position [m]
 
     @property
     def position(self) -> tuple[float, float]:
@@ -111,52 +94,39 @@ class Knowledge:
     The frame is the pose of the template unicycle at the time of the
     sighting: for a walker midway between its feet, along its path. So the
     bearing compares a line of sight with a heading of the same instant.
-
-    Attributes:
-        time: Present time, in [s].
-        bearing: Direction of the opponent in the frame, in [-pi, pi], in
-            [rad], positive to the left.
-        distance: Horizontal distance to the opponent at the sighting, in
-            [m].
-        limits: Limits of the own gait.
-        bearing_rate: Turning rate of the line of sight over the floor, in
-            [rad/s]; None until it is known.
-        closing_speed: Rate at which the distance decreases, in [m/s]; None
-            until it is known.
-        age: Time since the sighting, in [s].
-        pose_in_map: Pose of the frame in the map: the frame of a known room,
-            else the own odometry.
-        moving: Whether the body is walking.
-        obstacles_in_map: Known obstacles, walls included; iterate over it
-            for single ones.
-        velocity: Velocity of the opponent over the floor, components ahead
-            and to the left in the frame, in [m/s]; None until it is known.
-        step_start_in_map: Pose at which the decided step begins; None if
-            that is ``pose_in_map``. A walker decides when a
-            foot has landed, and its body passes that foot half a step later.
-        spread: Standard deviation of the opponent's position, in [m].
-        map_error: Largest position error of the obstacles, in [m].
-        identity: Own name, role and team; None where players are not
-            recognised.
-        others: All other players that have been seen, the opponent among
-            them; empty if sightings do not tell who was seen.
     """
 
-    time: float
+    time: float  # present time [s]
+    # direction of the opponent in the frame, in [-pi, pi] [rad], positive to the
+    # left
     bearing: float
-    distance: float
-    limits: Limits
+    distance: float  # horizontal distance to the opponent at the sighting [m]
+    limits: Limits  # limits of the own gait
+    # turning rate of the line of sight over the floor [rad/s]; None until it
+    # is known
     bearing_rate: float | None = None
+    # rate at which the distance decreases [m/s]; None until it is known
     closing_speed: float | None = None
-    age: float = 0.0
+    age: float = 0.0  # time since the sighting [s]
+    # pose of the frame in the map: the frame of a known room, else the own
+    # odometry
     pose_in_map: Pose = Pose(0.0, 0.0, 0.0)
-    moving: bool = False
+    moving: bool = False  # whether the body is walking
+    # known obstacles, walls included; iterate over it for single ones
     obstacles_in_map: ObstacleSet = NO_OBSTACLES
+    # velocity of the opponent over the floor, components ahead and to the left
+    # in the frame [m/s]; None until it is known
     velocity: tuple[float, float] | None = None
+    # pose at which the decided step begins; None if that is ``pose_in_map``. A
+    # walker decides when a foot has landed, and its body passes that foot half
+    # a step later
     step_start_in_map: Pose | None = None
-    spread: float = 0.0
-    map_error: float = 0.0
+    spread: float = 0.0  # standard deviation of the opponent's position [m]
+    map_error: float = 0.0  # largest position error of the obstacles [m]
+    # own name, role and team; None where players are not recognised
     identity: PlayerIdentity | None = None
+    # all other players that have been seen, the opponent among them; empty if
+    # sightings do not tell who was seen
     others: tuple[OtherPlayer, ...] = ()
 
     def __post_init__(self) -> None:
@@ -228,25 +198,19 @@ class Knowledge:
 
 @dataclass(frozen=True, slots=True)
 class Intent:
-    """Intent of a player: desired heading and speed, or body velocity.
+    """Intent of a player: desired heading and speed, or body velocity."""
 
-    Attributes:
-        heading: Desired heading in the frame of the knowledge, in [rad]; it
-            sets the turning rate from the next step on.
-        speed_factor: Fraction of the gait's speed, in [0, 1]; 0 stops.
-        moving: Whether to move at all.
-        pace: Fraction of the gait's step rate, in (0, 1]: the same steps and
-            turns in more time. Walkers go no slower than 0.5.
-        velocity: Desired velocity of the body in its present frame, in place
-            of heading and speed. Legs with a velocity set walk at the nearest
-            velocity in it, unicycles follow
-            :func:`~stepaside.strategies.strategy.unicycle_intent`.
-    """
-
+    # desired heading in the frame of the knowledge [rad]; it sets the turning
+    # rate from the next step on
     heading: float = 0.0
-    speed_factor: float = 1.0
-    moving: bool = True
+    speed_factor: float = 1.0  # fraction of the gait's speed [0, 1]; 0 stops
+    moving: bool = True  # whether to move at all
+    # fraction of the gait's step rate, in (0, 1]: the same steps and turns in
+    # more time. Walkers go no slower than 0.5
     pace: float = 1.0
+    # desired velocity of the body in its present frame, in place of heading
+    # and speed. Legs with a velocity set walk at the nearest velocity in it,
+    # unicycles follow :func:`~stepaside.strategies.strategy.unicycle_intent`
     velocity: BodyVelocity | None = None
 
     def __post_init__(self) -> None:

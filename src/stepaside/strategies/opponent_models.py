@@ -39,17 +39,12 @@ FORGETTING = 0.995  # of the greatest observed speed, per step
 
 
 class FitRules(NamedTuple):
-    """Rules of the fit, by the errors of the observed positions.
+    """Rules of the fit, by the errors of the observed positions."""
 
-    Attributes:
-        window: Positions that a model is fitted to.
-        settling: Positions that show an error.
-        ruled_out: Error over the least, rms, from which on a model does not
-            explain the path.
-    """
-
-    window: int
-    settling: int
+    window: int  # positions that a model is fitted to
+    settling: int  # positions that show an error
+    # error over the least, rms, from which on a model does not explain the
+    # path
     ruled_out: float
 
 
@@ -64,28 +59,21 @@ late that they capture 3 of 10 evaders, not 0."""
 
 
 class ModelFit(NamedTuple):
-    """Fit of every model to the observed motion.
+    """Fit of every model to the observed motion."""
 
-    Attributes:
-        time: Time of the last observation, in [s]; negative before it.
-        seen: Own pose, position of the pursuer and time in steps then.
-            Shape (6,).
-        path: Last observations, a step apart, without sway
-            (:func:`~.search.step_motion.fit_heading`). Shape (n, 6).
-        poses: Pose of the pursuer at the end of the path by each model.
-        errors: Forgetting mean of the mean squared distance of each model
-            from the path, in [m^2].
-        speed: Greatest stride that was seen lately, over the own.
-        fitting: Rules of the fit.
-    """
-
-    time: float = -1.0
+    time: float = -1.0  # time of the last observation [s]; negative before it
+    # own pose, position of the pursuer and time in steps then. (6,)
     seen: Array = np.zeros(6)
+    # last observations, a step apart, without sway
+    # (:func:`~.search.step_motion.fit_heading`). (n, 6)
     path: Array = np.empty((0, 6))
+    # pose of the pursuer at the end of the path by each model
     poses: tuple[tuple[float, float, float], ...] = ()
+    # forgetting mean of the mean squared distance of each model from the path
+    # [m^2]
     errors: tuple[float, ...] = (0.0,) * len(MODELS)
-    speed: float = 1.0
-    fitting: FitRules = EXACT_SIGHT
+    speed: float = 1.0  # greatest stride that was seen lately, over the own
+    fitting: FitRules = EXACT_SIGHT  # rules of the fit
 
     def observe(
         self,

@@ -22,19 +22,13 @@ class SeenOpponent(NamedTuple):
 
 
 class OpponentTrack(NamedTuple):
-    """Positions of the opponent in a fixed frame, the oldest first.
+    """Positions of the opponent in a fixed frame, the oldest first."""
 
-    Attributes:
-        step: Duration of a step of a gait, in [s].
-        span: Age up to which positions are kept, in steps.
-        spacing: Least time between two of them but the newest, in steps.
-        rows: The positions.
-    """
-
-    step: float
-    span: float = 3.25
+    step: float  # duration of a step of a gait [s]
+    span: float = 3.25  # age up to which positions are kept, in steps
+    # least time between two of them but the newest, in steps
     spacing: float = 0.125
-    rows: tuple[SeenOpponent, ...] = ()
+    rows: tuple[SeenOpponent, ...] = ()  # the positions
 
     def note(
         self, time: float, position: tuple[float, float], own: Pose = ORIGIN

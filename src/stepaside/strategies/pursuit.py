@@ -24,14 +24,10 @@ NEAR = 1e-6  # distance from the centre at which it has no bearing, in [m]
 
 
 class PursuitMemory(NamedTuple):
-    """Memory of a pursuer.
+    """Memory of a pursuer."""
 
-    Attributes:
-        side: Side of the present detour, 1 left or -1 right; 0 for none.
-        track: Track of the evader, if its course is needed.
-    """
-
-    side: int = 0
+    side: int = 0  # side of the present detour, 1 left or -1 right; 0 for none
+    # track of the evader, if its course is needed
     track: OpponentTrack | None = None
 
 
@@ -208,13 +204,9 @@ class Pursuit:
 
 @dataclass(frozen=True, slots=True)
 class PursuitVariant:
-    """Base of strategies that choose a point and head for it by a pursuit.
+    """Base of strategies that choose a point and head for it by a pursuit."""
 
-    Attributes:
-        pursuit: Pursuit of that point.
-    """
-
-    pursuit: Pursuit = field(default_factory=Pursuit)
+    pursuit: Pursuit = field(default_factory=Pursuit)  # pursuit of that point
 
     @property
     def direction(self) -> Direction:

@@ -40,22 +40,14 @@ SLACK = 1  # steps that a plan may survive less than when it was made
 
 
 class RobustMemory(NamedTuple):
-    """Memory of a robust evader.
+    """Memory of a robust evader."""
 
-    Attributes:
-        fit: Models of the pursuer, and their errors.
-        moves: Turn [rad] and speed factor of the planned steps to come.
-            Shape (n, 2).
-        assumed: Models that were searched for the plan.
-        planned: Number of steps of the plan when it was made.
-        promised: Mean number of its steps to come that it survives.
-    """
-
-    fit: ModelFit = ModelFit()
+    fit: ModelFit = ModelFit()  # models of the pursuer, and their errors
+    # turn [rad] and speed factor of the planned steps to come. (n, 2)
     moves: Array = np.empty((0, 2))
-    assumed: tuple[int, ...] = ()
-    planned: int = 0
-    promised: float = 0.0
+    assumed: tuple[int, ...] = ()  # models that were searched for the plan
+    planned: int = 0  # number of steps of the plan when it was made
+    promised: float = 0.0  # mean number of its steps to come that it survives
 
 
 @dataclass(frozen=True, slots=True)
@@ -151,26 +143,19 @@ class RobustEvasion(BackwardStrategy):
 
 
 class PlannedGame(NamedTuple):
-    """Game against every model that is plausible, from what has been seen.
+    """Game against every model that is plausible, from what has been seen."""
 
-    Attributes:
-        models: Models of the pursuer, first those that are searched.
-        starts: Poses of evader and pursuer by each model. Shape (6,) each.
-        weights: Weight of each, one in all. Shape (n,).
-        searched: Number of models that are searched.
-        kept: Steps by which a new plan must survive longer than the rest of
-            the last one.
-        packed: Obstacles.
-        rules: Rules of the games, and size of the search.
-    """
-
+    # models of the pursuer, first those that are searched
     models: tuple[PursuerModel, ...]
+    # poses of evader and pursuer by each model. Shape (6,) each
     starts: list[Array]
-    weights: Array
-    searched: int
+    weights: Array  # weight of each, one in all. (n,)
+    searched: int  # number of models that are searched
+    # steps by which a new plan must survive longer than the rest of the last
+    # one
     kept: float
-    packed: PackedObstacles
-    rules: BeamRules
+    packed: PackedObstacles  # obstacles
+    rules: BeamRules  # rules of the games, and size of the search
 
     def outcome(self, moves: Array) -> tuple[float, float]:
         """Return the steps that moves survive, and their least distance.

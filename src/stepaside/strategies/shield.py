@@ -26,17 +26,11 @@ Vector = tuple[float, float]
 
 
 class Course(NamedTuple):
-    """Heading of an opponent, and how far it may be off.
+    """Heading of an opponent, and how far it may be off."""
 
-    Attributes:
-        time: Time of the last sighting, in [s].
-        heading: Heading in the map, in [rad].
-        error: Greatest error of the heading, in [rad].
-    """
-
-    time: float
-    heading: float
-    error: float
+    time: float  # time of the last sighting [s]
+    heading: float  # heading in the map [rad]
+    error: float  # greatest error of the heading [rad]
 
     def headings(self, known: float) -> list[float]:
         """Return the heading, and others if its error is above a bound."""
@@ -106,14 +100,10 @@ class TemplatePoint(NamedTuple):
     velocity, and towards that place of rest by no more than a loss per
     period; so the distance of the body from it is bounded: the tube that
     ``robot legs measure`` finds.
-
-    Attributes:
-        position: Its position in the map, in [m].
-        drift: Velocity of the body over the floor, by the lag of its legs, in
-            [m/s].
     """
 
-    position: Vector
+    position: Vector  # its position in the map [m]
+    # velocity of the body over the floor, by the lag of its legs [m/s]
     drift: Vector = (0.0, 0.0)
 
     def advance(
@@ -135,44 +125,30 @@ class TemplatePoint(NamedTuple):
 
 
 class HeldMotion(NamedTuple):
-    """Motion that replaces decisions of the strategy for a while.
+    """Motion that replaces decisions of the strategy for a while."""
 
-    Attributes:
-        number: Its number in the choices of the model.
-        heading: Heading in the map at which it began, in [rad].
-        until: Time until which it is held, in [s]; infinite until the robot
-            has started.
-    """
-
-    number: int
-    heading: float
+    number: int  # its number in the choices of the model
+    heading: float  # heading in the map at which it began [rad]
+    # time until which it is held [s]; infinite until the robot has started
     until: float
 
 
 class ShieldMemory(NamedTuple):
-    """Memory of a shield.
+    """Memory of a shield."""
 
-    Attributes:
-        inner: Memory of the strategy.
-        track: Positions of the opponent.
-        course: Heading of the opponent; None until a window has passed.
-        held: Motion that replaces decisions; None for none.
-        time: Time of the last decision, in [s].
-        template: Template point of legs then; None before.
-        command: Velocity over the floor that was commanded, in [m/s].
-        replaced: Number of decisions that were replaced.
-        guarded: Whether contact was excluded at the last decision.
-    """
-
-    inner: Any
-    track: OpponentTrack | None = None
+    inner: Any  # memory of the strategy
+    track: OpponentTrack | None = None  # positions of the opponent
+    # heading of the opponent; None until a window has passed
     course: Course | None = None
+    # motion that replaces decisions; None for none
     held: HeldMotion | None = None
-    time: float = 0.0
+    time: float = 0.0  # time of the last decision [s]
+    # template point of legs then; None before
     template: TemplatePoint | None = None
+    # velocity over the floor that was commanded [m/s]
     command: tuple[float, float] = (0.0, 0.0)
-    replaced: int = 0
-    guarded: bool = False
+    replaced: int = 0  # number of decisions that were replaced
+    guarded: bool = False  # whether contact was excluded at the last decision
 
 
 @dataclass(frozen=True, slots=True)
@@ -185,14 +161,10 @@ class ShieldedStrategy:
     largest distance. A robot that stands must start where standing for its
     response time is no longer safe. Assumptions and proof are in
     docs/shield.md.
-
-    Attributes:
-        strategy: The strategy.
-        shield: Settings of the shield.
     """
 
-    strategy: Strategy
-    shield: ShieldSettings
+    strategy: Strategy  # the strategy
+    shield: ShieldSettings  # settings of the shield
 
     @property
     def direction(self) -> Direction:

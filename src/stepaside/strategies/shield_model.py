@@ -46,19 +46,12 @@ class Motion(NamedTuple):
 
 @dataclass(frozen=True, slots=True)
 class ShieldModel:
-    """Robot and person of a shield.
+    """Robot and person of a shield."""
 
-    Attributes:
-        limits: Limits of the gait, or of the legs.
-        settings: Settings of the shield.
-        direction: Direction in which a unicycle drives.
-        saturated: Whether it turns by (6).
-    """
-
-    limits: Limits
-    settings: ShieldSettings
-    direction: Direction
-    saturated: bool
+    limits: Limits  # limits of the gait, or of the legs
+    settings: ShieldSettings  # settings of the shield
+    direction: Direction  # direction in which a unicycle drives
+    saturated: bool  # whether it turns by (6)
 
     @property
     def velocities(self) -> VelocitySet | None:

@@ -54,21 +54,15 @@ class BackwardStrategy:
 
 @dataclass(frozen=True, slots=True)
 class Walk:
-    """Walk with a constant desired heading.
+    """Walk with a constant desired heading."""
 
-    Attributes:
-        bearing: Desired heading in the frame of each support foot, in [rad].
-        direction: Whether the robot walks forward or backward.
-        saturated: Whether it turns by (6) instead of (8).
-        speed_factor: Fraction of the gait's speed, in [0, 1]; 0 stands.
-        pace: Fraction of the gait's step rate, in (0, 1].
-    """
-
+    # desired heading in the frame of each support foot [rad]
     bearing: float = 0.0
+    # whether the robot walks forward or backward
     direction: Direction = Direction.FORWARD
-    saturated: bool = False
-    speed_factor: float = 1.0
-    pace: float = 1.0
+    saturated: bool = False  # whether it turns by (6) instead of (8)
+    speed_factor: float = 1.0  # fraction of the gait's speed [0, 1]; 0 stands
+    pace: float = 1.0  # fraction of the gait's step rate, in (0, 1]
 
     def __post_init__(self) -> None:
         """Validate the settings."""

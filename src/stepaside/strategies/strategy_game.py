@@ -11,39 +11,28 @@ from .knowledge import Limits
 
 @dataclass(frozen=True, slots=True)
 class StepGame:
-    """Rules of a game by footsteps; times are path times.
+    """Rules of a game by footsteps; times are path times."""
 
-    Attributes:
-        stride: Length of a step, in [m].
-        speed: Speed of the template, in [m/s].
-        gain: Steering gain k of both, in [1/s].
-        largest_turn: Largest turn of a step, in [rad]; by default that of eq.
-            (2), pi times gain times stride over speed.
-        capture: Capture distance, in [m]: at it or below it the evader is
-            captured.
-        body_radius: Clearance of the evader's centre below which it touches
-            an obstacle, in [m].
-        solid_pursuer: Whether obstacles stop the pursuer; otherwise it walks
-            through them.
-        duration: Duration of a game, in [s].
-        decisions: Decisions per step; with more than one, the players
-            approximate unicycles under feedback.
-        pursuer_speed_ratio: Speed and stride of the pursuer over those of
-            the evader; its turns are the same.
-        pursuer_gain_ratio: Steering gain of the pursuer over that of the
-            evader.
-    """
-
-    stride: float = 0.04
-    speed: float = 0.1
-    gain: float = 0.2
+    stride: float = 0.04  # length of a step [m]
+    speed: float = 0.1  # speed of the template [m/s]
+    gain: float = 0.2  # steering gain k of both [1/s]
+    # largest turn of a step [rad]; by default that of eq. (2), pi times gain
+    # times stride over speed
     largest_turn: float | None = None
+    # capture distance [m]: at it or below it the evader is captured
     capture: float = CAPTURE_DISTANCE
+    # clearance of the evader's centre below which it touches an obstacle [m]
     body_radius: float = 0.2
+    # whether obstacles stop the pursuer; otherwise it walks through them
     solid_pursuer: bool = False
-    duration: float = 180.0
+    duration: float = 180.0  # duration of a game [s]
+    # decisions per step; with more than one, the players approximate unicycles
+    # under feedback
     decisions: int = 1
+    # speed and stride of the pursuer over those of the evader; its turns are
+    # the same
     pursuer_speed_ratio: float = 1.0
+    # steering gain of the pursuer over that of the evader
     pursuer_gain_ratio: float = 1.0
 
     def __post_init__(self) -> None:

@@ -8,17 +8,11 @@ Bounds = tuple[float, float]
 
 
 class BodyVelocity(NamedTuple):
-    """Velocity of a body in its own frame, over the floor.
+    """Velocity of a body in its own frame, over the floor."""
 
-    Attributes:
-        forward: Ahead, in [m/s].
-        lateral: To the left, in [m/s].
-        turn: Turning rate, in [rad/s], positive to the left.
-    """
-
-    forward: float = 0.0
-    lateral: float = 0.0
-    turn: float = 0.0
+    forward: float = 0.0  # ahead [m/s]
+    lateral: float = 0.0  # to the left [m/s]
+    turn: float = 0.0  # turning rate [rad/s], positive to the left
 
 
 STILL = BodyVelocity()
@@ -38,25 +32,19 @@ class VelocitySet(NamedTuple):
     Horizontal velocities fill an ellipse whose half axes are the bounds
     ahead, behind and to the sides: legs that walk obliquely deliver less of
     both components. The turning rate is bounded by itself.
-
-    Attributes:
-        forward: Bounds ahead, in [m/s].
-        lateral: Bounds to the left, in [m/s]; (0, 0) for a unicycle.
-        turn: Bounds of the turning rate, in [rad/s].
-        lags: Time by which the motion along each axis is behind that of its
-            final velocity, in [s].
-        halting: Motion along each axis from the command to stand until the
-            body stands, at the greatest velocity, in [m, m, rad].
-        tube: Greatest distance of the body from a point that follows
-            commands at once, see :mod:`.shield_template`, in [m]; 0 if it is
-            not known.
     """
 
-    forward: Bounds
-    lateral: Bounds
-    turn: Bounds
+    forward: Bounds  # bounds ahead [m/s]
+    lateral: Bounds  # bounds to the left [m/s]; (0, 0) for a unicycle
+    turn: Bounds  # bounds of the turning rate [rad/s]
+    # time by which the motion along each axis is behind that of its final
+    # velocity [s]
     lags: AxisValues = AxisValues()
+    # motion along each axis from the command to stand until the body stands,
+    # at the greatest velocity [m, m, rad]
     halting: AxisValues = AxisValues()
+    # greatest distance of the body from a point that follows commands at once,
+    # see :mod:`.shield_template` [m]; 0 if it is not known
     tube: float = 0.0
 
     @property

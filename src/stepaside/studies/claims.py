@@ -46,30 +46,20 @@ SEEDED: dict[str, Callable[[int], Readings]] = {
 
 @dataclass(frozen=True, slots=True)
 class Claim:
-    """One claim, figure or number of the paper; an entry of ``claims.toml``.
+    """One claim or number of the paper; an entry of ``claims.toml``."""
 
-    Attributes:
-        claim: Claim of the paper, corrected where necessary.
-        section: Section or figure of the paper.
-        level: Level at which it is measured: closed form, unicycle,
-            sampled, planner, steps or physics.
-        expected: Expected value.
-        unit: Unit of the values.
-        tolerance: Largest difference at which the claim holds; zero for an
-            inequality.
-        relation: "=", "<" or ">": how measured values must compare with the
-            expected one.
-        printed: The printed text, where it differs.
-    """
-
-    claim: str
-    section: str
+    claim: str  # claim of the paper, corrected where necessary
+    section: str  # section or figure of the paper
+    # level at which it is measured: closed form, unicycle, sampled, planner,
+    # steps or physics
     level: str
-    expected: float
-    unit: str
+    expected: float  # expected value
+    unit: str  # unit of the values
+    # largest difference at which the claim holds; zero for an inequality
     tolerance: float = 0.0
+    # "=", "<" or ">": how measured values must compare with the expected one
     relation: str = "="
-    printed: str | None = None
+    printed: str | None = None  # the printed text, where it differs
 
     def holds(self, values: Sequence[float]) -> bool:
         """Return whether the runs confirm the claim.
@@ -135,17 +125,11 @@ def load_claims() -> dict[str, dict[str, Claim]]:
 
 
 class ClaimTrial(NamedTuple):
-    """One run of a job.
+    """One run of a job."""
 
-    Attributes:
-        job: Name of the job.
-        seed: Seed of the run; 0 where it does not matter.
-        legs: Folder of the robot whose learned legs the job measures.
-    """
-
-    job: str
-    seed: int = 0
-    legs: str = ""
+    job: str  # name of the job
+    seed: int = 0  # seed of the run; 0 where it does not matter
+    legs: str = ""  # folder of the robot whose learned legs the job measures
 
 
 def claim_study(seeds: Sequence[int], legs: str = "") -> Study[ClaimTrial]:

@@ -16,40 +16,29 @@ from ..robots.description import load_robot
 
 
 class WalkedPlan(NamedTuple):
-    """Plan that was walked until it was replaced.
+    """Plan that was walked until it was replaced."""
 
-    Attributes:
-        start_time: Begin of its motion, not necessarily at a tick, in [s].
-        first_sent_time: Tick of the first joint targets of the plan, in [s].
-        from_standing: Whether the robot stood at its begin.
-    """
-
-    start_time: float
-    first_sent_time: float
-    from_standing: bool
+    start_time: float  # begin of its motion, not necessarily at a tick [s]
+    first_sent_time: float  # tick of the first joint targets of the plan [s]
+    from_standing: bool  # whether the robot stood at its begin
 
 
 @dataclass(frozen=True, slots=True)
 class InstrumentedDuel:
-    """Duel with records of every control tick.
+    """Duel with records of every control tick."""
 
-    Attributes:
-        run: The duel.
-        ticks: Times of the control ticks, in [s]. Shape (n,).
-        loads: By robot, loads of left and right foot at the end of each
-            tick, in [N]. Shape (n, 2).
-        feet: By robot, positions of left and right foot in the world at the
-            end of each tick, in [m]. Shape (n, 2, 2).
-        references: By robot, CoM reference of the joint targets of each
-            tick, in the odometry frame, in [m]. Shape (n, 2).
-        plans: By robot, the plans that were walked.
-    """
-
-    run: Run
-    ticks: Array
+    run: Run  # the duel
+    ticks: Array  # times of the control ticks [s]. (n,)
+    # by robot, loads of left and right foot at the end of each tick [N]. (n,
+    # 2)
     loads: dict[str, Array] = field(default_factory=dict)
+    # by robot, positions of left and right foot in the world at the end of
+    # each tick [m]. (n, 2, 2)
     feet: dict[str, Array] = field(default_factory=dict)
+    # by robot, CoM reference of the joint targets of each tick, in the
+    # odometry frame [m]. (n, 2)
     references: dict[str, Array] = field(default_factory=dict)
+    # by robot, the plans that were walked
     plans: dict[str, tuple[WalkedPlan, ...]] = field(default_factory=dict)
 
 

@@ -39,29 +39,21 @@ SAME = 0.05  # by which closest approaches may differ, in [m]
 
 @dataclass(frozen=True, slots=True)
 class Encounter:
-    """Encounter with one approaching person.
+    """Encounter with one approaching person."""
 
-    Attributes:
-        speed: Speed of the person, in [m/s].
-        bearing: Bearing of the person at first in the frame of the robot,
-            in [deg].
-        offset: Lateral offset of the path from the robot, to its left, in
-            [m].
-        reaction: What the person does near the robot, one of ``LADDER``.
-        change_at: Distance from the robot at which a person halts or turns
-            towards it, in [m].
-        drawn: Whether these but the reaction are drawn by the seed instead.
-        seed: Seed of the game.
-        duel: All other settings of the game.
-    """
-
-    speed: float = 1.0
+    speed: float = 1.0  # speed of the person [m/s]
+    # bearing of the person at first in the frame of the robot [deg]
     bearing: float = 0.0
+    # lateral offset of the path from the robot, to its left [m]
     offset: float = 0.0
+    # what the person does near the robot, one of ``LADDER``
     reaction: str = "straight"
+    # distance from the robot at which a person halts or turns towards it [m]
     change_at: float = 1.2
+    # whether these but the reaction are drawn by the seed instead
     drawn: bool = False
-    seed: int = 1
+    seed: int = 1  # seed of the game
+    # all other settings of the game
     duel: DuelSettings = field(
         default_factory=lambda: DuelSettings(pursuer="person")
     )

@@ -31,19 +31,14 @@ LARGEST = 8.0
 
 @dataclass(frozen=True)
 class PushSettings:
-    """Search for the largest push that a walk survives.
+    """Search for the largest push that a walk survives."""
 
-    Attributes:
-        walk: Settings of the walk; duration and pushes are ignored.
-        direction: Direction of the push, a key of ``DIRECTIONS``.
-        phase: Phase at which it begins, as a fraction of the gait cycle.
-        seed: Seed of the walk.
-    """
-
+    # settings of the walk; duration and pushes are ignored
     walk: WalkSettings = field(default_factory=WalkSettings)
-    direction: str = "left"
+    direction: str = "left"  # direction of the push, a key of ``DIRECTIONS``
+    # phase at which it begins, as a fraction of the gait cycle
     phase: float = 0.0
-    seed: int = 1
+    seed: int = 1  # seed of the walk
 
     def __post_init__(self) -> None:
         """Validate the settings."""

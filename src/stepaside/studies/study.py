@@ -52,42 +52,29 @@ CREATE TABLE IF NOT EXISTS records (
 
 @dataclass(frozen=True)
 class Study(Generic[C]):
-    """Cases, and the function that measures one of them.
+    """Cases, and the function that measures one of them."""
 
-    Attributes:
-        name: Name of the study, one word.
-        cases: Cases in the order of the results. Each is a value that can be
-            pickled. A long list need not be in memory: a ``range`` computes
-            its items.
-        measure: Function from a case to its record, a flat dictionary of
-            values for JSON. It must be importable in a worker process, and
-            depend neither on other cases nor on the executor.
-        key_of: Returns the key of a case: a text that tells apart all cases
-            with different results. Not called where nothing is stored.
-        by: Values that tell the rows of the table apart.
-        values: Values of the table.
-    """
-
-    name: str
+    name: str  # name of the study, one word
+    # cases in the order of the results. Each is a value that can be pickled. A
+    # long list need not be in memory: a ``range`` computes its items
     cases: Sequence[C]
+    # function from a case to its record, a flat dictionary of values for JSON.
+    # It must be importable in a worker process, and depend neither on other
+    # cases nor on the executor
     measure: Callable[[C], Record]
+    # returns the key of a case: a text that tells apart all cases with
+    # different results. Not called where nothing is stored
     key_of: Callable[[C], str]
-    by: tuple[str, ...] = ()
-    values: tuple[str, ...] = ()
+    by: tuple[str, ...] = ()  # values that tell the rows of the table apart
+    values: tuple[str, ...] = ()  # values of the table
 
 
 class StudyProgress(NamedTuple):
-    """Progress of a study.
+    """Progress of a study."""
 
-    Attributes:
-        finished: Number of cases with a record.
-        reused: Number of those that were recorded before it began.
-        total: Number of cases.
-    """
-
-    finished: int
-    reused: int
-    total: int
+    finished: int  # number of cases with a record
+    reused: int  # number of those that were recorded before it began
+    total: int  # number of cases
 
 
 class StudyRun(Generic[C]):

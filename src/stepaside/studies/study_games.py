@@ -26,17 +26,11 @@ from .tournament import PairingSettings, play_pairing
 
 @dataclass(frozen=True)
 class TeamGame:
-    """A game, with one strategy for all of a role.
+    """A game, with one strategy for all of a role."""
 
-    Attributes:
-        game: Settings of the game.
-        pursuers: Strategy of all pursuers; empty for those of the game.
-        evaders: Strategy of all evaders; empty for those of the game.
-    """
-
-    game: GameSettings
-    pursuers: str = ""
-    evaders: str = ""
+    game: GameSettings  # settings of the game
+    pursuers: str = ""  # strategy of all pursuers; empty for those of the game
+    evaders: str = ""  # strategy of all evaders; empty for those of the game
 
     def __post_init__(self) -> None:
         """Validate the strategies."""
@@ -64,17 +58,11 @@ class TeamGame:
 
 
 class StudyGame(NamedTuple):
-    """Game that a study can play.
+    """Game that a study can play."""
 
-    Attributes:
-        settings: Class of its settings.
-        play: Plays a game; returns its record.
-        values: Values of a record that are tabulated by default.
-    """
-
-    settings: type[Any]
-    play: Callable[[Any], Record]
-    values: tuple[str, ...]
+    settings: type[Any]  # class of its settings
+    play: Callable[[Any], Record]  # plays a game; returns its record
+    values: tuple[str, ...]  # values of a record that are tabulated by default
 
 
 def settings_of_study(kind: type[Any], entries: Mapping[str, Any]) -> Any:

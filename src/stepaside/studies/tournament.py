@@ -49,33 +49,23 @@ CELLS = 64  # of the value table of the bound
 
 @dataclass(frozen=True)
 class PairingSettings:
-    """Settings of one game of a tournament.
+    """Settings of one game of a tournament."""
 
-    Attributes:
-        evader: Name of the evader.
-        pursuer: Name of the pursuer.
-        seed: Seed of the room and of the initial poses.
-        level: "steps"; "unicycle", with eight decisions per step; or
-            "physics", with simulated humanoids.
-        floor: "room"; "open" without walls, with the starts of duels; or
-            "any heading", open with any headings, where no game ends by
-            capture.
-        room: Recipe of the random room.
-        room_file: File of a room that all games share, instead.
-        game: Rules of the game. At level "physics" only the duration is
-            used.
-        map: Map of the humanoids: "given", "seen" or "none".
-    """
-
-    evader: str = "look-ahead"
-    pursuer: str = "pursuit"
-    seed: int = 0
+    evader: str = "look-ahead"  # name of the evader
+    pursuer: str = "pursuit"  # name of the pursuer
+    seed: int = 0  # seed of the room and of the initial poses
+    # "steps"; "unicycle", with eight decisions per step; or "physics", with
+    # simulated humanoids
     level: str = "steps"
+    # "room"; "open" without walls, with the starts of duels; or "any heading",
+    # open with any headings, where no game ends by capture
     floor: str = "room"
+    # recipe of the random room
     room: RoomRecipe = field(default_factory=RoomRecipe)
-    room_file: str = ""
+    room_file: str = ""  # file of a room that all games share, instead
+    # rules of the game. At level "physics" only the duration is used
     game: StepGame = field(default_factory=StepGame)
-    map: str = "given"
+    map: str = "given"  # map of the humanoids: "given", "seen" or "none"
 
     def __post_init__(self) -> None:
         """Validate the settings."""

@@ -22,21 +22,14 @@ EXTERNAL = b"location"  # key of weights in a file beside the network
 
 
 class OpenNetwork(NamedTuple):
-    """Session of ONNX Runtime, with name and type of its input.
+    """Session of ONNX Runtime, with name and type of its input."""
 
-    Attributes:
-        session: The session.
-        name: Name of its input.
-        kind: Type of the numbers of its input.
-        rows: Number of observations that it takes at once; None for any.
-        width: Number of values of an observation; None for any.
-    """
-
-    session: Any
-    name: str
-    kind: Any
+    session: Any  # the session
+    name: str  # name of its input
+    kind: Any  # type of the numbers of its input
+    # number of observations that it takes at once; None for any
     rows: int | None
-    width: int | None
+    width: int | None  # number of values of an observation; None for any
 
     @property
     def metadata(self) -> dict[str, str]:

@@ -23,18 +23,13 @@ from .strategy_contract import StrategyContract, contract_of, observe
 
 @dataclass(frozen=True, slots=True)
 class LearnedStrategy:
-    """Strategy whose intent is the output of a network.
-
-    Attributes:
-        network: Content of an ONNX file, as of :func:`dense_network`.
-        contract: What it reads and what its outputs mean.
-        name: Name for messages, such as the file.
-    """
+    """Strategy whose intent is the output of a network."""
 
     saturated: ClassVar = False
+    # content of an ONNX file, as of :func:`dense_network`
     network: bytes = field(repr=False)
-    contract: StrategyContract
-    name: str = "network"
+    contract: StrategyContract  # what it reads and what its outputs mean
+    name: str = "network"  # name for messages, such as the file
 
     @property
     def _opened(self) -> OpenNetwork:

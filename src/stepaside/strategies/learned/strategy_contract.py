@@ -144,21 +144,17 @@ def _clearances(known: Knowledge) -> list[float]:
 
 @dataclass(frozen=True, slots=True)
 class StrategyContract:
-    """Observation of a network, and meaning of its outputs.
+    """Observation of a network, and meaning of its outputs."""
 
-    Attributes:
-        direction: Whether the body drives forward, as a pursuer does, or
-            backward, as an evader does.
-        terms: Terms of the observation, in order; see
-            :data:`SENSED_TERMS`.
-        headings: Desired heading of each discrete action, in [rad], None to
-            stand: the action with the largest output is taken. Empty for
-            continuous actions: the outputs are a heading, in [rad], limited
-            to half a turn, and a speed factor, limited to [0, 1].
-    """
-
+    # whether the body drives forward, as a pursuer does, or backward, as an
+    # evader does
     direction: Direction
+    # terms of the observation, in order; see :data:`SENSED_TERMS`
     terms: tuple[str, ...]
+    # desired heading of each discrete action [rad], None to stand: the action
+    # with the largest output is taken. Empty for continuous actions: the
+    # outputs are a heading [rad], limited to half a turn, and a speed factor,
+    # limited to [0, 1]
     headings: tuple[float | None, ...] = ()
 
     def __post_init__(self) -> None:

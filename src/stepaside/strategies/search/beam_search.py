@@ -47,23 +47,14 @@ GRAINS = int(BEST / GRAIN) + 2
 
 
 class BeamRules(NamedTuple):
-    """Rules of the games, and size of the search.
+    """Rules of the games, and size of the search."""
 
-    Attributes:
-        step: Rules of a step.
-        capture: Capture distance, in [m].
-        clearance: Least clearance of the evader's centre, in [m].
-        width: Number of states that go on.
-        horizon: Number of steps.
-        caution: Worth of the least distance of a game so far, in [m] per
-            [m], at most 3.
-    """
-
-    step: StepRules
-    capture: float
-    clearance: float
-    width: int
-    horizon: int
+    step: StepRules  # rules of a step
+    capture: float  # capture distance [m]
+    clearance: float  # least clearance of the evader's centre [m]
+    width: int  # number of states that go on
+    horizon: int  # number of steps
+    # worth of the least distance of a game so far [m] per [m], at most 3
     caution: float = 0.0
 
 

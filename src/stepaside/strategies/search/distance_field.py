@@ -23,24 +23,17 @@ LISTED = 12  # obstacles that a cell can list; with more all are measured
 
 
 class DistanceField(NamedTuple):
-    """Lower bounds of the clearance, and the obstacles near each cell.
+    """Lower bounds of the clearance, and the obstacles near each cell."""
 
-    Attributes:
-        packed: All obstacles.
-        enough: Largest distance of interest, in [m].
-        x: Least x of the cells in the frame of the obstacles, in [m].
-        y: Least y, likewise.
-        bounds: Lower bound of the clearance in each cell, in [m]; NaN until
-            it is asked for. Shape (columns, rows).
-        nearby: Number of obstacles near each cell, -1 for more than 12, and
-            their indices. Shape (columns, rows, 13).
-    """
-
-    packed: PackedObstacles
-    enough: float
-    x: float
-    y: float
+    packed: PackedObstacles  # all obstacles
+    enough: float  # largest distance of interest [m]
+    x: float  # least x of the cells in the frame of the obstacles [m]
+    y: float  # least y, likewise
+    # lower bound of the clearance in each cell [m]; NaN until it is asked for.
+    # (columns, rows)
     bounds: Any
+    # number of obstacles near each cell, -1 for more than 12, and their
+    # indices. (columns, rows, 13)
     nearby: Any
 
 
