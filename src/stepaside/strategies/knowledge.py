@@ -97,8 +97,7 @@ class Knowledge:
     """
 
     time: float  # present time [s]
-    # direction of the opponent in the frame, in [-pi, pi] [rad], positive to the
-    # left
+    # of the opponent in the frame, in [-pi, pi] [rad], positive to the left
     bearing: float
     distance: float  # horizontal distance to the opponent at the sighting [m]
     limits: Limits  # limits of the own gait
