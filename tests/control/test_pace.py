@@ -9,10 +9,6 @@ import pytest
 
 from stepaside.control.strategy_runner import MAX_PACE_CHANGE, next_pace
 from stepaside.core.poses import Pose
-from stepaside.games.outcome import Outcome
-from stepaside.games.recorded_game import RecordedGame
-from stepaside.games.walk_settings import WalkSettings
-from stepaside.locomotion.control_settings import ControlSettings
 from stepaside.planning import (
     PRESETS,
     Direction,
@@ -22,8 +18,7 @@ from stepaside.planning import (
     TemplateDrive,
 )
 from stepaside.planning.maneuver import landing_state
-from stepaside.strategies import Evasion, Knowledge, Limits, Walk
-from walkers import walker_of
+from stepaside.strategies import Evasion, Knowledge, Limits
 
 FAST = PRESETS["fast"]
 LIMITS = Limits(FAST.speed, FAST.gain, FAST.stride, FAST.step_duration)
@@ -83,25 +78,6 @@ def test_pace_changes_gradually_in_a_walk() -> None:
     assert next_pace(0.5, 1.0, standing=False) == 0.5 + MAX_PACE_CHANGE
     assert next_pace(0.6, 0.7, standing=False) == 0.7
     assert next_pace(1.0, 0.5, standing=True) == 0.5
-
-
-@pytest.mark.parametrize("pace", [0.5, 0.75])
-def test_a_calm_walk_walks(pace: float) -> None:
-    """In physics, and the calmer the slower."""
-    walking = RecordedGame(
-        WalkSettings(gait=FAST, control=ControlSettings("closed-form", True)),
-        recorded=False,
-        endless=True,
-    )
-    walker = walker_of(walking)
-    walker.scheme.decisions.adopt(Walk(pace=pace))
-    while walking.world.time < 2.5:
-        assert walking.tick() is not Outcome.FALL
-    x, began = walker.truth.position_reference_in_world[0], walking.world.time
-    while walking.world.time < began + 6.4:
-        assert walking.tick() is not Outcome.FALL
-    way = walker.truth.position_reference_in_world[0] - x
-    assert way / 6.4 == pytest.approx(pace * FAST.speed, rel=0.05)
 
 
 def test_an_evader_is_as_calm_as_leaves_room() -> None:

@@ -75,14 +75,3 @@ def test_without_an_estimate_the_attitude_filter_follows_gravity() -> None:
     expected = (0.04 * share, -0.03 * share)
     assert eyes.tilts[-1] == pytest.approx(expected, rel=5e-3)
     assert CORRECTION == 0.5
-
-
-def test_without_one_the_gyro_is_integrated() -> None:
-    sight, eyes = seeing()
-    for i in range(25):
-        turned = leaning(i * TICK, 0.0, 0.0)
-        turned = turned._replace(gyro=np.array([1.0, 0.0, 0.0]))
-        sight.see(turned, resting, None)
-    roll, pitch = eyes.tilts[-1]
-    assert roll == pytest.approx(0.1, rel=0.05)
-    assert pitch == pytest.approx(0.0, abs=1e-12)

@@ -13,14 +13,10 @@ from stepaside.fitting.derivation import LEAN_CANDIDATES, least_lean
 from stepaside.fitting.gait_feasibility import JointLoads
 from stepaside.fitting.robot_verification import WalkTrialResult
 from stepaside.games.robot_settings import settings_from_description
-from stepaside.locomotion.control_settings import StabiliserSettings
-from stepaside.locomotion.zmp.stabiliser import Ankles
-from stepaside.locomotion.zmp.state_estimator import BodyState
 from stepaside.robots.description import (
     RobotDescription,
     load_robot,
 )
-from stepaside.robots.joint_loads import LegLoads
 from stepaside.robots.leg_kinematics import BodyReference, LegKinematics
 
 NAO = load_robot("nao")
@@ -96,50 +92,6 @@ def test_legs_reach_the_same_under_a_torso_that_leans(sway: float) -> None:
     roll = atan2(torso[7], torso[8])
     assert roll == pytest.approx(asked.roll(LEAN), abs=1e-9)
     assert roll * sway < 0.0
-
-
-def test_the_newton_step_of_a_leaning_torso_reaches_the_targets() -> None:
-    """The step that is written out knows of the lean, too."""
-    legs = LegKinematics(leans(NAO, LEAN), tick=TICK)
-    legs.stand(standing(0.02))
-    for _ in range(3):
-        targets = legs.track(standing(0.0205))
-    again = LegKinematics(leans(NAO, LEAN), tick=TICK)
-    np.testing.assert_allclose(
-        targets, again.stand(standing(0.0205)), atol=1e-4
-    )
-
-
-def test_a_lean_reduces_the_hip_load() -> None:
-    asked, borne = standing(0.05, 0.02), []
-    for lean in (0.0, 0.1, 0.2):
-        legs = LegKinematics(leans(NAO, lean), tick=TICK)
-        legs.stand(asked)
-        loads = LegLoads(legs, zmp_forward=0.02, tick=TICK)
-        found = loads.torques(asked, asked.com[:2])
-        hip = legs.joint_names.index("LHipRoll")
-        borne.append(abs(float(found[hip])))
-    assert borne[0] > borne[1] + 0.1 > borne[2] + 0.2
-
-
-def test_a_commanded_lean_is_not_a_tilt_error() -> None:
-    """Feet answer to what the torso tilts beyond it."""
-    gains = StabiliserSettings(ankle=0.5, ankle_rate=0.1)
-    zero = (0.0, 0.0)
-    ankles = Ankles(gains, TICK)
-    for i in range(100):
-        roll = 0.0005 * i
-        state = BodyState(
-            *(zero, zero, zero, zero),
-            tilt=(roll, 0.0),
-            rate=(0.0005 / TICK * (i > 0), 0.0, 0.0),
-            left_share=0.5,
-            weight=50.0,
-        )
-        left, right = ankles.tilts(state, roll)
-        assert left == pytest.approx(zero, abs=1e-12)
-        assert right == pytest.approx(zero, abs=1e-12)
-    assert abs(ankles.tilts(state, 0.0)[0][0]) > 1e-3
 
 
 @pytest.mark.parametrize(

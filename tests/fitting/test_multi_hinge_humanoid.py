@@ -4,17 +4,12 @@ MuJoCo hangs any number of joints on a body: all links but the last of such
 a body have no mass.
 """
 
-from pathlib import Path
-
-import numpy as np
 import pytest
 
 import multi_hinge_humanoid
 from stepaside.fitting.derivation import DerivedDescription, derive
 from stepaside.fitting.description_writer import write_description
-from stepaside.fitting.gait_feasibility import step_loads
-from stepaside.games.robot_settings import settings_from_description
-from stepaside.robots.description import FILE, load_robot
+from stepaside.robots.description import FILE
 
 
 @pytest.fixture(scope="module")
@@ -53,18 +48,3 @@ def test_what_is_derived_depends_on_masses_and_not_on_bodies(
     assert merged.control["method"] == split.control["method"]
     assert both[0].loads.joint == both[1].loads.joint
     assert both[0].loads.usual == pytest.approx(both[1].loads.usual, rel=5e-3)
-
-
-def test_torques_of_a_step_stay_finite_without_a_mass(
-    both: tuple[DerivedDescription, DerivedDescription],
-) -> None:
-    merged, split = (
-        load_robot(Path(found.description.folder)) for found in both
-    )
-    limits = dict.fromkeys(merged.legs, 90.0)
-    one, other = (
-        step_loads(robot, settings_from_description(robot).gait, limits)
-        for robot in (merged, split)
-    )
-    assert np.isfinite(one.usual) and 0.0 < one.usual < 2.0
-    assert one.usual == pytest.approx(other.usual, rel=5e-3)

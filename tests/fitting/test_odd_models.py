@@ -8,20 +8,13 @@ import numpy as np
 import pytest
 
 import vendor_humanoid as stranger
-from stepaside.fitting import derivation as stature
 from stepaside.fitting.derivation import (
     GREATEST_BY_HEIGHT,
     LEAST_SPACING,
-    choose_com_height,
     derive,
 )
-from stepaside.fitting.gait_feasibility import RobotSize
 from stepaside.fitting.leg_detection import DetectedLeg
 from stepaside.fitting.model_analysis import analyse_model, forward_score
-from stepaside.robots.description import load_robot
-
-NAO = load_robot("nao")
-SOLE = (-0.05, 0.095, 0.042, 0.035)
 
 
 def test_geoms_without_size_are_removed(tmp_path: Path) -> None:
@@ -129,29 +122,6 @@ def _swapped(text: str, side: str, sign: float) -> str:
     return text.replace(
         roll, f'<joint name="{side}_tip" axis="0 1 0" pos="0 {0.03 * sign} 0"'
     )
-
-
-@pytest.mark.parametrize(
-    ("shares", "part", "share"),
-    [
-        ((1.0,), 0.96, 1.0),
-        ((0.4, 0.7, 1.0), 0.92, 1.0),
-        ((0.4, 0.42, 0.43, 0.44), 0.96, 0.4),
-        ((0.4, 0.6, 0.62, 0.64), 0.94, 0.6),
-    ],
-)
-def test_the_com_is_lowered_if_straight_knees_are_too_fast(
-    shares: tuple[float, ...],
-    part: float,
-    share: float,
-    monkeypatch: pytest.MonkeyPatch,
-) -> None:
-    left = list(shares)
-    monkeypatch.setattr(stature, "feasible_lengths", lambda *_: left.pop(0))
-    size = RobotSize(0.28, 5.3, 0.1, SOLE, 0.2)
-    found, walked = choose_com_height(NAO, size, 0.2)
-    assert found.com_height == pytest.approx(part * 0.28)
-    assert walked == share and not left
 
 
 def test_no_feet_are_wider_apart_than_suits_their_height(

@@ -6,8 +6,6 @@ from typing import Any
 
 import numpy as np
 import pytest
-from hypothesis import given
-from hypothesis import strategies as st
 
 from stepaside.core.poses import Pose
 from stepaside.locomotion.control_settings import StabiliserSettings
@@ -15,19 +13,14 @@ from stepaside.locomotion.zmp.current_step import (
     Box,
     CurrentStep,
     adapted_landing,
-    first_step_of,
     shifted_swing,
     zmp_box,
 )
 from stepaside.planning import (
-    CenterState,
-    Direction,
     Foot,
     GaitSettings,
-    ManeuverPlanner,
 )
 from stepaside.planning.gait_settings import SoleRectangle
-from stepaside.planning.swing import swing_progress
 from stepaside.robots.leg_kinematics import BodyReference
 
 GAIT = GaitSettings()
@@ -37,7 +30,6 @@ BOX: Box = ((-0.05, -0.03), (0.07, 0.04))
 BODY = BodyReference(
     (0.0, 0.0, 0.27), (0.1, 0.2, 0.01, 0.3), (0.4, 0.5, 0.02, 0.6)
 )
-VECTORS = st.tuples(st.floats(-0.2, 0.2), st.floats(-0.2, 0.2))
 
 
 def step(
@@ -50,38 +42,6 @@ def step(
     landing = SUPPORT.compose(Pose(ahead, swing.value * aside, 0.1))
     values: dict[str, Any] = {"remaining": 0.2, "progress": 0.5} | changes
     return CurrentStep(SUPPORT, swing, landing, walking=True, **values)
-
-
-@given(VECTORS)
-def test_rotation_to_support_and_back_is_the_identity(
-    vector: tuple[float, float],
-) -> None:
-    there = step().to_support(*vector)
-    assert step().from_support(*there) == pytest.approx(vector, abs=1e-12)
-
-
-@pytest.mark.parametrize("standing", [False, True])
-@pytest.mark.parametrize("foot", Foot)
-def test_step_of_a_plan_follows_its_clock(standing: bool, foot: Foot) -> None:
-    plan = ManeuverPlanner(GAIT).plan(
-        0.4,
-        Direction.FORWARD,
-        first_foot=foot,
-        state=CenterState((0.0, 0.05), (0.0, 0.0)),
-        standing=standing,
-    )
-    begins = GAIT.start_support if standing else 0.0
-    for phase in (-0.1, 0.25, 0.9, 1.2):
-        passed = begins + phase * GAIT.single_support
-        made = first_step_of(plan, SUPPORT, passed)
-        assert made.support == SUPPORT and made.swing is foot
-        assert made.walking and made.plan is plan
-        assert made.passed == passed
-        rest = (1.0 - phase) * GAIT.single_support
-        assert made.remaining == pytest.approx(rest)
-        assert made.progress == pytest.approx(float(swing_progress(phase)))
-        expected = SUPPORT.compose(Pose(*plan.placements[2]))
-        assert made.landing == pytest.approx(expected)
 
 
 def test_zmp_box_is_the_sole_about_the_anchor() -> None:

@@ -1,6 +1,5 @@
 """Test the state estimator with a given posture."""
 
-from math import exp
 from typing import Any
 
 import numpy as np
@@ -85,36 +84,6 @@ def test_com_is_over_the_foot_that_bears_the_weight() -> None:
     np.testing.assert_allclose(state.com, [1.03, 2.02], atol=1e-12)
 
 
-def test_a_foot_that_stands_elsewhere_takes_the_com_along() -> None:
-    """Odometry turned by 0.3 rad and shifted: so is the CoM."""
-    for left, foot in ((2.0, FEET.left_foot), (0.0, FEET.right_foot)):
-        x, y, z, yaw = foot
-        there = x + 0.5, y - 0.2, z, yaw + 0.3
-        feet = FEET._replace(left_foot=there, right_foot=there)
-        state = see(estimator(), measured(left, 2.0 - left), feet)
-        lever = LEVER if left else LEVER + (0.0, 0.1, 0.0)
-        turned = rotation(0.0, 0.0, 0.3) @ lever
-        expected = turned[:2] + there[:2]
-        np.testing.assert_allclose(state.com, expected, atol=1e-12)
-
-
-@pytest.mark.parametrize(
-    ("left", "share"),
-    [
-        (0.010, 0.0),
-        (0.019, 0.0),
-        (0.021, 0.021),
-        (0.979, 0.979),
-        (0.981, 1.0),
-        (1.0, 1.0),
-    ],
-)
-def test_a_hardly_loaded_foot_is_ignored(left: float, share: float) -> None:
-    state = see(estimator(), measured(10.0 * left, 10.0 * (1.0 - left)))
-    assert state.left_share == pytest.approx(share)
-    assert state.weight == pytest.approx(40.0)
-
-
 def test_heading_of_the_torso_is_that_over_the_foot_that_stands() -> None:
     """It stands turned by 0.2 rad; the right foot has slipped by 0.1 rad."""
     feet = FEET._replace(right_foot=(1.0, 1.9, 0.0, 0.1))
@@ -188,23 +157,6 @@ def test_without_contact_the_pendulum_has_no_force() -> None:
         assert moved == moves
 
 
-def test_the_observer_has_two_poles_at_its_bandwidth() -> None:
-    """Unweighted, a step of the measured CoM: e(n + 2) - 2 f e(n + 1) + ..."""
-    body, bandwidth = FakeKinematics(), 30.0
-    estimate = estimator(body, bandwidth=bandwidth)
-    light = measured(left=1.0, right=1.0)
-    see(estimate, light, ticks=3)
-    body.lever = LEVER + (0.01, 0.02, 0.0)
-    states = [see(estimate, light) for _ in range(12)]
-    errors = np.array([1.04 - s.com[0] for s in states]) / 0.01
-    fade = exp(-bandwidth * TICK)
-    assert errors[0] == pytest.approx(fade**2)
-    speed = 0.01 * (1.0 - fade) ** 2 / TICK
-    assert states[0].velocity == pytest.approx((speed, 2.0 * speed))
-    rest = errors[2:] - 2.0 * fade * errors[1:-1] + fade**2 * errors[:-2]
-    np.testing.assert_allclose(rest, 0.0, atol=1e-9)
-
-
 def test_commanded_acceleration_is_not_mistaken_for_tilt() -> None:
     """Asked in odometry, felt in the torso, which is turned by 0.2 rad."""
     estimate = estimator()
@@ -214,18 +166,3 @@ def test_commanded_acceleration_is_not_mistaken_for_tilt() -> None:
     for _ in range(200):
         state = estimate.update(measured(felt=felt), FEET, asked)
     assert state.tilt == pytest.approx((0.0, 0.0), abs=1e-9)
-
-
-@pytest.mark.parametrize("mass", [0.5, 5.0, 500.0])
-def test_a_body_of_any_mass_knows_when_it_bears_no_weight(
-    mass: float,
-) -> None:
-    """In flight the pendulum pulls at nothing; standing it does."""
-    body = FakeKinematics()
-    body.mass = mass
-    for share, flies in ((0.1, True), (0.5, False)):
-        press = share * mass * 9.81 / 4.0
-        estimate = estimator(body, bandwidth=0.0)
-        first = see(estimate, measured(left=press, right=0.0))
-        later = see(estimate, measured(left=press, right=0.0))
-        assert (later.velocity == first.velocity) == flies

@@ -86,21 +86,6 @@ def test_zmp_stands_in_the_anchor_of_each_support_foot() -> None:
     np.testing.assert_allclose(zmp[:, 1], y + ahead * np.sin(theta))
 
 
-def test_feet_stand_by_their_side() -> None:
-    for foot in Foot:
-        plan = walking(foot)
-        end = plan.sample([plan.schedule.first_step_duration])
-        swing, stance = end.left_foot[0], end.right_foot[0]
-        if foot is Foot.RIGHT:
-            swing, stance = stance, swing
-        np.testing.assert_allclose(swing, plan.placements[2])
-        np.testing.assert_allclose(stance, plan.placements[1])
-        middle = plan.sample([0.5 * GAIT.single_support])
-        heights = middle.left_height[0], middle.right_height[0]
-        up, down = heights if foot is Foot.LEFT else heights[::-1]
-        assert up == pytest.approx(GAIT.step_height) and down == 0.0
-
-
 def test_the_correction_absorbs_a_velocity_error() -> None:
     """No correction if the velocity is that of (16); else it is linear."""
     plan = walking()
@@ -113,19 +98,6 @@ def test_the_correction_absorbs_a_velocity_error() -> None:
     off = (np.array(STATE.velocity) - wanted) / GAIT.eta
     np.testing.assert_allclose(plan.correction * row[-2], off, atol=1e-12)
     assert np.abs(plan.correction).max() > 1e-4
-
-
-def test_a_halt_plans_a_single_step() -> None:
-    for foot in Foot:
-        plan = PLANNER.plan_halt(
-            first_foot=foot, state=STATE, swing_start=START
-        )
-        assert plan.schedule.count == 1 and not plan.schedule.standing
-        spacing = foot.value * GAIT.foot_spacing
-        expected = [START, (0.0, 0.0, 0.0), (0.0, spacing, 0.0)]
-        np.testing.assert_allclose(plan.placements, expected)
-        np.testing.assert_allclose(plan.start_velocity, STATE.velocity)
-        assert plan.bearing == 0.0 and plan.direction is Direction.FORWARD
 
 
 @pytest.mark.parametrize("place", [(np.nan, 0.0), (0.0, np.inf)])

@@ -8,7 +8,6 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from reference_plans import KINDS, plan_of, reference_corners, reference_feet
-from stepaside.core.convex import half_planes
 from stepaside.planning import Direction, Foot, ManeuverPlan
 from stepaside.planning.com import least_values
 
@@ -88,13 +87,6 @@ def test_phases_leave_no_gap_and_the_last_one_stays(kind: str) -> None:
     assert phases[0].single == (kind != "start")
     first = plan.support(plan.schedule.first_step_duration)
     assert len(first) == (3 if kind == "start" else 2)
-
-
-def test_half_planes_measure_the_distance_from_each_edge() -> None:
-    square = np.array([[0.0, 0.0], [2.0, 0.0], [2.0, 1.0], [0.0, 1.0]])
-    normals, offsets = half_planes(square)
-    room = offsets - normals @ np.array([0.5, 0.25])
-    np.testing.assert_allclose(room, [0.25, 1.5, 0.75, 0.5])
 
 
 def test_margin_sees_the_peak_of_a_correction_between_samples() -> None:

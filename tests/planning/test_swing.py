@@ -32,27 +32,6 @@ def test_progress_is_the_minimum_jerk_polynomial() -> None:
     np.testing.assert_array_equal(swing_progress([0.0, 1.0]), [0.0, 1.0])
 
 
-@pytest.mark.parametrize(
-    ("profile", "fastest"), [("minimum-jerk", 15 / 8), ("even", 35 / 24)]
-)
-def test_progress_increases_and_peaks_half_way(
-    profile: SwingProfile, fastest: float
-) -> None:
-    progress = swing_progress(np.linspace(0.0, 1.0, 101), profile)
-    assert (np.diff(progress) > 0.0).all()
-    assert 100.0 * np.diff(progress).max() == pytest.approx(fastest, rel=1e-3)
-    middle = np.diff(swing_progress([0.5 - H, 0.5 + H], profile))
-    assert middle / (2.0 * H) == pytest.approx(fastest, rel=1e-5)
-
-
-def test_the_even_progress_is_flat_where_it_is_fastest() -> None:
-    """The curvature of its speed vanishes half-way, too."""
-    phases = 0.5 + 0.01 * np.arange(-4, 5)
-    jolt = derivative(swing_progress(phases, "even"), 3, 0.01)
-    assert np.abs(jolt).max() < 0.5
-    assert (derivative(swing_progress(phases), 3, 0.01) < -25.0).all()
-
-
 @pytest.mark.parametrize("profile", PROFILES)
 def test_acceleration_is_the_second_derivative(profile: SwingProfile) -> None:
     s = np.array([0.0, 0.05, 0.3, 0.5, 0.8, 1.0])

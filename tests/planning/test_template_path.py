@@ -6,7 +6,7 @@ from math import cos, pi, sin
 import numpy as np
 import pytest
 
-from stepaside.core.poses import Array, Pose
+from stepaside.core.poses import Array
 from stepaside.planning import (
     Direction,
     Foot,
@@ -35,18 +35,6 @@ def circle(count: int, turn: float, stride: float) -> Array:
     )
 
 
-@pytest.mark.parametrize("first", Foot)
-def test_samples_are_half_a_spacing_beside_their_feet(first: Foot) -> None:
-    path = circle(5, 0.06, 0.04)
-    foot, feet = first, []
-    for pose in path.tolist():
-        beside = Pose(0.0, 0.05 * foot.value, 0.0)
-        feet.append(Pose(*pose).compose(beside))
-        foot = foot.other
-    found = path_samples(np.array(feet), first, 0.1)
-    np.testing.assert_allclose(found, path, atol=1e-15)
-
-
 @pytest.mark.parametrize("way", [1.0, -1.0])
 @pytest.mark.parametrize("turn", [0.06, -0.06])
 def test_position_and_heading_follow_the_com(turn: float, way: float) -> None:
@@ -59,14 +47,6 @@ def test_position_and_heading_follow_the_com(turn: float, way: float) -> None:
             com = place[:2] + 0.02 * np.array([cos(theta), sin(theta)])
             (found,) = poses_on_path(path, com[None], UNTIMED, LED)
             np.testing.assert_allclose(found, place, atol=1e-4)
-
-
-def test_before_the_first_and_after_the_last_sample_the_body_waits() -> None:
-    path = circle(3, 0.06, 0.04)
-    ends = poses_on_path(
-        path, np.array([[-0.5, 0.0], [0.6, 0.02]]), UNTIMED, LED
-    )
-    np.testing.assert_allclose(ends, path[[0, 2]], atol=1e-12)
 
 
 @pytest.mark.parametrize("direction", Direction)

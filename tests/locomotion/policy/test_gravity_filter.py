@@ -34,16 +34,6 @@ def test_a_standing_robot_knows_its_tilt(roll: float, pitch: float) -> None:
     assert found.tilt == pytest.approx((roll, pitch), abs=0.02)
 
 
-def test_a_robot_that_sways_before_it_is_ready_knows_its_tilt() -> None:
-    """A policy may not rest in its default posture."""
-    found, angle = GravityFilter(NONE, TICK), 0.0
-    while not found.knows:
-        force = GRAVITY * up_at(0.0, angle)
-        found.take(np.array([0.0, 0.3, 0.0]), force)
-        angle += 0.3 * TICK
-        assert found.tilt[1] == pytest.approx(angle, abs=2e-3)
-
-
 @pytest.mark.parametrize("lean", [-0.1, 0.0, 0.1])
 def test_the_heading_of_a_torso_that_rolls_and_pitches_stays(
     lean: float,
@@ -78,13 +68,3 @@ def test_vertical_impacts_leave_the_tilt() -> None:
         found.take(np.array([0.0, rate, 0.0]), force)
         errors.append(found.tilt[1] - pitch)
     assert abs(np.mean(errors[-1000:])) < 2e-3
-
-
-def test_a_known_acceleration_is_no_tilt() -> None:
-    """On a circle to the left, at 1 m/s and 1 rad/s."""
-    found = standing(up_at(0.0, 0.0), np.array([1.0, 0.0, 0.0]))
-    rate, force = np.array([0.0, 0.0, 1.0]), np.array([0.0, 1.0, GRAVITY])
-    found.take(rate, GRAVITY * up_at(0.0, 0.0))
-    for _ in range(1000):
-        found.take(rate, force)
-    assert found.tilt == pytest.approx((0.0, 0.0), abs=1e-9)
