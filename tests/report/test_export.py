@@ -11,6 +11,7 @@ import numpy as np
 import pytest
 from click.testing import CliRunner
 
+from stepaside.arena import Disc, Room
 from stepaside.cli.main import main
 from stepaside.core.constants import GRAVITY
 from stepaside.core.poses import Array
@@ -18,7 +19,9 @@ from stepaside.games.duel_settings import DuelSettings, StartSettings
 from stepaside.games.recorded_game import run_duel
 from stepaside.games.run import Run
 from stepaside.games.run_archive import load_run, write_run_files
+from stepaside.report.export.room_model import RoomModel
 from stepaside.robots.description import load_robot
+from stepaside.sim.camera_settings import SceneSettings
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
 
@@ -294,6 +297,42 @@ def test_the_layout_names_topics_and_frames_of_the_bag(bag: Bag) -> None:
             yield from leaves(node["second"])
 
     assert sorted(leaves(layout["layout"])) == sorted(panels)
+
+
+def test_the_room_travels_with_the_bag(tmp_path: Path) -> None:
+    """A disc stands still in its frame; a person moves."""
+    pytest.importorskip("rosbags", reason="rosbags is not installed")
+    room = Room(obstacles=(Disc(0.6, 1.4, 0.1),))
+    run = run_duel(
+        DuelSettings(
+            duration=1.0,
+            pursuer="person",
+            room=SceneSettings(plan=room),
+        )
+    )
+    model = RoomModel(run)
+    links = fromstring(model.urdf).findall("link")
+    discs = [
+        (link.get("name"), visual)
+        for link in links
+        for visual in link.findall("visual")
+        if (own := visual.find("geometry/cylinder")) is not None
+        and own.get("radius") == "0.1"
+    ]
+    assert discs and set(model.frames) == {
+        link.get("name") for link in links[1:]
+    }
+    name, visual = discs[0]
+    number = model.frames.index(str(name))
+    origin = visual.find("origin")
+    assert origin is not None
+    offset = [float(x) for x in str(origin.get("xyz")).split()[:2]]
+    place = model.positions[0, number, :2] + offset
+    np.testing.assert_allclose(place, [0.6, 1.4], atol=1e-6)
+    assert not model.moves[number] and model.moves.any()
+    np.testing.assert_allclose(
+        np.linalg.norm(model.quaternions, axis=2), 1.0, atol=1e-9
+    )
 
 
 def test_tables_hold_the_samples(folder: Path, run: Run) -> None:

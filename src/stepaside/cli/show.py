@@ -252,7 +252,7 @@ def _render(run: Path, file: Path, film: FilmSettings) -> int:
 
 def _export(run: Path, folder: Path, *, repeat: bool) -> list[str]:
     """Write a run for other programs; return what is absent."""
-    from ..report.export.export_formats import check_format, export_recording
+    from ..report.export.recording import check_format, export_recording
 
     name = folder.suffix[1:]
     check_format(name)

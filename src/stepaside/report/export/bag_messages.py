@@ -1,6 +1,6 @@
 """ROS 2 messages of a recording, by the library rosbags."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
@@ -15,7 +15,7 @@ JPEG_QUALITY = 90
 
 
 class MessageFactory:
-    """Messages of the ROS 2 standard types.
+    """Messages of ROS 2's standard types; quaternions are (w, x, y, z).
 
     Attributes:
         store: Type store of rosbags, with the definitions of ROS 2 Humble;
@@ -26,65 +26,59 @@ class MessageFactory:
         """Load the definitions."""
         from rosbags.typesys import Stores, get_typestore
 
-        self.store = get_typestore(Stores.ROS2_HUMBLE)
-        self._types: Mapping[str, Any] = self.store.types
+        self.store: Any = get_typestore(Stores.ROS2_HUMBLE)
 
     def make(self, kind: str, *values: Any) -> Any:
-        """Return a message of a type like ``geometry_msgs/msg/Point``."""
-        return self._types[kind](*values)
-
-    def time(self, time: float) -> Any:
-        """Return a time stamp of a time, in [s]."""
-        stamp = nanoseconds(time)
-        return self.make(
-            "builtin_interfaces/msg/Time", stamp // 10**9, stamp % 10**9
-        )
+        """Return a message of a type like ``geometry_msgs/Point``."""
+        package, _, name = kind.partition("/")
+        return self.store.types[f"{package}/msg/{name}"](*values)
 
     def header(self, time: float, frame: str) -> Any:
         """Return a header."""
-        return self.make("std_msgs/msg/Header", self.time(time), frame)
+        stamp = nanoseconds(time)
+        at = self.make(
+            "builtin_interfaces/Time", stamp // 10**9, stamp % 10**9
+        )
+        return self.make("std_msgs/Header", at, frame)
 
     def vector(self, x: float = 0.0, y: float = 0.0, z: float = 0.0) -> Any:
         """Return a vector."""
-        return self.make("geometry_msgs/msg/Vector3", x, y, z)
+        return self.make("geometry_msgs/Vector3", x, y, z)
 
     def rotation(self, wxyz: Sequence[float]) -> Any:
-        """Return a quaternion; its order in memory is (w, x, y, z)."""
+        """Return a quaternion."""
         w, x, y, z = wxyz
-        return self.make("geometry_msgs/msg/Quaternion", x, y, z, w)
+        return self.make("geometry_msgs/Quaternion", x, y, z, w)
 
-    def upright(self, heading: float) -> Any:
-        """Return the rotation about the vertical by a heading, in [rad]."""
-        half = 0.5 * heading
-        return self.rotation((np.cos(half), 0.0, 0.0, np.sin(half)))
-
-    def pose(self, position: Sequence[float], rotation: Any) -> Any:
-        """Return a pose."""
-        x, y, *z = position  # on the floor without z
-        point = self.make("geometry_msgs/msg/Point", x, y, *(z or (0.0,)))
-        return self.make("geometry_msgs/msg/Pose", point, rotation)
-
-    def transform(
+    def pose(
         self,
         header: Any,
-        child: str,
         position: Sequence[float],
-        rotation: Any,
+        wxyz: Sequence[float] = (1.0, 0.0, 0.0, 0.0),
+    ) -> Any:
+        """Return a pose; without z it is on the floor."""
+        x, y, *z = position
+        point = self.make("geometry_msgs/Point", x, y, *(z or (0.0,)))
+        pose = self.make("geometry_msgs/Pose", point, self.rotation(wxyz))
+        return self.make("geometry_msgs/PoseStamped", header, pose)
+
+    def transform(
+        self, header: Any, child: str, position: Array, wxyz: Array
     ) -> Any:
         """Return the transform of a child frame in that of the header."""
         both = self.make(
-            "geometry_msgs/msg/Transform", self.vector(*position), rotation
+            "geometry_msgs/Transform",
+            self.vector(*position.tolist()),
+            self.rotation(wxyz.tolist()),
         )
-        return self.make(
-            "geometry_msgs/msg/TransformStamped", header, child, both
-        )
+        return self.make("geometry_msgs/TransformStamped", header, child, both)
 
     def points(self, header: Any, points: Array) -> Any:
         """Return a cloud of points, in [m]. Shape (n, 3)."""
         rows = np.ascontiguousarray(points, dtype="<f4")
-        field = self._types["sensor_msgs/msg/PointField"]
+        field = self.store.types["sensor_msgs/msg/PointField"]
         return self.make(
-            "sensor_msgs/msg/PointCloud2",
+            "sensor_msgs/PointCloud2",
             header,
             1,
             len(rows),
@@ -100,28 +94,21 @@ class MessageFactory:
         )
 
     def joint_state(
-        self,
-        header: Any,
-        names: Sequence[str],
-        position: Array,
-        velocity: Array | None,
-        effort: Array | None,
+        self, header: Any, names: Sequence[str], *values: Array | None
     ) -> Any:
-        """Return joint positions, with velocities and efforts if known."""
+        """Return joint positions, velocities and efforts, if known."""
         none = np.zeros(0)
         return self.make(
-            "sensor_msgs/msg/JointState",
+            "sensor_msgs/JointState",
             header,
             list(names),
-            np.asarray(position, dtype=np.float64),
-            none if velocity is None else velocity,
-            none if effort is None else effort,
+            *(none if v is None else v.astype(np.float64) for v in values),
         )
 
     def imu(self, header: Any, gyro: Array, accelerometer: Array) -> Any:
         """Return gyro and accelerometer; the orientation is marked absent."""
         return self.make(
-            "sensor_msgs/msg/Imu",
+            "sensor_msgs/Imu",
             header,
             self.rotation((1.0, 0.0, 0.0, 0.0)),
             NO_ORIENTATION,
@@ -134,19 +121,19 @@ class MessageFactory:
     def wrench(self, header: Any, force: float, torque: Array) -> Any:
         """Return the upward force and torque (x, y) on a sole."""
         both = self.make(
-            "geometry_msgs/msg/Wrench",
+            "geometry_msgs/Wrench",
             self.vector(z=force),
             self.vector(*torque.tolist()),
         )
-        return self.make("geometry_msgs/msg/WrenchStamped", header, both)
+        return self.make("geometry_msgs/WrenchStamped", header, both)
 
     def number(self, value: float) -> Any:
         """Return a plain number."""
-        return self.make("std_msgs/msg/Float64", value)
+        return self.make("std_msgs/Float64", float(value))
 
     def text(self, value: str) -> Any:
         """Return a plain text."""
-        return self.make("std_msgs/msg/String", value)
+        return self.make("std_msgs/String", value)
 
     def jpeg(self, header: Any, pixels: NDArray[np.uint8]) -> Any:
         """Return a colour image as JPEG."""
@@ -155,7 +142,7 @@ class MessageFactory:
         quality = [cv2.IMWRITE_JPEG_QUALITY, JPEG_QUALITY]
         _, data = cv2.imencode(".jpg", pixels[:, :, ::-1], quality)
         return self.make(
-            "sensor_msgs/msg/CompressedImage", header, "jpeg", data.ravel()
+            "sensor_msgs/CompressedImage", header, "jpeg", data.ravel()
         )
 
     def depth_image(self, header: Any, depths: NDArray[np.float32]) -> Any:
@@ -163,22 +150,14 @@ class MessageFactory:
         rows, columns = depths.shape
         values = np.where(depths > 0.0, depths, np.nan).astype("<f4")
         data = np.frombuffer(values.tobytes(), dtype=np.uint8)
-        return self.make(
-            "sensor_msgs/msg/Image",
-            header,
-            rows,
-            columns,
-            "32FC1",
-            0,
-            4 * columns,
-            data,
-        )
+        shape = rows, columns, "32FC1", 0, 4 * columns
+        return self.make("sensor_msgs/Image", header, *shape, data)
 
     def camera_info(self, header: Any, camera: CameraModel) -> Any:
         """Return the calibration of a camera without distortion."""
         matrix = camera.calibration_matrix
         return self.make(
-            "sensor_msgs/msg/CameraInfo",
+            "sensor_msgs/CameraInfo",
             header,
             camera.height,
             camera.width,
@@ -189,7 +168,7 @@ class MessageFactory:
             np.column_stack([matrix, np.zeros(3)]).ravel(),
             0,
             0,
-            self.make("sensor_msgs/msg/RegionOfInterest", 0, 0, 0, 0, False),
+            self.make("sensor_msgs/RegionOfInterest", 0, 0, 0, 0, False),
         )
 
 

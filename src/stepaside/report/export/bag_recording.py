@@ -12,8 +12,9 @@ from typing import Any, NamedTuple
 from xml.etree import ElementTree
 
 import numpy as np
+from scipy.spatial.transform import Rotation
 
-from ...core.poses import Array, Pose
+from ...core.poses import Array
 from ...games.replayed_signals import RobotSignals
 from ...games.run import Run
 from ...perception.images import ColourImage
@@ -21,12 +22,7 @@ from ...robots.head import depth_camera_name
 from ...robots.urdf_writer import IMU, OPTICAL
 from ..overlays import overlays_of, soles
 from .bag_messages import MessageFactory, nanoseconds
-from .recorded_transforms import (
-    base_poses,
-    joint_poses,
-    quaternion_of,
-)
-from .recording import Recording, RobotModel, foot_wrenches
+from .recording import Recording, RobotModel
 from .room_model import RoomModel
 
 MAP = "map"
@@ -43,21 +39,21 @@ POINTS = ("com", "com_reference", "zmp", "zmp_reference")
 
 
 class TopicMessage(NamedTuple):
-    """Message on a topic.
+    """Message on a topic."""
 
-    Attributes:
-        time: Time, in [s].
-        topic: Name of the topic.
-        kind: Type, like ``std_msgs/msg/String``.
-        message: The message.
-        stays: Whether late subscribers get it, too (transient local).
-    """
-
-    time: float
+    time: float  # [s]
     topic: str
-    kind: str
     message: Any
-    stays: bool = False
+    stays: bool = False  # late subscribers get it, too (transient local)
+
+
+class MovingFrame(NamedTuple):
+    """Frame that moves in another one."""
+
+    parent: str
+    child: str
+    positions: Array  # [m], shape (n, 3)
+    quaternions: Array  # (w, x, y, z), shape (n, 4)
 
 
 def write_bag(
@@ -82,9 +78,10 @@ def write_bag(
     writer.set_compression(CompressionMode.STORAGE, CompressionFormat.ZSTD)
     connections: dict[str, Any] = {}
     with writer:
-        for time, topic, kind, message, stays in messages_of(
+        for time, topic, message, stays in messages_of(
             recording, factory, report
         ):
+            kind = message.__msgtype__
             if topic not in connections:
                 connections[topic] = writer.add_connection(
                     topic,
@@ -102,24 +99,18 @@ def write_bag(
 
 def _quality(*, stays: bool) -> Any:
     """Return the quality of service with which a topic is played back."""
-    from rosbags.interfaces import (
-        Qos,
-        QosDurability,
-        QosHistory,
-        QosLiveliness,
-        QosReliability,
-        QosTime,
-    )
+    from rosbags import interfaces as of
 
-    forever = QosTime(2147483647, 4294967295)
-    return Qos(
-        QosHistory.KEEP_LAST,
+    forever = of.QosTime(2147483647, 4294967295)
+    durability = of.QosDurability
+    return of.Qos(
+        of.QosHistory.KEEP_LAST,
         1 if stays else 10,
-        QosReliability.RELIABLE,
-        QosDurability.TRANSIENT_LOCAL if stays else QosDurability.VOLATILE,
+        of.QosReliability.RELIABLE,
+        durability.TRANSIENT_LOCAL if stays else durability.VOLATILE,
         forever,
         forever,
-        QosLiveliness.AUTOMATIC,
+        of.QosLiveliness.AUTOMATIC,
         forever,
         False,
     )
@@ -132,45 +123,62 @@ def messages_of(
 ) -> Iterator[TopicMessage]:
     """Yield all messages of a recording, in the order of their times.
 
-    Args:
-        recording: The recording.
-        factory: Maker of messages.
-        report: Called with the samples done and their number.
+    ``report`` is called with the samples done and their number.
     """
-    run = recording.run
+    run, first = recording.run, float(recording.run.times[0])
     players = [PlayerTopics(recording, name, factory) for name in run.players]
-    times = run.times
-    room = RoomTopics(RoomModel(run), factory)
-    static = [t for player in players for t in player.static_transforms()]
-    static += room.transforms(None, float(times[0]))
-    first = float(times[0])
-    yield TopicMessage(
-        first, "/tf_static", TF, factory.make(TF, static), stays=True
-    )
+    room = RoomModel(run)
+    seen_at = {index: row for row, index in enumerate(room.samples.tolist())}
+
+    def tf(time: float, frames: Any) -> Any:
+        stamped = [
+            factory.transform(factory.header(time, parent), *own)
+            for parent, *own in frames
+        ]
+        return factory.make("tf2_msgs/TFMessage", stamped)
+
+    def room_frames(row: int, *, moving: bool) -> list[tuple[Any, ...]]:
+        placed = zip(
+            room.frames,
+            room.positions[row],
+            room.quaternions[row],
+            room.moves,
+            strict=True,
+        )
+        return [(MAP, *own) for *own, moves in placed if moves == moving]
+
+    static = [f for player in players for f in player.static]
+    static += room_frames(0, moving=False)
+    yield TopicMessage(first, "/tf_static", tf(first, static), stays=True)
     events = [m for player in players for m in player.events()]
-    events += room.description(first)
     events += overlay_messages(run, factory)
+    if room.urdf:
+        text, topic = factory.text(room.urdf), "/room/robot_description"
+        events.append(TopicMessage(first, topic, text, stays=True))
     events.sort(key=lambda event: event.time)
-    pending = iter(events)
-    event = next(pending, None)
-    for index, time in enumerate(times.tolist()):
-        while event is not None and event.time <= time:
+    events.reverse()
+    for index, time in enumerate(run.times.tolist()):
+        while events and events[-1].time <= time:
+            event = events.pop()
             yield event._replace(time=max(event.time, first))
-            event = next(pending, None)
-        moved = [t for p in players for t in p.transforms(index, time)]
-        moved += room.transforms(index, time)
-        yield TopicMessage(time, "/tf", TF, factory.make(TF, moved))
+        moved = [
+            (f.parent, f.child, f.positions[index], f.quaternions[index])
+            for player in players
+            for f in player.moving
+        ]
+        if index in seen_at:
+            moved += room_frames(seen_at[index], moving=True)
+        yield TopicMessage(time, "/tf", tf(time, moved))
         for player in players:
             yield from player.sample(index, time)
-        yield from _pair_numbers(run, factory, index, time)
+        if run.pair is not None:
+            number = factory.number(run.distance[index])
+            yield TopicMessage(time, "/distance_m", number)
+        if run.has_orientation:
+            number = factory.number(np.radians(run.orientation[index]))
+            yield TopicMessage(time, "/angle_rad", number)
         if index % 50 == 0:
-            report(index, len(times))
-
-
-TF = "tf2_msgs/msg/TFMessage"
-POSE = "geometry_msgs/msg/PoseStamped"
-CLOUD = "sensor_msgs/msg/PointCloud2"
-NUMBER = "std_msgs/msg/Float64"
+            report(index, len(run.times))
 
 
 def overlay_messages(
@@ -198,274 +206,163 @@ def overlay_messages(
                 shown = shown[(at >= oldest) & (at <= time)]
             header = factory.header(time, frame or MAP)
             cloud = factory.points(header, dotted(shown))
-            yield TopicMessage(time, topic, CLOUD, cloud, stays=True)
+            yield TopicMessage(time, topic, cloud, stays=True)
 
 
 def dotted(segments: Array) -> Array:
-    """Return points along segments on the floor. Shape (m, 3).
-
-    Args:
-        segments: Start and end (x, y), in [m]. Shape (n, 2, 2).
-    """
+    """Return points along segments (n, 2, 2) on the floor. Shape (m, 3)."""
     share = np.linspace(0.0, 1.0, DOTS, endpoint=False)[:, None]
     along = segments[:, None, 0] * (1.0 - share) + segments[:, None, 1] * share
     flat = along.reshape(-1, 2)
     return np.column_stack([flat, np.zeros(len(flat))])
 
 
-class RoomTopics:
-    """Messages of what is no robot: a URDF, and where its links are."""
-
-    def __init__(self, room: RoomModel, factory: MessageFactory) -> None:
-        """Find which shapes move."""
-        self._room, self._factory = room, factory
-        self._moves = dict(room.moved())
-        first = self._moves.pop(0, [])
-        later = self._moves.values()
-        moving = {shape.frame for shapes in later for shape in shapes}
-        self._static = [s for s in first if s.frame not in moving]
-        self._moves[0] = [s for s in first if s.frame in moving]
-
-    def transforms(self, index: int | None, time: float) -> list[Any]:
-        """Return the transforms that change at a sample; None for static."""
-        make = self._factory
-        shapes = self._static if index is None else self._moves.get(index, ())
-        return [
-            make.transform(
-                make.header(time, MAP),
-                shape.frame,
-                shape.position.tolist(),
-                make.rotation(shape.quaternion.tolist()),
-            )
-            for shape in shapes
-        ]
-
-    def description(self, time: float) -> list[TopicMessage]:
-        """Return the URDF, if there is a shape."""
-        if not self._room.shapes:
-            return []
-        text, topic = self._room.urdf, "/room/robot_description"
-        message = self._factory.text(text)
-        return [TopicMessage(time, topic, TEXT, message, stays=True)]
-
-
-def _pair_numbers(
-    run: Run, factory: MessageFactory, index: int, time: float
-) -> Iterator[TopicMessage]:
-    """Yield distance and angle between the first two players."""
-    if run.pair is not None:
-        value = float(run.distance[index])
-        message = factory.number(value)
-        yield TopicMessage(time, "/distance_m", NUMBER, message)
-    if run.has_orientation:
-        value = float(np.radians(run.orientation[index]))
-        message = factory.number(value)
-        yield TopicMessage(time, "/angle_rad", NUMBER, message)
-
-
 class PlayerTopics:
-    """Messages of one player."""
+    """Messages of one player.
+
+    Attributes:
+        static: Frames that do not move: parent, child, position in [m] and
+            quaternion (w, x, y, z).
+        moving: Frames that move.
+    """
 
     def __init__(
         self, recording: Recording, name: str, factory: MessageFactory
     ) -> None:
-        """Prepare the arrays of a player.
-
-        Args:
-            recording: The recording.
-            name: Name of the player.
-            factory: Maker of messages.
-        """
+        """Prepare the arrays of a player."""
         run = recording.run
         self._name, self._factory = name, factory
-        self._times, self._track = run.times, run.tracks[name]
+        self._first, self._track = float(run.times[0]), run.tracks[name]
         self._signals = recording.signals.get(name, RobotSignals())
-        self._model: RobotModel | None = None
-        self._footprints = self._track.unicycle
-        self._odometry = Pose(*self._footprints[0].tolist())
-        inverse = self._odometry.inverse()
-        self._footprints_in_odometry = np.array(
-            [
-                inverse.compose(Pose(*pose))
-                for pose in self._footprints.tolist()
-            ]
-        )
-        qpos = self._track.qpos
-        if qpos is not None and name in recording.models:
-            self._model = recording.models[name]
-            self._base = base_poses(qpos, self._footprints)
-            self._joints = joint_poses(self._model, qpos)
-            self._sole = run.settings.robot_of(name).gait.sole
-        self._wrenches = (
-            ()
-            if self._signals.foot_forces is None or self._model is None
-            else foot_wrenches(self._model, self._signals.foot_forces)
-        )
-
-    def _frame(self, name: str) -> str:
-        return f"{self._name}/{name}"
-
-    def _topic(self, name: str) -> str:
-        return f"/{self._name}/{name}"
-
-    def static_transforms(self) -> list[Any]:
-        """Return the transforms that do not change."""
-        make, first = self._factory, float(self._times[0])
-        x, y, heading = self._odometry
-        found = [
-            make.transform(
-                make.header(first, MAP),
-                self._frame("odom"),
-                (x, y, 0.0),
-                make.upright(heading),
-            )
+        self._model = recording.models.get(name)
+        places = self._track.unicycle
+        upright = Rotation.from_euler("z", places[:, 2:])
+        quaternions = upright.as_quat(scalar_first=True)
+        on_floor = places * [1.0, 1.0, 0.0]
+        self._points: dict[str, Array | None] = {
+            name: getattr(self._track, name) for name in POINTS
+        }
+        self._points["dcm"] = self._signals.dcm
+        self._place = on_floor, quaternions
+        odometry, foot = f"{name}/odom", f"{name}/base_footprint"
+        self.static: list[tuple[Any, ...]] = [
+            (MAP, odometry, on_floor[0], quaternions[0])
         ]
-        for joint in () if self._model is None else self._model.tree.joints:
-            if joint.number is None:
-                found.append(
-                    make.transform(
-                        make.header(first, self._frame(joint.parent)),
-                        self._frame(joint.child),
-                        joint.position.tolist(),
-                        make.rotation(quaternion_of(joint.axes).tolist()),
-                    )
-                )
-        return found
-
-    def transforms(self, index: int, time: float) -> Iterator[Any]:
-        """Yield the transforms of a sample."""
-        make = self._factory
-        x, y, heading = self._footprints_in_odometry[index].tolist()
-        yield make.transform(
-            make.header(time, self._frame("odom")),
-            self._frame("base_footprint"),
-            (x, y, 0.0),
-            make.upright(heading),
-        )
-        if self._model is None:
+        begun = upright[0].inv()
+        way = begun.apply(on_floor - on_floor[0])
+        turned = (begun * upright).as_quat(scalar_first=True)
+        self.moving = [MovingFrame(odometry, foot, way, turned)]
+        qpos = self._track.qpos
+        if self._model is None or qpos is None:
             return
-        yield make.transform(
-            make.header(time, self._frame("base_footprint")),
-            self._frame("base_link"),
-            self._base[0][index].tolist(),
-            make.rotation(self._base[1][index].tolist()),
+        self._sole = run.settings.robot_of(name).gait.sole
+        torso = upright.inv() * Rotation.from_quat(
+            qpos[:, 3:7], scalar_first=True
         )
-        for joint, positions, quaternions in self._joints:
-            yield make.transform(
-                make.header(time, self._frame(joint.parent)),
-                self._frame(joint.child),
-                positions[index].tolist(),
-                make.rotation(quaternions[index].tolist()),
-            )
+        offset = upright.inv().apply(qpos[:, :3] - on_floor)
+        base = offset, torso.as_quat(scalar_first=True)
+        self.moving.append(MovingFrame(foot, f"{name}/base_link", *base))
+        self._add_joints(self._model, qpos)
+
+    def _add_joints(self, model: RobotModel, qpos: Array) -> None:
+        """Add the frames of links."""
+        column = {name: 7 + i for i, name in enumerate(model.joints)}
+        for joint in model.tree.joints:
+            above = f"{self._name}/{joint.parent}"
+            below = f"{self._name}/{joint.child}"
+            turn = Rotation.from_matrix(joint.axes)
+            if joint.number is None:
+                fixed = turn.as_quat(scalar_first=True)
+                self.static.append((above, below, joint.position, fixed))
+                continue
+            values = qpos[:, column[joint.name]].astype(np.float64)
+            places = np.tile(joint.position, (len(values), 1))
+            if joint.kind == "prismatic":
+                places = places + np.outer(values, joint.axes @ joint.axis)
+                values = np.zeros(len(values))
+            turns = turn * Rotation.from_rotvec(np.outer(values, joint.axis))
+            quaternions = turns.as_quat(scalar_first=True)
+            self.moving.append(MovingFrame(above, below, places, quaternions))
+
+    def _message(self, time: float, name: str, message: Any) -> TopicMessage:
+        return TopicMessage(time, f"/{self._name}/{name}", message)
 
     def sample(self, index: int, time: float) -> Iterator[TopicMessage]:
         """Yield the messages of a sample, other than transforms."""
         make = self._factory
-        in_map = make.header(time, MAP)
-        points: dict[str, Array | None] = {
-            name: getattr(self._track, name) for name in POINTS
-        }
-        points["dcm"] = self._signals.dcm
-        x, y, heading = self._footprints[index].tolist()
-        poses = {"pose": make.pose((x, y, 0.0), make.upright(heading))}
-        for name, rows in points.items():
+        header = make.header(time, MAP)
+        place = [rows[index].tolist() for rows in self._place]
+        yield self._message(time, "pose", make.pose(header, *place))
+        for name, rows in self._points.items():
             if rows is not None and np.isfinite(rows[index]).all():
                 point = rows[index].tolist()
-                poses[name] = make.pose(point, make.upright(0.0))
-        for name, pose in poses.items():
-            message = make.make(POSE, in_map, pose)
-            yield TopicMessage(time, self._topic(name), POSE, message)
+                yield self._message(time, name, make.pose(header, point))
         for name, values in self._signals.strategy.items():
             if np.isfinite(values[index]):
-                topic = self._topic(f"strategy/{name}")
-                message = make.number(float(values[index]))
-                yield TopicMessage(time, topic, NUMBER, message)
+                number = make.number(values[index])
+                yield self._message(time, f"strategy/{name}", number)
         if self._model is not None:
             yield from self._robot_sample(self._model, index, time)
 
     def _robot_sample(
         self, model: RobotModel, index: int, time: float
     ) -> Iterator[TopicMessage]:
-        make, signals = self._factory, self._signals
-        assert self._track.qpos is not None
-        kind = "sensor_msgs/msg/JointState"
-        message = make.joint_state(
+        make, signals, qpos = self._factory, self._signals, self._track.qpos
+        assert qpos is not None
+        rates, efforts = (
+            None if rows is None else rows[index]
+            for rows in (signals.joint_velocity, signals.joint_effort)
+        )
+        joints = make.joint_state(
             make.header(time, ""),
             model.joints,
-            self._track.qpos[index, 7:],
-            _row(signals.joint_velocity, index),
-            _row(signals.joint_effort, index),
+            qpos[index, 7:],
+            rates,
+            efforts,
         )
-        yield TopicMessage(time, self._topic("joint_states"), kind, message)
-        gyro = _row(signals.gyro, index)
-        accelerometer = _row(signals.accelerometer, index)
-        if gyro is not None and accelerometer is not None:
-            kind = "sensor_msgs/msg/Imu"
-            header = make.header(time, self._frame(IMU))
-            message = make.imu(header, gyro, accelerometer)
-            yield TopicMessage(time, self._topic("imu"), kind, message)
-        kind = "geometry_msgs/msg/WrenchStamped"
-        for wrench in self._wrenches:
-            header = make.header(time, self._frame(wrench.frame))
-            force, torque = float(wrench.force[index]), wrench.torque[index]
-            message = make.wrench(header, force, torque)
-            topic = self._topic(f"{wrench.frame}/wrench")
-            yield TopicMessage(time, topic, kind, message)
+        yield self._message(time, "joint_states", joints)
+        if signals.gyro is not None and signals.accelerometer is not None:
+            header = make.header(time, f"{self._name}/{IMU}")
+            measured = signals.gyro[index], signals.accelerometer[index]
+            yield self._message(time, "imu", make.imu(header, *measured))
+        if signals.foot_forces is not None:
+            forces = signals.foot_forces[index]
+            for side, frame in enumerate(("l_sole", "r_sole")):
+                corners = slice(4 * side, 4 * side + 4)
+                x, y, _ = model.foot_sites[corners].T
+                own = forces[corners]
+                torque = np.array([y @ own, -x @ own])
+                header = make.header(time, f"{self._name}/{frame}")
+                wrench = make.wrench(header, float(own.sum()), torque)
+                yield self._message(time, f"{frame}/wrench", wrench)
 
-    def events(self) -> list[TopicMessage]:
-        """Return the messages that are not at samples."""
-        make, first = self._factory, float(self._times[0])
-        found: list[TopicMessage] = []
+    def events(self) -> Iterator[TopicMessage]:
+        """Yield the messages that are not at samples."""
+        make, signals, name = self._factory, self._signals, self._name
         if self._model is not None:
-            topic, kind = self._topic("robot_description"), TEXT
-            message = make.text(_with_prefix(self._model.urdf, self._name))
-            found.append(TopicMessage(first, topic, kind, message, stays=True))
-            found += self._plans()
-        for time, phase in self._signals.phases:
-            topic, message = self._topic("phase"), make.text(phase)
-            found.append(TopicMessage(time, topic, TEXT, message, stays=True))
-        return found + list(self._images())
-
-    def _plans(self) -> Iterator[TopicMessage]:
-        """Yield the soles of each plan."""
-        make, topic = self._factory, self._topic("footsteps/planned")
-        for plan in self._signals.plans:
-            outlines = soles(plan.footsteps, self._sole)
-            cloud = make.points(make.header(plan.time, MAP), dotted(outlines))
-            yield TopicMessage(plan.time, topic, CLOUD, cloud)
-
-    def _images(self) -> Iterator[TopicMessage]:
-        """Yield images with their calibration."""
-        make = self._factory
-        for image in self._signals.images:
-            if isinstance(image, ColourImage):
-                name = "camera"
-                kind = "sensor_msgs/msg/CompressedImage"
-                topic = self._topic(f"{name}/image_raw/compressed")
-            else:
-                name = depth_camera_name(image.number)
-                kind = "sensor_msgs/msg/Image"
-                topic = self._topic(f"{name}/image_raw")
-            header = make.header(image.time, self._frame(name + OPTICAL))
+            text = make.text(_with_prefix(self._model.urdf, name))
+            own = self._message(self._first, "robot_description", text)
+            yield own._replace(stays=True)
+            for plan in signals.plans:
+                outlines = dotted(soles(plan.footsteps, self._sole))
+                cloud = make.points(make.header(plan.time, MAP), outlines)
+                yield self._message(plan.time, "footsteps/planned", cloud)
+        for time, phase in signals.phases:
+            own = self._message(time, "phase", make.text(phase))
+            yield own._replace(stays=True)
+        for image in signals.images:
+            camera, topic = "camera", "image_raw/compressed"
+            if not isinstance(image, ColourImage):
+                camera, topic = depth_camera_name(image.number), "image_raw"
+            header = make.header(image.time, f"{name}/{camera}{OPTICAL}")
             message = (
                 make.jpeg(header, image.pixels)
                 if isinstance(image, ColourImage)
                 else make.depth_image(header, image.depths)
             )
-            yield TopicMessage(image.time, topic, kind, message)
-            yield TopicMessage(
-                image.time,
-                self._topic(f"{name}/camera_info"),
-                "sensor_msgs/msg/CameraInfo",
-                make.camera_info(header, image.camera),
-            )
-
-
-TEXT = "std_msgs/msg/String"
-
-
-def _row(rows: Array | None, index: int) -> Array | None:
-    return None if rows is None else rows[index]
+            yield self._message(image.time, f"{camera}/{topic}", message)
+            info = make.camera_info(header, image.camera)
+            yield self._message(image.time, f"{camera}/camera_info", info)
 
 
 def _with_prefix(urdf: str, name: str) -> str:

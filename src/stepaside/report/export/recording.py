@@ -2,12 +2,13 @@
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
+from importlib import import_module
 from pathlib import Path
-from typing import NamedTuple
 
 import mujoco
 import numpy as np
 
+from ...core.atomic_output import folder_draft
 from ...core.errors import ConfigurationError
 from ...core.player_colours import Colour
 from ...core.poses import Array
@@ -19,8 +20,9 @@ from ...games.run import Run
 from ...games.run_archive import load_run
 from ...robots.description import RobotDescription, load_robot
 from ...robots.urdf_writer import UrdfTree, urdf_of, urdf_tree
-from ...sim.ground_truth import centers_of_pressure
 
+# Library that writes each format, if that needs one.
+FORMATS = {"mcap": "rosbags", "urdf": "", "csv": "", "parquet": "polars"}
 BEYOND = (
     "joint velocities and efforts, IMU, foot forces, DCM, planned footsteps, "
     "strategy, images"
@@ -29,76 +31,39 @@ BEYOND = (
 
 @dataclass(frozen=True, slots=True, eq=False)
 class RobotModel:
-    """Model of a robot in a recording.
+    """Model of a robot in a recording, in the colour of its player."""
 
-    Attributes:
-        description: Description of the robot.
-        model: Its compiled model, in the colour of the player.
-        urdf: Its URDF, as XML text.
-        tree: Its links and joints.
-        joints: Names of its joints, in the order of qpos.
-        foot_sites: Positions of the foot force sensors in the frames of
-            their soles, in [m], in the order of
-            ``RobotState.foot_forces``. Shape (8, 3).
-    """
-
-    description: RobotDescription
-    model: mujoco.MjModel
-    urdf: str
+    urdf: str  # XML text
     tree: UrdfTree
-    joints: tuple[str, ...]
-    foot_sites: Array
+    joints: tuple[str, ...]  # their names, in the order of qpos
+    foot_sites: Array  # force sensors in their soles' frames, [m], (8, 3)
 
     @classmethod
     def of(cls, robot: str, colour: Colour | None) -> "RobotModel":
-        """Build the model of a robot by name or folder, in a colour."""
+        """Build the model of a robot by name or folder."""
         description = load_robot(robot)
         model = description.compile(colour)
-        names = [
+        joints = [
             model.joint(i).name
             for i in range(model.njnt)
             if model.jnt_type[i] != mujoco.mjtJoint.mjJNT_FREE
         ]
         return cls(
-            description,
-            model,
             urdf_of(description, colour),
             urdf_tree(description, model),
-            tuple(names),
+            tuple(joints),
             _foot_sites(description, model),
         )
 
 
-class FootWrench(NamedTuple):
-    """Wrench of the floor on a sole, from its normal forces.
-
-    Attributes:
-        frame: Name of the frame of the sole.
-        force: Upward force, in [N]. Shape (n,).
-        torque: Torque (x, y) about the origin of the sole, in [N m]. Shape
-            (n, 2).
-    """
-
-    frame: str
-    force: Array
-    torque: Array
-
-
 @dataclass(frozen=True, slots=True, eq=False)
 class Recording:
-    """Run with all signals that its folder or a repetition provides.
-
-    Attributes:
-        run: The run.
-        models: Models of the robots whose joints were recorded, by player.
-        signals: Signals of robots beyond their trajectories, by player.
-        absent: Missing signals and the reasons, as sentences.
-    """
+    """Run with all signals that its folder or a repetition provides."""
 
     run: Run
-    models: Mapping[str, RobotModel]
-    signals: Mapping[str, RobotSignals]
-    absent: tuple[str, ...]
+    models: Mapping[str, RobotModel]  # of robots with joints, by player
+    signals: Mapping[str, RobotSignals]  # beyond trajectories, by player
+    absent: tuple[str, ...]  # missing signals and reasons, as sentences
 
     def write_urdf(self, folder: Path) -> None:
         """Write the URDF of each robot into a folder."""
@@ -109,12 +74,7 @@ class Recording:
 def load_recording(
     folder: Path, *, repeats: bool, report: Callable[[Progress], None]
 ) -> Recording:
-    """Read a run folder, and play its game again for what it lacks.
-
-    Args:
-        folder: The run folder.
-        repeats: Whether to play the game again.
-        report: Called about five times a second with the progress.
+    """Read a run folder; if it ``repeats``, play its game for what it lacks.
 
     Raises:
         ConfigurationError: If the folder is not a valid run folder.
@@ -174,26 +134,6 @@ def _signals_of_play(
     return dict.fromkeys(models, signals)
 
 
-def foot_wrenches(model: RobotModel, forces: Array) -> tuple[FootWrench, ...]:
-    """Return the wrench of the floor on each sole.
-
-    Args:
-        model: The robot.
-        forces: Normal forces at the corners of the soles, in [N]. Shape (n,
-            8).
-    """
-    wrenches = []
-    for side, frame in enumerate(("l_sole", "r_sole")):
-        own = forces[:, 4 * side : 4 * side + 4]
-        corners = model.foot_sites[4 * side : 4 * side + 4]
-        total = own.sum(axis=1)
-        points = np.broadcast_to(corners, (len(own), 4, 3))
-        center = np.nan_to_num(centers_of_pressure(own, points))
-        torque = np.column_stack([center[:, 1] * total, -center[:, 0] * total])
-        wrenches.append(FootWrench(frame, total, torque))
-    return tuple(wrenches)
-
-
 def _foot_sites(description: RobotDescription, model: mujoco.MjModel) -> Array:
     """Return the foot force sensors in the frames of their soles, (8, 3)."""
     data = mujoco.MjData(model)
@@ -205,3 +145,49 @@ def _foot_sites(description: RobotDescription, model: mujoco.MjModel) -> Array:
         axes = sole.xmat.reshape(3, 3)
         rows.append(axes.T @ (data.site(name).xpos - sole.xpos))
     return np.array(rows)
+
+
+def check_format(name: str) -> None:
+    """Import the library that writes a format.
+
+    Raises:
+        ModuleNotFoundError: If it is not installed.
+    """
+    if FORMATS[name]:
+        import_module(FORMATS[name])
+
+
+def export_recording(
+    folder: Path,
+    name: str,
+    recording: Recording,
+    report: Callable[[int, int], None],
+) -> None:
+    """Write a recording; the folder appears when it is complete.
+
+    Args:
+        folder: New or empty folder.
+        name: Name of the format, one of ``FORMATS``.
+        recording: The recording.
+        report: Called with the samples done and their number.
+
+    Raises:
+        OutputError: If it cannot be written.
+        ConfigurationError: If the format is of robots and there are none.
+    """
+    if name == "urdf" and not recording.models:
+        raise ConfigurationError(
+            f"format {name} needs a run with a robot, got none"
+        )
+    with folder_draft(folder) as draft:
+        if name == "mcap":
+            from .bag_recording import write_bag
+
+            write_bag(draft, recording, report)
+        elif name == "urdf":
+            recording.write_urdf(draft)
+        else:
+            from .signal_tables import write_tables
+
+            write_tables(draft, recording, name)
+        draft.rename(folder)

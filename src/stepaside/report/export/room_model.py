@@ -1,149 +1,95 @@
 """Obstacles, persons and templates of a run as a URDF with moving links."""
 
-from collections.abc import Iterator
-from typing import NamedTuple
+from typing import Any
 from xml.etree import ElementTree
 
-import mujoco
 import numpy as np
+from scipy.spatial.transform import Rotation
 
 from ...core.poses import Array
+from ...core.rotations import angles_of
 from ...games.run import Run
 from ..scene import RunScene
-from ..visual_geoms import MAX_VISIBLE_GROUP, rgba_of
-from .recorded_transforms import quaternion_of
+from ..visual_geoms import VisualGeom, visual_geoms_of
 
-PERIOD = 0.1  # between poses of shapes that move, in [s]
-_GEOMS = mujoco.mjtGeom
-
-
-class RoomShape(NamedTuple):
-    """Shape that does not belong to a robot.
-
-    Attributes:
-        geom: Index of the geom in the model of the scene.
-        shape: Element of URDF: its name and its attributes, in [m].
-        colour: Red, green, blue, opacity, 0 to 1.
-    """
-
-    geom: int
-    shape: tuple[str, dict[str, str]]
-    colour: tuple[float, float, float, float]
-
-
-class PlacedShape(NamedTuple):
-    """Shape with its pose in the world.
-
-    Attributes:
-        frame: Name of its link and frame.
-        position: Position, in [m]. Shape (3,).
-        quaternion: Rotation (w, x, y, z). Shape (4,).
-    """
-
-    frame: str
-    position: Array
-    quaternion: Array
+PERIOD = 0.1  # between poses of links that move, in [s]
 
 
 class RoomModel:
     """Everything in the scene of a run that is no robot.
 
     Attributes:
-        shapes: The shapes; each is a link of :attr:`urdf`.
+        urdf: URDF with a link for each body, free in ``map``; empty if there
+            is none.
+        frames: Names of the links, which are their frames.
+        moves: Whether each moves. Shape (links,).
+        samples: Samples of the run at which poses are given. Shape (k,).
+        positions: In the world, in [m]. Shape (k, links, 3).
+        quaternions: (w, x, y, z). Shape (k, links, 4).
     """
 
     def __init__(self, run: Run) -> None:
-        """Find the shapes of a run."""
-        self._run, self._scene = run, RunScene(run)
-        self.shapes = tuple(_shapes_of(self._scene.model, run))
-
-    @property
-    def urdf(self) -> str:
-        """URDF with a link for each shape, free in ``map``."""
-        room = ElementTree.Element("robot", name="room")
-        ElementTree.SubElement(room, "link", name="map")
-        for number, shape in enumerate(self.shapes):
-            frame = _frame(number)
-            link = ElementTree.SubElement(room, "link", name=frame)
-            visual = ElementTree.SubElement(link, "visual")
-            geometry = ElementTree.SubElement(visual, "geometry")
-            ElementTree.SubElement(geometry, shape.shape[0], shape.shape[1])
-            material = ElementTree.SubElement(visual, "material", name=frame)
-            rgba = " ".join(f"{part:.4g}" for part in shape.colour)
-            ElementTree.SubElement(material, "color", rgba=rgba)
-            joint = ElementTree.SubElement(
-                room, "joint", name=f"{frame}/joint", type="floating"
-            )
-            ElementTree.SubElement(joint, "parent", link="map")
-            ElementTree.SubElement(joint, "child", link=frame)
-        return ElementTree.tostring(room, encoding="unicode")
-
-    def moved(self) -> Iterator[tuple[int, list[PlacedShape]]]:
-        """Yield samples with the shapes that moved since the last.
-
-        Sample 0 has all shapes; nothing is yielded without shapes.
-        """
-        scene, data = self._scene, self._scene.data
-        shown: dict[int, Array] = {}
-        last = -np.inf
-        for index, time in enumerate(self._run.times.tolist()):
-            if not self.shapes or time < last + PERIOD - 1e-9:
-                continue
-            last = time
+        """Find the bodies of a run, and how they move."""
+        scene = RunScene(run)
+        model, data = scene.model, scene.data
+        shapes: dict[int, list[VisualGeom]] = {}
+        for geom in visual_geoms_of(model):
+            root = model.body(int(model.body_rootid[geom.body])).name
+            if root.split("/")[0] not in run.robots:
+                shapes.setdefault(geom.body, []).append(geom)
+        bodies = list(shapes)
+        self.frames = [f"room/{body}" for body in bodies]
+        gap = float(run.times[1] - run.times[0]) if len(run.times) > 1 else 1.0
+        every = max(1, round(PERIOD / gap))
+        self.samples = np.arange(0, len(run.times) if bodies else 1, every)
+        self.positions = np.zeros((len(self.samples), len(bodies), 3))
+        self.quaternions = np.zeros((len(self.samples), len(bodies), 4))
+        for row, index in enumerate(self.samples.tolist() if bodies else ()):
             scene.put(index)
-            moved = []
-            for number, shape in enumerate(self.shapes):
-                position = data.geom_xpos[shape.geom]
-                axes = data.geom_xmat[shape.geom].reshape(3, 3)
-                now = np.column_stack([position, axes])
-                if number not in shown or not np.allclose(
-                    shown[number], now, atol=1e-6
-                ):
-                    shown[number] = now
-                    moved.append(
-                        PlacedShape(
-                            _frame(number),
-                            position.copy(),
-                            quaternion_of(axes),
-                        )
-                    )
-            if moved:
-                yield index, moved
+            self.positions[row] = data.xpos[bodies]
+            self.quaternions[row] = data.xquat[bodies]
+        both = np.concatenate([self.positions, self.quaternions], axis=2)
+        self.moves = np.ptp(both, axis=0).max(axis=1, initial=0.0) > 1e-6
+        self.urdf = ""
+        if bodies:
+            linked = zip(self.frames, shapes.values(), strict=True)
+            self.urdf = _urdf_of(dict(linked))
 
 
-def _frame(number: int) -> str:
-    return f"room/{number}"
+def _urdf_of(shapes: dict[str, list[VisualGeom]]) -> str:
+    """Return a URDF of links with their shapes."""
+    add = ElementTree.SubElement
+    room = ElementTree.Element("robot", name="room")
+    add(room, "link", name="map")
+    for frame, geoms in shapes.items():
+        link = add(room, "link", name=frame)
+        for number, geom in enumerate(geoms):
+            visual = add(link, "visual")
+            turn = Rotation.from_quat(geom.quaternion, scalar_first=True)
+            rpy = _numbers(angles_of(turn.as_matrix()))
+            add(visual, "origin", xyz=_numbers(geom.position), rpy=rpy)
+            kind, sizes = _urdf_shape(geom)
+            add(add(visual, "geometry"), kind, sizes)
+            material = add(visual, "material", name=f"{frame}/{number}")
+            rgba = (*(part / 255.0 for part in geom.colour), 1.0)
+            add(material, "color", rgba=_numbers(rgba))
+        joint = add(room, "joint", name=f"{frame}/joint", type="floating")
+        add(joint, "parent", link="map")
+        add(joint, "child", link=frame)
+    return ElementTree.tostring(room, encoding="unicode")
 
 
-def _shapes_of(model: mujoco.MjModel, run: Run) -> Iterator[RoomShape]:
-    for geom in range(model.ngeom):
-        kind = int(model.geom_type[geom])
-        root = int(model.body_rootid[model.geom_bodyid[geom]])
-        owner = model.body(root).name.split("/")[0]
-        planes = (_GEOMS.mjGEOM_PLANE, _GEOMS.mjGEOM_HFIELD)
-        if kind in planes or owner in run.robots:
-            continue
-        if model.geom_group[geom] > MAX_VISIBLE_GROUP:
-            continue
-        red, green, blue, opacity = rgba_of(model, geom).tolist()
-        if opacity > 0.0:
-            rgba = red, green, blue, 1.0
-            yield RoomShape(geom, _urdf_shape(model, geom), rgba)
+def _numbers(values: Any) -> str:
+    return " ".join(f"{value:.6g}" for value in values)
 
 
-def _urdf_shape(
-    model: mujoco.MjModel, geom: int
-) -> tuple[str, dict[str, str]]:
+def _urdf_shape(geom: VisualGeom) -> tuple[str, dict[str, str]]:
     """Return the shape of a geom; an ellipsoid or a mesh is its box."""
-    kind = int(model.geom_type[geom])
-    a, b, c = model.geom_size[geom].tolist()
-    if kind == _GEOMS.mjGEOM_SPHERE:
+    a, b, _ = geom.size.tolist()
+    if geom.kind == "sphere":
         return "sphere", {"radius": f"{a:.6g}"}
-    if kind == _GEOMS.mjGEOM_CYLINDER:
-        return "cylinder", {"radius": f"{a:.6g}", "length": f"{2 * b:.6g}"}
-    if kind == _GEOMS.mjGEOM_CAPSULE:
-        length = 2.0 * (a + b)
+    if geom.kind in ("capsule", "cylinder"):
+        length = 2.0 * (a + b if geom.kind == "capsule" else b)
         return "cylinder", {"radius": f"{a:.6g}", "length": f"{length:.6g}"}
-    if kind not in (_GEOMS.mjGEOM_BOX, _GEOMS.mjGEOM_ELLIPSOID):
-        a, b, c = model.geom_aabb[geom, 3:].tolist()
-    return "box", {"size": f"{2 * a:.6g} {2 * b:.6g} {2 * c:.6g}"}
+    box: Array = 2.0 * geom.size
+    return "box", {"size": _numbers(box)}

@@ -23,21 +23,12 @@ TRACK_COLUMNS = {
     "sole": ("x_m", "y_m", "heading_rad"),
     "heading_reference": ("heading_rad",),
     "estimate": (
-        "com_x_m",
-        "com_y_m",
-        "velocity_x_m_s",
-        "velocity_y_m_s",
-        "zmp_x_m",
-        "zmp_y_m",
-        "roll_rad",
-        "pitch_rad",
+        *("com_x_m", "com_y_m", "velocity_x_m_s", "velocity_y_m_s"),
+        *("zmp_x_m", "zmp_y_m", "roll_rad", "pitch_rad"),
     ),
     "command": (
-        "template_forward_m_s",
-        "template_turn_rad_s",
-        "template_lateral_m_s",
-        "forward_m_s",
-        "turn_rad_s",
+        *("template_forward_m_s", "template_turn_rad_s"),
+        *("template_lateral_m_s", "forward_m_s", "turn_rad_s"),
         "lateral_m_s",
     ),
 }
@@ -48,12 +39,8 @@ FOOT_CORNERS = tuple(
 )
 SIGNAL_COLUMNS = {
     "torso_velocity": (
-        "x_m_s",
-        "y_m_s",
-        "z_m_s",
-        "about_x_rad_s",
-        "about_y_rad_s",
-        "about_z_rad_s",
+        *("x_m_s", "y_m_s", "z_m_s"),
+        *("about_x_rad_s", "about_y_rad_s", "about_z_rad_s"),
     ),
     "gyro": ("x_rad_s", "y_rad_s", "z_rad_s"),
     "accelerometer": ("x_m_s2", "y_m_s2", "z_m_s2"),
@@ -61,12 +48,6 @@ SIGNAL_COLUMNS = {
     "com_velocity": ("x_m_s", "y_m_s"),
     "dcm": ("x_m", "y_m"),
 }
-JOINT_SIGNALS = {
-    "joint_velocity": "rad_s",
-    "joint_effort": "n_m",
-}
-
-
 Rows = tuple[str, tuple[str, ...], Array]
 """Name, names of the columns with units, and values of shape (n, columns)."""
 
@@ -74,41 +55,38 @@ Rows = tuple[str, tuple[str, ...], Array]
 def _series_of(recording: Recording, player: str) -> Iterator[Rows]:
     """Yield the values of one player at the samples of the run."""
     track = recording.run.tracks[player]
-    for key, columns in TRACK_COLUMNS.items():
-        values = getattr(track, key)
-        if values is not None:
-            yield f"{player}/{key}", columns, values
     model = recording.models.get(player)
+    signals = recording.signals.get(player, RobotSignals())
     joints = () if model is None else model.joints
+    series: list[tuple[str, tuple[str, ...], Array | None]] = [
+        (key, columns, getattr(track, key))
+        for key, columns in TRACK_COLUMNS.items()
+    ]
     if track.qpos is not None and model is not None:
         qpos = track.qpos.astype(np.float64)
         pose = ("x_m", "y_m", "z_m", "qw", "qx", "qy", "qz")
-        yield f"{player}/base_link", pose, qpos[:, :7]
-        names = tuple(f"{joint}_rad" for joint in joints)
-        yield f"{player}/joint_position", names, qpos[:, 7:]
-    signals = recording.signals.get(player)
-    if signals is not None:
-        yield from _signal_series(player, joints, signals)
-
-
-def _signal_series(
-    player: str, joints: tuple[str, ...], signals: RobotSignals
-) -> Iterator[Rows]:
-    for key, unit in JOINT_SIGNALS.items():
-        values = getattr(signals, key)
-        if values is not None:
-            names = tuple(f"{joint}_{unit}" for joint in joints)
-            yield f"{player}/{key}", names, values
-    if signals.joint_targets is not None:
-        names = tuple(f"{joint}_rad" for joint in signals.target_names)
-        yield f"{player}/joint_target", names, signals.joint_targets
-    for key, columns in SIGNAL_COLUMNS.items():
-        values = getattr(signals, key)
-        if values is not None:
-            yield f"{player}/{key}", columns, values
+        series.append(("base_link", pose, qpos[:, :7]))
+        series.append(("joint_position", _named(joints, "rad"), qpos[:, 7:]))
+    targets = _named(signals.target_names, "rad")
+    series += [
+        ("joint_velocity", _named(joints, "rad_s"), signals.joint_velocity),
+        ("joint_effort", _named(joints, "n_m"), signals.joint_effort),
+        ("joint_target", targets, signals.joint_targets),
+    ]
+    series += [
+        (key, columns, getattr(signals, key))
+        for key, columns in SIGNAL_COLUMNS.items()
+    ]
     if signals.strategy:
         values = np.column_stack(list(signals.strategy.values()))
-        yield f"{player}/strategy", tuple(signals.strategy), values
+        series.append(("strategy", tuple(signals.strategy), values))
+    for name, columns, rows in series:
+        if rows is not None:
+            yield f"{player}/{name}", columns, rows
+
+
+def _named(joints: tuple[str, ...], unit: str) -> tuple[str, ...]:
+    return tuple(f"{joint}_{unit}" for joint in joints)
 
 
 def _events_of(recording: Recording, player: str) -> Iterator[Rows]:
@@ -132,56 +110,33 @@ def _events_of(recording: Recording, player: str) -> Iterator[Rows]:
         yield f"{player}-plans", columns, np.array(rows)
     if track.sight is not None:
         columns = (
-            "time_s",
-            "bearing_rad",
-            "distance_m",
-            "true_bearing_rad",
-            "true_distance_m",
-            "is_lost",
+            *("time_s", "bearing_rad", "distance_m"),
+            *("true_bearing_rad", "true_distance_m", "is_lost"),
         )
         yield f"{player}-sightings", columns, track.sight
     if track.pushes is not None:
         columns = (
-            "time_s",
-            "duration_s",
-            "x_m",
-            "y_m",
-            "impulse_x_n_s",
-            "impulse_y_n_s",
+            *("time_s", "duration_s", "x_m", "y_m"),
+            *("impulse_x_n_s", "impulse_y_n_s"),
         )
         yield f"{player}-pushes", columns, track.pushes
 
 
-def write_csv(folder: Path, recording: Recording) -> None:
-    """Write the samples and each kind of event as CSV files.
-
-    Args:
-        folder: Folder of the files.
-        recording: The recording.
-    """
+def write_tables(folder: Path, recording: Recording, kind: str) -> None:
+    """Write samples and each kind of event as files, csv or parquet."""
     for name, columns in tables_of(recording).items():
-        rows = np.column_stack(list(columns.values()))
+        file = folder / f"{name}.{kind}"
+        if kind == "parquet":
+            import polars
+
+            polars.DataFrame(columns).fill_nan(None).write_parquet(file)
+            continue
         lines = [",".join(columns)]
         lines += [
             ",".join("" if value != value else repr(value) for value in row)
-            for row in rows.tolist()
+            for row in np.column_stack(list(columns.values())).tolist()
         ]
-        text = "\n".join(lines) + "\n"
-        (folder / f"{name}.csv").write_text(text, encoding="utf-8")
-
-
-def write_parquet(folder: Path, recording: Recording) -> None:
-    """Write the samples and each kind of event as Parquet files.
-
-    Args:
-        folder: Folder of the files.
-        recording: The recording.
-    """
-    import polars
-
-    for name, columns in tables_of(recording).items():
-        frame = polars.DataFrame(columns).fill_nan(None)
-        frame.write_parquet(folder / f"{name}.parquet")
+        file.write_text("\n".join(lines) + "\n", encoding="utf-8")
 
 
 def tables_of(recording: Recording) -> dict[str, dict[str, Array]]:
