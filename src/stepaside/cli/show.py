@@ -2,13 +2,19 @@
 
 import webbrowser
 from dataclasses import replace
+from importlib import import_module
 from pathlib import Path
 from tempfile import mkdtemp
 from typing import TYPE_CHECKING, Any
 
 import click
 
-from ..core.atomic_output import FIGURES, check_file, check_folder
+from ..core.atomic_output import (
+    FIGURES,
+    check_file,
+    check_folder,
+    folder_draft,
+)
 from ..core.errors import ConfigurationError, OutputError
 from ..core.progress import counter, show_progress
 from ..report.film_settings import FilmSettings
@@ -26,7 +32,8 @@ if TYPE_CHECKING:
     from ..report.export.recording import Recording
 
 PAGES, FILMS = (".html", ".htm"), (".mp4", ".gif")
-FORMATS = (".mcap", ".csv", ".parquet", ".urdf")
+# With the library that writes each, if that needs one.
+FORMATS = {".mcap": "rosbags", ".csv": "", ".parquet": "polars", ".urdf": ""}
 SUFFIXES = (*PAGES, *FILMS, *FIGURES, *FORMATS)
 GIF: dict[str, Any] = {
     "width": 480,
@@ -252,18 +259,33 @@ def _render(run: Path, file: Path, film: FilmSettings) -> int:
 
 def _export(run: Path, folder: Path, *, repeat: bool) -> list[str]:
     """Write a run for other programs; return what is absent."""
-    from ..report.export.recording import check_format, export_recording
-
-    name = folder.suffix[1:]
-    check_format(name)
-    has_signals = name != "urdf"
+    kind = folder.suffix[1:]
+    if FORMATS[folder.suffix]:  # a missing library is told before playing
+        import_module(FORMATS[folder.suffix])
+    has_signals = kind != "urdf"
     recording = _recording(run.resolve(), repeats=repeat and has_signals)
-    with show_progress("export", unit="samples") as bar:
-        export_recording(folder, name, recording, counter(bar))
     absent = recording.absent
-    if not has_signals:
-        players = tuple(f"{name}:" for name in recording.run.players)
-        absent = tuple(each for each in absent if each.startswith(players))
+    with (
+        folder_draft(folder) as draft,
+        show_progress("export", unit="samples") as bar,
+    ):
+        if kind == "mcap":
+            from ..report.export.bag_recording import write_bag
+
+            write_bag(draft, recording, counter(bar))
+        elif has_signals:
+            from ..report.export.signal_tables import write_tables
+
+            write_tables(draft, recording, kind)
+        else:
+            if not recording.models:
+                raise ConfigurationError(
+                    f"-o {folder} needs a run with a robot, got none"
+                )
+            recording.write_urdf(draft)
+            players = tuple(f"{name}:" for name in recording.run.players)
+            absent = tuple(a for a in absent if a.startswith(players))
+        draft.rename(folder)
     for sentence in absent:
         echo(f"absent: {sentence}", err=True)
     return list(absent)

@@ -117,44 +117,29 @@ def _dim_lights(model: mujoco.MjModel) -> None:
     model.light_specular[:] = 0.1
 
 
-def walls_before(model: mujoco.MjModel, eye: Array) -> list[int]:
-    """Return the walls between a camera and the inside of the room.
+@contextmanager
+def hidden_walls(model: mujoco.MjModel, eye: Array) -> Iterator[list[int]]:
+    """Hide the walls between a camera and the inside of a room.
 
-    Args:
-        model: Model of a room that is centered at the world's origin.
-        eye: Position of the camera, in the world, in [m]. Shape (3,).
-
-    Returns:
-        Numbers of their geoms.
+    The room is centered at the world's origin; the camera's position is in
+    the world, in [m]. Yields the numbers of the geoms.
     """
-    found = []
+    walls = []
     for geom in range(model.ngeom):
         if not is_room_wall(model, geom):
             continue
-        rotation = np.zeros(9)
-        mujoco.mju_quat2Mat(rotation, model.geom_quat[geom])
-        axes = rotation.reshape(3, 3)
+        axes = np.zeros(9)
+        mujoco.mju_quat2Mat(axes, model.geom_quat[geom])
         position = model.body_pos[model.geom_bodyid[geom]]
-        normal = axes[:, int(np.argmin(model.geom_size[geom][:2]))]
+        thin = int(np.argmin(model.geom_size[geom][:2]))
+        normal = axes.reshape(3, 3)[:, thin]
         # The room's center and the camera are on different sides of it.
         if (normal @ position) * (normal @ (position - eye)) < 0.0:
-            found.append(geom)
-    return found
-
-
-@contextmanager
-def hidden_walls(model: mujoco.MjModel, eye: Array) -> Iterator[None]:
-    """Hide the walls of :func:`walls_before` inside a ``with`` block.
-
-    Args:
-        model: Model of a room that is centered at the world's origin.
-        eye: Position of the camera, in the world, in [m]. Shape (3,).
-    """
-    walls = walls_before(model, eye)
+            walls.append(geom)
     opacity = model.geom_rgba[walls, 3].copy()
     model.geom_rgba[walls, 3] = 0.0
     try:
-        yield
+        yield walls
     finally:
         model.geom_rgba[walls, 3] = opacity
 
@@ -176,15 +161,7 @@ def draw_chunk(
 def render_images(
     folder: Path, settings: FilmSettings, times: list[float]
 ) -> Iterator[Pixels]:
-    """Render the images of a film in order, on all cores.
-
-    Args:
-        folder: Run folder.
-        settings: Settings of the film.
-        times: Times of the run at which it has images, in [s].
-
-    Yields:
-        Images. Shape (height, width, 3).
+    """Render the images of a film at times in [s], in order, on all cores.
 
     Raises:
         ConfigurationError: If this machine has no OpenGL, or the film begins
@@ -223,11 +200,8 @@ def write_film(
 ) -> int:
     """Write a film: H.264, which browsers can play, or a GIF by its suffix.
 
-    Args:
-        folder: Run folder.
-        file: Film to write; it appears when it is complete.
-        settings: Settings of the film.
-        report: Called with the numbers of finished and of all images.
+    The file appears when it is complete. ``report`` is called with the
+    numbers of finished and of all images.
 
     Returns:
         Number of images.

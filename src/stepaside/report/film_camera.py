@@ -4,15 +4,18 @@ A camera frames a set of points. The distance from which all of them are in
 the image has a closed form, since each point is in it from some distance on.
 """
 
+from itertools import product
 from math import cos, radians, sin, tan
 from typing import NamedTuple
 
 import mujoco
 import numpy as np
+from scipy.ndimage import gaussian_filter1d, maximum_filter1d
 
 from ..core.poses import Array
 from ..games.run import Run
 from ..sim.room_furnishing import HEIGHT as WALL_HEIGHT
+from .overlays import ring
 from .scene import wall_corners
 
 AZIMUTH, ELEVATION = 60.0, -32.0  # of the fixed and following view, in [deg]
@@ -25,19 +28,12 @@ SMOOTHING = 1.5  # standard deviation of its Gaussian window, in [s]
 
 
 class CameraView(NamedTuple):
-    """Camera that looks at a point.
+    """Camera that looks at a point."""
 
-    Attributes:
-        target: Point that it looks at, in the world, in [m]. Shape (3,).
-        distance: From the camera to the target, in [m].
-        azimuth: Direction in which it looks, in [deg].
-        elevation: Elevation of that direction, in [deg]; negative from above.
-    """
-
-    target: Array
-    distance: float
-    azimuth: float
-    elevation: float
+    target: Array  # in the world, in [m]. Shape (3,)
+    distance: float  # from the camera to the target, in [m]
+    azimuth: float = AZIMUTH  # direction in which it looks, in [deg]
+    elevation: float = ELEVATION  # negative from above, in [deg]
 
     @property
     def axes(self) -> Array:
@@ -54,14 +50,10 @@ class CameraView(NamedTuple):
         return position
 
     def project(self, point: Array, fovy: float) -> tuple[float, float] | None:
-        """Return the image of a point, in half heights from the center.
+        """Return the image of a point (3,) in [m], in half heights.
 
-        Args:
-            point: In the world, in [m]. Shape (3,).
-            fovy: Vertical field of view, in [deg].
-
-        Returns:
-            Rightward and upward; None behind the camera.
+        It is rightward and upward from the center, for a vertical field of
+        view in [deg]; None behind the camera.
         """
         right, up, ahead = (self.axes @ (point - self.target)).tolist()
         depth = self.distance + ahead
@@ -81,42 +73,28 @@ class CameraView(NamedTuple):
 
 
 def framing(
-    points: Array, azimuth: float, elevation: float, fovy: float, aspect: float
+    points: Array, view: CameraView, fovy: float, aspect: float
 ) -> CameraView:
     """Return the nearest view that has all points in the image.
 
     Args:
         points: In the world, in [m]. Shape (n, 3).
-        azimuth: Direction in which the camera looks, in [deg].
-        elevation: Elevation of that direction, in [deg].
+        view: View with the direction in which the camera looks.
         fovy: Vertical field of view, in [deg].
         aspect: Width over height of the image.
     """
-    target = 0.5 * (points.min(axis=0) + points.max(axis=0))
-    view = CameraView(target, 0.0, azimuth, elevation)
     slope = MARGIN * tan(0.5 * radians(fovy))
-    for _ in range(CENTERING_STEPS):
-        right, up, ahead = view.axes @ (points - view.target).T
-        depth = _least_depth(right, up, slope, aspect)
+    target = 0.5 * (points.min(axis=0) + points.max(axis=0))
+    for step in range(CENTERING_STEPS + 1):
+        right, up, ahead = view.axes @ (points - target).T
+        depth = np.maximum(abs(up) / slope, abs(right) / (aspect * slope))
         distance = float((depth - ahead).max())
-        # Perspective: the center of the image is not the center of the box.
-        image = np.array([right, up]) / (distance + ahead)
-        center = 0.5 * (image.min(axis=1) + image.max(axis=1))
-        shift = distance * (center @ view.axes[:2])
-        view = view._replace(target=view.target + shift)
-    right, up, ahead = view.axes @ (points - view.target).T
-    depth = _least_depth(right, up, slope, aspect)
-    return view._replace(distance=float((depth - ahead).max()))
-
-
-def _least_depth(
-    right: Array, up: Array, slope: float, aspect: float
-) -> Array:
-    """Return the depths from which on points are in the image, in [m]."""
-    depth: Array = np.maximum(
-        np.abs(up) / slope, np.abs(right) / (aspect * slope)
-    )
-    return depth
+        if step < CENTERING_STEPS:
+            # Perspective: the image's center is not that of the box.
+            image = np.array([right, up]) / (distance + ahead)
+            center = 0.5 * (image.min(axis=1) + image.max(axis=1))
+            target = target + distance * (center @ view.axes[:2])
+    return view._replace(target=target, distance=distance)
 
 
 class FilmCamera:
@@ -132,8 +110,8 @@ class FilmCamera:
             aspect: Width over height of the image.
         """
         self._run, self._name = run, name
-        self._fovy, self._aspect = fovy, aspect
-        self._whole = self._frame(slice(None), with_circle=True)
+        self._lens = fovy, aspect
+        self._whole = self._frame(slice(None))
         if name == "follow":
             self._times, self._views = self._smoothed_views()
 
@@ -146,45 +124,33 @@ class FilmCamera:
 
     def view(self, index: int) -> CameraView:
         """Return the view of a sample of the run."""
-        if self._name == "follow":
-            now = self._run.times[index]
-            x, y, z, distance = (
-                float(np.interp(now, self._times, column))
-                for column in self._views.T
-            )
-            target = np.array([x, y, z])
-            return CameraView(target, distance, AZIMUTH, ELEVATION)
-        return self._whole
-
-    def _frame(self, chosen: slice, *, with_circle: bool) -> CameraView:
-        """Return the view that frames the players over some samples."""
-        corners = np.array(
-            [
-                [x, y, z]
-                for x in (-HALF_WIDTH, HALF_WIDTH)
-                for y in (-HALF_WIDTH, HALF_WIDTH)
-                for z in (0.0, HEIGHT)
-            ]
+        if self._name != "follow":
+            return self._whole
+        now = self._run.times[index]
+        *target, distance = (
+            float(np.interp(now, self._times, column))
+            for column in self._views.T
         )
+        return CameraView(np.array(target), distance)
+
+    def _frame(self, chosen: slice) -> CameraView:
+        """Return the view of some samples; of all, with circle and walls."""
+        sides = (-HALF_WIDTH, HALF_WIDTH)
+        corners = np.array([*product(sides, sides, (0.0, HEIGHT))])
         tracks = self._run.tracks.values()
         paths = np.concatenate([track.torso[chosen, :2] for track in tracks])
         on_floor = np.column_stack([paths, np.zeros(len(paths))])
-        points = (on_floor[:, None] + corners).reshape(-1, 3)
-        if with_circle and self._run.circle is not None:
-            x, y, radius = self._run.circle
-            angle = np.linspace(0.0, 2.0 * np.pi, 37)
-            ring = [x + radius * np.cos(angle), y + radius * np.sin(angle)]
-            points = np.concatenate(
-                [points, np.column_stack([*ring, np.zeros(37)])]
-            )
-        top = self._name == "top"
-        if top and with_circle:
-            corners = wall_corners(self._run.plan)
-            height = np.full(len(corners), WALL_HEIGHT)
-            tops = np.column_stack([corners, height])
-            points = np.concatenate([points, tops])
-        azimuth, elevation = (90.0, -89.9) if top else (AZIMUTH, ELEVATION)
-        return framing(points, azimuth, elevation, self._fovy, self._aspect)
+        found = [(on_floor[:, None] + corners).reshape(-1, 3)]
+        view = CameraView(np.zeros(3), 0.0)
+        if self._name == "top":
+            view = view._replace(azimuth=90.0, elevation=-89.9)
+            tops = wall_corners(self._run.plan)
+            height = np.full(len(tops), WALL_HEIGHT)
+            found.append(np.column_stack([tops, height]))
+        if chosen == slice(None) and self._run.circle is not None:
+            edge = ring(*self._run.circle)[:, 0]
+            found.append(np.column_stack([edge, np.zeros(len(edge))]))
+        return framing(np.concatenate(found), view, *self._lens)
 
     def _smoothed_views(self) -> tuple[Array, Array]:
         """Return times, and rows (target x, y, z, distance), smoothed."""
@@ -192,20 +158,14 @@ class FilmCamera:
         gap = float(times[1] - times[0]) if len(times) > 1 else PERIOD
         every = max(1, round(PERIOD / gap))
         chosen = np.arange(0, len(times), every)
-        views = [
-            self._frame(slice(i, i + 1), with_circle=False) for i in chosen
-        ]
+        views = [self._frame(slice(i, i + 1)) for i in chosen]
         rows = np.array([[*v.target, v.distance] for v in views])
-        half = round(3.0 * SMOOTHING / (every * gap))
+        width = SMOOTHING / (every * gap)
         # The largest distance in the window keeps all players in the image.
-        padded = np.pad(rows[:, 3], half, mode="edge")
-        windows = np.lib.stride_tricks.sliding_window_view(
-            padded, 2 * half + 1
+        window = 2 * round(3.0 * width) + 1
+        far = maximum_filter1d(rows[:, 3], window, mode="nearest")
+        rows[:, 3] = far + 0.15
+        smooth: Array = gaussian_filter1d(
+            rows, width, axis=0, mode="nearest", truncate=3.0
         )
-        rows[:, 3] = windows.max(axis=1) + 0.15
-        kernel = np.exp(-0.5 * np.linspace(-3.0, 3.0, 2 * half + 1) ** 2)
-        kernel /= kernel.sum()
-        for column in rows.T:
-            padded = np.pad(column, half, mode="edge")
-            column[:] = np.convolve(padded, kernel, mode="valid")
-        return times[chosen], rows
+        return times[chosen], smooth

@@ -38,17 +38,9 @@ def caption(
 ) -> Pixels:
     """Write labels at their places; time, distance and state below.
 
-    Args:
-        picture: Image of a sample. Shape (height, width, 3).
-        run: The run.
-        index: Sample that is shown.
-        labels: Text, position in the world [m] and colour of each label.
-        project: Function that returns the image of a point, in half heights
-            from the center.
-        speed: Time of the run per time of the film.
-
-    Returns:
-        Image with text; unchanged if it is too small for text.
+    Labels are text, position in the world in [m], and colour; ``project``
+    returns the image of a point, in half heights from the center. An image
+    that is too small for text is returned unchanged.
     """
     from PIL import Image, ImageDraw
 

@@ -23,14 +23,9 @@ def add_layers(
     places: Mapping[str, Array],
     colours: Mapping[str, str],
 ) -> None:
-    """Add lines to a scene.
+    """Add lines of a time, in [s], to a scene.
 
-    Args:
-        scene: Scene to add to.
-        overlays: The lines.
-        now: Time, in [s].
-        places: Positions of the players then, in [m], by name.
-        colours: Colours of the players, by name.
+    Places are the positions of the players then, in [m], by name.
     """
     for overlay in overlays:
         rgba = _rgba(overlay.colour("light", colours))
@@ -56,12 +51,7 @@ def _rgba(colour: str) -> Array:
 
 
 def aim_light(scene: mujoco.MjvScene, target: Array) -> None:
-    """Move the lights that cast shadows so that they shine on a target.
-
-    Args:
-        scene: Scene with the lights of the model.
-        target: Center of the shadows, in [m]. Shape (3,).
-    """
+    """Move the lights that cast shadows so that they shine on a target."""
     for light in scene.lights[: scene.nlight]:
         if light.castshadow:
             light.pos[:] = target - LIGHT_DISTANCE * np.asarray(light.dir)

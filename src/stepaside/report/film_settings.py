@@ -54,13 +54,9 @@ class FilmSettings:
         "robots, or from above",
         names=VIEWS,
     )
-    layers: bool = setting(
-        True,
-        "Draw trajectories and plans in the video",
-    )
+    layers: bool = setting(True, "Draw trajectories and plans in the video")
     captions: bool = setting(
-        True,
-        "Show players, time and distance in the video",
+        True, "Show players, time and distance in the video"
     )
 
     def __post_init__(self) -> None:
@@ -68,11 +64,7 @@ class FilmSettings:
         check_settings(self)
 
     def frame_times(self, last: float) -> list[float]:
-        """Return the times of the run at which the film has images, in [s].
-
-        Args:
-            last: End of the run, in [s].
-        """
+        """Return the times at which a run of a duration in [s] is shown."""
         end = min(last, self.begin + self.duration)
         step = self.speed / self.rate
         number = floor((end - self.begin) / step + 1e-9) + 1

@@ -2,13 +2,11 @@
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
-from importlib import import_module
 from pathlib import Path
 
 import mujoco
 import numpy as np
 
-from ...core.atomic_output import folder_draft
 from ...core.errors import ConfigurationError
 from ...core.player_colours import Colour
 from ...core.poses import Array
@@ -21,8 +19,6 @@ from ...games.run_archive import load_run
 from ...robots.description import RobotDescription, load_robot
 from ...robots.urdf_writer import UrdfTree, urdf_of, urdf_tree
 
-# Library that writes each format, if that needs one.
-FORMATS = {"mcap": "rosbags", "urdf": "", "csv": "", "parquet": "polars"}
 BEYOND = (
     "joint velocities and efforts, IMU, foot forces, DCM, planned footsteps, "
     "strategy, images"
@@ -145,49 +141,3 @@ def _foot_sites(description: RobotDescription, model: mujoco.MjModel) -> Array:
         axes = sole.xmat.reshape(3, 3)
         rows.append(axes.T @ (data.site(name).xpos - sole.xpos))
     return np.array(rows)
-
-
-def check_format(name: str) -> None:
-    """Import the library that writes a format.
-
-    Raises:
-        ModuleNotFoundError: If it is not installed.
-    """
-    if FORMATS[name]:
-        import_module(FORMATS[name])
-
-
-def export_recording(
-    folder: Path,
-    name: str,
-    recording: Recording,
-    report: Callable[[int, int], None],
-) -> None:
-    """Write a recording; the folder appears when it is complete.
-
-    Args:
-        folder: New or empty folder.
-        name: Name of the format, one of ``FORMATS``.
-        recording: The recording.
-        report: Called with the samples done and their number.
-
-    Raises:
-        OutputError: If it cannot be written.
-        ConfigurationError: If the format is of robots and there are none.
-    """
-    if name == "urdf" and not recording.models:
-        raise ConfigurationError(
-            f"format {name} needs a run with a robot, got none"
-        )
-    with folder_draft(folder) as draft:
-        if name == "mcap":
-            from .bag_recording import write_bag
-
-            write_bag(draft, recording, report)
-        elif name == "urdf":
-            recording.write_urdf(draft)
-        else:
-            from .signal_tables import write_tables
-
-            write_tables(draft, recording, name)
-        draft.rename(folder)
