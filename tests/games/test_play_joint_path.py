@@ -8,7 +8,7 @@ import pytest
 from scipy.spatial.transform import Rotation
 
 from stepaside.core.poses import Array, Pose, wrap_angle
-from stepaside.games.play_joint_path import (
+from stepaside.games.play_conversion import (
     OdometryPath,
 )
 from stepaside.games.play_rows import PlayedRows

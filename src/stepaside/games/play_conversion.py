@@ -1,20 +1,31 @@
 """Conversion of the rows recorded by a player at a robot into a run."""
 
 from dataclasses import replace
+from math import cos, sin
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from ..core.poses import Array
+from ..core.errors import ConfigurationError
+from ..core.poses import Array, Pose
+from ..core.rotations import quaternion_of, rotation
 from ..drivers.play_log import METADATA, ROWS
 from ..drivers.safety import SafetyState
 from ..drivers.velocity_loop import DrivingState
-from ..robots.description import load_robot
+from ..perception.attitude import AttitudeFilter
+from ..planning import GaitSettings
+from ..robots.description import RobotDescription, load_robot
+from ..robots.forward_kinematics import (
+    ForwardKinematics,
+    MeasuredPosture,
+    SpatialTorsoPose,
+    torso_pose_on_foot,
+)
 from .duel_settings import PLAYERS
 from .evaluation import measure
 from .outcome import Outcome
-from .play_joint_path import OdometryPath, estimate_tilts
 from .play_rows import PlayedRows, read_played
 from .play_settings import PlaySettings
 from .run import Run
@@ -23,6 +34,8 @@ from .trajectory import Trajectory, check_record
 
 MAX_CHANGES = 2000  # of state, in a summary
 SAME = 1e-6  # tolerance within which times are of one sighting, in [s]
+ACCELEROMETER_GAIN = 0.5  # of the attitude filter, in [1/s]
+MIN_FOOT_FORCE = 1.0  # below which the ZMP is unknown, in [N]
 CUT_OFF = "the record was cut off"
 
 
@@ -148,14 +161,7 @@ def sightings_in(rows: PlayedRows) -> Array:
 
 
 def sight_table(found: Array) -> Array:
-    """Convert sightings to the array of a run, with the truth unknown.
-
-    Args:
-        found: Sightings of :func:`sightings_in`. Shape (k, 4).
-
-    Returns:
-        Array ``sight`` of :class:`Trajectory`. Shape (k, 6).
-    """
+    """Return ``sight`` of a trajectory from sightings, the truth unknown."""
     unknown = np.full((len(found), 2), np.nan)
     lost = np.isnan(found[:, 1]).astype(float)
     return np.column_stack([found[:, 0], found[:, 2:], unknown, lost])
@@ -164,16 +170,12 @@ def sight_table(found: Array) -> Array:
 def opponent_trajectory(
     found: Array, times: Array, own: Array
 ) -> Trajectory | None:
-    """Return the trajectory of the opponent's last sightings.
+    """Return the trajectory of the opponent's last sightings, in odometry.
 
     Args:
         found: Sightings of :func:`sightings_in`. Shape (k, 4).
         times: Times of the samples, in [s]. Shape (n,).
-        own: Poses (x, y, heading) of the player in odometry, in [m] and
-            [rad]. Shape (n, 3).
-
-    Returns:
-        Trajectory in odometry; None without a sighting.
+        own: Poses of the player in odometry at these times. Shape (n, 3).
     """
     sightings = found[~np.isnan(found[:, 1])]
     if not len(sightings):
@@ -194,3 +196,165 @@ def opponent_trajectory(
     com = torso.copy()
     com[:, 2] = 0.0
     return Trajectory(com=com, torso=torso)
+
+
+class OdometryPath:
+    """Reconstruction of a robot's motion from its recorded rows.
+
+    In each row the robot stands on the support foot of its controller, with
+    the tilt of its IMU and the measured joint angles; on learned legs its CoM
+    is at the place of their odometry, and its lowest sole on the floor. Each
+    controller that was started has its own odometry, whose origin is midway
+    between the last feet positions in the odometry of the controller before
+    it.
+    """
+
+    def __init__(
+        self, rows: PlayedRows, description: RobotDescription, tilts: Array
+    ) -> None:
+        """Take the rows of a player that commanded joints.
+
+        With roll and pitch of the torso in each row, in [rad].
+
+        Raises:
+            ConfigurationError: If the number of joints differs.
+        """
+        self._rows, self._columns = rows, rows.columns
+        self._forward = ForwardKinematics(description)
+        tree = self._forward.tree
+        self._tree, self._standing = tree, description.standing
+        joints = rows.columns["joint_positions"].shape[1]
+        if joints != len(tree.motors):
+            raise ConfigurationError(
+                f"a player of {description.name} must measure "
+                f"{len(tree.motors)} joints, got {joints}"
+            )
+        self._sensors = self._forward.force_sensors()
+        self._tilts = tilts
+
+    def track(self, gait: GaitSettings, sight: Array) -> Trajectory:
+        """Return the trajectory in the odometry of the first controller."""
+        columns, frames = self._columns, self._frames()
+        references = ("com_reference", "zmp_reference")
+        rows: dict[str, list[Any]] = {}
+        for row in self._rows.sampled.tolist():
+            frame = frames[float(columns["mind"][row])]
+            posture, body = self._stand(row, frame)
+            origin, axes = body.position_in_odometry, body.axes_in_odometry
+            heading = body.heading_in_odometry
+            com = origin + axes @ posture.position_com_in_torso
+            lead = gait.zmp_forward * np.array([cos(heading), sin(heading)])
+            values = {
+                "com": com,
+                "torso": [*origin[:2], heading],
+                "place": [*(com[:2] - lead), heading],
+                "qpos": self._qpos(row, body),
+                "zmp": self._zmp(row, posture, body),
+            }
+            for name in references:
+                values[name] = frame.transform_points(columns[name][row])
+            for name, value in values.items():
+                rows.setdefault(name, []).append(value)
+        arrays = {name: np.array(values) for name, values in rows.items()}
+        for name in references:
+            if np.isnan(arrays[name]).all():  # learned legs have none
+                del arrays[name]
+        for name in ("place", "torso"):
+            arrays[name][:, 2] = np.unwrap(arrays[name][:, 2])
+        arrays["qpos"] = arrays["qpos"].astype(np.float32)
+        return Trajectory(
+            **arrays, landings=self._landings(frames), sight=sight
+        )
+
+    def _frames(self) -> dict[float, Pose]:
+        """Return the odometry of each controller in that of the first."""
+        controllers = self._columns["mind"]
+        changes = np.flatnonzero(np.diff(controllers))
+        last_rows = np.append(changes, len(controllers) - 1)
+        frames, frame = {}, Pose(0.0, 0.0, 0.0)
+        for row in last_rows.tolist():
+            frames[float(controllers[row])] = frame
+            posture, body = self._stand(row, frame)
+            x, y, _ = (
+                body.position_in_odometry
+                + body.axes_in_odometry
+                @ posture.positions_feet_in_torso.mean(axis=0)
+            ).tolist()
+            frame = Pose(x, y, body.heading_in_odometry)
+        return frames
+
+    def _stand(
+        self, row: int, frame: Pose
+    ) -> tuple[MeasuredPosture, SpatialTorsoPose]:
+        x, y, heading, side = self._columns["support"][row].tolist()
+        measured = self._columns["joint_positions"][row].copy()
+        posture = self._forward.posture(measured)
+        support = frame.compose(Pose(x, y, heading))
+        roll, pitch = self._tilts[row].tolist()
+        if not np.isnan(side):
+            foot, tilt = 0 if side > 0.0 else 1, (roll, pitch)
+            return posture, torso_pose_on_foot(posture, foot, support, tilt)
+        # On learned legs the support is the place of the CoM.
+        axes = rotation(roll, pitch, support.theta)
+        com = axes @ posture.position_com_in_torso
+        lowest = float((self._corners(posture) @ axes.T)[:, 2].min())
+        place = np.array([support.x - com[0], support.y - com[1], -lowest])
+        return posture, SpatialTorsoPose(place, axes, support.theta)
+
+    def _qpos(self, row: int, body: SpatialTorsoPose) -> Array:
+        """Return position and quaternion of the torso, then all joints."""
+        measured = self._columns["joint_positions"][row].tolist()
+        known = dict(self._standing)
+        known |= dict(zip(self._tree.motors, measured, strict=True))
+        for follower, leader in self._tree.followers.items():
+            known[follower] = known.get(leader, 0.0)
+        joints = [known.get(name, 0.0) for name in self._tree.joints]
+        roll, pitch = self._tilts[row].tolist()
+        quaternion = quaternion_of(roll, pitch, body.heading_in_odometry)
+        return np.array([*body.position_in_odometry, *quaternion, *joints])
+
+    def _zmp(
+        self, row: int, posture: MeasuredPosture, body: SpatialTorsoPose
+    ) -> Array:
+        """Return the center of the foot forces; NaN without any force."""
+        forces = self._columns["foot_forces"][row]
+        total = float(forces.sum())
+        if not total > MIN_FOOT_FORCE:
+            return np.full(2, np.nan)
+        center_in_torso = forces @ self._corners(posture) / total
+        center: Array = body.axes_in_odometry @ center_in_torso
+        return (body.position_in_odometry + center)[:2]
+
+    def _corners(self, posture: MeasuredPosture) -> Array:
+        """Return the force sensors in the torso frame, in [m]. (8, 3)."""
+        flat = np.column_stack([self._sensors, np.zeros(len(self._sensors))])
+        return np.concatenate(
+            [
+                posture.positions_feet_in_torso[i]
+                + flat[4 * i : 4 * i + 4] @ posture.axes_feet_in_torso[i].T
+                for i in range(2)
+            ]
+        )
+
+    def _landings(self, frames: dict[float, Pose]) -> Array:
+        begun, controllers = self._columns["begun"], self._columns["mind"]
+        landings = []
+        for row in np.flatnonzero(~np.isnan(begun[:, 0])).tolist():
+            time, side, x, y, heading, _ = begun[row].tolist()
+            frame = frames[float(controllers[row])]
+            landing = frame.compose(Pose(x, y, heading))
+            time += float(self._rows.offset[row])
+            landings.append([time, side, *landing])
+        return np.array(landings, dtype=np.float64).reshape(-1, 5)
+
+
+def estimate_tilts(rows: PlayedRows) -> Array:
+    """Estimate roll and pitch of the torso in each row from its IMU [rad]."""
+    attitude = AttitudeFilter(ACCELEROMETER_GAIN, 0.0, calibration=0.0)
+    gyro, force = rows.columns["gyro"], rows.columns["accelerometer"]
+    passed = np.diff(rows.times, prepend=0.0).tolist()
+    tilts = np.zeros((len(gyro), 2))
+    for row, duration in enumerate(passed):
+        attitude.update(gyro[row], force[row], (0.0, 0.0), duration)
+        tilts[row] = attitude.roll, attitude.pitch
+    return tilts

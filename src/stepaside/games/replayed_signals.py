@@ -28,85 +28,47 @@ Image = ColourImage | DepthImage
 
 
 class PlannedFootsteps(NamedTuple):
-    """Footsteps of a maneuver, planned when its first step begins.
+    """Footsteps of a maneuver, planned when its first step begins."""
 
-    Attributes:
-        time: Time at which the first step begins, in [s].
-        footsteps: Rows (side: 1 left, -1 right; x [m], y [m], heading
-            [rad]) in the world. Shape (steps, 4).
-    """
-
-    time: float
+    time: float  # at which the first step begins [s]
     footsteps: Array
-
-
-class PhaseChange(NamedTuple):
-    """Change of the phase of motion.
-
-    Attributes:
-        time: Time of the sample, in [s].
-        phase: New phase, as ``standing`` or ``walking``.
-    """
-
-    time: float
-    phase: str
+    """Rows (side: 1 left, -1 right; x [m], y [m], heading [rad]) in the
+    world."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class RobotSignals:
-    """Signals of one robot at the samples of its run; None if unknown.
+    """Signals of one robot, a row per sample of its run; None if unknown.
 
     Those of a repeated game are true: without sensor errors. Those of a play
     are measurements of the robot.
-
-    Attributes:
-        torso_velocity: Linear velocity of the torso in the world, in [m/s],
-            and angular velocity in the torso, in [rad/s]. Shape (n, 6).
-        joint_velocity: Joint velocities, in the order of qpos, in [rad/s].
-            Shape (n, joints).
-        joint_effort: Motor torques at the joints, in [N m]. Shape (n,
-            joints).
-        gyro: Angular velocity in the torso, in [rad/s]. Shape (n, 3).
-        accelerometer: Specific force in the torso, in [m/s^2]. Shape (n, 3).
-        foot_forces: Normal force at the corners of the soles, in the order
-            of ``RobotState.foot_forces``, in [N]. Shape (n, 8).
-        com_velocity: Velocity of the CoM (x, y) in the world, in [m/s].
-            Shape (n, 2).
-        target_names: Names of the actuated joints.
-        joint_targets: Targets that control sends to the actuated joints at
-            the samples, in [rad]. Shape (n, actuated joints).
-        dcm: DCM in the world, in [m]; None for a robot that does not walk
-            by maneuvers. Shape (n, 2).
-        plans: Planned footsteps.
-        phases: Changes of the phase of motion.
-        strategy: Numbers of the strategy by name, one per sample: sighting,
-            desired heading, entries of its memory; NaN where there is none.
-        images: Images of its cameras, with the times of their exposure.
     """
 
     torso_velocity: Array | None = None
-    joint_velocity: Array | None = None
-    joint_effort: Array | None = None
-    gyro: Array | None = None
-    accelerometer: Array | None = None
-    foot_forces: Array | None = None
-    com_velocity: Array | None = None
-    target_names: tuple[str, ...] = ()
-    joint_targets: Array | None = None
-    dcm: Array | None = None
+    """Linear in the world [m/s], angular in the torso [rad/s]."""
+    joint_velocity: Array | None = None  # in the order of qpos [rad/s]
+    joint_effort: Array | None = None  # motor torques at the joints [N m]
+    gyro: Array | None = None  # in the torso [rad/s]
+    accelerometer: Array | None = None  # specific force, in the torso [m/s^2]
+    foot_forces: Array | None = None  # as ``RobotState.foot_forces`` [N]
+    com_velocity: Array | None = None  # (x, y) in the world [m/s]
+    target_names: tuple[str, ...] = ()  # of the actuated joints
+    joint_targets: Array | None = None  # that control sends to them [rad]
+    dcm: Array | None = None  # in the world [m], of a walk by maneuvers
     plans: tuple[PlannedFootsteps, ...] = ()
-    phases: tuple[PhaseChange, ...] = ()
+    phases: tuple[tuple[float, str], ...] = ()
+    """Time [s] and new phase, "standing" or "walking", at each change."""
     strategy: Mapping[str, Array] = field(default_factory=dict)
-    images: tuple[Image, ...] = ()
+    """Numbers of the strategy by name: sighting, desired heading, entries of
+    its memory; NaN where there is none."""
+    images: tuple[Image, ...] = ()  # with the times of their exposure
 
 
 class RepeatedGame(NamedTuple):
     """Signals of a game that was played again.
 
-    Attributes:
-        robots: Signals of each robot, by name; empty if the game differed
-            from its run, or cannot be repeated.
-        reason: Why there are none; empty if there are.
+    They are empty, with a reason, if the game differed from its run, or
+    cannot be repeated.
     """
 
     robots: Mapping[str, RobotSignals]
@@ -122,7 +84,7 @@ class RobotSignalRecord:
         self._log = player.robot.sensor_log()
         self._numbers: list[dict[str, float]] = []
         self._plans: list[PlannedFootsteps] = []
-        self._phases: list[PhaseChange] = []
+        self._phases: list[tuple[float, str]] = []
         self._images: list[Image] = []
         self._targets = RowTable(len(player.robot.joint_names))
         self._awaits_targets = False
@@ -132,8 +94,8 @@ class RobotSignalRecord:
         self._log.add()
         self._awaits_targets = True
         phase = self._player.scheme.phase.value
-        if not self._phases or self._phases[-1].phase != phase:
-            self._phases.append(PhaseChange(now, phase))
+        if not self._phases or self._phases[-1][1] != phase:
+            self._phases.append((now, phase))
         self._numbers.append(dict(_strategy_numbers(self._player)))
 
     def act(self, now: float) -> None:
@@ -162,11 +124,7 @@ class RobotSignalRecord:
         return PlannedFootsteps(begun.started, np.array(rows))
 
     def signals(self, com: Array) -> RobotSignals:
-        """Return the signals.
-
-        Args:
-            com: Recorded CoM at the samples. Shape (n, 3).
-        """
+        """Return the signals, with the recorded CoM. Shape (n, 3)."""
         count = len(com)
         self._log.truncate(count)
         arrays = self._log.arrays()
@@ -185,13 +143,7 @@ class RobotSignalRecord:
             for key in keys
         }
         return RobotSignals(
-            torso_velocity=arrays["torso_velocity"],
-            joint_velocity=arrays["joint_velocity"],
-            joint_effort=arrays["joint_effort"],
-            gyro=arrays["gyro"],
-            accelerometer=arrays["accelerometer"],
-            foot_forces=arrays["foot_forces"],
-            com_velocity=arrays["com_velocity"],
+            **arrays,
             target_names=self._player.robot.joint_names,
             joint_targets=np.concatenate([targets, missing]),
             dcm=dcm,
@@ -253,14 +205,6 @@ def repeat_game(
     run: Run, report: Callable[[Progress], None] | None = None
 ) -> RepeatedGame:
     """Play a game again and record the signals of its robots.
-
-    Args:
-        run: The run.
-        report: Called about five times a second with the progress.
-
-    Returns:
-        Signals of the robots; none, with a reason, if the game cannot be
-        repeated or moved differently.
 
     Raises:
         StepAsideError: If the settings cannot be met on this computer, for
