@@ -19,13 +19,9 @@ MAX_HEADER_BYTES = 512  # of one array
 
 
 def read_bytes(file: Path, limit: int) -> bytes:
-    """Read a regular file of at most ``limit`` bytes.
+    """Read a regular file of at most ``limit`` bytes; ValueError for others.
 
     Links are not followed, and opening a pipe does not block.
-
-    Raises:
-        ValueError: If the file is longer, or not a regular file.
-        OSError: If it cannot be read.
     """
     flags = os.O_RDONLY | getattr(os, "O_NOFOLLOW", 0)
     handle = os.open(file, flags | getattr(os, "O_NONBLOCK", 0))
@@ -42,12 +38,7 @@ def read_text(file: Path) -> str:
 
 
 def read_json(file: Path) -> Any:
-    """Read a JSON file whose numbers are all finite.
-
-    Raises:
-        ValueError: If it is not JSON, nested too deep, or holds NaN or inf.
-        OSError: If it cannot be read.
-    """
+    """Read a JSON file whose numbers are all finite; ValueError for others."""
     try:
         return json.loads(
             read_text(file), parse_constant=_finite, parse_float=_finite
@@ -57,11 +48,7 @@ def read_json(file: Path) -> Any:
 
 
 def check_object(plain: Any, source: str) -> dict[str, Any]:
-    """Return a JSON object unchanged; reject any other value.
-
-    Raises:
-        ConfigurationError: If the value is not an object.
-    """
+    """Return a JSON object unchanged; ConfigurationError for others."""
     if not isinstance(plain, dict):
         raise ConfigurationError(
             f"{source} must hold one JSON object, got {type(plain).__name__}"
@@ -72,10 +59,7 @@ def check_object(plain: Any, source: str) -> dict[str, Any]:
 def read_arrays(file: Path) -> dict[str, Array]:
     """Read the arrays of an ``npz`` file by name; all hold real numbers.
 
-    Raises:
-        ValueError: If an array is malformed, or all are too large.
-        OSError: If the file cannot be read; zipfile raises other exceptions
-            in addition.
+    Damaged files raise what numpy and zipfile raise, or ValueError.
     """
     with np.load(
         BytesIO(read_bytes(file, MAX_ARRAY_BYTES)),

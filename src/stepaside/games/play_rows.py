@@ -56,21 +56,15 @@ class PlayStateLog:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class PlayedRows:
-    """Rows of a player, with a monotonic clock.
+    """Rows of a player, with a monotonic clock."""
 
-    Attributes:
-        columns: Arrays by name. Shapes (rows,) or (rows, width).
-        times: Times since the record began, in [s]. Shape (rows,).
-        changes: Changes of state.
-    """
-
-    columns: Mapping[str, Array]
-    times: Array
+    columns: Mapping[str, Array]  # by name: (rows,) or (rows, width)
+    times: Array  # since the record began, in [s]
     changes: tuple[LoggedChange, ...]
 
     @property
     def moves_joints(self) -> bool:
-        """Whether joints were commanded, rather than velocities."""
+        """Whether joints were commanded, not velocities."""
         return "joint_positions" in self.columns
 
     @property
@@ -95,8 +89,6 @@ def read_played(folder: Path) -> PlayedRows:
 
     Raises:
         ConfigurationError: If there are no valid rows.
-        ValueError: If a file is too long, or not a regular file.
-        OSError: If a file cannot be read.
     """
     name = folder.resolve().name
     notes = read_json(folder / METADATA)
@@ -116,12 +108,6 @@ def monotonic_times(times: Array) -> Array:
 
     A robot's clock restarts with each walk and after each lost connection.
     At a restart one tick is taken to have passed.
-
-    Args:
-        times: Times of the robot's clock, in [s]. Shape (rows,).
-
-    Returns:
-        Monotonic times, in [s]. Shape (rows,).
     """
     passed = np.diff(times)
     with np.errstate(invalid="ignore"):

@@ -142,11 +142,6 @@ def complete_play(
 
     Summary, trajectories and checksums are added. No figure is drawn, as the
     computer of a robot need not have matplotlib.
-
-    Raises:
-        ConfigurationError: If there are no valid rows.
-        OSError: If the folder cannot be written.
-        OutputError: Likewise.
     """
     from .play_conversion import run_of_play
 
@@ -213,11 +208,7 @@ def _load_complete_run(folder: Path) -> Run:
 
 
 def read_header(plain: Any, run: str) -> dict[str, Any]:
-    """Return the content of a summary, with a valid header.
-
-    Raises:
-        ConfigurationError: If format, game or outcome is unknown.
-    """
+    """Return the content of a summary with known format, game, outcome."""
     entries = check_object(plain, f"{SUMMARY} of run {run}")
     outcomes = [outcome.value for outcome in Outcome]
     for key, known in (
@@ -238,11 +229,7 @@ def read_header(plain: Any, run: str) -> dict[str, Any]:
 def read_record(
     name: str, settings: Any, header: dict[str, Any], arrays: dict[str, Array]
 ) -> Run:
-    """Build a run from the content of a run folder; see :func:`read_header`.
-
-    Raises:
-        ConfigurationError: If the content is invalid.
-    """
+    """Build a run from the content of a run folder."""
     source = f"{SUMMARY} of run {name}"
     about = read_entries(RunHeader, header, source, ignoring=True)
     summary = read_entries(Summary, header, source, ignoring=True)
@@ -297,11 +284,6 @@ def check_checksums(folder: Path, names: Collection[str]) -> None:
     """Check the files of a run folder against its checksums.
 
     A folder without checksums was edited by hand and is not checked.
-
-    Raises:
-        ConfigurationError: If a file has another checksum, or none.
-        ValueError: If a file is not a regular file, or too long.
-        OSError: If a file cannot be read.
     """
     if not (folder / CHECKSUMS).exists():
         return
