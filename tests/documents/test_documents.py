@@ -45,6 +45,7 @@ NOT_MEASURED = {
     ("docs/legs.md", "name"),
     ("docs/run-folder.md", "`outcome`"),
     ("docs/run-folder.md", "array"),
+    ("docs/run-folder.md", "entry"),
     ("docs/run-folder.md", "file"),
     ("docs/sensing.md", "parameter"),
     ("docs/settings.md", "file or folder"),
