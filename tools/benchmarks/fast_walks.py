@@ -9,12 +9,15 @@ from dataclasses import replace
 from math import radians
 
 from benchmark_options import ask
-from parallel_walks import walk_all
+from resumable_jobs import Row, finished, gather
 
+from stepaside.games.recorded_game import run_walk
+from stepaside.games.run_archive import results_of
 from stepaside.games.walk_settings import WalkSettings
 from stepaside.locomotion.control_settings import ControlSettings
 from stepaside.planning import PRESETS
 from stepaside.sim.body_settings import BODIES
+from stepaside.studies.result_files import header, write_result
 
 KEPT = (
     "outcome",
@@ -28,6 +31,13 @@ KEPT = (
     "tilt_max_deg",
 )
 BEARINGS = (-90, -45, 0, 45, 90)  # in [deg]
+
+
+def walk(settings: WalkSettings) -> Row:
+    """Return the values of one walk."""
+    found: Row = results_of(run_walk(settings))
+    found |= found["planning"] | found["walking"]
+    return found
 
 
 def main() -> None:
@@ -65,7 +75,14 @@ def main() -> None:
         "seeds": arguments.seeds,
         "bearings_deg": BEARINGS,
     }
-    walk_all(arguments, settings, jobs, KEPT)
+    head = header(settings)
+    whole = gather(arguments.output, head, jobs, walk, arguments.workers)
+    walks = {
+        name: {key: row[key] for key in KEPT} for name, row in whole.items()
+    }
+    falls = sum(row["outcome"] != "completed" for row in walks.values())
+    write_result(arguments.output, head, falls=falls, walks=walks)
+    finished(arguments.output)
 
 
 if __name__ == "__main__":
