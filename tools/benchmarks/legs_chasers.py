@@ -1,30 +1,23 @@
-r"""Let people who steer at it, or feint, chase a robot on learned legs.
+"""Let people who steer at it chase a robot on learned legs.
 
 The robot is a matador. People come from twelve directions, with three turning
-radii, for 40 s each; bodies pass through each other. Whoever feints does so by
-the distance and duration with which a search in the template, the point that
-stands for the legs, came closest to it::
+radii, for 40 s each; bodies pass through each other::
 
     python tools/benchmarks/legs_chasers.py g1 fastsac_g1_29dof.onnx
-    python tools/benchmarks/legs_chasers.py g1 g1.onnx --sensing lidar \
-        --like docs/results/legs-chasers.json
+    python tools/benchmarks/legs_chasers.py g1 g1.onnx --sensing lidar
 
-With ``--like`` the feints of an earlier result are played again. An
-interrupted run continues.
+An interrupted run continues.
 """
 
-import json
 from dataclasses import dataclass, replace
 from functools import cache
 from math import pi, tau
 from pathlib import Path
 from typing import Any
 
-import numpy as np
 from benchmark_options import ask
 from resumable_jobs import finished, gather
 
-from stepaside.core.random_streams import named_generator
 from stepaside.games.duel_settings import SENSING, DuelSettings
 from stepaside.games.forecast import forecast
 from stepaside.games.recorded_game import run_duel
@@ -42,34 +35,15 @@ from stepaside.theory.value.closed_forms import guaranteed_distance
 
 RADII = (2.5, 4.0, 8.0)  # of the turns of people, in [m]
 DIRECTIONS = 12
-PEOPLE = ("steer", "feint")
 SPEED = 1.4  # of people, in [m/s]
 STEERING = 10.0  # gain of people, in [1/s]: they turn at their limit
 DISTANCE = 8.0  # at first, in [m]
 DURATION = 40.0  # of a duel, in [s]
-NEAREST, FARTHEST = 1.0, 6.0  # distance at which people feint, in [m]
-SHORTEST, LONGEST = 0.2, 1.5  # duration of a feint, in [s]
-CANDIDATES = 12  # feints drawn for each person
-REFINED = 6  # variations of the best of them
-SPREAD = 0.15  # of a variation, relative to the ranges
 
 
 @dataclass(frozen=True, slots=True)
 class Chase:
-    """One chase.
-
-    Attributes:
-        robot: Folder of the robot.
-        network: File of its policy.
-        sensing: Sensing of the robot.
-        cameras: Its cameras, with the sensing of cameras.
-        radius: Smallest turning radius of the person, in [m].
-        direction: Number of the direction that the person comes from.
-        feints: Whether the person feints.
-        seed: Seed of the search for a feint.
-        known: Distance [m] and duration [s] of a feint that was found
-            before; without one it is searched.
-    """
+    """One chase, from one of the directions, with a turning radius [m]."""
 
     robot: str
     network: str
@@ -77,12 +51,10 @@ class Chase:
     cameras: CameraSettings
     radius: float
     direction: int
-    feints: bool
-    seed: int
-    known: tuple[float, float] | None = None
 
-    def settings(self, feint_at: float = 0.0, feint: float = 0.6) -> Any:
-        """Return the duel with a feint at a distance [m] of a time [s]."""
+    @property
+    def settings(self) -> Any:
+        """Settings of the duel."""
         base = _base(self.robot, self.network)
         return replace(
             base,
@@ -93,8 +65,6 @@ class Chase:
                 SPEED,
                 STEERING,
                 turning_radius=self.radius,
-                feint_at=feint_at,
-                feint=feint,
                 solid=False,
             ),
             start=replace(
@@ -104,28 +74,6 @@ class Chase:
                 evader_offset=pi - tau * self.direction / DIRECTIONS,
             ),
         )
-
-    def hardest(self) -> Any:
-        """Return the duel whose feint brings the person closest."""
-        name = f"chaser {self.radius:g} m, direction {self.direction}"
-        generator = named_generator(self.seed, name)
-        best, least = generator.random(3), np.inf
-        for i in range(CANDIDATES + REFINED):
-            drawn = generator.random(3)
-            if i >= CANDIDATES:
-                drawn = best + SPREAD * generator.standard_normal(3)
-                drawn = np.clip(drawn, 0.0, 1.0)
-            closest = forecast(self._feinting(drawn)).min_distance_m
-            if closest is not None and closest < least:
-                best, least = drawn, closest
-        return self._feinting(best)
-
-    def _feinting(self, shares: Any) -> Any:
-        """Return the duel at shares of the ranges. Shape (3,)."""
-        feint_at = NEAREST + shares[0] * (FARTHEST - NEAREST)
-        feint = SHORTEST + shares[1] * (LONGEST - SHORTEST)
-        side = 1.0 if shares[2] < 0.5 else -1.0
-        return self.settings(round(feint_at, 3), round(side * feint, 3))
 
 
 @cache
@@ -141,17 +89,10 @@ def _base(robot: str, network: str) -> DuelSettings:
 
 def play(chase: Chase) -> dict[str, Any]:
     """Return how one chase ended."""
-    if chase.known is not None:
-        settings = chase.settings(*chase.known)
-    else:
-        settings = chase.hardest() if chase.feints else chase.settings()
-    run = run_duel(settings)
+    run = run_duel(chase.settings)
     return {
         "turning_radius_m": chase.radius,
         "direction": chase.direction,
-        "feints": chase.feints,
-        "feint_at_m": settings.person.feint_at,
-        "feint_s": settings.person.feint if chase.feints else 0.0,
         "outcome": run.outcome.value,
         "duration_s": run.duration,
         "triggered_at_s": run.summary.triggered_at_s,
@@ -179,9 +120,6 @@ def main() -> None:
     parser.add_argument(
         "--depth-camera", choices=DEPTH_CAMERAS, default="xtion"
     )
-    parser.add_argument("--seed", type=int, default=1)
-    parser.add_argument("--like", type=Path, help="earlier results")
-    parser.add_argument("--people", choices=PEOPLE, nargs="+", default=PEOPLE)
     parser.add_argument("--workers", type=int, default=1)
     asked = parser.parse_args()
     if asked.rear_camera and asked.sensing != "cameras":
@@ -204,28 +142,11 @@ def main() -> None:
             "directions": DIRECTIONS,
             "duration_s": DURATION,
             "strategy": "matador",
-            "seed": asked.seed,
         }
     )
     where = str(asked.robot), str(asked.network), asked.sensing, cameras
-    known = {}
-    if asked.like is not None:
-        earlier = json.loads(asked.like.read_text(encoding="utf-8"))
-        known = {
-            (row["turning_radius_m"], row["direction"]): (
-                row["feint_at_m"],
-                row["feint_s"],
-            )
-            for row in earlier["chases"]
-            if row["feints"]
-        }
     jobs = {
-        f"{radius:g} m from {i}{', feints' if feints else ''}": Chase(
-            *(*where, radius, i, feints, asked.seed),
-            known=known.get((radius, i)) if feints else None,
-        )
-        for feints in (False, True)
-        if PEOPLE[feints] in asked.people
+        f"{radius:g} m from {i}": Chase(*where, radius, i)
         for radius in RADII
         for i in range(DIRECTIONS)
     }

@@ -23,11 +23,7 @@ class Part:
     problem: str = ""
 
     def complaints(self, text: str) -> Iterator[str]:
-        """Yield line, expected and current text if they differ.
-
-        Args:
-            text: Text of the whole document.
-        """
+        """Yield line, expected and current text if they differ."""
         line = text.count("\n", 0, self.start) + 1
         if self.wanted is None:
             yield f"{line}: {self.problem} ({self.source})"

@@ -65,16 +65,7 @@ def drawn_from(file: Path) -> str:
 
 
 def draw_picture(name: str, store: Store, folder: Path = IMAGES) -> bool:
-    """Draw a figure unless it is up to date.
-
-    Args:
-        name: Key of ``PICTURES``.
-        store: Results.
-        folder: Folder of the figures.
-
-    Returns:
-        Whether it was drawn.
-    """
+    """Draw a figure of ``PICTURES``; return False if it is up to date."""
     picture, file = PICTURES[name], folder / name
     source = picture.source(store)
     if file.exists() and drawn_from(file) == source:

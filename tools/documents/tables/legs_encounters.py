@@ -12,12 +12,7 @@ MILLISECONDS = 1e3  # per second
 
 
 def seen_by(settings: Mapping[str, Any], sensing: str) -> str:
-    """Return the sensors of a result in words.
-
-    Args:
-        settings: Settings of the result.
-        sensing: Kind of sensing.
-    """
+    """Return the sensors of a result in words."""
     rear = settings.get("rear_camera", False)
     words = "cameras ahead and behind" if rear else sensing
     camera = settings.get("depth_camera", "")
@@ -25,11 +20,7 @@ def seen_by(settings: Mapping[str, Any], sensing: str) -> str:
 
 
 def body_of(settings: Mapping[str, Any]) -> str:
-    """Return the body of a campaign: its preset, another delay, sensors.
-
-    Args:
-        settings: Settings of the result.
-    """
+    """Return the body of a campaign: its preset, another delay, sensors."""
     changes = json.loads(settings["changes"])
     own, words = changes.get("body"), ["ideal"]
     if own is not None:
