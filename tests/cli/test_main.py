@@ -222,14 +222,14 @@ def test_interrupted_duel_reports_its_run(
 ) -> None:
     from stepaside.games.recorded_game import RecordedGame
 
-    tick = RecordedGame.advance
+    tick = RecordedGame.tick
 
     def impatient(self: RecordedGame, until: float = inf) -> Any:
         if self.in_physics.ticks >= 300:
             raise KeyboardInterrupt
         return tick(self, until)
 
-    monkeypatch.setattr(RecordedGame, "advance", impatient)
+    monkeypatch.setattr(RecordedGame, "tick", impatient)
     folder = tmp_path / "run"
     result = run("duel", "--seed", "2", "--output", str(folder))
     assert result.exit_code == 130

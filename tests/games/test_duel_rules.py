@@ -73,15 +73,15 @@ def lay_down(duel: RecordedGame, number: int) -> None:
 def test_a_fall_ends_a_duel_and_is_reported(
     monkeypatch: pytest.MonkeyPatch, fallen: tuple[int, ...], message: str
 ) -> None:
-    decide = RecordedGame.decide
+    tick = RecordedGame.tick
 
-    def clumsy(duel: RecordedGame) -> None:
+    def clumsy(duel: RecordedGame) -> Outcome | None:
         if duel.in_physics.ticks == 4:
             for number in fallen:
                 lay_down(duel, number)
-        decide(duel)
+        return tick(duel)
 
-    monkeypatch.setattr(RecordedGame, "decide", clumsy)
+    monkeypatch.setattr(RecordedGame, "tick", clumsy)
     result = run_duel(DuelSettings(start=START, duration=1.0))
     assert result.outcome is Outcome.FALL and result.message == message
     assert result.duration == pytest.approx(0.02)

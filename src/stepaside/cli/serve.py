@@ -125,13 +125,10 @@ def serve(
             lock_step=lockstep,
             patience=wait,
         )
-    late = ", ".join(f"{k} ms: {n}" for k, n in served.lateness_ms.items())
 
     def show() -> None:
         print_run(served.run)
-        print_table(
-            [("late ticks", str(served.late_ticks)), ("lateness", late)]
-        )
+        print_table([("late ticks", str(served.late_ticks))])
 
     finish_run(served.run, folder, as_json, show, served.to_json())
 

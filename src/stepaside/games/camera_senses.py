@@ -53,17 +53,9 @@ class CameraSenses:
     ) -> None:
         """Prepare the perception of the robots of a game.
 
-        Args:
-            settings: Settings of the game, with the initial poses filled in.
-            description: Description of the robots; all are of one model.
-            directions: Driving direction of each robot that perceives in
-                this process; one that walks backward and has no camera on
-                its torso scans the room behind.
-            tick: Control period, in [s].
-
-        Raises:
-            StepAsideError: If the robot has no head or the renderer is not
-                available.
+        All are of one model. A robot that perceives in this process has a
+        driving direction; one that walks backward and has no camera on its
+        torso scans the room behind.
         """
         # The simulation is sequential; threads of OpenCV would only wait.
         cv2.setNumThreads(1)
@@ -148,30 +140,21 @@ class CameraSenses:
     ) -> SightEvaluator:
         """Return the evaluation of a robot's sightings of its opponent.
 
-        Args:
-            robot: The robot that sees.
-            other: True state of its opponent.
-            things: Objects in view of the cameras.
-            wears_trim: Whether the opponent wears the known colour.
+        Things are other objects in view; the opponent may wear the colour
+        that is known of its role.
         """
-        places = [(thing.x, thing.y) for thing in things]
-        perception = self.perceptions[robot.name]
         return SightEvaluator(
             robot,
             other,
-            perception,
+            self.perceptions[robot.name],
             self._head,
-            places,
+            [(thing.x, thing.y) for thing in things],
             wears_trim=wears_trim,
         )
 
 
 class SightObserver(GameObserver):
-    """Observer that evaluates the perception of each robot.
-
-    Attributes:
-        evaluators: Evaluators, by name of the robot.
-    """
+    """Observer that evaluates the perception of each robot, by name."""
 
     def __init__(
         self,
@@ -180,7 +163,7 @@ class SightObserver(GameObserver):
         *,
         every: int,
     ) -> None:
-        """Observe a match."""
+        """Compare sightings with the truth in some ticks."""
         self.evaluators = dict(evaluators)
         self._renderer, self._every = renderer, every
         self._ticks = 0
@@ -199,10 +182,7 @@ class SightObserver(GameObserver):
 
     def sight(self) -> dict[str, Array]:
         """Return estimated and true sightings, by name of the robot."""
-        return {
-            name: evaluator.array()
-            for name, evaluator in self.evaluators.items()
-        }
+        return {name: own.array() for name, own in self.evaluators.items()}
 
     def report(self) -> tuple[PerceptionSummary, dict[str, SightSummary]]:
         """Return errors and detection rates of all robots and of each."""

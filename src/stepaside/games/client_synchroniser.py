@@ -5,8 +5,6 @@ from collections.abc import Sequence
 from time import monotonic, sleep
 from typing import Protocol
 
-import numpy as np
-
 from ..core.errors import ConfigurationError
 from .game import GameInPlay, GameObserver
 
@@ -57,7 +55,7 @@ class ClientSynchroniser(GameObserver):
     """Observer that synchronises a game with its clients.
 
     Attributes:
-        lateness: Delay of the beginning of each tick, in [s].
+        late: Ticks that began more than 6 ms late.
         unanswered: Frames that were not answered in their tick.
     """
 
@@ -72,20 +70,7 @@ class ClientSynchroniser(GameObserver):
         self._servers, self._tick = servers, tick
         self._lock_step = lock_step
         self._due = monotonic()
-        self.lateness: list[float] = []
-        self.unanswered = 0
-
-    @property
-    def late(self) -> int:
-        """Ticks that began more than 6 ms late."""
-        return sum(late > LATE for late in self.lateness)
-
-    def histogram(self) -> dict[str, int]:
-        """Return the number of ticks by delay, in [ms]."""
-        edges = np.array([0.0, 0.25, 0.5, 1.0, 2.0, 4.0, 6.0, 12.0, np.inf])
-        counts, _ = np.histogram(1e3 * np.array(self.lateness), edges)
-        names = [f"< {edge:g}" for edge in edges[1:-1]] + [">= 12"]
-        return dict(zip(names, counts.tolist(), strict=True))
+        self.late = self.unanswered = 0
 
     def gather(self, longest: float) -> None:
         """Wait until every client is ready, then press the chest buttons.
@@ -115,8 +100,7 @@ class ClientSynchroniser(GameObserver):
             self._exchange()
         for server in self._servers:
             server.press(False)
-        self.lateness.clear()
-        self.unanswered = 0
+        self.late = self.unanswered = 0
 
     def before(self, game: GameInPlay) -> None:
         """Exchange measurements and commands before the players act."""
@@ -130,7 +114,7 @@ class ClientSynchroniser(GameObserver):
                 sleep(self._due - now)
                 now = monotonic()
             late = max(0.0, now - self._due)
-            self.lateness.append(late)
+            self.late += late > LATE
             # Frames after a stall must not outrun the clients' clocks.
             begun = now if late > STALL else self._due
             self._due = begun + self._tick

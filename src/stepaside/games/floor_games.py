@@ -6,7 +6,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ..arena import NO_OBSTACLES, OPEN_FLOOR, Room
+from ..arena import NO_OBSTACLES, OPEN_FLOOR, ObstacleSet, Room
 from ..core.brief_repr import brief_repr
 from ..core.constants import CAPTURE_DISTANCE
 from ..core.errors import ConfigurationError, StrategyError
@@ -117,8 +117,7 @@ def play_strategies(
         game: Rules; by default those of :class:`StepGame`.
 
     Raises:
-        PlanError: If a strategy requests an invalid motion.
-        StrategyError: If a strategy returns no intent.
+        StrategyError: If a strategy fails.
     """
     game = game or StepGame()
     world = floor_of_two(game, (pursuer, evader), starts, room)
@@ -137,16 +136,8 @@ def play_unicycles(
 ) -> StrategyTrack:
     """Play a game of unicycles with named strategies.
 
-    Args:
-        game: Speeds, gains, and parameters of the paper's evader, which
-            evades from the begin.
-        start: Initial relative pose.
-        names: Strategies of pursuer and evader.
-        times: Duration and decision period, in [s].
-        capture: Capture distance, in [m]; ends the game.
-
-    Raises:
-        ConfigurationError: If a strategy is invalid.
+    The paper's evader evades from the begin. ``times`` are duration and
+    decision period, in [s]; the capture distance, in [m], ends the game.
     """
     evasion = Evasion(
         game.angle,
@@ -164,12 +155,7 @@ def play_unicycles(
 def track_of(
     game: GameInPlay, recorder: FloorRecorder, room: Room = OPEN_FLOOR
 ) -> StrategyTrack:
-    """Return the record of a finished game of pursuer and evader.
-
-    Raises:
-        KeyboardInterrupt: If the user interrupted it.
-        StrategyError: If a strategy failed.
-    """
+    """Return the record of a finished game, or raise what broke it off."""
     assert game.ended is not None
     if game.ended.outcome is Outcome.INTERRUPTED:
         raise KeyboardInterrupt
@@ -247,31 +233,23 @@ def play_template(
         motion: Returns the motion of the pursuer from its initial pose and
             the evader's position.
         start: Initial pose of the pursuer in the world.
-        evader: Initial pose of the evader in the world.
+        evader: That of the evader.
         strategy: Strategy of the evader.
-        gait: Gait of the evader.
+        gait: Its gait.
         duration: Duration of the game, in [s].
-        velocities: Velocities that learned legs deliver; None for a unicycle.
+        velocities: Velocities of learned legs; None for a unicycle.
         step: Step of the integration, in [s].
     """
-    agent = FloorAgent(
-        strategy,
-        limits_of(gait, velocities),
-        PAIR["evader"],
-        list(PAIR.values()),
-    )
+    limits, everyone = limits_of(gait, velocities), list(PAIR.values())
+    agent = FloorAgent(strategy, limits, PAIR["evader"], everyone)
     own: FloorMotion
     if velocities is not None:
         own = FloorPoint(agent, evader, gait, step)
     else:
         own = FloorWalk(agent, evader, delay=gait.start_support, alert=step)
     walk = motion(start, (evader.x, evader.y))
-    world = FloorWorld(
-        {
-            "pursuer": FloorPerson("pursuer", walk, {}, "evader", step),
-            "evader": own,
-        }
-    )
+    person = FloorPerson("pursuer", walk, {}, "evader", step)
+    world = FloorWorld({"pursuer": person, "evader": own})
     recorder = FloorRecorder(world, step)
     game = GameInPlay(world, GameRules(duration), (recorder,))
     play(game)
@@ -282,17 +260,16 @@ def floor_of(settings: GameSettings) -> FloorWorld:
     """Return the world of a game at level "unicycle" or "steps".
 
     Obstacles stop pursuers; any other robot that touches one ends the game.
-
-    Raises:
-        StepAsideError: If a strategy is invalid or a recorded run is
-            unreadable.
     """
-    room = settings.room
     return FloorWorld(
         {own.name: motion_of(settings, own) for own in settings.players},
-        NO_OBSTACLES if room is None else room.solid_set,
+        _solids(settings),
         [p.name for p in settings.players if p.role != Role.PURSUER],
     )
+
+
+def _solids(settings: GameSettings) -> ObstacleSet:
+    return (settings.room or OPEN_FLOOR).solid_set
 
 
 def rules_of(settings: GameSettings) -> GameRules:
@@ -312,9 +289,9 @@ def motion_of(
 
     A person on a path decides after each period, in [s].
     """
-    pose, room, physics = own.pose, settings.room, settings.level == "physics"
+    pose, solids = own.pose, _solids(settings)
+    physics = settings.level == "physics"
     assert pose is not None
-    solids = NO_OBSTACLES if room is None else room.solid_set
     if own.decides:
         return FloorWalk(
             agent_of(settings, own),
@@ -340,36 +317,25 @@ def motion_of(
 
 def agent_of(settings: GameSettings, own: PlayerSettings) -> FloorAgent:
     """Return the strategy of a template, which knows the room."""
-    gait, room = own.gait, settings.room
+    gait, knows = own.gait, settings.knows_room
     return FloorAgent(
         strategy_of(own, Pose(0.0, 0.0, 0.0)),
         Limits(gait.speed, gait.gain, gait.stride, gait.step_duration),
         own.identity,
         list(settings.identities.values()),
         target=own.target,
-        obstacles=room.solid_set
-        if room and settings.knows_room
-        else NO_OBSTACLES,
+        obstacles=_solids(settings) if knows else NO_OBSTACLES,
     )
 
 
 def walk_on_path(settings: GameSettings, own: PlayerSettings) -> PersonMotion:
-    """Return the walk of a person without a goal, at its begin.
-
-    Raises:
-        ConfigurationError: If there is no other player.
-    """
+    """Return the walk of a person without a goal, at its begin."""
     pose = own.pose
     aim = settings.player(_target_of(settings, own)).pose
     assert pose is not None and aim is not None
-    room = settings.room
     course = pose.theta + (pi if own.person.backward else 0.0)
-    return PersonMotion(
-        own.person,
-        Pose(pose.x, pose.y, course),
-        (aim.x, aim.y),
-        NO_OBSTACLES if room is None else room.solid_set,
-    )
+    start = Pose(pose.x, pose.y, course)
+    return PersonMotion(own.person, start, aim[:2], _solids(settings))
 
 
 def _target_of(settings: GameSettings, own: PlayerSettings) -> str:

@@ -39,26 +39,21 @@ Seen = Mapping[str, Pose]
 
 
 class FloorMotion:
-    """Motion of a player on the floor.
+    """Motion of a player on the floor; times in [s], poses in the world."""
 
-    Attributes:
-        pose: Present pose in the world.
-        due: Time of its next decision, in [s].
-    """
-
-    pose: Pose
-    due = 0.0
+    pose: Pose  # present
+    due = 0.0  # time of its next decision
 
     def decide(self, now: float, seen: Seen) -> None:
-        """Decide at a time, in [s], how to move until the next decision."""
+        """Decide at a time how to move until the next decision."""
         raise NotImplementedError
 
     def pose_at(self, time: float) -> Pose:
-        """Return the pose at a time before the next decision, in [s]."""
+        """Return the pose at a time before the next decision."""
         raise NotImplementedError
 
     def advance(self, until: float) -> None:
-        """Move to a time, in [s], at most to the next decision."""
+        """Move to a time, at most that of the next decision."""
         self.pose = self.pose_at(until)
 
 
@@ -147,8 +142,6 @@ class FloorWalk(FloorMotion):
     It follows the arc of its last decision for a step, or a part of it.
 
     Attributes:
-        agent: Strategy of the player.
-        is_walking: Whether it walks.
         decision_times: Processor time of each decision, in [s].
     """
 
@@ -167,15 +160,13 @@ class FloorWalk(FloorMotion):
         """Begin standing.
 
         Args:
-            agent: Strategy of the player.
-            pose: Initial pose in the world.
+            agent: Its strategy.
+            pose: Initial pose.
             parts: Decisions per step.
-            delay: Time from the decision to walk to the first motion of a
-                standing player, in [s].
-            largest_turn: Largest turn of a step, in [rad]; that of eq. (2)
-                by default.
-            alert: Time between decisions while it stands, in [s]; that of
-                its steps, or parts of steps, by default.
+            delay: Time from the decision to start to the motion, in [s].
+            largest_turn: Of a step, in [rad]; by default that of eq. (2).
+            alert: Time between decisions while it stands, in [s]; by default
+                that of walking.
             walls: Obstacles that stop it.
             radius: Least distance from them, in [m].
         """
@@ -193,12 +184,10 @@ class FloorWalk(FloorMotion):
         self._left = (0.0, 0.0)  # way [m] and turn [rad] until the decision
 
     def look(self, now: float, seen: Seen) -> Knowledge | None:
-        """Return the knowledge for the decision at a time, in [s]."""
+        """Return the knowledge for the decision at a time."""
         if self._known[0] != now:
-            self._known = (
-                now,
-                self.agent.look(now, seen, moving=self.is_walking),
-            )
+            known = self.agent.look(now, seen, moving=self.is_walking)
+            self._known = now, known
         return self._known[1]
 
     def decide(self, now: float, seen: Seen) -> None:
@@ -260,17 +249,13 @@ class FloorWalk(FloorMotion):
 class FloorPoint(FloorMotion):
     """Point that stands for learned legs: it walks in any direction.
 
-    Its velocity follows the commands with the lags of the legs. It decides
-    in each step of its integration.
+    Its velocity follows the commands with the lags of the legs.
     """
 
     def __init__(
         self, agent: FloorAgent, pose: Pose, gait: GaitSettings, step: float
     ) -> None:
-        """Begin standing; the agent's limits hold the velocities of the legs.
-
-        The gait has speed, steering gain and decision interval of headings.
-        """
+        """Begin standing, to be integrated in steps, in [s]."""
         assert agent.limits.velocities is not None
         self._agent, self._legs = agent, agent.limits.velocities
         self.pose = pose
@@ -318,15 +303,11 @@ class FloorPerson(FloorMotion):
         target: str = "",
         period: float = PERIOD,
     ) -> None:
-        """Begin a walk.
+        """Begin a walk that decides in each period, in [s].
 
-        Args:
-            name: Name of the person.
-            motion: Its walk.
-            bodies: Whether each player is a person, its radius, in [m], and
-                whether it is a companion, by name.
-            target: Player that a walk without a goal is relative to.
-            period: Time between decisions, in [s].
+        To a goal it is among bodies: whether each player is a person, its
+        radius, in [m], and whether it is a companion; else relative to the
+        target.
         """
         self.motion, self.pose = motion, motion.pose
         self._name, self._bodies, self._target = name, bodies, target
@@ -509,10 +490,7 @@ class FloorRecorder(GameObserver):
         self._rows.append(poses)
 
     def poses(self) -> dict[str, Array]:
-        """Return the poses (x, y [m], heading [rad]) of each player.
-
-        Shapes (n, 3).
-        """
+        """Return the poses of each player. Shapes (n, 3)."""
         found = np.array(self._rows).reshape(len(self._times), -1, 3)
         return {
             name: found[:, number]

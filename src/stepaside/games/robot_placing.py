@@ -54,38 +54,21 @@ if TYPE_CHECKING:
 
 
 class RobotSetup(NamedTuple):
-    """Robot of a game, before it stands in the world.
+    """Robot of a game, before it stands in the world."""
 
-    Attributes:
-        name: Name of the robot in the world.
-        description: Description of the robot.
-        gait: Gait; speed, steering gain and decision interval of the
-            template of learned legs.
-        control: Control settings.
-        legs: Walking policy, if it has one.
-        body: Deviations of the body from an ideal one.
-        start: Initial pose of its odometry in the world.
-        seed: Seed of sensor errors.
-        truth: Its true state in the world, if that exists.
-        source: Source of sightings for its controller.
-        sights: Ideal sensors, one for each other player.
-        eyes: Cameras and sonars, or the lidar.
-        clearance: Knowledge of the room and required clearance; a robot that
-            knows the room also knows its pose in it.
-    """
-
-    name: str
+    name: str  # in the world
     description: RobotDescription
-    gait: GaitSettings
+    gait: GaitSettings  # or template of learned legs
     control: ControlSettings = ControlSettings()
     legs: LegsSettings = LegsSettings()
     body: BodySettings = BodySettings()
-    start: Pose = Pose(0.0, 0.0, 0.0)
-    seed: int = 0
-    truth: TrueRobotState | None = None
-    source: SightSource | None = None
-    sights: tuple[IdealLineOfSight, ...] = ()
+    start: Pose = Pose(0.0, 0.0, 0.0)  # of its odometry in the world
+    seed: int = 0  # of sensor errors
+    truth: TrueRobotState | None = None  # its true state, if that exists
+    source: SightSource | None = None  # of sightings for its controller
+    sights: tuple[IdealLineOfSight, ...] = ()  # of each other player
     eyes: "SensorSuite | Lidar | None" = None
+    # Knowledge of the room; who knows the room also knows its pose in it.
     clearance: ClearanceSetup | None = None
 
     def true_state_in(self, world: World) -> TrueRobotState:
@@ -153,12 +136,7 @@ class RobotSetup(NamedTuple):
 def robot_with_strategy(
     world: World, setup: RobotSetup, strategy: Strategy
 ) -> RobotPlayer:
-    """Place a robot in a world that contains it, with its controller.
-
-    Raises:
-        ReachError: If the legs cannot reach the initial stance of the gait.
-        PolicyError: If the network cannot run on the robot.
-    """
+    """Place a robot in a world that contains it, with its controller."""
     strategy, tick = with_body_radius(strategy, setup), world.physics.tick
     if not setup.legs.walks:
         scheme = build_scheme(
@@ -223,15 +201,7 @@ def clearance_in(
     setup: RobotSetup,
     perception: "Perception | None" = None,
 ) -> ClearanceSetup | None:
-    """Return the knowledge that a robot has of the room; None without any.
-
-    Args:
-        room: Room of the game; None on an open floor.
-        known: Settings of the map.
-        setup: The robot; the room is in the world.
-        perception: Perception with a map of the floor, if the robot maps the
-            room.
-    """
+    """Return the knowledge that a robot has of the room, given or mapped."""
     if room is None or known.source == "none":
         return None
     surroundings: Surroundings = KnownRoom(room, setup.start)
@@ -267,9 +237,6 @@ def policy_physics(
     With an ideal body nothing happens between two evaluations of a policy:
     the actuators apply its gains at every time step. One with delays or
     sensor errors keeps its tick.
-
-    Raises:
-        PolicyError: If a network cannot run on its robot.
     """
     from ..locomotion.policy.policy_legs import load_policy
 

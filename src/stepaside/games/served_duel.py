@@ -20,16 +20,10 @@ if TYPE_CHECKING:
 
 
 class RobotEndpoint(NamedTuple):
-    """Protocol and address at which a robot is served.
+    """Protocol and address at which a robot is served."""
 
-    Attributes:
-        control: How the client controls the robot.
-        serve: Serves the robot, with whether the simulation waits for
-            commands.
-    """
-
-    control: RemoteControl
-    serve: Callable[[Any, bool], RobotServer]
+    control: RemoteControl  # of the robot by its client
+    serve: Callable[[Any, bool], RobotServer]  # a player, maybe in lock step
 
 
 def lola_endpoint(path: str, *, ideal_sight: bool = True) -> RobotEndpoint:
@@ -61,11 +55,7 @@ def ros2_endpoint(
 ) -> RobotEndpoint:
     """Return the topics of a robot that walks at commanded velocities.
 
-    Args:
-        dds: DDS participant of the simulation.
-        clock: Publisher of the simulated time.
-        namespace: Namespace with a leading slash, or empty.
-        ideal_sight: Whether the true line of sight is published.
+    The namespace has a leading slash, or is empty.
     """
 
     def serve(player: VelocityWalker, lock_step: bool) -> RobotServer:
@@ -87,25 +77,16 @@ def ros2_endpoint(
 
 
 class ServedDuel(NamedTuple):
-    """Finished served duel.
-
-    Attributes:
-        run: The recorded duel.
-        late_ticks: Ticks that began more than 6 ms late.
-        lateness_ms: Number of ticks by delay, in [ms].
-        unanswered: Frames that were not answered in their tick.
-    """
+    """Finished served duel."""
 
     run: Run
-    late_ticks: int
-    lateness_ms: dict[str, int]
-    unanswered: int
+    late_ticks: int  # that began more than 6 ms late
+    unanswered: int  # frames that were not answered in their tick
 
     def to_json(self) -> dict[str, Any]:
         """Return the summary of the duel and the timing, as plain values."""
         return results_of(self.run) | {
             "late_ticks": self.late_ticks,
-            "lateness_ms": self.lateness_ms,
             "unanswered_frames": self.unanswered,
         }
 
@@ -161,6 +142,4 @@ def serve_duel(
             if isinstance(player, ServedPlayer):
                 player.begin()
         play(game, report=report)
-    return ServedDuel(
-        game.run(), exchange.late, exchange.histogram(), exchange.unanswered
-    )
+    return ServedDuel(game.run(), exchange.late, exchange.unanswered)
