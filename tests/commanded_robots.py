@@ -1,7 +1,6 @@
 """Simulated robots of a duel that are commanded by velocities."""
 
 from stepaside.games.duel_settings import PLAYERS, DuelSettings
-from stepaside.games.physics_world import RemoteControl
 from stepaside.games.recorded_game import RecordedGame
 from stepaside.games.robot_player import VelocityWalker
 
@@ -10,8 +9,7 @@ def commanded_robots(
     settings: DuelSettings, *, ideal_sight: bool = True
 ) -> tuple[RecordedGame, list[VelocityWalker]]:
     """Return a duel of two robots that are commanded by velocities."""
-    control = RemoteControl(balances=True, ideal_sight=ideal_sight)
-    game = RecordedGame(settings, remote=dict.fromkeys(PLAYERS, control))
+    game = RecordedGame(settings, remote=dict.fromkeys(PLAYERS, ideal_sight))
     robots = [
         p for p in game.in_physics.players if isinstance(p, VelocityWalker)
     ]

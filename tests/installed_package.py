@@ -28,7 +28,7 @@ STATUS = {  # of each command line
     "view --no-open": 2,
     "show run -o film.mp4": 2,
     "play lola:none --role evader --set wait=0": 2,
-    "serve --lola evader=socket --wait 0.1": 2,
+    "serve --ros2 evader=/e --wait 0.1": 2,
 }
 
 

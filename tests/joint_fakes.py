@@ -8,8 +8,8 @@ import numpy as np
 from stepaside.control.strategy_runner import StrategyRunner
 from stepaside.core.poses import Array, Pose
 from stepaside.drivers.joint_loop import JointLoop
+from stepaside.drivers.joint_motion import Motors
 from stepaside.drivers.method_thread import SessionLost
-from stepaside.drivers.motors import Motors
 from stepaside.drivers.robot import JointRobot, JointTargets
 from stepaside.drivers.robot_reports import plain_report
 from stepaside.drivers.safety import SafetyState
@@ -133,6 +133,9 @@ class FakeSession:
     def released(self) -> str:
         """Return the reason of the switch."""
         return self.hold
+
+    def attend(self) -> None:
+        """Have no guardian."""
 
     def check_blocked(self) -> None:
         """Check that commands arrive."""

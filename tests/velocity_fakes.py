@@ -11,7 +11,7 @@ import numpy as np
 
 from stepaside.core.poses import Array, Pose
 from stepaside.drivers.play_log import METADATA, ROWS, columns_in
-from stepaside.drivers.velocity_limits import REST
+from stepaside.drivers.robot import REST
 from stepaside.perception.measurement import RobotState, Sighting
 from stepaside.strategies.velocity_set import BodyVelocity
 
@@ -34,7 +34,8 @@ def until(done: Callable[[], Any]) -> Any:
 def report(time: float, **changes: object) -> RobotState:
     """Return the report of a standing robot with a new sighting."""
     seen = AHEAD._replace(time=time)
-    told = RobotState(time, sighting=seen, pose=Pose(0.0, 0.0, 0.0))
+    swayed = Pose(1e-6 * (time % 1.0), 0.0, 0.0)  # no odometry is exact
+    told = RobotState(time, sighting=seen, pose=swayed)
     return told._replace(**changes)  # type: ignore[arg-type]
 
 
@@ -55,6 +56,7 @@ class FakeWalker:
         self.now = 500.0
         self.asked: list[BodyVelocity] = []
         self.robot: Any = self
+        self.halted = True
 
     def clock(self) -> float:
         """Time of this computer, by hand."""
@@ -75,10 +77,12 @@ class FakeWalker:
     def command(self, call: Any) -> None:
         """Store the velocity that a call would command."""
         self.asked.append(BodyVelocity(*call.args))
+        self.halted = False
 
     def halt(self) -> None:
         """Store it."""
         self.asked.append(REST)
+        self.halted = True
 
     def close(self) -> None:
         """Nothing to let go of."""

@@ -2,17 +2,18 @@
 # # On a robot
 #
 # On a real robot the controller is a process of its own, which talks to the
-# robot over a protocol. `serve` simulates robots that speak these protocols,
-# so the same commands run without one. You start a simulated world with two
-# NAOs over LoLA and one controller for each.
+# robot over a protocol. `serve` simulates robots on ROS 2 topics, so the
+# same commands run without one. You start a simulated world with two NAOs
+# and one controller for each.
 
 # %% language="bash"
-# stepaside serve --lola pursuer=P.sock --lola evader=E.sock \
-#     --duration 20 --lockstep --json > result.json &
-# stepaside play lola:P.sock --role pursuer \
+# stepaside play ros2:/p --role pursuer --set sim_time=true \
 #     --set wait=60 --record pursuer &
-# stepaside play lola:E.sock --role evader \
-#     --set wait=60 --record evader
+# stepaside play ros2:/e --role evader --set sim_time=true \
+#     --set wait=60 --record evader &
+# stepaside serve --ros2 pursuer=/p --ros2 evader=/e \
+#     --duration 20 --lockstep --json > result.json
+# kill $(jobs -p)
 # wait
 
 # %% [markdown]
@@ -39,10 +40,9 @@ from IPython.display import Image
 Image("plays.png", width=720)
 
 # %% [markdown]
-# Their outcome is `failed` because the simulated world ended before them, and
-# with it the connection; on a robot, `--duration` or its chest button ends a
-# game.
+# Their outcome is `interrupted`, as they were ended when the simulated world
+# was; on a robot, `--duration` or Ctrl-C ends a game.
 #
-# For a real robot replace `lola:E.sock` by its address; read
+# For a real robot replace `ros2:/e` by its address; read
 # [real robots](../robots-real.md) first: states, buttons, what stops the
 # robot, and what was tested.

@@ -7,8 +7,8 @@ from .drivers.robot import CameraMount as CameraMount
 from .drivers.robot import HeadLimits as HeadLimits
 from .drivers.robot import JointRobot as JointRobot
 from .drivers.robot import JointTargets as JointTargets
+from .drivers.robot import VelocityLimits as VelocityLimits
 from .drivers.robot import VelocityRobot as VelocityRobot
-from .drivers.velocity_limits import VelocityLimits as VelocityLimits
 from .games import DuelSettings as DuelSettings
 from .games import Outcome as Outcome
 from .games import RecordedGame as RecordedGame

@@ -353,10 +353,9 @@ def test_invalid_settings_are_refused_in_one_line(
             "evader_strategy requires role evader",
         ),
         (
-            "play ros2:/x --role evader --set reconnect=2",
-            "reconnect requires joint control",
+            "play ros2:/x --role evader --set delay_ticks=2",
+            "delay_ticks requires joint control",
         ),
-        ("serve --domain 3", "--domain and --network require --ros2"),
         ("theory bound --set pursuer_turn=2", "requires against any"),
         ("theory bound --set response=1", "requires against person"),
         (

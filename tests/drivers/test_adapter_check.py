@@ -2,7 +2,6 @@
 
 import json
 from collections.abc import Callable
-from functools import partial
 from math import cos, degrees, inf, nan, sin
 from pathlib import Path
 from threading import Event
@@ -13,13 +12,15 @@ import pytest
 
 from stepaside.cli.main import main
 from stepaside.core.poses import Pose, wrap_angle
-from stepaside.drivers import method_check
-from stepaside.drivers.joint_check import JointCheck
-from stepaside.drivers.method_check import AdapterFinding
-from stepaside.drivers.motors import Motors
-from stepaside.drivers.robot import JointRobot, JointTargets, VelocityRobot
-from stepaside.drivers.velocity_check import VelocityCheck
-from stepaside.drivers.velocity_limits import VelocityLimits
+from stepaside.drivers import robot_check
+from stepaside.drivers.joint_motion import Motors
+from stepaside.drivers.robot import (
+    JointRobot,
+    JointTargets,
+    VelocityLimits,
+    VelocityRobot,
+)
+from stepaside.drivers.robot_check import AdapterFinding, RobotCheck
 from stepaside.perception.measurement import RobotState, Sighting
 
 Change = Callable[[RobotState], RobotState | None]
@@ -106,9 +107,9 @@ class IgnoresStop(KinematicRobot):
 
 def checked(robot: Any, *, dry_run: bool = False) -> dict[str, AdapterFinding]:
     """Check a robot, and return the findings by name."""
-    joints = isinstance(robot, JointRobot)
-    make: Any = partial(JointCheck, robot, MOTORS)
-    check = (make if joints else partial(VelocityCheck, robot))(
+    check = RobotCheck(
+        robot,
+        MOTORS if isinstance(robot, JointRobot) else None,
         lambda finding: None,
         dry_run=dry_run,
         clock=robot.clock,
@@ -230,7 +231,7 @@ def test_odometry_that_stands_still_in_the_air_is_no_failure() -> None:
 def test_a_method_that_blocks_fails_by_its_name() -> None:
     robot, stuck = KinematicRobot(), Event()
     robot.change = lambda report: stuck.wait(20.0) or report  # type: ignore[assignment,return-value]
-    check = VelocityCheck(robot, lambda finding: None)  # in real time
+    check = RobotCheck(robot, None, lambda finding: None)  # in real time
     try:
         check.run()
     finally:
@@ -349,7 +350,7 @@ class ReleasesItself(HangingRobot):
 @pytest.fixture(autouse=True)
 def coarse_clock(monkeypatch: pytest.MonkeyPatch) -> None:
     """Listen four times in each tick, not twenty times."""
-    monkeypatch.setattr(method_check, "POLL", TICK / 4)
+    monkeypatch.setattr(robot_check, "POLL", TICK / 4)
 
 
 def test_a_correct_robot_of_joints_passes_each_check() -> None:

@@ -94,38 +94,6 @@ def test_a_gamepad_lets_the_robot_walk_while_a_button_is_held(
     pad.close()
 
 
-def test_a_topic_is_held_while_it_is_true() -> None:
-    pytest.importorskip("cyclonedds")
-    from stepaside.drivers.ros2 import HELD, TopicSwitch
-    from stepaside.drivers.ros2_dds import DdsParticipant, make
-
-    clock = FakeClock()
-    operator = DdsParticipant(74)
-    switch = TopicSwitch(DdsParticipant(74), "/operator/hold", clock)
-    writer = operator.writer("/operator/hold", "std_msgs/msg/Bool")
-    end = monotonic() + 20.0
-    while switch.released() and monotonic() < end:
-        writer.write(make("std_msgs/Bool", True))
-        sleep(0.01)
-    assert not switch.released()
-    clock.now += 1.1 * HELD
-    assert "/operator/hold is not true" in switch.released()
-
-    def turns(is_held: bool) -> bool:
-        """Wait at one time until the switch is held or released."""
-        end = monotonic() + 20.0
-        while bool(switch.released()) == is_held and monotonic() < end:
-            sleep(0.01)
-        return bool(switch.released()) != is_held
-
-    # Letting go counts at once, also if its writer leaves.
-    writer.write(make("std_msgs/Bool", True))
-    assert turns(True)
-    operator.close()
-    assert turns(False)
-    switch.close()
-
-
 @pytest.mark.parametrize(
     ("words", "said"),
     [

@@ -23,9 +23,9 @@ from stepaside.drivers.joint_motion import (
     MIN_STIFFNESS,
     WARM,
     derate_stiffness,
+    motors_of,
 )
 from stepaside.drivers.method_thread import SessionLost
-from stepaside.drivers.motors import motors_of
 from stepaside.drivers.safety import SafetyState
 from stepaside.locomotion.locomotion import Phase
 from stepaside.perception.images import LidarScan
@@ -291,6 +291,12 @@ def test_implausible_reports_are_refused_and_end_the_session(
     assert game.loop.refused >= 4
 
 
+def test_foot_forces_are_needed_by_the_papers_walk() -> None:
+    game = walking(needs_forces=True)
+    game.session.changes["foot_forces"] = np.full(8, nan)
+    lost(game, "foot_forces are needed by the paper's walk")
+
+
 def test_one_damaged_report_is_passed_over() -> None:
     game = walking()
     game.session.once = {"gyro": (nan, 0.0, 0.0)}
@@ -320,6 +326,21 @@ def test_times_that_jump_end_the_session(jump: float, said: str) -> None:
     game = walking()
     game.session.time += jump
     lost(game, said)
+
+
+def test_reports_that_fall_behind_the_clock_end_the_session() -> None:
+    game = walking()
+    listen = game.session.listen
+
+    def late(patience: float) -> Any:
+        game.session.now += 0.5 * TICK
+        return listen(patience)
+
+    game.session.listen = late  # type: ignore[method-assign]
+    game.play(30)
+    with pytest.raises(SessionLost, match="its times are 0.5.. s behind"):
+        game.play(40)
+    assert game.state is SafetyState.LIMP
 
 
 def test_a_control_that_was_away_finds_its_robot_limp() -> None:

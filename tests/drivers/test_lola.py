@@ -1,4 +1,4 @@
-"""Test NAO V6 over LoLA: our robot against a peer, our server likewise."""
+"""Test NAO V6 over LoLA: our robot against a peer."""
 
 import os
 import signal
@@ -20,20 +20,13 @@ pytest.importorskip("msgpack")
 from flows.lola_peer import (  # noqa: E402
     JOINTS,
     TICK,
-    LolaClient,
     frame_of,
     listening,
 )
 from flows.running import until  # noqa: E402
-from stepaside.core.errors import ConfigurationError  # noqa: E402
-from stepaside.core.poses import Array  # noqa: E402
 from stepaside.drivers.lola import STALL_CURRENT, LolaRobot  # noqa: E402
-from stepaside.drivers.lola_server import LolaServer  # noqa: E402
 from stepaside.drivers.robot import JointTargets  # noqa: E402
 from stepaside.drivers.safety import SafetyState  # noqa: E402
-from stepaside.perception.measurement import (  # noqa: E402
-    RobotState,
-)
 
 import msgpack  # isort: skip  # noqa: E402
 
@@ -217,109 +210,6 @@ def test_a_robot_that_is_limp_already_is_released_at_once(
     assert set(daemon.answer()["Stiffness"]) == {0.0}
 
 
-class MadeUpRobot:
-    """Robot to be served: it is where it was told to be."""
-
-    def __init__(self) -> None:
-        self.time, self.angles = 0.0, np.linspace(-0.1, 0.1, 23)
-        self.stiffness: Array = np.full(23, np.nan)
-
-    def sensors(self) -> RobotState:
-        """Stand upright."""
-        return RobotState(
-            self.time,
-            self.angles,
-            np.zeros(3),
-            np.array([0.0, 0.0, 9.81]),
-            np.full(8, 6.5),
-        )
-
-    def command(self, targets: Array, stiffness: Array) -> None:
-        """Follow where there is stiffness."""
-        self.angles = np.where(stiffness > 0.0, targets, self.angles)
-        self.stiffness, self.time = stiffness, self.time + TICK
-
-
-class World:
-    """A served robot."""
-
-    def __init__(self, path: Path, **more: Any) -> None:
-        self.robot = MadeUpRobot()
-        self.server = LolaServer(str(path), self.robot, JOINTS[:23], **more)
-
-    def tick(self) -> None:
-        """Advance without waiting."""
-        self.server.speak()
-        sleep(0.001)
-        self.server.hear()
-        self.server.act()
-
-
-@pytest.fixture
-def world(tmp_path: Path) -> Iterator[World]:
-    made = World(tmp_path / "s", lock_step=True)
-    yield made
-    made.server.close()
-
-
-def test_stiffness_decays_when_the_client_falls_silent(
-    world: World, tmp_path: Path
-) -> None:
-    client = LolaClient(tmp_path / "s")
-    world.tick()
-    client.write([0.1] * 25, 1.0)
-    for _ in range(8):
-        world.tick()
-        assert world.server.stiffness[KNEE] == 1.0
-    shares = []
-    for _ in range(60):
-        world.tick()
-        shares.append(float(world.server.stiffness[KNEE]))
-    assert shares == sorted(shares, reverse=True) and shares[-1] == 0.0
-    assert shares[20] == pytest.approx(0.5, abs=0.05)
-    client.close()
-
-
-@pytest.mark.parametrize(
-    "data",
-    [
-        b"\xc1",
-        msgpack.packb([1, 2]),
-        msgpack.packb({"Position": [0.0] * 3}),
-        msgpack.packb({"Stiffness": [float("nan")] * 25}),
-        msgpack.packb({"Position": "x"}),
-    ],
-)
-def test_a_client_that_sends_garbage_is_dropped(
-    data: bytes, world: World, tmp_path: Path
-) -> None:
-    client = socket.socket(socket.AF_UNIX)
-    client.connect(str(tmp_path / "s"))
-    world.tick()
-    client.sendall(data)
-    sleep(0.01)
-    world.tick()
-    assert not world.server.connected
-    assert np.isfinite(world.robot.angles).all()
-    client.close()
-    LolaClient(tmp_path / "s").close()  # and the next may come
-
-
-def test_stale_sockets(world: World, tmp_path: Path) -> None:
-    with pytest.raises(ConfigurationError, match="another program listens"):
-        World(tmp_path / "s")
-    (tmp_path / "file").write_text("mine")
-    with pytest.raises(ConfigurationError, match="a file of that name"):
-        World(tmp_path / "file")
-    stale = listening(tmp_path / "old")
-    stale.close()
-    again = World(tmp_path / "old")
-    again.server.close()
-    assert not (tmp_path / "old").exists()
-    with pytest.raises(ConfigurationError, match="has at most"):
-        World(tmp_path / ("x" * 200))
-
-
 def played(path: Path, *words: str) -> "subprocess.Popen[str]":
     command = [sys.executable, "-m", "stepaside", "play"]
     return subprocess.Popen(
@@ -372,29 +262,3 @@ def test_the_guardian_releases_a_robot_that_has_one_client(
             os.kill(play.pid, signal.SIGCONT)
         play.kill()
         play.communicate()
-
-
-def test_a_session_that_is_lost_is_got_again_for_a_while(
-    tmp_path: Path,
-) -> None:
-    """It begins limp, as the first did; a dry run moves nothing."""
-    words = (
-        "--dry-run",
-        "--set",
-        "reconnect=3",
-        "--record",
-        str(tmp_path / "run"),
-    )
-    play = played(tmp_path / "e", *words)
-    for _ in range(2):
-        robot = TimedDaemon(tmp_path / "e")
-        robot.start()
-        until(lambda: robot.number > 40)  # noqa: B023
-        assert robot.position == REST and robot.stiffness == REST
-        robot.ends = True
-        robot.join()
-        robot.listener.close()
-        (tmp_path / "e").unlink()
-    said = play.communicate(timeout=60.0)[1]
-    assert said.count(" limp (") >= 2 and said.count("reaching (") >= 2, said
-    assert "reconnecting" in said

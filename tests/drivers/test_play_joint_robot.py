@@ -97,3 +97,16 @@ def test_a_joint_robot_finds_its_opponent_by_its_camera(
     _, bearing, distance = np.median(seen[-20:], axis=0)
     assert bearing == pytest.approx(0.0, abs=0.1)
     assert distance == pytest.approx(1.0, abs=0.15)
+
+
+def test_the_example_in_a_loop_of_its_own_walks() -> None:
+    robot = f"{ADAPTERS / 'mujoco_robot.py'}:MujocoRobot"
+    words = [sys.executable, "-c", PLAY, "play", robot, "--duration", "2"]
+    said = subprocess.run(
+        [*words, "--set", "delay_ticks=0"],
+        stderr=subprocess.PIPE,
+        text=True,
+        timeout=LONGEST,
+        check=True,
+    ).stderr
+    assert "walking" in said, said

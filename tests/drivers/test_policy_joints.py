@@ -17,7 +17,7 @@ from imitated_walk import nao_on_imitated_walk
 from stepaside.core.errors import ModelError
 from stepaside.core.poses import Pose
 from stepaside.drivers.joint_loop import JointLoop
-from stepaside.drivers.motors import motors_of
+from stepaside.drivers.joint_motion import motors_of
 from stepaside.drivers.robot import JointRobot, JointTargets
 from stepaside.drivers.safety import SafetyState
 from stepaside.drivers.scheme_factory import policy_gains, scheme_factory
@@ -116,6 +116,9 @@ class GainsRobot(JointRobot):
     def released(self) -> str:
         """Have no switch."""
         return ""
+
+    def attend(self) -> None:
+        """Have no guardian."""
 
     def check_blocked(self) -> None:
         """Return at once."""

@@ -13,6 +13,7 @@ pytest.importorskip("cyclonedds")
 
 from stepaside.core.poses import Pose  # noqa: E402
 from stepaside.core.rotations import rotation  # noqa: E402
+from stepaside.drivers.robot import REST  # noqa: E402
 from stepaside.drivers.ros2_dds import (  # noqa: E402
     DdsParticipant,
     header,
@@ -27,7 +28,6 @@ from stepaside.drivers.ros2_server import (  # noqa: E402
     WorldClock,
     rotation_message,
 )
-from stepaside.drivers.velocity_limits import REST  # noqa: E402
 from stepaside.strategies.velocity_set import BodyVelocity  # noqa: E402
 
 from velocity_fakes import SimulatedUnicycle, until  # isort: skip  # noqa: E402
@@ -195,7 +195,7 @@ def test_in_lock_step_each_report_waits_for_its_answer() -> None:
     scene.obeys(twist(0.01))
     reader = [scene.other.reader("/nao/odom", "nav_msgs/msg/Odometry")]
     until(reader[0].get_matched_publications)
-    scene.server.press(False)
+    scene.server.begin()
     scene.server.speak()
     assert not scene.server.hear()
     first = until(lambda: take_messages(reader[0]))

@@ -8,7 +8,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from stepaside.core.errors import ConfigurationError
-from stepaside.drivers.velocity_limits import REST, Ramp, VelocityLimits
+from stepaside.drivers.robot import REST, VelocityLimits
+from stepaside.drivers.velocity_loop import Ramp
 from stepaside.strategies.velocity_set import BodyVelocity
 
 TIGHT = VelocityLimits(0.2, 0.1, 0.5, 0.4, 2.0)

@@ -12,9 +12,8 @@ from hypothesis import strategies as st
 from fake_robot import FakeStrategy
 from stepaside.core.poses import Pose, wrap_angle
 from stepaside.drivers.method_thread import SessionLost
-from stepaside.drivers.play_log import PlayTick
-from stepaside.drivers.status_line import StatusLine
-from stepaside.drivers.velocity_limits import REST, VelocityLimits
+from stepaside.drivers.play_log import PlayTick, StatusLine
+from stepaside.drivers.robot import REST, VelocityLimits
 from stepaside.drivers.velocity_loop import (
     DrivingState,
     TemplateController,

@@ -128,6 +128,44 @@ def test_a_lead_is_made_up_for_by_waiting() -> None:
     assert dog.check(report(STAMP + 0.55), 0.46) == ""
 
 
+def test_reports_that_fall_behind_the_clock_stop_the_robot() -> None:
+    """One that is late by itself, or a clock that drifts, does not."""
+    dog = settled()
+    for i in range(1, 600):
+        now = 0.2 + 0.0509 * i
+        assert dog.check(report(STAMP + 0.2 + 0.05 * i), now) == ""
+    late = settled()
+    for i in range(1, 21):
+        now = 0.2 + 0.06 * i
+        assert late.check(report(STAMP + 0.2 + 0.05 * i), now) == ""
+    said = [
+        late.check(report(STAMP + 1.2 + 0.05 * i), 1.4 + 0.1 * i)
+        for i in range(1, 20)
+    ]
+    assert said[3] == "" and said[-1].endswith("s behind the clock")
+    stays = late.check(report(STAMP + 2.2), 3.35)
+    assert stays.endswith("s behind the clock")
+
+
+def test_a_pose_that_stays_while_the_robot_is_to_move_stops_it() -> None:
+    """Until it changes; a robot that is to stand may stay where it is."""
+    dog, there = settled(), Pose(0.3, 0.0, 0.0)
+
+    def checked(first: int, count: int, pose: Pose, moves: bool) -> list[str]:
+        return [
+            dog.check(
+                report(STAMP + 0.05 * i, pose=pose), 0.05 * i, moves=moves
+            )
+            for i in range(first, first + count)
+        ]
+
+    assert not any(checked(5, 60, there, False))
+    said = checked(65, 40, there, True)
+    assert said[28] == "" and "pose does not change" in said[30]
+    assert "pose does not change" in checked(105, 9, there, False)[-1]
+    assert checked(114, 4, Pose(0.3, 1e-9, 0.0), False)[-1] == ""
+
+
 @pytest.mark.parametrize(
     ("seen", "said"),
     [

@@ -1,10 +1,12 @@
 """Test what games, strategies, environments and studies should do."""
 
 import json
+import os
 import pickle
 import sqlite3
 import sys
 from collections.abc import Iterator
+from contextlib import closing
 from dataclasses import dataclass, replace
 from pathlib import Path
 from signal import SIGINT, raise_signal
@@ -102,7 +104,9 @@ def test_a_step_takes_the_same_time_in_games_and_tournaments(
 def test_a_served_duel_moves_robots_on_learned_legs(tmp_path: Path) -> None:
     robot = str(nao_on_legs(tmp_path / "nao", gain=0.3))
     settings = replace(SHORT, robot=robot, body=sa.BODIES["delayed"])
-    served = serve_duel(settings, {}, lock_step=True).run
+    dds = pytest.importorskip("stepaside.drivers.ros2_dds")
+    with closing(dds.DdsParticipant(20 + os.getpid() % 200)) as joined:
+        served = serve_duel(settings, joined, {}, lock_step=True).run
     played = sa.run_duel(settings)
     for name in ("pursuer", "evader"):
         np.testing.assert_array_equal(

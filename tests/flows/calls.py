@@ -397,14 +397,6 @@ def play_lola(
     )
 
 
-def serve_lola(path: Path, *, duration: float) -> subprocess.Popen[str]:
-    """Start to serve the joints of a simulated evader, in lock step."""
-    return start_stepaside(
-        *("serve", "--lola", f"evader={path}", "--lockstep"),
-        *("--distance", 3, "--duration", duration, "--json"),
-    )
-
-
 def play_own(
     robot: str,
     *words: object,

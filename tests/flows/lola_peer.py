@@ -1,4 +1,4 @@
-"""Both ends of LoLA, by msgpack and sockets alone.
+"""A NAO V6 on LoLA, by msgpack and sockets alone.
 
 Keys, lengths and signs are those of NAO V6's protocol: 25 motors, frames of
 896 bytes every 12 ms, an accelerometer that reads minus the specific force,
@@ -13,7 +13,7 @@ from typing import Any
 
 import pytest
 
-from flows.running import LONGEST, until
+from flows.running import LONGEST
 
 msgpack = pytest.importorskip("msgpack")
 
@@ -123,40 +123,3 @@ class LolaRobot:
             self.moved += way if self._pressed else 0.0
             self.position = list(targets)
             self.number += 1
-
-
-class LolaClient:
-    """A program of others that commands a robot."""
-
-    def __init__(self, path: Path) -> None:
-        until(path.exists)
-        self._socket = socket.socket(socket.AF_UNIX)
-        self._socket.settimeout(LONGEST)
-        self._socket.connect(str(path))
-        self.number = -1
-
-    def read(self) -> dict[str, Any] | None:
-        """Return the next frame; None once the robot has gone."""
-        data = b""
-        while len(data) < FRAME:
-            try:
-                more = self._socket.recv(FRAME - len(data))
-            except ConnectionError:
-                return None
-            if not more:
-                return None
-            data += more
-        frame: dict[str, Any] = msgpack.unpackb(data)
-        return frame
-
-    def write(self, position: list[float], stiffness: float) -> None:
-        """Command all joints."""
-        values = {"Position": position, "Stiffness": [stiffness] * 25}
-        try:
-            self._socket.sendall(msgpack.packb(values, use_single_float=True))
-        except ConnectionError:
-            pass
-
-    def close(self) -> None:
-        """Hang up."""
-        self._socket.close()

@@ -14,7 +14,6 @@ from flows.calls import (
     play_lola,
     play_own,
     play_ros2,
-    serve_lola,
     serve_ros2,
     write_page_of,
 )
@@ -229,39 +228,6 @@ def test_a_robot_on_lola_walks_the_papers_gait(
     assert play.end() == 0, play.said
     assert robot.moved > 1.0
     check_evasion(load_run(folder))
-
-
-def test_a_served_robot_is_held_by_its_client_on_lola(
-    start: Callable[..., Running], tmp_path: Path
-) -> None:
-    """Its head turns, its knees stay, and a second client is refused."""
-    from flows.lola_peer import JOINTS, TICK, WEIGHT, LolaClient
-
-    serve = start(serve_lola(tmp_path / "e", duration=2.0))
-    client = LolaClient(tmp_path / "e")
-    stance: list[float] = []
-    frames: list[dict[str, Any]] = []
-    while (frame := client.read()) is not None:
-        assert frame["Battery"][3] == len(frames)
-        frames.append(frame)
-        if len(frames) == 50:
-            LolaClient(tmp_path / "e").close()
-        stance = stance or list(frame["Position"])
-        targets = list(stance)
-        targets[JOINTS.index("HeadYaw")] = 0.5
-        client.write(targets, 1.0)
-    client.close()
-    assert serve.end() == 0, serve.said
-    assert "a second client is refused" in serve.said
-    assert '"outcome": "completed"' in "".join(serve.out)
-    assert len(frames) * TICK == pytest.approx(2.0, abs=0.5)
-    last = dict(zip(JOINTS, frames[-1]["Position"], strict=True))
-    first = dict(zip(JOINTS, stance, strict=True))
-    assert last.pop("HeadYaw") == pytest.approx(0.5, abs=0.01)
-    for joint, angle in last.items():
-        assert angle == pytest.approx(first[joint], abs=0.03), joint
-    assert sum(frames[-1]["FSR"]) == pytest.approx(WEIGHT, rel=0.05)
-    assert frames[-1]["Accelerometer"][2] == pytest.approx(-9.81, abs=0.1)
 
 
 def test_motion_that_others_recorded_is_measured(tmp_path: Path) -> None:

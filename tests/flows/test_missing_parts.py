@@ -40,7 +40,7 @@ NEEDS = {
     "show run -o run.parquet": "export",
     "show run -o film.mp4": "viewer",
     "play lola:none --role evader": "robot",
-    "serve --lola evader=socket --wait 0.1": "robot",
+    "serve --ros2 evader=/e --wait 0.1": "robot",
 }
 PACKAGES = {  # modules, where a package has another name
     "opencv-python-headless": "cv2",

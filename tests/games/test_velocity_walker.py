@@ -10,7 +10,7 @@ import pytest
 from commanded_robots import commanded_robots
 from stepaside.core.poses import Pose, wrap_angle
 from stepaside.core.rotations import rotation
-from stepaside.drivers.velocity_limits import REST
+from stepaside.drivers.robot import REST
 from stepaside.games.duel_settings import DuelSettings, StartSettings
 from stepaside.games.robot_player import VelocityWalker
 from stepaside.locomotion.control_settings import STABILISED, LegsSettings

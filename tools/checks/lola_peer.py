@@ -182,8 +182,8 @@ class HeadSwing:
 def play_against(listen: str, chest: Path) -> dict[str, Any]:
     """Stand up, be pressed, move the head by control, rest."""
     from stepaside.drivers.joint_loop import JointLoop
+    from stepaside.drivers.joint_motion import motors_of
     from stepaside.drivers.lola import LolaRobot
-    from stepaside.drivers.motors import motors_of
     from stepaside.drivers.robot_session import RobotSession
     from stepaside.drivers.safety import SafetyState
     from stepaside.robots.description import load_robot

@@ -42,7 +42,6 @@ from stepaside.core.poses import Pose
 from stepaside.drivers.robot_loader import RobotRequest
 from stepaside.drivers.ros2 import make_robot
 from stepaside.drivers.ros2_dds import DdsParticipant, take_messages
-from stepaside.drivers.ros2_images import pixels_of
 from stepaside.drivers.ros2_server import Ros2Server, WorldClock
 from stepaside.perception.camera_model import CameraModel
 from stepaside.perception.images import ColourImage
@@ -214,8 +213,7 @@ class Sensors:
     @staticmethod
     def image(message: Any) -> bool:
         """Return whether an image is as sent."""
-        pixels = pixels_of(message)
-        return pixels is not None and pixels.tobytes() == peer.PIXELS
+        return bytes(message.data) == peer.PIXELS
 
     @staticmethod
     def squeezed(message: Any) -> bool:

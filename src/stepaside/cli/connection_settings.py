@@ -38,14 +38,9 @@ class ConnectionSettings:
     """Player of ``stepaside play`` and the connection to its robot."""
 
     address: str = setting("", "Address of the robot")
-    role: str = setting(
-        EVADER,
-        "Role of the robot",
-        names=PLAYERS,
-    )
+    role: str = setting(EVADER, "Role of the robot", names=PLAYERS)
     robot: str = setting(
-        "nao",
-        "Name of a robot, or folder of its description",
+        "nao", "Name of a robot, or folder of its description"
     )
     delay_ticks: int = setting(
         3,
@@ -54,8 +49,8 @@ class ConnectionSettings:
     )
     images: str | None = setting(
         None,
-        "Source of images with sensing by cameras: v4l2:DEVICE or "
-        "ros2:/TOPIC; the robot's own camera by default",
+        "Source of images with sensing by cameras and joint control: "
+        "v4l2:DEVICE; the robot's own camera by default",
     )
     max_speed: float | None = setting(
         None,
@@ -114,12 +109,6 @@ class ConnectionSettings:
         "Maximum time to wait for the first connection",
         Range(1e-9, 1e9, "s", WHY, also=(0.0,)),
     )
-    reconnect: float | None = setting(
-        None,
-        "Try to reconnect for this time after a lost session {unit}; joint "
-        "control only",
-        positive("s", None),
-    )
     record: Path | None = setting(
         None,
         "Record all measurements, targets and state changes to a run folder "
@@ -174,11 +163,7 @@ class ConnectionSettings:
         return self.address.startswith((LOLA, NAOQI))
 
     def robot_maker(self, settings: DuelSettings) -> "Callable[[], Any]":
-        """Return a function that makes the robot, without connecting.
-
-        Args:
-            settings: Settings with the optics of its camera.
-        """
+        """Return a function that makes the robot, without connecting."""
         if self.in_python:
             from ..drivers.robot_loader import load_robot_class
 
@@ -222,17 +207,12 @@ class ConnectionSettings:
         return load_strategy(settings.pursuer_strategy, settings.strategy)
 
     def join_domain(self) -> "DdsParticipant":
-        """Join the ROS 2 domain; see :func:`join_domain`."""
+        """Join the ROS 2 domain."""
         return join_domain(self.domain, network=self.network)
 
 
 def join_domain(domain: int | None, *, network: bool) -> "DdsParticipant":
-    """Join a ROS 2 domain; print what other programs need to discover it.
-
-    Args:
-        domain: Number of the domain; None for that of the environment.
-        network: Whether topics are visible to other machines.
-    """
+    """Join a ROS 2 domain; print what other programs need to discover it."""
     from ..drivers.ros2_dds import LOCAL, DdsParticipant
 
     dds = DdsParticipant(domain, beyond=network)

@@ -1,6 +1,5 @@
 """``stepaside doctor``: what is installed here, and what is missing."""
 
-import os
 import platform
 import sys
 from importlib.metadata import PackageNotFoundError, requires, version
@@ -25,38 +24,35 @@ def doctor(as_json: bool) -> None:
     the off-screen graphics for cameras and films. Exit status 1 if something
     that every command needs is missing.
     """
-    report = examine()
-    if as_json:
-        print_json(report)
-    else:
-        _print(report)
-    if report["missing"]:
-        sys.exit(1)
-
-
-def examine() -> dict[str, Any]:
-    """Return what is installed, by name, and what is missing."""
     libraries = {name: _version(name) for name in _requirements()}
     missing = [name for name, found in libraries.items() if found is None]
     extras = {
         name: [module for module in modules if find_spec(module) is None]
         for name, modules in sorted(EXTRAS.items())
     }
-    return {
+    graphics = None
+    if "mujoco" not in missing:
+        from ..sim.offscreen_rendering import choose_renderer
+
+        graphics = choose_renderer()
+    report: dict[str, Any] = {
         "stepaside": __version__,
         "python": platform.python_version(),
         "platform": platform.platform(),
-        "cores": len(os.sched_getaffinity(0))
-        if hasattr(os, "sched_getaffinity")
-        else os.cpu_count(),
         "libraries": libraries,
         "extras": {
             name: {"installed": not lacking, "missing_modules": lacking}
             for name, lacking in extras.items()
         },
-        "graphics": None if "mujoco" in missing else _graphics(),
+        "graphics": graphics,
         "missing": missing,
     }
+    if as_json:
+        print_json(report)
+    else:
+        _print(report)
+    if missing:
+        sys.exit(1)
 
 
 def _requirements() -> list[str]:
@@ -70,44 +66,24 @@ def _requirements() -> list[str]:
 
 
 def _version(name: str) -> str | None:
-    """Return the installed version of a distribution, or None."""
     try:
         return version(name)
     except PackageNotFoundError:
         return None
 
 
-def _graphics() -> str:
-    from ..sim.offscreen_rendering import choose_renderer
-
-    return choose_renderer()
-
-
 def _print(report: dict[str, Any]) -> None:
-    echo(f"stepaside {report['stepaside']}, Python {report['python']}")
-    echo(f"{report['platform']}, {report['cores']} cores")
-    echo("\nlibraries")
+    echo(f"stepaside {report['stepaside']}, Python {report['python']}, "
+         f"{report['platform']}")  # fmt: skip
     for name, found in report["libraries"].items():
-        echo(f"  {name:12} {found or 'MISSING'}")
-    echo("\nextras")
+        echo(f"  {name:12} {found or 'MISSING: pip install stepaside'}")
+    echo("extras")
     for name, state in report["extras"].items():
-        hint = f"pip install 'stepaside[{name}]'"
         lacking = ", ".join(state["missing_modules"])
-        echo(
-            f"  {name:12} "
-            + ("installed" if state["installed"] else f"no {lacking}: {hint}")
-        )
+        hint = f"no {lacking}: pip install 'stepaside[{name}]'"
+        echo(f"  {name:12} {hint if lacking else 'installed'}")
     graphics = report["graphics"]
-    echo("\ngraphics")
     if graphics == "raycast":
-        echo(
-            "  none off screen: cameras are ray-cast at 160 px, and films "
-            "need libegl1 or libosmesa6"
-        )
-    elif graphics is not None:
-        echo(f"  {graphics}: cameras and films")
-    echo()
-    if report["missing"]:
-        echo(f"missing: {', '.join(report['missing'])}; pip install stepaside")
-    else:
-        echo("every command can run; extras add what is listed above")
+        graphics = "none off screen: cameras are ray-cast at 160 px, and "
+        graphics += "films need libegl1 or libosmesa6"
+    echo(f"graphics: {graphics}")

@@ -1,8 +1,8 @@
 """``stepaside play``: control of one real or simulated robot in a game."""
 
+import gc
 import logging
 import sys
-from collections.abc import Callable
 from contextlib import ExitStack
 from dataclasses import replace
 from typing import TYPE_CHECKING, Any
@@ -19,8 +19,6 @@ if TYPE_CHECKING:
     from ..drivers.joint_loop import JointLoop
     from ..drivers.velocity_loop import VelocityLoop
 
-CONNECTING = 6.0  # longest time that connecting takes, in [s]
-PAUSE = 0.3  # between two attempts, in [s]
 UNUSED_BY_CHECK = (
     *("record", "duration", "dead_man", "images", "max_speed", "max_turn"),
     *("sim_time", "role", "remap", "opponent", "people", "max_lateral"),
@@ -85,8 +83,8 @@ def play(
     if as_json:
         raise click.UsageError("--json requires --check")
     from ..drivers.method_thread import SessionLost
+    from ..drivers.play_log import StatusLine
     from ..drivers.robot import JointRobot
-    from ..drivers.status_line import StatusLine
     from .robot_connections import open_loop
 
     if connection.address.startswith(ROS2):  # before it joins a domain
@@ -101,36 +99,26 @@ def play(
             "a robot with velocity commands, or a JointRobot with paced = "
             "False",
         )
-    with ExitStack() as stack:
-        line = StatusLine(sys.stderr)
-        stack.callback(line.close)
-        observers: list[Any] = [line]
-        record = None
-        if connection.record is not None:
-            from .play_recording import PlayRecord
+    try:
+        with ExitStack() as stack:
+            line = StatusLine(sys.stderr)
+            stack.callback(line.close)
+            observers: list[Any] = [line]
+            record = None
+            if connection.record is not None:
+                from .play_recording import PlayRecord
 
-            used = with_feedback(settings) if joints else settings
-            record = PlayRecord(connection.record, used, connection)
-            stack.push(record.leave)
-            observers.append(record)
-        wait = connection.wait
-        reconnect = connection.reconnect if joints else None
-
-        def session() -> str:
-            nonlocal wait
-            now = replace(connection, wait=wait)
-            wait = 0.0  # later sessions wait by "reconnect"
-            loop = open_loop(settings, now, make)
-            with ExitStack() as opened:
-                opened.callback(loop.close)
-                return _run(loop, observers, connection.duration)
-
-        try:
-            ended = _run_sessions(session, reconnect)
+                used = with_feedback(settings) if joints else settings
+                record = PlayRecord(connection.record, used, connection)
+                stack.push(record.leave)
+                observers.append(record)
+            loop = open_loop(settings, connection, make)
+            stack.callback(loop.close)
+            ended = _run(loop, observers, connection.duration)
             if record is not None:
-                record.end(ended)
-        except SessionLost as error:
-            raise click.ClickException(str(error)) from error
+                record.ended = ended
+    except SessionLost as error:
+        raise click.ClickException(str(error)) from error
 
 
 def _refuse_unused(
@@ -138,95 +126,53 @@ def _refuse_unused(
 ) -> None:
     """Refuse options that have no effect with this role and robot."""
     evades = connection.role == EVADER
-    other = "pursuer_strategy" if evades else "evader_strategy"
-    refuse_settings(
-        (other,),
-        f"role {PURSUER if evades else EVADER}, got {connection.role}",
-    )
-    strategy = (
-        settings.evader_strategy if evades else settings.pursuer_strategy
-    )
-    if strategy not in OF_EVASION:
-        refuse_settings(
+    own, other = "evader_strategy", "pursuer_strategy"
+    if not evades:
+        own, other = other, own
+    strategy = getattr(settings, own)
+    addresses = connection.address, connection.dead_man
+    on_ros2 = any(ROS2 in str(each) for each in addresses)
+    rows = (  # whether they have an effect, the options, and what they need
+        (
+            False,
+            (other,),
+            f"role {PURSUER if evades else EVADER}, got {connection.role}",
+        ),
+        (
+            strategy in OF_EVASION,
             ("strategy.",),
             f"the strategy {' or '.join(OF_EVASION)}, got {strategy}",
-        )
-    if joints:
-        refuse_settings(
-            (
-                "max_speed",
-                "max_turn",
-            ),
+        ),
+        (
+            not joints,
+            ("max_speed", "max_turn"),
             "a robot with velocity commands",
-        )
-        if connection.on_nao:
-            refuse_settings(("dead_man",), "a robot without a chest button")
-    else:
-        refuse_settings(
-            (
-                "delay_ticks",
-                "reconnect",
-            ),
+        ),
+        (
+            not (joints and connection.on_nao),
+            ("dead_man",),
+            "a robot without a chest button",
+        ),
+        (
+            joints,
+            ("delay_ticks", "legs.", "control."),
             "joint control",
-        )
-        refuse_settings(("legs.", "control."), "joint control")
-    if settings.sensing != "cameras":
-        refuse_settings(("images",), "sensing cameras, got ideal")
-    if not connection.address.startswith(ROS2):
-        refuse_settings(
-            (
-                "remap",
-                "opponent",
-                "people",
-                "max_lateral",
-            ),
+        ),
+        (
+            settings.sensing == "cameras",
+            ("images",),
+            "sensing cameras, got ideal",
+        ),
+        (
+            connection.address.startswith(ROS2),
+            ("remap", "opponent", "people", "max_lateral"),
             f"a robot at {ROS2}",
-        )
-    sources = connection.address, connection.images, connection.dead_man
-    if not any(ROS2 in str(source) for source in sources):
-        refuse_settings(
-            (
-                "domain",
-                "network",
-            ),
-            f"a robot or images at {ROS2}",
-        )
-
-
-def _run_sessions(session: Callable[[], str], reconnect: float | None) -> str:
-    """Run sessions until one ends normally or reconnecting fails.
-
-    With joint control, each session begins limp; the robot stands up slowly
-    if it is upright, and waits for its chest button.
-
-    Args:
-        session: Connects and plays; returns why the session ended.
-        reconnect: How long to try for a new session, in [s]; None for a
-            single session.
-
-    Returns:
-        Why the last session ended.
-
-    Raises:
-        SessionLost: If the last session was lost.
-    """
-    from time import monotonic, sleep
-
-    from ..drivers.method_thread import SessionLost
-
-    until: float | None = None
-    while True:
-        began = monotonic()
-        try:
-            return session()
-        except SessionLost as error:
-            lost = monotonic()
-            if until is None or lost - began > CONNECTING:
-                until = lost + (reconnect or 0.0)  # it had been connected
-            if reconnect is None or lost >= until:
-                raise
-            logging.warning("%s; reconnecting", error)
-            sleep(PAUSE)
+        ),
+        (on_ros2, ("domain", "network"), f"a robot or a switch at {ROS2}"),
+    )
+    for has_effect, names, needed in rows:
+        if not has_effect:
+            refuse_settings(names, needed)
 
 
 def _run(
@@ -236,17 +182,12 @@ def _run(
 ) -> str:
     """Run a control loop until the robot rests; return why it ended.
 
-    Args:
-        loop: The loop.
-        observers: Receivers of each tick.
-        duration: Time to walk, in [s]; None for no limit.
+    It walks for a duration in [s], if that is given.
 
     Raises:
         SessionLost: If the session failed, or a robot without a button to
             start it again went limp.
     """
-    import gc
-
     from ..drivers.method_thread import SessionLost
 
     gc.collect()

@@ -8,7 +8,7 @@ from .settings import refuse_settings
 from .terminal import echo, print_json
 
 if TYPE_CHECKING:
-    from ..drivers.method_check import AdapterFinding, MethodCheck
+    from ..drivers.robot_check import AdapterFinding
     from .connection_settings import ConnectionSettings
 
 SILENCE = 3.0  # of the check before its guardian stops the robot, in [s]
@@ -24,26 +24,17 @@ PER_JOINT = 1.2  # duration of the check of a joint, in [s]
 
 
 def check_adapter(connection: "ConnectionSettings", *, as_json: bool) -> None:
-    """Check a robot, print a verdict per line, and exit with 1 if one fails.
-
-    Args:
-        connection: Robot, and whether nothing is commanded.
-        as_json: Whether to print one JSON object.
-
-    Raises:
-        SystemExit: If a check failed.
-    """
+    """Check a robot; print a verdict per line; exit with 1 if one fails."""
     if not connection.in_python:
         raise click.UsageError(
             "--check requires the address FILE.py:CLASS, got "
             f"{connection.address!r}"
         )
     from ..drivers.guardian_process import fork_guardian
-    from ..drivers.joint_check import JointCheck
-    from ..drivers.motors import motors_of
+    from ..drivers.joint_motion import motors_of
     from ..drivers.robot import JointRobot
+    from ..drivers.robot_check import RobotCheck
     from ..drivers.robot_loader import load_robot_class
-    from ..drivers.velocity_check import VelocityCheck
     from ..robots.description import load_robot
 
     def note(finding: "AdapterFinding") -> None:
@@ -64,13 +55,7 @@ def check_adapter(connection: "ConnectionSettings", *, as_json: bool) -> None:
         echo(f"stepaside: {warning}", err=True)
         if robot.paced:
             guardian = fork_guardian(make, robot, SILENCE)
-    check: MethodCheck
-    if isinstance(robot, JointRobot) and motors is not None:
-        check = JointCheck(
-            robot, motors, note, dry_run=dry_run, guardian=guardian
-        )
-    else:
-        check = VelocityCheck(robot, note, dry_run=dry_run, guardian=guardian)
+    check = RobotCheck(robot, motors, note, dry_run=dry_run, guardian=guardian)
     try:
         check.run()
     finally:

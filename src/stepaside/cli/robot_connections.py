@@ -1,5 +1,6 @@
-"""Connections of ``stepaside play`` to its robot."""
+"""Connections of ``stepaside play`` to its robot and its camera."""
 
+import sys
 from math import inf
 from typing import TYPE_CHECKING, Any
 
@@ -12,10 +13,13 @@ if TYPE_CHECKING:
 
     from ..drivers.dead_man_switch import DeadManSwitch
     from ..drivers.joint_loop import JointLoop
-    from ..drivers.robot import JointRobot, VelocityRobot
+    from ..drivers.robot import JointRobot
+    from ..drivers.robot_camera import RobotCamera
     from ..drivers.robot_session import RobotSession
     from ..drivers.velocity_loop import VelocityLoop
     from ..games.duel_settings import DuelSettings
+
+V4L2 = "v4l2:"
 
 
 def open_loop(
@@ -23,20 +27,12 @@ def open_loop(
     connection: ConnectionSettings,
     make: "Callable[[], Any]",
 ) -> "JointLoop | VelocityLoop":
-    """Connect to a robot, and return its control loop.
-
-    Args:
-        settings: Settings of the player.
-        connection: Connection to the robot.
-        make: Function that makes the robot.
-    """
+    """Connect to the robot that a function makes; return its control loop."""
     from ..drivers.robot import JointRobot
 
     robot = make()
     if settings.sensing == "cameras":
-        from .camera_connections import check_camera
-
-        check_camera(robot, connection)
+        _check_camera(robot, connection)
     if isinstance(robot, JointRobot):
         return _open_joints(settings, connection, make, robot)
     return _open_velocity(settings, connection, make, robot)
@@ -48,13 +44,11 @@ def _open_joints(
     make: "Callable[[], JointRobot]",
     robot: "JointRobot",
 ) -> "JointLoop":
-    """Connect to a robot that is driven by its joints."""
     from ..drivers.joint_loop import JointLoop
-    from ..drivers.motors import motors_of
+    from ..drivers.joint_motion import motors_of
     from ..drivers.scheme_factory import policy_gains, scheme_factory
     from ..locomotion.policy.policy_legs import load_policy
     from ..robots.description import load_robot
-    from .camera_connections import open_camera
 
     description = load_robot(connection.robot)
     legs, gains = settings.legs, None
@@ -71,7 +65,7 @@ def _open_joints(
     else:
         settings = with_feedback(settings)
     return JointLoop(
-        lambda: open_session(connection, make, robot),
+        lambda: _open_session(connection, make, robot),
         motors,
         connection.strategy(settings),
         scheme_factory(
@@ -83,7 +77,7 @@ def _open_joints(
             sees_as=connection.role if sees else None,
         ),
         gains=gains,
-        open_eyes=(lambda opened: open_camera(settings, opened, connection))
+        open_eyes=(lambda opened: _open_camera(settings, opened, connection))
         if sees
         else None,
         needs_forces=not legs.walks,
@@ -94,26 +88,35 @@ def _open_joints(
 def _open_velocity(
     settings: "DuelSettings",
     connection: ConnectionSettings,
-    make: "Callable[[], VelocityRobot]",
-    robot: "VelocityRobot",
+    make: "Callable[[], Any]",
+    robot: Any,
 ) -> "VelocityLoop":
-    """Connect to a robot with its own walking controller."""
+    from ..drivers.robot_camera import PosedSight
     from ..drivers.robot_session import PREPARE_TIMEOUT
-    from ..drivers.velocity_loop import TemplateController, VelocityLoop
-    from .camera_connections import open_camera_sight
+    from ..drivers.scheme_factory import posed_perception
+    from ..drivers.velocity_loop import (
+        PERIOD,
+        TemplateController,
+        VelocityLoop,
+    )
 
-    strategy = connection.strategy(settings)
+    strategy, dry_run = connection.strategy(settings), connection.dry_run
     limits = robot.limits.within(
         connection.max_speed or inf, connection.max_turn or inf
     )
     paced = robot.paced and not connection.sim_time
-    session = open_session(connection, make, robot, paced=paced)
+    session = _open_session(connection, make, robot, paced=paced)
     try:
-        if not connection.dry_run:
+        if not dry_run:
             session.run("prepare", PREPARE_TIMEOUT)
-        eyes = None
+        eyes, robot = None, session.robot
         if settings.sensing == "cameras":
-            eyes = open_camera_sight(settings, session, connection)
+            eyes = PosedSight(
+                session,
+                _open_camera(settings, robot, connection, needs_mount=True),
+                posed_perception(connection.role, robot.head, PERIOD),
+                turns_head=robot.head is not None and not dry_run,
+            )
         in_python = connection.in_python
         return VelocityLoop(
             session,
@@ -130,20 +133,16 @@ def _open_velocity(
         raise
 
 
-def open_session(
+def _open_session(
     connection: ConnectionSettings,
     make: "Callable[[], Any]",
     robot: Any,
     *,
     paced: bool = True,
 ) -> "RobotSession":
-    """Connect to a robot, with a guardian process if it can move.
+    """Connect, with a guardian process if the robot can move in real time.
 
-    Args:
-        connection: Connection to the robot.
-        make: Function that makes the robot.
-        robot: The robot, not connected; used if it has one client only.
-        paced: Whether its clock runs in real time.
+    The robot itself, not connected, is used if it has one client only.
     """
     from ..drivers.guardian_process import fork_guardian
     from ..drivers.method_thread import open_with_retries
@@ -156,9 +155,7 @@ def open_session(
     if not connection.dry_run and robot.paced and paced:
         guardian = fork_guardian(make, robot)
     try:
-        switch = None
-        if connection.dead_man is not None:
-            switch = open_switch(connection.dead_man, connection)
+        switch = _open_switch(connection)
         return open_with_retries(
             lambda: RobotSession(
                 robot if shares else make(),
@@ -175,14 +172,14 @@ def open_session(
         raise
 
 
-def open_switch(name: str, connection: ConnectionSettings) -> "DeadManSwitch":
-    """Open a dead-man switch by its name."""
-    import sys
-
+def _open_switch(connection: ConnectionSettings) -> "DeadManSwitch | None":
     from ..drivers.dead_man_switch import GAMEPAD, GamepadButton, HeldKey
 
+    name = connection.dead_man
+    if name is None:
+        return None
     kind, _, device = name.partition(":")
-    if name == "key":
+    if kind == "key":
         return HeldKey(sys.stdin)
     if kind == "gamepad":
         return GamepadButton(device or GAMEPAD)
@@ -190,3 +187,47 @@ def open_switch(name: str, connection: ConnectionSettings) -> "DeadManSwitch":
     from ..drivers.ros2_dds import parse_namespace
 
     return TopicSwitch(connection.join_domain(), parse_namespace(name))
+
+
+def _check_camera(robot: Any, connection: ConnectionSettings) -> None:
+    """Check that a robot has what its source of images needs."""
+    from ..drivers.robot import JointRobot, Robot
+
+    kind, joints = type(robot), isinstance(robot, JointRobot)
+    if connection.images is not None and not joints:
+        raise click.UsageError("images requires joint control")
+    if connection.images is not None or kind.image is not Robot.image:
+        return
+    if connection.in_python:
+        needed = f"the method image() of {kind.__name__}"
+        needed += ", or images" if joints else ""
+    else:
+        needed = "images" if joints else "a robot with a camera"
+        needed += f", got {connection.address!r}, which brings no images"
+    raise click.UsageError(f"sensing by cameras requires {needed}")
+
+
+def _open_camera(
+    settings: "DuelSettings",
+    robot: Any,
+    connection: ConnectionSettings,
+    *,
+    needs_mount: bool = False,
+) -> "RobotCamera":
+    """Open the camera of a connected robot, or that of ``images``.
+
+    Images of some robots must bring the camera's pose.
+    """
+    from ..drivers.robot_camera import RobotCamera, VideoCamera
+
+    name = connection.images
+    if name is None:
+        return RobotCamera(robot, needs_mount=needs_mount)
+    if not name.startswith(V4L2):
+        raise click.UsageError(f"images must begin with {V4L2}, got {name!r}")
+    colour = settings.cameras.colour
+    latency = colour.latency + settings.cameras.added_latency
+    path = name.removeprefix(V4L2)
+    return RobotCamera(
+        VideoCamera(path, colour.model(), latency=latency), apart=True
+    )

@@ -2,10 +2,8 @@
 
 import gc
 from collections.abc import Sequence
-from contextlib import ExitStack
-from dataclasses import replace
+from contextlib import closing
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
 
 import click
 
@@ -16,23 +14,15 @@ from .run_output import finish_run, print_run, run_folder
 from .settings import takes_settings
 from .tables import print_table
 
-if TYPE_CHECKING:
-    from ..games.served_duel import RobotEndpoint
-
 NAMED = ("seed", "duration", "robot", "start.distance")
 
 
 @click.command("serve")
 @takes_settings(NAMED, settings=DuelSettings)
 @click.option(
-    "--lola",
-    multiple=True,
-    metavar="PLAYER=PATH",
-    help="Serve the joints of a player's robot over LoLA, at a socket.",
-)
-@click.option(
     "--ros2",
     multiple=True,
+    required=True,
     metavar="PLAYER=/NAMESPACE",
     help="Serve a player's robot with its own walking controller.",
 )
@@ -69,7 +59,6 @@ NAMED = ("seed", "duration", "robot", "start.distance")
 @json_option
 def serve(
     settings: DuelSettings,
-    lola: tuple[str, ...],
     ros2: tuple[str, ...],
     domain: int | None,
     network: bool,
@@ -79,49 +68,23 @@ def serve(
     output: Path | None,
     as_json: bool,
 ) -> None:
-    """Serve simulated robots over LoLA or ROS 2, and play a duel.
-
-    \b
-    --lola  joint targets every 12 ms, like a NAO V6
-    --ros2  velocities for the robot's own walking controller
+    """Serve simulated robots on ROS 2 topics, and play a duel.
 
     A player that is not served is controlled by this process. The simulation
-    starts when every served robot has a client that commands it with
-    stiffness on. LoLA has a cycle of 12 ms; an ideal body is therefore
-    replaced by the delayed one.
-    """  # noqa: D301 (\b is a character for click)
-    from ..games.served_duel import lola_endpoint, ros2_endpoint, serve_duel
+    starts when every served robot has a client that commands it.
+    """
+    namespaces = _namespaces(ros2)
+    folder = run_folder(output, as_json, None)
+    from ..games.served_duel import serve_duel
 
-    if not ros2 and (network or domain is not None):
-        raise click.UsageError("--domain and --network require --ros2")
-    folder, sees = run_folder(output, as_json, None), sight == "ideal"
-    endpoints: dict[str, RobotEndpoint] = {
-        name: lola_endpoint(place, ideal_sight=sees)
-        for name, place in _players("--lola", lola, "PATH", ())
-    }
-    served_over_ros2 = _players("--ros2", ros2, "/NAMESPACE", endpoints)
-    if not endpoints and not served_over_ros2:
-        raise click.UsageError(
-            "at least one player must be served: --lola PLAYER=PATH or "
-            "--ros2 PLAYER=/NAMESPACE"
-        )
-    with ExitStack() as stack:
-        if served_over_ros2:
-            from ..drivers.ros2_dds import parse_namespace
-            from ..drivers.ros2_server import WorldClock
-
-            dds = join_domain(domain, network=network)
-            stack.callback(dds.close)
-            clock = WorldClock(dds)
-            for name, place in served_over_ros2:
-                endpoints[name] = ros2_endpoint(
-                    dds, clock, parse_namespace(place), ideal_sight=sees
-                )
+    with closing(join_domain(domain, network=network)) as dds:
         gc.collect()
         gc.freeze()
         served = serve_duel(
-            with_feedback(_with_cycle(settings)),
-            endpoints,
+            with_feedback(settings),
+            dds,
+            namespaces,
+            ideal_sight=sight == "ideal",
             lock_step=lockstep,
             patience=wait,
         )
@@ -133,34 +96,17 @@ def serve(
     finish_run(served.run, folder, as_json, show, served.to_json())
 
 
-def _players(
-    option: str, texts: Sequence[str], address: str, taken: Any
-) -> list[tuple[str, str]]:
-    """Parse players and addresses; each player may be served once."""
+def _namespaces(texts: Sequence[str]) -> dict[str, str]:
+    """Parse namespaces by player; each may be served once."""
+    from ..drivers.ros2_dds import parse_namespace
+
     found = dict[str, str]()
     for text in texts:
         name, _, place = text.partition("=")
-        known = name in PLAYERS and name not in taken and name not in found
-        if not known or not place:
+        if name not in PLAYERS or name in found or not place:
             raise click.UsageError(
-                f"{option} must be {' or '.join(PLAYERS)}={address}, each "
+                f"--ros2 must be {' or '.join(PLAYERS)}=/NAMESPACE, each "
                 f"player once, got {text!r}"
             )
-        found[name] = place
-    return list(found.items())
-
-
-def _with_cycle(settings: DuelSettings) -> DuelSettings:
-    """Return settings whose bodies have the control period of LoLA.
-
-    Learned legs have a period of their own.
-    """
-    from ..sim.body_settings import BODIES
-
-    if any(settings.robot_of(name).legs.walks for name in settings.robots):
-        return settings
-    if settings.body == BODIES["ideal"]:
-        settings = replace(settings, body=BODIES["delayed"])
-    if settings.body.cycle == 0.0:
-        settings = replace(settings, body=replace(settings.body, cycle=0.012))
-    return settings
+        found[name] = parse_namespace(place)
+    return found

@@ -35,11 +35,7 @@ class HeldKey:
     def __init__(
         self, terminal: TextIO, clock: Callable[[], float] = monotonic
     ) -> None:
-        """Read single keys, without echo.
-
-        Raises:
-            ConfigurationError: If it is no terminal.
-        """
+        """Read single keys, without echo."""
         import termios
         import tty
 
@@ -75,11 +71,7 @@ class GamepadButton:
     """Any button of a gamepad, by the joystick interface of Linux."""
 
     def __init__(self, device: str = GAMEPAD) -> None:
-        """Open the gamepad.
-
-        Raises:
-            ConfigurationError: If it cannot be opened.
-        """
+        """Open the gamepad."""
         try:
             flags = os.O_RDONLY | os.O_NONBLOCK
             self._file: int | None = os.open(Path(device), flags)

@@ -22,14 +22,11 @@ from .robot import JointRobot
 DISMISS, SAFE, UNSAFE, RELEASE = b"\x00", b"\x01", b"\x02", b"\x03"
 TERMINATION_SIGNALS = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
 JOINT_SILENCE, VELOCITY_SILENCE = 0.3, 0.5  # without control, in [s]
+FEEDING = 0.1  # between two messages while control waits, in [s]
 
 
 class Guardian:
-    """Handle of the control process on its guardian.
-
-    Attributes:
-        pid: Number of the guardian process.
-    """
+    """Handle of the control process on its guardian."""
 
     def __init__(
         self, join: Callable[[], Callable[[], None]], silence: float
@@ -99,16 +96,7 @@ class Guardian:
 
 
 def _must_halt(messages: socket.socket, control: int, silence: float) -> bool:
-    """Wait for dismissal, or for silence while the robot is not safe.
-
-    Args:
-        messages: Socket that receives the messages of control.
-        control: Process number of control, which is killed if it froze.
-        silence: Time after which control counts as frozen, in [s].
-
-    Returns:
-        Whether the robot must be halted.
-    """
+    """Wait for dismissal, or for a silence in [s] while not safe."""
     held = False
     while True:
         timeout = silence if held else None
@@ -129,16 +117,7 @@ def _must_halt(messages: socket.socket, control: int, silence: float) -> bool:
 def fork_guardian(
     make: Callable[[], Any], robot: Any, silence: float | None = None
 ) -> Guardian | None:
-    """Fork the guardian of a robot, before connecting starts threads.
-
-    Args:
-        make: Function that makes the robot.
-        robot: The robot; connected if it has one client only.
-        silence: Time without control before the guardian acts, in [s].
-
-    Returns:
-        The guardian; None for a robot whose joints need none.
-    """
+    """Fork the guardian of a robot, before connecting starts threads."""
     joints = isinstance(robot, JointRobot)
     silence = silence or (JOINT_SILENCE if joints else VELOCITY_SILENCE)
     if robot.shares_connection:
@@ -152,11 +131,7 @@ def fork_guardian(
 
 
 def join_halter(make: Callable[[], Any]) -> Callable[[], None]:
-    """Connect to a robot in advance, and return a function that halts it.
-
-    Raises:
-        SessionLost: If the robot does not answer.
-    """
+    """Connect to a robot in advance, and return a function that halts it."""
     methods = MethodThread(make())
     methods.open()
     halting = halting_method(methods.robot)

@@ -14,13 +14,12 @@ from ..core.poses import Array
 from ..locomotion.locomotion import Phase
 from ..perception.measurement import RobotState
 from ..strategies import StandStill, Strategy
-from .joint_motion import JointMotion
+from .joint_motion import JointMotion, Motors
 from .method_thread import SessionLost
-from .motors import Motors
 from .play_log import PlayTick, joint_row
 from .robot import JointRobot, JointTargets
 from .robot_camera import RobotCamera, colour_image
-from .robot_reports import LEAD, LeadMeter, in_order, joint_fault, joint_jump
+from .robot_reports import LEAD, ClockMeter, in_order, joint_fault, joint_jump
 from .robot_session import RobotSession
 from .safety import FrozenMeter, Safety, SafetyState, safety_inputs
 
@@ -28,6 +27,8 @@ SETTLING = 1.0  # of learned legs that were told to stand, in [s]
 PATIENCE = 10.0  # for the first report, or of a simulator, in [s]
 SILENCE = 0.1  # without a valid report before the session is lost, in [s]
 OLDEST = 0.5  # age of a sighting that counts as none, in [s]
+# In which a robot that is not commanded is controlled all the same.
+DRY_STATES = SafetyState.REACHING, SafetyState.READY, SafetyState.WALKING
 MakeScheme = Callable[[Strategy], ControlScheme]
 log = logging.getLogger(__name__)
 
@@ -70,8 +71,7 @@ class JointLoop:
         Args:
             open_session: Function that connects to the robot.
             motors: Motors of the robot.
-            strategy: Function from knowledge to intent; its memory is
-                cleared before each walk.
+            strategy: Strategy, whose memory is cleared before each walk.
             make_scheme: Factory of control schemes.
             gains: Stiffness and damping of the motors while control moves
                 them; None for those that hold a posture. Shapes (motors,).
@@ -83,7 +83,6 @@ class JointLoop:
             pause: Function that sleeps for a time, in [s].
         """
         self._strategy, self._make_scheme = strategy, make_scheme
-        self._scheme: ControlScheme
         self._schemes = 0
         self._renew_scheme()
         self._motors, self._dry_run = motors, dry_run
@@ -107,16 +106,16 @@ class JointLoop:
             at_once=robot.stands,
         )
         self._safety, self._accelerometer = Safety(), FrozenMeter()
-        self._lead = LeadMeter()
+        self._meter = ClockMeter(stamped=robot.stamped)
         self._heard = clock()
         self._first = 0.0  # time of the first report, on the robot's clock
         self._count, self._start = -1, 0
-        self._state = SafetyState.LIMP
+        self._said = SafetyState.LIMP  # state that was logged
         self._shown: tuple[SafetyState, bool] | None = None
         # One that does not stand by itself may be stiff at first.
         self._is_released = robot.stands
         self._presses = False
-        self._refusal = self._jump = ""
+        self._jump = ""
         self.refused = 0
         self.report: RobotState | None = None
         self._stood = 0  # ticks of a stop in which control has stood
@@ -125,7 +124,7 @@ class JointLoop:
     @property
     def state(self) -> SafetyState:
         """State of the robot."""
-        return self._state
+        return self._safety.state
 
     @property
     def reason(self) -> str:
@@ -154,7 +153,6 @@ class JointLoop:
         """Stop, crouch and go limp, and end the session."""
         self._leaves = True
         self._safety.rest(reason, self._time)
-        self._change(self._safety.state)
 
     def close(self) -> None:
         """Ramp the stiffness down, in any state, and disconnect."""
@@ -166,21 +164,13 @@ class JointLoop:
             self._session.close(halts=False)
 
     def tick(self) -> PlayTick:
-        """Read a measurement, decide, and command the joints.
-
-        Raises:
-            SessionLost: If the connection failed; the robot was released.
-        """
+        """Read a measurement, decide, and command the joints."""
         try:
             measurement = self._read()
             state = self.state
             is_controlled = state.moves_by_control
             if self._dry_run:
-                is_controlled = state in (
-                    SafetyState.REACHING,
-                    SafetyState.READY,
-                    SafetyState.WALKING,
-                )
+                is_controlled = state in DRY_STATES
             is_resting = state is SafetyState.RESTING
             if self._used and not is_controlled and not is_resting:
                 self._renew_scheme()
@@ -229,14 +219,14 @@ class JointLoop:
             settling = SETTLING if learned else 0.0
             if self._stood * self._robot.tick > settling:
                 self._safety.halted(self._time)
-                self._change(self._safety.state)
         try:
             targets = scheme.update(measurement)
-        except ReachError as error:
-            self._fail(f"control lost its footing: {error}")
-            return scheme.joint_targets
-        except StrategyError as error:
-            self._fail(f"the strategy failed: {error}")
+        except (ReachError, StrategyError) as error:
+            lost = isinstance(error, ReachError)
+            what = (
+                "control lost its footing" if lost else "the strategy failed"
+            )
+            self._fail(f"{what}: {error}")
             return scheme.joint_targets
         if scheme.phase is Phase.FALLEN:
             self._fail("control detected a fall")
@@ -270,7 +260,7 @@ class JointLoop:
         self.report = report
         was_walking = self.state.moves_by_control
         unseen = self._unseen(report)
-        self._change(self._next_state(report, unseen))
+        self._note_safety(report, unseen)
         if self.state is SafetyState.WALKING and not was_walking:
             self._start = self._count
         time = (self._count - self._start) * self._robot.tick
@@ -304,7 +294,7 @@ class JointLoop:
             return ""
         return f"the sighting of the opponent is {age:.2f} s old"
 
-    def _next_state(self, report: RobotState, unseen: str) -> SafetyState:
+    def _note_safety(self, report: RobotState, unseen: str) -> None:
         state, motors, now = self.state, self._motors, self._time
         hindrance = self._session.released() or report.hindrance or self._jump
         self._jump = ""
@@ -317,7 +307,13 @@ class JointLoop:
         self._presses = pressed
         motion = self._motion
         legs = [report.joint_positions, motion.targets]
-        return self._safety.frame(
+        frozen = self._accelerometer.frozen(
+            report.accelerometer,
+            np.concatenate([each[motors.legs] for each in legs]),
+            now,
+            walks=state.moves_by_control,
+        )
+        self._safety.frame(
             safety_inputs(
                 report._replace(hindrance=hindrance),
                 motors.legs,
@@ -325,12 +321,7 @@ class JointLoop:
                 pressed=pressed,
                 reached=self._dry_run
                 or motion.reached(state, report.joint_positions),
-                frozen=self._accelerometer.frozen(
-                    report.accelerometer,
-                    np.concatenate([each[motors.legs] for each in legs]),
-                    now,
-                    walks=state.moves_by_control,
-                ),
+                frozen=frozen,
             )
         )
 
@@ -343,7 +334,7 @@ class JointLoop:
         patient = self.report is None or not self._robot.paced
         limit = PATIENCE if patient else SILENCE
         deadline = max(self._heard + limit, self._clock())
-        refused = self.refused
+        refused, refusal = self.refused, ""
         while True:
             report = self._session.listen(deadline - self._clock())
             now = self._clock()
@@ -353,22 +344,20 @@ class JointLoop:
                 if not fault:
                     gap, self._heard = now - self._heard, now
                     return report, gap
-                self._refuse(fault)
+                self.refused, refusal = self.refused + 1, fault
+                if self.refused.bit_count() == 1:  # 1, 2, 4, 8...
+                    log.warning("report refused (%d): %s", self.refused, fault)
             if now >= deadline:
                 waited = now - self._heard
                 if self.refused == refused:
                     raise SessionLost(self._session.silence(waited))
                 raise SessionLost(
                     f"no valid report for {waited:.3f} s, {self.refused} "
-                    f"refused: {self._refusal}"
+                    f"refused: {refusal}"
                 )
 
     def _is_new(self, report: RobotState, now: float) -> bool:
-        """Count a report, and return whether it is the first of its tick.
-
-        Raises:
-            SessionLost: If its time is not finite, went back or runs ahead.
-        """
+        """Count a report, and return whether it is the first of its tick."""
         name = self._session.name_of("listen")
         if not np.isfinite(report.time):
             raise SessionLost(
@@ -384,9 +373,9 @@ class JointLoop:
         number = round((report.time - self._first) / tick)
         if number <= self._count:
             return False
-        passed = (number - self._count) * tick
-        if self._robot.paced and (ahead := self._lead.fault(passed, now)):
-            raise SessionLost(f"{name}: its times are {ahead}")
+        off = self._meter.fault(number * tick, now)
+        if self._robot.paced and off:
+            raise SessionLost(f"{name}: its times are {off}")
         self._count = number
         return True
 
@@ -404,21 +393,9 @@ class JointLoop:
             self._jump = self._jump or fault
         return f"{name}: {fault}" if fault else ""
 
-    def _refuse(self, fault: str) -> None:
-        self.refused += 1
-        self._refusal = fault
-        if self.refused.bit_count() == 1:  # 1, 2, 4, 8...
-            log.warning("report refused (%d): %s", self.refused, fault)
-
-    def _change(self, state: SafetyState) -> None:
-        if state is not self._state:
-            log.info("%s: %s", state.value, self.reason)
-        self._state = state
-
     def _fail(self, reason: str) -> None:
         """Go limp, for a reason of control."""
         self._safety.fail(reason, self._time)
-        self._change(self._safety.state)
 
     @property
     def _time(self) -> float:
@@ -428,6 +405,9 @@ class JointLoop:
     def _write(self, wanted: Array) -> None:
         """Answer the newest report with the targets of control, in [rad]."""
         assert self.report is not None
+        if self.state is not self._said:
+            self._said = self.state
+            log.info("%s: %s", self.state.value, self.reason)
         targets, stiffness = self._motion.move(self.state, self.report, wanted)
         shown = self.state, self.report.sighting is not None
         if shown != self._shown:
@@ -445,6 +425,7 @@ class JointLoop:
             if not session.halted or not self._is_released:
                 self._is_released = True
                 session.halt()
+            session.attend()
             return
         gains = self._own
         if self._gains is not None and self.state.moves_by_control:

@@ -1,12 +1,17 @@
-"""Joint targets and stiffness for each state of a robot, within limits."""
+"""Motors of a robot; their targets and stiffness in each of its states."""
 
 from collections.abc import Mapping
+from typing import NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 
+from ..core.errors import ConfigurationError
 from ..core.poses import Array
 from ..perception.measurement import RobotState, RobotStatus
-from .motors import Motors
+from ..robots.description import RobotDescription
+from ..robots.tree_cache import load_tree
+from .robot import JointRobot
 from .safety import SafetyState
 
 MARGIN = 0.01  # distance from the ends of each range, in [rad]
@@ -15,6 +20,52 @@ MIN_STIFFNESS = 0.5  # fraction of the stiffness that a hot joint keeps
 POSTURE_SPEED = 0.5  # of each joint in motions to a posture, in [rad/s]
 RISE, FADE = 1.0, 0.5  # of stiffness, from none to full and back, in [s]
 AWAY = 0.2  # of a leg's joint from a posture that is reached, in [rad]
+
+
+class Motors(NamedTuple):
+    """Motors of a described robot, in the order of the joint targets."""
+
+    names: tuple[str, ...]  # of their joints
+    low: Array  # minimum angles, in [rad]
+    high: Array  # maximum angles, in [rad]
+    speed: Array  # maximum, in [rad/s]
+    legs: NDArray[np.intp]  # indices of the motors that carry the robot
+    order: NDArray[np.intp]  # index of each among the joints of the class
+    stiffness: Array  # gains that hold a posture, in [N m/rad]
+    damping: Array  # likewise, in [N m s/rad]
+
+
+def motors_of(robot: JointRobot, description: RobotDescription) -> Motors:
+    """Return the motors of a robot with ranges, speeds and gains."""
+    tree, kind = load_tree(description), type(robot).__name__
+    names, joints = tree.motors, list(robot.joints)
+    missing = [name for name in names if name not in joints]
+    if missing:
+        raise ConfigurationError(
+            f"{kind}: joints lack {', '.join(missing)} of the description; "
+            f"they are {', '.join(joints)}"
+        )
+    servos = description.overlay.servos.items()
+    gains = {name: (own.stiffness, own.damping) for name, own in servos}
+    gains |= dict(robot.gains or {})
+    missing = [name for name in names if name not in gains]
+    if missing:
+        raise ConfigurationError(f"{kind}: gains lack {', '.join(missing)}")
+    links = [tree.links[tree.link_of(name)] for name in names]
+    pairs = np.array([gains[name] for name in names], dtype=np.float64)
+    speeds = [description.speed_limits.get(name, np.inf) for name in names]
+    # Legs may share a motor.
+    legs = [names.index(leg) for leg in description.legs if leg in names]
+    return Motors(
+        names,
+        low=np.array([link.low for link in links]),
+        high=np.array([link.high for link in links]),
+        speed=np.array(speeds),
+        legs=np.array(legs),
+        order=np.array([joints.index(name) for name in names]),
+        stiffness=pairs[:, 0],
+        damping=pairs[:, 1],
+    )
 
 
 def derate_stiffness(stiffness: Array, status: RobotStatus) -> Array:
@@ -29,7 +80,7 @@ class JointMotion:
     """Generator of joint targets and stiffness for the robot's state.
 
     Attributes:
-        targets: Newest joint targets, in [rad]. Shape (motors,).
+        targets: Newest joint targets, in [rad].
         share: Stiffness now, from 0 to 1.
     """
 
@@ -47,11 +98,9 @@ class JointMotion:
 
         Args:
             stance: Posture in which control begins, in [rad].
-                Shape (motors,).
             motors: Motors of the robot.
             tick: Time from one target to the next, in [s].
-            crouch: Angles from which the robot can go limp, in [rad], by
-                joint.
+            crouch: Angles from which the robot can go limp, in [rad].
             soft: Whether control chooses the gains of the motors: its targets
                 may then be far from the angles, and are not limited.
             at_once: Whether stiffness rises and falls within one tick.
@@ -73,13 +122,7 @@ class JointMotion:
         self.targets: Array = np.zeros(len(motors.names))
 
     def reached(self, state: SafetyState, measured: Array) -> bool:
-        """Return whether the slow motion to a posture is complete.
-
-        Args:
-            state: State of the robot; there is such a motion only in
-                reaching and resting.
-            measured: Joint angles, in [rad]. Shape (motors,).
-        """
+        """Return whether the slow motion of a state is complete."""
         if state not in (SafetyState.REACHING, SafetyState.RESTING):
             return False
         if state is SafetyState.REACHING and self.share < 1.0:
@@ -96,16 +139,9 @@ class JointMotion:
     def move(
         self, state: SafetyState, report: RobotState, wanted: Array
     ) -> tuple[Array, Array]:
-        """Return targets and stiffness of one tick.
+        """Return targets [rad] and stiffness of one tick.
 
-        Args:
-            state: State of the robot.
-            report: Newest report.
-            wanted: Joint targets of control, in [rad]; NaN and inf are
-                ignored. Shape (motors,).
-
-        Returns:
-            Targets, in [rad], and stiffness. Shapes (motors,).
+        NaN and inf in the targets that control wants are ignored.
         """
         limp = state is SafetyState.LIMP
         if limp and self.share == 0.0:

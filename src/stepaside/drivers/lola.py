@@ -91,6 +91,7 @@ class LolaRobot(JointRobot):
     tick, joints = TICK, JOINTS
     gains = dict.fromkeys(JOINTS, (1.0, 0.0))
     stands, shares_connection, takes_gains = False, True, False
+    stamped = False  # frames carry no time, and are counted
     crouch = {name: CROUCH[name[1:]] for name in JOINTS if name[1:] in CROUCH}
 
     def __init__(self, path: str = PATH) -> None:

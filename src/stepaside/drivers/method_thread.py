@@ -28,10 +28,6 @@ class MethodThread:
     """Thread that calls the methods of a robot, one after the other.
 
     A method that does not return blocks this thread, and not control.
-
-    Attributes:
-        robot: The robot.
-        clock: Time of this computer, in [s].
     """
 
     def __init__(
@@ -58,30 +54,13 @@ class MethodThread:
         return (running[0], waited) if waited > BLOCKED else None
 
     def begin(self, method: str, call: Any = None) -> "Future[Any]":
-        """Call a method after those that were begun before.
-
-        Args:
-            method: Name of the method, for messages.
-            call: What is called; the method without arguments by default.
-
-        Returns:
-            Its result, or :class:`SessionLost` if it fails.
-        """
+        """Call a method, or a call by its name, after those begun before."""
         result: Future[Any] = Future()
         self._queue.put((method, call or getattr(self.robot, method), result))
         return result
 
     def run(self, method: str, within: float, call: Any = None) -> Any:
-        """Call a method and wait for its result.
-
-        Args:
-            method: Name of the method.
-            within: Longest time to wait, in [s].
-            call: What is called; the method without arguments by default.
-
-        Raises:
-            SessionLost: If it fails or does not return in time.
-        """
+        """Call a method and wait for its result up to a time in [s]."""
         try:
             return self.begin(method, call).result(within)
         except TimeoutError as error:
@@ -90,12 +69,7 @@ class MethodThread:
             ) from error
 
     def open(self, timeout: float = OPEN_TIMEOUT) -> None:
-        """Connect to the robot.
-
-        Raises:
-            SessionLost: If it raised an OSError or does not return in time.
-            ConfigurationError: If it fails otherwise, which is not retried.
-        """
+        """Connect to the robot."""
         try:
             self.run("open", timeout)
         except SessionLost as error:
@@ -141,18 +115,7 @@ class MethodThread:
 def open_with_retries(
     open_robot: Callable[[], Opened], patience: float
 ) -> Opened:
-    """Connect to a robot, retrying until a timeout.
-
-    Args:
-        open_robot: Function that connects, or raises SessionLost.
-        patience: Timeout, in [s]; 0 tries once.
-
-    Returns:
-        Result of ``open_robot``.
-
-    Raises:
-        SessionLost: If the last attempt fails.
-    """
+    """Connect to a robot, retrying for a time in [s]; 0 tries once."""
     deadline = monotonic() + patience
     is_logged = False
     while True:

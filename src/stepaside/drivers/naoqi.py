@@ -21,9 +21,14 @@ from ..core.poses import Pose
 from ..perception.camera_model import CameraModel
 from ..perception.measurement import RobotState, Sighting
 from .method_thread import SessionLost
-from .robot import CameraImage, CameraMount, HeadLimits, VelocityRobot
+from .robot import (
+    CameraImage,
+    CameraMount,
+    HeadLimits,
+    VelocityLimits,
+    VelocityRobot,
+)
 from .robot_loader import RobotRequest
-from .velocity_limits import VelocityLimits
 
 try:
     import qi
@@ -84,11 +89,7 @@ class Call:
         return bool(self._future.isFinished())
 
     def answer(self, patience: float = TIMEOUT) -> Any:
-        """Wait up to a time in [s], and return the answer.
-
-        Raises:
-            SessionLost: If the call failed, or was not answered.
-        """
+        """Wait up to a time in [s], and return the answer."""
         if not self.answered(patience):
             raise SessionLost(f"the robot did not answer {self._what}")
         try:
@@ -312,9 +313,6 @@ def make_robot(request: RobotRequest) -> Callable[[], NaoqiRobot]:
     """Return a function that makes the robot at ``naoqi:tcp://HOST:PORT``.
 
     ``tcp://`` and the port, 9559, may be omitted.
-
-    Raises:
-        ConfigurationError: If it is not such an address.
     """
     found = _URL.fullmatch(request.address)
     ascii_only = found is not None and request.address.isascii()

@@ -1,13 +1,14 @@
-"""Ticks of a player of ``stepaside play``, and their log on disk."""
+"""Ticks of a player of ``stepaside play``: their log, and a status line."""
 
 import json
-import os
-from collections.abc import Mapping
+import re
+from collections.abc import Callable, Mapping
 from contextlib import suppress
 from enum import Enum
+from math import degrees
 from pathlib import Path
-from shutil import copyfileobj
-from typing import TYPE_CHECKING, BinaryIO, NamedTuple
+from time import monotonic
+from typing import TYPE_CHECKING, BinaryIO, NamedTuple, TextIO
 
 import numpy as np
 
@@ -21,6 +22,8 @@ if TYPE_CHECKING:
     from ..control.scheme import ControlScheme
 
 METADATA, ROWS = "play.json", "rows.f64"
+PERIOD = 0.2  # between two updates of the status line, in [s]
+_NUMBER = re.compile(r"[-+]?\d+(\.\d+)?")
 FLUSH_INTERVAL = 10  # rows between two flushes to disk
 PHASES = list(Phase)
 UNSEEN = np.full(3, np.nan)
@@ -29,25 +32,15 @@ Row = dict[str, Array | float]
 
 
 class PlayTick(NamedTuple):
-    """Result of one tick, for logs and the status line.
-
-    Attributes:
-        state: State of the robot.
-        reason: Reason for the state, as a message.
-        time: Time of the measurement, in [s].
-        sighting: Newest sighting of the opponent; None without one.
-        words: State, reason and command as a short text.
-        row: Further columns of the log.
-        walked: Time since the walk began, in [s]; None before.
-    """
+    """Result of one tick, for logs and the status line."""
 
     state: Enum
-    reason: str
-    time: float
-    sighting: Sighting | None
-    words: str
-    row: Row
-    walked: float | None = None
+    reason: str  # for the state
+    time: float  # of the measurement, in [s]
+    sighting: Sighting | None  # newest
+    words: str  # state, reason and command
+    row: Row  # further columns of the log
+    walked: float | None = None  # time since the walk began, in [s]
 
 
 class PlayLog:
@@ -59,10 +52,6 @@ class PlayLog:
     see :func:`joint_row`. ``play.json`` has the widths of the columns, the
     states and phases that numbers stand for, and each change of state with
     its time and reason.
-
-    Attributes:
-        folder: Folder of the log.
-        count: Number of recorded ticks.
     """
 
     def __init__(
@@ -71,11 +60,7 @@ class PlayLog:
         about: Mapping[str, object],
         beside: Mapping[str, str] | None = None,
     ) -> None:
-        """Check the folder, which is created with the first tick.
-
-        Raises:
-            ConfigurationError: If the folder cannot be written.
-        """
+        """Check the folder, which is created with the first tick."""
         check_folder(folder, "record", new=True)
         self.folder, self._about = folder, dict(about)
         self._beside = dict(beside or {})
@@ -86,11 +71,7 @@ class PlayLog:
         self.count = 0
 
     def note(self, tick: PlayTick) -> None:
-        """Record a tick.
-
-        Raises:
-            OSError: If the files cannot be written.
-        """
+        """Record a tick."""
         sighting, state = tick.sighting, tick.state
         row: Row = {
             "times_s": tick.time,
@@ -120,60 +101,29 @@ class PlayLog:
                     "reason": tick.reason,
                 }
             )
-            self._write_metadata(self.folder)
+            self._write_metadata()
 
     def _begin(self) -> BinaryIO:
         try:
             self.folder.mkdir(parents=True, exist_ok=True)
-            file = (self.folder / ROWS).open("w+b")
+            file = (self.folder / ROWS).open("wb")
         except OSError as error:
             raise ConfigurationError(
                 f"cannot write {self.folder}: {error}"
             ) from error
-        self._write_beside(self.folder)
+        for name, text in self._beside.items():
+            (self.folder / name).write_text(text, encoding="utf-8")
         return file
 
-    def _write_beside(self, folder: Path) -> None:
-        for name, text in self._beside.items():
-            (folder / name).write_text(text, encoding="utf-8")
-
-    def copy_to(self, folder: Path) -> None:
-        """Copy the log to another folder when its own cannot be written.
-
-        Works even if the original folder was removed: the open file can
-        still be read.
-
-        Raises:
-            OSError: If that folder cannot be written either.
-        """
-        if self._file is None:
-            return
-        folder.mkdir(parents=True)
-        with (
-            os.fdopen(os.dup(self._file.fileno()), "rb") as read,
-            (folder / ROWS).open("wb") as out,
-        ):
-            read.seek(0)
-            copyfileobj(read, out)
-        with suppress(OSError):  # the original's disk may be full
-            self._file.close()
-        self._write_beside(folder)
-        self._write_metadata(folder)
-
     def close(self) -> None:
-        """Flush and close the files; write nothing if there was no tick.
-
-        Raises:
-            OSError: If the rows cannot be written, or were removed;
-                :meth:`copy_to` still works then.
-        """
+        """Flush and close the files; write nothing if there was no tick."""
         if self._file is not None:
             self._file.flush()
             (self.folder / ROWS).stat()
             self._file.close()
-            self._write_metadata(self.folder)
+            self._write_metadata()
 
-    def _write_metadata(self, folder: Path) -> None:
+    def _write_metadata(self) -> None:
         assert self._state is not None  # there was a tick
         metadata = self._about | {
             "columns": self._columns,
@@ -182,8 +132,8 @@ class PlayLog:
             "changes": self._changes,
         }
         text = json.dumps(metadata, indent=1, allow_nan=False)
-        folder.stat()  # a removed folder must not return without its rows
-        with atomic_draft(folder / METADATA) as draft:
+        self.folder.stat()  # a removed folder must not return without its rows
+        with atomic_draft(self.folder / METADATA) as draft:
             draft.write_text(text + "\n", encoding="utf-8")
 
 
@@ -201,13 +151,6 @@ def joint_row(
     -1 for right (of other locomotion, pose of the template, then NaN); and
     the step that began at this tick: landing time [s], side, pose, time of
     planning [s].
-
-    Args:
-        measurement: Measurement of the tick.
-        targets: Joint targets of control, in [rad]. Shape (motors,).
-        scheme: Control scheme.
-        number: Its number, in the column ``mind``.
-        begun: Step that began at this tick; None if none did.
     """
     walk = scheme.locomotion.maneuvers
     support = np.array([*scheme.locomotion.pose, np.nan])
@@ -241,11 +184,7 @@ def joint_row(
 
 
 def columns_in(data: bytes, columns: Mapping[str, int]) -> dict[str, Array]:
-    """Split row data into columns; an incomplete last row is dropped.
-
-    Returns:
-        Arrays by column name. Shapes (rows,) or (rows, width).
-    """
+    """Split row data into columns; an incomplete last row is dropped."""
     width = sum(columns.values())
     whole = len(data) // (8 * width) * 8 * width
     rows = np.frombuffer(data[:whole], "<f8").reshape(-1, width)
@@ -255,3 +194,60 @@ def columns_in(data: bytes, columns: Mapping[str, int]) -> dict[str, Array]:
         found[name] = part[:, 0] if size == 1 else part
         at += size
     return found
+
+
+def status_text(tick: PlayTick) -> str:
+    """Return one line about a tick."""
+    sighting = tick.sighting
+    opponent = "opponent not detected"
+    if sighting is not None:
+        opponent = (
+            f"opponent at {sighting.distance:.2f} m, "
+            f"{degrees(sighting.bearing):+.0f} deg"
+        )
+    return f"{tick.time:7.1f} s  {tick.words}, {opponent}"
+
+
+class StatusLine:
+    """Line that is overwritten periodically, and kept at each change.
+
+    A change is a new state or a new reason; reasons that differ only in
+    their numbers ("no odometry for 0.31 s") count as the same.
+    """
+
+    def __init__(
+        self, stream: TextIO, clock: Callable[[], float] = monotonic
+    ) -> None:
+        """Write to a stream; if it is not a terminal, write changes only."""
+        self._stream, self._clock = stream, clock
+        self._is_terminal = stream.isatty()
+        self._written = -PERIOD
+        self._last: tuple[Enum, str] | None = None
+
+    def note(self, tick: PlayTick) -> None:
+        """Show a tick, if the status changed or an update is due."""
+        now = self._clock()
+        kind = tick.state, _NUMBER.sub("", tick.reason)
+        changed = kind != self._last
+        if not changed and not self._is_terminal:
+            return
+        if not changed and now - self._written < PERIOD:
+            return
+        self._last, self._written = kind, now
+        text = status_text(tick)
+        if self._is_terminal:
+            text = f"\r{text:<79.120}" + ("\n" if changed else "")
+        else:
+            text += "\n"
+        self._write(text)
+
+    def close(self) -> None:
+        """End the line."""
+        if self._is_terminal:
+            self._write("\n")
+
+    def _write(self, text: str) -> None:
+        """Write, ignoring errors: a closed terminal must not end the walk."""
+        with suppress(OSError):
+            self._stream.write(text)
+            self._stream.flush()

@@ -138,11 +138,7 @@ class LeagueRobot(JointRobot):
         self._socket.close()
 
     def _report(self, entries: list[Any]) -> RobotState:
-        """Convert a message.
-
-        Raises:
-            ConnectionError: If an entry is missing.
-        """
+        """Convert a message."""
         found: dict[str, Any] = {}
         motions: dict[str, list[float]] = {}
         try:
@@ -207,11 +203,7 @@ class LeagueRobot(JointRobot):
 
 
 def parse_expressions(text: bytes) -> list[Any]:
-    """Parse a sequence of S-expressions to nested lists of words.
-
-    Raises:
-        ConnectionError: If parentheses do not match.
-    """
+    """Parse a sequence of S-expressions to nested lists of words."""
     stack: list[list[Any]] = [[]]
     for token in _TOKEN.findall(text):
         if token == b"(":
@@ -229,12 +221,9 @@ def parse_expressions(text: bytes) -> list[Any]:
 
 
 def nearest_opponent(detections: list[Any], team: str) -> Any:
-    """Return the nearest player of another team; None without one.
+    """Return the nearest opponent in the camera's frame [m], or None.
 
     Its head is used, else the mean of its other parts.
-
-    Returns:
-        Position in the frame of the camera, in [m]. Shape (3,).
     """
     found = []
     for kind, *fields in detections:
@@ -260,10 +249,6 @@ def make_robot(request: RobotRequest) -> Callable[[], LeagueRobot]:
     """Return a function that makes the robot at ``rcss:HOST:PORT``.
 
     An empty host is this computer; the model is that of the description.
-
-    Raises:
-        ConfigurationError: If it is no such address.
-        ModelError: If the simulator has no such robot.
     """
     found = _ADDRESS.fullmatch(request.address)
     if not found or not 0 < int(found["port"]) < 1 << 16:

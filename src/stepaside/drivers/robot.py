@@ -2,13 +2,93 @@
 
 from abc import ABC, abstractmethod
 from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
+from math import inf
 from typing import NamedTuple
 
+from ..core.errors import ConfigurationError, check_positive, check_within
 from ..core.poses import Array
 from ..perception.images import Pixels
 from ..perception.measurement import RobotState
+from ..strategies.velocity_set import BodyVelocity, VelocitySet
 from .safety import SafetyState
-from .velocity_limits import VelocityLimits
+
+REST = BodyVelocity(0.0, 0.0, 0.0)
+
+
+@dataclass(frozen=True, slots=True)
+class VelocityLimits:
+    """Limits of a robot's velocity commands.
+
+    Attributes:
+        forward: Maximum forward speed, in [m/s].
+        backward: Maximum backward speed, in [m/s].
+        turn: Maximum turning rate, in [rad/s].
+        acceleration: Maximum linear acceleration, in [m/s^2].
+        turn_acceleration: Maximum angular acceleration, in [rad/s^2].
+        lateral: Maximum lateral speed, in [m/s]; 0 for a robot that does not
+            walk sideways.
+    """
+
+    forward: float = inf
+    backward: float = inf
+    turn: float = inf
+    acceleration: float = 0.5
+    turn_acceleration: float = 2.0
+    lateral: float = 0.0
+
+    def __post_init__(self) -> None:
+        """Validate the limits."""
+        error = ConfigurationError
+        for name, unit in (("forward", "m/s"), ("backward", "m/s"),
+                           ("turn", "rad/s"), ("acceleration", "m/s^2"),
+                           ("turn_acceleration", "rad/s^2")):  # fmt: skip
+            if getattr(self, name) != inf or "acceleration" in name:
+                check_positive(getattr(self, name), name, unit, error)
+        check_within(self.lateral, 0.0, 100.0, "lateral", "m/s", error)
+
+    def within(self, speed: float, turn: float) -> "VelocityLimits":
+        """Return the limits, at most a speed [m/s] and a rate [rad/s]."""
+        return replace(
+            self,
+            forward=min(self.forward, speed),
+            backward=min(self.backward, speed),
+            turn=min(self.turn, turn),
+            lateral=min(self.lateral, speed),
+        )
+
+    @property
+    def velocities(self) -> VelocitySet | None:
+        """Velocities of a robot that walks sideways; None for a unicycle."""
+        if self.lateral == 0.0:
+            return None
+        return VelocitySet(
+            (-self.backward, self.forward),
+            (-self.lateral, self.lateral),
+            (-self.turn, self.turn),
+        )
+
+    def scale(self, wanted: BodyVelocity) -> BodyVelocity:
+        """Scale a velocity into the limits.
+
+        All components are scaled by the same factor, so that the path keeps
+        its curvature, and with it the circle its radius. A robot that does
+        not walk sideways is commanded no lateral velocity.
+        """
+        speed, rate = abs(wanted.forward), abs(wanted.turn)
+        top = self.forward if wanted.forward > 0.0 else self.backward
+        aside = abs(wanted.lateral) if self.lateral > 0.0 else 0.0
+        factor = min(
+            1.0,
+            top / speed if speed > 0.0 else 1.0,
+            self.lateral / aside if aside > 0.0 else 1.0,
+            self.turn / rate if rate > 0.0 else 1.0,
+        )
+        return BodyVelocity(
+            factor * wanted.forward,
+            factor * wanted.lateral if aside > 0.0 else 0.0,
+            factor * wanted.turn,
+        )
 
 
 class CameraMount(NamedTuple):
@@ -94,12 +174,15 @@ class Robot(ABC):
     Attributes:
         paced: Whether the robot's clock runs in real time; that of a
             simulator may pause or run faster. Read after :meth:`open`.
+        stamped: Whether the times of reports are stamps; counted times may
+            fall behind the clock.
         shares_connection: Whether the robot has one client only: the
             guardian then uses the connection of control.
         closing: Longest time that :meth:`close` takes, in [s].
     """
 
     paced: bool = True
+    stamped: bool = True
     shares_connection: bool = False
     closing: float = 2.0
 
@@ -146,14 +229,11 @@ class VelocityRobot(Robot):
             second connection for the guardian.
         head: Range of the head, with which :meth:`look` follows the
             opponent with ``--sensing cameras``; None for a fixed camera.
-        camera: Pose of a fixed camera that ``images`` names; None if
-            :meth:`image` returns the images.
     """
 
     limits: VelocityLimits
     keeps_walking: bool = True
     head: HeadLimits | None = None
-    camera: CameraMount | None = None
 
     def prepare(self) -> None:
         """Make the robot ready to walk; it may stand up. Not in a dry run."""

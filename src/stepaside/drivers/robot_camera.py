@@ -5,7 +5,7 @@ from concurrent.futures import Future
 from math import isfinite, pi
 from pathlib import Path
 from time import monotonic, sleep
-from typing import TYPE_CHECKING, Any, Protocol
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -36,40 +36,28 @@ DEVICE = "/dev/video"
 log = logging.getLogger(__name__)
 
 
-class Camera(Protocol):
-    """Robot, or a camera apart from it."""
-
-    def image(self) -> CameraImage | None:
-        """Return the newest image, or None; wait for it for about 0.1 s."""
-
-    def close(self) -> None:
-        """Release the camera."""
-
-
 class RobotCamera:
     """Images of a camera, which is read in a thread as it may wait."""
 
     def __init__(
         self,
-        camera: Camera,
+        camera: Any,
         *,
         needs_mount: bool = False,
         apart: bool = False,
-        mount: CameraMount | None = None,
     ) -> None:
         """Begin without an image.
 
         Args:
-            camera: The camera; a robot is connected already.
+            camera: The camera, with image() and close(), or a robot, which
+                is connected already.
             needs_mount: Whether the images must bring the camera's pose.
             apart: Whether it is a camera apart from the robot, whose times
                 are those of this computer; closed with this object.
-            mount: Pose of such a camera on the robot.
         """
         self._camera, self._methods = camera, MethodThread(camera)
         self._name = self._methods.name_of("image")
         self._needs_mount, self._apart = needs_mount, apart
-        self._mount = mount
         self._reading: Future[Any] | None = None
         self._last = float("nan")
         self._newest: float | None = None  # valid image, on our clock
@@ -77,14 +65,7 @@ class RobotCamera:
         self._fault = ""
 
     def take(self, now: float) -> CameraImage | None:
-        """Return an image that has arrived since the last call, or None.
-
-        Args:
-            now: Time of the newest report, in [s].
-
-        Raises:
-            SessionLost: If image() failed, or returned no image.
-        """
+        """Return an image that has arrived since the last call, or None."""
         got = None
         if self._reading is not None:
             if not self._reading.done():
@@ -99,7 +80,7 @@ class RobotCamera:
         self._last = image.time
         if self._apart:
             age = self._methods.clock() - image.time
-            image = image._replace(time=now - age, mount=self._mount)
+            image = image._replace(time=now - age)
         fault = image_fault(image, now)
         if self._needs_mount and image.mount is None:
             fault = fault or "mount is missing: where is the camera?"
@@ -132,11 +113,7 @@ class RobotCamera:
 
 
 def _plain_image(got: Any, name: str) -> CameraImage:
-    """Return the result of image() as plain numbers.
-
-    Raises:
-        SessionLost: If it is no image.
-    """
+    """Return the result of image() as plain numbers."""
     try:
         time, pixels, focal_x, focal_y, mount = got
         if mount is not None:
@@ -153,14 +130,9 @@ def _plain_image(got: Any, name: str) -> CameraImage:
 
 
 def image_fault(image: CameraImage, now: float) -> str:
-    """Return why an image is invalid; empty if it is valid.
-
-    Args:
-        image: The image.
-        now: Time of the newest report, in [s].
-    """
-    pixels, (low, high) = image.pixels, SIZES
-    shape, kind = pixels.shape, pixels.dtype
+    """Return why an image is invalid; empty if it is valid."""
+    pixels, (low, high), mount = image.pixels, SIZES, image.mount
+    shape, kind, age = pixels.shape, pixels.dtype, now - image.time
     if len(shape) != 3 or shape[2] != 3 or kind != np.uint8:
         return (
             "pixels must be red, green and blue as uint8, of shape (height, "
@@ -177,12 +149,11 @@ def image_fault(image: CameraImage, now: float) -> str:
             )
     if not isfinite(image.time):
         return f"time must be finite, got {image.time}"
-    if not -LEAD <= now - image.time <= OLDEST:
+    if not -LEAD <= age <= OLDEST:
         return (
-            f"an image is {now - image.time:.2f} s old by the clock of "
-            f"listen(); it must be {OLDEST:g} s at most"
+            f"an image is {age:.2f} s old by the clock of listen(); it must "
+            f"be {OLDEST:g} s at most"
         )
-    mount = image.mount
     if mount is None:
         return ""
     if not all(isfinite(value) for value in mount):
@@ -204,20 +175,6 @@ def colour_image(image: CameraImage) -> ColourImage:
     return ColourImage(image.time, model, image.pixels)
 
 
-def resize_model(model: CameraModel, width: int, height: int) -> CameraModel:
-    """Return the same optics for another image size.
-
-    Args:
-        model: Optics.
-        width: Columns, in [px].
-        height: Rows, in [px].
-    """
-    across, down = width / model.width, height / model.height
-    return CameraModel(
-        width, height, model.focal_x * across, model.focal_y * down
-    )
-
-
 class VideoCamera:
     """Camera of this computer by Video4Linux, through OpenCV.
 
@@ -228,11 +185,7 @@ class VideoCamera:
     def __init__(
         self, path: str, model: CameraModel, *, latency: float
     ) -> None:
-        """Open the camera.
-
-        Raises:
-            SessionLost: If there is no camera.
-        """
+        """Open the camera."""
         import cv2
 
         is_device = path.startswith(DEVICE)
@@ -258,10 +211,10 @@ class VideoCamera:
             sleep(PATIENCE)
             return None
         pixels = np.asarray(cv2.cvtColor(image, cv2.COLOR_BGR2RGB), np.uint8)
-        height, width = pixels.shape[:2]
-        model = resize_model(self._model, width, height)
-        now = monotonic() - self._latency
-        return CameraImage(now, pixels, model.focal_x, model.focal_y)
+        now, model = monotonic() - self._latency, self._model
+        down, across = np.divide(pixels.shape[:2], (model.height, model.width))
+        focal = float(model.focal_x * across), float(model.focal_y * down)
+        return CameraImage(now, pixels, *focal)
 
     def close(self) -> None:
         """Release the device."""
@@ -288,11 +241,7 @@ class PosedSight:
         self._poses: History[Pose] = History(MEMORY)
 
     def see(self, report: RobotState) -> RobotState:
-        """Return a report with the newest sighting.
-
-        Raises:
-            SessionLost: If image() or look() failed.
-        """
+        """Return a report with the newest sighting."""
         if report.hindrance:
             return report
         if self._last is not None and report.time == self._last.time:
@@ -338,22 +287,13 @@ class PosedSight:
 
 def _between(one: Pose, other: Pose, share: float) -> Pose:
     """Return the pose at a share of the way from one pose to another."""
+    x, y, _ = (1.0 - share) * np.array(one) + share * np.array(other)
     turn = wrap_angle(other.theta - one.theta)
-    return Pose(
-        one.x + share * (other.x - one.x),
-        one.y + share * (other.y - one.y),
-        one.theta + share * turn,
-    )
+    return Pose(float(x), float(y), one.theta + share * turn)
 
 
 def pose_of_camera(time: float, robot: Pose, mount: CameraMount) -> BodyPose:
-    """Return the body of a robot of which only the camera matters.
-
-    Args:
-        time: Time, in [s].
-        robot: Pose of the robot in odometry.
-        mount: Pose of its camera.
-    """
+    """Return the body of a robot of which only the camera matters."""
     turn = rotation(0.0, 0.0, robot.theta)
     floor = np.array([robot.x, robot.y, 0.0])
     return BodyPose(

@@ -10,8 +10,12 @@ from ..core.errors import ConfigurationError, shown
 from ..core.user_file import FAILURES, FILE_AND_NAME, load_user_file
 from ..perception.camera_model import CameraModel
 from ..robots.description import RobotDescription, load_robot
-from .robot import CameraMount, HeadLimits, JointRobot, Robot, VelocityRobot
-from .velocity_limits import VelocityLimits
+from .robot import (
+    JointRobot,
+    Robot,
+    VelocityLimits,
+    VelocityRobot,
+)
 
 RobotClass = type[VelocityRobot] | type[JointRobot]
 # Modules of this package; each has make_robot(request).
@@ -20,36 +24,20 @@ GROUP = "stepaside.robots"  # entry points of other packages, likewise
 
 
 class RobotRequest(NamedTuple):
-    """Request for a robot.
+    """Request for a robot."""
 
-    Attributes:
-        address: What follows the name of the protocol.
-        role: Role of the player.
-        robot: Name of its description, or folder.
-        dry_run: Whether nothing will be commanded.
-        camera: Optics of its camera, where it does not tell them.
-        latency: Time from exposure to arrival of its images, in [s].
-        lateral: Maximum lateral speed, in [m/s]; 0 without one.
-        domain: ROS 2 domain; None for that of the environment.
-        network: Whether ROS 2 topics are visible to other machines.
-        remap: Other names of topics, as NAME:=/TOPIC.
-        opponent: Class of the detections that are the opponent; empty for
-            any.
-        people: Files of further topics with people.
-    """
-
-    address: str
+    address: str  # what follows the name of the protocol
     role: str = "evader"
-    robot: str = "nao"
-    dry_run: bool = False
-    camera: CameraModel | None = None
-    latency: float = 0.0
-    lateral: float = 0.0
-    domain: int | None = None
-    network: bool = False
-    remap: tuple[str, ...] = ()
-    opponent: str = ""
-    people: tuple[str, ...] = ()
+    robot: str = "nao"  # name of its description, or folder
+    dry_run: bool = False  # whether nothing will be commanded
+    camera: CameraModel | None = None  # optics, where it does not tell them
+    latency: float = 0.0  # from exposure to arrival of its images, in [s]
+    lateral: float = 0.0  # maximum lateral speed, in [m/s]
+    domain: int | None = None  # of ROS 2; None for the environment's
+    network: bool = False  # whether ROS 2 topics reach other machines
+    remap: tuple[str, ...] = ()  # NAME:=/TOPIC
+    opponent: str = ""  # class of the detections that count; empty for any
+    people: tuple[str, ...] = ()  # files of further topics with people
 
     @property
     def description(self) -> RobotDescription:
@@ -122,11 +110,7 @@ def _is_robot(kind: Any) -> bool:
 
 
 def check_robot_class(kind: Any, where: str) -> None:
-    """Check methods, flags and values of a robot's class.
-
-    Raises:
-        ConfigurationError: If one is invalid.
-    """
+    """Check methods, flags and values of a robot's class."""
 
     def refuse(text: str) -> None:
         raise ConfigurationError(f"{where}: {text}")
@@ -170,33 +154,25 @@ def _joint_class_fault(kind: type[JointRobot]) -> str:
 
 
 def _velocity_class_fault(kind: type[VelocityRobot]) -> str:
-    """Return what is wrong with limits, head or camera; empty if nothing."""
-    limits = getattr(kind, "limits", None)
-    if not isinstance(limits, VelocityLimits):
+    """Return what is wrong with limits or head; empty if nothing."""
+    limits, head = getattr(kind, "limits", None), kind.head
+    found = {}
+    if isinstance(limits, VelocityLimits):
+        found = {
+            n: getattr(limits, n) for n in ("forward", "backward", "turn")
+        }
+    if not found or not all(map(isfinite, found.values())):
         return (
             "limits must be VelocityLimits(forward=..., backward=..., "
-            f"turn=...), got {shown(limits)}"
+            f"turn=...), all finite, got {shown(limits)}"
         )
-    for name, unit in (("forward", "m/s"), ("backward", "m/s"),
-                       ("turn", "rad/s")):  # fmt: skip
-        if not isfinite(getattr(limits, name)):
-            return (
-                f"limits must give a finite {name} [{unit}], got "
-                f"{getattr(limits, name)}"
-            )
-    if (head := kind.head) is not None:
-        if not _are_numbers(head, len(HeadLimits._fields), pi):
-            return (
-                "head must be HeadLimits(yaw, up, down), >= 0, in [rad], got "
-                f"{shown(head)}"
-            )
-        if kind.look is VelocityRobot.look:
-            return "head needs the method look()"
-    if kind.camera is not None and not isinstance(kind.camera, CameraMount):
+    if head is not None and not _are_numbers(head, 3, pi):
         return (
-            "camera must be CameraMount(forward, left, up, ...), got "
-            f"{shown(kind.camera)}"
+            "head must be HeadLimits(yaw, up, down), >= 0, in [rad], got "
+            f"{shown(head)}"
         )
+    if head is not None and kind.look is VelocityRobot.look:
+        return "head needs the method look()"
     return ""
 
 

@@ -1,6 +1,6 @@
 """Checks of what robots report: types, units, jumps, sightings, clocks."""
 
-from math import degrees, hypot, isfinite, pi
+from math import degrees, hypot, inf, isfinite, pi
 from typing import Any
 
 import numpy as np
@@ -10,8 +10,8 @@ from ..core.errors import shown
 from ..core.poses import Array, Pose, wrap_angle
 from ..core.user_file import FAILURES
 from ..perception.measurement import RobotState, RobotStatus, Sighting
+from .joint_motion import Motors
 from .method_thread import SessionLost
-from .motors import Motors
 from .robot import JointRobot
 
 FOOT_SENSORS = 8
@@ -32,15 +32,12 @@ FASTEST = 10.0  # plausible speed of a walking robot, in [m/s]
 FASTEST_TURN = 15.0  # plausible turning rate, in [rad/s]
 MIN_PASSED = 0.02  # over which a jump is judged at least, in [s]
 LEAD = 0.1  # by which times may run ahead of this computer's clock, in [s]
+LAG = 0.5  # by which they may fall behind it, in [s]
 DRIFT = 0.02  # relative difference of two clocks' rates at most
 
 
 def plain_report(got: Any, robot: Any, name: str) -> RobotState:
-    """Return a report of plain numbers.
-
-    Raises:
-        SessionLost: If it is no report of such a robot.
-    """
+    """Return a report of plain numbers."""
     joints = isinstance(robot, JointRobot)
     try:
         if not isinstance(got, RobotState):
@@ -74,15 +71,10 @@ def plain_report(got: Any, robot: Any, name: str) -> RobotState:
 def _plain_joints(got: RobotState, joints: int) -> RobotState:
     status = got.status
     if status is not None:
-        status = RobotStatus(
-            _floats(status.stiffness, joints),
-            _floats(status.temperature, joints),
-            _floats(status.heat, joints),
-            _floats(status.current, joints),
-            float(status.charge),
-            bool(status.pressed),
-            bool(status.bumped),
-        )
+        each = (_floats(values, joints) for values in status[:4])
+        charge, *flags = status[4:]
+        plain = (*each, float(charge), *map(bool, flags))
+        status = RobotStatus._make(plain)
     assert got.tilt is not None  # else it is no report of joints
     return got._replace(
         joint_positions=_floats(got.joint_positions, joints),
@@ -103,21 +95,12 @@ def _floats(values: Any, count: int) -> Array:
 
 
 def in_order(report: RobotState, order: NDArray[np.intp]) -> RobotState:
-    """Return a report in the order of the motors.
-
-    Args:
-        report: Report in the order of the robot's joints.
-        order: Index of each motor among those joints. Shape (motors,).
-    """
+    """Return a report in the order of the motors, by their joints."""
     assert report.joint_velocities is not None
     status = report.status
     if status is not None:
-        status = status._replace(
-            stiffness=status.stiffness[order],
-            temperature=status.temperature[order],
-            heat=status.heat[order],
-            current=status.current[order],
-        )
+        each = (values[order] for values in status[:4])
+        status = RobotStatus._make((*each, *status[4:]))
     return report._replace(
         joint_positions=report.joint_positions[order],
         joint_velocities=report.joint_velocities[order],
@@ -169,12 +152,7 @@ def joint_jump(report: RobotState, last: RobotState, motors: Motors) -> str:
 
 
 def pose_fault(report: RobotState, last: RobotState | None) -> str:
-    """Return why a report is implausible; empty if it is plausible.
-
-    Args:
-        report: Newest report.
-        last: The one before, if it is to be continued; plausible itself.
-    """
+    """Return why a report is implausible after a plausible one, if so."""
     x, y, theta = report.pose
     if not all(isfinite(value) for value in (report.time, x, y, theta)):
         return (
@@ -231,28 +209,31 @@ def sighting_fault(sighting: Sighting) -> str:
     return ""
 
 
-class LeadMeter:
-    """Time by which the clock of a robot runs ahead of this computer's.
+class ClockMeter:
+    """Check of a robot's clock against this computer's.
 
-    The clocks may have different zeros, so only differences are compared.
+    The clocks may have different zeros, so only differences are compared. A
+    lag stays: reports that are old do not become newer by themselves.
     """
 
-    def __init__(self) -> None:
-        """Start before the first report."""
-        self._lead = 0.0
-        self._arrived: float | None = None
+    def __init__(self, *, stamped: bool = True) -> None:
+        """Start before the first report; counted times may fall behind."""
+        self._most = LAG if stamped else inf
+        self._lead = self._lag = 0.0
+        self._last: tuple[float, float] | None = None  # time and arrival
 
-    def fault(self, passed: float, now: float) -> str:
-        """Return the fault of a report; empty if its time is in order.
-
-        Args:
-            passed: Time since the last report by the robot's clock, in [s].
-            now: Time of arrival, in [s].
-        """
-        if self._arrived is not None:
-            gone = (now - self._arrived) * (1.0 + DRIFT)
-            self._lead = max(0.0, self._lead + passed - gone)
-        self._arrived = now
-        if self._lead <= LEAD:
+    def fault(self, time: float, now: float) -> str:
+        """Return the fault of a report by its times [s]; empty without one."""
+        last, self._last = self._last, (time, now)
+        if last is None or time < last[0]:
+            self._lead = self._lag = 0.0
             return ""
-        return f"{self._lead:.3f} s ahead of the clock"
+        gone = now - last[1]
+        ahead, drift = time - last[0] - gone, DRIFT * gone
+        self._lead = max(0.0, self._lead + ahead - drift)
+        self._lag = max(0.0, self._lag - ahead - drift)
+        if self._lead > LEAD:
+            lead, self._lead = self._lead, 0.0
+            return f"{lead:.3f} s ahead of the clock"
+        late = self._lag > self._most
+        return f"{self._lag:.3f} s behind the clock" if late else ""

@@ -9,7 +9,7 @@ from typing import Any
 
 from ..perception.measurement import RobotState
 from .dead_man_switch import DeadManSwitch
-from .guardian_process import Guardian, halting_method
+from .guardian_process import FEEDING, Guardian, halting_method
 from .method_thread import (
     BLOCKED,
     CLOSE_TIMEOUT,
@@ -33,7 +33,7 @@ class RobotSession:
     Its methods are called in a thread, so that one that does not return does
     not block control. While one of them does not return, the method that
     halts the robot is called beside it. The guardian is informed of every
-    command.
+    command; the robot is safe without it once a halt has returned.
 
     Attributes:
         robot: The robot.
@@ -86,22 +86,11 @@ class RobotSession:
         return self._methods.name_of(method)
 
     def run(self, method: str, within: float) -> None:
-        """Call a method, and wait for its return up to a time in [s].
-
-        Raises:
-            SessionLost: If it fails or does not return in time.
-        """
+        """Call a method, and wait for its return up to a time in [s]."""
         self._methods.run(method, within)
 
     def listen(self, patience: float) -> RobotState | None:
-        """Return the newest report, or None; the last one if it is repeated.
-
-        Args:
-            patience: Longest time to wait for a new report, in [s].
-
-        Raises:
-            SessionLost: If a method failed, or returned no report.
-        """
+        """Return the newest report, or None; the last one if repeated."""
         deadline = self._clock() + patience
         report: RobotState | None = None
         while True:
@@ -136,37 +125,23 @@ class RobotSession:
     def command(self, call: Callable[[], None]) -> None:
         """Begin a command that moves the robot, without waiting for it.
 
-        Args:
-            call: Function that commands the robot. It replaces one that has
-                not begun yet.
-
-        Raises:
-            SessionLost: If the last command failed.
+        It replaces one that has not begun yet.
         """
         if self._dry_run:
             return
         self._raise_failure()
         self.halted = False
-        if self._guardian is not None:
-            self._guardian.hold()
+        self.attend()
         self._begin("command", call)
         if self._methods.blocked is None:
             self._beside = None
 
     def halt(self) -> None:
-        """Begin to stop or release the robot, without waiting for it.
-
-        Raises:
-            SessionLost: If the last command failed, or a method blocks for
-                so long that the session cannot go on.
-        """
+        """Begin to stop or release the robot, without waiting for it."""
         if self._dry_run:
             return
         self._raise_failure()
-        if self._guardian is not None and self._waits:
-            self._guardian.hold()  # the command may still move the robot
-        elif self._guardian is not None:
-            self._guardian.leave()
+        self.attend()
         self.halted = True
         self._begin(self._halting)
         blocked = self._methods.blocked
@@ -174,6 +149,12 @@ class RobotSession:
             self._beside = None
         else:
             self._halt_beside(*blocked)
+
+    def attend(self) -> None:
+        """Tell the guardian whether the robot is safe without control."""
+        if self._guardian is not None:
+            safe = self.halted and not self._waits
+            (self._guardian.leave if safe else self._guardian.hold)()
 
     def tell(self, method: str, call: Callable[[], None]) -> "Future[Any]":
         """Begin a method beside the commands; return its result."""
@@ -184,43 +165,36 @@ class RobotSession:
         return "" if self._switch is None else self._switch.released()
 
     def check_blocked(self) -> None:
-        """Check that methods return.
-
-        Raises:
-            SessionLost: If one does not.
-        """
+        """Check that methods return."""
         if self._methods.blocked is not None:
             raise SessionLost(self._blocked_text(*self._methods.blocked))
 
     def close(self, *, halts: bool = True) -> None:
-        """Halt the robot, by the guardian if need be, and disconnect.
-
-        Raises:
-            SessionLost: If it did not halt, and there is no guardian, nor
-                another error.
-        """
+        """Halt the robot, by the guardian if need be, and disconnect."""
         if self._switch is not None:
             self._switch.close()
         failure = None
         unsure = self._waits or not self.halted
         if not self._dry_run and (halts or unsure):
             failure = self._last_halt()
+        guardian, self._guardian = self._guardian, None
+        if guardian is not None and failure is not None:
+            log.warning("%s; the guardian halts the robot", failure)
+            guardian.release()
+        elif guardian is not None:
+            guardian.leave()
         if self._methods.blocked is None:
             try:
                 self._methods.run("close", self.robot.closing)
             except SessionLost as error:
                 log.warning("%s", error)
         self._methods.end()
-        guardian, self._guardian = self._guardian, None
-        if failure is not None and guardian is not None:
-            log.warning("%s; the guardian halts the robot", failure)
-            guardian.release()
-        elif failure is not None:
-            if sys.exc_info()[1] is None:
-                raise failure
-            log.warning("%s", failure)  # beside what ended the session
-        elif guardian is not None:
+        if guardian is not None:
             guardian.dismiss()
+        elif failure is not None and sys.exc_info()[1] is None:
+            raise failure
+        elif failure is not None:
+            log.warning("%s", failure)  # beside what ended the session
 
     @property
     def _waits(self) -> bool:
@@ -232,20 +206,28 @@ class RobotSession:
         """Halt the robot, and wait for it; return what failed."""
         methods, halting = self._methods, self._halting
         halted, within = self._beside, UNHALTED
-        if self._guardian is not None and self.halted:
-            self._guardian.leave()  # it is told below if this fails
         if methods.blocked is None:
             halted, within = self._begin(halting), CLOSE_TIMEOUT
-            wait([halted], BLOCKED)
+            self._await(halted, BLOCKED)
             if halted.cancel():  # another method does not return
                 halted, within = None, UNHALTED
+        halted = halted or methods.call_apart(halting)
+        self._await(halted, within)
         try:
-            (halted or methods.call_apart(halting)).result(within)
+            halted.result(0.0)
         except SessionLost as error:
             return error
         except TimeoutError:
             return SessionLost(f"{self.name_of(halting)} did not return")
         return None
+
+    def _await(self, halted: "Future[Any]", within: float) -> None:
+        """Wait for a last halt; the guardian acts if control dies now."""
+        end = monotonic() + within
+        while not halted.done() and (left := end - monotonic()) > 0.0:
+            if self._guardian is not None:
+                self._guardian.hold()
+            wait([halted], min(left, FEEDING))
 
     def _begin(
         self, method: str, call: Callable[[], None] | None = None
@@ -281,11 +263,7 @@ class RobotSession:
 
 
 def opened_here(robot: Any) -> None:
-    """Connect to a robot in this thread, so that this process can fork.
-
-    Raises:
-        SessionLost: If the robot does not answer.
-    """
+    """Connect to a robot in this thread, so that this process can fork."""
     try:
         robot.open()
     except OSError as error:

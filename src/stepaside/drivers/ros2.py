@@ -24,7 +24,7 @@ from ..core.history import History
 from ..core.poses import Array, Pose
 from ..core.rotations import rotation_of
 from ..perception.measurement import RobotState, Sighting
-from .robot import VelocityRobot
+from .robot import REST, VelocityLimits, VelocityRobot
 from .robot_loader import RobotRequest
 from .ros2_dds import (
     DdsParticipant,
@@ -38,7 +38,6 @@ from .ros2_dds import (
     take_messages,
     vector,
 )
-from .velocity_limits import REST, VelocityLimits
 
 ODOMETRY, COMMAND, IDEAL = "odom", "cmd_vel", "ideal_sight"
 KINDS = ("geometry_msgs/Twist", "geometry_msgs/TwistStamped")
@@ -65,16 +64,7 @@ class PeopleTopic(NamedTuple):
     classes: str = ""
 
     def nearest(self, message: Any, kind: str) -> Any:
-        """Return the position nearest to the origin of the message's frame.
-
-        Args:
-            message: Message of the topic.
-            kind: Class that counts; empty for any. The hypothesis with the
-                highest score counts.
-
-        Returns:
-            Point, in [m]; None without any.
-        """
+        """Return the nearest position that counts, in [m], or None."""
         place = attrgetter(self.position)
         if not self.each:
             return place(message)
@@ -91,11 +81,7 @@ class PeopleTopic(NamedTuple):
 
 
 def read_people(files: Sequence[str]) -> list[PeopleTopic]:
-    """Read tables of topics with people.
-
-    Raises:
-        ConfigurationError: If one is invalid.
-    """
+    """Read tables of topics with people."""
     rows: dict[str, PeopleTopic] = {}
     for file in (PEOPLE, *map(Path, files)):
         try:
@@ -111,14 +97,7 @@ def read_people(files: Sequence[str]) -> list[PeopleTopic]:
 
 
 def parse_remapping(rules: Sequence[str], names: set[str]) -> dict[str, str]:
-    """Parse rules like ``cmd_vel:=/nav/cmd_vel``.
-
-    Returns:
-        Topics with a leading slash, by name.
-
-    Raises:
-        ConfigurationError: If a rule is invalid, or a name occurs twice.
-    """
+    """Parse rules like ``cmd_vel:=/nav/cmd_vel``; topics by name."""
     found: dict[str, str] = {}
     for rule in rules:
         name, separator, topic = rule.partition(":=")
@@ -164,14 +143,7 @@ class CommandWriter:
     def write(
         self, forward: float, lateral: float, turn: float, head: Any
     ) -> None:
-        """Publish a velocity.
-
-        Args:
-            forward: In [m/s].
-            lateral: In [m/s].
-            turn: In [rad/s].
-            head: Header of stamped commands.
-        """
+        """Publish a velocity, in [m/s] and [rad/s]."""
         self._prepare()
         twist = make(KINDS[0], vector(forward, lateral), vector(z=turn))
         for kind, writer in self._writers.items():
@@ -215,12 +187,7 @@ class FrameTree:
                         self._parents[each.child_frame_id] = parent, turn
 
     def up(self, frame: str, ends: Sequence[str] = ()) -> tuple[str, Array]:
-        """Return an ancestor of a frame, and the transform to it.
-
-        Args:
-            frame: Name of the frame.
-            ends: Frames at which to end; else the root.
-        """
+        """Return an ancestor of a frame, or the root, and its transform."""
         turn: Array = np.eye(4)
         for _ in range(DEEPEST):
             if frame in ends or frame not in self._parents:
@@ -405,11 +372,7 @@ class Ros2Robot(VelocityRobot):
 
 
 def make_robot(request: RobotRequest) -> Callable[[], Ros2Robot]:
-    """Return a function that makes the robot at ``ros2:/NAMESPACE``.
-
-    Raises:
-        ConfigurationError: If namespace, remapping or people are invalid.
-    """
+    """Return a function that makes the robot at ``ros2:/NAMESPACE``."""
     people = read_people(request.people)
     names = {row.name for row in people} - {IDEAL} | {ODOMETRY, COMMAND}
     remapping = parse_remapping(request.remap, names)

@@ -87,11 +87,7 @@ PLAIN = {
 
 
 def define(messages: Mapping[str, str]) -> None:
-    """Define messages that ROS 2 itself does not have.
-
-    Raises:
-        ConfigurationError: If one is invalid.
-    """
+    """Define messages that ROS 2 itself does not have."""
     for name, text in messages.items():
         if name in STORE.fielddefs:
             continue
@@ -105,11 +101,7 @@ def define(messages: Mapping[str, str]) -> None:
 
 @cache
 def message_type(name: str) -> Any:
-    """Return the DDS type of a message, such as geometry_msgs/msg/Twist.
-
-    Raises:
-        ConfigurationError: If it is not defined.
-    """
+    """Return the DDS type of a message, such as geometry_msgs/msg/Twist."""
     if name not in STORE.fielddefs:
         raise ConfigurationError(f"there is no definition of {name}")
     package, _, short = name.split("/")
@@ -165,14 +157,7 @@ def ros_type(name: str) -> str:
 
 
 def parse_namespace(text: str) -> str:
-    """Parse ``/NAMESPACE``, with or without the prefix ``ros2:``.
-
-    Returns:
-        The namespace with a leading slash; empty for the root.
-
-    Raises:
-        ConfigurationError: If it is not a valid ROS 2 namespace.
-    """
+    """Parse ``/NAMESPACE`` or ``ros2:/NAMESPACE``; empty for the root."""
     name = text.removeprefix("ros2:").rstrip("/")
     name = name if not name or name.startswith("/") else f"/{name}"
     if not _NAME.fullmatch(name):
@@ -187,25 +172,17 @@ class DdsParticipant:
     """Participant of a DDS domain, with its topics."""
 
     def __init__(
-        self,
-        domain: int | None = None,
-        *,
-        beyond: bool = False,
+        self, domain: int | None = None, *, beyond: bool = False
     ) -> None:
-        """Join a domain.
-
-        Args:
-            domain: Domain number; ``ROS_DOMAIN_ID``, or 0, by default.
-            beyond: Whether other machines are discovered, as configured by
-                CycloneDDS's defaults or ``CYCLONEDDS_URI``.
-
-        Raises:
-            ConfigurationError: If the number is out of range or DDS fails.
-        """
-        number = _environment_domain() if domain is None else domain
+        """Join a domain; beyond this machine, if wanted."""
+        text = str(domain)
+        if domain is None:
+            text = os.environ.get("ROS_DOMAIN_ID", "0") or "0"
+        number = int(text) if text.isdecimal() else -1
         if not 0 <= number <= MAX_DOMAIN:
             raise ConfigurationError(
-                f"domain must lie in [0, {MAX_DOMAIN}], got {number}"
+                f"domain, or ROS_DOMAIN_ID, must be a whole number in "
+                f"[0, {MAX_DOMAIN}], got {text!r}"
             )
         base = os.environ.get(SETTING, "") if beyond else LOCALHOST
         with CREATION, _configured(base, COMPATIBLE):
@@ -220,78 +197,54 @@ class DdsParticipant:
 
     @property
     def reach(self) -> str:
-        """Sentence on which programs can be discovered, and how to change it.
+        """Sentence on which programs can be discovered.
 
-        Programs that are not are neither heard nor named anywhere, so users
-        need to know.
+        Programs that are not are neither heard nor named anywhere.
         """
-        number = self._number
-        if self._beyond:
-            return (
-                f"searched domain {number} of the network; ROS 2 programs "
-                f"must have ROS_DOMAIN_ID={number} and must not have "
-                "ROS_AUTOMATIC_DISCOVERY_RANGE=LOCALHOST or "
-                "ROS_LOCALHOST_ONLY=1"
-            )
+        where = "the network" if self._beyond else "this machine only"
         return (
-            f"searched domain {number} of this machine only; ROS 2 programs "
-            f"here must have ROS_DOMAIN_ID={number} and "
+            f"searched domain {self._number} of {where}: ROS 2 programs must "
+            f"have ROS_DOMAIN_ID={self._number} and, as network says, "
             "ROS_AUTOMATIC_DISCOVERY_RANGE=LOCALHOST (Humble: "
-            "ROS_LOCALHOST_ONLY=1), and those of other machines need "
-            "network=true"
+            "ROS_LOCALHOST_ONLY=1) or not"
         )
 
     def writer(
         self, topic: str, kind: str, depth: int = 1, *, latched: bool = False
     ) -> Any:
-        """Create a reliable writer of a topic.
-
-        Args:
-            topic: Name of the topic in ROS, with a leading slash.
-            kind: Type of its messages.
-            depth: Messages queued for slow readers.
-            latched: Whether later readers receive the last message, too
-                (durability "transient local").
-        """
-        qos = [Policy.Reliability.Reliable(0)]
-        if latched:
-            qos.append(Policy.Durability.TransientLocal)
-        return self._end(DataWriter, topic, kind, depth, qos)
+        """Create a reliable writer of a topic."""
+        return self._end(DataWriter, topic, kind, depth, True, latched)
 
     def reader(
         self, topic: str, kind: str, depth: int = 10, *, latched: bool = False
     ) -> Any:
-        """Create a best-effort reader, which matches writers of any QoS.
-
-        Args:
-            topic: Name of the topic in ROS, with a leading slash.
-            kind: Type of its messages.
-            depth: Messages queued until they are taken.
-            latched: Whether to receive the last message of a latched writer
-                that wrote before; only such writers match.
-        """
-        qos = [Policy.Reliability.BestEffort]
-        if latched:
-            qos = [
-                Policy.Reliability.Reliable(0),
-                Policy.Durability.TransientLocal,
-            ]
-        return self._end(DataReader, topic, kind, depth, qos)
+        """Create a best-effort reader, which matches writers of any QoS."""
+        return self._end(DataReader, topic, kind, depth, latched, latched)
 
     def _end(
-        self, end: Any, topic: str, kind: str, depth: int, qos: list[Any]
+        self,
+        end: Any,
+        topic: str,
+        kind: str,
+        depth: int,
+        reliable: bool,
+        latched: bool,
     ) -> Any:
-        quality = Qos(
-            *qos,
+        qos = [
+            Policy.Reliability.Reliable(0)
+            if reliable
+            else Policy.Reliability.BestEffort,
             Policy.History.KeepLast(depth),
             Policy.DataRepresentation(use_cdrv0_representation=True),
-        )
+        ]
+        if latched:
+            qos.append(Policy.Durability.TransientLocal)
         key, name = (topic, kind), f"rt{topic}"  # the prefix is ROS 2's
         with CREATION:
             if key not in self._topics:
                 known = message_type(kind)
                 self._topics[key] = Topic(self.participant, name, known)
-            return end(self.participant, self._topics[key], qos=quality)
+            return end(self.participant, self._topics[key], qos=Qos(*qos))
 
     def close(self) -> None:
         """Leave the domain, even if readers or writers are still referenced.
@@ -331,13 +284,7 @@ class Endpoints:
     def __init__(
         self, dds: DdsParticipant, topic: str, *, writers: bool
     ) -> None:
-        """Subscribe to the discovery of DDS.
-
-        Args:
-            dds: DDS participant; the caller closes it.
-            topic: Name of the topic in ROS, with a leading slash.
-            writers: Whether to list writers, or readers.
-        """
+        """Subscribe to the discovery of DDS."""
         builtin = BuiltinTopicDcpsSubscription
         if writers:
             builtin = BuiltinTopicDcpsPublication
@@ -370,11 +317,7 @@ class Endpoints:
 
 @contextmanager
 def _configured(*parts: str) -> Iterator[None]:
-    """Set the configuration for the first participant of a domain.
-
-    Args:
-        parts: Names of files, or documents; later ones take precedence.
-    """
+    """Set files or documents for the first participant of a domain."""
     before = os.environ.get(SETTING)
     lines = ("".join(part.split("\n")) for part in parts if part)
     os.environ[SETTING] = ",".join(lines)
@@ -385,12 +328,3 @@ def _configured(*parts: str) -> Iterator[None]:
             os.environ[SETTING] = before
         else:
             os.environ.pop(SETTING, None)
-
-
-def _environment_domain() -> int:
-    text = os.environ.get("ROS_DOMAIN_ID", "0") or "0"
-    if not text.isascii() or not text.isdigit():
-        raise ConfigurationError(
-            f"ROS_DOMAIN_ID must be a whole number, got {text!r}"
-        )
-    return int(text)

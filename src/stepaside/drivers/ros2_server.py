@@ -7,14 +7,17 @@ prefix.
 
 import logging
 from collections.abc import Sequence
-from math import cos, hypot, isfinite, sin
+from math import cos, isfinite, sin
 from typing import Any, Protocol
 
-from ..core.poses import Pose, wrap_angle
+import numpy as np
+
 from ..core.rotations import quaternion_of
-from ..perception.images import ColourImage
+from ..perception.camera_model import CameraModel
+from ..perception.images import ColourImage, Pixels
 from ..perception.measurement import RobotState, Sighting
 from ..strategies.velocity_set import BodyVelocity
+from .robot import REST
 from .ros2 import COMMAND, IDEAL, KINDS, ODOMETRY
 from .ros2_dds import (
     DdsParticipant,
@@ -25,22 +28,16 @@ from .ros2_dds import (
     take_messages,
     vector,
 )
-from .velocity_limits import REST
 
 REPORTS = 0.048  # from one report to the next, in [s]
 SILENCE = 0.5  # without a command before the robot stops, in [s]
 REPEAT = 400  # polls for an answer in lock step before a report is repeated
 HANDLES = 1 << 64  # CycloneDDS has handles as signed and unsigned numbers
-# Errors of the odometry, measured against the true pose in duels:
-# of position [m] and heading [rad] in a gait cycle, per path [m/m], [rad/m],
-# and per turn [rad/rad]; of forward and lateral velocity [m/s] and turning
-# rate [rad/s] beyond those commanded.
-SWAY, POSITION_PER_METRE = 0.02, 0.03
-HEADING, HEADING_PER_METRE, HEADING_PER_TURN = 0.01, 0.02, 0.02
-SPEEDS = 0.03, 0.13, 0.09
-# Height, roll and pitch of the footprint are zero by definition (REP 120); a
-# variance of zero would mean an unknown one to some programs.
-EXACT = 1e-9
+# Errors of the odometry after a minute of walking, as standard deviations:
+# along both axes [m], about the vertical [rad], and of the velocities [m/s],
+# [rad/s]. Height, roll and pitch of the footprint are zero by definition
+# (REP 120); a variance of zero would mean an unknown one to some programs.
+PLACES, SPEEDS, EXACT = (0.4, 0.4, 0.15), (0.03, 0.13, 0.09), 1e-9
 # Position, in [m]; roll, pitch and yaw, in [rad].
 BodyPlace = tuple[tuple[float, float, float], tuple[float, float, float]]
 log = logging.getLogger(__name__)
@@ -121,51 +118,44 @@ class CommandReader:
         self._reader = self._dds.reader(self._topic, name)
 
 
-class OdometryCovariance:
-    """Covariances that grow with the path and the turns of a robot."""
-
-    def __init__(self) -> None:
-        """Begin where odometry begins."""
-        self._last: Pose | None = None
-        self._path = self._turned = 0.0
-
-    def note(self, pose: Pose) -> list[float]:
-        """Return the covariance of the next pose, in odometry."""
-        last, self._last = self._last, pose
-        if last is not None:
-            self._path += hypot(pose.x - last.x, pose.y - last.y)
-            self._turned += abs(wrap_angle(pose.theta - last.theta))
-        heading = hypot(
-            HEADING,
-            HEADING_PER_METRE * self._path,
-            HEADING_PER_TURN * self._turned,
-        )
-        # A heading that errs in proportion to the path bends it.
-        aside = 0.5 * HEADING_PER_METRE * self._path**2
-        position = hypot(SWAY, POSITION_PER_METRE * self._path, aside)
-        return diagonal(position, position, heading)
-
-
 def diagonal(x: float, y: float, turn: float) -> list[float]:
-    """Return a row-major covariance of planar motion. Length 36.
-
-    Args:
-        x: Standard deviation along x, in [m] or [m/s].
-        y: Standard deviation along y.
-        turn: Standard deviation about z, in [rad] or [rad/s].
-    """
+    """Return a covariance of planar motion by standard deviations."""
     values = (x * x, y * y, EXACT, EXACT, EXACT, turn * turn)
-    return [
-        values[row] if row == column else 0.0
-        for row in range(6)
-        for column in range(6)
-    ]
+    return [float(value) for value in np.diag(values).ravel()]
 
 
 def rotation_message(roll: float, pitch: float, yaw: float) -> Any:
     """Return the rotation Rz(yaw) Ry(pitch) Rx(roll), angles in [rad]."""
     w, x, y, z = quaternion_of(roll, pitch, yaw)
     return make("geometry_msgs/Quaternion", x, y, z, w)
+
+
+def image_message(head: Any, pixels: Pixels) -> Any:
+    """Encode red, green and blue in ``rgb8``."""
+    height, width = pixels.shape[:2]
+    values = height, width, "rgb8", 0, 3 * width, pixels.tobytes()
+    return make("sensor_msgs/Image", head, *values)
+
+
+def compressed_message(head: Any, pixels: Pixels) -> Any:
+    """Encode red, green and blue as JPEG."""
+    import cv2
+
+    _, data = cv2.imencode(".jpg", cv2.cvtColor(pixels, cv2.COLOR_RGB2BGR))
+    return make("sensor_msgs/CompressedImage", head, "jpeg", data.tobytes())
+
+
+def camera_info_message(head: Any, camera: CameraModel) -> Any:
+    """Return the calibration of a camera without distortion."""
+    matrix = camera.calibration_matrix
+    projection = np.column_stack([matrix, np.zeros(3)])
+    arrays = [m.ravel().tolist() for m in (matrix, np.eye(3), projection)]
+    whole = make("sensor_msgs/RegionOfInterest", 0, 0, 0, 0, False)
+    return make(
+        "sensor_msgs/CameraInfo",
+        *(head, camera.height, camera.width, "plumb_bob", [0.0] * 5),
+        *(*arrays, 0, 0, whole),
+    )
 
 
 class Ros2Server:
@@ -212,7 +202,6 @@ class Ros2Server:
                 ("image_raw/compressed", "CompressedImage"),
             )
         }
-        self._covariance = OdometryCovariance()
         self._description: Any = None
         if urdf:
             self._description = dds.writer(
@@ -235,19 +224,9 @@ class Ros2Server:
         """Whether there is a commander."""
         return self._commander is not None
 
-    @property
-    def ready(self) -> bool:
-        """Whether there is a commander, so that the game may begin."""
-        return self.connected
-
-    def fileno(self) -> int:
-        """Return -1: there is no descriptor to wait on."""
-        return -1
-
-    def press(self, pressed: bool) -> None:
-        """Align the reports with the tick at which the button is released."""
-        if not pressed:
-            self._ticks = 0
+    def begin(self) -> None:
+        """Align the reports with the next tick."""
+        self._ticks = 0
 
     def speak(self) -> None:
         """Publish a report, if one is due at this tick."""
@@ -259,11 +238,7 @@ class Ros2Server:
         self._ticks += 1
 
     def hear(self) -> bool:
-        """Take commands that have arrived.
-
-        Returns:
-            Whether the simulation may go on.
-        """
+        """Take commands that have arrived; return whether time may go on."""
         present = self._commands.commanders()
         if self._commander is not None and self._commander not in present:
             log.warning("%s: commander left", self._namespace or "/")
@@ -373,7 +348,7 @@ class Ros2Server:
                 make(
                     "geometry_msgs/PoseWithCovariance",
                     make("geometry_msgs/Pose", place, turn),
-                    self._covariance.note(pose),
+                    diagonal(*PLACES),
                 ),
                 make(
                     "geometry_msgs/TwistWithCovariance",
@@ -403,13 +378,6 @@ class Ros2Server:
         """
         if image is self._image:
             return
-        # Imported here, as only images need OpenCV.
-        from .ros2_images import (
-            camera_info_message,
-            compressed_message,
-            image_message,
-        )
-
         self._image = image
         head = header(image.time, self._frame("camera_optical_frame"))
         encode = {

@@ -1,6 +1,5 @@
 """Safe operation of a robot driven by its joints: states and conditions."""
 
-from collections.abc import Callable
 from enum import Enum, IntEnum
 from math import atan2, degrees, hypot, inf
 from typing import NamedTuple
@@ -57,81 +56,32 @@ class SafetyReaction(IntEnum):
 
 
 class SafetyInputs(NamedTuple):
-    """Safety-relevant values of one valid frame.
+    """Safety-relevant values of one valid frame."""
 
-    Attributes:
-        time: Time of the frame, by the count of frames, in [s].
-        chest_pressed: Whether the chest button is pressed.
-        tilt: Largest tilt of the torso, present or predicted, in [rad].
-        status: Worst status of a leg's motor.
-        temperature: Temperature of the hottest leg motor, in [degC].
-        reached: Whether a slow motion to a posture is complete.
-        load: Sum of all foot sensors, in [kg].
-        bumper: Whether a foot bumper is pressed.
-        charge: Charge of the battery, from 0 to 1.
-        current: Largest ratio of a motor's current to its stall current.
-        force: Specific force by the accelerometer, in [m/s^2].
-        frozen: Time for which the accelerometer's reading has been constant
-            while the legs moved, in [s].
-        hindrance: Reason by the robot why it must not walk; empty if it may.
-    """
-
-    time: float
+    time: float  # of the frame, by the count of frames, in [s]
     chest_pressed: bool = False
-    tilt: float = 0.0
-    status: int = 0
-    temperature: float = 25.0
-    reached: bool = False
-    load: float = inf
+    tilt: float = 0.0  # largest of the torso, now or predicted, in [rad]
+    status: int = 0  # worst of a leg's motor
+    temperature: float = 25.0  # of the hottest leg motor, in [degC]
+    reached: bool = False  # whether a slow motion to a posture is complete
+    load: float = inf  # on both feet, in [kg]
     bumper: bool = False
-    charge: float = 1.0
-    current: float = 0.0
-    force: tuple[float, float, float] = (0.0, 0.0, GRAVITY)
-    frozen: float = 0.0
-    hindrance: str = ""
+    charge: float = 1.0  # of the battery, from 0 to 1
+    current: float = 0.0  # largest of a motor over its stall current
+    force: tuple[float, float, float] = (0.0, 0.0, GRAVITY)  # in [m/s^2]
+    frozen: float = 0.0  # constant force while the legs move, in [s]
+    hindrance: str = ""  # why the robot must not walk
 
 
-def _falls(inputs: SafetyInputs) -> str:
-    if inputs.tilt <= FALL:
-        return ""
-    return f"torso tilts by {inputs.tilt:.2f} rad: the robot falls"
-
-
-def _is_critical(inputs: SafetyInputs) -> str:
-    if inputs.status < 3:
-        return ""
-    return "a motor of the legs reports critical heat"
-
-
-def _is_hot(inputs: SafetyInputs) -> str:
-    if inputs.status == 2:
-        return "a motor of the legs reports heat"
-    if inputs.temperature > HOTTEST:
-        return f"a motor of the legs has {inputs.temperature:.0f} degC"
-    return ""
-
-
-def _is_overloaded(inputs: SafetyInputs) -> str:
-    if inputs.current <= 1.0:
-        return ""
-    return f"a motor draws {inputs.current:.1f} times its stall current"
-
-
-def _is_empty(inputs: SafetyInputs) -> str:
-    if inputs.charge >= LOWEST_CHARGE:
-        return ""
-    return f"battery is at {100.0 * inputs.charge:.0f} %"
-
-
-def _has_bad_accelerometer(inputs: SafetyInputs) -> str:
+def _accelerometer_fault(inputs: SafetyInputs) -> str:
     x, y, z = inputs.force
-    size = hypot(x, y, z)
+    size, lean = hypot(x, y, z), atan2(hypot(x, y), z)
     if size < MIN_FORCE or size > MAX_FORCE:
         return (
             f"accelerometer reads {size:.1f} m/s^2, outside "
             f"[{MIN_FORCE:.1f}, {MAX_FORCE:.1f}] m/s^2"
         )
-    if (lean := atan2(hypot(x, y), z)) > MAX_LEAN:
+    if lean > MAX_LEAN:
         return (
             f"accelerometer reads a tilt of {degrees(lean):.0f} deg, which "
             "the torso does not have"
@@ -141,35 +91,48 @@ def _has_bad_accelerometer(inputs: SafetyInputs) -> str:
     return ""
 
 
-def _is_lifted(inputs: SafetyInputs) -> str:
-    if inputs.load >= LEAST_LOAD:
-        return ""
-    return f"both feet are lifted: their load is {inputs.load:.1f} kg"
+def _heat(inputs: SafetyInputs) -> str:
+    if inputs.status == 2:
+        return "a motor of the legs reports heat"
+    if inputs.temperature > HOTTEST:
+        return f"a motor of the legs has {inputs.temperature:.0f} degC"
+    return ""
 
 
-def _touches(inputs: SafetyInputs) -> str:
-    return "a foot bumper is pressed" if inputs.bumper else ""
+def _reasons(inputs: SafetyInputs) -> tuple[str, ...]:
+    """Return why the robot must not continue; empty where it may."""
+    tilt, load, current = inputs.tilt, inputs.load, inputs.current
+    found = (
+        (tilt > FALL, f"torso tilts by {tilt:.2f} rad: the robot falls"),
+        (inputs.status >= 3, "a motor of the legs reports critical heat"),
+        (True, _heat(inputs)),
+        (
+            current > 1.0,
+            f"a motor draws {current:.1f} times its stall current",
+        ),
+        (
+            inputs.charge < LOWEST_CHARGE,
+            f"battery is at {100.0 * inputs.charge:.0f} %",
+        ),
+        (True, _accelerometer_fault(inputs)),
+        (
+            load < LEAST_LOAD,
+            f"both feet are lifted: their load is {load:.1f} kg",
+        ),
+        (inputs.bumper, "a foot bumper is pressed"),
+        (True, inputs.hindrance),
+    )
+    return tuple(why if holds else "" for holds, why in found)
 
 
-def _is_hindered(inputs: SafetyInputs) -> str:
-    return inputs.hindrance
-
-
-# Functions that return why the robot must not continue; its reactions; and
-# times for which the reasons must last without a break, in [s]: longer than
-# a landing, or a single bad reading.
-CONDITIONS: tuple[
-    tuple[Callable[[SafetyInputs], str], SafetyReaction, float], ...
-] = (
-    (_falls, SafetyReaction.LIMP, 0.0),
-    (_is_critical, SafetyReaction.LIMP, 0.0),
-    (_is_hot, SafetyReaction.REST, 0.0),
-    (_is_overloaded, SafetyReaction.REST, 0.5),
-    (_is_empty, SafetyReaction.REST, 0.5),
-    (_has_bad_accelerometer, SafetyReaction.STAND, 0.3),
-    (_is_lifted, SafetyReaction.STAND, 0.3),
-    (_touches, SafetyReaction.STAND, 0.05),
-    (_is_hindered, SafetyReaction.STAND, 0.0),
+# Reactions to those reasons, and times for which they must last without a
+# break, in [s]: longer than a landing, or a single bad reading.
+REACTIONS = (
+    *((SafetyReaction.LIMP, 0.0), (SafetyReaction.LIMP, 0.0)),
+    *((SafetyReaction.REST, 0.0), (SafetyReaction.REST, 0.5)),
+    *((SafetyReaction.REST, 0.5), (SafetyReaction.STAND, 0.3)),
+    *((SafetyReaction.STAND, 0.3), (SafetyReaction.STAND, 0.05)),
+    (SafetyReaction.STAND, 0.0),
 )
 
 
@@ -240,15 +203,14 @@ class Safety:
     def _due(self, inputs: SafetyInputs) -> tuple[SafetyReaction, str] | None:
         """Return the strongest reaction that is due, with its reason."""
         due: tuple[SafetyReaction, str] | None = None
-        for row, (reason, reaction, lasting) in enumerate(CONDITIONS):
-            why = reason(inputs)
+        rows = zip(_reasons(inputs), REACTIONS, strict=True)
+        for row, (why, (reaction, lasting)) in enumerate(rows):
             if not why:
                 self._met.pop(row, None)
                 continue
-            since = self._met.setdefault(row, inputs.time)
-            if inputs.time - since >= lasting:
-                if due is None or reaction > due[0]:
-                    due = reaction, why
+            lasted = inputs.time - self._met.setdefault(row, inputs.time)
+            if lasted >= lasting and (due is None or reaction > due[0]):
+                due = reaction, why
         return due
 
     def _enter(self, state: SafetyState, reason: str, time: float) -> None:
@@ -352,16 +314,7 @@ def safety_inputs(
     reached: bool,
     frozen: float,
 ) -> SafetyInputs:
-    """Return the safety inputs of a report.
-
-    Args:
-        report: Newest valid report.
-        legs: Indices of the motors that carry the robot. Shape (legs,).
-        now: Time of the report, in [s].
-        pressed: Whether the button is pressed.
-        reached: Whether a slow motion to a posture is complete.
-        frozen: Time for which the accelerometer is frozen, in [s].
-    """
+    """Return the safety inputs of a report."""
     leans = zip(report.tilt or (0.0, 0.0), report.gyro, strict=False)
     x, y, z = report.accelerometer.tolist()
     inputs = SafetyInputs(

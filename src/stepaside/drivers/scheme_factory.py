@@ -16,7 +16,7 @@ from ..locomotion.policy.policy_legs import PolicyWalk, load_legs
 from ..planning import GaitSettings
 from ..robots.description import RobotDescription
 from ..strategies import Strategy
-from .motors import Motors
+from .joint_motion import Motors
 from .robot import HeadLimits
 
 if TYPE_CHECKING:
@@ -39,21 +39,9 @@ def scheme_factory(
 ) -> Callable[[Strategy], ControlScheme]:
     """Return a factory of control schemes, one for each walk.
 
-    Args:
-        description: Description of the robot.
-        gait: Gait settings, or template of learned legs.
-        walks_by: Control settings of the paper's walk, or a walking policy;
-            for that the robot must measure joint velocities and take the
-            gains of :func:`policy_gains`.
-        tick: Control period, in [s]; it divides the period of the policy.
-        delay_ticks: Ticks from a joint command to the motion.
-        sees_as: Role of the player if it uses cameras; None if sightings
-            come with the measurements.
-
-    Raises:
-        PolicyError: If the network cannot run on the robot.
-        ConfigurationError: If cameras are used without OpenCV installed.
-        ModelError: If cameras are used and the robot has no head.
+    It walks by the paper's control or by a policy, whose period the tick [s]
+    divides. A role means that the player uses cameras; else sightings come
+    with the measurements.
     """
     detector = None if sees_as is None else _detector(sees_as)
     if isinstance(walks_by, LegsSettings):
@@ -90,16 +78,7 @@ def scheme_factory(
 def policy_gains(
     contract: PolicyContract, motors: Motors
 ) -> tuple[Array, Array]:
-    """Return stiffness and damping with which a policy moves motors.
-
-    Args:
-        contract: Contract of the policy.
-        motors: Motors of the robot, with gains of those that the policy
-            does not move.
-
-    Raises:
-        ModelError: If the robot has no motor for a joint of the policy.
-    """
+    """Return stiffness and damping with which a policy moves motors."""
     stiffness, damping = motors.stiffness.copy(), motors.damping.copy()
     for name, *own in zip(
         contract.joints, contract.stiffness, contract.damping, strict=True
@@ -117,16 +96,7 @@ def policy_gains(
 def posed_perception(
     role: str, head: HeadLimits | None, tick: float
 ) -> "Perception":
-    """Return the perception of a robot that gives the poses of its camera.
-
-    Args:
-        role: Role of the player; its opponent's colours are looked for.
-        head: Range of its head; None for a fixed camera.
-        tick: Control period, in [s].
-
-    Raises:
-        ConfigurationError: If OpenCV is not installed.
-    """
+    """Return the perception of a robot that gives the poses of its camera."""
     detector = _detector(role)
     from ..perception.pipeline import build_posed_perception
 

@@ -3,23 +3,24 @@
 from collections.abc import Callable
 from enum import Enum
 from functools import partial
+from math import isfinite
 from time import monotonic, sleep
 
 import numpy as np
 
 from ..control.strategy_runner import StrategyRunner
 from ..core.errors import StrategyError
-from ..core.poses import Array, Pose
+from ..core.poses import Pose
 from ..locomotion.locomotion import MotionRequest, template_velocity
 from ..perception.measurement import RobotState
 from ..planning import GaitSettings
 from ..strategies import Strategy
 from ..strategies.velocity_set import BodyVelocity, VelocitySet
 from .method_thread import SessionLost
-from .play_log import PlayTick
+from .play_log import PlayTick, Row
+from .robot import REST, VelocityLimits
 from .robot_camera import PosedSight
 from .robot_session import RobotSession
-from .velocity_limits import REST, Ramp, VelocityLimits
 from .watchdog import Watchdog
 
 PATIENCE = 0.05  # for a report before the last command is repeated, in [s]
@@ -41,10 +42,8 @@ class DrivingState(Enum):
 class TemplateController:
     r"""Controller with the velocities :math:`(\pm \bar{v}, k \theta^*)`.
 
-    Equations (1) to (6) of the paper.
-
-    Attributes:
-        moving: Whether the newest intent is to walk.
+    Equations (1) to (6) of the paper. ``moving`` is whether the newest
+    intent is to walk.
     """
 
     def __init__(
@@ -55,18 +54,10 @@ class TemplateController:
     ) -> None:
         """Start without a sighting."""
         self._decisions = StrategyRunner(strategy, gait, velocities=velocities)
-        self._gait = gait
-        self.moving = False
+        self._gait, self.moving = gait, False
 
     def decide(self, report: RobotState) -> BodyVelocity:
-        """Return the velocity command for a report.
-
-        Args:
-            report: Newest report; without a sighting the command is zero.
-
-        Raises:
-            StrategyError: If the strategy does not return an intent.
-        """
+        """Return the command for a report; zero without a sighting."""
         decisions, sighting = self._decisions, report.sighting
         decisions.headings.note(report.time, report.pose.theta)
         decisions.templates.note(report.time, report.pose)
@@ -82,12 +73,48 @@ class TemplateController:
         )
 
 
+class Ramp:
+    """Rate limiter of velocity commands; ``velocity`` is the newest."""
+
+    def __init__(self, limits: VelocityLimits) -> None:
+        """Start at zero velocity."""
+        self._limits = limits
+        self.velocity = REST
+
+    def toward(self, wanted: BodyVelocity, passed: float) -> BodyVelocity:
+        """Move the command toward a velocity, for a time in [s].
+
+        NaN or inf stops at once.
+        """
+        if not all(isfinite(value) for value in wanted):
+            return self.stop()
+        limits, now = self._limits, self.velocity
+        goal = limits.scale(wanted)
+        self.velocity = BodyVelocity(
+            _step(now.forward, goal.forward, limits.acceleration * passed),
+            _step(now.lateral, goal.lateral, limits.acceleration * passed),
+            _step(now.turn, goal.turn, limits.turn_acceleration * passed),
+        )
+        return self.velocity
+
+    def stop(self) -> BodyVelocity:
+        """Command zero velocity at once: the robot finishes its own step."""
+        self.velocity = REST
+        return REST
+
+
+def _step(value: float, goal: float, most: float) -> float:
+    return value + min(max(goal - value, -most), most)
+
+
 class VelocityLoop:
     """Loop that drives a robot by the template's velocities.
 
     Any missing or implausible input stops the robot at once. When the
     inputs are valid again it continues, with a new controller.
     """
+
+    idle, given_up = False, ""
 
     def __init__(
         self,
@@ -117,45 +144,27 @@ class VelocityLoop:
     @property
     def ended(self) -> bool:
         """Whether the session has ended, with the robot at rest."""
-        moves = max(abs(value) for value in self._ramp.velocity) > STILL
-        return bool(self._leave_reason) and not moves
-
-    @property
-    def idle(self) -> bool:
-        """Whether the robot needs no time to come to rest."""
-        return False
-
-    @property
-    def given_up(self) -> str:
-        """Reason why the robot cannot go on; empty, as it always can."""
-        return ""
+        return bool(self._leave_reason) and not _moves(self._ramp.velocity)
 
     def leave(self, reason: str) -> None:
         """Slow down and end the session."""
         self._leave_reason = self._leave_reason or reason
 
     def close(self) -> None:
-        """Stop the robot and disconnect.
-
-        Raises:
-            SessionLost: If it did not stop, and there is no guardian.
-        """
+        """Stop the robot and disconnect."""
         if self._eyes is not None:
             self._eyes.close()
         self._session.close()
 
     def tick(self) -> PlayTick:
-        """Read a report, decide, and send a command.
-
-        Raises:
-            SessionLost: If the connection failed; the robot was commanded
-                to stop if it could be reached.
-        """
+        """Read a report, decide, and send a command."""
         report, released = self._listen(), self._session.released()
         if report is not None and released:
             why = report.hindrance or released
             report = report._replace(hindrance=why)
-        hindrance = self._watchdog.check(report, self._clock())
+        hindrance = self._watchdog.check(
+            report, self._clock(), moves=not self._session.halted
+        )
         # The clock of a simulator may pause for any time.
         waits = self._paced or self._report is None
         if waits and self._watchdog.silent > FORSAKEN:
@@ -165,7 +174,11 @@ class VelocityLoop:
         hindrance = hindrance or released or self._failure
         velocity = self._decide(report, hindrance)
         if self._paced or report is not None:
-            self._command(velocity)
+            if velocity == REST:
+                self._session.halt()
+            else:
+                command = self._session.robot.command
+                self._session.command(partial(command, *velocity))
         return self._result(hindrance or self._failure, velocity)
 
     def _listen(self) -> RobotState | None:
@@ -180,13 +193,6 @@ class VelocityLoop:
         if report is None or self._eyes is None:
             return report
         return self._eyes.see(report)
-
-    def _command(self, velocity: BodyVelocity) -> None:
-        if velocity == REST:
-            self._session.halt()
-        else:
-            command = self._session.robot.command
-            self._session.command(partial(command, *velocity))
 
     def _decide(
         self, report: RobotState | None, hindrance: str
@@ -206,19 +212,16 @@ class VelocityLoop:
         if self._leave_reason:
             self._wanted = REST
         elif passed > 0.0 or last is None:
-            self._wanted = self._template_velocity(report)
+            try:
+                self._wanted = self._controller.decide(report)
+            except StrategyError as error:
+                self._failure = f"the strategy failed: {error}"
+                self.leave(self._failure)
+                self._wanted = REST
         return self._ramp.toward(self._wanted, min(passed, 2.0 * PATIENCE))
 
-    def _template_velocity(self, report: RobotState) -> BodyVelocity:
-        try:
-            return self._controller.decide(report)
-        except StrategyError as error:
-            self._failure = f"the strategy failed: {error}"
-            self.leave(self._failure)
-            return REST
-
     def _result(self, hindrance: str, velocity: BodyVelocity) -> PlayTick:
-        moves = max(abs(value) for value in velocity) > STILL
+        moves = _moves(velocity)
         if self._leave_reason:
             state = DrivingState.STOPPING if moves else DrivingState.RESTING
             reason = self._leave_reason
@@ -233,6 +236,9 @@ class VelocityLoop:
             self._began = report.time
         forward, lateral, turn = velocity
         aside = f"{lateral:+.3f} m/s aside, " if lateral else ""
+        row: Row = {"pose": np.array(report.pose)}
+        for name, each in (("wanted", self._wanted), ("velocity", velocity)):
+            row[name] = np.array([each.forward, each.turn, each.lateral])
         return PlayTick(
             state,
             reason,
@@ -240,15 +246,10 @@ class VelocityLoop:
             report.sighting,
             f"{state.value} ({reason}), {forward:+.3f} m/s, "
             f"{aside}{turn:+.3f} rad/s",
-            {
-                "pose": np.array(report.pose),
-                "wanted": _columns(self._wanted),
-                "velocity": _columns(velocity),
-            },
+            row,
             None if self._began is None else report.time - self._began,
         )
 
 
-def _columns(velocity: BodyVelocity) -> Array:
-    """Return forward [m/s], turn [rad/s] and lateral [m/s]."""
-    return np.array([velocity.forward, velocity.turn, velocity.lateral])
+def _moves(velocity: BodyVelocity) -> bool:
+    return max(abs(value) for value in velocity) > STILL

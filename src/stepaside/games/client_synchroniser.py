@@ -1,6 +1,5 @@
 """Clock of a served simulation: sensor frames and commands at each tick."""
 
-import select
 from collections.abc import Sequence
 from time import monotonic, sleep
 from typing import Protocol
@@ -8,14 +7,11 @@ from typing import Protocol
 from ..core.errors import ConfigurationError
 from .game import GameInPlay, GameObserver
 
-TICK = 0.012  # of LoLA, in [s]
 LATE = 0.006  # delay from which a tick counts as late, in [s]
 ANSWER_SHARE = 0.75  # of a tick, for commands; the rest is physics
 STALL = 0.1  # delay that is not caught up with, in [s]
 ANSWER_TIMEOUT = 5.0  # for a command in lock step, in [s]
-READY_TICKS = 10  # for which clients must hold their robots stiff
-PRESSED_TICKS = 5  # for which the chest buttons are pressed
-POLL_PERIOD = 0.0005  # for servers without a descriptor, in [s]
+POLL_PERIOD = 0.0005  # between two looks for commands, in [s]
 
 
 class RobotServer(Protocol):
@@ -25,15 +21,8 @@ class RobotServer(Protocol):
     def connected(self) -> bool:
         """Whether a client is connected."""
 
-    @property
-    def ready(self) -> bool:
-        """Whether the client is ready for the game to begin."""
-
-    def fileno(self) -> int:
-        """Return the descriptor to wait on for commands; -1 without one."""
-
-    def press(self, pressed: bool) -> None:
-        """Press or release the chest button."""
+    def begin(self) -> None:
+        """Align the measurements with the first tick of the game."""
 
     def speak(self) -> None:
         """Send the measurement of this tick."""
@@ -62,45 +51,43 @@ class ClientSynchroniser(GameObserver):
     def __init__(
         self,
         servers: Sequence[RobotServer],
-        tick: float = TICK,
+        tick: float,
         *,
         lock_step: bool = False,
     ) -> None:
-        """Wait for the clock at each tick, or in lock step for answers."""
+        """Synchronise a match with servers.
+
+        Args:
+            servers: Servers of the robots that other processes control.
+            tick: Control period of the world, in [s].
+            lock_step: Wait for every answer instead of for the clock.
+        """
         self._servers, self._tick = servers, tick
         self._lock_step = lock_step
         self._due = monotonic()
-        self.late = self.unanswered = 0
+        self.late = 0
+        self.unanswered = 0
 
     def gather(self, longest: float) -> None:
-        """Wait until every client is ready, then press the chest buttons.
+        """Wait up to a time in [s] until every robot has a client.
 
-        The simulation does not advance meanwhile. Walking begins with the
-        frame that reports the released button, which is the first of the
-        game.
+        The simulation does not advance meanwhile.
 
         Raises:
-            ConfigurationError: If a client is not ready in time, in [s].
+            ConfigurationError: If a client does not connect in time.
         """
         until = monotonic() + longest
-        ready_ticks = 0
-        while ready_ticks < READY_TICKS:
+        while idle := sum(not s.connected for s in self._servers):
             if monotonic() > until:
-                idle = sum(not s.ready for s in self._servers)
                 raise ConfigurationError(
                     f"{idle} of {len(self._servers)} robots had no client "
-                    f"that was ready within {longest:g} s"
+                    f"within {longest:g} s"
                 )
             self._exchange()
-            ready = all(server.ready for server in self._servers)
-            ready_ticks = ready_ticks + 1 if ready else 0
         for server in self._servers:
-            server.press(True)
-        for _ in range(PRESSED_TICKS):
-            self._exchange()
-        for server in self._servers:
-            server.press(False)
-        self.late = self.unanswered = 0
+            server.begin()
+        self.late = 0
+        self.unanswered = 0
 
     def before(self, game: GameInPlay) -> None:
         """Exchange measurements and commands before the players act."""
@@ -138,10 +125,7 @@ class ClientSynchroniser(GameObserver):
                 return
             if left <= 0.0:
                 break
-            selectable = [s for s in missing if s.fileno() >= 0]
-            if len(selectable) < len(missing):
-                left = min(left, POLL_PERIOD)
-            select.select(selectable, [], [], left)
+            sleep(min(left, POLL_PERIOD))
         self.unanswered += len(missing)
         if self._lock_step:
             for server in missing:

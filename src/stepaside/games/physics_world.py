@@ -4,7 +4,7 @@ from collections.abc import Mapping, Sequence
 from itertools import combinations
 from math import inf
 from types import MappingProxyType
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING
 
 import mujoco
 
@@ -39,20 +39,12 @@ from .robot_placing import (
     clearance_in,
     policy_physics,
     robot_at_velocities,
-    robot_with_served_joints,
     robot_with_strategy,
 )
 from .robot_player import RobotPlayer
 
 if TYPE_CHECKING:
     from .camera_senses import CameraSenses, SightObserver
-
-
-class RemoteControl(NamedTuple):
-    """How another process controls a robot."""
-
-    balances: bool  # by itself, at commanded velocities; else by its joints
-    ideal_sight: bool  # whether the true line of sight is measured
 
 
 class PhysicsWorld(World):
@@ -76,7 +68,7 @@ class PhysicsWorld(World):
         *,
         rendered: bool = False,
         has_things: bool | None = None,
-        remote: Mapping[str, RemoteControl] = MappingProxyType({}),
+        remote: Mapping[str, bool] = MappingProxyType({}),
         strategies: Mapping[str, Strategy] = MappingProxyType({}),
         descriptions: Mapping[str, RobotDescription] = MappingProxyType({}),
     ) -> None:
@@ -88,7 +80,8 @@ class PhysicsWorld(World):
             rendered: Whether to render the world; cameras do so anyway.
             has_things: Whether there are obstacles besides the players; by
                 default, whether there is a room.
-            remote: Control by other processes, by name of the player.
+            remote: Whether the true line of sight is measured, by name of
+                each robot that other processes command by velocities.
             strategies: Replace those of the settings, by name.
             descriptions: Of robots, likewise.
         """
@@ -257,9 +250,9 @@ class PhysicsWorld(World):
 
     def _robot(self, own: PlayerSettings) -> Player:
         """Place a robot in the world, with sensors and controller."""
-        settings, remote = self._settings, self._remote.get(own.name)
+        settings = self._settings
         setup = self._setups[own.name]._replace(truth=self._states[own.name])
-        if remote is None:
+        if own.name not in self._remote:
             seen = {} if self._senses is None else self._senses.perceptions
             known = clearance_in(
                 settings.room, settings.map, setup, seen.get(own.name)
@@ -272,14 +265,12 @@ class PhysicsWorld(World):
                 "sensing must be ideal or cameras for a robot that another "
                 "process controls, got 'lidar'"
             )
-        if own.senses == "cameras" or remote.ideal_sight:
+        if own.senses == "cameras" or self._remote[own.name]:
             setup = self._with_senses(own, setup)
         if settings.map.source == "given":  # it builds no map of its own
             known = clearance_in(settings.room, settings.map, setup)
             setup = setup._replace(clearance=known)
-        if remote.balances:
-            return robot_at_velocities(self, setup)
-        return robot_with_served_joints(self, setup)
+        return robot_at_velocities(self, setup)
 
     def _with_senses(
         self, own: PlayerSettings, setup: RobotSetup

@@ -16,7 +16,7 @@ from .forecast import evaluate_duel
 from .game import GameInPlay, GameObserver, Progress, play
 from .game_settings import GameSettings
 from .outcome import Outcome
-from .physics_world import PhysicsWorld, RemoteControl
+from .physics_world import PhysicsWorld
 from .recorder import Recorder
 from .robot_player import RobotPlayer
 from .run import Run
@@ -54,7 +54,7 @@ class RecordedGame(GameInPlay):
         recorded: bool = True,
         rendered: bool = False,
         endless: bool = False,
-        remote: Mapping[str, RemoteControl] = MappingProxyType({}),
+        remote: Mapping[str, bool] = MappingProxyType({}),
         description: RobotDescription | None = None,
     ) -> None:
         """Build the world and place the players in it.
@@ -65,8 +65,8 @@ class RecordedGame(GameInPlay):
             recorded: Whether to record; the record grows with time.
             rendered: Whether to render the world; cameras do so anyway.
             endless: Whether the duration does not end it.
-            remote: Control of the robots that other processes control, by
-                name of the player.
+            remote: Whether the true line of sight is measured, by name of
+                each robot that other processes command by velocities.
             description: Description of the robot of a walk, if it differs
                 from that in its folder.
 

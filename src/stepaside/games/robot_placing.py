@@ -28,10 +28,8 @@ from ..locomotion.guard import (
 )
 from ..locomotion.maneuver_walk import ManeuverWalk
 from ..locomotion.swept_outline import lateral_sway
-from ..locomotion.zmp.reference_table import initial_stance
 from ..planning import GaitSettings
 from ..robots.description import RobotDescription
-from ..robots.head import load_head
 from ..robots.leg_kinematics import LegKinematics
 from ..sim.body_settings import BodySettings
 from ..sim.ground_truth import IdealLineOfSight, TrueRobotState
@@ -40,7 +38,7 @@ from ..sim.physics_settings import PhysicsSettings
 from ..sim.simulated_robot import SensorSetup, SimulatedRobot
 from ..sim.world import World
 from ..strategies import Strategy
-from .robot_player import RobotPlayer, ServedPlayer, VelocityWalker
+from .robot_player import RobotPlayer, VelocityWalker
 
 if TYPE_CHECKING:
     from ..locomotion.policy.policy_legs import (
@@ -182,17 +180,6 @@ def robot_at_velocities(world: World, setup: RobotSetup) -> VelocityWalker:
         robot = setup.place(world, walk.kinematics)
     scheme = VelocityScheme(walk)
     return VelocityWalker(robot, scheme, setup.start, setup.description)
-
-
-def robot_with_served_joints(world: World, setup: RobotSetup) -> ServedPlayer:
-    """Place a robot whose joints another process commands."""
-    legs = LegKinematics(setup.description, tick=world.physics.tick)
-    legs.stand(initial_stance(setup.gait))
-    head: tuple[int, ...] = ()
-    if setup.eyes is not None:
-        joints, names = load_head(setup.description), legs.joint_names
-        head = names.index(joints.yaw), names.index(joints.pitch)
-    return ServedPlayer(setup.place(world, legs), head)
 
 
 def clearance_in(

@@ -9,9 +9,8 @@ import numpy as np
 
 from ..control.scheme import ControlScheme, VelocityScheme
 from ..control.sight_sources import CameraSight
-from ..core.constants import GRAVITY
 from ..core.errors import PolicyError
-from ..core.poses import Array, Pose, wrap_angle
+from ..core.poses import Pose, wrap_angle
 from ..locomotion.locomotion import Phase, StepStarted
 from ..locomotion.maneuver_walk import ManeuverWalk
 from ..perception.images import ColourImage
@@ -43,7 +42,6 @@ CLOSELY = {
     "heading_reference": 1,
     "estimate": 8,
 }
-MOVING = 0.05  # change of a target from which a robot moves, in [rad]
 
 
 class PhysicalPlayer(Player):
@@ -315,57 +313,3 @@ class VelocityWalker(RobotPlayer):
         template = self.scheme.decisions.templates.at(measured.time)
         planar = template.inverse().compose(place)
         return (planar.x, planar.y, z), (*tilt, wrap_angle(planar.theta))
-
-
-class ServedPlayer(PhysicalPlayer):
-    """Simulated robot whose joints another process commands.
-
-    Until the game begins the simulation does not advance: the sensors
-    constantly report a robot at rest, and commands are ignored. Its plans and
-    detections are unknown to this process.
-    """
-
-    def __init__(
-        self, robot: SimulatedRobot, head: Sequence[int] = ()
-    ) -> None:
-        """Take a robot, and the numbers of its head joints."""
-        super().__init__(robot)
-        self._moves, self._waiting = False, True
-        self._head = list(head)
-        self._stance: Array | None = None
-
-    @property
-    def is_moving(self) -> bool:
-        """Whether its targets have left the initial stance."""
-        return self._moves
-
-    def begin(self) -> None:
-        """Begin the game: apply commands from now on."""
-        self._waiting = False
-
-    def sensors(self) -> RobotState:
-        """Return the measurement of this tick, as the client gets it.
-
-        Before the first step of physics there are no forces: gravity and foot
-        forces are then those of a robot that stands.
-        """
-        measured = self.measure()
-        if not self._waiting:
-            return measured
-        soles = measured.foot_forces
-        return measured._replace(
-            accelerometer=np.array([0.0, 0.0, GRAVITY]),
-            foot_forces=np.full_like(soles, self.robot.weight / soles.size),
-        )
-
-    def command(self, targets: Array, stiffness: Array) -> None:
-        """Set joint targets, in [rad], and stiffness from 0 to 1."""
-        if self._waiting:
-            return
-        if self._stance is None:
-            self._stance = targets
-        change = np.abs(targets - self._stance)
-        change[self._head] = 0.0
-        self._moves = self._moves or bool(change.max() > MOVING)
-        self.robot.servos.soften(stiffness)
-        self.robot.write(targets)
