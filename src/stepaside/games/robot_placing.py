@@ -35,7 +35,7 @@ from ..sim.body_settings import BodySettings
 from ..sim.ground_truth import IdealLineOfSight, TrueRobotState
 from ..sim.outline_measurement import measure_outline
 from ..sim.physics_settings import PhysicsSettings
-from ..sim.simulated_robot import SensorSetup, SimulatedRobot
+from ..sim.simulated_robot import SimulatedRobot
 from ..sim.world import World
 from ..strategies import Strategy
 from .robot_player import RobotPlayer, VelocityWalker
@@ -102,15 +102,12 @@ class RobotSetup(NamedTuple):
             posture,
             self.start,
             self.body,
-            SensorSetup(
-                generator=named_generator(self.seed, f"sensors/{self.name}"),
-                integrates_imu=gains is not None
-                or bool(self.control.feedback),
-                sights=self.sights,
-                eyes=self.eyes,
-                truth=self.truth or self.true_state_in(world),
-                knows_pose=isinstance(around, KnownRoom),
-            ),
+            generator=named_generator(self.seed, f"sensors/{self.name}"),
+            integrates_imu=gains is not None or bool(self.control.feedback),
+            sights=self.sights,
+            eyes=self.eyes,
+            truth=self.truth or self.true_state_in(world),
+            knows_pose=isinstance(around, KnownRoom),
             gains=gains,
         )
 

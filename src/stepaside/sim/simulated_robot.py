@@ -2,13 +2,11 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from math import atan2
 from typing import TYPE_CHECKING
 
 import mujoco
 import numpy as np
-from numpy.typing import NDArray
 
 from ..core.constants import GRAVITY
 from ..core.errors import ModelError
@@ -44,26 +42,6 @@ if TYPE_CHECKING:
     from .sensor_suite import SensorSuite
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class SensorSetup:
-    """Sensors of a simulated robot."""
-
-    # random generator of errors and noise; None for exact sensors
-    generator: np.random.Generator | None = None
-    # whether the IMU gives the change of orientation and velocity between
-    # readings, as real ones do, instead of samples, as far as it is on the
-    # body with the free joint
-    integrates_imu: bool = False
-    # ideal lines of sight to all other players, if any
-    sights: tuple[IdealLineOfSight, ...] = ()
-    eyes: SensorSuite | Lidar | None = None  # cameras, if any
-    # true state of the robot, if it exists already
-    truth: TrueRobotState | None = None
-    # whether it has an ideal sensor of its pose in a room, which replaces
-    # localisation on a given map
-    knows_pose: bool = False
-
-
 class SimulatedRobot:
     """Robot in a world, with its sensors and servos."""
 
@@ -75,78 +53,69 @@ class SimulatedRobot:
         kinematics: LegKinematics | InitialPosture,
         pose: Pose,
         body: BodySettings | None = None,
-        sensors: SensorSetup | None = None,
         *,
         gains: JointGains | None = None,
+        generator: np.random.Generator | None = None,
+        integrates_imu: bool = False,
+        sights: tuple[IdealLineOfSight, ...] = (),
+        eyes: SensorSuite | Lidar | None = None,
+        truth: TrueRobotState | None = None,
+        knows_pose: bool = False,
     ) -> None:
         """Place a robot in the posture of its kinematics at a pose.
 
-        Without setup its sensors are exact ones of joints, IMU and feet. Gains
-        are of a body that is driven by joint torques.
+        Gains are of a body that is driven by joint torques. The generator
+        draws errors of sensors, which are exact without one. An IMU on the
+        body with the free joint may give the change of orientation and
+        velocity between readings, as real ones do, instead of samples. An
+        ideal sensor of the pose in a room replaces localisation.
         """
-        body, setup = body or BodySettings(), sensors or SensorSetup()
-        self.world, self.name = world, name
-        self.tick = world.physics.tick
-        self.eyes, self._sights = setup.eyes, setup.sights
+        body = body or BodySettings()
+        self.world, self.name, self.eyes = world, name, eyes
+        self.tick, self._sights = world.physics.tick, sights
         model, data = world.model, world.data
         self.joint_names = names = kinematics.joint_names
         joints = [model.joint(f"{name}/{n}") for n in names]
         self._qpos = np.array([j.qposadr[0] for j in joints])
+        self._dofs = None
         moved = model.actuator_trnid[:, 0].tolist()
-        ids = np.array([moved.index(j.id) for j in joints])
+        motors = np.array([moved.index(j.id) for j in joints])
         if gains is not None:
-            set_joint_gains(model, ids, names, gains)
-        self._dofs = (
-            None if gains is None else np.array([j.dofadr[0] for j in joints])
+            set_joint_gains(model, motors, names, gains)
+            self._dofs = np.array([j.dofadr[0] for j in joints])
+        self.servos = Servos(
+            *(model, data, motors),
+            np.array([description.speed_limits[n] for n in names]),
+            *(self.tick, body),
+            body.backlash * np.array([n in description.legs for n in names]),
+            feedforward=gains is None,
         )
-        self.servos = self._make_servos(
-            description, names, ids, body, feedforward=gains is None
-        )
+        if not body.has_ideal_servos:
+            world.before_step.append(self.servos.before_step)
+        self.servos.reset(kinematics.joint_targets)
         self._find_sensors(description)
         self._errors: SensorErrors | None = None
-        if setup.generator is not None and body.has_sensor_errors:
+        if generator is not None and body.has_sensor_errors:
             unit = description.game.get("force_unit", 1.0)
-            self._errors = SensorErrors(body, setup.generator, force_unit=unit)
+            self._errors = SensorErrors(body, generator, force_unit=unit)
         root = model.body(f"{name}/{description.torso}")
-        free = int(root.jntadr[0])
-        self._place_in_world(kinematics, pose, int(model.jnt_qposadr[free]))
-        first = int(model.jnt_dofadr[free])
-        count = kinematics.posture.size - 1  # a quaternion has three dofs
-        self._dof_slice = slice(first, first + count)
-        self.servos.reset(kinematics.joint_targets)
+        posture, free = kinematics.posture, int(root.jntadr[0])
+        at, dof = int(model.jnt_qposadr[free]), int(model.jnt_dofadr[free])
+        self.qpos_slice = slice(at, at + posture.size)
+        data.qpos[self.qpos_slice] = posture
+        placed = transform_free_joint(posture[:7].tolist(), pose)
+        data.qpos[at : at + 7] = placed
+        # A quaternion has three degrees of freedom.
+        self._dof_slice = slice(dof, dof + posture.size - 1)
         self._torso = root.id
         self.pusher: PushApplier | None = None
-        self.truth = setup.truth or TrueRobotState(model, data, root.name)
-        feet = description.left_foot, description.right_foot
-        self._soles = [model.site(f"{name}/{foot}").id for foot in feet]
-        self._knows_pose = setup.knows_pose
+        self.truth = truth or TrueRobotState(model, data, root.name)
+        self._knows_pose = knows_pose
         self._imu: StrapdownImu | None = None
         gyro = model.sensor(f"{name}/{description.sensors.gyro}").id
         site = int(model.sensor_objid[gyro])
-        if setup.integrates_imu and model.site_bodyid[site] == root.id:
+        if integrates_imu and model.site_bodyid[site] == root.id:
             self._imu = StrapdownImu(model, data, root.id, site)
-
-    def _make_servos(
-        self,
-        description: RobotDescription,
-        names: tuple[str, ...],
-        actuators: NDArray[np.int_],
-        body: BodySettings,
-        *,
-        feedforward: bool,
-    ) -> Servos:
-        """Return the servos of the joints with these names."""
-        world = self.world
-        speeds = np.array([description.speed_limits[n] for n in names])
-        legs = np.array([n in description.legs for n in names])
-        servos = Servos(
-            *(world.model, world.data, actuators, speeds, self.tick),
-            *(body, body.backlash * legs),
-            feedforward=feedforward,
-        )
-        if not body.has_ideal_servos:
-            world.before_step.append(servos.before_step)
-        return servos
 
     def _find_sensors(self, description: RobotDescription) -> None:
         """Find the sensors of the model."""
@@ -158,6 +127,8 @@ class SimulatedRobot:
         self._force_range = slice(min(pressing), max(pressing) + 1)
         sites = [model.site(f"{self.name}/{f}").id for f in sensors.feet]
         self._corner_sites = np.array(sites)
+        feet = description.left_foot, description.right_foot
+        self._soles = [model.site(f"{self.name}/{foot}").id for foot in feet]
 
     def _sensor(self, sensor: str) -> slice:
         try:
@@ -167,15 +138,6 @@ class SimulatedRobot:
                 f"the model of {self.name} has no sensor {sensor!r}; {REMEDY}"
             ) from None
         return slice(int(found.adr[0]), int(found.adr[0] + found.dim[0]))
-
-    def _place_in_world(
-        self, kinematics: LegKinematics | InitialPosture, pose: Pose, at: int
-    ) -> None:
-        posture = kinematics.posture
-        qpos = self.world.data.qpos
-        self.qpos_slice = slice(at, at + posture.size)
-        qpos[self.qpos_slice] = posture
-        qpos[at : at + 7] = transform_free_joint(posture[:7].tolist(), pose)
 
     @property
     def weight(self) -> float:
