@@ -106,9 +106,8 @@ def test_without_a_path_the_waypoint_is_the_goal() -> None:
 @pytest.mark.parametrize("side", [1, -1])
 def test_pursuer_goes_around_a_pillar(side: int) -> None:
     """It does not head for an opponent straight behind a pillar."""
-    pillar = Disc(0.6, -0.02 * side, 0.15)
     here = Pose(0.3, -0.2, 0.7)
-    placed = pillar.moved(here)
+    placed = Disc(*here.compose(Pose(0.6, -0.02 * side, 0.0))[:2], 0.15)
     known = Knowledge(
         0.0,
         0.0,
@@ -130,7 +129,8 @@ def test_path_takes_the_preferred_side(side: int, turn: float) -> None:
     here = Pose(1.3, -0.7, turn)
     goal = here.compose(Pose(1.0, 0.0, 0.0))
     for beside, preferred in ((0.05, True), (0.3, False)):
-        wall = Box(0.5, side * beside, 0.1, 1.0).moved(here)
+        x, y, _ = here.compose(Pose(0.5, side * beside, 0.0))
+        wall = Box(x, y, 0.1, 1.0, turn)
         start, end = (here.x, here.y), (goal.x, goal.y)
         corner = first_waypoint(ObstacleSet((wall,)), start, end, RADIUS, side)
         ahead = here.inverse().transform_points([corner])[0]

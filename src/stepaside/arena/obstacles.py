@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ..core.compilation import compiled, inlined
-from ..core.poses import Array, Pose
+from ..core.poses import Array
 
 
 class PackedObstacles(NamedTuple):
@@ -167,10 +167,6 @@ class Obstacle(ABC):
     def rounding(self) -> float:
         """Radius of a disc, in [m]; else 0."""
         return 0.0
-
-    @abstractmethod
-    def moved(self, pose: Pose) -> "Obstacle":
-        """Return the shape in another frame, given the pose of its own."""
 
     @property
     def centre(self) -> tuple[float, float]:

@@ -10,7 +10,7 @@ from numpy.typing import ArrayLike
 
 from ..core.convex import convex_hull, next_corners, signed_area
 from ..core.errors import ConfigurationError, shown
-from ..core.poses import Array, Pose, wrap_angle
+from ..core.poses import Array, Pose
 from ..core.ranges import Range
 from ..core.setting import REQUIRED, check_settings, setting
 from .obstacles import Obstacle
@@ -57,11 +57,6 @@ class Disc(Obstacle):
         outline: Array = self.points + self.radius * ring
         return outline
 
-    def moved(self, pose: Pose) -> "Disc":
-        """Take the disc out of a frame with a pose in the parent frame."""
-        moved = pose.compose(Pose(self.x, self.y, 0.0))
-        return Disc(moved.x, moved.y, self.radius)
-
 
 @dataclass(frozen=True)
 class Polygon(Obstacle):
@@ -85,11 +80,6 @@ class Polygon(Obstacle):
     def points(self) -> Array:
         """The corners, in [m]. Shape (n, 2)."""
         return np.array(self.corners)
-
-    def moved(self, pose: Pose) -> "Polygon":
-        """Take the polygon out of a frame with a pose in the parent frame."""
-        moved = pose.transform_points(self.points).tolist()
-        return Polygon(tuple((x, y) for x, y in moved))
 
 
 @dataclass(frozen=True)
@@ -121,11 +111,6 @@ class Box(Obstacle):
     def centre(self) -> tuple[float, float]:
         """Centre (x, y), in [m]."""
         return self.x, self.y
-
-    def moved(self, pose: Pose) -> "Box":
-        """Take the box out of a frame with a pose in the parent frame."""
-        x, y, heading = pose.compose(Pose(self.x, self.y, self.heading))
-        return Box(x, y, self.width, self.depth, wrap_angle(heading))
 
 
 @dataclass(frozen=True)

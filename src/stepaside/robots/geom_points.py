@@ -8,6 +8,7 @@ import numpy as np
 from ..core.poses import Array
 
 TYPES = mujoco.mjtGeom
+ROUND = (TYPES.mjGEOM_SPHERE, TYPES.mjGEOM_CAPSULE, TYPES.mjGEOM_ELLIPSOID)
 
 
 def geom_points_in_world(
@@ -18,46 +19,29 @@ def geom_points_in_world(
     Round geoms give their extreme points along the axes of the world;
     planes and height fields give none.
     """
-    kind = int(model.geom_type[geom])
-    size = model.geom_size[geom]
-    position = data.geom_xpos[geom]
-    axes = data.geom_xmat[geom].reshape(3, 3)
+    kind, size = int(model.geom_type[geom]), model.geom_size[geom]
+    position, axes = data.geom_xpos[geom], data.geom_xmat[geom].reshape(3, 3)
+    points: Array = np.zeros((0, 3))
+    if kind in ROUND:
+        reach, half = np.full(3, size[0]), 0.0
+        if kind == TYPES.mjGEOM_ELLIPSOID:
+            reach = np.sqrt(((axes * size) ** 2).sum(axis=1))
+        elif kind == TYPES.mjGEOM_CAPSULE:
+            half = size[1]
+        ends = position + np.outer((-half, half), axes[:, 2])
+        extremes = np.vstack([np.diag(reach), -np.diag(reach)])
+        points = (ends[:, None] + extremes).reshape(-1, 3)
+        return points
     if kind == TYPES.mjGEOM_MESH:
         mesh = int(model.geom_dataid[geom])
         first = int(model.mesh_vertadr[mesh])
-        count = int(model.mesh_vertnum[mesh])
-        vertices = model.mesh_vert[first : first + count].astype(np.float64)
-        points: Array = position + vertices @ axes.T
-        return points
-    if kind == TYPES.mjGEOM_BOX:
-        points = position + _corners(size) @ axes.T
-        return points
-    if kind == TYPES.mjGEOM_CYLINDER:
+        points = model.mesh_vert[first : first + model.mesh_vertnum[mesh]]
+    elif kind == TYPES.mjGEOM_BOX:
+        points = np.array(list(product((-1, 1), repeat=3))) * size
+    elif kind == TYPES.mjGEOM_CYLINDER:
         angles = np.linspace(0.0, 2.0 * np.pi, 24, endpoint=False)
         ring = size[0] * np.stack([np.cos(angles), np.sin(angles)], axis=1)
         rims = [np.c_[ring, np.full(24, z)] for z in (-size[1], size[1])]
-        points = position + np.concatenate(rims) @ axes.T
-        return points
-    if kind == TYPES.mjGEOM_SPHERE:
-        return _ball(position, size[0])
-    if kind == TYPES.mjGEOM_CAPSULE:
-        ends = [position + z * axes[:, 2] for z in (-size[1], size[1])]
-        return np.concatenate([_ball(end, size[0]) for end in ends])
-    if kind == TYPES.mjGEOM_ELLIPSOID:
-        # Extent along each axis of the world.
-        reach = np.sqrt(((axes * size) ** 2).sum(axis=1))
-        return np.array(
-            [position + s * r for s in (-1, 1) for r in np.diag(reach)]
-        )
-    return np.zeros((0, 3))
-
-
-def _corners(size: Array) -> Array:
-    corners: Array = np.array(list(product((-1, 1), repeat=3))) * size
-    return corners
-
-
-def _ball(position: Array, radius: float) -> Array:
-    """Return the extreme points of a ball along the axes."""
-    points: Array = position + radius * np.vstack([np.eye(3), -np.eye(3)])
+        points = np.concatenate(rims)
+    points = position + points.astype(np.float64) @ axes.T
     return points
