@@ -74,10 +74,7 @@ def least_lean(
 ) -> tuple[float, JointLoads]:
     """Return the least lean at which a step stays within the torque limits.
 
-    For a robot whose joints are overloaded with a level torso.
-
-    Lean, in [rad], and the loads with it. If no candidate is enough, the least
-    one that no greater one improves on by much.
+    If no candidate is enough, the least that no greater one betters much.
     """
     best: tuple[float, JointLoads] | None = None
     for lean in LEAN_CANDIDATES:
@@ -216,11 +213,8 @@ def choose_com_height(
 ) -> tuple[RobotSize, float]:
     """Choose the CoM height at which the joints are fast enough.
 
-    Knee speed grows without bound as a knee gets straight, so that lower
-    heights are tried if the speed limits are exceeded.
-
-    Size at the chosen height, and the feasible fraction of the nominal stride
-    and step height.
+    Knee speed grows without bound as a knee gets straight. The feasible
+    fraction of stride and step height comes with it.
     """
     best: tuple[RobotSize, float] | None = None
     for fraction in HEIGHT_FRACTIONS:
@@ -301,8 +295,7 @@ def spacing_of(analysis: ModelAnalysis, inner: float) -> float:
     """Return the foot spacing, in [m].
 
     That of the ankles in the zero posture, but not wider than the hips
-    justify (legs may be spread there), nor so narrow that soles, whose inner
-    edge is given in [m], meet.
+    justify, nor so narrow that soles meet.
     """
     left, right = analysis.legs
     ankles = float(left.ankle[1] - right.ankle[1])
@@ -383,13 +376,10 @@ MIDDLE = 0.05  # distance from the sagittal plane, by the length of a leg
 
 
 def head_of(analysis: ModelAnalysis) -> dict[str, Any]:
-    """Return the joints of the head and the cameras of a model.
+    """Return the joints of the head, and the cameras of a model.
 
-    The head joints are those over the hips in the sagittal plane with a
-    vertical axis (yaw) and a lateral axis (pitch) that carry the least mass.
-
-    Joints ``yaw`` and ``pitch``, each None if there is none, and the names of
-    all ``cameras`` of the model.
+    Yaw and pitch joints are those over the hips in the sagittal plane that
+    carry the least mass.
     """
     model, data = analysis.model, analysis.data
     hips = max(leg.hip[2] for leg in analysis.legs)

@@ -205,12 +205,8 @@ def choose_zmp_offset(
 ) -> tuple[float, JointLoads]:
     """Choose how far ahead of the ankles the ZMP reference is.
 
-    The torque of an ankle grows with this offset; no other gait parameter
-    has as much influence on any torque.
-
-    Fraction of the nominal offset, and the loads with it: the greatest of 1,
-    1/2 and 0 within the torque limits; else the one with the least load, if
-    that is much less than with 1.
+    The torque of an ankle grows with it. The greatest of 1, 1/2 and 0 of the
+    nominal offset within the torque limits, else the one with the least load.
     """
     candidates = []
     for fraction in (1.0, 0.5, 0.0):
@@ -229,11 +225,8 @@ def feasible_lengths(
 ) -> float:
     """Return the fraction of stride and step height that joints can track.
 
-    A servo that falls behind its target makes the swing foot land early and
-    in the wrong position. Shorter steps of the same duration need less speed
-    of every joint.
-
-    Fraction in [0.35, 1]; 1 if the joints are fast enough.
+    Shorter steps of the same duration need less speed of every joint. In
+    [0.35, 1].
     """
     fraction = 1.0
     for _ in range(ITERATIONS):

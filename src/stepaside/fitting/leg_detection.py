@@ -46,11 +46,7 @@ def sole_of(
     hip: Array,
     ankle: Array,
 ) -> DetectedSole:
-    """Find the sole of a foot.
-
-    ``hip``: Position of the hip, in [m]. Shape (3,). ``ankle``: Position of
-    the ankle, in [m]. Shape (3,).
-    """
+    """Find the sole of a foot, with hip and ankle in [m]."""
     points = foot_points(model, data, body)
     if len(points) == 1:
         length = float(hip[2] - ankle[2])
@@ -306,9 +302,8 @@ def _ankle(
 ) -> Array:
     """Return the position of the ankle, in [m]. Shape (3,).
 
-    The anchor of a joint may be anywhere along its axis. The ankle is the
-    point of the last axis nearest to the other ankle axis; for a final roll
-    joint, only if its anchor is far from there.
+    It is the point of the last axis nearest to the other ankle axis; for a
+    final roll joint, only if its anchor is far from there.
     """
     last = chain[-1]
     anchor: Array = data.xanchor[last].copy()

@@ -254,11 +254,7 @@ class LegsMeasurement:
         return sum(trial.fell_at is not None for trial in self.trials)
 
     def gains(self) -> Array:
-        """Return the linear fit of delivered velocities to commands.
-
-        Row by delivered component, column by commanded axis: the slope through
-        the origin. Shape (3, 3).
-        """
+        """Return the slopes of delivered velocities by commands. (3, 3)."""
         columns = []
         for axis in self.response.axes:
             commands = np.array(axis.commands)

@@ -61,10 +61,8 @@ def published_torques(spec: mujoco.MjSpec) -> dict[str, float]:
 def published_values(spec: mujoco.MjSpec) -> dict[str, dict[str, float]]:
     """Return the gains and the posture in a model, by joint.
 
-    Those that it has of ``stiffness``, in [N m/rad], and ``damping``, in [N m
-    s/rad], of its position actuators, that of the joint included; and
-    ``default_posture``, in [rad], of its keyframe of a standing robot, else of
-    its first.
+    ``stiffness`` and ``damping`` of its position actuators, and
+    ``default_posture`` of its keyframe of a standing robot, else of its first.
     """
     passive = {x.name: float(np.ravel(x.damping)[0]) for x in spec.joints}
     found: dict[str, dict[str, float]] = {

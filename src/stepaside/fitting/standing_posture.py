@@ -83,11 +83,7 @@ def knee_limits(found: ModelAnalysis, leg: DetectedLeg) -> tuple[float, float]:
 def reach_of(
     found: ModelAnalysis, standing: dict[str, float], forward: float
 ) -> float:
-    """Return the radius that contains the standing robot, in [m].
-
-    ``forward``: Sagittal coordinate of the reference point in the torso frame,
-    in [m].
-    """
+    """Return the radius around the reference point that contains it."""
     model, data = found.model, _posture(found, standing)
     mujoco.mj_kinematics(model, data)
     points = [

@@ -50,10 +50,8 @@ class Surroundings:
 class KnownRoom(Surroundings):
     """A given room, with a sensor for the pose in it.
 
-    Odometry that only counts steps drifts; the measured pose aligns the
-    odometry frame with the room. The room also gives the motion of pushed
-    boxes, which cover the floor until a halt begun with the next step has
-    ended.
+    Odometry that only counts steps drifts: the measured pose aligns it. Pushed
+    boxes cover the floor until a halt begun with the next step has ended.
     """
 
     def __init__(self, room: Room, start: Pose) -> None:
@@ -140,8 +138,7 @@ class ManeuverClearance(NamedTuple):
     ) -> bool:
         """Return whether the maneuver leads out of the margin.
 
-        On the way the error of the map is tolerated as loss of clearance;
-        ``gained`` is what is gained at least, unless it ends outside.
+        It loses no more clearance on the way than the map may be wrong.
         """
         farther = self.last > min(self.now + gained, margin)
         near = self.least >= self.now - map_error - NEARER
@@ -184,9 +181,8 @@ class Guard:
     ) -> GuardDecision | None:
         """Return the accepted decision that is closest to an intent.
 
-        It is the intent itself, then one of lower speed down to a turn on the
-        spot, then a turn to the other side, and from standing a step in the
-        reversed direction; see :class:`.ManeuverGuard`.
+        First at lower speed, then turning to the other side, and from standing
+        backward.
         """
         for choice in _choices(intent, standing=standing):
             if self.accepts(
@@ -200,8 +196,7 @@ class Guard:
     ) -> GuardDecision | None:
         """Return the decision that leads a standing robot out of the margin.
 
-        It is the one with the largest least clearance, which may fall below
-        the present one by no more than the error of the map.
+        Its least clearance is the largest.
         """
         out = []
         for choice in (*_choices(intent, standing=True), *ESCAPES):
@@ -294,12 +289,9 @@ class VelocityGuard:
     """Guard that changes a desired velocity as little as necessary.
 
     A velocity is admissible if the robot, walking at it until the next
-    decision and halting then, keeps its clearance. The halting distance is
-    that measured for the legs, in proportion to the velocity. Among
-    admissible velocities in other directions and with less speed the guard
-    takes the one nearest to the desired one. Legs without a lateral velocity
-    only slow down. A robot that is too near may move away, and comes no
-    nearer on the way.
+    decision and halting then, keeps its clearance. Legs without a lateral
+    velocity only slow down. A robot that is too near may move away, and comes
+    no nearer on the way.
     """
 
     def __init__(
@@ -308,11 +300,7 @@ class VelocityGuard:
         velocities: VelocitySet,
         clearance: float,
     ) -> None:
-        """Guard one robot.
-
-        To its clearance, in [m], the measured tube of the legs is added, as
-        the body is that far from the path that is checked.
-        """
+        """Guard one robot; the tube of its legs is added to the clearance."""
         self._surroundings, self._velocities = surroundings, velocities
         self._clearance = clearance + velocities.tube
         sideways = velocities.lateral[1] > velocities.lateral[0]
@@ -330,11 +318,7 @@ class VelocityGuard:
     def admit(
         self, velocity: BodyVelocity, pose: Pose, duration: float
     ) -> BodyVelocity:
-        """Return the admissible velocity nearest to a desired one.
-
-        ``pose``: Pose of the robot in odometry. The velocity; zero if none is
-        admissible.
-        """
+        """Return the admissible velocity nearest to a desired one, or zero."""
         solids = self._surroundings.solids
         if velocity == STILL or not len(solids):
             return velocity
@@ -368,10 +352,9 @@ class VelocityGuard:
         return velocity if self._changes[best] == (0.0, 1.0) else tried[best]
 
     def _paths(self, tried: Array, here: Pose, duration: float) -> Array:
-        """Return the positions of the robot at velocities, until it stands.
+        """Return the positions in the map at velocities, until it stands.
 
-        ``tried``: Velocities. Shape (n, 3). Positions in the map, in [m].
-        Shape (n, SAMPLES + 1, 2).
+        In [m], of velocities (n, 3). Shape (n, SAMPLES + 1, 2).
         """
         times = np.linspace(0.0, duration, SAMPLES)
         ahead, left, turn = tried.T[:, :, None]
@@ -438,11 +421,10 @@ class FootstepAdjustment:
     def adjust(
         self, plan: ManeuverPlan, pose_plan_in_map: Pose, solids: ObstacleSet
     ) -> ManeuverPlan:
-        """Return the plan with footsteps that keep clear, if they exist.
+        """Return the plan with footsteps that keep clear.
 
-        ``pose_plan_in_map``: Pose of the plan frame in the frame of
-        ``solids``. The plan itself if its footsteps keep clear already, and
-        also if no reachable footsteps do: the guard checks the result.
+        It is the plan itself if it keeps clear already, and also if no
+        reachable footsteps do: the guard checks the result.
         """
         steps = plan.placements[2:]
         rows, least = self._half_planes(plan, pose_plan_in_map, solids)

@@ -43,10 +43,9 @@ class MotionRequest(NamedTuple):
 def template_velocity(
     request: MotionRequest, gait: GaitSettings
 ) -> BodyVelocity:
-    """Return the desired velocity of the template.
+    """Return the desired velocity, or that of the template by (3) and (8).
 
-    It is the desired body velocity, or that of the template unicycle, (3)
-    and (8), or (6) if saturated.
+    By (6) if saturated.
     """
     intent = request.intent
     if not intent.walks:
@@ -69,8 +68,7 @@ class IntentSource(Protocol):
     def decide(
         self, now: float, support: Pose, side: Foot, *, moving: bool
     ) -> MotionRequest | None:
-        """Decide on the next step.
+        """Decide on the next step, in the frame of its support foot.
 
-        ``support``: Pose of its support foot in odometry: the frame of the
-        intent. The decision; None if the opponent is lost: the robot halts.
+        The pose is in odometry. None if the opponent is lost: the robot halts.
         """

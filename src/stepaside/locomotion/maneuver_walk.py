@@ -35,9 +35,8 @@ RETRY_PERIOD = 0.2  # between attempts of a blocked robot, in [s]
 class ManeuverWalk:
     """Walk by maneuvers (Sec. III), planned at the end of each step.
 
-    All poses are in the robot's own odometry: the frame midway between its
-    feet at the start. No history is stored: a recorder reads ``begun`` after
-    each tick.
+    All poses are in the own odometry: the frame midway between the feet at the
+    start.
     """
 
     def __init__(
@@ -130,8 +129,7 @@ class ManeuverWalk:
     def coast(self, now: float) -> Array | None:
         """Run a control tick that needs neither measurement nor decision.
 
-        Joint targets, in [rad]; None if this tick needs one of both, and then
-        nothing has changed.
+        Joint targets, in [rad]; None if it needs one, and nothing has changed.
         """
         if self.decides(now) or self.guard is not None:
             return None
@@ -250,8 +248,7 @@ class ManeuverWalk:
     def _start_attempts(self) -> Iterator[None]:
         """Yield the start attempts of a standing robot: once with each foot.
 
-        With a map that may be off, each foot then has a second attempt, with
-        relaxed clearance; see :meth:`.Guard.choose_escape`.
+        Then again with relaxed clearance, if the map may be off.
         """
         blurred = self.guard is not None and self.guard.map_error > 0.0
         try:
@@ -272,9 +269,8 @@ class ManeuverWalk:
     ) -> tuple[ManeuverPlan, CenterState] | None:
         """Plan an intent, or the accepted decision closest to it.
 
-        ``state``: Present CoM in the frame of the support foot. ``feet``:
-        Poses of support foot and swing foot in odometry. The plan and the
-        state that it begins with; None to stand.
+        The state is in the frame of the support foot, the first of the feet in
+        odometry. None to stand.
         """
         support = feet[0]
         swing_start = support.inverse().compose(feet[1])
@@ -374,8 +370,7 @@ class ManeuverWalk:
 def velocity_limits(gait: GaitSettings) -> tuple[float, float]:
     """Return the greatest speed [m/s] and turning rate [rad/s] of a gait.
 
-    A stride takes a whole step, which is longer than the time that the
-    template takes for it. The largest desired heading is pi.
+    A stride takes a whole step, longer than the path time of the template.
     """
     pace = gait.path_interval / gait.step_duration
     return gait.speed * pace, gait.gain * pace * pi

@@ -52,8 +52,7 @@ class BodyOutline:
     def along(self, plan: ManeuverPlan, frame: Pose, part: "Part") -> Array:
         """Return the corners of the body over a part of a plan, in [m].
 
-        ``frame``: Pose of the plan frame in the frame of the result. Shape
-        (instants, n + m + k, 2).
+        In the frame in which the plan frame is given. Shape (instants, n, 2).
         """
         samples = plan.sample(_sampler(plan.schedule, part))
         left, right = samples.left_foot, samples.right_foot

@@ -24,33 +24,22 @@ MIN_PACE = 0.5
 
 
 class CenterState(NamedTuple):
-    """Present state of the CoM in the frame of the next support foot.
+    """Present state of the CoM in the frame of the next support foot."""
 
-    Attributes:
-        position: Sagittal and coronal coordinate, in [m].
-        velocity: Their rates, in [m/s].
-    """
-
-    position: tuple[float, float]
-    velocity: tuple[float, float]
+    position: tuple[float, float]  # sagittal, coronal [m]
+    velocity: tuple[float, float]  # [m/s]
 
 
 class TemplateDrive(NamedTuple):
     """Speed and steering law of the template over one maneuver.
 
-    Attributes:
-        saturated: Whether it turns by (6) instead of (8).
-        speed_factor: Fraction of the gait's speed and stride, in (0, 1]. Step
-            durations and turns do not change; to stop, plan a halt. A sharp
-            turn can reduce it further; see :meth:`.GaitSettings.stride_share`.
-        pace: Fraction of the gait's step rate; see
-            :meth:`ManeuverPlanner.schedule`. The footsteps do not depend on
-            it.
+    A speed factor leaves step durations and turns as they are, a pace the
+    footsteps. A sharp turn reduces the speed further.
     """
 
-    saturated: bool = False
-    speed_factor: float = 1.0
-    pace: float = 1.0
+    saturated: bool = False  # turns by (6) instead of (8)
+    speed_factor: float = 1.0  # of the gait's speed and stride, in (0, 1]
+    pace: float = 1.0  # of the gait's step rate
 
 
 FULL_SPEED = TemplateDrive()
@@ -69,8 +58,7 @@ class ManeuverPlanner:
     ) -> Schedule:
         """Return the schedule of ``count`` footsteps, built at first use.
 
-        The pace is rounded to eighths, and at least 0.5, so that few schedules
-        suffice.
+        The pace is rounded to eighths, so that few schedules suffice.
         """
         check_within(pace, LEAST, 1.0, "pace", "1")
         pace = max(MIN_PACE, round(PACES * pace) / PACES)
@@ -184,8 +172,7 @@ def _inputs(
 ) -> Array:
     """Assemble the inputs of the constant maps. Shape (inputs, 2).
 
-    Without a state, the CoM is at rest midway between the anchors of the two
-    feet.
+    Without a state, the CoM is at rest midway between the feet.
     """
     ahead = schedule.settings.zmp_forward
     anchors = placements[:, :2] + rotate(ahead, 0.0, placements[:, 2]).T
@@ -237,11 +224,8 @@ def steady_plan(
 ) -> ManeuverPlan:
     """Return the plan of a steady walk with a constant bearing.
 
-    The map from the state at one landing to that at the next is affine; the
-    periodic state is the fixed point of two steps.
-
-    ``bearing``: Desired heading in the frame of each support foot, in [rad].
-    The plan, whose first step begins in the periodic state.
+    The map from one landing to the next is affine; its periodic state is the
+    fixed point of two steps. The bearing is in the frame of each foot.
     """
 
     def plan_from(

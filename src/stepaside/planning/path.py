@@ -34,11 +34,7 @@ class UnicycleTrajectory:
     saturated: bool = False  # (6) until theta* is reached, rather than (8)
 
     def poses(self, times: ArrayLike) -> Array:
-        r"""Evaluate the trajectory.
-
-        ``times``: Times since planning, in [s]. Shape (n,). Poses (x [m], y
-        [m], theta [rad]), columns. Shape (n, 3).
-        """
+        """Return poses (x [m], y [m], theta [rad]) at times. Shape (n, 3)."""
         t = np.asarray(times, dtype=np.float64)
         rate = laws.proportional_rate(self.bearing, self.gain)
         lasts = 1.0 / self.gain  # time on the arc, in [s]
@@ -85,15 +81,10 @@ def place_footsteps(
 ) -> Array:
     r"""Place alternate feet beside a trajectory, at a constant stride.
 
-    The plan frame is the frame of the support foot, the one that does not
-    land first. The trajectory starts half a spacing beside it, midway to
-    the other foot when abreast; sample :math:`i = 1, \dots, n` of
-    (9)-(14) is taken at :math:`t_i = i \Delta / \bar{v}` and moved sideways
-    by half a spacing.
-
-    ``foot_spacing``: Coronal distance between the foot frames, in [m]. Rows (x
-    [m], y [m], theta [rad]) in the plan frame, in landing order; odd rows are
-    of the other foot. Shape (n, 3).
+    The trajectory starts half a spacing beside the support foot, whose frame
+    is that of the plan; sample :math:`i = 1, \dots, n` of (9)-(14) is taken at
+    :math:`t_i = i \Delta / \bar{v}` and moved sideways by half a spacing. Rows
+    (x [m], y [m], theta [rad]) in landing order. Shape (n, 3).
     """
     times = np.arange(1, count + 1) * (stride / trajectory.speed)
     steps = trajectory.poses(times)

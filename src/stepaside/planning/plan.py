@@ -43,11 +43,8 @@ def support_phases(
 ) -> tuple[SupportPhase, ...]:
     """Return the support phases of a plan in order, without gaps.
 
-    At the instant between two phases both apply: the foot that lands or
-    lifts off is on the floor, but the ZMP already has to be under the foot
-    of the single support.
-
-    ``placements``: As in :class:`.ManeuverPlan`. Shape (count + 2, 3).
+    Between two of them both apply: the foot that lands or lifts off is on the
+    floor, but the ZMP is already under the foot of single support.
     """
     sole = schedule.settings.sole
     sides = (first_foot, first_foot.other)
@@ -95,33 +92,18 @@ MAX_TIME = 86400.0  # of a sample, in [s]
 
 
 class PlanSamples(NamedTuple):
-    """Samples of a plan at given times, in the plan frame.
+    """Samples of a plan at given times, in the plan frame."""
 
-    Attributes:
-        times: Times since the plan began, in [s]. Shape (m,).
-        zmp: Zero moment point, in [m]. Shape (m, 2).
-        dcm: Divergent component of motion, in [m]. Shape (m, 2).
-        com: Center of mass, in [m]. Shape (m, 2).
-        com_velocity: Its velocity, in [m/s]. Shape (m, 2).
-        left_foot: Pose of the left foot (x [m], y [m], theta [rad]). Shape
-            (m, 3).
-        left_height: Height of the left foot, in [m]. Shape (m,).
-        right_foot: Right foot, likewise. Shape (m, 3).
-        right_height: Height of the right foot, in [m]. Shape (m,).
-        pivot: Pivot of the pendulum, in [m]: the ZMP less the reaction of the
-            swing leg. Shape (m, 2).
-    """
-
-    times: Array
-    zmp: Array
-    dcm: Array
-    com: Array
-    com_velocity: Array
-    left_foot: Array
-    left_height: Array
+    times: Array  # since the plan began [s]. Shape (m,)
+    zmp: Array  # [m]. Shape (m, 2)
+    dcm: Array  # [m]. Shape (m, 2)
+    com: Array  # [m]. Shape (m, 2)
+    com_velocity: Array  # [m/s]. Shape (m, 2)
+    left_foot: Array  # rows (x [m], y [m], theta [rad]). Shape (m, 3)
+    left_height: Array  # [m]. Shape (m,)
     right_foot: Array
     right_height: Array
-    pivot: Array
+    pivot: Array  # ZMP less the reaction of the swing leg [m]. Shape (m, 2)
 
     def __repr__(self) -> str:
         """Return the fields in one short line."""

@@ -88,10 +88,8 @@ def held_regions(
 ) -> list[Array]:
     """Return convex regions of DCMs that can be held, in [m].
 
-    First the region held by the feet on the floor, then that held by the
-    next footstep. Their union need not be convex.
-
-    Corners of each region in the plan frame, counter-clockwise. Shapes (n, 2).
+    By the feet on the floor, then by the next footstep: counter-clockwise
+    corners in the plan frame. Shapes (n, 2).
     """
     gait, phases = plan.schedule.settings, plan.support()
     now = max(i for i, phase in enumerate(phases) if phase.start <= time)
@@ -115,8 +113,7 @@ def ray_interval(
 ) -> tuple[float, float]:
     """Return where a ray enters and leaves a convex polygon, in [m].
 
-    Corners are counter-clockwise. Shape (n, 2). It is (0, 0) if the ray
-    misses.
+    Corners are counter-clockwise. It is (0, 0) if the ray misses.
     """
     outward, offsets = half_planes(polygon)
     room, rate = offsets - outward @ start, outward @ heading

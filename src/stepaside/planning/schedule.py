@@ -145,9 +145,7 @@ class Schedule:
     def swing_phases(self, times: Array) -> tuple[np.ndarray, Array]:
         """Return the step index and swing phase of each time.
 
-        ``times``: Times since the start, in [s]. Shape (m,). Indices of the
-        steps from 0, and phases of their single support, below 0 before it and
-        above 1 after it. Shapes (m,), (m,).
+        Phases are below 0 before single support and above 1 after it.
         """
         s = self.settings
         walked = times - (s.start_support if self.standing else 0.0)

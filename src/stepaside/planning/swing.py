@@ -21,11 +21,8 @@ _PROGRESS: dict[SwingProfile, tuple[float, ...]] = {
 def swing_progress(phase: Any, profile: SwingProfile = "minimum-jerk") -> Any:
     """Return the fraction of the path that a swing foot has covered.
 
-    Velocity and acceleration vanish at both ends. The minimum-jerk
-    polynomial peaks half-way at 15/8 of the mean velocity; the even one has
-    the flattest velocity of its degree there, 35/24 of the mean.
-
-    Fraction in [0, 1], like the phase.
+    Velocity and acceleration vanish at both ends. The minimum-jerk polynomial
+    peaks half-way at 15/8 of the mean velocity, the even one at 35/24.
     """
     if isinstance(phase, float):
         s = min(max(phase, 0.0), 1.0)
@@ -53,9 +50,7 @@ def swing_height(
 ) -> Array:
     """Return the height of a swing foot over the floor, in [m]. Shape (n,).
 
-    The apex is reached half-way. Velocity vanishes at lift-off and touch-
-    down; so does acceleration with the minimum-jerk profile, while the
-    even one has a lower vertical velocity.
+    The apex is half-way. The even profile has a lower vertical velocity.
     """
     s = np.clip(np.asarray(phase, dtype=np.float64), 0.0, 1.0)
     power = 2 if profile == "even" else 3

@@ -24,10 +24,9 @@ def pose_beside_foot(foot: Pose, side: Foot, foot_spacing: float) -> Pose:
 def path_samples(
     placements: Array, first_foot: Foot, foot_spacing: float
 ) -> Array:
-    """Return samples of the unicycle's path from placements of the feet.
+    """Return the path of the unicycle, half a spacing beside each foot.
 
-    Each is half a spacing beside its foot, with the same heading. Feet
-    alternate, beginning with the first one. Shape (n, 3).
+    Feet alternate, beginning with the first one. Shape (n, 3).
     """
     samples: Array = np.array(placements, dtype=np.float64)
     right = np.full(len(samples), -0.5 * foot_spacing * first_foot.value)
@@ -39,20 +38,13 @@ def path_samples(
 def poses_on_path(
     samples: Array, com: Array, clock: Array, gait: GaitSettings
 ) -> Array:
-    """Return the poses of the unicycle for given CoM positions.
+    """Return the poses of the unicycle for CoM positions (m, 2), in [m].
 
-    Each sample belongs to a foot, which the body passes in the middle of
-    the support by that foot. In between, position and heading are
-    interpolated by the progress of the CoM, less its lead, from one sample
-    to the next. Since sway can exceed a short stride, the progress is
-    limited to half a step before and after that by time; on the spot the
-    progress by time alone is used.
-
-    ``samples``: Samples of the path, in the order of the steps. Shape (n, 3).
-    ``com``: CoM in the same frame, in [m]. Shape (m, 2). ``clock``: Progress
-    between samples by time, from the middle of one support to that of the
-    next, below 0 before and above 1 after it; NaN if undefined. Shape (m, n -
-    1). Rows (x [m], y [m], theta [rad]). Shape (m, 3).
+    The body passes each sample (n, 3) in the middle of the support by its
+    foot. In between, position and heading are interpolated by the progress of
+    the CoM, less its lead. Since sway can exceed a short stride, the progress
+    is limited to half a step before and after that by time, ``clock`` (m, n -
+    1), which may be NaN; on the spot it is that by time. Shape (m, 3).
     """
     ways = np.diff(samples, axis=0)
     middle = samples[:-1, 2] + 0.5 * ways[:, 2]
@@ -74,9 +66,7 @@ def poses_on_path(
 def progress_by_time(schedule: Schedule, times: Array) -> Array:
     """Return the progress between the feet of a plan by time.
 
-    It is an input of :func:`poses_on_path`, of shape (m, footsteps + 1).
-    The first one is undefined for a start from standing: the CoM may then
-    be anywhere between the two samples.
+    The first one is NaN for a start from standing. Shape (m, footsteps + 1).
     """
     gait = schedule.settings
     begun = schedule.starts[1] if schedule.standing else 0.0

@@ -90,15 +90,12 @@ class LegOdometry:
     """Pose of the CoM over the floor, from the corners that carry it.
 
     A corner of a sole that is loaded at two readings does not move between
-    them, whether its foot lies flat, rolls or pivots. The torso moves by the
-    opposite of the motion of these corners in the torso frame, the mean over
-    all eight by the smaller of both loads: a foot that lifts off or touches
-    down in between swings ahead. A corner that was not loaded at the reading
-    before counts by a tenth of it: a foot slides after touching down. Feet
-    that slip in spite of this make the motion of the torso shorter or longer
-    by a ratio that is measured. Without force sensors the lowest corners
-    count as loaded. The CoM, which is the reference point of a walking robot,
-    moves as the joints say in addition.
+    them. The torso moves by the opposite of the motion of these corners in its
+    frame, the mean over all eight by the smaller of both loads; one that just
+    landed counts by a tenth, as a foot slides then. Feet that slip in spite of
+    this change the motion by a ratio that is measured. Without force sensors
+    the lowest corners count as loaded. The CoM moves as the joints say in
+    addition.
     """
 
     def __init__(

@@ -88,16 +88,11 @@ class GravityFilter(AttitudeFilter):
     """Attitude filter of a robot that sways while it stands.
 
     Standing does not calibrate its gyro: at first the accelerometer counts
-    more. The known acceleration is that of a turning velocity. What a torso
-    that leans shows about its axis near the vertical is the sway of its walk.
+    more. The known acceleration is that of a turning velocity.
     """
 
     def __init__(self, velocity: Array, duration: float) -> None:
-        """Begin upright.
-
-        ``velocity``: Velocity of the torso in its level frame, in [m/s]; read
-        at each update. Shape (3,).
-        """
+        """Begin upright; the velocity of the torso is read at each update."""
         super().__init__(FIRST, 0.0, calibration=0.0)
         self._velocity, self._duration, self._time = velocity, duration, 0.0
 
@@ -133,10 +128,9 @@ class GravityFilter(AttitudeFilter):
 class PolicyLegs:
     """Walking policy on the sensors of one robot.
 
-    The policy runs at its own period, which is a multiple of the control
-    tick. Its command is the inverse of the measured response. While it walks
-    the remaining error is learned: of the turning rate from the gyro, and of
-    the other components from the leg odometry.
+    The policy runs at a multiple of the control tick. Its command is the
+    inverse of the measured response; what is missing is learned from the gyro
+    and the leg odometry.
     """
 
     def __init__(
@@ -218,11 +212,7 @@ class PolicyLegs:
         return self._targets
 
     def update(self, measurement: RobotState, velocity: BodyVelocity) -> Array:
-        """Return the joint targets of one control tick, in [rad].
-
-        The nearest deliverable velocity with the path of the intended one is
-        walked.
-        """
+        """Return the joint targets, in [rad], for the nearest velocity."""
         if velocity is not self._wanted:
             self._wanted = velocity
             self.intended = self.velocities.nearest(velocity)
@@ -299,11 +289,7 @@ def decision_interval(intent: Intent, gait: GaitSettings) -> float:
 
 
 class PolicyWalk:
-    """Walk of one robot by a policy, with decisions at fixed intervals.
-
-    A heading is walked for the step of the template, a body velocity for
-    0.08 s.
-    """
+    """Walk of one robot by a policy, with decisions at fixed intervals."""
 
     begun: StepStarted | None = None  # none: a policy plans no steps
     maneuvers: None = None  # likewise

@@ -52,9 +52,8 @@ class TensorShape(NamedTuple):
 class PolicyNetwork:
     """Network that maps observations to actions.
 
-    Inputs beside the observation are recurrent states: each is fed back from
-    the output of its name and shape, see :func:`_stem`, and is zero at the
-    start.
+    Further inputs are recurrent states, zero at the start: each is fed back
+    from the output of its name and shape.
     """
 
     def __init__(self, path: Path) -> None:
@@ -386,11 +385,7 @@ class PolicyRunner:
         return found
 
     def act(self, raw: Array, memory: Memory) -> Array:
-        """Update the targets by the output of the network.
-
-        ``raw``: Output of the network. Shape (action width,). The targets, in
-        [rad]. Shape (joints,).
-        """
+        """Return the targets, in [rad], by the output of the network."""
         self.memory, self._raw[:] = memory, raw
         self._act()
         return self.targets

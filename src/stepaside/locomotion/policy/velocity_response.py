@@ -209,14 +209,11 @@ class VelocityResponse:
         return sizes, commands, effects.reshape(-1, 3)
 
     def inverse(self, velocity: Array, command: Array) -> Callable[[], None]:
-        """Return the loop that sets the command for a velocity.
+        """Return the loop that sets the command (3,) for a velocity (3,).
 
-        The velocity that the command delivers is nearest to it. Each axis in
-        turn is solved for what the others leave; the cross terms of walking
-        policies are small.
-
-        ``velocity``: Velocity that is read. Shape (3,). ``command``: Command
-        that is written. Shape (3,).
+        The velocity that it delivers is nearest. Each axis in turn is solved
+        for what the others leave; the cross terms of walking policies are
+        small.
         """
         return bound(
             *(invert, velocity, *self.tables),
@@ -262,11 +259,7 @@ def response_entries(
 
 
 def load_response(folder: Path, network: Path) -> VelocityResponse | None:
-    """Load the response of a network on a robot.
-
-    The response; None if it was not measured, or of another network of this
-    name.
-    """
+    """Load the measured response of this very network, if there is one."""
     path = response_path(folder, network)
     if not path.is_file():
         return None

@@ -147,9 +147,8 @@ class IntrinsicallyStableMpc:
     ) -> tuple[Array, Array, Array]:
         """Return the half planes that keep the ZMP in the support polygon.
 
-        They are rows and bounds on the velocities, and relaxed bounds that
-        admit a ZMP on its way straight back to the plan's during the first
-        sample. Shapes (m, 2 n), (m,), (m,).
+        Rows and bounds on the velocities, and bounds that admit a ZMP straight
+        on its way back. Shapes (m, 2 n), (m,), (m,).
         """
         support = self._support
         if support is None or support.plan is not plan:

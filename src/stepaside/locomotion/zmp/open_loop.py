@@ -25,8 +25,7 @@ StepAt = Callable[[float], CurrentStep]
 class OpenLoop:
     """Joint targets of the plan as it is, on stiff joints.
 
-    The targets of a whole step are computed at once. Where a joint limit
-    acts, they are computed tick by tick.
+    Those of a whole step are computed at once, unless a joint limit acts.
     """
 
     feels = False  # joint angles, IMU or forces on the soles
@@ -144,14 +143,11 @@ def offset_rows(
 class LoadFeedforward:
     r"""Joint offsets that compensate the deflection of servos under load.
 
-    A servo of stiffness k under a torque :math:`\tau` deflects by
-    :math:`\tau / k`: in a stance leg of the NAO by up to a degree at the hip,
-    so that the swing foot touches the floor early and slides. Servos that
-    feed the rate of their targets forward also add :math:`d / k` times the
-    rate of the offset, with damping d. So the offset :math:`\delta` solves
-    :math:`\delta + (d / k)\, \dot\delta = \tau / k`. The torque is
-    extrapolated one tick ahead: a target acts until the next tick, and the
-    accelerations are a tick old.
+    A servo of stiffness k deflects by :math:`\tau / k`: in a stance leg of the
+    NAO by up to a degree at the hip. Servos that feed the rate of their
+    targets forward also add :math:`d / k` times the rate of the offset, with
+    damping d. So the offset :math:`\delta` solves :math:`\delta + (d / k)\,
+    \dot\delta = \tau / k`, one tick ahead.
     """
 
     def __init__(
@@ -183,11 +179,7 @@ class LoadFeedforward:
     def offset_rows(
         self, states: Array, references: Array, zmp: Array
     ) -> Array:
-        """Return the offsets of consecutive ticks, as :meth:`added` does.
-
-        From rows of :class:`.LegStates` and of :meth:`.BodyReference.row`,
-        and the plan's ZMP in odometry, (ticks, 2). Shape (ticks, joints).
-        """
+        """Return the offsets of consecutive ticks. Shape (ticks, joints)."""
         return self._filtered(self.loads.torque_rows(states, references, zmp))
 
     def rewind(self, ticks: int) -> None:

@@ -72,8 +72,7 @@ def _anchor(foot: Pose, settings: GaitSettings) -> tuple[float, float]:
 class ReferenceTable:
     """References at every tick of the current plan, or of a standing body.
 
-    Plans begin when a step ends, which need not be on a tick: the plan is
-    sampled at the ticks, so that gait time is exact.
+    Plans are sampled at the ticks, on which they need not begin.
     """
 
     references: Array  # rows of :meth:`.BodyReference.row`. Shape (ticks, 15)

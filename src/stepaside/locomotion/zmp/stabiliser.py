@@ -223,10 +223,9 @@ class Stabiliser(OpenLoop):
     def zmp_response(
         self, step: CurrentStep, dcm: Vector, zmp: Vector
     ) -> Vector:
-        """Return the ZMP shift at the next tick, for shifts of DCM and ZMP.
+        """Return the next ZMP shift, for shifts of DCM and ZMP.
 
-        It is a multiple of the DCM shift, clipped to the sole; with the MPC,
-        the rule of a standing robot only.
+        By the MPC, or a multiple of the DCM shift within the sole.
         """
         self.solved = None
         if self.mpc is None or step.plan is None:
@@ -355,12 +354,7 @@ class Ankles:
 
 
 class JointCorrection:
-    """Bounded, leaky integral of the joint errors.
-
-    A joint with backlash rests on one side until its load reverses, and a
-    servo deflects under load; both errors last long enough to be measured
-    and added to the targets.
-    """
+    """Bounded, leaky integral of the errors by backlash and load."""
 
     def __init__(
         self, gains: StabiliserSettings, *, tick: float, delay: float
@@ -406,8 +400,7 @@ def build_balance(
 ) -> OpenLoop:
     """Build the balance control that the settings select.
 
-    ``delay`` is the time from a command to the motion, in [s]; ``forward``
-    are the kinematics of the measured body, built if not given.
+    ``forward`` are the kinematics of the measured body.
     """
     loads = None
     if not control.feedback or control.stabiliser.load_share > 0.0:

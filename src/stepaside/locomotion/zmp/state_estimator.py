@@ -122,10 +122,9 @@ class BodyState(NamedTuple):
 class StateEstimator:
     """State estimator of one robot.
 
-    The torso tilt comes from the IMU. The CoM follows from the tilt and
-    the measured joints relative to the loaded feet, whose poses are those
-    of odometry. A constant-gain observer of the linear inverted pendulum,
-    driven by the measured ZMP, adds the velocity.
+    The torso tilt comes from the IMU, the CoM from tilt and joints relative to
+    the loaded feet, whose poses are those of odometry, and the velocity from
+    an observer of the pendulum, driven by the measured ZMP.
     """
 
     def __init__(
@@ -139,11 +138,7 @@ class StateEstimator:
         correction: float = 0.5,
         bias_correction: float = 0.06,
     ) -> None:
-        """Prepare an estimator.
-
-        ``force_sensors``: Positions of the force sensors in the foot frames,
-        left then right, in [m]. Shape (8, 2).
-        """
+        """Prepare it; force sensors are in the foot frames (8, 2)."""
         self.kinematics = kinematics
         self._tick = tick
         weight = GRAVITY * kinematics.mass
@@ -185,11 +180,7 @@ class StateEstimator:
         acceleration: tuple[float, float],
         reaction: tuple[float, float] = (0.0, 0.0),
     ) -> BodyState:
-        """Estimate the state at one tick.
-
-        ``feet``: Body reference of the command that the measured motion
-        executes, in odometry; its feet are used.
-        """
+        """Estimate the state, with feet as the executed command has them."""
         values, state, attitude = self._values, self._state, self._attitude
         (ax, ay), heading = acceleration, state.item(10)
         c, s = cos(heading), sin(heading)
