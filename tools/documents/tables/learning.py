@@ -11,13 +11,12 @@ Result = Mapping[str, Any]
 def scores(result: Result) -> str:
     """List the score of each strategy."""
     head = (
-        *("strategy", "role", "score [m]", "mean regret [m]"),
+        *("strategy", "score [m]", "mean regret [m]"),
         "survived against the suite",
     )
     rows = [
         (
             f"`{row['strategy']}`",
-            row["role"],
             f"{row['score_m']:.3f} ± {row['score_pm_m']:.3f}",
             ""
             if row["mean_regret_m"] is None
