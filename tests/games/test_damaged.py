@@ -109,14 +109,6 @@ def header(shape: str, descr: str = "'<f8'", body: bytes = b"") -> bytes:
     )
 
 
-def linked(name: str) -> Damage:
-    def damage(folder: Path) -> None:
-        (folder / name).rename(folder / "real")
-        (folder / name).symlink_to(folder / "real")
-
-    return damage
-
-
 def piped(name: str) -> Damage:
     def damage(folder: Path) -> None:
         (folder / name).unlink()
@@ -177,7 +169,6 @@ DAMAGES: dict[str, Damage] = {
     "times backwards": arrays(lambda a: a.update(times_s=-a["times_s"])),
     "times NaN": put("times_s", 2, np.nan),
     "times short": arrays(lambda a: a.update(times_s=a["times_s"][:-1])),
-    "trajectories are a link": linked(TRAJECTORIES),
     "configuration is a pipe": piped(CONFIGURATION),
 }
 NAMED = {
@@ -221,10 +212,10 @@ def test_arrays_beyond_the_size_limit_are_not_read(
 ) -> None:
     each("evader_landings", lambda rows: np.zeros((1000, 5)))(folder)
     size = (folder / TRAJECTORIES).stat().st_size
-    monkeypatch.setattr(reading, "MAX_ARRAY_BYTES", size + 1)
+    monkeypatch.setattr(reading, "MAX_BYTES", size + 1)
     with pytest.raises(ConfigurationError, match="at most .* bytes"):
         load_run(folder)
-    monkeypatch.setattr(reading, "MAX_ARRAY_BYTES", size - 1)
+    monkeypatch.setattr(reading, "MAX_BYTES", size - 1)
     with pytest.raises(ConfigurationError, match="must be a file of"):
         load_run(folder)
 

@@ -121,7 +121,7 @@ def test_an_unknown_format_is_refused_by_its_number(
     with pytest.raises(ConfigurationError) as refused:
         load_run(folder)
     message = str(refused.value)
-    assert f"format of run run must be 5, got {number!r}" in message
+    assert f"run must be 5, got {number!r}" in message
     assert "\n" not in message
 
 

@@ -177,18 +177,6 @@ def test_depth_shows_only_what_is_well_in_range(
     assert scene.evaluator.colour.in_view == 1
 
 
-def test_the_center_of_the_opponent_must_be_in_view() -> None:
-    scene = Scene()
-    scene.stand(TOP, 0.0, 1.0)
-    for lift, shown in ((0.38, 1), (0.46, 0), (-0.37, 1), (-0.46, 0)):
-        level = scene.other.position_com_in_world.copy()
-        scene.other.position_com_in_world[2] += lift
-        before = scene.evaluator.colour.in_view
-        show(scene, colour())
-        assert scene.evaluator.colour.in_view - before == shown
-        scene.other.position_com_in_world = level
-
-
 def test_a_person_counts_only_in_depth_images() -> None:
     scene = Scene(wears_trim=False)
     scene.stand(TOP, 0.0, 1.5)

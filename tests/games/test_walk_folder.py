@@ -3,22 +3,18 @@
 from math import pi
 from pathlib import Path
 
-import numpy as np
 import pytest
 from click.testing import CliRunner, Result
 
 from stepaside.cli.main import main
-from stepaside.core.errors import ConfigurationError
 from stepaside.games.duel_settings import DuelSettings
 from stepaside.games.outcome import Outcome
 from stepaside.games.recorded_game import run_duel, run_walk
 from stepaside.games.run import Run
-from stepaside.games.run_archive import load_run, write_run_files
+from stepaside.games.run_archive import write_run_files
 from stepaside.games.walk_settings import WalkSettings
 from stepaside.report.run_folder import write_run
-from stepaside.report.scene import RunScene
 from stepaside.sim.push import Push
-from synthetic_run import check_same
 
 PUSHES = (Push(0.5, 1.0, pi / 2), Push(0.4, 1.1, 0.0))
 
@@ -36,31 +32,6 @@ def folder(walked: Run, tmp_path_factory: pytest.TempPathFactory) -> Path:
     place = tmp_path_factory.mktemp("walks") / "walk"
     assert write_run(place, walked) == place / "walk.png"
     return place
-
-
-def test_a_walk_is_read_from_its_folder(folder: Path, walked: Run) -> None:
-    loaded = load_run(folder, "walk")
-    check_same(loaded, walked)
-    assert loaded.players == ("walker",) and loaded.robots == ("walker",)
-    assert loaded.pair is None and np.isnan(loaded.distance).all()
-    assert loaded.theory is None and not loaded.safety_areas
-    assert loaded.settings.pushes == PUSHES
-    stage = RunScene(loaded)
-    stage.put(40)
-    qpos = loaded.walker.qpos
-    assert qpos is not None
-    np.testing.assert_array_equal(stage.data.qpos, qpos[40])
-
-
-def test_a_folder_of_another_game_is_refused(
-    folder: Path, tmp_path: Path
-) -> None:
-    with pytest.raises(ConfigurationError, match="a duel, got one of a walk"):
-        load_run(folder, "duel")
-    duel = run_duel(DuelSettings(duration=0.04))
-    write_run_files(tmp_path, duel)
-    with pytest.raises(ConfigurationError, match="a walk, got one of a duel"):
-        load_run(tmp_path, "walk")
 
 
 def test_a_walk_is_compared_with_walks_alone(

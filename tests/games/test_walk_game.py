@@ -146,15 +146,6 @@ def test_feedback_survives_sideways_pushes(phase: float, side: float) -> None:
     )
 
 
-def test_the_same_pushes_make_the_open_loop_fall() -> None:
-    """Two of the four: the others are against the sway."""
-    survived = [
-        pushed(1.2, side * pi / 2, phase, feedback=False).outcome
-        for phase, side in SIDEWAYS
-    ]
-    assert survived.count(Outcome.FALL) == 2
-
-
 @pytest.mark.parametrize(("direction", "least"), [(0.0, 1), (pi, 0)])
 def test_feedback_adapts_footsteps_to_a_push_along_the_walk(
     direction: float, least: int

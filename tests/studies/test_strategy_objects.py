@@ -20,13 +20,13 @@ from stepaside import (
 )
 from stepaside.cli.main import main
 from stepaside.core.errors import ConfigurationError
+from stepaside.games.run import Run
 from stepaside.games.run_archive import results_of
 from stepaside.planning import Direction
 from stepaside.strategies import (
     STRATEGIES,
     EvasionMemory,
 )
-from stepaside.studies.duel_record import digest_of
 
 SHORT = DuelSettings(duration=1.2, start=StartSettings(distance=0.7))
 OWN = """
@@ -70,7 +70,11 @@ class Own:
         return Intent(0.4), None
 
 
-def played(settings: DuelSettings) -> str:
+def digest_of(run: Run) -> bytes:
+    return b"".join(array.tobytes() for array in run.arrays().values())
+
+
+def played(settings: DuelSettings) -> bytes:
     return digest_of(run_duel(settings))
 
 

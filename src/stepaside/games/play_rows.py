@@ -8,16 +8,11 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from ..core.entries import read_entries
+from ..core.entries import load_entries, read_entries
 from ..core.errors import ConfigurationError
 from ..core.poses import Array
 from ..drivers.play_log import METADATA, ROWS, columns_in
-from .archive_reader import (
-    MAX_ARRAY_BYTES,
-    check_object,
-    read_bytes,
-    read_json,
-)
+from .archive_reader import read_bytes
 
 PERIOD = 0.02  # approximate smallest period of the samples of a run, in [s]
 MAX_GAP = 10.0  # between ticks of one clock, in [s]
@@ -91,11 +86,9 @@ def read_played(folder: Path) -> PlayedRows:
         ConfigurationError: If there are no valid rows.
     """
     name = folder.resolve().name
-    notes = read_json(folder / METADATA)
-    about = check_object(notes, f"{METADATA} of {name}").get("columns")
-    columns = check_object(about, f"columns in {METADATA} of {name}")
-    _check_columns(columns, name)
-    found = columns_in(read_bytes(folder / ROWS, MAX_ARRAY_BYTES), columns)
+    notes = load_entries(folder / METADATA)
+    columns = _columns_of(notes, name)
+    found = columns_in(read_bytes(folder / ROWS), columns)
     if not len(found["times_s"]):
         raise ConfigurationError(f"{ROWS} of {name} has no rows")
     source = f"{METADATA} of {name}"
@@ -119,7 +112,9 @@ def monotonic_times(times: Array) -> Array:
     return elapsed
 
 
-def _check_columns(columns: dict[str, Any], name: str) -> None:
+def _columns_of(notes: Mapping[str, Any], name: str) -> dict[str, int]:
+    columns: Any = notes.get("columns")
+    columns = columns if isinstance(columns, dict) else {}
     moves_joints = "joint_positions" in columns
     expected = COMMON | (BY_JOINTS if moves_joints else BY_VELOCITY)
     joints = JOINTS if moves_joints else ()
@@ -134,3 +129,5 @@ def _check_columns(columns: dict[str, Any], name: str) -> None:
             f"{METADATA} of {name} must hold the columns of a player: "
             f"{', '.join([*expected, *joints])}"
         )
+    found: dict[str, int] = columns
+    return found

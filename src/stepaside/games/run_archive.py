@@ -15,23 +15,15 @@ import numpy as np
 import tomli_w
 
 from ..core.atomic_output import atomic_draft
-from ..core.entries import parse_entries, read_entries
+from ..core.entries import load_entries, read_entries
 from ..core.errors import AnyPath, ConfigurationError, as_path
 from ..core.poses import Array
 from ..robots.description import known_robots
-from .archive_reader import (
-    MAX_ARRAY_BYTES,
-    check_object,
-    read_arrays,
-    read_bytes,
-    read_json,
-    read_text,
-)
+from .archive_reader import read_arrays, read_bytes
 from .configuration_file import (
     ROBOTS,
     find_files,
     parse_settings,
-    read_settings,
     replace_files,
     settings_entries,
 )
@@ -168,9 +160,9 @@ def load_run(folder: AnyPath, game: str | None = None) -> Run:
     folder = as_path(folder, "folder")
     try:
         if not (folder / SUMMARY).exists() and has_play_rows(folder):
-            text = read_text(folder / CONFIGURATION)
+            entries = load_entries(folder / CONFIGURATION)
             source = str(folder / CONFIGURATION)
-            settings = read_settings(PlaySettings, text, source)
+            settings = parse_settings(PlaySettings, entries, source)
             run = run_of_play(folder, settings)
         else:
             run = _load_complete_run(folder)
@@ -197,42 +189,29 @@ def _load_complete_run(folder: Path) -> Run:
                 f"{TRAJECTORIES}; {folder} has no {name}"
             )
     check_checksums(folder, files)
-    name = folder.resolve().name
-    header = read_header(read_json(folder / SUMMARY), name)
-    arrays = read_arrays(folder / TRAJECTORIES)
-    source = str(folder / CONFIGURATION)
-    entries = parse_entries(read_text(folder / CONFIGURATION), source)
-    find_files(entries, folder)
-    settings = parse_settings(KINDS[header["game"]], entries, source)
-    return read_record(name, settings, header, arrays)
-
-
-def read_header(plain: Any, run: str) -> dict[str, Any]:
-    """Return the content of a summary with known format, game, outcome."""
-    entries = check_object(plain, f"{SUMMARY} of run {run}")
-    outcomes = [outcome.value for outcome in Outcome]
-    for key, known in (
-        ("format", [FORMAT]),
-        ("game", [*KINDS]),
-        ("outcome", outcomes),
-    ):
-        value = entries.get(key)
+    plain = load_entries(folder / SUMMARY)
+    for key, known in (("format", [FORMAT]), ("game", [*KINDS])):
+        value = plain.get(key)
         if type(value) is not type(known[0]) or value not in known:
-            options = ", ".join(map(str, known))
-            rule = f"one of {options}" if len(known) > 1 else options
             raise ConfigurationError(
-                f"{key} of run {run} must be {rule}, got {value!r:.40}"
+                f"{key} of run {folder} must be "
+                f"{' or '.join(map(str, known))}, got {value!r:.40}"
             )
-    return entries
+    arrays = read_arrays(folder / TRAJECTORIES)
+    entries = load_entries(folder / CONFIGURATION)
+    find_files(entries, folder)
+    source = str(folder / CONFIGURATION)
+    settings = parse_settings(KINDS[plain["game"]], entries, source)
+    return read_record(folder.resolve().name, settings, plain, arrays)
 
 
 def read_record(
-    name: str, settings: Any, header: dict[str, Any], arrays: dict[str, Array]
+    name: str, settings: Any, plain: dict[str, Any], arrays: dict[str, Array]
 ) -> Run:
     """Build a run from the content of a run folder."""
     source = f"{SUMMARY} of run {name}"
-    about = read_entries(RunHeader, header, source, ignoring=True)
-    summary = read_entries(Summary, header, source, ignoring=True)
+    about = read_entries(RunHeader, plain, source, ignoring=True)
+    summary = read_entries(Summary, plain, source, ignoring=True)
     players = tuple(summary.players)
     named = all(map(PLAYER_NAME.fullmatch, players))
     if not named or not 1 <= len(players) <= MOST_PLAYERS:
@@ -288,12 +267,12 @@ def check_checksums(folder: Path, names: Collection[str]) -> None:
     if not (folder / CHECKSUMS).exists():
         return
     found = dict.fromkeys(names, "")
-    for line in read_text(folder / CHECKSUMS).splitlines():
+    for line in read_bytes(folder / CHECKSUMS).decode().splitlines():
         entry = CHECKSUM_LINE.fullmatch(line)
         if entry is not None and entry[2] in found:
             found[entry[2]] = entry[1]
     for name, recorded in found.items():
-        content = read_bytes(folder / name, MAX_ARRAY_BYTES)
+        content = read_bytes(folder / name)
         if sha256(content).hexdigest() != recorded:
             raise ConfigurationError(
                 f"{name} of run {folder} was modified: its checksum differs "

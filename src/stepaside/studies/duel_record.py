@@ -1,6 +1,5 @@
 """Record of a duel: what a campaign stores of it."""
 
-from hashlib import sha256
 from math import isfinite
 from time import perf_counter
 
@@ -16,15 +15,15 @@ from ..theory.unicycle.certificate import certify
 from ..theory.unicycle.unicycle_game import RelativeStart, make_game
 from .tabulation import Record
 
+OF_SUMMARY = (
+    *("distance_m", "relative_orientation_deg", "min_distance_m"),
+    *("converged_at_s", "triggered_at_s", "triggered_at_distance_m"),
+)
 BEFORE = 2.0 / 3.0  # of a duel; means are taken over the rest
 
 
 def play_duel(settings: DuelSettings) -> Record:
     """Play one duel and return its record.
-
-    Returns:
-        Summary values in SI units, or [deg] as their names say, and the
-        ``digest`` of the trajectories.
 
     Raises:
         KeyboardInterrupt: If the duel was interrupted.
@@ -39,6 +38,7 @@ def _record_of(run: Run, wall: float) -> Record:
     summary, players = run.summary, run.summary.players
     theory = summary.theory or TheorySummary()
     planning = summary.planning or PlanningSummary(0, 0)
+    since = summary.converged_at_s
     record = {
         "seed": run.settings.seed,
         "outcome": run.outcome.value,
@@ -47,14 +47,10 @@ def _record_of(run: Run, wall: float) -> Record:
         "start_distance_m": run.settings.start.distance,
         "pursuer_radius_m": players[PURSUER].radius_m,
         "evader_radius_m": players[EVADER].radius_m,
-        "distance_m": summary.distance_m,
-        "relative_orientation_deg": summary.relative_orientation_deg,
-        "converged_at_s": summary.converged_at_s,
-        "on_circle": summary.converged_at_s is not None,
-        "on_circle_in_time": _in_time(run),
-        "min_distance_m": summary.min_distance_m,
-        "triggered_at_s": summary.triggered_at_s,
-        "triggered_at_distance_m": summary.triggered_at_distance_m,
+        **{name: getattr(summary, name) for name in OF_SUMMARY},
+        "on_circle": since is not None,
+        "on_circle_in_time": since is not None
+        and since < BEFORE * run.settings.duration,
         "min_zmp_margin_m": planning.min_zmp_margin_m,
         "max_com_velocity_jump_m_s": planning.max_com_velocity_jump_m_s,
         "theory_radius_m": theory.radius_m,
@@ -71,15 +67,8 @@ def _record_of(run: Run, wall: float) -> Record:
     if summary.sight is not None:
         for name in ("lost_s", "detection_rate", "false_detections"):
             record[name] = getattr(summary.sight, name)
-    record["digest"] = digest_of(run)
     record["wall_s"] = round(wall, 3)
     return record
-
-
-def _in_time(run: Run) -> bool:
-    """Return whether a duel is on its circle before its last third."""
-    since = run.summary.converged_at_s
-    return since is not None and since < BEFORE * run.settings.duration
 
 
 def _evasion(run: Run) -> Record:
@@ -121,12 +110,3 @@ def _evasion(run: Run) -> Record:
     if certificate.holds:
         found["certified_m"] = certificate.distance_m
     return found
-
-
-def digest_of(run: Run) -> str:
-    """Return a fingerprint of all recorded arrays of a duel."""
-    digest = sha256()
-    for name, array in sorted(run.arrays().items()):
-        digest.update(name.encode())
-        digest.update(np.ascontiguousarray(array).tobytes())
-    return digest.hexdigest()[:12]
