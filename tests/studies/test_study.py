@@ -156,37 +156,6 @@ def test_a_data_frame_has_a_row_for_each_case() -> None:
 # --- executors ---------------------------------------------------------------
 
 
-class Losing(Executor):
-    """Loses some tasks, as a cluster whose scheduler starts again."""
-
-    def __init__(self, lost: set[int]) -> None:
-        self.lost, self.number = lost, 0
-
-    def submit(self, fn: Any, /, *args: Any, **kwargs: Any) -> Future[Any]:
-        """Run a task, or lose it."""
-        future: Future[Any] = Future()
-        self.number += 1
-        if self.number in self.lost:
-            future.cancel()
-            future.set_running_or_notify_cancel()
-        else:
-            future.set_result(fn(*args, **kwargs))
-        return future
-
-
-def test_lost_blocks_are_submitted_again() -> None:
-    told: list[str] = []
-    executor = Losing({1, 3, 4})
-    run = run_study(study_of(), executor=executor, warn=told.append)
-    assert squares(run) == EXPECTED
-    assert told and all("submitted again" in message for message in told)
-
-
-def test_a_block_that_is_always_lost_ends_the_study() -> None:
-    with pytest.raises(CampaignError, match="workers were lost"):
-        run_study(study_of(), executor=Losing(set(range(1000))))
-
-
 class Foreign(Executor):
     """Worker with another version of the package."""
 
@@ -212,28 +181,23 @@ def kill_at_first(folder: str, case: int) -> Record:
     return square(case)
 
 
-@pytest.mark.parametrize("name", ["processes", "dask"])
-def test_a_killed_worker_is_replaced(tmp_path: Path, name: str) -> None:
-    if name == "dask":
-        pytest.importorskip("distributed")
-    study = study_of(measure=partial(kill_at_first, str(tmp_path)))
-    run = run_study(study, executor=name, workers=2, warn=lambda text: None)
-    assert squares(run) == EXPECTED
-    assert (tmp_path / "killed").exists()
-
-
-def kill_always(case: int) -> Record:
-    if case == 5:
-        os.kill(os.getpid(), signal.SIGKILL)
-    return square(case)
-
-
-def test_a_case_that_kills_every_worker_ends_the_study(
+def test_a_lost_worker_ends_the_study_and_the_next_run_completes_it(
     tmp_path: Path,
 ) -> None:
-    with pytest.raises(CampaignError, match="results are saved"):
-        run_study(study_of(measure=kill_always), tmp_path / FILE, workers=1)
-    assert StudyRun(study_of(), tmp_path / FILE).finished >= 1
+    study = study_of(measure=partial(kill_at_first, str(tmp_path)))
+    file = tmp_path / FILE
+    with pytest.raises(CampaignError, match="of 12 results are saved"):
+        run_study(study, file, workers=1)
+    run = run_study(study, file, workers=1)
+    assert run.reused >= 1 and squares(run) == EXPECTED
+
+
+def test_dask_replaces_a_killed_worker(tmp_path: Path) -> None:
+    pytest.importorskip("distributed")
+    study = study_of(measure=partial(kill_at_first, str(tmp_path)))
+    run = run_study(study, executor="dask", workers=2)
+    assert squares(run) == EXPECTED
+    assert (tmp_path / "killed").exists()
 
 
 def threads(workers: int | None) -> Executor:

@@ -13,7 +13,7 @@ from .options import (
     shard_option,
     workers_option,
 )
-from .study_output import executor_option, finish_study, run_with_bar
+from .study_output import executor_option, finish_study, run_stored
 from .terminal import echo, exit_interrupted, print_json, resume_message
 
 RECORDS = "claims.sqlite"
@@ -70,7 +70,7 @@ def reproduce(
 
     check_folder(output, new=False)
     study = claim_study(range(seed, seed + runs), legs_robot)
-    run = run_with_bar(study, output / RECORDS, "runs", **campaign)
+    run = run_stored(study, output / RECORDS, **campaign)
     finish_study(run, "runs")
     if campaign["shard"][1] > 1:
         echo(f"results: {output}", err=as_json)

@@ -14,7 +14,7 @@ from .options import (
     shard_option,
     workers_option,
 )
-from .study_output import executor_option, finish_study, run_with_bar
+from .study_output import executor_option, finish_study, run_stored
 from .tables import print_columns, print_table
 from .terminal import print_json, write_result
 
@@ -105,7 +105,7 @@ def study(
         if output is None:
             raise click.UsageError("files of shards require --output")
         merge_results(parts, output)
-    run = run_with_bar(made, output, "games", **campaign)
+    run = run_stored(made, output, **campaign)
     rows = run.table(by, values) if run.finished else []
     if as_json:
         print_json({"planned": run.total, "done": run.finished, "rows": rows})

@@ -5,13 +5,12 @@ from typing import TYPE_CHECKING, TypeVar
 
 import click
 
-from ..core.progress import show_progress
 from ..studies.executors import PROCESSES, SPECIFICATIONS, check_executor
 from .options import TextType
-from .terminal import echo, exit_interrupted, resume_message
+from .terminal import exit_interrupted, resume_message
 
 if TYPE_CHECKING:
-    from ..studies.study import Study, StudyProgress, StudyRun
+    from ..studies.study import Study, StudyRun
 
 C = TypeVar("C")
 
@@ -30,47 +29,25 @@ executor_option = click.option(
 )
 
 
-def run_with_bar(
+def run_stored(
     study: "Study[C]",
     file: Path | None,
-    unit: str,
     *,
     workers: int | None = None,
     executor: str = PROCESSES,
     shard: tuple[int, int] = (1, 1),
 ) -> "StudyRun[C]":
-    """Run a study, or one shard of it, with progress on standard error.
-
-    Args:
-        study: Study; a single case is measured in this process.
-        file: SQLite file of the records; None to store nothing.
-        unit: Unit of the progress, like ``games``.
-        workers: Number of processes; all cores if None.
-        executor: Specification of the executor.
-        shard: Number of the shard, from 1, and number of shards.
-
-    Returns:
-        The results; see :func:`finish_study`.
-    """
+    """Run a study, or one shard of it; a single case in this process."""
     from ..studies.study import run_study
 
     inline = executor == PROCESSES and (len(study.cases) == 1 or workers == 1)
-    total = len(range(shard[0] - 1, len(study.cases), shard[1]))
-    with show_progress(study.name, total, unit) as bar:
-
-        def report(progress: "StudyProgress") -> None:
-            bar.initial, bar.n = progress.reused, progress.finished
-            bar.refresh()
-
-        return run_study(
-            study,
-            file,
-            executor=None if inline else executor,
-            workers=None if inline else workers,
-            shard=shard,
-            report=report,
-            warn=lambda message: echo(message, err=True),
-        )
+    return run_study(
+        study,
+        file,
+        executor=None if inline else executor,
+        workers=None if inline else workers,
+        shard=shard,
+    )
 
 
 def finish_study(run: "StudyRun[C]", unit: str) -> None:

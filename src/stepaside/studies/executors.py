@@ -2,6 +2,7 @@
 
 from collections.abc import Callable, Iterator
 from concurrent.futures import (
+    BrokenExecutor,
     CancelledError,
     Executor,
     Future,
@@ -101,7 +102,7 @@ def workers_of(executor: Executor) -> int:
 def is_loss(error: BaseException) -> bool:
     """Return whether an error of a task means that its worker was lost."""
     return (
-        isinstance(error, CancelledError)
+        isinstance(error, BrokenExecutor | CancelledError)
         or type(error).__name__ in DASK_LOSSES
     )
 

@@ -2,19 +2,16 @@
 
 import json
 import sqlite3
-import sys
 import weakref
 from array import array
-from collections import Counter
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from concurrent.futures import (
     FIRST_COMPLETED,
-    BrokenExecutor,
     Executor,
     Future,
     wait,
 )
-from contextlib import closing, contextmanager
+from contextlib import ExitStack, closing, contextmanager
 from dataclasses import dataclass
 from math import ceil
 from pathlib import Path
@@ -40,7 +37,6 @@ BLOCK_TIME = 0.5  # aimed at for a block of cases, in [s]
 LARGEST_BLOCK = 1000  # cases
 GROWTH = 4  # largest ratio of the sizes of successive blocks
 WINDOW = 4  # blocks submitted at a time, for each worker
-ATTEMPTS = 3  # for a case whose worker is lost
 BUSY = 60.0  # time in which another process must finish writing, in [s]
 SCHEMA = """
 CREATE TABLE IF NOT EXISTS records (
@@ -97,18 +93,10 @@ class StudyRun(Generic[C]):
         file: AnyPath | None = None,
         shard: tuple[int, int] = (1, 1),
     ) -> None:
-        """Find the records of a study in a file.
+        """Find the records of a study in a file, which need not exist yet.
 
-        Args:
-            study: Study.
-            file: SQLite file, which need not exist yet.
-            shard: Number of the shard, from 1, and number of shards; every
-                so manieth case belongs to one.
-
-        Raises:
-            ConfigurationError: If there are too many cases, or if the file
-                has no records of a study.
-            OutputError: If it cannot be written.
+        A shard is its number, from 1, and their number; every so manieth case
+        belongs to it.
         """
         number, of = shard
         if len(study.cases) > MOST_CASES:
@@ -192,29 +180,18 @@ class StudyRun(Generic[C]):
     ) -> list[Record]:
         """Tabulate the records; see :func:`.tabulation.tabulate`.
 
-        Args:
-            by: Values that tell the rows apart; by default those of the
-                study.
-            values: Values of the table; by default those of the study.
+        Values that tell rows apart, and those of the table, are by default
+        those of the study.
         """
         names = tuple(by) or self.study.by, tuple(values) or self.study.values
         return tabulate(self.records(), *names)
 
     def to_frame(self, library: str = "polars") -> Any:
-        """Return the records as a data frame, one row per case.
-
-        Args:
-            library: "polars" or "pandas".
-        """
+        """Return the records as a data frame of polars, or of pandas."""
         return to_frame(self.records(), library)
 
     def draw(self, file: AnyPath, value: str) -> None:
-        """Draw a value over what varies, with its 95 % intervals.
-
-        Args:
-            file: File of the figure; its suffix gives the format.
-            value: Name of the value.
-        """
+        """Draw a value over what varies, with its 95 % intervals."""
         from ..report.study_figures import draw_study
 
         path = as_path(file, "file")
@@ -232,11 +209,7 @@ class StudyRun(Generic[C]):
         return len(self._missing) - self._next
 
     def add(self, numbers: Iterable[int], block: "_BlockResult") -> None:
-        """Store the records of a block.
-
-        Raises:
-            OutputError: If they cannot be written; then none of them is.
-        """
+        """Store the records of a block: all, or none if it raises."""
         cases, key_of = self.study.cases, self.study.key_of
         stored = self.file is not None
         rows = [
@@ -398,7 +371,6 @@ def run_study(
     workers: int | None = None,
     shard: tuple[int, int] = (1, 1),
     report: Callable[[StudyProgress], None] | None = None,
-    warn: Callable[[str], None] | None = None,
 ) -> StudyRun[C]:
     """Measure the cases of a study that have no record in a file yet.
 
@@ -418,8 +390,6 @@ def run_study(
         shard: Number of the shard, from 1, and number of shards.
         report: Called after each block, instead of showing the progress on
             standard error.
-        warn: Called with a message when a worker is lost and its cases are
-            submitted again, instead of printing it.
 
     Returns:
         The results. After Ctrl-C, or if a record cannot be written, they are
@@ -428,147 +398,96 @@ def run_study(
     Raises:
         ConfigurationError: If there are too many cases, there is no such
             executor, or the file has no records of a study.
-        CampaignError: If workers are lost again and again, or if one has
-            another results version.
+        CampaignError: If a worker is lost, or has another results version.
     """
     if executor is None and workers is not None:
         executor = "processes"
     run = StudyRun(study, file, shard)
-    work = _Work(run, warn or (lambda text: print(text, file=sys.stderr)))
-    if report is not None:
-        work.complete(executor, workers, report)
-        return run
-    with show_progress(study.name, run.total, "cases") as bar:
-
-        def show(progress: StudyProgress) -> None:
-            bar.initial, bar.n = progress.reused, progress.finished
-            bar.refresh()
-
-        work.complete(executor, workers, show)
+    with ExitStack() as stack:
+        if report is None:
+            report = _shown(
+                stack.enter_context(
+                    show_progress(study.name, run.total, "cases")
+                )
+            )
+        report(run.progress)
+        if run.completed:
+            return run
+        try:
+            with open_executor(executor, workers) as opened:
+                _measure(run, opened, report)
+        except KeyboardInterrupt:
+            run.interrupted = True
+        except OutputError as error:
+            run.failure = error
+        except Exception as error:
+            if not is_loss(error):
+                raise
+            raise CampaignError(
+                f"a worker was lost while measuring {study.name} "
+                f"({type(error).__name__}), possibly out of memory; "
+                f"{run.finished} of {run.total} results are saved"
+            ) from error
     return run
 
 
-class _Work(Generic[C]):
-    """Submits the missing cases of a run in blocks, a few at a time."""
+def _shown(bar: Any) -> Callable[[StudyProgress], None]:
+    """Return a function that shows the progress on a bar."""
 
-    def __init__(self, run: StudyRun[C], warn: Callable[[str], None]) -> None:
-        self._run, self._warn = run, warn
-        self._again: list[list[int]] = []
-        self._flying: dict[Future[_BlockResult], list[int]] = {}
-        self._lost: Counter[int] = Counter()
-        self._size = 1
+    def show(progress: StudyProgress) -> None:
+        bar.initial, bar.n = progress.reused, progress.finished
+        bar.refresh()
 
-    def complete(
-        self,
-        executor: Executor | str | None,
-        workers: int | None,
-        report: Callable[[StudyProgress], None],
-    ) -> None:
-        """Run until no case is missing, or until the study is stopped."""
-        run = self._run
-        report(run.progress)
-        while not run.completed:
-            try:
-                with open_executor(executor, workers) as opened:
-                    self._use(opened, report)
-            except BrokenExecutor as error:
-                if not isinstance(executor, str):
-                    raise self._failure(error) from error
-            except KeyboardInterrupt:
-                run.interrupted = True
-                return
-            except OutputError as error:
-                run.failure = error
-                return
+    return show
 
-    def _use(
-        self, executor: Executor, report: Callable[[StudyProgress], None]
-    ) -> None:
-        """Run on an executor until nothing is missing, or it breaks."""
-        workers = workers_of(executor)
-        try:
-            while self._submit(executor, workers) or self._flying:
-                done = wait(self._flying, return_when=FIRST_COMPLETED).done
-                for future in done:
-                    self._take(future)
-                report(self._run.progress)
-        except BrokenExecutor as error:
-            self._lose(list(self._flying), error)
-            raise
-        except BaseException as error:
-            cancel_pending(executor, self._flying)
-            if not isinstance(error, OutputError | CampaignError):
-                for future, numbers in self._flying.items():
-                    if future.done() and not (
-                        future.cancelled() or future.exception()
-                    ):
-                        self._run.add(numbers, future.result())
-            raise
 
-    def _submit(self, executor: Executor, workers: int) -> bool:
-        """Fill the window of blocks; return whether anything is left."""
-        study, window = self._run.study, max(1, WINDOW * workers)
-        while len(self._flying) < window:
-            numbers = self._again.pop() if self._again else self._next(workers)
-            if not numbers:
-                return False
-            cases = [study.cases[number] for number in numbers]
-            try:
+def _measure(
+    run: StudyRun[C],
+    executor: Executor,
+    report: Callable[[StudyProgress], None],
+) -> None:
+    """Measure the missing cases in blocks, a few at a time."""
+    study, workers, size = run.study, workers_of(executor), 1
+    flying: dict[Future[_BlockResult], list[int]] = {}
+    try:
+        while True:
+            while len(flying) < max(1, WINDOW * workers):
+                share = ceil(run.left / (2 * max(workers, 1)))
+                numbers = run.take(max(1, min(size, share)))
+                if not numbers:
+                    break
+                cases = [study.cases[number] for number in numbers]
                 future = executor.submit(measure_block, study.measure, cases)
-            except BrokenExecutor:
-                self._again.append(numbers)
-                raise
-            self._flying[future] = numbers
-        return True
+                flying[future] = numbers
+            if not flying:
+                return
+            for future in wait(flying, return_when=FIRST_COMPLETED).done:
+                result = future.result()
+                _store(run, flying.pop(future), result)
+                if result.error is not None:
+                    raise result.error
+                mean = max(result.elapsed, 1e-6) / len(result.records)
+                size = round(
+                    min(BLOCK_TIME / mean, GROWTH * size, LARGEST_BLOCK)
+                )
+            report(run.progress)
+    except BaseException as error:
+        cancel_pending(executor, flying)
+        if not isinstance(error, OutputError | CampaignError):
+            for future, numbers in flying.items():
+                if future.done() and not (
+                    future.cancelled() or future.exception()
+                ):
+                    _store(run, numbers, future.result())
+        raise
 
-    def _next(self, workers: int) -> list[int]:
-        """Take the next block of cases."""
-        share = ceil(self._run.left / (2 * max(workers, 1)))
-        return self._run.take(max(1, min(self._size, share)))
 
-    def _take(self, future: Future[_BlockResult]) -> None:
-        """Store the answer of a worker."""
-        try:
-            result = future.result()
-        except BaseException as error:
-            if not is_loss(error):
-                raise
-            self._lose([future], error)
-            return
-        numbers = self._flying.pop(future)
-        if result.results != RESULTS:
-            raise CampaignError(
-                "workers must have the results version of this process, got "
-                f"{result.results} there and {RESULTS} here; their records "
-                "are not used"
-            )
-        self._run.add(numbers, result)
-        if result.error is not None:
-            raise result.error
-        mean = max(result.elapsed, 1e-6) / len(numbers)
-        self._size = round(
-            min(BLOCK_TIME / mean, GROWTH * self._size, LARGEST_BLOCK)
+def _store(run: StudyRun[C], numbers: list[int], result: _BlockResult) -> None:
+    """Store the answer of a worker."""
+    if result.results != RESULTS:
+        raise CampaignError(
+            "workers must have the results version of this process, got "
+            f"{result.results} there and {RESULTS} here; their records are "
+            "not used"
         )
-
-    def _lose(
-        self, futures: list[Future[_BlockResult]], error: BaseException
-    ) -> None:
-        """Note the blocks of lost workers, to submit them again."""
-        blocks = [self._flying.pop(future) for future in futures]
-        self._again += blocks
-        lost = [number for block in blocks for number in block]
-        self._lost.update(lost)
-        if max((self._lost[number] for number in lost), default=0) >= ATTEMPTS:
-            raise self._failure(error) from error
-        self._warn(
-            f"stepaside: a worker was lost; {len(lost)} cases in progress are "
-            "submitted again"
-        )
-
-    def _failure(self, error: BaseException) -> CampaignError:
-        run = self._run
-        return CampaignError(
-            f"workers were lost while measuring {run.study.name} "
-            f"({type(error).__name__}), possibly out of memory; "
-            f"{run.finished} of {run.total} results are saved"
-        )
+    run.add(numbers, result)
