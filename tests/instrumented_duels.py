@@ -12,7 +12,7 @@ from stepaside.games.duel_settings import PLAYERS, DuelSettings
 from stepaside.games.outcome import Outcome
 from stepaside.games.run import Run
 from stepaside.games.trajectory import Trajectory
-from stepaside.studies.instrumented_duel import InstrumentedDuel, WalkedPlan
+from stepaside.studies.walk_measures import InstrumentedDuel, WalkedPlan
 
 RADIUS = 4.0 * 0.1 / (pi * 0.2)
 WEIGHT = 52.0  # of a robot, in [N]

@@ -10,9 +10,9 @@ import pytest
 from instrumented_duels import RADIUS, changed, standing_duel, walked_duel
 from stepaside.core.poses import Array
 from stepaside.games.outcome import Outcome
-from stepaside.studies import physics_claims as read
+from stepaside.studies import game_claims as read
 from stepaside.studies.claims import SEEDED, Claim, Readings, load_claims
-from stepaside.studies.instrumented_duel import (
+from stepaside.studies.walk_measures import (
     InstrumentedDuel,
     play_instrumented,
 )
@@ -301,7 +301,7 @@ def test_every_claim_in_physics_has_a_fault() -> None:
         "durations": SWAYS | WALKS,
         "slip": NO_SLIP,
     }
-    # Claims on games in rooms are tested in test_evasion_claims.
+    # Claims on games in rooms are tested in test_game_claims.
     assert set(faults) == set(SEEDED) - {"evading", "rooms"}
     for name, by_key in faults.items():
         assert set(by_key) == set(claims(name))

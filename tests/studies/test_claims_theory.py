@@ -20,7 +20,7 @@ from stepaside.planning import (
 )
 from stepaside.planning.path import UnicycleTrajectory, place_footsteps
 from stepaside.planning.plan import PlanSamples
-from stepaside.studies import planner_claims, unicycle_claims
+from stepaside.studies import theory_claims
 from stepaside.studies.claims import ONCE, load_claims
 from stepaside.theory.unicycle.adaptive_simulation import PlayedGame
 from stepaside.theory.unicycle.unicycle_game import Game
@@ -28,16 +28,14 @@ from stepaside.theory.unicycle.unicycle_game import Game
 Patch = Callable[[pytest.MonkeyPatch], None]
 Pair = tuple[Array, Array]
 
-play = cache(
-    unicycle_claims.play
-)  # each game is simulated once for all faults
+play = cache(theory_claims.play)  # each game is simulated once for all faults
 sampled = cache(play_unicycles)
 
 
 @pytest.fixture(autouse=True)
 def games_once(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(unicycle_claims, "play", play)
-    monkeypatch.setattr(unicycle_claims, "play_unicycles", sampled)
+    monkeypatch.setattr(theory_claims, "play", play)
+    monkeypatch.setattr(theory_claims, "play_unicycles", sampled)
 
 
 def seen_as(change: Callable[[Game, Array, Array, Array], Pair]) -> Patch:
@@ -59,7 +57,7 @@ def seen_as(change: Callable[[Game, Array, Array, Array], Pair]) -> Patch:
                 poses=poses,
             )
 
-        monkeypatch.setattr(unicycle_claims, "play", false)
+        monkeypatch.setattr(theory_claims, "play", false)
 
     return patch
 
@@ -69,7 +67,7 @@ def played_as(change: Callable[[Game], Game]) -> Patch:
 
     def patch(monkeypatch: pytest.MonkeyPatch) -> None:
         monkeypatch.setattr(
-            unicycle_claims, "play", lambda game: play(change(game))
+            theory_claims, "play", lambda game: play(change(game))
         )
 
     return patch
@@ -84,7 +82,7 @@ def sampled_as(change: Callable[[Array, Array], Pair]) -> Patch:
             pursuer, evader = change(run.pursuer.copy(), run.evader.copy())
             return run._replace(pursuer=pursuer, evader=evader)
 
-        monkeypatch.setattr(unicycle_claims, "play_unicycles", false)
+        monkeypatch.setattr(theory_claims, "play_unicycles", false)
 
     return patch
 
@@ -125,7 +123,7 @@ def samples_as(change: Callable[[PlanSamples], PlanSamples]) -> Patch:
 def slow_clock(monkeypatch: pytest.MonkeyPatch) -> None:
     """Advance the clock by 20 ms at every reading."""
     clock = iter(np.arange(0.0, 1e3, 0.02))
-    monkeypatch.setattr(planner_claims, "process_time", lambda: next(clock))
+    monkeypatch.setattr(theory_claims, "process_time", lambda: next(clock))
 
 
 def one_side(path: UnicycleTrajectory, _: Array, poses: Array) -> Array:
@@ -220,11 +218,11 @@ FAULTS: dict[str, tuple[Patch, ...]] = {
         seen_as(lambda g, t, p, e: (p, as_at(1.0, e))),
     ),
     "saturated.radius": (
-        played_as(lambda g: replace(g, law=unicycle_claims.FIG_2.law)),
+        played_as(lambda g: replace(g, law=theory_claims.FIG_2.law)),
         seen_as(lambda g, t, p, e: (p, scaled(e, 0.9))),
     ),
     "saturated.smaller": (
-        played_as(lambda g: replace(g, law=unicycle_claims.FIG_2.law)),
+        played_as(lambda g: replace(g, law=theory_claims.FIG_2.law)),
     ),
     "saturated.less": (seen_as(lambda g, t, p, e: (p, e - (0.0, 0.0, 0.5))),),
     "saturated.namely": (
@@ -236,7 +234,7 @@ FAULTS: dict[str, tuple[Patch, ...]] = {
         seen_as(lambda g, t, p, e: (p, e - (0.0, 0.0, 0.01))),
     ),
     "strategies.grows": (
-        played_as(lambda g: replace(g, angle=unicycle_claims.ANGLES[-1])),
+        played_as(lambda g: replace(g, angle=theory_claims.ANGLES[-1])),
         seen_as(lambda g, t, p, e: (p, scaled(e, exp(2.0 * g.angle)))),
     ),
     "strategies.unbounded": (
@@ -326,7 +324,7 @@ def test_every_claim_holds_and_fails_under_a_fault(
     name: str, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     if name == "timing.planning":  # depends on the speed of the computer
-        monkeypatch.setattr(planner_claims, "process_time", lambda: 0.0)
+        monkeypatch.setattr(theory_claims, "process_time", lambda: 0.0)
     assert holds(name)
     for fault in FAULTS[name]:
         with monkeypatch.context() as patches:
@@ -346,7 +344,7 @@ def test_evader_with_the_opposite_turn_misses_the_circle(
     def wrong(game: Game) -> PlayedGame:
         return play(replace(game, angle=3.0 - game.angle))
 
-    monkeypatch.setattr(unicycle_claims, "play", wrong)
+    monkeypatch.setattr(theory_claims, "play", wrong)
     for key in ("pursuer_radius", "distance", "orientation"):
         assert not holds(f"circle.{key}")
 

@@ -8,9 +8,9 @@ import numpy as np
 import pytest
 
 from stepaside.games import Outcome, StrategyTrack
-from stepaside.studies import evasion_claims as read
+from stepaside.studies import game_claims as read
 from stepaside.studies.claims import Claim, load_claims
-from stepaside.studies.evasion_claims import DURATION
+from stepaside.studies.game_claims import DURATION
 from stepaside.studies.tournament import ASIDE
 
 BEST = 1.0  # bound of all starts, in [m]

@@ -107,7 +107,7 @@ def _write_page(
     """
     from ..report.claims_page import markdown_page
     from ..studies.results_version import RESULTS, library_versions
-    from ..studies.unicycle_claims import FIG_2, play
+    from ..studies.theory_claims import FIG_2, play
 
     seed, runs = given
     run = play(FIG_2)

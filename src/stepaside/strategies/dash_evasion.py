@@ -202,9 +202,7 @@ class DashEvasion(BackwardStrategy):
     def _bonus(self, dashes: Dashes, present: float | None) -> Array:
         """Return the value in [m] that prevents changes of little use.
 
-        Args:
-            dashes: Dashes, and standing.
-            present: Angle of the present dash; None while the robot stands.
+        The present dash has an angle in [rad]; None while the robot stands.
         """
         begins = dashes.begins
         bonus: Array = np.where(np.isinf(begins), self.effort, 0.0)

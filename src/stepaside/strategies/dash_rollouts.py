@@ -86,21 +86,12 @@ def roll_out(
     velocities: VelocitySet,
     horizon: float,
 ) -> tuple[Array, Array]:
-    """Roll out dashes of legs with a lag.
+    """Roll out dashes of legs with a lag until a horizon, in [s].
 
     Each component of the velocity approaches that of the command with the
-    time constant of its axis; the body turns at its greatest rate.
-
-    Args:
-        pose: Pose of the body in the map.
-        velocity: Present velocity of the body.
-        dashes: Dashes.
-        velocities: Velocities that the legs deliver, and how fast.
-        horizon: Duration, in [s].
-
-    Returns:
-        Positions in the map, the present one included, in [m], and headings,
-        in [rad], in steps of 0.1 s. Shapes (steps + 1, n, 2), (steps, n).
+    time constant of its axis; the body turns at its greatest rate. Returns
+    positions in the map, the present one included, in [m], and headings, in
+    [rad], in steps of 0.1 s. Shapes (steps + 1, n, 2), (steps, n).
     """
     steps, count = round(horizon / STEP), len(dashes.angles)
     paths, headings = np.empty((steps + 1, count, 2)), np.empty((steps, count))

@@ -19,12 +19,8 @@ NEARER = 0.9  # relative distance from which another opponent is taken
 class DecisionMaker:
     """Strategy of one player with its memory and rate estimates.
 
-    Attributes:
-        strategy: Strategy of the player.
-        limits: Limits of its gait.
-        memory: Memory of the strategy.
-        identity: Own name, role and team; None if only one other player can
-            be sighted, without its identity.
+    The own identity is None if only one other player can be sighted, without
+    its identity.
     """
 
     identity: PlayerIdentity | None = None
@@ -62,17 +58,8 @@ class DecisionMaker:
     ) -> Knowledge:
         """Add a sighting and return the knowledge for a decision.
 
-        Args:
-            now: Time of the decision, in [s].
-            pose_template_in_odometry: Pose of the template at the sighting.
-            sighting: The sighting, with its bearing from the template.
-            pose_odometry_in_map: Pose of odometry in the frame of the
-                obstacles.
-            moving: Whether the player is walking.
-            obstacles: Known obstacles.
-            map_error: Largest position error of the obstacles, in [m].
-            velocity: Velocity of the opponent over the floor in the axes of
-                the pose of the template, in [m/s], if it is known exactly.
+        The pose of the template is that at the sighting, whose bearing is from
+        there. A velocity in its axes [m/s] is given if it is known exactly.
         """
         time, bearing, distance = sighting[:3]
         bearing, age = wrap_angle(bearing), max(0.0, now - time)
@@ -113,28 +100,15 @@ class DecisionMaker:
         )
 
     def _others(self, now: float, pose: Pose) -> tuple[OtherPlayer, ...]:
-        """Return the other players that have been seen, if several are known.
-
-        Args:
-            now: Time of the decision, in [s].
-            pose: Pose of the template in odometry.
-        """
+        """Return the other players that were seen, if several are known."""
         return ()
 
     def preview(self, knowledge: Knowledge) -> tuple[Intent, Any]:
-        """Return the decision and its memory, without storing the memory.
-
-        Raises:
-            StrategyError: If the strategy returns no intent.
-        """
+        """Return the decision and its memory, without storing the memory."""
         return evaluate_strategy(self.strategy, knowledge, self.memory)
 
     def evaluate(self, knowledge: Knowledge) -> Intent:
-        """Decide and store the memory.
-
-        Raises:
-            StrategyError: If the strategy returns no intent.
-        """
+        """Decide and store the memory."""
         intent, self.memory = self.preview(knowledge)
         return intent
 

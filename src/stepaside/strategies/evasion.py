@@ -133,8 +133,7 @@ class Evasion:
     def begins_at(self, speed: float) -> float:
         """Return the distance at which evasion begins, in [m].
 
-        Args:
-            speed: Speed of a pursuer that approaches head-on, in [m/s].
+        The pursuer approaches head-on at a speed, in [m/s].
         """
         ahead = self.contact_time * speed if self.trigger == "time" else 0.0
         return self.area + ahead

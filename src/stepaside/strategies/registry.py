@@ -121,14 +121,8 @@ def check_strategy_name(
 ) -> None:
     """Check a name with its arguments, without opening a file.
 
-    Args:
-        name: One of :data:`STRATEGIES` or FILE.py:NAME, with arguments or
-            without, or FILE.onnx.
-        what: Name of the setting, for the message.
-        recorded: Whether text of :func:`describe_strategy` is valid, too.
-
-    Raises:
-        ConfigurationError: If the name or an argument is invalid.
+    Messages name the setting. Recorded text is that of
+    :func:`describe_strategy`, too.
     """
     if recorded and is_described(name):
         return
@@ -188,11 +182,7 @@ def file_of(name: str) -> Path | None:
 
 
 def _parse(text: str, what: str = "strategy") -> _Named:
-    """Return the parts of the name of a strategy.
-
-    Raises:
-        ConfigurationError: If the name is unknown, or no call.
-    """
+    """Return the parts of the name of a strategy."""
     found = _CALL.fullmatch(text)
     name = found["name"].strip() if found else text
     own, file = found and found["own"], file_of(text)
@@ -237,11 +227,7 @@ def _value(text: str) -> Any:
 
 
 def _make(named: _Named, evasion: Evasion, what: str = "strategy") -> Strategy:
-    """Return a strategy of the table.
-
-    Raises:
-        ConfigurationError: If an argument is unknown or out of range.
-    """
+    """Return a strategy of the table."""
     kind, values = STRATEGIES[named.name]
     made = getattr(strategies, kind)
     known = [each.name for each in fields(made)]
@@ -318,17 +304,7 @@ def trial_knowledge() -> Iterator[Knowledge]:
 
 
 def validate_strategy(candidate: Any, name: str) -> None:
-    """Check that an object behaves as a strategy.
-
-    Args:
-        candidate: Object to check.
-        name: Name of the strategy, for messages.
-
-    Raises:
-        ConfigurationError: If an attribute is missing, a method fails or
-            returns a wrong type, or the same knowledge and memory give
-            different decisions.
-    """
+    """Check by trial decisions that an object behaves as a strategy."""
 
     def require(met: bool, rule: str, got: object) -> None:
         if not met:

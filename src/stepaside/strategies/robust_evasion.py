@@ -173,12 +173,9 @@ class PlannedGame(NamedTuple):
     def plan(self, rest: Array) -> tuple[Array, float]:
         """Search the moves that survive longest against most models.
 
-        Args:
-            rest: Rest of the last plan, which is compared with those found.
-
-        Returns:
-            Turn [rad] and speed factor of each step, and the mean number
-            of steps that they survive. Shape (n, 2).
+        The rest of the last plan is compared with those found. Returns turn
+        [rad] and speed factor of each step, (n, 2), and the mean number of
+        steps that they survive.
         """
         rules, candidates = self.rules, []
         actions = actions_of(rules.step.largest)

@@ -34,12 +34,7 @@ class Strategy(Protocol):
     def decide(self, knowledge: Knowledge, memory: Any) -> tuple[Intent, Any]:
         """Decide: at every tick while standing, at every step while walking.
 
-        Args:
-            knowledge: Knowledge of the player.
-            memory: Memory that the last decision, or :meth:`begin`, returned.
-
-        Returns:
-            Intent and new memory.
+        The memory is what the last decision, or :meth:`begin`, returned.
         """
 
 
@@ -93,13 +88,7 @@ def evaluate_strategy(
     """Evaluate one decision of a strategy, possibly user code.
 
     A body velocity becomes the nearest intent of a unicycle, unless the legs
-    have a velocity set.
-
-    Returns:
-        Intent and new memory.
-
-    Raises:
-        StrategyError: If it fails, exits, or returns no intent.
+    have a velocity set. Raises :class:`StrategyError` if it fails or exits.
     """
     try:
         intent, memory = strategy.decide(knowledge, memory)

@@ -59,14 +59,9 @@ class StepGame:
         duration: float,
         capture: float = 1e-6,
     ) -> "StepGame":
-        """Return the rules of unicycles that decide periodically.
+        """Return the rules of unicycles that decide with a period, in [s].
 
-        Args:
-            pursuer: Speed and gain of the pursuer.
-            evader: Those of the evader.
-            period: Time between two decisions, in [s].
-            duration: Time limit, in [s].
-            capture: Distance at which the game ends, in [m].
+        The game ends at a distance of capture [m] or after a duration [s].
         """
         check_positive(period, "period", "s")
         return cls(

@@ -11,10 +11,8 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from ..locomotion.policy.velocity_response import digest_of
-from . import evasion_claims as evading
-from . import physics_claims as physics
-from . import planner_claims as planner
-from . import unicycle_claims as unicycles
+from . import game_claims as games
+from . import theory_claims as theory
 from .study import Study, StudyRun
 from .tabulation import Record
 
@@ -24,22 +22,22 @@ LEGS = "learned-legs"  # job on the learned legs of a robot
 
 Readings = dict[str, float]
 ONCE: dict[str, Callable[[], Readings]] = {
-    "circle": unicycles.read_circle,
-    "saturated": unicycles.read_saturated,
-    "strategies": unicycles.read_strategies,
-    "sampled": unicycles.read_sampled,
-    "path": planner.read_path,
-    "footsteps": planner.read_footsteps,
-    "com": planner.read_com,
-    "timing": planner.read_timing,
+    "circle": theory.read_circle,
+    "saturated": theory.read_saturated,
+    "strategies": theory.read_strategies,
+    "sampled": theory.read_sampled,
+    "path": theory.read_path,
+    "footsteps": theory.read_footsteps,
+    "com": theory.read_com,
+    "timing": theory.read_timing,
 }
 """Jobs that need one run; each measures a reading for each of its claims."""
 SEEDED: dict[str, Callable[[int], Readings]] = {
-    "humanoids": physics.measure_humanoids,
-    "durations": physics.measure_durations,
-    "slip": physics.measure_slip,
-    "evading": evading.measure_evading,
-    "rooms": evading.measure_room,
+    "humanoids": games.measure_humanoids,
+    "durations": games.measure_durations,
+    "slip": games.measure_slip,
+    "evading": games.measure_evading,
+    "rooms": games.measure_room,
 }
 """Jobs with random initial poses, by a seed."""
 
@@ -81,12 +79,7 @@ class Claim:
         )
 
     def row(self, name: str, values: Sequence[float]) -> dict[str, Any]:
-        """Return claim and measured values as a JSON object.
-
-        Args:
-            name: Job and key, as in ``footsteps.stepsize``.
-            values: Measured value of each run.
-        """
+        """Return claim and measured values as a JSON object."""
         finite = [value for value in values if isfinite(value)]
         whole = bool(values) and len(finite) == len(values)
         spread = float(np.std(values, ddof=1)) if len(finite) > 1 else 0.0
@@ -133,17 +126,12 @@ class ClaimTrial(NamedTuple):
 
 
 def claim_study(seeds: Sequence[int], legs: str = "") -> Study[ClaimTrial]:
-    """Return the study of all claims.
+    """Return the study of all claims, by seeds of games from random poses.
 
-    Args:
-        seeds: Seeds of the games from random poses; without any, only what
-            needs one run is measured. Cases are ordered by seed, so that an
-            interrupted study has complete seeds.
-        legs: Folder of a robot whose description names a walking policy; the
-            paper's game is measured on it, too.
-
-    Raises:
-        ConfigurationError: If the description names no policy.
+    Without seeds only what needs one run is measured. Cases are ordered by
+    seed, so that an interrupted study has complete seeds. With the folder of a
+    robot whose description names a walking policy the paper's game is measured
+    on its legs, too.
     """
     jobs = [*SEEDED, *([LEGS] if legs else [])]
     trials = [ClaimTrial(job) for job in ONCE]
@@ -153,7 +141,7 @@ def claim_study(seeds: Sequence[int], legs: str = "") -> Study[ClaimTrial]:
         ]
     network = ""
     if legs:
-        network = digest_of(Path(physics.legs_settings(legs, 0).legs.network))
+        network = digest_of(Path(games.legs_settings(legs, 0).legs.network))
     return Study("claims", trials, run_trial, partial(_key, network))
 
 
@@ -166,7 +154,7 @@ def run_trial(trial: ClaimTrial) -> Record:
     """Measure the claims of a job once; NaN and inf become null."""
     job, seed, legs = trial
     if legs:
-        found = physics.measure_legs(legs, seed)
+        found = games.measure_legs(legs, seed)
     else:
         found = ONCE[job]() if job in ONCE else SEEDED[job](seed)
     return {

@@ -25,8 +25,8 @@ BEFORE = 2.0 / 3.0  # of a duel; means are taken over the rest
 def play_duel(settings: DuelSettings) -> Record:
     """Play one duel and return its record.
 
-    Raises:
-        KeyboardInterrupt: If the duel was interrupted.
+    Summary values in SI units, or [deg] as their names say, and the
+    ``digest`` of the trajectories.
     """
     began = perf_counter()
     run = run_duel(settings).uninterrupted()

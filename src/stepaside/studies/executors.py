@@ -39,11 +39,7 @@ class InlineExecutor(Executor):
 
 
 def check_executor(specification: str) -> None:
-    """Check the form of a specification; see :func:`open_executor`.
-
-    Raises:
-        ConfigurationError: If there is no such executor.
-    """
+    """Check the form of a specification; see :func:`open_executor`."""
     name, colon, rest = specification.partition(":")
     if not (
         specification in (PROCESSES, DASK)
@@ -60,14 +56,11 @@ def open_executor(
 ) -> Iterator[Executor]:
     """Start the workers of a study; end them with the ``with`` block.
 
-    Args:
-        executor: ``processes`` of this machine; ``dask`` for a local Dask
-            cluster, ``dask:ADDRESS`` for a running one; MODULE:FACTORY, a
-            function that takes the number of workers and returns an executor
-            of ``concurrent.futures``; None for this process. An executor is
-            returned as it is, and stays open.
-        workers: Number of processes; all cores by default. The size of a
-            running cluster is its own.
+    An executor is ``processes`` of this machine; ``dask`` for a local Dask
+    cluster, ``dask:ADDRESS`` for a running one; MODULE:FACTORY, a function
+    that takes the number of workers and returns an executor of
+    ``concurrent.futures``; None for this process. An executor is returned as
+    it is, and stays open. By default there is a process for each core.
 
     Raises:
         ConfigurationError: If there is no such executor.

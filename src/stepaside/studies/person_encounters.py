@@ -154,14 +154,12 @@ def play_encounter(encounter: Encounter) -> Record:
 
 
 def cause_of(run: Run) -> str | None:
-    """Explain how a game with a person ended.
+    """Explain how a game with a person ended; None without contact and fall.
 
-    Returns:
-        None without contact and fall. "fall"; "did not start" if the robot
-        never moved; "walked into" a person at rest; "point too" if the
-        template, which knows the person exactly, is touched as well; "late
-        change" of the person's velocity; else "legs", which fell short of
-        the template.
+    "fall"; "did not start" if the robot never moved; "walked into" a person at
+    rest; "point too" if the template, which knows the person exactly, is
+    touched as well; "late change" of the person's velocity; else "legs", which
+    fell short of the template.
     """
     if run.outcome is Outcome.FALL:
         return "fall"

@@ -61,16 +61,10 @@ class PushSettings:
 
 
 def find_limit(survives: Callable[[float], bool]) -> tuple[float, int]:
-    """Return the largest strength survived with all smaller ones tried.
+    """Return the largest strength survived, in [N s], and the pushes tried.
 
     Pushes grow by a stride until one is not survived; then the interval
     below it is bisected.
-
-    Args:
-        survives: Whether a push of a strength, in [N s], is survived.
-
-    Returns:
-        Strength, in [N s], and the number of pushes that were tried.
     """
     limit, failed, tried = 0.0, None, 0
     while failed is None and round(limit + STRIDE, 6) <= LARGEST:
@@ -92,9 +86,8 @@ def find_limit(survives: Callable[[float], bool]) -> tuple[float, int]:
 def play_push(settings: PushSettings) -> Record:
     """Walk until the largest push that the walk survives is known.
 
-    Returns:
-        ``limit_n_s``, the bounds of a push and of an impulse on the linear
-        inverted pendulum in [N s], their ratios, and the number of walks.
+    The record has it beside the bounds of a push and of an impulse on the
+    linear inverted pendulum, in [N s], and their ratios.
     """
 
     def survives(strength: float) -> bool:
@@ -150,16 +143,9 @@ def push_bound_at(
 ) -> float:
     """Return the push bound of the linear inverted pendulum, in [N s].
 
-    The walk is in its steady gait cycle when it is pushed.
-
-    Args:
-        direction: Direction of the push, a key of ``DIRECTIONS``.
-        phase: Phase at which the push begins, as a fraction of the gait
-            cycle.
-        walk: Robot, gait, heading and reach.
-        impulse: Whether to replace the push by an impulse at its middle.
-            That does not bound the push, during whose first half the ZMP
-            can already react.
+    The walk is in its steady gait cycle when it is pushed. An impulse at the
+    middle of the push does not bound the push, during whose first half the ZMP
+    can already react.
     """
     gait, gains = walk.gait, walk.control.stabiliser
     cycle = 2.0 * gait.step_duration

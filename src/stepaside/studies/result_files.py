@@ -22,12 +22,7 @@ DIGITS = 6  # significant digits of numbers in a result
 def header(
     settings: Mapping[str, Any], command: str | None = None
 ) -> dict[str, Any]:
-    """Return the header of a result.
-
-    Args:
-        settings: Settings of the measurement: seeds, durations, numbers.
-        command: Command that repeats it; that of this process by default.
-    """
+    """Return the header of a result; the command is by default this one."""
     return {
         "command": command or shlex.join(["python", *map(_near, sys.argv)]),
         "results": RESULTS,
@@ -41,17 +36,7 @@ def write_result(
 ) -> dict[str, Any]:
     """Write a result atomically, its numbers to six significant digits.
 
-    Args:
-        file: File to write; its folder is created.
-        head: Header, see :func:`header`.
-        found: Measured values for JSON.
-
-    Returns:
-        Content of the file.
-
-    Raises:
-        ConfigurationError: If a value is NaN or inf.
-        OutputError: If it cannot be written.
+    NaN and inf are refused.
     """
     result: dict[str, Any] = _rounded({**head, **found}, file.name)
     text = json.dumps(result, indent=1, ensure_ascii=False)
@@ -62,11 +47,7 @@ def write_result(
 
 
 def read_result(file: Path) -> dict[str, Any]:
-    """Read a result.
-
-    Raises:
-        ConfigurationError: If it does not exist, or is not a result.
-    """
+    """Read a result."""
     try:
         return dict(json.loads(file.read_text(encoding="utf-8")))
     except FileNotFoundError:

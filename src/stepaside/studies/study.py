@@ -231,14 +231,9 @@ class StudyRun(Generic[C]):
 
 
 def merge_results(parts: Iterable[AnyPath], file: AnyPath) -> int:
-    """Join the records of files in another one.
+    """Join the records of files in another one; return their number.
 
-    Args:
-        parts: Files of shards, or of other parts of a study; they stay.
-        file: File to write; what it has stays, too.
-
-    Returns:
-        Number of records in the file.
+    The parts stay, and so does what the other file has.
 
     Raises:
         ConfigurationError: If a file has no records of a study.

@@ -39,12 +39,7 @@ class Cases(Sequence[Case]):
     """
 
     def __init__(self, axes: Sequence[tuple[str, Sequence[Any]]]) -> None:
-        """Make the product.
-
-        Args:
-            axes: Name and values of each axis; without a name each value is
-                a dictionary of settings.
-        """
+        """Make the product of axes; values without a name are settings."""
         self.axes = axes
 
     def __len__(self) -> int:
@@ -327,11 +322,7 @@ def _call(
 
 
 def _json(value: Any) -> str:
-    """Return a value of a record, or of its key, as JSON.
-
-    Raises:
-        ConfigurationError: If it has an object, such as a strategy.
-    """
+    """Return a value of a record, or of its key, as JSON."""
     try:
         return json.dumps(value, sort_keys=True)
     except TypeError as error:

@@ -66,12 +66,7 @@ class StudyGame(NamedTuple):
 
 
 def settings_of_study(kind: type[Any], entries: Mapping[str, Any]) -> Any:
-    """Return settings from nested entries; see :func:`.settings_of`.
-
-    Raises:
-        StepAsideError: If an entry is unknown or out of its range, or if
-            there is no such robot.
-    """
+    """Return settings from nested entries; see :func:`.settings_of`."""
     entries = dict(entries)
     if kind is TeamGame:
         own = {

@@ -127,17 +127,12 @@ def play_track(settings: PairingSettings) -> StrategyTrack:
 def play_pairing(settings: PairingSettings) -> Record:
     """Play one game of a tournament and return its record.
 
-    Returns:
-        Values in SI units: ``survived_s`` ends with capture or contact,
-        ``bound_m`` is the closest approach under optimal play on an open
-        floor, ``reached_m`` the closest approach, 0 after contact with an
-        obstacle, and ``regret_m`` their difference. Of humanoids ``touched``
-        names the bodies in contact, ``PLAYER_clearance_m`` is the least
-        distance of a trunk from resting obstacles, and ``decision_s`` the
-        time of a whole replan.
-
-    Raises:
-        KeyboardInterrupt: If it was interrupted; it is not recorded then.
+    Values in SI units: ``survived_s`` ends with capture or contact,
+    ``bound_m`` is the closest approach under optimal play on an open floor,
+    ``reached_m`` the closest approach, 0 after contact with an obstacle, and
+    ``regret_m`` their difference. Of humanoids ``touched`` names the bodies in
+    contact, ``PLAYER_clearance_m`` is the least distance of a trunk from
+    resting obstacles, and ``decision_s`` the time of a whole replan.
     """
     humanoids = settings.level == HUMANOIDS
     found = (_humanoid_values if humanoids else _step_values)(settings)
@@ -218,11 +213,8 @@ def _motion(
 ) -> Record:
     """Return the values of an evader's motion.
 
-    Args:
-        evader: Its poses. Shape (n, 3).
-        bearings: Bearings of the pursuer from it, in [rad]. Shape (n,).
-        seconds: Duration, in [s].
-        radius: Its radius, in [m].
+    Its poses (n, 3), bearings of the pursuer from it [rad], duration [s] and
+    radius [m].
     """
     turns = np.abs(wrap_angles(np.diff(evader[:, 2])))
     walked = np.hypot(*np.diff(evader[:, :2], axis=0).T)
@@ -235,11 +227,7 @@ def _motion(
 
 
 def bound_of(pursuer: Array, evader: Array, game: StepGame) -> float:
-    """Return the value of the game on an open floor from two poses.
-
-    Returns:
-        Closest approach under optimal play, in [m].
-    """
+    """Return the closest approach under optimal play on an open floor, [m]."""
     unit, heading = game.speed / game.gain, pursuer[2]
     x, y = (evader[:2] - pursuer[:2]) / unit
     x, y = rotate(x, y, -heading)
@@ -249,18 +237,10 @@ def bound_of(pursuer: Array, evader: Array, game: StepGame) -> float:
 
 
 def circle_distance(game: StepGame, pursuer: str) -> float | None:
-    """Return the distance on the paper's circle for a pursuer.
+    """Return the distance on the paper's circle for a pursuer, in [m].
 
-    The evader moves aside, with the gain of the game. If this distance is at
-    most the capture distance, it is captured.
-
-    Args:
-        game: Rules of the games.
-        pursuer: Name of the pursuer in a tournament.
-
-    Returns:
-        Distance, in [m]; None for a pursuer that does not steer by eq. (2),
-        or of another speed.
+    The evader moves aside, with the gain of the game. None for a pursuer that
+    does not steer by eq. (2), or of another speed.
     """
     if file_of(pursuer) is not None or game.pursuer_speed_ratio != 1.0:
         return None
@@ -299,11 +279,7 @@ def outcome_of(run: Run) -> Outcome:
 
 
 def clearance(run: Run, name: str) -> float | None:
-    """Return the least distance of a player's trunk from resting obstacles.
-
-    Returns:
-        Distance, in [m]; None without resting obstacles.
-    """
+    """Return the least distance of a trunk from resting obstacles, in [m]."""
     settings, track = run.settings, run.tracks[name]
     if settings.room.plan is None:
         return None

@@ -1,13 +1,112 @@
-"""Measures of steps, plans, references and tilt of an instrumented duel."""
+"""Measures of walking in duels that are recorded at every tick."""
 
+from dataclasses import dataclass, field
 from math import acos, degrees, inf, nan
+from typing import NamedTuple
 
 import numpy as np
 
 from ..core.poses import Array
-from ..games.duel_settings import PLAYERS
+from ..games.duel_settings import PLAYERS, DuelSettings
+from ..games.game import GameInPlay, GameObserver, play
+from ..games.physics_world import PhysicsWorld
+from ..games.recorded_game import RecordedGame
+from ..games.robot_player import RobotPlayer
+from ..games.run import Run
 from ..planning import GaitSettings
-from .instrumented_duel import InstrumentedDuel, WalkedPlan
+from ..robots.description import load_robot
+
+
+class WalkedPlan(NamedTuple):
+    """Plan that was walked until it was replaced."""
+
+    start_time: float  # begin of its motion, not necessarily at a tick [s]
+    first_sent_time: float  # tick of the first joint targets of the plan [s]
+    from_standing: bool  # whether the robot stood at its begin
+
+
+@dataclass(frozen=True, slots=True)
+class InstrumentedDuel:
+    """Duel with records of every control tick."""
+
+    run: Run  # the duel
+    ticks: Array  # times of the control ticks [s]. (n,)
+    # by robot, loads of left and right foot at the end of each tick [N]. (n,
+    # 2)
+    loads: dict[str, Array] = field(default_factory=dict)
+    # by robot, positions of left and right foot in the world at the end of
+    # each tick [m]. (n, 2, 2)
+    feet: dict[str, Array] = field(default_factory=dict)
+    # by robot, CoM reference of the joint targets of each tick, in the
+    # odometry frame [m]. (n, 2)
+    references: dict[str, Array] = field(default_factory=dict)
+    # by robot, the plans that were walked
+    plans: dict[str, tuple[WalkedPlan, ...]] = field(default_factory=dict)
+
+
+def play_instrumented(settings: DuelSettings) -> InstrumentedDuel:
+    """Play a duel to its end, as ``run_duel`` does, recording every tick."""
+    observers = {name: _TickObserver(settings, name) for name in PLAYERS}
+    duel = RecordedGame(settings, tuple(observers.values()))
+    play(duel)
+    run, world = duel.run().uninterrupted(), duel.in_physics
+    found = InstrumentedDuel(
+        run,
+        world.physics.tick * np.arange(world.ticks, dtype=np.float64),
+    )
+    for name, observer in observers.items():
+        loads, feet, references = zip(*observer.rows, strict=True)
+        found.loads[name] = np.array(loads)
+        found.feet[name] = np.array(feet)
+        found.references[name] = np.array(references)
+        found.plans[name] = tuple(observer.plans)
+    return found
+
+
+class _TickObserver(GameObserver):
+    """Observer of one robot of a match: its state at the end of each tick."""
+
+    def __init__(self, settings: DuelSettings, name: str) -> None:
+        self.rows: list[tuple[Array, Array, Array]] = []
+        self.plans: list[WalkedPlan] = []
+        self._name, self._plan = name, object()
+        self._robot = load_robot(settings.robot_of(name).robot)
+
+    def before(self, game: GameInPlay) -> None:
+        """Record the state after the previous tick."""
+        world, robot = game.world, self._robot
+        assert isinstance(world, PhysicsWorld)
+        if len(self.rows) == world.ticks:
+            return
+        player = world.player(self._name)
+        assert isinstance(player, RobotPlayer)
+        walk = player.scheme.walk
+        data = world.data
+        forces = [
+            data.sensor(f"{self._name}/{sensor}").data[0]
+            for sensor in robot.sensors.feet  # of the left one first
+        ]
+        sites = [
+            data.site(f"{self._name}/{sole}").xpos[:2]
+            for sole in (robot.left_foot, robot.right_foot)
+        ]
+        self.rows.append(
+            (
+                np.reshape(forces, (2, -1)).sum(axis=1),
+                np.array(sites),
+                np.array(walk.reference.com[:2]),
+            )
+        )
+        if walk.plan is not self._plan and walk.plan is not None:
+            sent = (world.ticks - 1) * world.physics.tick
+            standing = walk.plan.schedule.standing
+            self.plans.append(WalkedPlan(walk.plan_started, sent, standing))
+        self._plan = walk.plan
+
+    def ended(self, game: GameInPlay) -> None:
+        """Record the state after the last tick."""
+        self.before(game)
+
 
 CONTACT_LOAD = 1.0  # load from which a foot is in contact, in [N]
 SWING_FRACTION = 0.35  # least swing, as a fraction of the single support
@@ -17,17 +116,10 @@ FIT_TICKS = 6  # ticks on either side of a replan for the polynomial fit
 
 
 def swing_intervals(ticks: Array, load: Array, single_support: float) -> Array:
-    """Return the swings of a foot, from its load.
+    """Return lift-off and landing of each swing, in [s]. (m, 2).
 
-    Shorter times without load are bounces at landing or lift-off.
-
-    Args:
-        ticks: Times, in [s]. Shape (n,).
-        load: Load of the foot, in [N]. Shape (n,).
-        single_support: Planned duration of a swing, in [s].
-
-    Returns:
-        Rows (lift-off, landing), in [s]. Shape (m, 2).
+    Times [s] and loads [N] of a foot have shape (n,). Times without load that
+    are shorter than a planned swing are bounces at landing or lift-off.
     """
     on = load > CONTACT_LOAD
     changes = np.flatnonzero(on[1:] != on[:-1]) + 1
@@ -59,14 +151,11 @@ def replanning_support(
 ) -> tuple[float, float]:
     """Measure the contact state at which plans are replaced.
 
-    At the end of double support the plan completely unloads the foot that
-    is about to swing: a foot unloaded just before still counts as in
-    contact.
-
-    Returns:
-        Fraction of the plans that follow the previous one after exactly one
-        landing, while both feet are in contact; and the longest time from a
-        plan to the next lift-off, in [s]. NaN without plans.
+    At the end of double support the plan completely unloads the foot that is
+    about to swing: a foot unloaded just before still counts as in contact.
+    Returns the fraction of the plans that follow the previous one after
+    exactly one landing, while both feet are in contact; and the longest time
+    from a plan to the next lift-off, in [s]. NaN without plans.
     """
     flights = np.concatenate(_swings(duel, name))
     lifts, landings = np.sort(flights, axis=0).T
@@ -105,14 +194,10 @@ def walked_arc_fraction(
 
 
 def reference_jumps(duel: InstrumentedDuel, name: str) -> tuple[float, float]:
-    """Return the largest jump of the CoM reference at a replan.
+    """Return the largest jumps of the CoM reference at a replan.
 
-    Position and velocity on either side are those of polynomials through
-    the references of the last ticks before and of the first ticks after the
-    replan.
-
-    Returns:
-        Jumps of position, in [m], and velocity, in [m/s]; NaN without plans.
+    In [m] and [m/s], from polynomials through the references of the last ticks
+    before and of the first ticks after it; NaN without plans.
     """
     sent, ticks = duel.references[name], duel.ticks
     jumps = []

@@ -37,11 +37,7 @@ class OpenNetwork(NamedTuple):
         return dict(self.session.get_modelmeta().custom_metadata_map)
 
     def evaluate(self, observations: Tensor) -> Tensor:
-        """Return the outputs for observations, (n, width): one row for each.
-
-        Raises:
-            PolicyError: If it cannot run.
-        """
+        """Return a row of outputs for each observation; these are (n, width)."""
         given = np.asarray(observations, dtype=self.kind)
         if self.rows == 1 and len(given) != 1:
             return np.concatenate([self.evaluate(row[None]) for row in given])
@@ -55,11 +51,7 @@ class OpenNetwork(NamedTuple):
 
 @lru_cache(maxsize=32)
 def open_network(content: bytes) -> OpenNetwork:
-    """Return a network, from the content of an ONNX file, ready to run.
-
-    Raises:
-        PolicyError: If it is not a network from observations to actions.
-    """
+    """Return a network, from the content of an ONNX file, ready to run."""
     session = open_session(content)
     inputs, outputs = session.get_inputs(), session.get_outputs()
     if len(inputs) != 1 or len(outputs) != 1:
@@ -78,11 +70,7 @@ def open_network(content: bytes) -> OpenNetwork:
 
 
 def read_network(path: Path) -> bytes:
-    """Return the content of an ONNX file, with weights that lie beside it.
-
-    Raises:
-        PolicyError: If it is not a network, with the runtime's reason.
-    """
+    """Return the content of an ONNX file, with weights that lie beside it."""
     check_readable(path)
     content = path.read_bytes()
     try:

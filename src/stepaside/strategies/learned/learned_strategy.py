@@ -79,9 +79,6 @@ class LearnedStrategy:
         """Return heading [rad] and speed factor for each observation.
 
         Observations have shape (n, width), the result has (n, 2).
-
-        Raises:
-            PolicyError: If an output is NaN or infinite.
         """
         outputs = self._opened.evaluate(observations).astype(np.float64)
         if not np.isfinite(outputs).all():
@@ -104,11 +101,7 @@ class LearnedStrategy:
 
 
 def load_learned_strategy(path: AnyPath) -> LearnedStrategy:
-    """Load a strategy from an ONNX file.
-
-    Raises:
-        ConfigurationError: If the file is not a strategy.
-    """
+    """Load a strategy from an ONNX file."""
     file = as_path(path, "path").expanduser()
     try:
         network = read_network(file)

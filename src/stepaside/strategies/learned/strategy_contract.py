@@ -85,11 +85,7 @@ _RING = ring_points()
 
 
 def width_of(terms: Sequence[str]) -> int:
-    """Return the number of values of an observation.
-
-    Raises:
-        PolicyError: If a term is unknown.
-    """
+    """Return the number of values of an observation."""
     for name in terms:
         if name not in SENSED_TERMS:
             raise PolicyError(
@@ -185,11 +181,7 @@ class StrategyContract:
 
 
 def contract_of(metadata: Mapping[str, str]) -> StrategyContract:
-    """Return the contract that the metadata of a network holds.
-
-    Raises:
-        PolicyError: If an entry is missing or malformed.
-    """
+    """Return the contract that the metadata of a network holds."""
     given = _entry(metadata, "stepaside_strategy")
     if given != FORMAT:
         raise PolicyError(

@@ -92,9 +92,8 @@ def arc_cosine(value: float) -> float:
 def action_arcs(actions: Any, stride: float) -> Any:
     """Return way ahead and to the left [m], cosine and sine of each turn.
 
-    Args:
-        actions: Turn [rad] and speed factor of each. Shape (k, 2).
-        stride: Stride of the evader, which walks backward, in [m].
+    Actions are turn [rad] and speed factor, (k, 2), of an evader that walks
+    backward.
     """
     arcs = np.empty((len(actions), 4))
     for k in range(len(actions)):
@@ -291,17 +290,10 @@ def beam_search(
 ) -> Any:
     """Return the actions of the game that survives longest.
 
-    Args:
-        start: Poses (x [m], y [m], theta [rad]) of evader and pursuer in a
-            frame whose origin is the centre of the room. Shape (6,).
-        actions: Turn [rad] and speed factor of each action. Shape (k, 2).
-        model: Model of the pursuer.
-        packed: Obstacles.
-        rules: Rules of the games, and size of the search.
-
-    Returns:
-        Number of the action of each step; fewer than the horizon if no
-        state of the beam survives it. Shape (n,).
+    The start has the poses (x [m], y [m], theta [rad]) of evader and pursuer
+    in a frame whose origin is the centre of the room, (6,); actions are turn
+    [rad] and speed factor, (k, 2). Returns the number of the action of each
+    step, fewer than the horizon if no state of the beam survives it.
     """
     arcs = action_arcs(actions, rules.step.stride)
     width, horizon = rules.width, rules.horizon

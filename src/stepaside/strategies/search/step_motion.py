@@ -193,18 +193,11 @@ def fit_heading(
 ) -> tuple[tuple[float, float, float], float]:
     """Fit initial heading and position of a model to a path.
 
-    The turn of each step follows from the model, its length from the path.
-
-    Args:
-        path: Poses (x [m], y [m], theta [rad]) of the evader, positions of
-            the pursuer [m] and times [steps], in a frame whose origin is the
-            centre of the room. Shape (n, 6), n > 1.
-        model: Model of the pursuer.
-        rules: Rules of the steps.
-
-    Returns:
-        Pose (x [m], y [m], theta [rad]) of the pursuer at the end of the
-        path, and the mean squared distance from the path, in [m^2].
+    The turn of each step follows from the model, its length from the path:
+    poses (x [m], y [m], theta [rad]) of the evader, positions of the pursuer
+    [m] and times [steps], in a frame whose origin is the centre of the room,
+    (n, 6) with n > 1. Returns the pose of the pursuer at the end of the path,
+    and the mean squared distance from the path, in [m^2].
     """
     n = len(path)
     off, other = np.empty((n, 2)), np.empty((n, 2))

@@ -1,10 +1,12 @@
-"""Readings of duels in physics for the claims of Sec. III-E and IV."""
+"""Readings of games for the claims of Sec. III-E, IV and V."""
 
+from collections.abc import Callable, Mapping
 from dataclasses import replace
-from math import degrees, nan
+from math import degrees, inf, nan
 
 import numpy as np
 
+from ..arena import RoomRecipe, generate_room
 from ..core.errors import ConfigurationError
 from ..games.duel_circle import (
     angle_between,
@@ -14,18 +16,31 @@ from ..games.duel_circle import (
     last_third,
 )
 from ..games.duel_settings import PLAYERS, DuelSettings, StartSettings
+from ..games.floor_games import StrategyTrack
 from ..games.outcome import Outcome
 from ..games.recorded_game import run_duel
 from ..games.robot_settings import with_robot
 from ..games.run import Run
 from ..planning import PRESETS
+from ..sim.camera_settings import SceneSettings
+from ..strategies.strategy_game import StepGame
 from ..theory.unicycle.circle_fit import fit_circle
-from .instrumented_duel import InstrumentedDuel, play_instrumented
-from .planner_claims import most_deviating
+from .theory_claims import most_deviating
+from .tournament import (
+    ASIDE,
+    PairingSettings,
+    bound_of,
+    clearance,
+    outcome_of,
+    play_track,
+    players_touched,
+)
 from .walk_measures import (
+    InstrumentedDuel,
     distance_walked,
     largest_tilt,
     mean_foot_slip,
+    play_instrumented,
     reference_jumps,
     replanning_support,
     step_times,
@@ -177,12 +192,7 @@ def _walk_of(duel: InstrumentedDuel) -> tuple[float, float, float]:
 def legs_settings(robot: str, seed: int) -> DuelSettings:
     """Return the settings of the duel of Fig. 5 on learned legs.
 
-    Args:
-        robot: Folder of a robot whose description names a policy.
-        seed: Seed of the initial poses.
-
-    Raises:
-        ConfigurationError: If the description names no policy.
+    The description in the folder of the robot names a policy.
     """
     settings = with_robot(DuelSettings(seed=seed, duration=CIRCLE_TIME), robot)
     if not settings.legs.walks:
@@ -196,3 +206,84 @@ def legs_settings(robot: str, seed: int) -> DuelSettings:
 def measure_legs(robot: str, seed: int) -> dict[str, float]:
     """Play the duel of Fig. 5 on the learned legs of a robot."""
     return last_circle(run_duel(legs_settings(robot, seed)).uninterrupted())
+
+
+DURATION = 40.0  # of the duels in rooms, in [s]
+GAMES_PER_SEED = 5  # of each evader in each setting
+GAME = StepGame(duration=120.0)
+PAIRINGS = {
+    "open": PairingSettings(floor="open", game=GAME),
+    "room": PairingSettings(room=RoomRecipe(discs=3), game=GAME),
+}
+AHEAD = "look-ahead"
+
+Tracks = tuple[StrategyTrack, ...]
+"""Games of one evader, from the initial poses of a seed each."""
+
+
+def measure_evading(seed: int) -> dict[str, float]:
+    """Play the games of a seed at the level of steps."""
+    seeds = range(GAMES_PER_SEED * seed, GAMES_PER_SEED * (seed + 1))
+    return read_evading(
+        {
+            (where, evader): tuple(
+                play_track(replace(pairing, evader=evader, seed=each))
+                for each in seeds
+            )
+            for where, pairing in PAIRINGS.items()
+            for evader in (ASIDE, AHEAD)
+        }
+    )
+
+
+def read_evading(games: Mapping[tuple[str, str], Tracks]) -> dict[str, float]:
+    """Compare evaders, by floor and name, on the open floor and in rooms."""
+    ahead = games["room", AHEAD]
+    bounds = [
+        bound_of(g.pursuer[0], g.evader[0], GAME) for g in games["open", AHEAD]
+    ]
+    closest = {
+        evader: np.mean([g.distances.min() for g in games["open", evader]])
+        for evader in (ASIDE, AHEAD)
+    }
+    survived = {
+        evader: np.mean(
+            [g.outcome is Outcome.COMPLETED for g in games["room", evader]]
+        )
+        for evader in (ASIDE, AHEAD)
+    }
+    return {
+        "farther": float(closest[AHEAD] / closest[ASIDE]),
+        "best": float(closest[AHEAD] / np.mean(bounds)),
+        "survives": float(survived[AHEAD]),
+        "clear": float(min(g.clearances.min() for g in ahead))
+        - GAME.body_radius,
+        "aside": float(survived[AHEAD] - survived[ASIDE]),
+        "decision": 1e3 * float(np.mean([g.decision for g in ahead])),
+    }
+
+
+def measure_room(seed: int) -> dict[str, float]:
+    """Play a duel in the room of a seed, with a given map."""
+    run = run_duel(
+        DuelSettings(
+            seed=seed,
+            duration=DURATION,
+            evader_strategy=AHEAD,
+            room=SceneSettings(plan=generate_room(RoomRecipe(discs=3), seed)),
+        )
+    )
+    return read_room(run.uninterrupted())
+
+
+def read_room(
+    run: Run, clear: Callable[[Run, str], float | None] = clearance
+) -> dict[str, float]:
+    """Read contacts, clearance [m] and free time [s] of a duel in a room."""
+    least = [clear(run, name) for name in PLAYERS]
+    clean = run.outcome is Outcome.COMPLETED or players_touched(run)
+    return {
+        "touched": float(not clean),
+        "clear": min(inf if k is None else k for k in least),
+        "free": run.duration if outcome_of(run) is Outcome.COMPLETED else 0.0,
+    }
