@@ -37,7 +37,7 @@ class OpenNetwork(NamedTuple):
         return dict(self.session.get_modelmeta().custom_metadata_map)
 
     def evaluate(self, observations: Tensor) -> Tensor:
-        """Return a row of outputs for each observation; these are (n, width)."""
+        """Return a row of outputs for each of n observations, (n, width)."""
         given = np.asarray(observations, dtype=self.kind)
         if self.rows == 1 and len(given) != 1:
             return np.concatenate([self.evaluate(row[None]) for row in given])
