@@ -9,13 +9,7 @@ Run it alone: ``python examples/change_gait.py``.
 import sys
 from math import hypot
 
-from stepaside import (
-    ControlSettings,
-    GaitSettings,
-    Push,
-    WalkSettings,
-    run_walk,
-)
+from stepaside import ControlSettings, GaitSettings, Push, run_game, walk
 
 seconds = float(sys.argv[1]) if len(sys.argv) > 1 else 10.0
 gaits = {
@@ -28,14 +22,14 @@ feedback = ControlSettings(method="measured", feedback=True)
 print("gait             control     outcome      speed [m/s]  tilt [deg]")
 for name, gait in gaits.items():
     for control in (ControlSettings(feedback=False), feedback):
-        walk = WalkSettings(
+        settings = walk(
             duration=seconds,
             gait=gait,
             control=control,
             # A push from the right: 0.6 N s over 0.1 s.
             pushes=(Push(0.6, 0.6 * seconds, 1.57),),
         )
-        run = run_walk(walk)
+        run = run_game(settings)
         x, y, _ = run.walker.com.T
         speed = hypot(x[-1] - x[0], y[-1] - y[0]) / run.duration
         walking = run.summary.walking

@@ -11,19 +11,13 @@ from pathlib import Path
 
 import numpy as np
 
-from stepaside import (
-    DuelSettings,
-    load_run,
-    run_duel,
-    write_page,
-    write_run,
-)
+from stepaside import duel, load_run, run_game, write_page, write_run
 
 seconds = float(sys.argv[1]) if len(sys.argv) > 1 else 20.0
 folder, page = Path("run"), Path("run.html")
 
 if not folder.exists():
-    write_run(folder, run_duel(DuelSettings(seed=3, duration=seconds)))
+    write_run(folder, run_game(duel(seed=3, duration=seconds)))
 run = load_run(folder, "duel")
 
 print(

@@ -10,13 +10,13 @@ Run it alone: ``python examples/many_duels.py``.
 import sys
 from concurrent.futures import ProcessPoolExecutor
 
-from stepaside import BODIES, DuelSettings, run_duel
+from stepaside import BODIES, duel, run_game
 
 
 def main(seconds: float, seeds: range) -> None:
     """Play all bodies from all initial poses, and print a table."""
     duels = {
-        (body, seed): DuelSettings(
+        (body, seed): duel(
             seed=seed,
             duration=seconds,
             body=BODIES[body],
@@ -26,7 +26,7 @@ def main(seconds: float, seeds: range) -> None:
     }
     print("body      seed  outcome      closest [m]  at the end [m]  replans")
     with ProcessPoolExecutor() as pool:
-        runs = pool.map(run_duel, duels.values())
+        runs = pool.map(run_game, duels.values())
         for (body, seed), run in zip(duels, runs, strict=True):
             planning = run.summary.planning
             replans = planning.replans if planning else 0

@@ -4,7 +4,7 @@
 """Custom evader: aside at a distance, backward when the pursuer is near."""
 
 import sys
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from math import pi
 
 import stepaside as sa
@@ -38,12 +38,12 @@ def main(duration: float) -> None:
     rules = st.StepGame(duration=0.4 / 0.547 * duration)
     at = sa.RelativeStart(0.9, 0.3, -0.2).poses()
     start = sa.StartSettings(0.9, -0.3, 0.2)
-    settings = sa.DuelSettings(duration=duration, start=start)
+    settings = sa.duel(duration=duration, start=start)
     names = {"aside": "evasion", "own": f"{__file__}:BackAndAside"}
     for label, name in names.items():
         evader = st.load_strategy(name)
         game = play_strategies(st.Pursuit(), evader, at, game=rules)
-        duel = sa.run_duel(replace(settings, evader_strategy=name))
+        duel = sa.run_game(settings.changed(evader={"strategy": name}))
         for bodies, closest, path in (
             ("unicycles", game.closest_distance, game.evader),
             ("humanoids", duel.summary.min_distance_m, duel.evader.torso),

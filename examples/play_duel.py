@@ -11,13 +11,11 @@ from pathlib import Path
 
 import numpy as np
 
-from stepaside import DuelSettings, StartSettings, draw_run, run_duel
+from stepaside import StartSettings, draw_run, duel, run_game
 
 seconds = float(sys.argv[1]) if len(sys.argv) > 1 else 40.0
-settings = DuelSettings(
-    seed=7, duration=seconds, start=StartSettings(distance=0.9)
-)
-run = run_duel(settings)
+settings = duel(seed=7, duration=seconds, start=StartSettings(distance=0.9))
+run = run_game(settings)
 
 print(f"{run.outcome.value}: {run.message}")
 print(f"closest approach {run.summary.min_distance_m:.3f} m")

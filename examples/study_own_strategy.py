@@ -24,7 +24,7 @@ class BackOff(sa.Evasion):
 if __name__ == "__main__":
     own = f"{__file__}:BackOff(near=%s)"
     shared = {"duration": 10.0, "start.distance": 0.7}
-    near = {n: {"evader_strategy": own % n} for n in (0.3, 0.5, 0.7, 0.9)}
+    near = {n: {"evader.strategy": own % n} for n in (0.3, 0.5, 0.7, 0.9)}
     study = sa.make_study(
         "duel", shared, {"seed": range(5)}, variants={"near": near}
     )

@@ -16,8 +16,8 @@ import onnx
 from onnx import TensorProto, helper, numpy_helper
 
 import stepaside.robots
+from stepaside.games.game_settings import walk
 from stepaside.games.recorded_game import RecordedGame
-from stepaside.games.walk_settings import WalkSettings
 from stepaside.planning import Foot
 from stepaside.robots.description import load_robot
 from stepaside.robots.tree_cache import load_tree
@@ -51,7 +51,7 @@ def nao_on_imitated_walk(
         for i, name in enumerate(motors)
         if any(part in name for part in ("Hip", "Knee", "Ankle"))
     ]
-    cycle = 2.0 * WalkSettings().gait.step_duration
+    cycle = 2.0 * walk().gait.step_duration
     ahead, back = (_targets(1.0, 0.0, backward) for backward in (False, True))
     left, right = (_targets(0.1, side * pi / 2) for side in (1.0, -1.0))
     rest = _resting_targets()[legs]
@@ -113,12 +113,12 @@ def _targets(
     scale: float, bearing: float, backward: bool = False
 ) -> np.ndarray:
     """Joint targets of one gait cycle of our walk. Shape (PHASES, joints)."""
-    gait = WalkSettings().gait
+    gait = walk().gait
     slower = replace(
         gait, speed=scale * gait.speed, stride=scale * gait.stride
     )
     cycle = 2.0 * gait.step_duration
-    settings = WalkSettings(
+    settings = walk(
         duration=STEADY + 2.0 * cycle,
         gait=slower,
         bearing=bearing,
@@ -144,9 +144,7 @@ def _targets(
 
 
 def _resting_targets() -> np.ndarray:
-    game = RecordedGame(
-        WalkSettings(duration=1.0), recorded=False, endless=True
-    )
+    game = RecordedGame(walk(duration=1.0), recorded=False, endless=True)
     targets: np.ndarray = walker_of(game).scheme.joint_targets.copy()
     game.world.close()
     return targets

@@ -8,8 +8,9 @@ from typing import Any, cast
 import numpy as np
 
 from stepaside.core.poses import Array
-from stepaside.games.duel_settings import PLAYERS, DuelSettings
+from stepaside.games.game_settings import GameSettings, duel
 from stepaside.games.outcome import Outcome
+from stepaside.games.player_settings import PLAYERS
 from stepaside.games.run import Run
 from stepaside.games.trajectory import Trajectory
 from stepaside.studies.walk_measures import InstrumentedDuel, WalkedPlan
@@ -38,7 +39,7 @@ def walked_duel(
         tilt: Tilt of both torsos at the end, in [rad].
         outcome: Outcome of the duel.
     """
-    settings = DuelSettings(duration=duration)
+    settings = duel(duration=duration)
     times = np.arange(0.0, duration + 1e-9, 0.02)
     ticks = np.arange(round(duration / 0.004), dtype=np.float64) * 0.004
     tracks: dict[str, Trajectory] = {}
@@ -71,7 +72,7 @@ def walked_duel(
 
 
 def _run(
-    settings: DuelSettings,
+    settings: GameSettings,
     outcome: Outcome,
     duration: float,
     times: Array,
@@ -88,7 +89,7 @@ def _run(
     return cast(Run, run)
 
 
-def _plans(settings: DuelSettings, duration: float) -> tuple[WalkedPlan, ...]:
+def _plans(settings: GameSettings, duration: float) -> tuple[WalkedPlan, ...]:
     """Return one plan per step, the first from standing."""
     gait = settings.gait
     begins = gait.start_support + gait.step_duration * np.arange(1.0, 1e3)

@@ -4,13 +4,13 @@ from functools import cache
 from typing import Any
 
 import stepaside
-from stepaside import Direction, DuelSettings, Foot, GaitSettings, Run
+from stepaside import Direction, Foot, GaitSettings, Run, duel
 from stepaside.theory.value import CarGame, solve_cars
 
 
 @cache
 def a_run() -> Run:
-    return stepaside.run_duel(DuelSettings(seed=3, duration=0.4))
+    return stepaside.run_game(duel(seed=3, duration=0.4))
 
 
 @cache

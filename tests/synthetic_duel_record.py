@@ -6,9 +6,9 @@ import numpy as np
 
 from stepaside.core.poses import Array
 from stepaside.games.duel_circle import circle_of_theory
-from stepaside.games.duel_settings import DuelSettings, StartSettings
+from stepaside.games.game_settings import StartSettings, duel
 
-SETTINGS = DuelSettings(start=StartSettings(1.0, 0.1, -0.2))
+SETTINGS = duel(start=StartSettings(1.0, 0.1, -0.2))
 THEORY = circle_of_theory(SETTINGS)
 CYCLE = 2.0 * SETTINGS.gait.step_duration
 TIMES: Array = 0.02 * np.arange(3001, dtype=float)

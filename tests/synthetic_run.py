@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 
 from stepaside.core.poses import Array
-from stepaside.games.duel_settings import DuelSettings
+from stepaside.games.game_settings import GameSettings, duel
 from stepaside.games.outcome import Outcome
 from stepaside.games.run import Run
 from stepaside.games.summary import PlayerSummary, Summary, TheorySummary
@@ -35,7 +35,7 @@ def run_of(
     times: Array,
     tracks: Mapping[str, Trajectory],
     *,
-    settings: DuelSettings | None = None,
+    settings: GameSettings | None = None,
     name: str = "synthetic",
     outcome: Outcome = Outcome.COMPLETED,
     message: str = "played 18.00 s",
@@ -54,7 +54,7 @@ def run_of(
     """
     return Run(
         name=name,
-        settings=settings or DuelSettings(),
+        settings=settings or duel(),
         outcome=outcome,
         message=message,
         duration=float(times[-1]),

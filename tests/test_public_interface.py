@@ -103,7 +103,7 @@ def kept(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """A folder with one of everything that is read."""
     folder = tmp_path_factory.mktemp("kept")
     stepaside.write_run(folder / "run", a_run(), drawn=False)
-    (folder / "duel.toml").write_text("seed = 3\n")
+    (folder / "duel.toml").write_text("game = 'duel'\nseed = 3\n")
     (folder / "study.toml").write_text("game = 'duel'\ngrid.seed = '0:7'\n")
     (folder / "room.toml").write_text("width = 3.0\ndepth = 2.0\n")
     a_bound().save(folder / "bound.npz")
@@ -116,7 +116,7 @@ def kept(tmp_path_factory: pytest.TempPathFactory) -> Path:
 # What is read, and what of it must be the same whatever the path was.
 READERS: dict[str, tuple[str, Callable[[Any], Any]]] = {
     "load_run": ("run", lambda p: stepaside.load_run(p).summary),
-    "load_configuration": ("duel.toml", stepaside.load_configuration),
+    "load_game": ("duel.toml", stepaside.load_game),
     "load_robot": ("robot", lambda p: stepaside.load_robot(p).torso),
     "load_table": ("bound.npz", lambda p: load_table(p).grid),
     "load_room": ("room.toml", load_room),
@@ -220,7 +220,7 @@ ANGLES: dict[str, Callable[[Any], Any]] = {
     "StartSettings evader_offset": lambda a: stepaside.StartSettings(
         1.0, 0.0, a
     ),
-    "WalkSettings bearing": lambda a: stepaside.WalkSettings(bearing=a),
+    "walk bearing": stepaside.walk,
     "Push direction": lambda a: stepaside.Push(1.0, 1.0, a),
     "Game angle": lambda a: stepaside.make_game(1.0, 1.0, 1.0, 1.0, a),
     "Game hysteresis": lambda a: stepaside.make_game(

@@ -161,8 +161,8 @@ def test_code_on_board_imports_no_simulator(package: str) -> None:
 
 def test_an_ideal_duel_loads_neither_cameras_nor_vision() -> None:
     code = (
-        "import sys; from stepaside.games import DuelSettings, run_duel;"
-        "run_duel(DuelSettings(duration=0.01));"
+        "import sys; from stepaside.games import duel, run_game;"
+        "run_game(duel(duration=0.01));"
         "assert 'cv2' not in sys.modules;"
         "assert 'stepaside.sim.sensor_suite' not in sys.modules"
     )
@@ -172,13 +172,11 @@ def test_an_ideal_duel_loads_neither_cameras_nor_vision() -> None:
 def test_settings_load_no_heavy_library() -> None:
     """Help and configurations need no physics."""
     code = (
-        "import sys; from stepaside.games.duel_settings import DuelSettings;"
-        "DuelSettings();"
-        "from stepaside import Push, WalkSettings;"
-        "WalkSettings(pushes=(Push(1.0, 2.0, 0.0),));"
+        "import sys; from stepaside import Push, duel, walk;"
+        "duel(); walk(pushes=(Push(1.0, 2.0, 0.0),));"
         "assert not {'mujoco', 'scipy', 'matplotlib'} & set(sys.modules);"
         "import stepaside.games as games;"
-        "assert callable(games.run_duel) and 'mujoco' in sys.modules"
+        "assert callable(games.run_game) and 'mujoco' in sys.modules"
     )
     subprocess.run([sys.executable, "-c", code], check=True)
 

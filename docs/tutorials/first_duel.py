@@ -14,9 +14,9 @@
 # initial poses. 60 s of physics take a few seconds.
 
 # %%
-from stepaside import DuelSettings, run_duel
+from stepaside import duel, run_game
 
-run = run_duel(DuelSettings(seed=7, duration=60.0))
+run = run_game(duel(seed=7, duration=60.0))
 run
 
 # %% [markdown]
@@ -66,8 +66,8 @@ from math import radians
 
 from stepaside import StartSettings
 
-close = run_duel(
-    DuelSettings(
+close = run_game(
+    duel(
         duration=60.0,
         start=StartSettings(0.7, radians(60.0), 0.0),
     )

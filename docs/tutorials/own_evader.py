@@ -51,17 +51,13 @@ for name, game in games.items():
 # %% [markdown]
 # ## With humanoids
 #
-# Settings take the strategy object itself.
+# The strategy object stands beside the settings.
 
 # %%
-from stepaside import DuelSettings, StartSettings, run_duel
+from stepaside import StartSettings, duel, run_game
 
-settings = DuelSettings(
-    duration=40.0,
-    start=StartSettings(0.7, -0.3, 0.2),
-    evader_strategy=BackAndAside(),
-)
-own = run_duel(settings)
+settings = duel(duration=40.0, start=StartSettings(0.7, -0.3, 0.2))
+own = run_game(settings, strategies={"evader": BackAndAside()})
 print(f"closest approach {own.summary.min_distance_m:.3f} m")
 
 # %%
@@ -88,5 +84,5 @@ axes.legend()
 # Many games say more than one: `stepaside study rating --set
 # evader=evader.py:BackAndAside,evasion` rates it beside the paper's evader
 # against a fixed suite of opponents, and `stepaside study duels --set
-# evader_strategy=evader.py:BackAndAside` plays humanoids from forty random
+# evader.strategy=evader.py:BackAndAside` plays humanoids from forty random
 # starts ([studies](../campaigns.md)).

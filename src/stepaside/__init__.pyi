@@ -9,16 +9,17 @@ from .drivers.robot import JointRobot as JointRobot
 from .drivers.robot import JointTargets as JointTargets
 from .drivers.robot import VelocityLimits as VelocityLimits
 from .drivers.robot import VelocityRobot as VelocityRobot
-from .games import DuelSettings as DuelSettings
+from .games import GameSettings as GameSettings
 from .games import Outcome as Outcome
+from .games import PlayerSettings as PlayerSettings
 from .games import RecordedGame as RecordedGame
 from .games import Run as Run
-from .games import run_duel as run_duel
-from .games import run_walk as run_walk
-from .games.configuration_file import load_configuration as load_configuration
-from .games.duel_settings import StartSettings as StartSettings
+from .games import duel as duel
+from .games import run_game as run_game
+from .games import walk as walk
+from .games.game_settings import StartSettings as StartSettings
 from .games.run_archive import load_run as load_run
-from .games.walk_settings import WalkSettings as WalkSettings
+from .games.settings_reader import load_game as load_game
 from .locomotion.control_settings import ControlSettings as ControlSettings
 from .perception.measurement import RobotState as RobotState
 from .perception.measurement import RobotStatus as RobotStatus
@@ -58,7 +59,6 @@ from .theory.unicycle.certificate import certify as certify
 __version__: str
 
 __all__ = [
-    "__version__",
     "BODIES",
     "BodySettings",
     "CameraImage",
@@ -66,11 +66,10 @@ __all__ = [
     "ControlScheme",
     "ControlSettings",
     "Direction",
-    "Run",
-    "DuelSettings",
     "Evasion",
     "Foot",
     "GaitSettings",
+    "GameSettings",
     "HeadLimits",
     "Intent",
     "JointRobot",
@@ -79,27 +78,30 @@ __all__ = [
     "ManeuverPlan",
     "ManeuverPlanner",
     "Outcome",
+    "PlayerSettings",
     "Pose",
     "Pursuit",
     "Push",
     "RecordedGame",
+    "RelativeStart",
     "RobotState",
     "RobotStatus",
+    "Run",
     "Sighting",
-    "RelativeStart",
     "StartSettings",
     "StepAsideError",
     "Strategy",
     "VelocityLimits",
     "VelocityRobot",
-    "WalkSettings",
+    "__version__",
     "build_scheme",
     "certify",
+    "draw_plan",
     "draw_run",
     "draw_runs",
-    "draw_plan",
+    "duel",
     "find_circle",
-    "load_configuration",
+    "load_game",
     "load_robot",
     "load_run",
     "load_strategy",
@@ -108,11 +110,11 @@ __all__ = [
     "make_game",
     "make_study",
     "play_games",
-    "run_duel",
+    "run_game",
     "run_study",
-    "run_walk",
     "simulate",
     "tabulate",
+    "walk",
     "write_page",
     "write_run",
 ]

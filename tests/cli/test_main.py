@@ -140,12 +140,12 @@ BAD = [
     ("duel --duration -3", "duration must lie.*-3"),
     ("duel --seed -1", "seed.*-1"),
     ("duel --distance 0.1", "distance must lie in.*m.*0.1"),
-    ("duel --set strategy.angle=200deg", "angle must lie in.*rad.*3.49"),
-    ("duel --set strategy.angle=up", "angle.*up"),
+    ("duel --set evasion.angle=200deg", "angle must lie in.*rad.*3.49"),
+    ("duel --set evasion.angle=up", "angle.*up"),
     ("duel --set start.pursuer_offset=inf", "pursuer_offset.*inf"),
     ("duel --set sight.delay=3", "delay must lie in.*3"),
     (
-        "duel --set strategy.release_distance=0.5",
+        "duel --set evasion.release_distance=0.5",
         "release_distance must exceed.*0.5",
     ),
     ("duel --robot talos", "robot must be one of nao.*talos"),
@@ -243,7 +243,7 @@ def test_interrupted_duel_reports_its_run(
 def test_zero_is_a_given_value() -> None:
     """Seed 0 and evasion angle 0 differ from missing options."""
     found = run_json(
-        "duel", "--seed", "0", "--set", "strategy.angle=0", "--duration", "0.2"
+        "duel", "--seed", "0", "--set", "evasion.angle=0", "--duration", "0.2"
     )
     assert found["seed"] == 0
     assert found["theory"]["radius_m"] is None

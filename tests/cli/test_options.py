@@ -67,11 +67,11 @@ def test_an_unknown_setting_names_similar_ones(given: str, near: str) -> None:
     ("given", "words"),
     [
         ("gait.stride", "PATH=VALUE"),
-        ("strategy.saturated=yes", "true or false"),
-        ("strategy.saturated=1", "true or false"),
+        ("evasion.saturated=yes", "true or false"),
+        ("evasion.saturated=1", "true or false"),
         ("gait.stride=true", "gait.stride must lie"),
         ("gait.horizon=2.5", "gait.horizon"),
-        ("evader_strategy=nobody", "nobody"),
+        ("evader.strategy=nobody", "nobody"),
     ],
 )
 def test_a_bad_value_is_refused_by_its_setting(given: str, words: str) -> None:

@@ -20,8 +20,8 @@ from stepaside.core.atomic_output import (
     free_file,
 )
 from stepaside.core.errors import ConfigurationError, OutputError
-from stepaside.games.duel_settings import DuelSettings
-from stepaside.games.recorded_game import run_duel
+from stepaside.games.game_settings import duel
+from stepaside.games.recorded_game import run_game
 from stepaside.games.run import Run
 from stepaside.report import run_figure
 from stepaside.report.run_folder import save_run, write_run
@@ -139,7 +139,7 @@ def test_a_failed_write_leaves_the_old_file(tmp_path: Path) -> None:
 
 @pytest.fixture(scope="module")
 def short() -> Run:
-    return run_duel(DuelSettings(duration=0.1))
+    return run_game(duel(duration=0.1))
 
 
 def test_two_runs_into_one_folder_are_both_saved(

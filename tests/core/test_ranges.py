@@ -9,7 +9,7 @@ import pytest
 from stepaside.core.errors import (
     StepAsideError,
 )
-from stepaside.games.duel_settings import DuelSettings, StartSettings
+from stepaside.games.game_settings import GameSettings, StartSettings, duel
 from stepaside.planning import (
     GaitSettings,
 )
@@ -29,7 +29,7 @@ def numbers(kind: Any) -> list[Any]:
 ALL = [
     entry
     for kind in (
-        DuelSettings,
+        GameSettings,
         StartSettings,
         PhysicsSettings,
         SightSettings,
@@ -45,7 +45,7 @@ def test_a_seed_of_more_than_128_bits_is_refused(
 ) -> None:
     value = power[0] ** power[1]
     with pytest.raises(StepAsideError, match="seed") as refused:
-        DuelSettings(seed=value)
+        duel(seed=value)
     assert len(str(refused.value)) < 200
 
 

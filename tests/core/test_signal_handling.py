@@ -11,10 +11,10 @@ from stepaside.core.signal_handling import (
     interrupt,
     interruptible,
 )
+from stepaside.games.game_settings import walk
 from stepaside.games.outcome import Outcome
 from stepaside.games.player import MotionLog
-from stepaside.games.recorded_game import run_walk
-from stepaside.games.walk_settings import WalkSettings
+from stepaside.games.recorded_game import run_game
 
 SIGNALS = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
 
@@ -107,7 +107,7 @@ def test_an_interrupted_record_has_complete_samples(
                 signal.raise_signal(signal.SIGINT)
 
     monkeypatch.setattr(MotionLog, "add", add_and_interrupt)
-    run = run_walk(WalkSettings(duration=0.5))
+    run = run_game(walk(duration=0.5))
     assert run.outcome is Outcome.INTERRUPTED and 3 < len(run.times) < 9
     lengths = {
         len(array)

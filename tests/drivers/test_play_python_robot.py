@@ -23,7 +23,7 @@ ROBOT = f"{ADAPTERS / 'walker_robot.py'}:WalkerRobot"
 PLAY = "from stepaside.cli.main import main; main()"
 TEMPLATE = (
     "--role evader --set gait.speed=0.3 --set gait.gain=0.6 "
-    "--set strategy.safety_radius=5"
+    "--set evasion.safety_radius=5"
 ).split()
 LONGEST = 60.0  # for what takes seconds on an idle machine, in [s]
 SLACK = 1.0  # of a busy machine, in [s]

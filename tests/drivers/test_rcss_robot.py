@@ -228,7 +228,7 @@ def test_a_k1_is_played_in_the_real_simulator(
     )
     try:
         evader = subprocess.run(
-            [*words, "--role", "evader", "--set", "strategy.safety_radius=5"]
+            [*words, "--role", "evader", "--set", "evasion.safety_radius=5"]
             + ["--duration", "3", "--record", str(run)],
             stderr=subprocess.PIPE,
             text=True,

@@ -26,7 +26,7 @@ from stepaside.drivers.ros2_dds import (  # noqa: E402
     take_messages,
     vector,
 )
-from stepaside.games.duel_settings import DuelSettings  # noqa: E402
+from stepaside.games.play_settings import PlaySettings  # noqa: E402
 from stepaside.perception.measurement import RobotState  # noqa: E402
 
 from velocity_fakes import until  # isort: skip  # noqa: E402
@@ -174,7 +174,7 @@ def test_a_robot_that_steps_sideways_is_commanded_so(
     """The direction is kept within the limits, as ``play`` has them."""
     file = tmp_path / "sideways.py"
     file.write_text(SIDEWAYS)
-    settings = DuelSettings(pursuer_strategy=f"{file}:Sideways")
+    settings = PlaySettings(role="pursuer", strategy=f"{file}:Sideways")
     connection = ConnectionSettings(
         *("ros2:/it", "pursuer"),
         sim_time=True,

@@ -14,7 +14,7 @@ from pettingzoo.test import parallel_api_test, parallel_seed_test
 from stepaside.arena import RoomRecipe
 from stepaside.core.errors import ConfigurationError, PlanError
 from stepaside.envs import IDS, DuelEnv, VectorDuel, duel_v0
-from stepaside.games import DuelSettings
+from stepaside.games import duel as make_duel
 from stepaside.strategies import LookAhead
 from stepaside.theory.unicycle import RelativeStart
 
@@ -206,10 +206,10 @@ def test_physics_has_an_opponent() -> None:
 
 
 def test_a_person_is_an_opponent_in_physics() -> None:
-    duel = DuelSettings(pursuer="person")
+    duel = make_duel(pursuer={"body": "person"})
     env = DuelEnv("evader", duel=duel, level="physics", duration=1.0)
     env.reset(seed=1)
     assert np.isfinite(env.step(BACK)[0]).all()
     env.close()
-    with pytest.raises(ConfigurationError, match="where the pursuer learns"):
+    with pytest.raises(ConfigurationError, match="if the pursuer learns"):
         DuelEnv("pursuer", duel=duel, level="physics")

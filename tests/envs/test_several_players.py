@@ -9,8 +9,8 @@ import pytest
 
 from stepaside.core.errors import ConfigurationError
 from stepaside.envs import game_v0
-from stepaside.games.game_file import parse_game
 from stepaside.games.game_settings import GameSettings
+from stepaside.games.settings_reader import read_game
 
 AHEAD = np.array([0.0, 1.0], np.float32)
 STILL = np.array([0.0, 0.0], np.float32)
@@ -24,13 +24,13 @@ def game(level: str = "steps", **changes: Any) -> GameSettings:
         {"name": "blue", "role": "evader", "start": [0.0, 0.0, 0.0]},
     ]
     entries = {"players": players, "level": level, "duration": 6.0}
-    return parse_game(entries | changes, "game")
+    return read_game(entries | changes, "game")
 
 
 def with_more(*more: dict[str, Any]) -> GameSettings:
     """Return that game with further players."""
     settings = game()
-    added = parse_game({"players": list(more)}, "more").players
+    added = read_game({"players": list(more)}, "more").players
     return replace(settings, players=(*settings.players, *added))
 
 

@@ -24,7 +24,7 @@ from stepaside.envs import game_v0  # registers the environments, too
 from stepaside.games.recorded_game import run_duels
 from stepaside.games.served_duel import serve_duel
 
-SHORT = sa.DuelSettings(duration=1.2, start=sa.StartSettings(distance=0.7))
+SHORT = sa.duel(duration=1.2, start=sa.StartSettings(distance=0.7))
 OPEN: dict[str, Any] = {"level": "unicycle", "arenas": 4, "duration": 8.0}
 
 
@@ -103,11 +103,11 @@ def test_a_step_takes_the_same_time_in_games_and_tournaments(
 
 def test_a_served_duel_moves_robots_on_learned_legs(tmp_path: Path) -> None:
     robot = str(nao_on_legs(tmp_path / "nao", gain=0.3))
-    settings = replace(SHORT, robot=robot, body=sa.BODIES["delayed"])
+    settings = SHORT.changed(robot=robot, body=sa.BODIES["delayed"])
     dds = pytest.importorskip("stepaside.drivers.ros2_dds")
     with closing(dds.DdsParticipant(20 + os.getpid() % 200)) as joined:
         served = serve_duel(settings, joined, {}, lock_step=True).run
-    played = sa.run_duel(settings)
+    played = sa.run_game(settings)
     for name in ("pursuer", "evader"):
         np.testing.assert_array_equal(
             served.tracks[name].torso, played.tracks[name].torso
@@ -162,7 +162,7 @@ start = [2.0, 0.0, 3.14159]
 
 def test_the_outcome_of_an_environment_is_a_word() -> None:
     """The evader stands, and the pursuer walks into it."""
-    duel = sa.DuelSettings(start=sa.StartSettings(distance=0.5))
+    duel = sa.duel(start=sa.StartSettings(distance=0.5))
     env = gymnasium.make(
         "stepaside/Evade-v0", level="physics", duel=duel, duration=20.0
     )
@@ -242,7 +242,7 @@ def test_discrete_headings_are_evenly_spaced_on_the_circle(
 
 
 def test_a_study_in_this_process_takes_a_strategy_object() -> None:
-    settings = {"duration": 0.2, "evader_strategy": Own()}
+    settings = {"duration": 0.2, "evader.strategy": Own()}
     run = sa.run_study(sa.make_study("duel", settings))
     assert [record["outcome"] for record in run.records()] == ["completed"]
 
@@ -271,7 +271,9 @@ def test_strategies_of_two_files_of_one_name_can_be_pickled(
 
 
 def test_duels_that_had_finished_survive_an_interruption() -> None:
-    long = replace(SHORT, duration=9.0, evader_strategy=Own(presses_at=6.0))
+    long = SHORT.changed(
+        duration=9.0, evader={"strategy": Own(presses_at=6.0)}
+    )
     first, second = run_duels([SHORT, long])
     assert first.outcome is sa.Outcome.COMPLETED
     assert second.outcome is sa.Outcome.INTERRUPTED
@@ -315,7 +317,7 @@ def test_games_are_written_to_any_path(file: Path, tmp_path: Path) -> None:
 
 @pytest.fixture(scope="module")
 def circled() -> Iterator[sa.Run]:
-    run = sa.run_duel(replace(SHORT, duration=3.0))
+    run = sa.run_game(replace(SHORT, duration=3.0))
     assert run.theory is not None
     yield run
 

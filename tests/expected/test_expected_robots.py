@@ -12,7 +12,7 @@ import stepaside as sa
 from flows.calls import stepaside
 from legs_robot import nao_on_legs
 from stepaside.games.game import play
-from stepaside.games.robot_settings import with_robot
+from stepaside.games.settings_reader import read_game
 from stepaside.robots.description import load_robot
 from stepaside.robots.head import load_head
 
@@ -136,7 +136,7 @@ def test_velocities_of_a_hardware_body_are_those_of_its_encoders(
 ) -> None:
     pytest.importorskip("onnxruntime")
     folder = nao_on_legs(tmp_path / "nao")
-    settings = with_robot(sa.DuelSettings(duration=1.0), str(folder))
+    settings = read_game({"robot": str(folder)}, base=sa.duel(duration=1.0))
     duel = sa.RecordedGame(replace(settings, body=sa.BODIES["hardware"]))
     play(duel)
     evader: Any = duel.in_physics.players[1]

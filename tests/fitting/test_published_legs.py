@@ -15,10 +15,10 @@ pytest.importorskip("onnxruntime")
 
 from stepaside.cli.main import main
 from stepaside.fitting.legs_measurement import LegsTrial, run_trial
-from stepaside.games.duel_settings import DuelSettings
+from stepaside.games.game_settings import duel
 from stepaside.games.outcome import Outcome
-from stepaside.games.recorded_game import run_duel
-from stepaside.games.robot_settings import with_legs, with_robot
+from stepaside.games.recorded_game import run_game
+from stepaside.games.settings_reader import read_game
 from stepaside.locomotion.control_settings import LegsSettings
 from stepaside.locomotion.policy.contract_reader import read_contract
 from stepaside.locomotion.policy.runner import PolicyNetwork
@@ -70,12 +70,13 @@ def g1(tmp_path_factory: pytest.TempPathFactory) -> Path:
 def test_a_published_network_gets_out_of_the_way_of_a_person(g1: Path) -> None:
     """At 1.4 m/s from the left, aimed at its centre."""
     network = str(network_of("g1_29dof", "fastsac"))
-    settings = with_legs(with_robot(DuelSettings(), str(g1)), network)
-    settings = replace(
-        settings,
-        pursuer="person",
+    settings = read_game(
+        {"robot": str(g1), "legs": {"network": network}}, base=duel()
+    )
+    settings = settings.changed(
+        pursuer={"body": "person"},
         person=PersonSettings("straight", 1.4),
-        evader_strategy="step-aside",
+        evader={"strategy": "step-aside"},
         start=replace(
             settings.start,
             distance=6.0,
@@ -84,7 +85,7 @@ def test_a_published_network_gets_out_of_the_way_of_a_person(g1: Path) -> None:
         ),
         duration=6.0,
     )
-    run = run_duel(settings)
+    run = run_game(settings)
     assert run.outcome is Outcome.COMPLETED
     closest = run.summary.min_distance_m
     assert closest is not None and closest > 0.9

@@ -26,12 +26,12 @@ from stepaside.fitting.robot_verification import (
     trials_of,
     walk_trial,
 )
-from stepaside.games import DuelSettings, run_duel
+from stepaside.games import duel, run_game
 from stepaside.games.robot_settings import (
     body_of_robot,
     settings_from_description,
-    with_robot,
 )
+from stepaside.games.settings_reader import read_game
 from stepaside.robots.description import (
     FILE,
     RobotDescription,
@@ -276,12 +276,12 @@ def test_a_robot_of_other_size_plays_by_its_own_distances(
     assert gait.com_height == pytest.approx(scale * 0.268, rel=0.02)
     assert gait.foot_spacing == pytest.approx(scale * 0.1, rel=0.05)
     assert found.description.legs[0] == "LHipYawPitch"
-    settings = with_robot(
-        DuelSettings(seed=3, duration=6.0), str(robot.folder)
+    settings = read_game(
+        {"robot": str(robot.folder)}, base=duel(seed=3, duration=6.0)
     )
-    assert settings.strategy.safety_radius > 1.2
+    assert settings.evader.evasion.safety_radius > 1.2
     assert settings.start.near > 0.9
-    run = run_duel(settings)
+    run = run_game(settings)
     assert run.outcome.value == "completed", run.message
     assert run.distance[0] >= settings.start.near - 1e-3
 

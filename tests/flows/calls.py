@@ -126,11 +126,11 @@ def play_duel(
         duration: Simulated time, in [s].
         evasion: Settings of the paper's evader.
     """
-    return sa.run_duel(
-        sa.DuelSettings(
+    return sa.run_game(
+        sa.duel(
             duration=duration,
             start=sa.StartSettings(*start),
-            strategy=sa.Evasion(**evasion),
+            evasion=sa.Evasion(**evasion),
         )
     )
 
@@ -220,12 +220,13 @@ def duel_with_person(
 
 def own_duel(evader: Any, *, distance: float, duration: float) -> Any:
     """The same as :func:`duel_of` with a strategy object, from Python."""
-    return sa.run_duel(
-        sa.DuelSettings(
+    return sa.run_game(
+        sa.duel(
             duration=duration,
             start=sa.StartSettings(distance, 0.0, 0.0),
-            evader_strategy=evader,
-        )
+            evader={"strategy": evader if isinstance(evader, str) else ""},
+        ),
+        strategies={} if isinstance(evader, str) else {"evader": evader},
     )
 
 
@@ -365,7 +366,7 @@ def play_ros2(
     options: list[object] = ["--role", role, "--domain", domain]
     options += ["--set", f"gait.speed={speed}"]
     options += ["--set", f"gait.gain={gain}"]
-    options += ["--set", "strategy.safety_radius=5"]
+    options += ["--set", "evasion.safety_radius=5"]
     if duration is not None:
         options += ["--duration", duration]
     if record is not None:
@@ -520,9 +521,10 @@ def shielded_duel(*, contact: float, shield: bool) -> Any:
     """Let a slow person steer at a robot that would stand."""
     words: tuple[object, ...] = ("--duration", 20, "--json")
     if shield:
-        words += ("--set", "shield.enabled=true", "--set", "shield.speed=0.09")
-        words += ("--set", "shield.turning_radius=6")
-        words += ("--set", f"shield.contact={contact}")
+        words += ("--set", "evader.shield.enabled=true")
+        words += ("--set", "evader.shield.speed=0.09")
+        words += ("--set", "evader.shield.turning_radius=6")
+        words += ("--set", f"evader.shield.contact={contact}")
     return stepaside(
         *("duel", "--pursuer", "person", "--set", "person.speed=0.09"),
         *("--set", "person.gain=10", "--set", "person.turning_radius=6"),

@@ -76,7 +76,7 @@ def test_what_is_bad_is_named_in_one_line(line: str, tmp_path: Path) -> None:
     [
         ({"duration": float("nan")}, "duration"),
         ({"duration": -1.0}, "duration"),
-        ({"evader_strategy": "nobody"}, "nobody"),
+        ({"evader": {"strategy": "nobody"}}, "nobody"),
         ({"start": (0.0, 0.0, 0.0)}, "start"),
     ],
 )
@@ -84,7 +84,7 @@ def test_what_is_bad_is_refused_in_python(
     changes: dict[str, object], words: str
 ) -> None:
     with pytest.raises(sa.StepAsideError, match=words) as refused:
-        sa.run_duel(sa.DuelSettings(**changes))  # type: ignore[arg-type]
+        sa.run_game(sa.duel(**changes))
     assert "\n" not in str(refused.value)
 
 

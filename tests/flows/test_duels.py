@@ -63,9 +63,9 @@ def test_each_law_and_angle_has_its_own_circle(
         "duel",
         tmp_path / "run",
         *options_of(start_on(goal)),
-        *("--set", f"strategy.angle={angle}deg", "--duration", 22),
-        *("--set", "strategy.safety_radius=1.2"),
-        *("--set", f"strategy.saturated={str(saturated).lower()}"),
+        *("--set", f"evasion.angle={angle}deg", "--duration", 22),
+        *("--set", "evasion.safety_radius=1.2"),
+        *("--set", f"evasion.saturated={str(saturated).lower()}"),
     )
     slides = saturated and radians(angle) < 1.0
     rel, around = (0.06, 9.0) if slides else (0.03, 3.0)
@@ -90,7 +90,7 @@ def test_a_hardware_body_walks_the_circle_by_feedback(tmp_path: Path) -> None:
             "--body",
             "hardware",
             "--set",
-            "strategy.safety_radius=1.2",
+            "evasion.safety_radius=1.2",
             "--duration",
             24,
         ),
@@ -104,7 +104,8 @@ def test_a_hardware_body_walks_the_circle_by_feedback(tmp_path: Path) -> None:
         radius, pace = arc(kept["times_s"], place, 5.0, 23.0)
         assert radius == pytest.approx(goal.radius, rel=0.08)
         assert pace == pytest.approx(PACE, rel=0.06)
-    assert configuration(tmp_path / "run")["control"]["feedback"] is True
+    evader = configuration(tmp_path / "run")["players"][1]
+    assert evader["control"]["feedback"] is True
 
 
 def test_cameras_see_where_the_other_is(tmp_path: Path) -> None:
@@ -119,7 +120,7 @@ def test_cameras_see_where_the_other_is(tmp_path: Path) -> None:
             "--duration",
             3,
             "--set",
-            "strategy.safety_radius=1.2",
+            "evasion.safety_radius=1.2",
         ),
     )
     assert seen["sight"]["detection_rate"] > 0.95
@@ -155,7 +156,7 @@ def test_an_evader_that_looks_ahead_touches_nobody(tmp_path: Path) -> None:
     """
     room = tmp_path / "room.toml"
     room.write_text(ROOM)
-    back = ("--room", room, "--set", "strategy.angle=0", "--duration", 6)
+    back = ("--room", room, "--set", "evasion.angle=0", "--duration", 6)
     blind = summary("duel", *back, "--set", "map.source=none")
     assert blind["outcome"] == "contact"
     assert blind["touched"] == ["disc 1", "evader"]
@@ -187,7 +188,7 @@ def kept_duel(tmp_path_factory: pytest.TempPathFactory) -> Path:
             "--duration",
             2,
             "--set",
-            "strategy.angle=70deg",
+            "evasion.angle=70deg",
         ),
         *("--body", "hardware", "--output", folder),
     )
@@ -207,12 +208,13 @@ def test_settings_of_a_run_play_the_same_run_again(
         np.testing.assert_array_equal(array, second[name], err_msg=name)
     # Another seed is another run: equality says something.
     assert seen["seed"] == 5
-    assert configuration(again)["strategy"]["angle"] == radians(70.0)
+    evader = configuration(again)["players"][1]
+    assert evader["evasion"]["angle"] == radians(70.0)
 
 
 def test_settings_of_a_run_play_it_again_from_python(kept_duel: Path) -> None:
     kept = sa.load_run(kept_duel, "duel")
-    again = sa.run_duel(kept.settings)
+    again = sa.run_game(kept.settings)
     for player in ("pursuer", "evader"):
         first, second = kept.tracks[player], again.tracks[player]
         np.testing.assert_array_equal(first.place, second.place)

@@ -182,17 +182,16 @@ def test_reset_begins_again_in_every_preset(preset: str, page: Page) -> None:
     assert run.times[-1] < 5.0
 
 
-def test_angle_and_law_leave_another_evader_alone(page: Page) -> None:
+def test_a_reset_keeps_the_strategy_of_a_preset(page: Page) -> None:
     page.press("Preset", "duel")
     page.play(0.1)
     page.press("Preset", "room")
     until(lambda: page.time == 0.0)
-    page.press("strategy.angle", 70.0)
     page.play(0.1)
     page.press("Game", "reset")
     until(lambda: page.time == 0.0)
     page.play(0.1)
-    assert page.save().settings.evader_strategy == "look-ahead"
+    assert page.save().settings.evader.strategy == "look-ahead"
 
 
 def test_a_preset_shows_its_seed_and_start(fresh: Page) -> None:

@@ -16,7 +16,7 @@ from scipy.special import stdtrit
 
 import stepaside as sa
 from flows import calls
-from flows.own_strategies import FILE, HalfBack
+from flows.own_strategies import FILE
 from flows.running import until
 
 SEEDS, DURATION, EVADER = range(8), 0.6, f"{FILE}:Counted"
@@ -24,7 +24,7 @@ STUDY = f"""
 game = "duel"
 [settings]
 duration = {DURATION}
-evader_strategy = "{EVADER}"
+evader.strategy = "{EVADER}"
 [grid]
 seed = "0:{len(SEEDS)}"
 """
@@ -68,10 +68,8 @@ def undisturbed(
 def closest(games: Games) -> list[float | None]:
     """Closest approach of each duel, played alone."""
     return [
-        sa.run_duel(
-            sa.DuelSettings(
-                seed=seed, duration=DURATION, evader_strategy=EVADER
-            )
+        sa.run_game(
+            sa.duel(seed=seed, duration=DURATION, evader={"strategy": EVADER})
         ).summary.min_distance_m
         for seed in SEEDS
     ]
@@ -190,16 +188,7 @@ def test_a_study_in_python_is_a_data_frame(
     games: Games, closest: list[float]
 ) -> None:
     pytest.importorskip("polars")
-    settings = {"duration": DURATION, "evader_strategy": EVADER}
+    settings = {"duration": DURATION, "evader.strategy": EVADER}
     frame = calls.frame_of_duels(settings, SEEDS)
     assert frame["seed"].to_list() == list(SEEDS)
     assert frame["min_distance_m"].to_list() == pytest.approx(closest)
-
-
-def test_a_study_in_python_takes_an_own_strategy_object() -> None:
-    settings = {"duration": 0.2, "evader_strategy": HalfBack()}
-    frame = calls.frame_of_duels(settings, [1])
-    alone = sa.run_duel(
-        sa.DuelSettings(seed=1, duration=0.2, evader_strategy=HalfBack())
-    ).summary.min_distance_m
-    assert frame["min_distance_m"].to_list() == [alone]

@@ -83,8 +83,8 @@ def test_mpc_holds_a_push_that_fells_an_open_loop() -> None:
 def test_mpc_without_a_push_walks_the_plan() -> None:
     """Where no constraint is active its solution is the closed form."""
     walks = [
-        sa.run_walk(
-            sa.WalkSettings(
+        sa.run_game(
+            sa.walk(
                 duration=4.0,
                 control=sa.ControlSettings(
                     method=method,

@@ -15,8 +15,8 @@ import pytest
 
 from stepaside.core.errors import ConfigurationError
 from stepaside.games import archive_reader as reading
-from stepaside.games.duel_settings import DuelSettings
-from stepaside.games.recorded_game import run_duel
+from stepaside.games.game_settings import duel
+from stepaside.games.recorded_game import run_game
 from stepaside.games.run import Run
 from stepaside.games.run_archive import (
     CONFIGURATION,
@@ -39,7 +39,7 @@ Damage = Callable[[Path], None]
 @pytest.fixture(scope="module")
 def played() -> Run:
     """Return a duel whose evader has every array."""
-    run = run_duel(DuelSettings(duration=0.2))
+    run = run_game(duel(duration=0.2))
     rows = {
         key: np.zeros((len(run.times), WIDTHS.get(key, 7)))
         for key in FIELDS

@@ -12,7 +12,7 @@ from stepaside.games.duel_circle import (
     convergence_time,
     cycle_mean,
 )
-from stepaside.games.duel_settings import DuelSettings
+from stepaside.games.game_settings import GameSettings, duel
 from stepaside.sim.person_settings import PersonSettings
 from stepaside.strategies import Evasion
 from synthetic_duel_record import (
@@ -26,7 +26,7 @@ from synthetic_duel_record import (
 )
 
 
-def since(record: Record, settings: DuelSettings = SETTINGS) -> float | None:
+def since(record: Record, settings: GameSettings = SETTINGS) -> float | None:
     """Return the time from which a record is on the circle, in [s]."""
     places = record.places["pursuer"], record.places["evader"]
     return convergence_time(
@@ -41,9 +41,9 @@ def test_theory_is_the_circle_of_the_settings() -> None:
     assert THEORY.radius_evader_m == pytest.approx(radius)
     assert THEORY.distance_m == pytest.approx(2**0.5 * radius)
     assert THEORY.headings_apart_rad == pytest.approx(pi / 2)
-    back = replace(SETTINGS, strategy=Evasion(angle=0.0))
+    back = SETTINGS.changed(evasion=Evasion(angle=0.0))
     assert not circle_of_theory(back).exists
-    sliding = replace(SETTINGS, strategy=Evasion(saturated=True))
+    sliding = SETTINGS.changed(evasion=Evasion(saturated=True))
     assert circle_of_theory(sliding).radius_evader_m == pytest.approx(0.5)
 
 
@@ -54,7 +54,7 @@ def test_a_person_walks_the_same_circle_at_the_real_time_scale() -> None:
     assert pace < 0.9
     person = PersonSettings(speed=gait.speed * pace, gain=gait.gain * pace)
     circle = circle_of_theory(
-        replace(SETTINGS, pursuer="person", person=person)
+        SETTINGS.changed(pursuer={"body": "person"}, person=person)
     )
     assert circle.radius_evader_m == pytest.approx(THEORY.radius_evader_m)
     assert circle.distance_m == pytest.approx(THEORY.distance_m)
@@ -63,12 +63,12 @@ def test_a_person_walks_the_same_circle_at_the_real_time_scale() -> None:
     )
     slower = replace(person, speed=0.9 * person.speed)
     other = circle_of_theory(
-        replace(SETTINGS, pursuer="person", person=slower)
+        SETTINGS.changed(pursuer={"body": "person"}, person=slower)
     )
     assert other.radius_pursuer_m < 0.95 * other.radius_evader_m
     unsure = replace(person, gain=0.9 * person.gain)
     other = circle_of_theory(
-        replace(SETTINGS, pursuer="person", person=unsure)
+        SETTINGS.changed(pursuer={"body": "person"}, person=unsure)
     )
     assert other.turning_rate_rad_s < 0.99 * circle.turning_rate_rad_s
 
@@ -157,15 +157,15 @@ def test_the_last_complete_cycle_is_evaluated() -> None:
 
 
 def test_nothing_converges_without_a_circle_or_a_record() -> None:
-    back = replace(SETTINGS, strategy=Evasion(angle=0.0))
+    back = SETTINGS.changed(evasion=Evasion(angle=0.0))
     assert since(Record(), back) is None
     assert since(Record(times=TIMES[:2])) is None
     assert since(Record(times=TIMES[:200])) is None
 
 
 def test_the_circle_is_that_of_the_arguments_of_evasion() -> None:
-    told = DuelSettings(strategy=Evasion(angle=radians(45.0)))
-    named = DuelSettings(evader_strategy="evasion(angle=45deg)")
+    told = duel(evasion=Evasion(angle=radians(45.0)))
+    named = duel(evader={"strategy": "evasion(angle=45deg)"})
     wanted, found = circle_of_theory(told), circle_of_theory(named)
     assert found.exists and found.distance_m == wanted.distance_m
     assert named.resolved() == told.resolved()

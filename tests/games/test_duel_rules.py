@@ -7,9 +7,10 @@ import mujoco
 import numpy as np
 import pytest
 
-from stepaside.games.duel_settings import DuelSettings, StartSettings
+from stepaside.games.game_settings import StartSettings
+from stepaside.games.game_settings import duel as make_duel
 from stepaside.games.outcome import Outcome
-from stepaside.games.recorded_game import RecordedGame, run_duel
+from stepaside.games.recorded_game import RecordedGame, run_game
 from stepaside.games.robot_player import RobotPlayer
 from stepaside.sim.camera_settings import RoomObject, SceneSettings
 from stepaside.sim.ground_truth import torsos_apart
@@ -19,7 +20,7 @@ START = StartSettings(1.3, 0.4, -0.2)
 
 
 def begun(**changes: Any) -> RecordedGame:
-    return RecordedGame(DuelSettings(**{"start": START, **changes}))
+    return RecordedGame(make_duel(**{"start": START, **changes}))
 
 
 def walkers(duel: RecordedGame) -> list[RobotPlayer]:
@@ -82,7 +83,7 @@ def test_a_fall_ends_a_duel_and_is_reported(
         return tick(duel)
 
     monkeypatch.setattr(RecordedGame, "tick", clumsy)
-    result = run_duel(DuelSettings(start=START, duration=1.0))
+    result = run_game(make_duel(start=START, duration=1.0))
     assert result.outcome is Outcome.FALL and result.message == message
     assert result.duration == pytest.approx(0.02)
     assert result.times[-1] == result.duration
@@ -110,11 +111,11 @@ def test_contact_is_checked_where_it_is_possible(
     assert touching(monkeypatch, 0.6, *both) == (Outcome.CONTACT, words)
     assert touching(monkeypatch, 0.9, *both) == (None, "")
     room = SceneSettings(things=[RoomObject("red box", 3.0, 0.0)])
-    assert touching(monkeypatch, 0.9, "evader", "thing 0", room=room) == (
+    assert touching(monkeypatch, 0.9, "evader", "thing 0", scene=room) == (
         Outcome.CONTACT,
         "evader and thing 0 touched at 0.00 s",
     )
-    assert touching(monkeypatch, 0.6, *both, pursuer="person") == (
+    assert touching(monkeypatch, 0.6, *both, pursuer={"body": "person"}) == (
         Outcome.CONTACT,
         words,
     )

@@ -13,9 +13,9 @@ from click.testing import CliRunner, Result
 from stepaside.cli.main import main
 from stepaside.core.errors import ConfigurationError
 from stepaside.core.poses import Array, Pose
-from stepaside.games.duel_settings import DuelSettings, StartSettings
 from stepaside.games.experiment import import_experiment
-from stepaside.games.recorded_game import run_duel
+from stepaside.games.game_settings import StartSettings, duel
+from stepaside.games.recorded_game import run_game
 from stepaside.games.run_archive import write_run_files
 
 pytest.importorskip("rosbags", reason="rosbags is not installed")
@@ -163,7 +163,7 @@ def test_a_duel_that_is_exported_and_imported_has_the_same_circle(
     tmp_path: Path,
 ) -> None:
     start = StartSettings(distance=0.9, pursuer_offset=0.1, evader_offset=0.2)
-    run = run_duel(DuelSettings(duration=6.0, start=start))
+    run = run_game(duel(duration=6.0, start=start))
     folder = tmp_path / "duel"
     folder.mkdir()
     write_run_files(folder, run)

@@ -9,8 +9,8 @@ import pytest
 
 from stepaside.arena import Room, RoomRecipe, generate_room
 from stepaside.games import Outcome, StrategyTrack, play_strategies
-from stepaside.games.game_file import parse_game
 from stepaside.games.recorded_game import run_game
+from stepaside.games.settings_reader import read_game
 from stepaside.strategies import Evasion, Pursuit, StepGame, Strategy
 from stepaside.theory.unicycle import RelativeStart
 
@@ -32,7 +32,7 @@ def of_a_file(level: str, **more: Any) -> Any:
         for role, start in zip(("pursuer", "evader"), START, strict=True)
     ]
     entries = {"level": level, "duration": 40.0, "players": players}
-    return run_game(parse_game(entries | more, "game"))
+    return run_game(read_game(entries | more, "game"))
 
 
 @pytest.mark.parametrize("level", PARTS)
@@ -72,7 +72,7 @@ def test_a_wall_ends_a_game_from_every_door(level: str) -> None:
         for role, start in zip(("pursuer", "evader"), room.starts, strict=True)
     ]
     players[1]["evasion"] = {"safety_radius": 10.0}
-    settings = parse_game({"level": level, "players": players}, "game")
+    settings = read_game({"level": level, "players": players}, "game")
     run = run_game(replace(settings, room=room))
     assert track.outcome is run.outcome is Outcome.TOUCHED
     assert run.summary.touched == ["evader"]
@@ -90,7 +90,7 @@ def test_capture_ends_a_game_from_every_door(level: str) -> None:
         {"name": "red", "role": "pursuer", "start": [0.0, 0.0, 0.0]},
         {"name": "blue", "role": "evader", "start": [1.0, 0.0, 0.0]} | still,
     ]
-    run = run_game(parse_game({"level": level, "players": players}, "game"))
+    run = run_game(read_game({"level": level, "players": players}, "game"))
     assert run.outcome is Outcome.CAPTURED
     assert run.message.startswith("red captured blue at")
     red = run.tracks["red"].unicycle[-1]
@@ -109,7 +109,7 @@ def test_players_of_different_gaits_each_keep_their_pace() -> None:
         },
     ]
     run = run_game(
-        parse_game(
+        read_game(
             {"level": "steps", "duration": 12.0, "players": players}, "game"
         )
     )

@@ -12,12 +12,11 @@ import pytest
 
 from stepaside.core.errors import ConfigurationError
 from stepaside.core.poses import Array
-from stepaside.games.configuration_file import load_configuration
-from stepaside.games.duel_settings import DuelSettings, StartSettings
+from stepaside.games.game_settings import StartSettings
+from stepaside.games.game_settings import duel as make_duel
 from stepaside.games.outcome import Outcome
-from stepaside.games.recorded_game import run_duel
+from stepaside.games.recorded_game import run_game
 from stepaside.games.replayed_signals import repeat_game
-from stepaside.games.robot_settings import with_robot
 from stepaside.games.run import Run
 from stepaside.games.run_archive import (
     SUMMARY,
@@ -25,6 +24,7 @@ from stepaside.games.run_archive import (
     load_run,
     write_run_files,
 )
+from stepaside.games.settings_reader import load_game, read_game
 from stepaside.games.trajectory import Trajectory
 from stepaside.report.run_folder import write_run
 from stepaside.report.scene import RunScene
@@ -66,7 +66,7 @@ def duel(pursuer: Trajectory, **changes: Any) -> Run:
     return run_of(
         TIMES,
         {"pursuer": pursuer, "evader": robot(2.0, sees=True)},
-        settings=DuelSettings(
+        settings=make_duel(
             seed=9, start=StartSettings(1.3, 0.4, -0.2)
         ).resolved(),
         name="run",
@@ -151,12 +151,15 @@ def test_a_run_of_an_own_robot_opens_where_it_is_carried(
     """Its description is in the folder; the original may be gone."""
     own = tmp_path / "mine"
     shutil.copytree(load_robot("nao").folder, own)
-    run = run_duel(with_robot(DuelSettings(duration=0.2), str(own)))
+    short = make_duel(duration=0.2)
+    run = run_game(read_game({"robot": str(own)}, base=short))
     folder = write_run(tmp_path / "run", run, drawn=False).parent
     shutil.rmtree(own)
     carried = load_run(folder.rename(tmp_path / "elsewhere"), "duel")
-    assert Path(carried.settings.robot).is_relative_to(tmp_path / "elsewhere")
+    assert Path(carried.settings.evader.robot).is_relative_to(
+        tmp_path / "elsewhere"
+    )
     RunScene(carried)
     assert set(repeat_game(carried).robots) == {"pursuer", "evader"}
     path = tmp_path / "elsewhere" / "configuration.toml"
-    assert load_configuration(path) == carried.settings
+    assert load_game(path) == carried.settings

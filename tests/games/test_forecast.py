@@ -12,9 +12,9 @@ from stepaside.games.duel_circle import (
     missing_circle_reason,
     time_scale,
 )
-from stepaside.games.duel_settings import DuelSettings, StartSettings
 from stepaside.games.forecast import forecast
-from stepaside.games.initial_poses import with_initial_poses
+from stepaside.games.game_settings import GameSettings, StartSettings, duel
+from stepaside.games.game_starts import with_starts
 from stepaside.games.summary import TheorySummary
 from stepaside.sim.person_settings import PersonSettings
 from stepaside.strategies import Evasion
@@ -22,23 +22,23 @@ from stepaside.strategies import Evasion
 pytestmark = pytest.mark.usefixtures("blank_figures")
 
 START = StartSettings(1.2, 0.4, -0.3)
-BASE = DuelSettings(duration=80.0, start=START)
+BASE = duel(duration=80.0, start=START)
 
 
-def told(settings: DuelSettings) -> TheorySummary:
+def told(settings: GameSettings) -> TheorySummary:
     """Return the forecast of a duel that has one."""
-    return forecast(with_initial_poses(settings))
+    return forecast(with_starts(settings))
 
 
-def playing(**strategy: Any) -> DuelSettings:
-    return replace(BASE, strategy=Evasion(**strategy))
+def playing(**strategy: Any) -> GameSettings:
+    return BASE.changed(evasion=Evasion(**strategy))
 
 
-def turning(gain: float) -> DuelSettings:
-    return replace(BASE, gait=replace(BASE.gait, gain=gain))
+def turning(gain: float) -> GameSettings:
+    return BASE.changed(gait=replace(BASE.gait, gain=gain))
 
 
-def closest(settings: DuelSettings, step: float = 0.005) -> float:
+def closest(settings: GameSettings, step: float = 0.005) -> float:
     """Return the closest approach of the unicycles by the laws (1)-(4)."""
     gait, start = settings.gait, settings.start
     assert start.distance is not None
@@ -55,10 +55,10 @@ def closest(settings: DuelSettings, step: float = 0.005) -> float:
         psi = wrap_angle(sight + pi - e)
         p += step * k * wrap_angle(sight - p)
         x, y = x + step * v * cos(p), y + step * v * sin(p)
-        if side == 0 and away < settings.strategy.safety_radius:
+        if side == 0 and away < settings.evader.evasion.safety_radius:
             side = -1 if psi > 0.0 else 1
         if side:
-            error = wrap_angle(psi + side * settings.strategy.angle)
+            error = wrap_angle(psi + side * settings.evader.evasion.angle)
             e += step * k * error
             u, w = u - step * v * cos(e), w - step * v * sin(e)
     return least
@@ -66,12 +66,12 @@ def closest(settings: DuelSettings, step: float = 0.005) -> float:
 
 @pytest.mark.parametrize("seed", range(3))
 def test_a_default_duel_is_expected_on_the_circle(seed: int) -> None:
-    found = told(DuelSettings(seed=seed, duration=90.0))
+    found = told(duel(seed=seed, duration=90.0))
     assert found.expected == "circle"
     assert found.circle_since_s is not None
     assert 0.0 < found.circle_since_s < 60.0
     assert found.min_distance_m is not None and found.min_distance_m > 0.4
-    soon = told(DuelSettings(seed=seed, duration=8.0))
+    soon = told(duel(seed=seed, duration=8.0))
     assert soon.expected == "later" and soon.circle_since_s is None
     assert soon.words == "the circle, after 8 s"
 
@@ -88,7 +88,7 @@ def test_a_default_duel_is_expected_on_the_circle(seed: int) -> None:
     ],
 )
 def test_the_closest_approach_is_that_of_the_unicycles(
-    settings: DuelSettings,
+    settings: GameSettings,
 ) -> None:
     """Except for the first double support and decisions once per step."""
     assert told(settings).min_distance_m == pytest.approx(
@@ -161,7 +161,7 @@ def test_an_evader_by_time_has_no_circle() -> None:
 def test_only_a_person_that_keeps_steering_has_a_circle(
     person: PersonSettings, exists: bool
 ) -> None:
-    settings = replace(BASE, pursuer="person", person=person)
+    settings = BASE.changed(pursuer={"body": "person"}, person=person)
     assert circle_of_theory(settings).exists is exists
     assert forecast(settings).expected is None
     if not exists:

@@ -11,17 +11,17 @@ import pytest
 from stepaside.core.errors import ConfigurationError
 from stepaside.core.poses import Array
 from stepaside.games.game import play
-from stepaside.games.game_file import parse_game
 from stepaside.games.game_settings import GameSettings
 from stepaside.games.outcome import Outcome
 from stepaside.games.recorded_game import RecordedGame, run_game
 from stepaside.games.run import Run
 from stepaside.games.run_archive import load_run
+from stepaside.games.settings_reader import read_game
 from stepaside.report.run_folder import write_run
 
 
 def game(*players: dict[str, Any], **entries: Any) -> GameSettings:
-    return parse_game(entries | {"players": list(players)}, "game")
+    return read_game(entries | {"players": list(players)}, "game")
 
 
 def robot(name: str, role: str, *start: float, **more: Any) -> dict[str, Any]:

@@ -9,9 +9,9 @@ import pytest
 
 from stepaside.core.errors import ConfigurationError
 from stepaside.core.poses import wrap_angle
-from stepaside.games.game_file import parse_game
 from stepaside.games.game_settings import GameSettings
 from stepaside.games.game_starts import least_distance, with_starts
+from stepaside.games.settings_reader import read_game
 
 
 def game(*more: dict[str, Any], **entries: Any) -> GameSettings:
@@ -21,7 +21,7 @@ def game(*more: dict[str, Any], **entries: Any) -> GameSettings:
         {"name": "blue", "role": "evader"},
         *more,
     ]
-    return parse_game(entries | {"players": players}, "game")
+    return read_game(entries | {"players": players}, "game")
 
 
 @pytest.mark.parametrize("seed", range(5))
@@ -32,11 +32,11 @@ def test_drawn_starts_keep_their_distance_and_face_opponents(
     poses = {p.name: p.pose for p in settings.players}
     for one, other in combinations(poses.values(), 2):
         assert one is not None and other is not None
-        assert hypot(other.x - one.x, other.y - one.y) >= settings.near
+        assert hypot(other.x - one.x, other.y - one.y) >= settings.start.near
     for name, most in (("red", pi / 2), ("ruby", pi / 2)):
         own, blue = poses[name], poses["blue"]
         assert own is not None and blue is not None
-        assert hypot(own.x, own.y) <= settings.far
+        assert hypot(own.x, own.y) <= settings.start.far
         sight = atan2(blue.y - own.y, blue.x - own.x)
         assert abs(wrap_angle(own.theta - sight)) <= most
     blue = poses["blue"]
@@ -93,7 +93,7 @@ def test_drawn_goals_are_free_and_across_the_room(
 ) -> None:
     room = {"width": width, "depth": depth}
     guests = {"name": "guest", "body": "person", "draws_goal": True}
-    made = game(guests | {"count": 8}, room=room, near=0.6)
+    made = game(guests | {"count": 8}, room=room, start={"near": 0.6})
     settings = with_starts(made)
     for own in settings.players[3:]:
         (x, y), (u, v, _) = own.goal, own.start

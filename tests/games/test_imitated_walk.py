@@ -12,11 +12,11 @@ pytest.importorskip("onnx")
 from imitated_walk import nao_on_imitated_walk
 from stepaside.control.sight_sources import CameraSight
 from stepaside.core.poses import Pose
-from stepaside.games.duel_settings import DuelSettings
+from stepaside.games.game_settings import duel as make_duel
 from stepaside.games.outcome import Outcome
-from stepaside.games.recorded_game import RecordedGame, run_duel
+from stepaside.games.recorded_game import RecordedGame, run_game
 from stepaside.games.robot_player import RobotPlayer
-from stepaside.games.robot_settings import with_robot
+from stepaside.games.settings_reader import read_game
 from stepaside.sim.camera_settings import CameraSettings, ColourSettings
 from stepaside.sim.person_settings import PersonSettings
 
@@ -27,10 +27,12 @@ def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 
 def test_two_robots_pursue_and_evade_on_policies(folder: Path) -> None:
-    settings = with_robot(DuelSettings(duration=12.0, seed=3), str(folder))
+    settings = read_game(
+        {"robot": str(folder)}, base=make_duel(duration=12.0, seed=3)
+    )
     gait = replace(settings.gait, speed=0.06, gain=0.2)
     start = replace(settings.start, distance=0.75)
-    run = run_duel(replace(settings, gait=gait, start=start))
+    run = run_game(settings.changed(gait=gait, start=start))
     assert run.outcome is Outcome.COMPLETED
     for track in run.tracks.values():
         paths = np.hypot(*np.diff(track.torso[:, :2], axis=0).T).sum()
@@ -45,18 +47,21 @@ def test_cameras_on_learned_legs_are_where_the_loaded_foot_puts_them(
 ) -> None:
     """Their images show a person, whom the robot evades."""
     pytest.importorskip("cv2")
-    settings = with_robot(DuelSettings(duration=4.0, seed=3), str(folder))
+    settings = read_game(
+        {"robot": str(folder)}, base=make_duel(duration=4.0, seed=3)
+    )
     start = replace(
         settings.start, distance=2.6, pursuer_offset=0.0, evader_offset=0.0
     )
-    settings = replace(
-        settings,
-        evader_strategy="evasion",
+    settings = settings.changed(
+        evader={"strategy": "evasion"},
         gait=replace(settings.gait, speed=0.06, gain=0.2),
-        pursuer="person",
+        pursuer={"body": "person"},
         person=PersonSettings("straight", 0.5),
-        strategy=replace(settings.strategy, trigger="time", contact_time=4.0),
-        sensing="cameras",
+        evasion=replace(
+            settings.evader.evasion, trigger="time", contact_time=4.0
+        ),
+        senses="cameras",
         cameras=CameraSettings(ColourSettings(renderer="raycast")),
         start=start,
     )

@@ -10,12 +10,12 @@ import pytest
 DUEL = """
 import sys
 from stepaside.games.recorded_game import RecordedGame
-from stepaside.games.duel_settings import DuelSettings
+from stepaside.games.game_settings import duel as make_duel
 from stepaside.locomotion.control_settings import STABILISED
 from stepaside.sim.body_settings import BODIES
 
 body = {"body": BODIES["hardware"], "control": STABILISED}
-duel = RecordedGame(DuelSettings(seed=1, duration=5.0, **body))
+duel = RecordedGame(make_duel(seed=1, duration=5.0, **body))
 while duel.world.time < 5.0 and duel.tick() is None:
     pass
 assert ("numba" in sys.modules) is (sys.argv[1] == "0")

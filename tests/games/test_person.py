@@ -1,13 +1,12 @@
 """Test a person as pursuer."""
 
-from dataclasses import replace
 from math import pi
 
 import pytest
 
 from stepaside.core.poses import Pose
-from stepaside.games.duel_settings import DuelSettings, StartSettings
-from stepaside.games.recorded_game import RecordedGame, run_duel
+from stepaside.games.game_settings import GameSettings, StartSettings, duel
+from stepaside.games.recorded_game import RecordedGame, run_game
 from stepaside.sim.person_motion import (
     PersonMotion,
     template_approach,
@@ -20,15 +19,18 @@ pytestmark = pytest.mark.usefixtures("blank_figures")
 START = StartSettings(distance=1.5, pursuer_offset=0.0, evader_offset=0.0)
 
 
-def duel_with(person: PersonSettings, duration: float) -> DuelSettings:
-    return DuelSettings(
-        duration=duration, start=START, pursuer="person", person=person
+def duel_with(person: PersonSettings, duration: float) -> GameSettings:
+    return duel(
+        duration=duration,
+        start=START,
+        pursuer={"body": "person"},
+        person=person,
     )
 
 
 def test_a_person_that_passes_outside_triggers_nothing() -> None:
     person = PersonSettings("straight", 0.5, miss=1.3)
-    result = run_duel(duel_with(person, 6.0))
+    result = run_game(duel_with(person, 6.0))
     summary = result.summary
     assert summary.triggered_at_s is None
     assert summary.planning is not None and summary.planning.replans == 0
@@ -40,7 +42,7 @@ def test_a_person_that_passes_outside_triggers_nothing() -> None:
 
 def test_a_slow_person_is_evaded_close_to_theory() -> None:
     """The robot loses the person's path until its first step lands."""
-    result = run_duel(duel_with(PersonSettings("steer", 0.073, 0.146), 40.0))
+    result = run_game(duel_with(PersonSettings("steer", 0.073, 0.146), 40.0))
     summary = result.summary
     assert result.outcome.value == "completed"
     assert summary.triggered_at_distance_m == pytest.approx(0.8, abs=0.02)
@@ -58,8 +60,8 @@ def test_a_slow_person_is_evaded_close_to_theory() -> None:
 
 def test_a_person_without_a_solid_body_walks_through_a_robot() -> None:
     person = PersonSettings("straight", 0.6, solid=False)
-    standing = replace(duel_with(person, 5.0), evader_strategy="stand")
-    result = run_duel(standing)
+    standing = duel_with(person, 5.0).changed(evader={"strategy": "stand"})
+    result = run_game(standing)
     assert result.outcome.value == "completed"
     closest = result.summary.min_distance_m
     assert closest is not None and closest < 0.05

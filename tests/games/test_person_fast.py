@@ -5,9 +5,9 @@ from math import atan2, pi, sin
 import pytest
 
 from stepaside.core.poses import Pose
-from stepaside.games.duel_settings import DuelSettings
 from stepaside.games.floor_games import play_template
-from stepaside.games.initial_poses import draw_start
+from stepaside.games.game_settings import duel
+from stepaside.games.game_starts import draw_start
 from stepaside.planning import PRESETS
 from stepaside.sim.person_motion import PersonMotion
 from stepaside.sim.person_settings import PersonSettings
@@ -60,7 +60,9 @@ def test_the_template_steps_aside_as_the_unicycle_of_theory() -> None:
 def test_a_faster_person_begins_farther_away() -> None:
     def drawn(speed: float) -> float:
         start = draw_start(
-            DuelSettings(pursuer="person", person=PersonSettings(speed=speed))
+            duel(
+                pursuer={"body": "person"}, person=PersonSettings(speed=speed)
+            )
         )
         assert start.distance is not None
         return start.distance

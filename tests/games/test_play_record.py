@@ -12,7 +12,8 @@ from stepaside.core.poses import Array, Pose, wrap_angle
 from stepaside.drivers.play_log import PlayLog, PlayTick, joint_row
 from stepaside.drivers.safety import SafetyState
 from stepaside.games.configuration_file import dump_configuration
-from stepaside.games.duel_settings import DuelSettings, StartSettings
+from stepaside.games.game_settings import StartSettings
+from stepaside.games.game_settings import duel as make_duel
 from stepaside.games.outcome import Outcome
 from stepaside.games.play_rows import monotonic_times
 from stepaside.games.play_settings import PlaySettings
@@ -67,9 +68,7 @@ class Walked:
     """Evader after a walk, with its true motion and its record."""
 
     def __init__(self, folder: Path) -> None:
-        settings = DuelSettings(
-            start=START, body=BODIES["delayed"], duration=4.0
-        )
+        settings = make_duel(start=START, body=BODIES["delayed"], duration=4.0)
         duel = RecordedGame(settings, recorded=False, endless=True)
         self.folder, log = folder, log_at(folder, EVADER)
         evader = duel.in_physics.players[1]

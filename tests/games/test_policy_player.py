@@ -8,15 +8,15 @@ import pytest
 pytest.importorskip("onnxruntime")
 
 from legs_robot import nao_on_legs
-from stepaside.games.duel_settings import DuelSettings
 from stepaside.games.game import play
+from stepaside.games.game_settings import GameSettings, duel
 from stepaside.games.recorded_game import (
     RecordedGame,
-    run_duel,
     run_duels,
+    run_game,
 )
 from stepaside.games.robot_player import RobotPlayer
-from stepaside.games.robot_settings import with_robot
+from stepaside.games.settings_reader import read_game
 from stepaside.locomotion.policy.policy_legs import PolicyWalk
 from stepaside.planning import Direction
 from stepaside.strategies import Intent, Knowledge
@@ -24,15 +24,17 @@ from stepaside.strategies.velocity_set import BodyVelocity
 
 
 @pytest.fixture(scope="module")
-def standing(tmp_path_factory: pytest.TempPathFactory) -> DuelSettings:
+def standing(tmp_path_factory: pytest.TempPathFactory) -> GameSettings:
     """RecordedGame of robots whose policy holds the standing posture."""
     folder = nao_on_legs(tmp_path_factory.mktemp("legs") / "nao")
-    settings = with_robot(DuelSettings(duration=1.5, seed=3), str(folder))
+    settings = read_game(
+        {"robot": str(folder)}, base=duel(duration=1.5, seed=3)
+    )
     return replace(settings, start=replace(settings.start, distance=1.0))
 
 
 def test_duels_side_by_side_have_the_bits_of_each_alone(
-    standing: DuelSettings,
+    standing: GameSettings,
 ) -> None:
     """Also when one ends before the others."""
     many = [
@@ -40,7 +42,7 @@ def test_duels_side_by_side_have_the_bits_of_each_alone(
         for seed, duration in ((1, 0.3), (2, 0.1), (3, 0.3))
     ]
     for run, settings in zip(run_duels(many), many, strict=True):
-        alone = run_duel(settings)
+        alone = run_game(settings)
         assert run.settings == alone.settings
         assert (run.outcome, run.message) == (alone.outcome, alone.message)
         for name, track in alone.tracks.items():
@@ -67,10 +69,10 @@ class Sidestepper:
 
 
 def test_a_body_velocity_reaches_the_policy_every_80_ms(
-    standing: DuelSettings,
+    standing: GameSettings,
 ) -> None:
     strategy = Sidestepper()
-    duel = RecordedGame(replace(standing, evader_strategy=strategy))
+    duel = RecordedGame(standing, strategies={"evader": strategy})
     _, evader = duel.in_physics.players
     assert isinstance(evader, RobotPlayer)
     walk = evader.scheme.locomotion

@@ -5,17 +5,19 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from stepaside.games.duel_settings import DuelSettings, StartSettings
-from stepaside.games.recorded_game import run_duel, run_walk
+from stepaside.games.game_settings import StartSettings
+from stepaside.games.game_settings import duel as make_duel
+from stepaside.games.game_settings import walk as make_walk
+from stepaside.games.player_settings import WALKER
+from stepaside.games.recorded_game import run_game
 from stepaside.games.replayed_signals import RobotSignals, repeat_game
 from stepaside.games.run import Run
-from stepaside.games.walk_settings import WALKER, WalkSettings
 from stepaside.robots.description import load_robot
 
 
 @pytest.fixture(scope="module")
 def walk() -> Run:
-    return run_walk(WalkSettings(duration=4.0))
+    return run_game(make_walk(duration=4.0))
 
 
 @pytest.fixture(scope="module")
@@ -28,7 +30,7 @@ def signals(walk: Run) -> RobotSignals:
 @pytest.fixture(scope="module")
 def duel() -> Run:
     start = StartSettings(distance=0.9, pursuer_offset=0.0, evader_offset=0.0)
-    return run_duel(DuelSettings(duration=3.0, start=start))
+    return run_game(make_duel(duration=3.0, start=start))
 
 
 def test_a_straight_knee_holds_against_the_weight(

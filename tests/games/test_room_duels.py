@@ -23,10 +23,9 @@ from stepaside.games.configuration_file import (
     dump_configuration,
     read_settings,
 )
-from stepaside.games.duel_settings import DuelSettings, StartSettings
+from stepaside.games.game_settings import GameSettings, StartSettings, duel
 from stepaside.games.recorded_game import RecordedGame
 from stepaside.locomotion.control_settings import MapSettings
-from stepaside.sim.camera_settings import SceneSettings
 from stepaside.sim.room_furnishing import HEIGHT, add_solids
 
 TRIANGLE = Polygon(((0.5, 0.5), (0.9, 0.5), (0.7, 0.9)))
@@ -36,8 +35,8 @@ FULL = Room(
 STARTS = (Pose(-1.1, -1.1, 0.8), Pose(-1.1, 0.9, -1.5))
 
 
-def placed(room: Room, **changes: Any) -> DuelSettings:
-    return DuelSettings(room=SceneSettings(plan=room), **changes)
+def placed(room: Room, **changes: Any) -> GameSettings:
+    return duel(room=room, **changes)
 
 
 def test_obstacles_in_the_world_are_those_of_the_room() -> None:
@@ -80,14 +79,14 @@ def test_a_room_excludes_other_starts_and_a_map_of_people() -> None:
     room = replace(FULL, starts=STARTS)
     with pytest.raises(ConfigurationError, match="start.distance must be"):
         RecordedGame(placed(room, start=StartSettings(distance=1.0)))
-    with pytest.raises(ConfigurationError, match="with a person as pursuer"):
+    with pytest.raises(ConfigurationError, match="there are no people"):
         placed(
             room,
-            pursuer="person",
-            sensing="cameras",
+            pursuer={"body": "person"},
+            senses="cameras",
             map=MapSettings(source="seen"),
         )
-    assert placed(room, pursuer="person").robots == ("evader",)
+    assert placed(room, pursuer={"body": "person"}).robots == ("evader",)
 
 
 def test_a_configuration_keeps_the_room() -> None:
@@ -95,8 +94,8 @@ def test_a_configuration_keeps_the_room() -> None:
     room = generate_room(recipe, 3)
     settings = placed(room)
     for text in (dump_configuration(settings), commented(settings)):
-        read = read_settings(DuelSettings, text, "here")
-        assert read.room.plan is not None
-        for one, other in zip(read.room.plan.solids, room.solids, strict=True):
+        read = read_settings(GameSettings, text, "here")
+        assert read.room is not None
+        for one, other in zip(read.room.solids, room.solids, strict=True):
             np.testing.assert_allclose(one.centre, other.centre, atol=1e-12)
-        assert read.room.plan.starts == room.starts
+        assert read.room.starts == room.starts

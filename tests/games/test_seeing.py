@@ -9,8 +9,8 @@ import pytest
 
 from stepaside.control.sight_sources import CameraSight
 from stepaside.core.poses import wrap_angle, wrap_angles
-from stepaside.games import DuelSettings, Outcome, Run, run_duel
-from stepaside.games.duel_settings import StartSettings
+from stepaside.games import Outcome, Run, duel, run_game
+from stepaside.games.game_settings import StartSettings
 from stepaside.games.recorded_game import RecordedGame
 from stepaside.games.robot_player import RobotPlayer
 from stepaside.games.run_archive import results_of
@@ -25,10 +25,10 @@ from stepaside.sim.offscreen_rendering import BACKENDS, choose_renderer
 from stepaside.sim.person_settings import PersonSettings
 
 RAYS = CameraSettings(colour=ColourSettings(renderer="raycast"))
-SEEING = DuelSettings(
+SEEING = duel(
     seed=2,
     duration=8.0,
-    sensing="cameras",
+    senses="cameras",
     cameras=RAYS,
     start=StartSettings(1.1, radians(20.0), radians(-10.0)),
 )
@@ -36,7 +36,7 @@ SEEING = DuelSettings(
 
 @cache
 def play() -> Run:
-    return run_duel(SEEING)
+    return run_game(SEEING)
 
 
 def walkers(duel: RecordedGame) -> list[RobotPlayer]:
@@ -74,7 +74,7 @@ def test_the_pursuer_finds_an_opponent_outside_its_view() -> None:
     """It begins facing away, scans, and does not halt."""
     start = StartSettings(1.3, radians(-88.0), 0.0)
     settings = replace(SEEING, start=start, duration=4.0)
-    pursuer = run_duel(settings).pursuer
+    pursuer = run_game(settings).pursuer
     assert pursuer.sight is not None and pursuer.landings is not None
     times, bearing, distance, true_bearing, true_distance, _ = pursuer.sight.T
     # Out of view at first, found by half a sweep of the head, never lost.
@@ -126,7 +126,9 @@ def test_a_person_nearby_is_one_track_and_not_lost() -> None:
     """Two legs that swing, the trunk above the view."""
     person = PersonSettings("steer", 0.073, 0.146)
     start = StartSettings(0.95, 0.0, radians(10.0))
-    settings = replace(SEEING, pursuer="person", person=person, start=start)
+    settings = SEEING.changed(
+        pursuer={"body": "person"}, person=person, start=start
+    )
     duel = RecordedGame(replace(settings, duration=7.1))
     evader = walkers(duel)[0]
     perception, truth = perception_of(evader), evader.truth
@@ -146,10 +148,9 @@ def test_a_person_nearby_is_one_track_and_not_lost() -> None:
     assert np.median(ranges) < 0.08 and max(ranges) < 0.3
 
 
-BEHIND = replace(
-    SEEING,
+BEHIND = SEEING.changed(
     duration=2.0,
-    pursuer="person",
+    pursuer={"body": "person"},
     person=PersonSettings("straight", 0.5),
     start=StartSettings(2.8, 0.0, radians(-170.0)),
 )
@@ -158,7 +159,7 @@ BEHIND = replace(
 @pytest.mark.parametrize("rear", [False, True])
 def test_a_rear_camera_shows_a_person_behind(rear: bool) -> None:
     cameras = replace(RAYS, rear_camera=rear)
-    run = run_duel(replace(BEHIND, cameras=cameras))
+    run = run_game(replace(BEHIND, cameras=cameras))
     sight = run.tracks["evader"].sight
     assert sight is not None
     time, bearing, distance, true, away, lost = sight.T

@@ -9,7 +9,7 @@ pytest.importorskip("cyclonedds")
 
 from stepaside.core.errors import ConfigurationError  # noqa: E402
 from stepaside.drivers.ros2_dds import DdsParticipant  # noqa: E402
-from stepaside.games.duel_settings import DuelSettings  # noqa: E402
+from stepaside.games.game_settings import duel  # noqa: E402
 from stepaside.games.served_duel import serve_duel  # noqa: E402
 
 DOMAIN = 20 + os.getpid() % 200
@@ -18,4 +18,4 @@ DOMAIN = 20 + os.getpid() % 200
 def test_the_wait_for_clients_is_limited() -> None:
     with closing(DdsParticipant(DOMAIN)) as dds:
         with pytest.raises(ConfigurationError, match="1 of 1 robots had no"):
-            serve_duel(DuelSettings(), dds, {"evader": "/e"}, patience=0.02)
+            serve_duel(duel(), dds, {"evader": "/e"}, patience=0.02)

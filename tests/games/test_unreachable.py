@@ -2,14 +2,14 @@
 
 import re
 from collections.abc import Iterator
-from dataclasses import replace
 
 import numpy as np
 import pytest
 
-from stepaside.games.duel_settings import PLAYERS, DuelSettings, StartSettings
+from stepaside.games.game_settings import GameSettings, StartSettings, duel
 from stepaside.games.outcome import Outcome
-from stepaside.games.recorded_game import run_duel
+from stepaside.games.player_settings import PLAYERS
+from stepaside.games.recorded_game import run_game
 from stepaside.games.run import Run
 from stepaside.games.run_captions import describe_state
 from stepaside.planning import GaitSettings
@@ -24,14 +24,14 @@ FAR = GaitSettings(stride=0.16)
 WORDS = r"lost its footing at 1\.\d\d s: NAO cannot follow: (\w+ foot|CoM)"
 
 
-def settings_of(pursuer: str) -> DuelSettings:
+def settings_of(pursuer: str) -> GameSettings:
     """Return a duel in which a robot walks at once, but not for long."""
-    return DuelSettings(
+    return duel(
         duration=4.0,
-        pursuer=pursuer,
+        pursuer={"body": pursuer},
         gait=FAR,
         start=StartSettings(1.0, 0.0, 0.0),
-        strategy=Evasion(safety_radius=1.5),
+        evasion=Evasion(safety_radius=1.5),
     )
 
 
@@ -46,13 +46,13 @@ def impatient() -> Iterator[None]:
 @pytest.fixture(scope="module", params=["robot", "person"])
 def run(request: pytest.FixtureRequest) -> Run:
     pursuer: str = request.param
-    return run_duel(settings_of(pursuer))
+    return run_game(settings_of(pursuer))
 
 
 def test_an_unreachable_reference_ends_the_duel(run: Run) -> None:
     """The record is complete up to then, and the robot is named."""
     assert run.outcome is Outcome.UNREACHABLE
-    who = PLAYERS if run.settings.pursuer == "robot" else PLAYERS[1:]
+    who = PLAYERS if run.settings.pursuer.body == "robot" else PLAYERS[1:]
     name, rest = run.message.split(maxsplit=1)
     assert name in who and re.match(WORDS, rest)
     # It stood for the first double support, and then it walked.
@@ -86,7 +86,7 @@ def test_a_live_duel_ends_and_can_be_restarted() -> None:
         assert session.outcome is Outcome.UNREACHABLE
         ended = session.world.time
         assert ended < 2.0
-        session.reset(replace(settings_of("robot"), gait=GaitSettings()))
+        session.reset(settings_of("robot").changed(gait=GaitSettings()))
         assert session.outcome is None
         session.step(ended)
         session.call(lambda: None)

@@ -11,13 +11,13 @@ from commanded_robots import commanded_robots
 from stepaside.core.poses import Pose, wrap_angle
 from stepaside.core.rotations import rotation
 from stepaside.drivers.robot import REST
-from stepaside.games.duel_settings import DuelSettings, StartSettings
+from stepaside.games.game_settings import StartSettings, duel
 from stepaside.games.robot_player import VelocityWalker
 from stepaside.locomotion.control_settings import STABILISED, LegsSettings
 from stepaside.sim.body_settings import BODIES
 from stepaside.strategies.velocity_set import BodyVelocity
 
-SETTINGS = DuelSettings(
+SETTINGS = duel(
     seed=7,
     start=StartSettings(2.0, 0.2, 0.1),
     body=replace(BODIES["delayed"], cycle=0.012),
@@ -169,7 +169,7 @@ def test_a_robot_on_learned_legs_steps_sideways(tmp_path: Path) -> None:
 
     folder = nao_on_imitated_walk(tmp_path / "nao", lateral=0.05)
     legs = LegsSettings(str(folder / "policy.onnx"))
-    settings = DuelSettings(
+    settings = duel(
         start=StartSettings(2.0, 0.0, 0.0), robot=str(folder), legs=legs
     )
     game, robots = commanded_robots(settings)

@@ -8,11 +8,11 @@ import numpy as np
 import pytest
 
 from stepaside.core.poses import Array
+from stepaside.games.game_settings import walk
 from stepaside.games.trajectory import WIDTHS, Trajectory
 from stepaside.games.walk_evaluation import express_in_support_foot, measured
-from stepaside.games.walk_settings import WalkSettings
 
-SETTINGS = WalkSettings(seed=4)
+SETTINGS = walk(seed=4)
 CYCLE = 2.0 * SETTINGS.gait.step_duration
 STEP = 0.02
 RECORDED = [

@@ -6,9 +6,9 @@ from typing import Any
 
 import pytest
 
-from stepaside.games.recorded_game import run_walk
+from stepaside.games.game_settings import walk
+from stepaside.games.recorded_game import run_game
 from stepaside.games.run_archive import results_of
-from stepaside.games.walk_settings import WalkSettings
 from stepaside.locomotion.control_settings import ControlSettings
 from stepaside.planning import PRESETS, GaitSettings
 from stepaside.sim.body_settings import BODIES
@@ -26,7 +26,7 @@ def walked(
     duration: float = 7.0,
 ) -> dict[str, Any]:
     """Return the summary of a walk without a fall."""
-    settings = WalkSettings(
+    settings = walk(
         seed=3,
         duration=duration,
         bearing=bearing,
@@ -35,7 +35,7 @@ def walked(
         body=BODIES[body],
         control=CONTROL,
     )
-    found = results_of(run_walk(settings))
+    found = results_of(run_game(settings))
     assert found["outcome"] == "completed"
     walking: dict[str, Any] = found["walking"]
     return walking
@@ -48,7 +48,10 @@ def test_a_hardware_like_body_walks_as_fast(
     bearing: float, backward: bool
 ) -> None:
     found = walked(
-        body="hardware", bearing=bearing, backward=backward, duration=10.0
+        body="hardware",
+        bearing=bearing,
+        backward=backward,
+        duration=10.0,
     )
     assert found["speed_m_s"] >= 0.23
     for ratio in (found["speed_ratio"], found["yaw_ratio"]):

@@ -7,12 +7,11 @@ import pytest
 from click.testing import CliRunner, Result
 
 from stepaside.cli.main import main
-from stepaside.games.duel_settings import DuelSettings
+from stepaside.games.game_settings import walk
 from stepaside.games.outcome import Outcome
-from stepaside.games.recorded_game import run_duel, run_walk
+from stepaside.games.recorded_game import run_game
 from stepaside.games.run import Run
 from stepaside.games.run_archive import write_run_files
-from stepaside.games.walk_settings import WalkSettings
 from stepaside.report.run_folder import write_run
 from stepaside.sim.push import Push
 
@@ -21,8 +20,8 @@ PUSHES = (Push(0.5, 1.0, pi / 2), Push(0.4, 1.1, 0.0))
 
 @pytest.fixture(scope="module")
 def walked() -> Run:
-    settings = WalkSettings(duration=1.5, bearing=0.3, pushes=PUSHES)
-    run = run_walk(settings)
+    settings = walk(duration=1.5, bearing=0.3, pushes=PUSHES)
+    run = run_game(settings)
     assert run.outcome is Outcome.COMPLETED
     return run
 
@@ -45,7 +44,7 @@ def test_a_walk_is_compared_with_walks_alone(
 
     duel = tmp_path / "duel"
     duel.mkdir()
-    write_run_files(duel, run_duel(DuelSettings(duration=0.04)))
+    write_run_files(duel, run_game(duel(duration=0.04)))
     mixed = compare(duel)
     assert mixed.exit_code == 2 and mixed.output.count("\n") == 1
     assert "must be of the same game, got duel and walk" in mixed.output

@@ -7,12 +7,12 @@ from typing import Any
 import numpy as np
 import pytest
 
+from stepaside.games.game_settings import walk
 from stepaside.games.outcome import Outcome
-from stepaside.games.recorded_game import run_walk
+from stepaside.games.recorded_game import run_game
 from stepaside.games.run import Run
 from stepaside.games.run_archive import results_of
 from stepaside.games.walk_evaluation import express_in_support_foot
-from stepaside.games.walk_settings import WalkSettings
 from stepaside.locomotion.control_settings import OPEN_LOOP, STABILISED
 from stepaside.planning import GaitSettings
 from stepaside.sim.body_settings import BODIES
@@ -41,12 +41,12 @@ def pushed(
     """Return a straight walk with a push in its fourth cycle."""
     begins = GAIT.start_support + (READY if feedback else 0.0)
     time = begins + (3.0 + phase) * CYCLE
-    settings = WalkSettings(
+    settings = walk(
         duration=time + 4.0,
         control=STABILISED if feedback else OPEN_LOOP,
         pushes=(Push(impulse, time, direction),),
     )
-    return run_walk(settings)
+    return run_game(settings)
 
 
 def check_recovery(result: Run, heading: float) -> None:
@@ -71,8 +71,12 @@ def check_recovery(result: Run, heading: float) -> None:
 
 def test_an_ideal_body_walks_and_estimates_as_planned() -> None:
     """Limits are about 1.5 times the measured errors, a mm or so."""
-    result = run_walk(
-        WalkSettings(duration=12.0, bearing=0.5, control=STABILISED)
+    result = run_game(
+        walk(
+            duration=12.0,
+            bearing=0.5,
+            control=STABILISED,
+        )
     )
     found = results_of(result)
     summary, planning = found["walking"], found["planning"]
@@ -96,8 +100,8 @@ def test_a_hardware_like_body_walks_and_turns_as_planned(
     backward: bool,
 ) -> None:
     """With delay, backlash, noise and bias; limits as for the ideal one."""
-    result = run_walk(
-        WalkSettings(
+    result = run_game(
+        walk(
             duration=20.0,
             bearing=-0.6,
             backward=backward,
@@ -125,9 +129,9 @@ def test_without_feedback_a_hardware_like_body_walks_short_and_slides() -> (
     None
 ):
     """The baseline for the tests of feedback."""
-    settings = WalkSettings(duration=20.0, body=BODIES["hardware"])
+    settings = walk(duration=20.0, body=BODIES["hardware"])
     told = [
-        results_of(run_walk(replace(settings, control=control)))["walking"]
+        results_of(run_game(settings.changed(control=control)))["walking"]
         for control in (OPEN_LOOP, STABILISED)
     ]
     alone, helped = told
@@ -157,15 +161,15 @@ def test_feedback_adapts_footsteps_to_a_push_along_the_walk(
 
 
 def test_a_walk_is_repeated_to_the_bit_only_with_its_seed() -> None:
-    settings = WalkSettings(
+    settings = walk(
         seed=5,
         duration=4.0,
         body=BODIES["hardware"],
         control=STABILISED,
         physics=PhysicsSettings(unevenness=0.003),
     )
-    first, second = run_walk(settings), run_walk(settings)
-    other = run_walk(replace(settings, seed=6))
+    first, second = run_game(settings), run_game(settings)
+    other = run_game(replace(settings, seed=6))
     again = second.arrays()
     for name, values in first.arrays().items():
         np.testing.assert_array_equal(values, again[name])

@@ -5,17 +5,17 @@ from math import pi
 import numpy as np
 import pytest
 
+from stepaside.games.game_settings import walk
 from stepaside.games.outcome import Outcome
-from stepaside.games.recorded_game import RecordedGame, run_walk
+from stepaside.games.recorded_game import RecordedGame, run_game
 from stepaside.games.walk_evaluation import upright_samples
-from stepaside.games.walk_settings import WalkSettings
 from stepaside.sim.push import Push
 from walkers import walker_of
 
 
 def way(bearing: float, *, backward: bool = False) -> tuple[float, float]:
     """Return forward and leftward displacement after 3.5 s, in [m]."""
-    walking = RecordedGame(WalkSettings(bearing=bearing, backward=backward))
+    walking = RecordedGame(walk(bearing, backward=backward))
     x, y = walker_of(walking).truth.position_torso_in_world
     while walking.world.time < 3.5:
         assert walking.tick() is None
@@ -37,7 +37,7 @@ def test_a_robot_walks_where_its_bearing_points() -> None:
     ("duration", "ticks"), [(0.1, 25), (0.0999, 25), (0.1001, 26)]
 )
 def test_a_walk_lasts_its_duration(duration: float, ticks: int) -> None:
-    result = run_walk(WalkSettings(duration=duration))
+    result = run_game(walk(duration=duration))
     assert result.outcome is Outcome.COMPLETED
     assert result.message == f"played {0.004 * ticks:.2f} s"
     assert result.duration == pytest.approx(0.004 * ticks)
@@ -58,8 +58,8 @@ def test_a_walk_lasts_its_duration(duration: float, ticks: int) -> None:
 
 def test_steps_and_pushes_of_a_walk_are_counted() -> None:
     pushes = (Push(0.1, 0.5, 0.0), Push(0.05, 1.0, pi / 2))
-    settings = WalkSettings(duration=3.0, pushes=pushes)
-    result = run_walk(settings)
+    settings = walk(duration=3.0, pushes=pushes)
+    result = run_game(settings)
     gait = settings.gait
     # The first step begins after the start support.
     steps = (3.0 - gait.start_support) / gait.step_duration

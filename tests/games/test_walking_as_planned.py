@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 
+from stepaside.games.game_settings import walk
 from stepaside.games.recorded_game import RecordedGame
-from stepaside.games.walk_settings import WalkSettings
 from walkers import walker_of
 
 CYCLES = 12
@@ -15,7 +15,11 @@ CYCLES = 12
 )
 def test_an_ideal_body_walks_its_plan(bearing: float, backward: bool) -> None:
     """Within 1 % over whole gait cycles, without feedback."""
-    settings = WalkSettings(duration=20.0, bearing=bearing, backward=backward)
+    settings = walk(
+        duration=20.0,
+        bearing=bearing,
+        backward=backward,
+    )
     gait = settings.gait
     cycle = 2.0 * gait.step_duration
     walking = RecordedGame(settings, recorded=False, endless=True)

@@ -7,7 +7,8 @@ import pytest
 
 from stepaside.core.errors import ConfigurationError
 from stepaside.core.poses import Array, wrap_angle
-from stepaside.games.duel_settings import DuelSettings, StartSettings
+from stepaside.games.game_settings import StartSettings
+from stepaside.games.game_settings import duel as make_duel
 from stepaside.games.recorded_game import RecordedGame
 from stepaside.games.robot_player import RobotPlayer
 from stepaside.perception.lidar_perception import (
@@ -66,13 +67,13 @@ def test_a_floor_seen_with_a_wrong_tilt_is_nobody(tilt: float) -> None:
 
 def test_a_robot_sees_who_comes_from_behind() -> None:
     duel = RecordedGame(
-        DuelSettings(
+        make_duel(
             duration=3.0,
-            pursuer="person",
+            pursuer={"body": "person"},
             person=PersonSettings("straight", 0.8),
             start=StartSettings(4.0, 0.0, pi),
-            evader_strategy="stand",
-            sensing="lidar",
+            evader={"strategy": "stand"},
+            senses="lidar",
         )
     )
     errors, settled = [], False
@@ -98,4 +99,4 @@ def test_a_robot_sees_who_comes_from_behind() -> None:
 
 def test_a_lidar_detects_people_only() -> None:
     with pytest.raises(ConfigurationError, match="a lidar detects people"):
-        DuelSettings(sensing="lidar")
+        make_duel(senses="lidar")

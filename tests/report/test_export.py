@@ -15,13 +15,12 @@ from stepaside.arena import Disc, Room
 from stepaside.cli.main import main
 from stepaside.core.constants import GRAVITY
 from stepaside.core.poses import Array
-from stepaside.games.duel_settings import DuelSettings, StartSettings
-from stepaside.games.recorded_game import run_duel
+from stepaside.games.game_settings import StartSettings, duel
+from stepaside.games.recorded_game import run_game
 from stepaside.games.run import Run
 from stepaside.games.run_archive import load_run, write_run_files
 from stepaside.report.export.room_model import RoomModel
 from stepaside.robots.description import load_robot
-from stepaside.sim.camera_settings import SceneSettings
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
 
@@ -51,7 +50,7 @@ def export(run: Path, name: str, *words: str) -> Path:
 def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """Run folder of a duel of 3 s; the evader begins to walk at once."""
     start = StartSettings(distance=0.75, pursuer_offset=0.3, evader_offset=0.2)
-    run = run_duel(DuelSettings(duration=3.0, start=start))
+    run = run_game(duel(duration=3.0, start=start))
     folder = tmp_path_factory.mktemp("export") / "duel"
     folder.mkdir()
     write_run_files(folder, run)
@@ -303,13 +302,7 @@ def test_the_room_travels_with_the_bag(tmp_path: Path) -> None:
     """A disc stands still in its frame; a person moves."""
     pytest.importorskip("rosbags", reason="rosbags is not installed")
     room = Room(obstacles=(Disc(0.6, 1.4, 0.1),))
-    run = run_duel(
-        DuelSettings(
-            duration=1.0,
-            pursuer="person",
-            room=SceneSettings(plan=room),
-        )
-    )
+    run = run_game(duel(duration=1.0, pursuer={"body": "person"}, room=room))
     model = RoomModel(run)
     links = fromstring(model.urdf).findall("link")
     discs = [

@@ -14,7 +14,8 @@ import pytest
 from stepaside.arena import Door, Room
 from stepaside.core.player_colours import from_hex
 from stepaside.core.poses import Array
-from stepaside.games.duel_settings import PLAYERS, DuelSettings
+from stepaside.games.game_settings import duel
+from stepaside.games.player_settings import PLAYERS
 from stepaside.games.run import Run
 from stepaside.games.trajectory import Trajectory
 from stepaside.report import film, film_layers
@@ -29,7 +30,6 @@ from stepaside.report.film_captions import caption
 from stepaside.report.film_settings import VIEWS, FilmSettings
 from stepaside.report.overlays import theory_ring
 from stepaside.report.palette import PALETTES
-from stepaside.sim.camera_settings import SceneSettings
 from stepaside.sim.room_furnishing import add_solids
 from synthetic_run import run_of
 
@@ -52,7 +52,7 @@ def run() -> Run:
         )
         for name, way in ways.items()
     }
-    return run_of(TIMES, tracks, settings=DuelSettings(seed=7))
+    return run_of(TIMES, tracks, settings=duel(seed=7))
 
 
 def projected(camera: FilmCamera, index: int, height: float) -> Array:
@@ -247,7 +247,7 @@ def still(plan: Room | None) -> Run:
     for name, x in (("pursuer", -0.3), ("evader", 0.4)):
         torso = np.tile([x, 0.1, 0.0], (21, 1))
         tracks[name] = Trajectory(com=torso.copy(), torso=torso)
-    settings = DuelSettings(room=SceneSettings(plan=plan))
+    settings = duel(room=plan)
     return run_of(times, tracks, settings=settings)
 
 

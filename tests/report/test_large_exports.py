@@ -16,13 +16,12 @@ from scipy.spatial.transform import Rotation
 from stepaside.arena import Disc, Room
 from stepaside.cli.main import main
 from stepaside.core.poses import Pose
-from stepaside.games.duel_settings import DuelSettings, StartSettings
-from stepaside.games.recorded_game import run_duel, run_walk
+from stepaside.games.game_settings import StartSettings, duel
+from stepaside.games.game_settings import walk as make_walk
+from stepaside.games.recorded_game import run_game
 from stepaside.games.run import Run
 from stepaside.games.run_archive import load_run, write_run_files
-from stepaside.games.walk_settings import WalkSettings
 from stepaside.robots.urdf_writer import BASE
-from stepaside.sim.camera_settings import SceneSettings
 
 
 def export(run: Path, name: str) -> Path:
@@ -42,17 +41,17 @@ def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
     pytest.importorskip("cv2", reason="OpenCV is not installed")
     from stepaside.sim.camera_settings import CameraSettings, ColourSettings
 
-    settings = DuelSettings(
+    settings = duel(
         duration=1.6,
         start=StartSettings(
             distance=0.75, pursuer_offset=0.3, evader_offset=0.2
         ),
-        sensing="cameras",
+        senses="cameras",
         cameras=CameraSettings(colour=ColourSettings(renderer="raycast")),
     )
     folder = tmp_path_factory.mktemp("large") / "duel"
     folder.mkdir()
-    write_run_files(folder, run_duel(settings))
+    write_run_files(folder, run_game(settings))
     return folder
 
 
@@ -66,7 +65,7 @@ def walk(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """Run folder of a walk of 3 s."""
     folder = tmp_path_factory.mktemp("large") / "walk"
     folder.mkdir()
-    write_run_files(folder, run_walk(WalkSettings(duration=3.0)))
+    write_run_files(folder, run_game(make_walk(duration=3.0)))
     return folder
 
 
@@ -160,18 +159,16 @@ def test_rerun_draws_robots_footsteps_room_com_and_zmp(tmp_path: Path) -> None:
     rerun = which("rerun", path=str(Path(sys.executable).parent))
     if rerun is None:
         pytest.skip("Rerun is not installed")
-    settings = DuelSettings(
+    settings = duel(
         duration=10.0,
-        room=SceneSettings(
-            plan=Room(
-                obstacles=(Disc(0.6, 1.4, 0.1),),
-                starts=(Pose(0.0, 0.0, 0.2), Pose(1.0, 0.0, pi)),
-            )
+        room=Room(
+            obstacles=(Disc(0.6, 1.4, 0.1),),
+            starts=(Pose(0.0, 0.0, 0.2), Pose(1.0, 0.0, pi)),
         ),
     )
     folder = tmp_path / "room"
     folder.mkdir()
-    write_run_files(folder, run_duel(settings))
+    write_run_files(folder, run_game(settings))
     bag = export(folder, "mcap") / "room.mcap"
     target = tmp_path / "room.rrd"
     for words in (

@@ -1,7 +1,6 @@
 """Parts of the live page: settings panel, cameras, history, session."""
 
 from collections.abc import Iterator
-from dataclasses import replace
 from math import inf, radians
 from pathlib import Path
 
@@ -16,14 +15,12 @@ from stepaside.core.errors import (  # noqa: E402
     StepAsideError,
 )
 from stepaside.core.poses import Array  # noqa: E402
-from stepaside.games.duel_settings import (  # noqa: E402
-    DuelSettings,
-    StartSettings,
-)
 from stepaside.games.game_settings import (  # noqa: E402
     GameSettings,
-    PlayerSettings,
+    StartSettings,
+    duel,
 )
+from stepaside.games.player_settings import PlayerSettings  # noqa: E402
 from stepaside.games.run_archive import load_run  # noqa: E402
 from stepaside.report.overlays import footsteps_in  # noqa: E402
 from stepaside.report.scene import wall_corners  # noqa: E402
@@ -48,9 +45,9 @@ GAME = GameSettings(
 )
 
 
-@pytest.mark.parametrize("settings", [DuelSettings(), GAME])
+@pytest.mark.parametrize("settings", [duel(), GAME])
 def test_controls_give_back_the_settings_that_they_show(
-    settings: DuelSettings | GameSettings,
+    settings: GameSettings,
 ) -> None:
     leaves = list(leaves_of(settings))
     assert len(leaves) > 80
@@ -59,20 +56,21 @@ def test_controls_give_back_the_settings_that_they_show(
 
 
 def test_a_value_is_set_by_its_path() -> None:
-    values = {"gait.stride": 0.02, "strategy.angle": 1.0, "seed": 9}
-    changed = with_values(DuelSettings(), values)
-    assert changed.gait.stride == 0.02 and changed.seed == 9
-    assert changed.strategy.angle == 1.0
+    changed = with_values(duel(), {"players.1.evasion.angle": 1.0, "seed": 9})
+    assert changed.evader.evasion.angle == 1.0 and changed.seed == 9
     players = with_values(GAME, {"players.1.gait.stride": 0.02}).players
     assert players[1].gait.stride == 0.02
     assert players[0] == GAME.players[0]
     with pytest.raises(StepAsideError, match="stride"):
-        with_values(DuelSettings(), {"gait.stride": -1.0})
+        with_values(duel(), {"players.0.gait.stride": -1.0})
 
 
 def test_angles_are_shown_in_degrees_and_what_is_drawn_is_empty() -> None:
-    leaves = {leaf.path: leaf for leaf in leaves_of(DuelSettings())}
-    angle, distance = leaves["strategy.angle"], leaves["start.distance"]
+    leaves = {leaf.path: leaf for leaf in leaves_of(duel())}
+    angle, distance = (
+        leaves["players.1.evasion.angle"],
+        leaves["start.distance"],
+    )
     assert angle.shown == 90.0
     assert angle.read(70.0) == pytest.approx(radians(70.0))
     assert distance.shown == "" and distance.read("") is None
@@ -82,14 +80,13 @@ def test_angles_are_shown_in_degrees_and_what_is_drawn_is_empty() -> None:
 
 
 def test_settings_without_effect_have_no_control() -> None:
-    paths = {leaf.path for leaf in leaves_of(DuelSettings())}
-    person = {leaf.path for leaf in leaves_of(DuelSettings(pursuer="person"))}
-    assert "person.speed" in person - paths
+    paths = {leaf.path for leaf in leaves_of(duel())}
+    person = {
+        leaf.path for leaf in leaves_of(duel(pursuer={"body": "person"}))
+    }
+    assert "players.0.person.speed" in person - paths
     # What is needed may stand in another section, or in the section itself.
-    assert "strategy.safety_radius" in paths
-    assert "shield.enabled" in paths and "shield.speed" not in paths
-    shielded = with_values(DuelSettings(), {"shield.enabled": True})
-    assert "shield.speed" in {leaf.path for leaf in leaves_of(shielded)}
+    assert "players.1.evasion.safety_radius" in paths
     safe = with_values(GAME, {"players.1.shield.enabled": True})
     shields = {leaf.path for leaf in leaves_of(safe) if "shield" in leaf.path}
     assert "players.1.shield.speed" in shields
@@ -146,7 +143,7 @@ def test_all_of_a_room_is_seen_from_above(
 @pytest.fixture
 def session() -> Iterator[LiveSession]:
     start = StartSettings(1.0, 0.4, 0.0)
-    made = LiveSession(DuelSettings(seed=3, start=start))
+    made = LiveSession(duel(seed=3, start=start))
     made.speed = inf
     yield made
     made.close()
@@ -197,9 +194,8 @@ def test_the_circle_of_theory_goes_through_both_players(
 def test_an_invalid_reset_leaves_the_game_alone(session: LiveSession) -> None:
     passed(session, 0.5)
     game, settings = session.game, session.settings
-    room = replace(DuelSettings().room, plan=Room(width=0.6, depth=0.6))
     with pytest.raises(ConfigurationError):
-        session.reset(DuelSettings(room=room))
+        session.reset(duel(room=Room(width=0.6, depth=0.6)))
     assert session.game is game and session.settings is settings
     session.reset()
     assert session.world.time == 0.0 and session.generation == 2

@@ -5,8 +5,8 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from stepaside.games.duel_settings import DuelSettings, StartSettings
-from stepaside.games.recorded_game import run_duel
+from stepaside.games.game_settings import StartSettings, duel
+from stepaside.games.recorded_game import run_game
 from stepaside.games.run import Run
 from stepaside.locomotion.control_settings import ControlSettings
 from stepaside.report.overlays import (
@@ -30,7 +30,7 @@ PUSHES = np.array([[2.0, 0.1, 0.5, -0.5, 0.3, 0.4]])
 @pytest.fixture(scope="module")
 def run() -> Run:
     start = StartSettings(0.7, 0.0, 0.3)
-    return run_duel(DuelSettings(seed=3, duration=3.0, start=start))
+    return run_game(duel(seed=3, duration=3.0, start=start))
 
 
 def test_a_ring_moves_with_its_player() -> None:
@@ -77,7 +77,7 @@ def test_a_path_grows_and_forgets_what_is_older_than_the_trail(
 
 def test_outlines_of_soles_lie_where_the_soles_landed(run: Run) -> None:
     rows = footsteps_in(run, "pursuer")
-    sole = run.settings.robot_of("pursuer").gait.sole
+    sole = run.settings.player("pursuer").gait.sole
     outlines = soles(rows[:, 1:], sole).reshape(len(rows), 4, 2, 2)
     for (_, side, x, y, heading), outline in zip(rows, outlines, strict=True):
         away = outline[:, 0] - (x, y)
@@ -110,8 +110,8 @@ def test_colours_are_those_of_the_players_or_of_the_layer(
 
 def test_footsteps_of_a_run_are_where_the_soles_landed() -> None:
     """Without feedback, the odometry of a pursuer that turns drifts."""
-    run = run_duel(
-        DuelSettings(
+    run = run_game(
+        duel(
             start=StartSettings(1.2, 1.4, 0.0),
             body=BODIES["hardware"],
             control=ControlSettings(feedback=False),

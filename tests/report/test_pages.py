@@ -4,7 +4,6 @@ import json
 import shutil
 import threading
 from collections.abc import Iterator
-from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -28,7 +27,7 @@ from injection_strings import HOSTILE
 from match_callbacks import observe_ticks, stop_observing
 from stepaside.cli.main import main
 from stepaside.games.configuration_file import dump_configuration
-from stepaside.games.duel_settings import DuelSettings, StartSettings
+from stepaside.games.game_settings import StartSettings, duel
 from stepaside.games.recorded_game import RecordedGame
 from stepaside.games.robot_player import RobotPlayer
 from stepaside.games.run_archive import load_run
@@ -36,6 +35,7 @@ from stepaside.report.replay_page import write_page
 from stepaside.report.scene import RunScene
 from stepaside.report.text_escaping import visible
 from stepaside.report.viewer.live_session import LiveSession
+from stepaside.sim.person_settings import PersonSettings
 
 SLOW = 0.02  # speed at which a sight of some seconds lasts for minutes
 
@@ -81,7 +81,7 @@ def test_a_live_duel_can_be_watched_pushed_and_driven(browser: Any) -> None:
     from stepaside.report.viewer.live_page import Page
 
     start = StartSettings(distance=1.2, pursuer_offset=0.5, evader_offset=0.0)
-    live = Page(DuelSettings(start=start), port=8731)
+    live = Page(duel(start=start), port=8731)
     live.start()
     session = live.session
 
@@ -257,7 +257,7 @@ def hostile_run(folder: Path, run: Path, text: str) -> Path:
     (there / "checksums.txt").unlink(missing_ok=True)
     if text.isprintable():
         own = load_run(run, "duel").settings
-        settings = replace(own, person=replace(own.person, path=text))
+        settings = own.changed(pursuer={"person": PersonSettings(path=text)})
         (there / "configuration.toml").write_text(
             dump_configuration(settings), encoding="utf-8"
         )

@@ -13,8 +13,8 @@ import pytest
 
 from stepaside.core.poses import Array
 from stepaside.games.duel_circle import whole_cycles
-from stepaside.games.duel_settings import DuelSettings, StartSettings
-from stepaside.games.recorded_game import run_duel
+from stepaside.games.game_settings import StartSettings, duel
+from stepaside.games.recorded_game import run_game
 from stepaside.games.run import Run
 from stepaside.games.run_captions import describe_state
 from stepaside.games.trajectory import Trajectory
@@ -31,10 +31,8 @@ TIMES: Array = 0.02 * np.arange(102, dtype=float)  # 2.02 s
 @cache
 def made() -> Run:
     """A short run whose robots then are moved by hand."""
-    settings = DuelSettings(
-        seed=3, duration=2.01, start=StartSettings(1.2, 0.4, -0.2)
-    )
-    played = run_duel(settings)
+    settings = duel(seed=3, duration=2.01, start=StartSettings(1.2, 0.4, -0.2))
+    played = run_game(settings)
     assert len(played.times) == len(TIMES)
     run = drifted(played, TIMES)
     run = changed(run, triggered_at_s=0.5, converged_at_s=1.8)
@@ -183,10 +181,12 @@ def test_a_page_tells_what_the_run_tells(tmp_path: Path) -> None:
 def test_a_page_of_a_person_has_its_way_but_no_footsteps(
     tmp_path: Path,
 ) -> None:
-    settings = DuelSettings(
-        duration=0.1, pursuer="person", start=StartSettings(2.5, 0.0, 0.0)
+    settings = duel(
+        duration=0.1,
+        pursuer={"body": "person"},
+        start=StartSettings(2.5, 0.0, 0.0),
     )
-    run = replace(run_duel(settings), name="a </b> run")
+    run = replace(run_game(settings), name="a </b> run")
     shown = content(run, tmp_path)
     person, robot = shown["players"]
     assert (person["name"], robot["name"]) == ("pursuer", "evader")

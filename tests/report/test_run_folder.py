@@ -11,8 +11,8 @@ import pytest
 
 from stepaside.core.errors import ConfigurationError, OutputError
 from stepaside.core.poses import Array
-from stepaside.games.duel_settings import DuelSettings, StartSettings
-from stepaside.games.recorded_game import run_duel
+from stepaside.games.game_settings import StartSettings, duel
+from stepaside.games.recorded_game import run_game
 from stepaside.games.run import Run
 from stepaside.games.run_archive import FORMAT, load_run, results_of
 from stepaside.games.trajectory import Trajectory
@@ -21,14 +21,12 @@ from stepaside.report.run_folder import check_output, write_run
 from stepaside.report.scene import RunScene
 from synthetic_run import CIRCLE, check_same, run_of
 
-SETTINGS = DuelSettings(
-    seed=3, duration=0.4, start=StartSettings(1.3, 0.4, -0.2)
-)
+SETTINGS = duel(seed=3, duration=0.4, start=StartSettings(1.3, 0.4, -0.2))
 
 
 @pytest.fixture(scope="module")
 def result() -> Run:
-    return run_duel(SETTINGS)
+    return run_game(SETTINGS)
 
 
 def draw_nothing(*arguments: Any) -> None:
@@ -226,10 +224,12 @@ def test_the_stage_puts_the_bodies_where_they_were(
 
 
 def test_a_person_is_put_where_it_walked() -> None:
-    settings = DuelSettings(
-        duration=0.4, pursuer="person", start=StartSettings(2.5, 0.0, 0.0)
+    settings = duel(
+        duration=0.4,
+        pursuer={"body": "person"},
+        start=StartSettings(2.5, 0.0, 0.0),
     )
-    result = run_duel(settings)
+    result = run_game(settings)
     count = len(result.times)
     walked = np.column_stack(
         [

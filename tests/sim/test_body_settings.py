@@ -9,8 +9,8 @@ import pytest
 from stepaside.control import ControlScheme
 from stepaside.core.errors import ConfigurationError
 from stepaside.core.poses import Array
+from stepaside.games.game_settings import walk
 from stepaside.games.recorded_game import RecordedGame
-from stepaside.games.walk_settings import WalkSettings
 from stepaside.robots.description import load_robot
 from stepaside.sim.body_settings import BodySettings
 from stepaside.sim.physics_settings import PhysicsSettings
@@ -22,7 +22,7 @@ def standing(
     body: BodySettings, tick: float = 0.004
 ) -> tuple[SimulatedRobot, ControlScheme]:
     physics = PhysicsSettings(tick=tick)
-    walker = walker_of(RecordedGame(WalkSettings(body=body, physics=physics)))
+    walker = walker_of(RecordedGame(walk(body=body, physics=physics)))
     return walker.robot, walker.scheme
 
 

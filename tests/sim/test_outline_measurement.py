@@ -6,7 +6,8 @@ import numpy as np
 from fake_robot import GAIT
 from stepaside.arena import BODY_RADIUS
 from stepaside.core.poses import Array, Pose
-from stepaside.games.duel_settings import DuelSettings, StartSettings
+from stepaside.games.game_settings import StartSettings
+from stepaside.games.game_settings import duel as make_duel
 from stepaside.games.recorded_game import RecordedGame
 from stepaside.games.robot_player import RobotPlayer
 from stepaside.robots.description import load_robot
@@ -55,7 +56,7 @@ def test_a_nao_is_as_wide_as_its_arms_and_as_long_as_its_trunk() -> None:
 
 def test_a_walking_body_stays_within_its_outline_by_the_margin() -> None:
     """All shapes, of two NAOs in physics, against what was planned."""
-    settings = DuelSettings(
+    settings = make_duel(
         seed=3, start=StartSettings(0.75, 0.8, 0.1), duration=9.0
     )
     duel = RecordedGame(settings, endless=True)

@@ -12,7 +12,7 @@ from typing import Any
 import pytest
 
 from stepaside.core.errors import ConfigurationError
-from stepaside.games import DuelSettings
+from stepaside.games import duel
 from stepaside.games.recorded_game import RecordedGame
 from stepaside.planning import Direction
 from stepaside.strategies import (
@@ -244,7 +244,7 @@ def test_an_invalid_strategy_is_refused_in_one_line(
 
 def test_settings_can_be_read_where_the_file_is_not() -> None:
     """Figures of an old run need no strategy; a duel does."""
-    settings = DuelSettings(evader_strategy="gone.py:Timid")
+    settings = duel(evader={"strategy": "gone.py:Timid"})
     with pytest.raises(ConfigurationError, match=r"no file gone\.py"):
         RecordedGame(settings)
 

@@ -10,14 +10,14 @@ from pathlib import Path
 
 import pytest
 
-from stepaside.games.duel_settings import DuelSettings, StartSettings
+from stepaside.games.game_settings import StartSettings, duel
 from stepaside.strategies import Evasion
 from stepaside.studies.duel_record import play_duel
 
 
 def test_a_record_holds_the_figures_of_its_duel() -> None:
     start = StartSettings(distance=0.7)
-    settings = DuelSettings(seed=3, duration=2.0, start=start)
+    settings = duel(seed=3, duration=2.0, start=start)
     record, again = play_duel(settings), play_duel(settings)
     assert record["seed"] == 3 and record["outcome"] == "completed"
     assert record["triggered_at_s"] == 0.004  # at the first tick
@@ -35,7 +35,7 @@ def test_a_record_holds_the_figures_of_its_duel() -> None:
 def test_only_a_certified_start_has_a_certified_distance() -> None:
     facing = StartSettings(0.75, 0.0, 0.0)
     blind = StartSettings(0.75, 3.0, 3.0)
-    settings = DuelSettings(duration=0.1, start=facing)
+    settings = duel(duration=0.1, start=facing)
     assert 0.3 < play_duel(settings)["certified_m"] < 0.75
     for changes in (
         {"start": blind},

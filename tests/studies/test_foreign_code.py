@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 from click.testing import CliRunner
 
-from stepaside import DuelSettings, run_duel
+from stepaside import duel, run_game
 from stepaside.cli.main import main
 from stepaside.robots.description import load_robot
 
@@ -75,7 +75,7 @@ def test_a_strategy_that_fails_later_ends_its_game_in_words(
     reason = "SystemExit" if "exit" in code else "ZeroDivision"
     assert "evader's strategy failed" in result.output
     assert reason in result.output
-    run = run_duel(DuelSettings(duration=4.0, evader_strategy=name))
+    run = run_game(duel(duration=4.0, evader={"strategy": name}))
     assert run.outcome.value == "failed"
     assert reason in run.message
 
@@ -160,7 +160,7 @@ DUEL = ("duel", "--duration", "1", "--json")
         *((model, (*DUEL, "--robot")) for model in MODELS),
         (MODELS[1], ("walk", "--duration", "1", "--json", "--robot")),
         (MODELS[1], ("robot",)),
-        (MODELS[1], (*DUEL, "--set", "evader_robot=")),
+        (MODELS[1], (*DUEL, "--set", "evader.robot=")),
     ],
 )
 def test_a_model_without_the_robot_is_refused(

@@ -9,13 +9,12 @@ import pytest
 
 import stepaside as sa
 from stepaside.core.errors import ConfigurationError
-from stepaside.games.duel_settings import DuelSettings
+from stepaside.games.game_settings import duel
+from stepaside.games.settings_reader import read_game
 from stepaside.sim.body_settings import BODIES
-from stepaside.strategies import LookAhead
 from stepaside.strategies.table_cache import pursuit_bound
 from stepaside.studies import tournament
 from stepaside.studies.study_design import PRESETS
-from stepaside.studies.study_games import settings_of_study as settings_of
 
 
 @pytest.fixture(scope="module", autouse=True)
@@ -74,7 +73,7 @@ def test_whatever_changes_a_result_changes_its_key(tmp_path: Path) -> None:
         Path(__file__).parents[1] / "flows" / "own_strategies.py"
     ).read_text()
     file.write_text(text)
-    own = {"evader_strategy": f"{file}:Still", "duration": 1.0}
+    own = {"evader.strategy": f"{file}:Still", "duration": 1.0}
     before = keys(sa.make_study("duel", own))
     assert keys(sa.make_study("duel", own)) == before
     file.write_text(text + "\n# other\n")
@@ -103,7 +102,7 @@ def test_a_function_of_ones_own_is_a_game() -> None:
         ({"settings": {"speeed": 1.0}}, "unknown entry speeed"),
         ({"settings": {"duration": "long"}}, "duration"),
         ({"grid": {"duration": [1.0, -1.0]}}, "duration"),
-        ({"grid": {"evader_strategy": ["nobody"]}}, "nobody"),
+        ({"grid": {"evader.strategy": ["nobody"]}}, "nobody"),
         ({"grid": {"body": ["nobodys"]}}, "body must be one of ideal"),
         ({"grid": {"seed": []}}, "at least one"),
         ({"game": "chess"}, "game must be one of duel"),
@@ -119,7 +118,7 @@ def test_a_bad_study_is_refused_before_it_plays(
 
 def test_presets_of_gait_and_body_may_be_changed_further() -> None:
     entries = {"gait": "fast", "body": {"": "hardware", "backlash": 0.1}}
-    made = settings_of(DuelSettings, entries)
+    made = read_game(entries, base=duel())
     assert made.gait.is_fast
     assert made.body.backlash == 0.1
     assert made.body.efficiency == BODIES["hardware"].efficiency
@@ -166,15 +165,6 @@ def test_a_preset_is_changed_by_words() -> None:
 def test_a_bad_change_is_refused(word: str, words: str) -> None:
     with pytest.raises(ConfigurationError, match=words):
         sa.load_study("robustness", [word])
-
-
-def test_a_strategy_object_cannot_be_stored(tmp_path: Path) -> None:
-    """Two objects of a class cannot be told apart; so they do not vary."""
-    with pytest.raises(ConfigurationError, match="name of a strategy"):
-        sa.make_study("duel", grid={"evader_strategy": [LookAhead()]})
-    study = sa.make_study("duel", {"evader_strategy": LookAhead()})
-    with pytest.raises(ConfigurationError, match="name of a strategy"):
-        sa.run_study(study, tmp_path / "games.sqlite")
 
 
 def test_an_unknown_study_is_refused_with_those_that_exist() -> None:

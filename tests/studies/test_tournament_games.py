@@ -104,7 +104,7 @@ def test_a_duel_that_is_stopped_is_no_game(
         played.append(settings.seed)
         return ended
 
-    monkeypatch.setattr(studied, "run_duel", cut_short)
+    monkeypatch.setattr(studied, "run_game", cut_short)
     settings = replace(SETTINGS, level="physics", game=StepGame(duration=1.0))
     with pytest.raises(KeyboardInterrupt):
         play_pairing(settings)

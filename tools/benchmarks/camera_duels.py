@@ -12,7 +12,7 @@ from typing import NamedTuple
 from benchmark_options import ask, machine, seeds_of
 from resumable_jobs import Row, finished, gather, spread
 
-from stepaside.games import DuelSettings, run_duel
+from stepaside.games import duel, run_game
 from stepaside.games.run_archive import results_of
 from stepaside.sim.camera_settings import (
     CLUTTER,
@@ -42,15 +42,15 @@ class Seen(NamedTuple):
 
 def play(seen: Seen) -> Row:
     """Return the values of one duel of 120 s."""
-    settings = DuelSettings(seed=seen.seed, sensing="cameras")
+    settings = duel(seed=seen.seed, senses="cameras")
     if seen.kind == "degraded":
-        settings = DuelSettings(
+        settings = duel(
             seed=seen.seed,
-            sensing="cameras",
+            senses="cameras",
             cameras=CameraSettings(drop_frames=0.3, added_latency=0.1),
-            room=SceneSettings(things=list(CLUTTER)),
+            scene=SceneSettings(things=list(CLUTTER)),
         )
-    run = run_duel(settings)
+    run = run_game(settings)
     found = results_of(run)
     row = {key: found[key] for key in PLAIN} | {
         key: found["sight"][key] for key in RATES

@@ -14,7 +14,8 @@ import numpy as np
 
 from stepaside.core.errors import ConfigurationError
 from stepaside.core.poses import Array
-from stepaside.games.duel_settings import DuelSettings
+from stepaside.games.game_settings import GameSettings
+from stepaside.games.game_settings import duel as make_duel
 from stepaside.games.recorded_game import RecordedGame
 from stepaside.locomotion.control_settings import STABILISED
 from stepaside.sim.body_settings import BODIES
@@ -30,7 +31,7 @@ def measure_duel(duration: float = 60.0, rounds: int = 3) -> dict[str, float]:
         rounds: Interleaved repetitions, of which the fastest counts.
     """
     figures = _measure_duel(duration, rounds)
-    hardware = DuelSettings(
+    hardware = make_duel(
         seed=1, body=BODIES["hardware"], control=STABILISED, duration=duration
     )
     spent = min(
@@ -41,7 +42,7 @@ def measure_duel(duration: float = 60.0, rounds: int = 3) -> dict[str, float]:
 
 def measure_camera_duel() -> dict[str, float]:
     """Return the speed of a duel with cameras; nothing without OpenCV."""
-    settings = DuelSettings(seed=1, sensing="cameras", duration=CAMERA_DUEL)
+    settings = make_duel(seed=1, senses="cameras", duration=CAMERA_DUEL)
     try:
         duel = RecordedGame(settings)
     except ConfigurationError:
@@ -53,7 +54,7 @@ def measure_camera_duel() -> dict[str, float]:
 
 def _measure_duel(duration: float, rounds: int) -> dict[str, float]:
     """Return real-time factors, ratios to mj_step, and control tick."""
-    settings = DuelSettings(seed=1, duration=duration)
+    settings = make_duel(seed=1, duration=duration)
     best = {name: np.inf for name in ("duel", "bare", "stepped", "control")}
     for _ in range(rounds):
         duel = RecordedGame(settings)
@@ -102,7 +103,7 @@ def _play(
     return process_time() - start, commands
 
 
-def _control_time(settings: DuelSettings) -> float:
+def _control_time(settings: GameSettings) -> float:
     """Return the mean time to read, plan, move and write of a robot, in [s].
 
     Plans are included: it is an average over ticks, most of which only follow

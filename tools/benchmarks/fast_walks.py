@@ -5,15 +5,14 @@
     python tools/benchmarks/fast_walks.py --seeds 20
 """
 
-from dataclasses import replace
 from math import radians
 
 from benchmark_options import ask
 from resumable_jobs import Row, finished, gather
 
-from stepaside.games.recorded_game import run_walk
+from stepaside.games.game_settings import GameSettings, walk
+from stepaside.games.recorded_game import run_game
 from stepaside.games.run_archive import results_of
-from stepaside.games.walk_settings import WalkSettings
 from stepaside.locomotion.control_settings import ControlSettings
 from stepaside.planning import PRESETS
 from stepaside.sim.body_settings import BODIES
@@ -33,9 +32,9 @@ KEPT = (
 BEARINGS = (-90, -45, 0, 45, 90)  # in [deg]
 
 
-def walk(settings: WalkSettings) -> Row:
+def play(settings: GameSettings) -> Row:
     """Return the values of one walk."""
-    found: Row = results_of(run_walk(settings))
+    found: Row = results_of(run_game(settings))
     found |= found["planning"] | found["walking"]
     return found
 
@@ -47,19 +46,16 @@ def main() -> None:
     asked.add_argument("--seeds", type=int, default=20)
     asked.add_argument("--workers", type=int)
     arguments = asked.parse_args()
-    first = WalkSettings(
-        duration=arguments.seconds,
-        gait=PRESETS["fast"],
-        control=ControlSettings("closed-form", feedback=True),
-    )
     jobs = {
         f"{body}/{'backward' if backward else 'forward'}/{bearing}/{seed}": (
-            replace(
-                first,
-                seed=seed,
-                body=BODIES[body],
-                bearing=radians(bearing),
+            walk(
+                radians(bearing),
                 backward=backward,
+                seed=seed,
+                duration=arguments.seconds,
+                body=BODIES[body],
+                gait=PRESETS["fast"],
+                control=ControlSettings("closed-form", feedback=True),
             )
         )
         for body in ("ideal", "hardware")
@@ -76,7 +72,7 @@ def main() -> None:
         "bearings_deg": BEARINGS,
     }
     head = header(settings)
-    whole = gather(arguments.output, head, jobs, walk, arguments.workers)
+    whole = gather(arguments.output, head, jobs, play, arguments.workers)
     walks = {
         name: {key: row[key] for key in KEPT} for name, row in whole.items()
     }

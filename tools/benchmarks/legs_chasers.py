@@ -18,10 +18,11 @@ from typing import Any
 from benchmark_options import ask
 from resumable_jobs import finished, gather
 
-from stepaside.games.duel_settings import SENSING, DuelSettings
 from stepaside.games.forecast import forecast
-from stepaside.games.recorded_game import run_duel
-from stepaside.games.robot_settings import with_legs, with_robot
+from stepaside.games.game_settings import GameSettings, duel
+from stepaside.games.player_settings import SENSING
+from stepaside.games.recorded_game import run_game
+from stepaside.games.settings_reader import read_game
 from stepaside.locomotion.control_settings import LegsSettings
 from stepaside.locomotion.policy.policy_legs import load_legs
 from stepaside.robots.description import load_robot
@@ -56,9 +57,8 @@ class Chase:
     def settings(self) -> Any:
         """Settings of the duel."""
         base = _base(self.robot, self.network)
-        return replace(
-            base,
-            sensing=self.sensing,
+        return base.changed(
+            senses=self.sensing,
             cameras=self.cameras,
             person=PersonSettings(
                 "steer",
@@ -77,19 +77,20 @@ class Chase:
 
 
 @cache
-def _base(robot: str, network: str) -> DuelSettings:
+def _base(robot: str, network: str) -> GameSettings:
     """Return what all chases of a robot have in common."""
-    return replace(
-        with_legs(with_robot(DuelSettings(), robot), network),
+    return read_game(
+        {"robot": robot, "legs": {"network": network}}, base=duel()
+    ).changed(
         duration=DURATION,
-        pursuer="person",
-        evader_strategy="matador",
+        pursuer={"body": "person"},
+        evader={"strategy": "matador"},
     )
 
 
 def play(chase: Chase) -> dict[str, Any]:
     """Return how one chase ended."""
-    run = run_duel(chase.settings)
+    run = run_game(chase.settings)
     return {
         "turning_radius_m": chase.radius,
         "direction": chase.direction,

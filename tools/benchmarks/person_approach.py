@@ -15,7 +15,7 @@ from typing import NamedTuple
 from benchmark_options import ask, seeds_of
 from resumable_jobs import Row, finished, gather, spread
 
-from stepaside.games import DuelSettings, run_duel
+from stepaside.games import duel, run_game
 from stepaside.games.run_archive import results_of
 from stepaside.sim.camera_settings import CameraSettings, ColourSettings
 from stepaside.sim.person_settings import PersonSettings
@@ -42,15 +42,15 @@ class Walk(NamedTuple):
 
 def play(walk: Walk) -> Row:
     """Return the values of one duel with a person."""
-    settings = DuelSettings(
+    settings = duel(
         seed=walk.seed,
         duration=DURATION,
-        pursuer="person",
+        pursuer={"body": "person"},
         person=WALKS[walk.name],
-        sensing=walk.sensing,
+        senses=walk.sensing,
         cameras=CAMERAS,
     )
-    found = results_of(run_duel(settings))
+    found = results_of(run_game(settings))
     return {
         "walk": walk.name,
         "seed": walk.seed,

@@ -17,10 +17,10 @@ from benchmark_options import ask
 
 from stepaside.fitting.derivation import derive, report_of
 from stepaside.fitting.description_writer import write_description
-from stepaside.games.duel_settings import DuelSettings
-from stepaside.games.recorded_game import run_duel
-from stepaside.games.robot_settings import with_robot
+from stepaside.games.game_settings import duel
+from stepaside.games.recorded_game import run_game
 from stepaside.games.run_archive import results_of
+from stepaside.games.settings_reader import read_game
 from stepaside.robots.description import FILE
 from stepaside.studies.result_files import header, write_result
 
@@ -214,8 +214,10 @@ def measure(humanoid: Humanoid, model: Path) -> dict[str, Any]:
         derived = derive(model, folder, [])
         text = write_description(derived)
         (folder / FILE).write_text(text, encoding="utf-8")
-        settings = with_robot(DuelSettings(seed=SEED, duration=DURATION), made)
-        run = run_duel(settings)
+        settings = read_game(
+            {"robot": made}, base=duel(seed=SEED, duration=DURATION)
+        )
+        run = run_game(settings)
     facts, told = report_of(derived), results_of(run)
     asked = facts["missing_values"]
     return {

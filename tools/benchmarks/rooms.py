@@ -17,10 +17,9 @@ from resumable_jobs import Row, finished, gather, spread
 
 from stepaside.arena import RoomRecipe, generate_room
 from stepaside.core.constants import CAPTURE_DISTANCE
-from stepaside.games import DuelSettings, run_duel
+from stepaside.games import duel, run_game
 from stepaside.games.run_archive import results_of
 from stepaside.locomotion.control_settings import MAPS, MapSettings
-from stepaside.sim.camera_settings import SceneSettings
 from stepaside.studies.result_files import header, read_result, write_result
 from stepaside.studies.tournament import clearance
 
@@ -40,15 +39,15 @@ class Played(NamedTuple):
 def play(played: Played) -> Row:
     """Return outcome, contacts and clearances of one duel."""
     seen = played.map == "seen"
-    settings = DuelSettings(
+    settings = duel(
         seed=played.seed,
         duration=played.duration,
-        evader_strategy=played.strategy,
-        sensing="cameras" if seen else "ideal",
-        room=SceneSettings(plan=generate_room(RECIPE, played.seed)),
+        evader={"strategy": played.strategy},
+        senses="cameras" if seen else "ideal",
+        room=generate_room(RECIPE, played.seed),
         map=MapSettings(source=played.map),
     )
-    run = run_duel(settings)
+    run = run_game(settings)
     summary = results_of(run)
     return {
         "strategy": played.strategy,
@@ -73,7 +72,7 @@ def summary_of(rows: list[Row]) -> Row:
     return {
         "strategy": rows[0]["strategy"],
         "map": rows[0]["map"],
-        "pursuer": DuelSettings().pursuer_strategy,
+        "pursuer": "pursuit",
         "duels": len(rows),
         "untouched": outcomes.count("completed"),
         "captured": sum(row["closest_m"] <= CAPTURE_DISTANCE for row in rows),

@@ -13,9 +13,10 @@ from typing import Any
 from benchmark_options import ask, seeds_of
 from resumable_jobs import Row, finished, gather, spread
 
-from stepaside.games.recorded_game import run_walk
+from stepaside.games.game_settings import GameSettings
+from stepaside.games.game_settings import walk as make_walk
+from stepaside.games.recorded_game import run_game
 from stepaside.games.run_archive import results_of
-from stepaside.games.walk_settings import WalkSettings
 from stepaside.locomotion.control_settings import (
     STABILISED,
     StabiliserSettings,
@@ -48,9 +49,9 @@ CORRECTED = "corrected"
 PACE = ("speed_ratio", "yaw_ratio", "slip_per_step_m")
 
 
-def walk(settings: WalkSettings) -> Row:
+def walk(settings: GameSettings) -> Row:
     """Return the values of one walk."""
-    summary = results_of(run_walk(settings))
+    summary = results_of(run_game(settings))
     walking = summary["walking"]
     errors = walking["estimation"]
     return {
@@ -60,13 +61,13 @@ def walk(settings: WalkSettings) -> Row:
     }
 
 
-def walks(seeds: range) -> dict[str, WalkSettings]:
+def walks(seeds: range) -> dict[str, GameSettings]:
     """Return all walks by ``kind/seed``."""
     feedback = STABILISED
     stiff = replace(feedback, stabiliser=StabiliserSettings(joint_gain=0.0))
     every = {}
     for seed in seeds:
-        base = WalkSettings(seed=seed, bearing=BEARING, control=feedback)
+        base = make_walk(seed=seed, bearing=BEARING, control=feedback)
         for name in ("ideal", "hardware"):
             every[f"{name} estimated/{seed}"] = replace(
                 base, body=BODIES[name], duration=ESTIMATED
@@ -74,7 +75,7 @@ def walks(seeds: range) -> dict[str, WalkSettings]:
         paced = replace(base, body=HARDWARE, duration=PACED)
         every[f"{CORRECTED}/{seed}"] = paced
         for name, body in VARIANTS.items():
-            every[f"{name}/{seed}"] = replace(paced, body=body, control=stiff)
+            every[f"{name}/{seed}"] = paced.changed(body=body, control=stiff)
     return every
 
 

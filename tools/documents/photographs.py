@@ -24,8 +24,8 @@ from PIL import Image
 from playwright.sync_api import sync_playwright
 from tqdm import tqdm
 
-from stepaside.games.duel_settings import DuelSettings
-from stepaside.games.recorded_game import run_duel
+from stepaside.games.game_settings import GameSettings, duel
+from stepaside.games.recorded_game import run_game
 from stepaside.report.replay_page import write_page
 from stepaside.report.viewer.live_page import Page
 
@@ -43,7 +43,7 @@ EACH, RATE = 0.2, 8  # time between pictures in [s]; pictures a second
 
 
 @contextmanager
-def live(browser: Any, settings: DuelSettings) -> Iterator[tuple[Page, Any]]:
+def live(browser: Any, settings: GameSettings) -> Iterator[tuple[Page, Any]]:
     """Serve a page and open it."""
     served = Page(settings, port=8890)
     served.start()
@@ -76,7 +76,7 @@ def show(served: Page, page: Any, time: float) -> None:
 
 def view(browser: Any) -> None:
     """Take a screenshot of the live page with cameras."""
-    seen = DuelSettings(seed=7, sensing="cameras")
+    seen = duel(seed=7, senses="cameras")
     with live(browser, seen) as (served, page):
         show(served, page, SEEN_AT)
         page.screenshot(path=IMAGES / "view.png")
@@ -87,7 +87,7 @@ def film(browser: Any) -> None:
     begin, end = FILMED
     times = [begin + k * EACH for k in range(round((end - begin) / EACH))]
     frames = []
-    with live(browser, DuelSettings(seed=7)) as (served, page):
+    with live(browser, duel(seed=7)) as (served, page):
         for time in tqdm(times, "page.gif", disable=None):
             show(served, page, time)
             if abs(time - PUSHED) < 0.5 * EACH:
@@ -111,7 +111,7 @@ def replay(browser: Any) -> None:
     """Take a screenshot of the offline page at its end."""
     with TemporaryDirectory() as place:
         file = Path(place) / "run.html"
-        write_page(run_duel(DuelSettings(seed=7, duration=60.0)), file)
+        write_page(run_game(duel(seed=7, duration=60.0)), file)
         page = opened(browser, file.as_uri())
         page.get_by_text("distance").first.wait_for()
         page.keyboard.press("End")

@@ -43,14 +43,14 @@ class Picture:
 
 def draw_duel(store: Store, file: Path) -> None:
     """Draw the duel of the README from its stored trajectories."""
-    from stepaside.games.duel_settings import DuelSettings
+    from stepaside.games.game_settings import duel
     from stepaside.games.run_archive import read_record
     from stepaside.report.run_figure import draw_run
 
     result = store.result("duel-seed7")
     with np.load(store.folder / result["trajectories"]["file"]) as arrays:
         tracks = {name: arrays[name] for name in arrays.files}
-    settings = DuelSettings(seed=result["settings"]["seed"])
+    settings = duel(seed=result["settings"]["seed"])
     run = read_record("duel-seed7", settings, result["summary"], tracks)
     draw_run(run, file)
 

@@ -8,9 +8,9 @@
 import sys
 from pathlib import Path
 
-from stepaside.games.duel_settings import DuelSettings
-from stepaside.games.recorded_game import run_duel
+from stepaside.games.game_settings import duel
+from stepaside.games.recorded_game import run_game
 from stepaside.report.replay_page import write_page
 
 if __name__ == "__main__":
-    write_page(run_duel(DuelSettings(seed=7)), Path(sys.argv[1]))
+    write_page(run_game(duel(seed=7)), Path(sys.argv[1]))

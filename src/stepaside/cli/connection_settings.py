@@ -1,7 +1,7 @@
 """Options of ``stepaside play``: one player, and the connection to a robot."""
 
 import re
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -11,16 +11,14 @@ from ..core.errors import ConfigurationError
 from ..core.ranges import Range
 from ..core.setting import check_settings, setting
 from ..core.user_file import FILE_AND_NAME
-from ..games.duel_settings import (
-    EVADER,
-    PLAYERS,
-    DuelSettings,
-    load_evader,
-)
-from ..games.play_settings import PYTHON
+from ..games.play_settings import PYTHON, PlaySettings
+from ..games.player_settings import EVADER, PLAYERS
 from ..games.unicycle_settings import WHY, positive
-from ..locomotion.control_settings import OPEN_LOOP, STABILISED
-from ..strategies import Strategy, load_strategy
+from ..locomotion.control_settings import (
+    OPEN_LOOP,
+    STABILISED,
+    ControlSettings,
+)
 from .settings import CONTROL, GIVEN
 from .terminal import echo
 
@@ -162,7 +160,7 @@ class ConnectionSettings:
         """Whether the protocol is that of a NAO, with its chest button."""
         return self.address.startswith((LOLA, NAOQI))
 
-    def robot_maker(self, settings: DuelSettings) -> "Callable[[], Any]":
+    def robot_maker(self, settings: PlaySettings) -> "Callable[[], Any]":
         """Return a function that makes the robot, without connecting."""
         if self.in_python:
             from ..drivers.robot_loader import load_robot_class
@@ -200,12 +198,6 @@ class ConnectionSettings:
             )
         return make
 
-    def strategy(self, settings: DuelSettings) -> Strategy:
-        """Load the strategy of the role."""
-        if self.role == EVADER:
-            return load_evader(settings)
-        return load_strategy(settings.pursuer_strategy, settings.strategy)
-
     def join_domain(self) -> "DdsParticipant":
         """Join the ROS 2 domain."""
         return join_domain(self.domain, network=self.network)
@@ -221,10 +213,8 @@ def join_domain(domain: int | None, *, network: bool) -> "DdsParticipant":
     return dds
 
 
-def with_feedback(settings: DuelSettings) -> DuelSettings:
-    """Enable feedback unless options or settings choose the control."""
+def with_feedback(control: ControlSettings) -> ControlSettings:
+    """Return control with feedback unless options or settings choose it."""
     given = click.get_current_context().meta[GIVEN]
-    chosen = not given.isdisjoint(CONTROL)
-    if chosen or settings.control != OPEN_LOOP:
-        return settings
-    return replace(settings, control=STABILISED)
+    chosen = any(path.endswith(CONTROL) for path in given)
+    return control if chosen or control != OPEN_LOOP else STABILISED

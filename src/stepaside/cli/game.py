@@ -35,15 +35,19 @@ def game(
     the closest approach of each pair, and writes a run folder, which
     `stepaside show` shows.
     """
-    from ..core.setting import entries_of
-    from ..games.game_file import load_game
-    from ..games.game_settings import GameSettings
     from ..games.recorded_game import run_game
+    from ..games.settings_reader import (
+        entries_of_game,
+        load_game,
+        nested,
+        read_game,
+    )
 
     texts = [(name, text) for name, text in named.items() if text]
     texts += map(set_pair, sets)
-    changes = changes_of(texts, entries_of(GameSettings), GameSettings)
-    settings = load_game(file, **changes)
+    settings = load_game(file)
+    changes = changes_of(texts, entries_of_game(settings))
+    settings = read_game(nested(changes), base=settings)
     if lists:
         write_result(commented(settings))
         return

@@ -10,8 +10,7 @@ import click
 from ..core.errors import PlanError
 from ..core.ranges import Range
 from ..core.setting import check_settings, setting
-from ..games.duel_settings import DuelSettings
-from ..games.walk_settings import WalkSettings
+from ..games.game_settings import OF_ALL, GameSettings
 from ..planning import PRESETS, Direction, Foot, GaitSettings
 from .options import figure_option, json_option
 from .settings import takes_settings
@@ -65,12 +64,10 @@ class PlanSettings:
         check_settings(self, PlanError)
 
 
-# Entries of walks and duels, which the file of a plan may contain.
-ENTRIES_OF_GAMES = frozenset(
-    field.name
-    for kind in (DuelSettings, WalkSettings)
-    for field in fields(kind)
-)
+# Entries of games, which the file of a plan may contain; players have gaits.
+ENTRIES_OF_GAMES = {
+    *(*OF_ALL, *(each.name for each in fields(GameSettings))),
+} - {"players"}
 
 NAMED = ("role", "bearing", "steps", "first_foot", "saturated", "gait")
 
@@ -82,8 +79,8 @@ NAMED = ("role", "bearing", "steps", "first_foot", "saturated", "gait")
 def plan(settings: PlanSettings, figure: Path | None, as_json: bool) -> None:
     """Plan one maneuver from standing: path, footsteps, ZMP and CoM.
 
-    --role and --bearing are required. The gait may come from the
-    configuration of a duel or a walk.
+    --role and --bearing are required. The gait may come from the file of a
+    game that gives one to all its players.
     """
     from ..planning import ManeuverPlanner, TemplateDrive
 

@@ -9,8 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from ..games.duel_settings import EVADER, PURSUER, DuelSettings
-from ..strategies.registry import OF_EVASION
+from ..games.play_settings import PlaySettings
 from .connection_settings import ROS2, ConnectionSettings, with_feedback
 from .options import json_option
 from .settings import refuse_settings, takes_settings
@@ -28,12 +27,12 @@ INTERRUPTED = "interrupted"
 
 
 NAMED = (
-    *("role", "robot", "evader_strategy", "sensing", "duration"),
+    *("role", "robot", "strategy", "senses", "duration"),
     *("record", "domain", "dead_man", "dry_run", "check"),
 )
 SECTIONS = (
-    *("evader_strategy", "pursuer_strategy", "strategy", "shield", "gait"),
-    *("legs", "control", "sensing", "cameras"),
+    *("role", "robot", "dry_run", "strategy", "evasion", "shield", "gait"),
+    *("legs", "control", "senses", "cameras"),
 )
 
 
@@ -42,13 +41,13 @@ SECTIONS = (
 @takes_settings(
     NAMED,
     sections=SECTIONS,
-    settings=DuelSettings,
+    settings=PlaySettings,
     connection=ConnectionSettings,
 )
 @json_option
 def play(
     address: str,
-    settings: DuelSettings,
+    settings: PlaySettings,
     connection: ConnectionSettings,
     as_json: bool,
 ) -> None:
@@ -108,7 +107,9 @@ def play(
             if connection.record is not None:
                 from .play_recording import PlayRecord
 
-                used = with_feedback(settings) if joints else settings
+                control = settings.control
+                control = with_feedback(control) if joints else control
+                used = replace(settings, control=control)
                 record = PlayRecord(connection.record, used, connection)
                 stack.push(record.leave)
                 observers.append(record)
@@ -122,27 +123,12 @@ def play(
 
 
 def _refuse_unused(
-    settings: DuelSettings, connection: ConnectionSettings, *, joints: bool
+    settings: PlaySettings, connection: ConnectionSettings, *, joints: bool
 ) -> None:
     """Refuse options that have no effect with this role and robot."""
-    evades = connection.role == EVADER
-    own, other = "evader_strategy", "pursuer_strategy"
-    if not evades:
-        own, other = other, own
-    strategy = getattr(settings, own)
     addresses = connection.address, connection.dead_man
     on_ros2 = any(ROS2 in str(each) for each in addresses)
     rows = (  # whether they have an effect, the options, and what they need
-        (
-            False,
-            (other,),
-            f"role {PURSUER if evades else EVADER}, got {connection.role}",
-        ),
-        (
-            strategy in OF_EVASION,
-            ("strategy.",),
-            f"the strategy {' or '.join(OF_EVASION)}, got {strategy}",
-        ),
         (
             not joints,
             ("max_speed", "max_turn"),
@@ -159,9 +145,9 @@ def _refuse_unused(
             "joint control",
         ),
         (
-            settings.sensing == "cameras",
+            settings.senses == "cameras",
             ("images",),
-            "sensing cameras, got ideal",
+            "senses cameras, got ideal",
         ),
         (
             connection.address.startswith(ROS2),

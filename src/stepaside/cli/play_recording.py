@@ -10,14 +10,11 @@ from ..core.atomic_output import reason_of
 from ..core.errors import OutputError, StepAsideError
 from ..drivers.play_log import PlayLog, PlayTick
 from ..games.configuration_file import dump_configuration, json_settings
-from ..games.duel_settings import EVADER
 from ..games.outcome import Outcome
 from ..games.play_settings import PlaySettings
 from ..games.run_archive import CONFIGURATION, complete_play
-from ..strategies.registry import describe_strategy
 
 if TYPE_CHECKING:
-    from ..games.duel_settings import DuelSettings
     from .connection_settings import ConnectionSettings
 
 
@@ -30,22 +27,11 @@ class PlayRecord:
     def __init__(
         self,
         folder: Path,
-        settings: "DuelSettings",
+        settings: PlaySettings,
         connection: "ConnectionSettings",
     ) -> None:
         """Check the folder, which must not exist or must be empty."""
-        role = connection.role
-        strategies = settings.evader_strategy, settings.pursuer_strategy
-        self._settings = PlaySettings(
-            role=role,
-            language=connection.language,
-            robot=connection.robot,
-            plays=describe_strategy(strategies[role != EVADER]),
-            strategy=settings.strategy,
-            gait=settings.gait,
-            control=settings.control,
-            dry_run=connection.dry_run,
-        )
+        self._settings = replace(settings, language=connection.language)
         spelled = json_settings(self._settings)
         about = asdict(replace(connection, record=None)) | {
             name: spelled[name] for name in ("gait", "control")

@@ -141,7 +141,7 @@ def draw_figures(
     Returns:
         Caption and file name of each figure.
     """
-    from ..games import DuelSettings, run_duel
+    from ..games import duel, run_game
     from ..report.run_figure import draw_run
     from ..report.unicycle_figures import draw_game, draw_sweep
 
@@ -157,7 +157,7 @@ def draw_figures(
     ]
     if seed is None:
         return drawn
-    run = run_duel(DuelSettings(seed=seed, duration=SHOWN)).uninterrupted()
-    duel = f"duel-seed{seed}.png"
-    draw_run(run, folder / duel)
-    return [*drawn, ("Two NAOs in physics, in the manner of Fig. 5", duel)]
+    run = run_game(duel(seed=seed, duration=SHOWN)).uninterrupted()
+    name = f"duel-seed{seed}.png"
+    draw_run(run, folder / name)
+    return [*drawn, ("Two NAOs in physics, in the manner of Fig. 5", name)]

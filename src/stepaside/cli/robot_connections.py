@@ -1,11 +1,13 @@
 """Connections of ``stepaside play`` to its robot and its camera."""
 
 import sys
+from dataclasses import replace
 from math import inf
 from typing import TYPE_CHECKING, Any
 
 import click
 
+from ..games.game_strategies import strategy_of
 from .connection_settings import ConnectionSettings, with_feedback
 
 if TYPE_CHECKING:
@@ -17,13 +19,13 @@ if TYPE_CHECKING:
     from ..drivers.robot_camera import RobotCamera
     from ..drivers.robot_session import RobotSession
     from ..drivers.velocity_loop import VelocityLoop
-    from ..games.duel_settings import DuelSettings
+    from ..games.play_settings import PlaySettings
 
 V4L2 = "v4l2:"
 
 
 def open_loop(
-    settings: "DuelSettings",
+    settings: "PlaySettings",
     connection: ConnectionSettings,
     make: "Callable[[], Any]",
 ) -> "JointLoop | VelocityLoop":
@@ -31,7 +33,7 @@ def open_loop(
     from ..drivers.robot import JointRobot
 
     robot = make()
-    if settings.sensing == "cameras":
+    if settings.senses == "cameras":
         _check_camera(robot, connection)
     if isinstance(robot, JointRobot):
         return _open_joints(settings, connection, make, robot)
@@ -39,7 +41,7 @@ def open_loop(
 
 
 def _open_joints(
-    settings: "DuelSettings",
+    settings: "PlaySettings",
     connection: ConnectionSettings,
     make: "Callable[[], JointRobot]",
     robot: "JointRobot",
@@ -52,7 +54,7 @@ def _open_joints(
 
     description = load_robot(connection.robot)
     legs, gains = settings.legs, None
-    sees = settings.sensing == "cameras"
+    sees = settings.senses == "cameras"
     motors = motors_of(robot, description)
     if legs.walks:
         if not robot.takes_gains:
@@ -63,11 +65,12 @@ def _open_joints(
         contract, _ = load_policy(legs, description)
         gains = policy_gains(contract, motors)
     else:
-        settings = with_feedback(settings)
+        control = with_feedback(settings.control)
+        settings = replace(settings, control=control)
     return JointLoop(
         lambda: _open_session(connection, make, robot),
         motors,
-        connection.strategy(settings),
+        strategy_of(settings.player(settings.role)),
         scheme_factory(
             description,
             settings.gait,
@@ -86,7 +89,7 @@ def _open_joints(
 
 
 def _open_velocity(
-    settings: "DuelSettings",
+    settings: "PlaySettings",
     connection: ConnectionSettings,
     make: "Callable[[], Any]",
     robot: Any,
@@ -100,7 +103,8 @@ def _open_velocity(
         VelocityLoop,
     )
 
-    strategy, dry_run = connection.strategy(settings), connection.dry_run
+    strategy = strategy_of(settings.player(settings.role))
+    dry_run = connection.dry_run
     limits = robot.limits.within(
         connection.max_speed or inf, connection.max_turn or inf
     )
@@ -110,7 +114,7 @@ def _open_velocity(
         if not dry_run:
             session.run("prepare", PREPARE_TIMEOUT)
         eyes, robot = None, session.robot
-        if settings.sensing == "cameras":
+        if settings.senses == "cameras":
             eyes = PosedSight(
                 session,
                 _open_camera(settings, robot, connection, needs_mount=True),
@@ -208,7 +212,7 @@ def _check_camera(robot: Any, connection: ConnectionSettings) -> None:
 
 
 def _open_camera(
-    settings: "DuelSettings",
+    settings: "PlaySettings",
     robot: Any,
     connection: ConnectionSettings,
     *,

@@ -7,7 +7,9 @@ from pathlib import Path
 
 import click
 
-from ..games.duel_settings import PLAYERS, DuelSettings
+from ..games.game_settings import GameSettings
+from ..games.game_settings import duel as make_duel
+from ..games.player_settings import PLAYERS
 from .connection_settings import join_domain, with_feedback
 from .options import folder_option, json_option
 from .run_output import finish_run, print_run, run_folder
@@ -18,7 +20,7 @@ NAMED = ("seed", "duration", "robot", "start.distance")
 
 
 @click.command("serve")
-@takes_settings(NAMED, settings=DuelSettings)
+@takes_settings(NAMED, settings=make_duel())
 @click.option(
     "--ros2",
     multiple=True,
@@ -58,7 +60,7 @@ NAMED = ("seed", "duration", "robot", "start.distance")
 @folder_option(help="Run folder; the run is not saved by default.")
 @json_option
 def serve(
-    settings: DuelSettings,
+    settings: GameSettings,
     ros2: tuple[str, ...],
     domain: int | None,
     network: bool,
@@ -80,8 +82,12 @@ def serve(
     with closing(join_domain(domain, network=network)) as dds:
         gc.collect()
         gc.freeze()
+        feedback = {
+            name: {"control": with_feedback(settings.player(name).control)}
+            for name in settings.robots
+        }
         served = serve_duel(
-            with_feedback(settings),
+            settings.changed(**feedback),
             dds,
             namespaces,
             ideal_sight=sight == "ideal",

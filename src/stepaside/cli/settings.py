@@ -9,12 +9,12 @@ from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
 from dataclasses import fields
 from functools import partial, wraps
 from math import degrees
+from operator import attrgetter
 from pathlib import Path
-from typing import Any, cast, get_args, get_origin
+from typing import Any, get_args, get_origin
 
 import click
 
-from ..arena import RoomRecipe
 from ..core.setting import (
     NONE,
     REQUIRED,
@@ -23,8 +23,13 @@ from ..core.setting import (
     similar_paths,
 )
 from ..games.configuration_file import load_settings
-from ..games.settings_reader import RECIPE, nested, settings_of
-from ..strategies.registry import OF_EVASION
+from ..games.game_settings import GameSettings
+from ..games.settings_reader import (
+    entries_of_game,
+    nested,
+    read_game,
+    settings_of,
+)
 from .settings_text import commented
 from .terminal import write_result
 
@@ -51,24 +56,27 @@ MEANINGS = {
     "robot": "Robot: nao, or the folder of a description",
     "gait": "Gait of NAO",
     "body": "Imperfections of the body",
-    "sensing": "Sensing of opponents",
-    "room.plan": "Room: a file, or the seed of a random one",
-    "evader_strategy": "Strategy of the evader (docs/strategies.md)",
+    "senses": "Sensing of opponents",
+    "room": "Room: a file, or the seed of a random one",
+    "strategy": "Strategy of the player (docs/strategies.md)",
+    "evader.strategy": "Strategy of the evader (docs/strategies.md)",
+    "pursuer.body": "Body of the pursuer: robot or person",
     "start.distance": "Initial distance [m]; drawn by default",
     "pushes": "Push: 1.2@5:90deg is 1.2 N s at 5 s, to the left; repeatable",
 }
 """Short meanings of options, by path; --settings has the long ones."""
 FLAGS = {
-    "room.plan": "--room",
+    "senses": "--sensing",
     "evader_strategy": "--strategy",
+    "pursuer.body": "--pursuer",
     "pushes": "--push",
 }
 """Options that are not named like their setting, by its path."""
 CONTROL = ("control.method", "control.feedback")
 IMPLY: Mapping[str, tuple[str, ...]] = {
     "body": CONTROL,
-    "gait": (*CONTROL, "strategy.trigger"),
-    "pursuer": ("strategy.trigger",),
+    "gait": (*CONTROL, "evasion.trigger"),
+    "pursuer.body": ("evasion.trigger",),
 }
 """Entries of a file that an option leaves open again, as it implies them."""
 GIVEN = "stepaside.given"  # of a context: given settings, and --config
@@ -79,7 +87,7 @@ def takes_settings(
     *,
     sections: tuple[str, ...] = (),
     aside: Collection[str] = (),
-    **kinds: type[Any],
+    **kinds: Any,
 ) -> Decorator:
     """Add options of settings, ``--set``, ``--config`` and ``--settings``.
 
@@ -88,16 +96,18 @@ def takes_settings(
         sections: Sections of the first class that the command uses; all if
             empty.
         aside: Entries of a file that belong to other commands.
-        kinds: Class of the settings that each argument receives.
+        kinds: Class of the settings that each argument receives, or the game
+            that they change.
     """
     entries = dict[str, Entry]()
     for kind in kinds.values():
-        found = entries_of(cast(Any, kind))
+        if isinstance(kind, GameSettings):
+            found = entries_of_game(kind)
+        else:
+            found = entries_of(kind)
         if sections and not entries:
             found = {k: v for k, v in found.items() if _head(k) in sections}
         entries |= found
-    if "room.plan" in entries:
-        entries |= entries_of(RoomRecipe, RECIPE)
 
     def decorate(function: Callable[..., Any]) -> Callable[..., Any]:
         @wraps(function)
@@ -108,7 +118,7 @@ def takes_settings(
                 for text in _texts(values.pop(_argument(path)))
             ]
             texts += [set_pair(text) for text in values.pop("sets")]
-            changes = changes_of(texts, entries, *kinds.values())
+            changes = changes_of(texts, entries)
             config = values.pop("config")
             given = {*changes, *(["--config"] if config else [])}
             click.get_current_context().meta[GIVEN] = given
@@ -208,14 +218,12 @@ def set_pair(text: str) -> tuple[str, str]:
 def changes_of(
     texts: Collection[tuple[str, str]],
     entries: Mapping[str, Entry],
-    *kinds: type[Any],
 ) -> dict[str, Any]:
     """Return values by path; those of a list are collected.
 
     Args:
         texts: Paths and values as a user writes them.
         entries: Settings by path.
-        kinds: Classes of these settings.
 
     Raises:
         UsageError: If there is no such path; the message names similar ones.
@@ -223,14 +231,15 @@ def changes_of(
     found = dict[str, Any]()
     for path, text in texts:
         if path not in entries:
-            near = [x for k in kinds for x in similar_paths(k, path)]
+            near = similar_paths(entries, path)
             hint = f"; did you mean {' or '.join(near)}?" if near else ""
             raise click.UsageError(
                 f"unknown setting {path}{hint}; --settings lists all"
             )
         entry = entries[path]
         value = _value(text, entry)
-        if _is_list(entry) and value not in (entry.described.presets or {}):
+        presets = entry.described.presets or {}
+        if _is_list(entry) and value not in [*presets]:
             more = value if isinstance(value, list) else [value]
             value = [*found.get(path, ()), *(x for x in more if x != NONE)]
         found[path] = value
@@ -253,7 +262,7 @@ def _value(text: str, entry: Entry) -> Any:
 
 
 def _read(
-    kinds: Mapping[str, type[Any]],
+    kinds: Mapping[str, Any],
     changes: Mapping[str, Any],
     config: Path | None,
     aside: Collection[str],
@@ -261,15 +270,22 @@ def _read(
     """Return the settings of each class from options and file."""
     file = {} if config is None else load_settings(config)
     left_open = {e for path in changes for e in IMPLY.get(path, ())}
-    entries = nested(changes, _without(file, left_open))
-    source = "" if config is None or changes else str(config)
-    made, known = {}, {f.name for k in kinds.values() for f in fields(k)}
-    first = next(iter(kinds))
+    file, given = _without(file, left_open), nested(changes)
+    source = "" if config is None else str(config)
+    made, known = dict[str, Any](), set[str]()
+    for kind in kinds.values():
+        known |= {field.name for field in fields(kind)}
     for name, kind in kinds.items():
+        if isinstance(kind, GameSettings):
+            game = read_game(file, source, base=kind)
+            made[name] = read_game(given, base=game).resolved()
+            continue
+        entries = nested(given, file)
         own = {field.name for field in fields(kind)}
-        if name == first:  # it refuses what no class knows
+        if not made:  # the first refuses what no class knows
             own |= entries.keys() - known
         chosen = {k: v for k, v in entries.items() if k in own}
+        source = source if not changes else ""
         settings = settings_of(kind, chosen, source, aside=aside)
         if hasattr(settings, "resolved"):
             settings = settings.resolved()
@@ -280,14 +296,20 @@ def _read(
 def _without(
     entries: Mapping[str, Any], paths: Collection[str], section: str = ""
 ) -> dict[str, Any]:
-    """Return the nested entries of a file without those at some paths."""
-    return {
-        name: _without(value, paths, f"{section}{name}.")
-        if isinstance(value, dict)
-        else value
-        for name, value in entries.items()
-        if f"{section}{name}" not in paths
-    }
+    """Return the nested entries of a file without those at some paths.
+
+    A path is one of the game, and one of each player that the file lists.
+    """
+    found = dict[str, Any]()
+    for name, value in entries.items():
+        if name == "players" and isinstance(value, list):
+            own = [_without(x, paths) for x in value if isinstance(x, dict)]
+            value = own if len(own) == len(value) else value
+        elif isinstance(value, dict):
+            value = _without(value, paths, f"{section}{name}.")
+        if f"{section}{name}" not in paths:
+            found[name] = value
+    return found
 
 
 def _needs(
@@ -308,27 +330,24 @@ def _refuse_unused(
 ) -> None:
     """Refuse settings that have no effect with the others."""
     for settings in made.values():
-        unused = [path for path in given if path.startswith("strategy.")]
-        if unused and not getattr(settings, "uses_evasion", True):
-            raise click.UsageError(
-                f"{', '.join(unused)} requires the strategy "
-                f"{' or '.join(OF_EVASION)}, got "
-                f"{settings.named().evader_strategy}"
-            )
+        players = getattr(settings, "players", ())
         for own in given:
             for path, needed in _needs(own, entries):
-                if _head(path) not in {f.name for f in fields(settings)}:
-                    continue
-                value: Any = settings
-                for name in path.split("."):
-                    value = getattr(value, name)
-                unmet = value is None or value is False
-                if needed:
-                    unmet = value != needed
-                if unmet and own != path:
+                holders = [p for p in players if p.name == _head(own)]
+                owners = [
+                    each
+                    for each in holders or players or (settings,)
+                    if hasattr(each, _head(path))
+                ]
+                values = list(map(attrgetter(path), owners or (settings,)))
+                met = [
+                    value == needed if needed else value not in (None, False)
+                    for value in values
+                ]
+                if not any(met) and own not in (path, f"{_head(own)}.{path}"):
                     raise click.UsageError(
                         f"{own} requires {path} {needed}".rstrip()
-                        + (f", got {value}" if needed else "")
+                        + (f", got {values[-1]}" if needed else "")
                     )
 
 

@@ -38,7 +38,14 @@ def _lines(
         )
         path = (*section, name)
         if isinstance(value, Room):
-            subsections += ["", comment, _room(value, path)]
+            import tomli_w
+
+            entries = {name: room_to_entries(value)}
+            subsections += ["", comment, tomli_w.dumps(entries).strip()]
+        elif isinstance(value, tuple) and value and is_dataclass(value[0]):
+            for one in value:
+                subsections += ["", comment, f"[[{'.'.join(path)}]]"]
+                subsections += _lines(one, path)
         elif is_dataclass(value):
             subsections += ["", comment, f"[{'.'.join(path)}]"]
             subsections += _lines(value, path)
@@ -47,18 +54,6 @@ def _lines(
         else:
             lines += [comment, f"{name} = {_inline(value)}"]
     return lines + subsections
-
-
-def _room(room: Room, section: tuple[str, ...]) -> str:
-    """Return a room in the format of room files, inside a section."""
-    import tomli_w
-
-    entries: dict[str, Any] = room_to_entries(room)
-    for name in reversed(section):
-        entries = {name: entries}
-    # The outermost section is open already.
-    text = tomli_w.dumps(entries)
-    return text.replace(f"[{section[0]}]\n", "", 1).strip()
 
 
 def _inline(value: Any) -> str:

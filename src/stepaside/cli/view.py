@@ -4,18 +4,16 @@ import webbrowser
 from contextlib import closing
 from pathlib import Path
 from time import sleep
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import click
 
-from ..games.duel_settings import DuelSettings
+from ..games.game_settings import GameSettings
+from ..games.game_settings import duel as make_duel
 from .duel import NAMED as NAMED_OF_DUEL
 from .options import browser_option, file_argument
 from .settings import refuse_settings, takes_settings
 from .terminal import echo
-
-if TYPE_CHECKING:
-    from ..games.game_settings import GameSettings
 
 # A live game has no end by time.
 NAMED = tuple(name for name in NAMED_OF_DUEL if name != "duration")
@@ -23,7 +21,7 @@ NAMED = tuple(name for name in NAMED_OF_DUEL if name != "duration")
 
 @click.command("view")
 @file_argument("file", required=False)
-@takes_settings(NAMED, settings=DuelSettings)
+@takes_settings(NAMED, settings=make_duel())
 @click.option(
     "--port",
     type=click.IntRange(1, 65535),
@@ -38,7 +36,7 @@ NAMED = tuple(name for name in NAMED_OF_DUEL if name != "duration")
     help="Start the simulation immediately, or paused.",
 )
 def view(
-    settings: DuelSettings,
+    settings: GameSettings,
     file: Path | None,
     port: int,
     opens: bool,
@@ -49,16 +47,15 @@ def view(
     With FILE it is the game in physics of the players that FILE lists;
     otherwise a duel.
     """
-    played: DuelSettings | GameSettings = settings
     if file is not None:
-        from ..games.game_file import load_game
+        from ..games.settings_reader import load_game
 
         refuse_settings(("",), "a duel: FILE has the settings of its players")
-        played = load_game(file)
+        settings = load_game(file)
     from ..report.viewer.live_page import Page
     from ..report.viewer.page_server import address_of
 
-    page: Any = Page(played, port=port)
+    page: Any = Page(settings, port=port)
     with closing(page):
         page.session.running = run
         page.start()

@@ -164,9 +164,9 @@ def entries_of(kind: Any, section: str = "") -> dict[str, Entry]:
     return found
 
 
-def similar_paths(kind: Any, name: str) -> list[str]:
+def similar_paths(paths: Collection[str], name: str) -> list[str]:
     """Return paths of settings that a wrong path may mean, at most three."""
-    last, paths = name.rpartition(".")[2], entries_of(kind)
+    last = name.rpartition(".")[2]
     near = [path for path in paths if path.rpartition(".")[2] == last]
     return (near or get_close_matches(name, paths, 3))[:3]
 
@@ -315,7 +315,7 @@ class EntryReader:
         unknown = [name for name in value if name not in entries]
         if not unknown:
             return
-        near = [x for u in unknown for x in similar_paths(kind, u)]
+        near = [x for u in unknown for x in similar_paths(entries_of(kind), u)]
         hint = f"there are {', '.join(entries)}"
         if near:
             hint = (

@@ -15,9 +15,9 @@ from ..core.errors import (
     check_choice,
     shown,
 )
-from ..games.duel_settings import PLAYERS
 from ..games.floor_games import floor_of_two, rules_of_two
 from ..games.game import GameInPlay
+from ..games.player_settings import PLAYERS
 from ..games.recorded_game import RecordedGame
 from ..strategies.learned.strategy_contract import (
     FARTHEST,
@@ -72,10 +72,10 @@ class DuelParallelEnv(ParallelGames):
         self.settings = given = EnvironmentSettings(**settings)
         self._strategies = dict(opponents or {})
         learners = [name for name in PLAYERS if name not in self._strategies]
-        physics, body = given.level == "physics", given.duel.pursuer
+        physics, body = given.level == "physics", given.duel.pursuer.body
         if physics and body != "robot" and "pursuer" in learners:
             raise ConfigurationError(
-                "duel.pursuer must be robot where the pursuer learns, "
+                "duel.pursuer.body must be robot if the pursuer learns, "
                 f"got {body!r}"
             )
         super().__init__(
@@ -98,16 +98,14 @@ class DuelParallelEnv(ParallelGames):
             settings.duel,
             seed=(settings.first_arena + seed + STRIDE * number) % SEEDS,
             duration=settings.duration,
-            evader_strategy=played["evader"],
         )
-        if duel.pursuer == "robot":
-            duel = replace(duel, pursuer_strategy=played["pursuer"])
-        game = RecordedGame(duel, recorded=False)
+        robots = {n: s for n, s in played.items() if n in duel.robots}
+        game = RecordedGame(duel, strategies=robots, recorded=False)
         episode = Episode(
             game,
             held,
-            duel.room.plan or OPEN_FLOOR,
-            period=duel.robot_of("evader").gait.step_duration,
+            duel.room or OPEN_FLOOR,
+            period=duel.evader.gait.step_duration,
             patience=LONGEST_WAIT,
         )
         if not episode.sees:

@@ -25,8 +25,10 @@ from ..core.errors import (
     shown,
 )
 from ..core.poses import Array, Pose
-from ..games.duel_settings import PLAYERS, DuelSettings
 from ..games.floor_world import PARTS
+from ..games.game_settings import GameSettings
+from ..games.game_settings import duel as make_duel
+from ..games.player_settings import PLAYERS
 from ..planning import Direction
 from ..strategies.knowledge import STAND, Intent
 from ..strategies.learned.strategy_contract import (
@@ -109,7 +111,7 @@ class EnvironmentSettings:
     action: str = "continuous"
     headings: int = HEADINGS
     game: StepGame = field(default_factory=StepGame)
-    duel: DuelSettings = field(default_factory=DuelSettings)
+    duel: GameSettings = field(default_factory=make_duel)
 
     def __post_init__(self) -> None:
         """Validate names, ranges and combinations."""
@@ -176,7 +178,7 @@ class EnvironmentSettings:
     def sensed_terms(self) -> tuple[str, ...]:
         """Terms of the observation that a strategy can have, too."""
         physics = self.level == "physics"
-        room = self.duel.room.plan if physics else self.room
+        room = self.duel.room if physics else self.room
         names = (n for n in SENSED_TERMS if n != "clearances")
         return (*names, *(() if room is None else ("clearances",)))
 

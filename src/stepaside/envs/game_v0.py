@@ -13,10 +13,10 @@ from ..core.constants import CAPTURE_DISTANCE
 from ..core.errors import AnyPath, ConfigurationError, check_within
 from ..games.floor_games import floor_of, rules_of
 from ..games.game import GameInPlay
-from ..games.game_file import load_game
 from ..games.game_settings import GameSettings
 from ..games.game_starts import with_starts
 from ..games.physics_world import PhysicsWorld
+from ..games.settings_reader import load_game
 from ..strategies.knowledge import Knowledge, OtherPlayer
 from ..strategies.learned.strategy_contract import (
     FARTHEST,
@@ -105,16 +105,14 @@ class GameParallelEnv(ParallelGames):
             name: HeldIntent(direction_of(self.game.player(name).role))
             for name in self.possible_agents
         }
-        players = tuple(
-            replace(own, strategy=held.get(own.name, own.strategy))
-            for own in self.game.players
-        )
         seed = (seed + STRIDE * number) % SEEDS
-        game = with_starts(replace(self.game, seed=seed, players=players))
+        game = with_starts(replace(self.game, seed=seed))
         physics = game.level == "physics"
         return Episode(
             GameInPlay(
-                PhysicsWorld(game) if physics else floor_of(game),
+                PhysicsWorld(game, strategies=held)
+                if physics
+                else floor_of(game, held),
                 replace(rules_of(game), capture=CAPTURE_DISTANCE),
             ),
             held,

@@ -18,7 +18,7 @@ from ..core.errors import (
     check_within,
 )
 from ..core.poses import Array
-from ..games.duel_settings import PLAYERS
+from ..games.player_settings import PLAYERS
 from ..strategies.evasion import Evasion
 from ..strategies.learned import LearnedStrategy
 from ..strategies.pursuit import Pursuit

@@ -13,12 +13,13 @@ import numpy as np
 from ..core.errors import StepAsideError
 from ..core.poses import Array
 from ..games.game import GameInPlay, GameObserver, play
+from ..games.game_settings import walk
 from ..games.outcome import Outcome
 from ..games.physics_world import PhysicsWorld
+from ..games.player_settings import WALKER
 from ..games.recorded_game import RecordedGame
 from ..games.robot_player import RobotPlayer
 from ..games.robot_settings import settings_from_description
-from ..games.walk_settings import WalkSettings
 from ..locomotion.control_settings import ControlSettings
 from ..locomotion.zmp.reference_table import initial_stance
 from ..planning import GaitSettings
@@ -199,15 +200,15 @@ def walk_trial(trial: WalkTrial) -> WalkTrialResult:
     duration = (
         START_TIME + gait.start_support + 2 * CYCLES * gait.step_duration
     )
-    settings = WalkSettings(
+    settings = walk(
+        path.bearing,
+        backward=path.backward,
         duration=duration,
         robot=str(trial.description.folder),
-        bearing=path.bearing,
-        backward=path.backward,
         gait=gait,
         control=trial.control,
     ).resolved()
-    feedback = bool(settings.control.feedback)
+    feedback = bool(settings.player(WALKER).control.feedback)
     gauge = StrainGauge()
     try:
         game = RecordedGame(settings, (gauge,), description=trial.description)
@@ -294,13 +295,13 @@ def check_robot(
     own = trials_of(description, feedback=False)
     trials = (*own, *trials_of(description, feedback=True))
     walks: list[WalkTrialResult] = []
-    for walk in executor.map(walk_trial, trials):
-        walks.append(walk)
+    for result in executor.map(walk_trial, trials):
+        walks.append(result)
         if report is not None:
             report(len(walks), len(trials))
     feedback = bool(description.control.get("feedback", False))
-    described = [walk for walk in walks if walk.feedback == feedback]
-    others = [walk for walk in walks if walk.feedback != feedback]
+    described = [each for each in walks if each.feedback == feedback]
+    others = [each for each in walks if each.feedback != feedback]
     found += _strains(described)
     found += [_steadiness(described), _steadiness(others, described=False)]
     return VerificationReport(tuple(found), tuple(walks), feedback)

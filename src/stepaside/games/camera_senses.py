@@ -30,7 +30,8 @@ from ..sim.sensor_suite import SensorSuite
 from ..sim.simulated_robot import SimulatedRobot
 from ..sim.world import World
 from .game import GameInPlay, GameObserver
-from .game_settings import GameSettings, PlayerSettings
+from .game_settings import GameSettings
+from .player_settings import PlayerSettings
 from .sight_evaluation import SightEvaluator
 from .summary import PerceptionSummary, SightSummary
 

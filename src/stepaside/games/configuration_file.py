@@ -15,9 +15,6 @@ from ..core.entries import (
     to_entries,
 )
 from ..core.errors import AnyPath, as_path
-from .duel_settings import DuelSettings
-from .game_settings import GameSettings, PlayerSettings
-from .walk_settings import WalkSettings
 
 ROBOTS = "robots"  # folder of descriptions and networks in a run folder
 S = TypeVar("S")  # a frozen dataclass of settings
@@ -84,16 +81,6 @@ def replace_files(entries: Any, change: Callable[[str], str]) -> None:
                 replace_files(value, change)
 
 
-def load_configuration(path: AnyPath) -> DuelSettings:
-    """Read the configuration of a duel from a TOML file.
-
-    Raises:
-        ConfigurationError: If the file is not TOML, or entries are unknown,
-            of the wrong type or out of their range.
-    """
-    return parse_settings(DuelSettings, load_settings(path), str(path))
-
-
 def dump_configuration(settings: Any) -> str:
     """Return the TOML text from which the same settings are read."""
     return tomli_w.dumps(settings_entries(settings))
@@ -104,15 +91,8 @@ def settings_entries(settings: Any) -> dict[str, Any]:
 
     What they leave open is resolved.
     """
-    if isinstance(settings, DuelSettings | GameSettings | WalkSettings):
+    if hasattr(settings, "resolved"):
         settings = settings.resolved()
-    return open_entries(settings)
-
-
-def open_entries(settings: Any) -> dict[str, Any]:
-    """Return settings as nested entries, without those that are open."""
-    if isinstance(settings, DuelSettings | GameSettings | PlayerSettings):
-        settings = settings.named()
     entries: dict[str, Any] = to_entries(settings, WRITERS)
     return entries
 

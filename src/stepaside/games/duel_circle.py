@@ -8,13 +8,13 @@ from numpy.typing import NDArray
 from ..core.poses import Array, wrap_angles
 from ..planning import GaitSettings
 from ..theory.unicycle.circles import Circle, find_circle
-from .duel_settings import EVADER, PURSUER, DuelSettings
+from .game_settings import GameSettings
 
 DISTANCE_BAND = 0.05  # relative to the distance on the circle
 ORIENTATION_BAND = 5.0  # around the orientation on the circle, in [deg]
 
 
-def circle_of_theory(settings: DuelSettings) -> Circle:
+def circle_of_theory(settings: GameSettings) -> Circle:
     """Compute the circle that the unicycles of a duel converge to.
 
     The circle does not exist where the game differs from that of the paper;
@@ -24,12 +24,12 @@ def circle_of_theory(settings: DuelSettings) -> Circle:
     if _differs(settings) is not None:
         return Circle(exists=False)
     circle = _circle_of(settings)
-    if not circle.distance_m < settings.strategy.release_distance:
+    if not circle.distance_m < settings.evader.evasion.release_distance:
         return Circle(exists=False)
     return circle
 
 
-def missing_circle_reason(settings: DuelSettings) -> str:
+def missing_circle_reason(settings: GameSettings) -> str:
     """Return the reason why the unicycles of a duel reach no circle."""
     settings = settings.resolved()
     differs = _differs(settings)
@@ -38,22 +38,23 @@ def missing_circle_reason(settings: DuelSettings) -> str:
     circle = _circle_of(settings)
     if not circle.exists:
         return "no circle: unicycles of these speeds and gains have none"
+    ends = settings.evader.evasion.release_distance
     return (
-        f"no circle: evasion ends at {settings.strategy.release_distance:g} "
+        f"no circle: evasion ends at {ends:g} "
         f"m, and the circle would be {circle.distance_m:.3f} m wide"
     )
 
 
-def _differs(settings: DuelSettings) -> str | None:
+def _differs(settings: GameSettings) -> str | None:
     """Return how a game differs from that of the paper, or None."""
-    person = settings.person
-    if settings.room.plan is not None:
+    person = settings.pursuer.person
+    if settings.room is not None:
         return "the paper has no rooms"
     if not settings.is_of_the_paper:
         return "the strategies are not the paper's"
-    if settings.strategy.trigger == "time":
+    if settings.evader.evasion.trigger == "time":
         return "evasion begins and ends by the time to contact"
-    if settings.pursuer == "person":
+    if settings.pursuer.body == "person":
         if person.path != "steer" or isfinite(person.halt_after):
             return "the person does not keep steering at the evader"
         if person.feint_at > 0.0:
@@ -65,17 +66,16 @@ def _differs(settings: DuelSettings) -> str | None:
     return None
 
 
-def _circle_of(settings: DuelSettings) -> Circle:
+def _circle_of(settings: GameSettings) -> Circle:
     """Compute the circle of two unicycles that play without end."""
-    strategy = settings.strategy
-    gait = settings.robot_of(EVADER).gait
+    strategy, gait = settings.evader.evasion, settings.evader.gait
     speeds = gait.speed, gait.speed
     gains = gait.gain, gait.gain
-    chasing = settings.robot_of(PURSUER).gait
-    if settings.pursuer == "person":
+    chasing = settings.pursuer.gait
+    if settings.pursuer.body == "person":
         # A person's speed is in real time, that of a gait in path time.
         pace = time_scale(gait)
-        person = settings.person
+        person = settings.pursuer.person
         speeds = person.speed, gait.speed * pace
         gains = person.gain, gait.gain * pace
     elif chasing != gait:
@@ -146,7 +146,7 @@ def convergence_time(
     times: Array,
     pursuer: Array,
     evader: Array,
-    settings: DuelSettings,
+    settings: GameSettings,
     theory: Circle,
 ) -> float | None:
     """Find the time from which the robots stay on the circle.

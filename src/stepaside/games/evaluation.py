@@ -138,7 +138,6 @@ def summarise(
         real_time_factor=game.real_time_factor,
         touched=list(game.touched),
         fallen=list(game.fallen),
-        notes=list(getattr(run.settings, "notes", ())),
         players=players,
         planning=_planning(planning),
         sight=together,

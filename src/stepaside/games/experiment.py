@@ -15,7 +15,7 @@ from ..core.rotations import rotation_of
 from .evaluation import measure
 from .experiment_settings import ExperimentSettings
 from .outcome import Outcome
-from .player_names import MOST_PLAYERS, PLAYER_NAME
+from .player_settings import MOST_PLAYERS, PLAYER_NAME
 from .run import Run
 from .trajectory import Trajectory, check_record
 

@@ -8,7 +8,7 @@ from ..core.errors import ConfigurationError
 from ..core.ranges import Range
 from ..core.setting import check_settings, setting
 from ..planning import GaitSettings
-from .duel_settings import RobotSettings
+from .player_settings import PlayerSettings
 
 
 @dataclass(frozen=True, slots=True)
@@ -38,9 +38,9 @@ class ExperimentSettings:
         """Gait whose soles figures draw: an experiment has no footsteps."""
         return GaitSettings()
 
-    def robot_of(self, player: str) -> RobotSettings:
+    def player(self, name: str) -> PlayerSettings:
         """Raise an error: the robots of an experiment are not described."""
         raise ConfigurationError(
-            f"robot of {player} must be described, but an experiment has "
+            f"robot of {name} must be described, but an experiment has "
             "poses only"
         )

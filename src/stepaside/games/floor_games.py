@@ -1,7 +1,8 @@
 """Games on the floor: of two strategies, and of the settings of a game."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from math import pi
+from types import MappingProxyType
 from typing import NamedTuple
 
 import numpy as np
@@ -35,9 +36,10 @@ from .floor_world import (
     FloorWorld,
 )
 from .game import GameInPlay, GameRules, play
-from .game_settings import GameSettings, PlayerSettings
+from .game_settings import GameSettings
 from .game_strategies import MARGIN, strategy_of
 from .outcome import Outcome
+from .player_settings import PlayerSettings
 
 UNBOUNDED = 1e9  # safety radius of a game without safety area, in [m]
 PAIR = {
@@ -256,13 +258,21 @@ def play_template(
     return track_of(game, recorder)
 
 
-def floor_of(settings: GameSettings) -> FloorWorld:
+def floor_of(
+    settings: GameSettings,
+    strategies: Mapping[str, Strategy] = MappingProxyType({}),
+) -> FloorWorld:
     """Return the world of a game at level "unicycle" or "steps".
 
-    Obstacles stop pursuers; any other robot that touches one ends the game.
+    Strategies as objects replace those of the settings, by name of the
+    player. Obstacles stop pursuers; any other robot that touches one ends
+    the game.
     """
     return FloorWorld(
-        {own.name: motion_of(settings, own) for own in settings.players},
+        {
+            own.name: motion_of(settings, own, given=strategies.get(own.name))
+            for own in settings.players
+        },
         _solids(settings),
         [p.name for p in settings.players if p.role != Role.PURSUER],
     )
@@ -283,18 +293,22 @@ def rules_of(settings: GameSettings) -> GameRules:
 
 
 def motion_of(
-    settings: GameSettings, own: PlayerSettings, period: float = PERIOD
+    settings: GameSettings,
+    own: PlayerSettings,
+    period: float = PERIOD,
+    given: Strategy | None = None,
 ) -> FloorMotion:
     """Return the motion of a player that physics does not move.
 
-    A person on a path decides after each period, in [s].
+    A person on a path decides after each period, in [s]; a strategy that is
+    given replaces that of the settings.
     """
     pose, solids = own.pose, _solids(settings)
     physics = settings.level == "physics"
     assert pose is not None
     if own.decides:
         return FloorWalk(
-            agent_of(settings, own),
+            agent_of(settings, own, given),
             pose,
             parts=PARTS.get(settings.level, 1),
             delay=own.gait.start_support if physics else 0.0,
@@ -315,11 +329,15 @@ def motion_of(
     return FloorPerson(own.name, crowd, bodies)
 
 
-def agent_of(settings: GameSettings, own: PlayerSettings) -> FloorAgent:
+def agent_of(
+    settings: GameSettings,
+    own: PlayerSettings,
+    given: Strategy | None = None,
+) -> FloorAgent:
     """Return the strategy of a template, which knows the room."""
     gait, knows = own.gait, settings.knows_room
     return FloorAgent(
-        strategy_of(own, Pose(0.0, 0.0, 0.0)),
+        strategy_of(own, given=given),
         Limits(gait.speed, gait.gain, gait.stride, gait.step_duration),
         own.identity,
         list(settings.identities.values()),

@@ -9,6 +9,7 @@ from ..core.poses import Pose
 from ..robots.description import load_robot
 from ..sim.person_motion import PersonMotion, Place, template_approach
 from ..sim.person_settings import PersonSettings
+from ..strategies.registry import is_described
 from ..theory.unicycle.unicycle_game import Unicycle
 from .duel_circle import (
     circle_of_theory,
@@ -16,9 +17,10 @@ from .duel_circle import (
     missing_circle_reason,
     time_scale,
 )
-from .duel_settings import EVADER, PURSUER, DuelSettings, load_evader
 from .floor_games import play_template
-from .initial_poses import initial_poses
+from .game_settings import GameSettings
+from .game_strategies import strategy_of
+from .player_settings import EVADER, PURSUER
 from .run import Run
 from .summary import Summary, TheorySummary
 
@@ -26,10 +28,10 @@ MAX_DURATION = 600.0  # of a game of templates, in [s]
 STEP = 0.05  # of its integration, in [s]
 CIRCLE, LATER, CONTACT, NO_CIRCLE = "circle", "later", "contact", "no circle"
 
-_latest: deque[tuple[DuelSettings, TheorySummary]] = deque(maxlen=1)
+_latest: deque[tuple[GameSettings, TheorySummary]] = deque(maxlen=1)
 
 
-def forecast(settings: DuelSettings) -> TheorySummary:
+def forecast(settings: GameSettings) -> TheorySummary:
     """Return the theory of a duel, with the initial poses filled in.
 
     Of two robots with the strategies of the paper the game of their unicycle
@@ -45,7 +47,7 @@ def forecast(settings: DuelSettings) -> TheorySummary:
     return _latest[-1][1]
 
 
-def _forecast(settings: DuelSettings) -> TheorySummary:
+def _forecast(settings: GameSettings) -> TheorySummary:
     circle, found = circle_of_theory(settings), TheorySummary()
     if circle.exists:
         found = TheorySummary(
@@ -56,19 +58,17 @@ def _forecast(settings: DuelSettings) -> TheorySummary:
         )
     else:
         found = TheorySummary(words=missing_circle_reason(settings))
-    start = settings.start
-    drawn = (start.distance, start.pursuer_offset, start.evader_offset)
-    if settings.pursuer == "robot":
-        if not settings.is_of_the_paper or None in drawn:
+    if settings.pursuer.body == "robot":
+        if not settings.is_of_the_paper or settings.evader.pose is None:
             return found
         return _played(settings, found)
     return replace(found, min_distance_m=_approach_of_person(settings))
 
 
-def _played(settings: DuelSettings, found: TheorySummary) -> TheorySummary:
+def _played(settings: GameSettings, found: TheorySummary) -> TheorySummary:
     """Play the templates of a duel of two robots."""
     least = settings.start.least
-    chasing = settings.robot_of(PURSUER).gait
+    chasing = settings.pursuer.gait
     pace = time_scale(chasing)
     steering = PersonSettings(
         "steer", chasing.speed * pace, chasing.gain * pace
@@ -78,11 +78,13 @@ def _played(settings: DuelSettings, found: TheorySummary) -> TheorySummary:
         return PersonMotion(steering, pose, evader)
 
     duration = min(settings.duration, MAX_DURATION)
+    pursuer, evader = (Pose(*own.start) for own in settings.players)
     played = play_template(
         motion,
-        *initial_poses(settings),
-        settings.strategy,
-        settings.robot_of(EVADER).gait,
+        pursuer,
+        evader,
+        settings.evader.evasion,
+        settings.evader.gait,
         duration=duration,
         step=STEP,
     )
@@ -111,19 +113,20 @@ def _played(settings: DuelSettings, found: TheorySummary) -> TheorySummary:
     )
 
 
-def _approach_of_person(settings: DuelSettings) -> float | None:
+def _approach_of_person(settings: GameSettings) -> float | None:
     """Return the closest approach of a person to the evader's template [m].
 
     None where the template is no model of the game.
     """
-    start, own = settings.start, settings.robot_of(EVADER)
-    gait, legs, strategy = own.gait, own.legs, settings.strategy
-    if start.distance is None:
+    start, own = settings.start, settings.evader
+    gait, legs, strategy = own.gait, own.legs, own.evasion
+    person = settings.pursuer.person
+    if start.distance is None or is_described(own.strategy):
         return None
     if not (settings.is_of_the_paper or legs.walks):
         return None
     initial = (
-        lambda pose, evader: PersonMotion(settings.person, pose, evader),
+        lambda pose, evader: PersonMotion(person, pose, evader),
         Pose(0.0, 0.0, start.pursuer_offset or 0.0),
         Pose(start.distance, 0.0, pi + (start.evader_offset or 0.0)),
     )
@@ -144,7 +147,7 @@ def _approach_of_person(settings: DuelSettings) -> float | None:
         velocities = load_legs(legs, robot, tick=tick).velocities
     return play_template(
         *initial,
-        load_evader(settings),
+        strategy_of(own),
         gait,
         duration=settings.duration,
         velocities=velocities,

@@ -24,6 +24,8 @@ from .game_settings import GameSettings
 Mover = Callable[[float], None]  # moves bodies to where they are at a time [s]
 MakeMover = Callable[[mujoco.MjModel, mujoco.MjData], Mover]
 
+WALL_MARGIN = 1.0  # smallest distance of a start from the walls, in [m]
+WALL_DISTANCE = 3.5  # from a start to walls moved for it: camera range, [m]
 BASE: dict[Role, Rgb] = {
     Role.PURSUER: (0.80, 0.16, 0.14),
     Role.EVADER: (0.10, 0.36, 0.75),
@@ -77,20 +79,15 @@ class Scenery(NamedTuple):
         return [make(model, data) for make in self.make_movers]
 
 
-def scenery_of_game(
-    settings: GameSettings,
-    scene: SceneSettings | None = None,
-    walls: float = 0.0,
-    *,
-    templates: Collection[str] = (),
+def scenery_of(
+    settings: GameSettings, *, templates: Collection[str] = ()
 ) -> Scenery:
     """Return obstacles, people, templates and cameras of a game.
 
+    In a duel people wear their own clothes, and cameras see walls and things.
+
     Args:
-        settings: Settings of the game.
-        scene: What cameras see around the players of a duel, whose people
-            wear their own clothes; nothing by default.
-        walls: Distance of visible walls from the origin, in [m]; 0 for none.
+        settings: Settings of the game, with the initial poses filled in.
         templates: Names of robots that are shown as templates.
     """
     colours = colours_in_world(settings)
@@ -102,12 +99,13 @@ def scenery_of_game(
     seeing = [
         p for p in settings.sensing_by("cameras") if p.name not in templates
     ]
+    duel = settings.game == "duel"
     if seeing:
         furnishings.append(
             furnisher(
-                scene or SceneSettings(),
+                settings.scene if duel else SceneSettings(),
                 load_head(load_robot(seeing[0].robot)),
-                walls=walls,
+                walls=_wall_distance(settings) if duel else 0.0,
                 wearers=[p.name for p in seeing],
             )
         )
@@ -115,10 +113,24 @@ def scenery_of_game(
     def furnish_players(spec: mujoco.MjSpec) -> None:
         for player in settings.players:
             if player.body == "person":
-                shirt = SHIRT if scene else colours[player.name]
+                shirt = SHIRT if duel else colours[player.name]
                 solid = player.person.solid
                 add_person(spec, player.name, shirt=shirt, solid=solid)
             elif player.body != "robot" or player.name in templates:
                 add_template(spec, player.name, colours[player.name])
 
     return Scenery((*furnishings, furnish_players), tuple(movers), colours)
+
+
+def _wall_distance(settings: GameSettings) -> float:
+    """Return the distance of the walls from the origin, in [m].
+
+    A player that began outside the walls would pass through one, undetected
+    until then. If a start is not well inside, the walls are moved beyond the
+    range of a depth camera at that start.
+    """
+    walls = settings.scene.walls
+    reach = max(abs(c) for own in settings.players for c in own.start[:2])
+    if not walls or reach + WALL_MARGIN <= walls:
+        return walls
+    return reach + WALL_DISTANCE

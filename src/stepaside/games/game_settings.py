@@ -1,239 +1,132 @@
-"""Settings of a game of any number of players: equal settings repeat it."""
+"""Settings of a game: equal settings repeat it exactly."""
 
 from collections.abc import Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, fields, replace
 from math import pi
-from typing import ClassVar
+from typing import Any
 
 from ..arena import Room
 from ..core.brief_repr import brief_repr
-from ..core.errors import ConfigurationError
+from ..core.errors import ConfigurationError, check_within
 from ..core.player_identity import PlayerIdentity, Role
-from ..core.poses import Pose
 from ..core.ranges import RUNTIME, SEEDS, Range, check_count
-from ..core.setting import REQUIRED, check_settings, setting
-from ..locomotion.control_settings import (
-    ControlSettings,
-    LegsSettings,
-    MapSettings,
-)
+from ..core.setting import check_settings, setting
+from ..locomotion.control_settings import MapSettings
 from ..planning import GaitSettings
-from ..robots.description import load_robot
 from ..sim.body_settings import BODIES, BodySettings
-from ..sim.camera_settings import CameraSettings, LidarSettings
-from ..sim.crowd_motion import RADIUS, CrowdSettings
-from ..sim.person_settings import PersonSettings
-from ..sim.physics_settings import PhysicsSettings, SightSettings
+from ..sim.camera_settings import (
+    CameraSettings,
+    LidarSettings,
+    SceneSettings,
+)
+from ..sim.physics_settings import PhysicsSettings
 from ..sim.push import MOST_PUSHES, Push, check_pushes
-from ..strategies import Evasion, Strategy
-from ..strategies.registry import (
-    OF_EVASION,
-    check_strategy_name,
-    describe_strategy,
+from ..strategies.registry import OF_EVASION
+from .player_settings import (
+    EVADER,
+    EVASION,
+    MOST_PLAYERS,
+    PLAYERS,
+    PURSUER,
+    PURSUIT,
+    USED_BY,
+    WALKER,
+    PlayerSettings,
 )
-from ..strategies.shield_settings import ShieldSettings
-from .duel_settings import RobotSettings
-from .implied_settings import (
-    implied_control,
-    implied_evader,
-    implied_trigger,
-)
-from .player_names import MOST_PLAYERS, PLAYER_NAME
 
-BODY_KINDS = ("robot", "unicycle", "person", "run")
 GAME_LEVELS = ("physics", "steps", "unicycle")
-SENSING = ("ideal", "cameras", "lidar")
+GAME_KINDS = {"game": None, "duel": PLAYERS, "walk": (WALKER,)}
 MOST_ROBOTS = 12  # in physics
-NAO_RADIUS = 0.14  # within which its body stands and sways, in [m]
-POSITION = Range(-100.0, 100.0, "m", "the farthest initial distance")
-TURN = Range(-2.0 * pi, 2.0 * pi, "rad", "a turn")
+OF_ALL = (  # settings of players that a game may give for all
+    *("robot", "gait", "control", "legs", "senses", "sight", "evasion"),
+    *("person", "crowd"),
+)
+AT_MOST = "beyond, they never meet"
 
 
 @dataclass(frozen=True, slots=True)
-class PlayerSettings:
-    """Settings of one player."""
+class StartSettings:
+    """Initial poses; omitted values are drawn from the seed.
 
-    name: str = setting(
-        REQUIRED, "Name of the player: lower case, digits and hyphens"
+    Distance and offsets are those of a duel on an open floor, ``least`` too.
+    """
+
+    distance: float | None = setting(
+        None,
+        "Initial distance between the reference points of the players",
+        Range(
+            0.0,
+            100.0,
+            "m",
+            "at ``least``, or they touch; farther, they never meet",
+            also=(None,),
+        ),
+        words={"drawn": None},
     )
-    role: str = setting(
-        "bystander", "Role of the player", names=tuple(r.value for r in Role)
+    pursuer_offset: float | None = setting(
+        None,
+        "Heading of the pursuer relative to its line of sight to the evader "
+        "{unit}, drawn up to a right angle to either side",
+        Range(-pi, pi, "rad", "half a turn", also=(None,)),
+        words={"drawn": None},
     )
-    team: str = setting("", "Team of the player; that of its role if empty")
-    body: str = setting(
-        "robot",
-        "Body of the player: a robot; its template unicycle; a person; or "
-        "the recorded motion of a player of a run",
-        names=BODY_KINDS,
+    evader_offset: float | None = setting(
+        None,
+        "Heading of the evader relative to its line of sight to the pursuer "
+        "{unit}, drawn up to 30 degrees to either side",
+        Range(-pi, pi, "rad", "half a turn", also=(None,)),
+        words={"drawn": None},
     )
-    robot: str = setting(
-        "nao", "Name of a robot, or folder of its description"
+    least: float = setting(
+        0.4,
+        "Smallest distance at which the robots cannot overlap",
+        Range(0.0, 100.0, "m", AT_MOST),
     )
-    gait: GaitSettings = setting(
-        GaitSettings(), "Gait of a robot or a unicycle"
+    near: float = setting(
+        0.6,
+        "Smallest initial distance that is drawn",
+        Range(0.0, 100.0, "m", "between ``least`` and ``far``"),
     )
-    control: ControlSettings = setting(
-        ControlSettings(), "Walking control of a robot"
-    )
-    legs: LegsSettings = setting(
-        LegsSettings(), "Learned legs of a robot", needs=("body", "robot")
-    )
-    strategy: str | Strategy = setting(
-        "",
-        "Strategy of a robot or a unicycle; if empty, it walks to its goal if "
-        "it has one, steps aside for people if it evades on learned legs, and "
-        "else plays that of the paper for its role; a bystander stands",
-    )
-    evasion: Evasion = setting(
-        Evasion(), "Settings of the paper's evasion strategy"
-    )
-    shield: ShieldSettings = setting(
-        ShieldSettings(), "Shield of the player", needs=("shield.enabled", "")
-    )
-    target: str = setting(
-        "",
-        "Name of the player that it plays against; the nearest opponent if "
-        "empty",
-    )
-    start: tuple[float, ...] = setting(
-        (),
-        "Initial position (x, y) [m] and heading [rad] in the world; drawn "
-        "from the seed if empty",
-    )
-    goal: tuple[float, ...] = setting(
-        (), "Position (x, y) in the world that the player walks to [m]"
-    )
-    draws_goal: bool = setting(
-        False,
-        "Draw the goal from the seed, at least a third of the longer side "
-        "of the room away from the start",
-    )
-    senses: str = setting(
-        "ideal",
-        "Sensing of other players by a robot: true poses (ideal), or "
-        "detection in simulated camera images, or of people in the scans of "
-        "a simulated lidar",
-        names=SENSING,
-    )
-    sight: SightSettings = setting(SightSettings(), "Errors of ideal sensing")
-    person: PersonSettings = setting(
-        PersonSettings(),
-        "Motion of a person without a goal",
-        needs=("body", "person"),
-    )
-    crowd: CrowdSettings = setting(
-        CrowdSettings(),
-        "Motion of a person with a goal",
-        needs=("body", "person"),
-    )
-    run: str = setting(
-        "", "Run folder of a replayed player", needs=("body", "run")
-    )
-    run_player: str = setting(
-        "", "Name of the player in that run", needs=("body", "run")
+    far: float = setting(
+        1.5,
+        "Greatest initial distance that is drawn; in a game of many, from "
+        "the origin of an open floor",
+        Range(0.0, 100.0, "m", AT_MOST),
     )
 
     def __post_init__(self) -> None:
-        """Validate ranges, name and combinations of settings."""
-        if not isinstance(self.name, str) or not PLAYER_NAME.fullmatch(
-            self.name
-        ):
-            raise ConfigurationError(
-                "player name must be lower case letters, digits and hyphens, "
-                f"at most 32, got {self.name!r:.40}"
-            )
-        if not isinstance(self.strategy, str):
-            self.named()  # validates the copy that holds its name
-            return
-        prefix = f"{self.name}: "
-        check_settings(self, prefix=prefix)
-        if self.strategy:
-            check_strategy_name(
-                self.strategy, f"{prefix}strategy", recorded=True
-            )
-        for name, counts in (("start", (0, 3)), ("goal", (0, 2))):
-            values = getattr(self, name)
-            if len(values) not in counts:
-                raise ConfigurationError(
-                    f"{prefix}{name} must have {counts[1]} numbers, got "
-                    f"{len(values)}"
-                )
-            for value, allowed in zip(
-                values, (POSITION, POSITION, TURN), strict=False
-            ):
-                allowed.check(value, f"{prefix}{name}")
-        if (self.body == "run") != bool(self.run):
-            raise ConfigurationError(
-                f"{prefix}run must be a run folder with body 'run' only, got "
-                f"{self.run!r} with body {self.body!r}"
-            )
-
-    @property
-    def identity(self) -> PlayerIdentity:
-        """Name, role and team."""
-        return PlayerIdentity(
-            self.name, Role(self.role), self.team or self.role
-        )
-
-    def named(self) -> "PlayerSettings":
-        """Return the settings with a text for a strategy object."""
-        return replace(self, strategy=describe_strategy(self.strategy))
-
-    @property
-    def pose(self) -> Pose | None:
-        """Initial pose in the world; None if it is drawn."""
-        return Pose(*self.start) if self.start else None
-
-    @property
-    def radius(self) -> float:
-        """Radius of the body among people, in [m].
-
-        That of a robot is NAO's, relative to the heights of their CoM.
-        """
-        if self.body == "person":
-            return RADIUS
-        return NAO_RADIUS * load_robot(self.robot).game.get("length_unit", 1.0)
-
-    @property
-    def decides(self) -> bool:
-        """Whether it has a strategy: a robot or a unicycle."""
-        return self.body in ("robot", "unicycle")
+        """Validate ranges and the order of the distances."""
+        error = ConfigurationError
+        check_settings(self)
+        check_within(self.far, self.least, 100.0, "far", "m", error)
+        check_within(self.near, self.least, self.far, "near", "m", error)
+        if self.distance is not None:
+            low = self.least
+            check_within(self.distance, low, 100.0, "distance", "m", error)
 
 
 @dataclass(frozen=True, slots=True)
 class GameSettings:
     """Settings of a game of any number of players."""
 
-    game: ClassVar[str] = "game"
     __repr__ = brief_repr
 
-    seed: int = setting(
-        1,
-        "Random seed",
-        SEEDS,
+    game: str = setting(
+        "game",
+        "Kind of the game: a duel is compared with theory, a walk with its "
+        "references",
+        names=tuple(GAME_KINDS),
     )
-    duration: float = setting(
-        120.0,
-        "Simulated time",
-        RUNTIME,
-    )
+    seed: int = setting(1, "Random seed", SEEDS)
+    duration: float = setting(120.0, "Simulated time", RUNTIME)
     level: str = setting(
         "physics",
         "Level of the game: bodies in physics, templates that decide at "
         "steps, or unicycles that decide continuously",
         names=GAME_LEVELS,
     )
-    players: tuple[PlayerSettings, ...] = setting((), "The players")
-    near: float = setting(
-        0.8,
-        "Smallest distance between two initial positions that are drawn",
-        Range(0.0, 100.0, "m", "beyond, they never meet"),
-    )
-    far: float = setting(
-        2.0,
-        "Greatest distance from the origin of a position that is drawn on "
-        "an open floor",
-        Range(0.0, 100.0, "m", "beyond, they never meet"),
+    start: StartSettings = setting(
+        StartSettings(near=0.8, far=2.0), "Initial poses that are drawn"
     )
     physics: PhysicsSettings = setting(
         PhysicsSettings(), "Physics, floor and clock"
@@ -246,23 +139,44 @@ class GameSettings:
     room: Room | None = setting(
         None, "Room in which the game is played; an open floor without"
     )
+    scene: SceneSettings = setting(
+        SceneSettings(), "What the cameras of a duel see around the players"
+    )
     map: MapSettings = setting(
         MapSettings(), "Map of the room that robots have", needs=("room", "")
     )
     cameras: CameraSettings = setting(
-        CameraSettings(), "Cameras of players that sense by them"
+        CameraSettings(),
+        "Cameras of players that sense by them",
+        needs=("senses", "cameras"),
     )
     lidar: LidarSettings = setting(
-        LidarSettings(), "Lidar of players that sense by one"
+        LidarSettings(),
+        "Lidar of players that sense by one",
+        needs=("senses", "lidar"),
     )
     pushes: tuple[Push, ...] = setting((), "Pushes on the robots")
+    players: tuple[PlayerSettings, ...] = setting((), "The players")
 
     def __post_init__(self) -> None:
         """Validate ranges, and that the players fit together."""
         check_settings(self)
         check_count(self.players, MOST_PLAYERS, "players")
         check_players(self.players)
-        robots = self.robots
+        robots, names = self.robots, GAME_KINDS[self.game]
+        bodies = {p.body for p in self.players}
+        if names and (
+            self.names != names
+            or self.level != "physics"
+            or bodies - {"robot", "person"}
+            or names[-1] not in robots
+        ):
+            raise ConfigurationError(
+                f"game must be 'game' unless {' and '.join(names)} play in "
+                f"physics, the last one as a robot, got {self.game!r} of "
+                f"{', '.join(f'{p.name} ({p.body})' for p in self.players)} "
+                f"at level {self.level}"
+            )
         if self.level == "physics":
             check_count(robots, MOST_ROBOTS, "robots in physics")
         check_count(self.pushes, MOST_PUSHES, "pushes")
@@ -270,6 +184,51 @@ class GameSettings:
             raise ConfigurationError("pushes need a robot, got none")
         check_pushes(self.pushes, robots)
         check_senses(self)
+
+    def changed(self, **changes: Any) -> "GameSettings":
+        """Return the game with other settings.
+
+        Args:
+            changes: Settings of the game; of all players that use them, like
+                ``gait``; or a dictionary of the settings of one player, by
+                its name.
+
+        Raises:
+            ConfigurationError: If a setting is unknown or invalid.
+        """
+        listed = changes.pop("players", self.players)
+        rest, common, own = dict[str, Any](), dict[str, Any](), {}
+        for name, value in changes.items():
+            if name in OF_ALL:
+                common[name] = value
+            elif name in NOT_PLAYERS:
+                rest[name] = value
+            elif name in self.names:
+                own[name] = value
+            else:
+                raise ConfigurationError(
+                    f"unknown setting {name}; there are "
+                    f"{', '.join([*sorted(NOT_PLAYERS), *self.names])}"
+                )
+        players = []
+        for player in listed:
+            mine = dict(own.get(player.name, {}))
+            used = USED_BY[mine.get("body", player.body)]
+            shared = {k: v for k, v in common.items() if k in used}
+            try:
+                players.append(replace(player, **(shared | mine)))
+            except TypeError as error:
+                raise ConfigurationError(f"{player.name}: {error}") from error
+        return replace(self, **rest, players=tuple(players))
+
+    def with_players(
+        self, changes: Mapping[str, Mapping[str, Any]]
+    ) -> "GameSettings":
+        """Return the game with other settings of players, by their names."""
+        players = tuple(
+            replace(own, **changes.get(own.name, {})) for own in self.players
+        )
+        return replace(self, players=players)
 
     @property
     def knows_room(self) -> bool:
@@ -301,11 +260,6 @@ class GameSettings:
         """Names of the players that are robots."""
         return tuple(p.name for p in self.players if p.body == "robot")
 
-    def robot_of(self, player: str) -> RobotSettings:
-        """Return robot, gait, control and legs of a player."""
-        own = self.player(player)
-        return RobotSettings(own.robot, own.gait, own.control, own.legs)
-
     @property
     def gait(self) -> GaitSettings:
         """Gait of the slowest stepping robot or unicycle."""
@@ -318,6 +272,16 @@ class GameSettings:
     def cycle(self) -> float:
         """Duration of a gait cycle, two steps of the slowest, in [s]."""
         return 2.0 * self.gait.step_duration
+
+    @property
+    def pursuer(self) -> PlayerSettings:
+        """The pursuer of a duel."""
+        return self.player(PURSUER)
+
+    @property
+    def evader(self) -> PlayerSettings:
+        """The evader of a duel."""
+        return self.player(EVADER)
 
     @property
     def identities(self) -> dict[str, PlayerIdentity]:
@@ -362,54 +326,31 @@ class GameSettings:
 
     def resolved(self) -> "GameSettings":
         """Return the settings of the same game with nothing left open."""
-        return replace(self, players=tuple(map(self._resolved, self.players)))
-
-    def _resolved(self, own: PlayerSettings) -> PlayerSettings:
-        """Return a player with strategy, trigger and control."""
-        if not own.decides:
-            return own
-        person = any(p.body == "person" for p in self.sensed_opponents(own))
-        strategy, evasion = own.strategy, own.evasion
-        if not strategy and (own.goal or own.draws_goal):
-            strategy = "goal"
-        elif not strategy and own.role == "evader":
-            legs = own.legs if self.level == "physics" else LegsSettings()
-            strategy = implied_evader(legs, person=person)
-        elif not strategy:
-            strategy = "pursuit" if own.role == "pursuer" else "stand"
-        if strategy in OF_EVASION:
-            evasion = implied_trigger(evasion, own.gait, person=person)
-        return replace(
-            own,
-            strategy=strategy,
-            evasion=evasion,
-            control=implied_control(own.control, own.gait, self.body),
-        )
-
-    def named(self) -> "GameSettings":
-        """Return the settings with a text for each strategy object."""
-        return replace(self, players=tuple(p.named() for p in self.players))
-
-    def with_places(
-        self,
-        poses: Mapping[str, Pose],
-        goals: Mapping[str, tuple[float, ...]],
-    ) -> "GameSettings":
-        """Return the settings with starts and goals filled in.
-
-        Args:
-            poses: Initial pose of each player, by name.
-            goals: Goals of the players that have one, by name, in [m].
-        """
         players = tuple(
-            replace(
-                p,
-                start=tuple(map(float, poses[p.name])),
-                goal=goals.get(p.name, p.goal),
+            own.resolved(
+                self.body,
+                person=any(
+                    p.body == "person" for p in self.sensed_opponents(own)
+                ),
+                walks=self.level == "physics",
             )
-            for p in self.players
+            for own in self.players
         )
         return replace(self, players=players)
+
+    @property
+    def is_of_the_paper(self) -> bool:
+        """Whether a duel has the paper's strategies, on an open floor."""
+        pursuer, evader = (self.resolved().player(name) for name in PLAYERS)
+        return (
+            self.room is None
+            and evader.strategy == EVASION
+            and (pursuer.strategy == PURSUIT or not pursuer.decides)
+        )
+
+
+NOT_PLAYERS = {*OF_ALL, *(each.name for each in fields(GameSettings))}
+"""Names that mean settings of a game where settings are named."""
 
 
 def check_players(players: tuple[PlayerSettings, ...]) -> None:
@@ -518,3 +459,34 @@ def check_senses(settings: GameSettings) -> None:
             "map.source must be given or none unless all robots sense by "
             "cameras and there are no people, got 'seen'"
         )
+
+
+def duel(**changes: Any) -> GameSettings:
+    """Return the settings of a duel of a pursuer and an evader.
+
+    Args:
+        changes: Differences from a default duel of two NAO; see
+            :meth:`GameSettings.changed`. For example
+            ``duel(seed=2, evader={"strategy": "look-ahead"})``.
+    """
+    players = tuple(PlayerSettings(name, name) for name in PLAYERS)
+    made = GameSettings("duel", start=StartSettings(), players=players)
+    return made.changed(**changes)
+
+
+def walk(
+    bearing: float = 0.0, *, backward: bool = False, **changes: Any
+) -> GameSettings:
+    """Return the settings of a walk of one robot, the player ``walker``.
+
+    Args:
+        bearing: Desired heading in the frame of the support foot, in [rad];
+            0 is straight ahead, others walk a circle.
+        backward: Whether it walks backward.
+        changes: Differences from a walk of NAO for 20 s; see
+            :meth:`GameSettings.changed`.
+    """
+    way = f"walk{'-backward' * backward}(bearing={bearing!r})"
+    own = PlayerSettings(WALKER, strategy=way, start=(0.0, 0.0, 0.0))
+    made = GameSettings("walk", duration=20.0, players=(own,))
+    return made.changed(**changes)

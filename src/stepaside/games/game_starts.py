@@ -1,10 +1,12 @@
 """Initial poses of the players of a game."""
 
 from collections.abc import Mapping
+from dataclasses import replace
 from math import atan2, cos, hypot, pi, radians, sin
 
 import numpy as np
 
+from ..arena import check_initial_poses, draw_initial_poses
 from ..core.errors import ConfigurationError
 from ..core.poses import Pose, wrap_angle
 from ..core.random_streams import named_generator
@@ -14,10 +16,14 @@ from ..sim.person_motion import PersonMotion
 from ..sim.person_settings import PATHS
 from .floor_games import walk_on_path
 from .floor_world import FloorReplay
-from .game_settings import GameSettings, PlayerSettings
+from .game_settings import GameSettings, StartSettings
+from .player_settings import PLAYERS, PlayerSettings
 
 MOST_DRAWS = 2000  # of one position, before the floor counts as full
 WALL_MARGIN = 0.3  # clearance of a start from walls and obstacles, in [m]
+SLOW_SPEED = 0.15  # up to which a person begins a duel nearby, in [m/s]
+LEAD_TIME = 5.0  # extra distance of a faster person over its speed, in [s]
+SAME = 1e-6  # tolerance within which starts are equal, in [m] and [rad]
 ROBOT = 0.4  # least distance of two robots without one of their own, in [m]
 
 
@@ -25,14 +31,17 @@ def with_starts(settings: GameSettings) -> GameSettings:
     """Return the settings of the same game with nothing left open.
 
     All starts are filled in, and what the settings imply.
-    Positions are drawn from the seed where they are omitted, then headings:
-    as in a duel, pursuers look up to a right angle beside their opponent,
+    In a duel they are those of ``start``, or of its room, which gets them.
+    Otherwise positions are drawn from the seed where they are omitted, then
+    headings: pursuers look up to a right angle beside their opponent,
     evaders up to 30 degrees beside theirs, people with a goal to the goal,
     others anywhere. A person with a path begins where and as the path does.
 
     Raises:
         ConfigurationError: If given starts overlap, or there is no space.
     """
+    if settings.game == "duel":
+        return _with_start_of_duel(settings)
     generator = named_generator(settings.seed, "starts")
     poses: dict[str, Pose] = {}
     for player in settings.players:
@@ -53,11 +62,87 @@ def with_starts(settings: GameSettings) -> GameSettings:
         else:
             heading = _draw_heading(settings, player, poses, generator)
         poses[player.name] = Pose(x, y, heading)
-    placed = settings.with_places(_wrapped(poses), goals)
+    placed = _placed(settings, poses, goals)
     for player in placed.players:
         if player.body == "person" and not player.goal:
             poses[player.name] = walk_on_path(placed, player).pose
-    return settings.with_places(_wrapped(poses), goals).resolved()
+    for name, (x, y, theta) in poses.items():
+        poses[name] = Pose(x, y, wrap_angle(theta))
+    return _placed(settings, poses, goals).resolved()
+
+
+def _with_start_of_duel(settings: GameSettings) -> GameSettings:
+    """Return a duel with its start, and poses by it or by its room."""
+    plan = settings.room
+    if settings.start.distance is None and settings.evader.start:
+        raise ConfigurationError(
+            "evader: start must be omitted in a duel, whose start is start"
+        )
+    if plan is None:
+        start = draw_start(settings)
+        assert start.distance is not None
+        assert start.pursuer_offset is not None
+        assert start.evader_offset is not None
+        poses = (
+            Pose(0.0, 0.0, start.pursuer_offset),
+            Pose(start.distance, 0.0, pi + start.evader_offset),
+        )
+    else:
+        poses = plan.starts or draw_initial_poses(plan, settings.seed)
+        check_initial_poses(plan, poses)
+        settings = replace(settings, room=replace(plan, starts=poses))
+        start = _agreeing(settings.start, start_of(poses))
+    own = settings.pursuer
+    if own.body == "person" and own.person.backward:  # it looks away
+        x, y, theta = poses[0]
+        poses = Pose(x, y, theta - pi), poses[1]
+    named = dict(zip(PLAYERS, poses, strict=True))
+    return _placed(replace(settings, start=start), named, {}).resolved()
+
+
+def draw_start(settings: GameSettings) -> StartSettings:
+    """Return the start of a duel with what is omitted drawn by the seed."""
+    start, pursuer = settings.start, settings.pursuer
+    generator = named_generator(settings.seed, "start")
+    distance = generator.uniform(start.near, start.far)
+    if pursuer.body == "person":
+        distance += 1.5  # whole strides away
+        # A faster person begins farther away, to be detected in time.
+        distance += LEAD_TIME * max(0.0, pursuer.person.speed - SLOW_SPEED)
+    drawn = {
+        "distance": distance,
+        "pursuer_offset": generator.uniform(-pi / 2, pi / 2),
+        "evader_offset": generator.uniform(-radians(30.0), radians(30.0)),
+    }
+    missing = {k: v for k, v in drawn.items() if getattr(start, k) is None}
+    return replace(start, **missing)
+
+
+def start_of(starts: tuple[Pose, Pose]) -> StartSettings:
+    """Return the start settings of poses of both players in the world."""
+    (x, y, pursuer), (u, v, evader) = starts
+    line_of_sight = atan2(v - y, u - x)
+    return StartSettings(
+        hypot(u - x, v - y),
+        wrap_angle(pursuer - line_of_sight),
+        wrap_angle(evader - line_of_sight - pi),
+    )
+
+
+def _agreeing(given: StartSettings, drawn: StartSettings) -> StartSettings:
+    """Return the start of a room; reject a different one in the settings.
+
+    Distances between which starts are drawn stay those of the robots.
+    """
+    found = {}
+    for name in ("distance", "pursuer_offset", "evader_offset"):
+        value, found[name] = getattr(given, name), getattr(drawn, name)
+        if value is not None and not abs(value - found[name]) < SAME:
+            raise ConfigurationError(
+                f"start.{name} must be omitted in a room, which gives "
+                f"the initial poses, got {value:g}"
+            )
+    return replace(given, **found)
 
 
 def _given_pose(player: PlayerSettings) -> Pose | None:
@@ -70,12 +155,20 @@ def _given_pose(player: PlayerSettings) -> Pose | None:
     return player.pose
 
 
-def _wrapped(poses: Mapping[str, Pose]) -> dict[str, Pose]:
-    """Return the poses with headings in half a turn to either side."""
-    return {
-        name: Pose(*pose[:2], wrap_angle(pose.theta))
-        for name, pose in poses.items()
+def _placed(
+    settings: GameSettings,
+    poses: Mapping[str, Pose],
+    goals: Mapping[str, tuple[float, ...]],
+) -> GameSettings:
+    """Return a game with all starts and goals."""
+    places = {
+        own.name: {
+            "start": tuple(map(float, poses[own.name])),
+            "goal": goals.get(own.name, own.goal),
+        }
+        for own in settings.players
     }
+    return settings.with_players(places)
 
 
 def _goals_of(
@@ -104,8 +197,7 @@ def _draw_goal(
     generator: np.random.Generator,
 ) -> tuple[float, float]:
     """Return a goal away from the start and from other goals, in [m]."""
-    room = settings.room
-    least = settings.far
+    room, least = settings.room, settings.start.far
     if room is not None and room.width and room.depth:
         least = max(room.width, room.depth) / 3.0
     for _ in range(MOST_DRAWS):
@@ -191,13 +283,15 @@ def _draw_position(
         if all(
             hypot(other.x - x, other.y - y)
             >= max(
-                settings.near, least_distance(player, settings.player(name))
+                settings.start.near,
+                least_distance(player, settings.player(name)),
             )
             for name, other in poses.items()
         ):
             return x, y
     raise ConfigurationError(
-        f"start of {player.name} must be at least {settings.near:g} [m] from "
+        f"start of {player.name} must be at least "
+        f"{settings.start.near:g} [m] from "
         f"all others, and there is no such place among {len(poses)} players"
     )
 
@@ -208,7 +302,7 @@ def _draw_place(
     """Return a place on the free floor, in [m]; None if the draw missed it."""
     room = settings.room
     if room is None or room.width is None or room.depth is None:
-        away = settings.far * float(np.sqrt(generator.uniform()))
+        away = settings.start.far * float(np.sqrt(generator.uniform()))
         angle = generator.uniform(-pi, pi)
         x, y = away * cos(angle), away * sin(angle)
     else:

@@ -29,11 +29,12 @@ from ..sim.world import World
 from ..strategies import Strategy
 from .floor_games import motion_of
 from .floor_world import Seen
-from .game_furnishing import Scenery, scenery_of_game
-from .game_settings import GameSettings, PlayerSettings
+from .game_furnishing import scenery_of
+from .game_settings import GameSettings
 from .game_strategies import strategy_of
 from .outcome import Outcome
 from .player import FloorPlayer, MarkerBody, Player
+from .player_settings import PlayerSettings
 from .robot_placing import (
     RobotSetup,
     clearance_in,
@@ -64,10 +65,8 @@ class PhysicsWorld(World):
     def __init__(
         self,
         settings: GameSettings,
-        scenery: Scenery | None = None,
         *,
         rendered: bool = False,
-        has_things: bool | None = None,
         remote: Mapping[str, bool] = MappingProxyType({}),
         strategies: Mapping[str, Strategy] = MappingProxyType({}),
         descriptions: Mapping[str, RobotDescription] = MappingProxyType({}),
@@ -76,7 +75,6 @@ class PhysicsWorld(World):
 
         Args:
             settings: Settings with the initial poses filled in.
-            scenery: Everything but robots; that of the settings by default.
             rendered: Whether to render the world; cameras do so anyway.
             has_things: Whether there are obstacles besides the players; by
                 default, whether there is a room.
@@ -89,13 +87,14 @@ class PhysicsWorld(World):
         self._setups = _setups_of(settings, descriptions)
         physics = _physics_of(settings, self._setups)
         self._strategies = {
-            own.name: strategies.get(own.name)
-            or strategy_of(own, self._map_in_world(own))
+            own.name: strategy_of(
+                own, self._map_in_world(own), strategies.get(own.name)
+            )
             for own in settings.players
             if own.body == "robot" and own.name not in remote
         }
         self._senses = self._camera_senses(physics.tick)
-        scenery = scenery or scenery_of_game(settings)
+        scenery = scenery_of(settings)
         super().__init__(
             {name: own.description for name, own in self._setups.items()},
             physics,
@@ -138,8 +137,8 @@ class PhysicsWorld(World):
             for player in self.players:
                 if pushes.get(player.name):
                     player.push(*pushes[player.name])
-        self._has_things = (
-            settings.room is not None if has_things is None else has_things
+        self._has_things = settings.room is not None or bool(
+            settings.scene.things
         )
         self._pairs = [
             (one.truth, other.truth, one.truth.reach + other.truth.reach)

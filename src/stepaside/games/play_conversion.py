@@ -23,11 +23,11 @@ from ..robots.forward_kinematics import (
     SpatialTorsoPose,
     torso_pose_on_foot,
 )
-from .duel_settings import PLAYERS
 from .evaluation import measure
 from .outcome import Outcome
 from .play_rows import PlayedRows, read_played
 from .play_settings import PlaySettings
+from .player_settings import PLAYERS
 from .run import Run
 from .summary import PlanningSummary, PlaySummary, StateChange, Summary
 from .trajectory import Trajectory, check_record

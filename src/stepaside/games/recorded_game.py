@@ -4,31 +4,26 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 from math import inf
 from types import MappingProxyType
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from ..locomotion.zmp.mpc import MpcResult
 from ..robots.description import RobotDescription
-from .duel_settings import DuelSettings
+from ..strategies import Strategy
+from ..strategies.registry import describe_strategy
 from .evaluation import summarise
 from .floor_games import floor_of, rules_of
 from .floor_world import PERIOD, FloorRecorder, FloorWorld
 from .forecast import evaluate_duel
 from .game import GameInPlay, GameObserver, Progress, play
 from .game_settings import GameSettings
+from .game_starts import with_starts
 from .outcome import Outcome
 from .physics_world import PhysicsWorld
+from .player_settings import WALKER
 from .recorder import Recorder
 from .robot_player import RobotPlayer
 from .run import Run
-from .settings_as_game import (
-    PlayableSettings,
-    as_game,
-    complete,
-    scenery_of,
-    strategies_of,
-)
 from .walk_evaluation import summarise_walk
-from .walk_settings import WALKER, WalkSettings
 
 if TYPE_CHECKING:
     from .camera_senses import SightObserver
@@ -48,9 +43,10 @@ class RecordedGame(GameInPlay):
 
     def __init__(
         self,
-        settings: PlayableSettings,
+        settings: GameSettings,
         observers: Sequence[GameObserver] = (),
         *,
+        strategies: Mapping[str, Strategy] = MappingProxyType({}),
         recorded: bool = True,
         rendered: bool = False,
         endless: bool = False,
@@ -62,6 +58,9 @@ class RecordedGame(GameInPlay):
         Args:
             settings: Settings of the game.
             observers: Observers in addition to the recorder.
+            strategies: Strategies as objects, by name of the player, instead
+                of those that the settings name. The settings record their
+                classes.
             recorded: Whether to record; the record grows with time.
             rendered: Whether to render the world; cameras do so anyway.
             endless: Whether the duration does not end it.
@@ -74,37 +73,38 @@ class RecordedGame(GameInPlay):
             StepAsideError: If the settings contradict each other or cannot
                 be met by the players.
         """
-        self.settings: Any = (settings := complete(settings))
-        game = as_game(settings)
+        described = {
+            name: {"strategy": describe_strategy(strategy)}
+            for name, strategy in strategies.items()
+        }
+        settings = with_starts(settings.with_players(described))
+        self.settings = settings
         self.sight_observer: SightObserver | None = None
         self.solved: list[MpcResult] = []
         self.recorder: Recorder | FloorRecorder
         world: PhysicsWorld | FloorWorld
-        if game.level == "physics":
-            duel = settings if isinstance(settings, DuelSettings) else None
+        if settings.level == "physics":
             world = PhysicsWorld(
-                game,
-                scenery_of(settings),
+                settings,
                 rendered=rendered,
-                has_things=duel.has_things if duel else None,
                 remote=remote,
-                strategies=strategies_of(settings),
+                strategies=strategies,
                 descriptions={WALKER: description} if description else {},
             )
-            closely = isinstance(settings, WalkSettings)
+            closely = settings.game == "walk"
             self.recorder = Recorder(world, closely=closely)
             if recorded:
                 self.sight_observer = world.sight_observer(
-                    duel.room.things if duel else (),
+                    settings.scene.things if settings.game == "duel" else (),
                     every=self.recorder.every,
                 )
         else:
-            world = floor_of(game)
+            world = floor_of(settings, strategies)
             self.recorder = FloorRecorder(world, PERIOD)
         kept: list[GameObserver | None] = [self.recorder, self.sight_observer]
-        if isinstance(settings, WalkSettings):
+        if settings.game == "walk":
             kept.append(SolverRecorder(self.solved))
-        rules = rules_of(game)
+        rules = rules_of(settings)
         super().__init__(
             world,
             replace(rules, duration=inf) if endless else rules,
@@ -162,56 +162,37 @@ class SolverRecorder(GameObserver):
             self._solved.append(solved)
 
 
-def run_duel(settings: DuelSettings, report: Report | None = None) -> Run:
-    """Play a duel to its end.
+def run_game(
+    settings: GameSettings,
+    report: Report | None = None,
+    strategies: Mapping[str, Strategy] = MappingProxyType({}),
+) -> Run:
+    """Play a game at its level to its end.
 
     Args:
-        settings: Settings of the duel.
+        settings: Settings of the game.
         report: Called about five times a second with the progress. A
-            KeyboardInterrupt while playing ends the duel; the part that was
+            KeyboardInterrupt while playing ends the game; the part that was
             played is returned.
+        strategies: Strategies as objects, by name of the player.
 
     Returns:
         The run. Equal settings give equal runs, except for computing times.
 
     Raises:
         StepAsideError: If the settings contradict each other or cannot be
-            met by the robots.
+            met by the players.
     """
-    return _run([settings], report)[0]
+    game = RecordedGame(settings, strategies=strategies)
+    play(game, report=report)
+    return game.run()
 
 
-def run_duels(settings: Sequence[DuelSettings]) -> list[Run]:
-    """Play duels side by side.
+def run_duels(settings: Sequence[GameSettings]) -> list[Run]:
+    """Play duels side by side; the runs equal those of :func:`run_game`.
 
-    Args:
-        settings: Settings of each duel.
-
-    Returns:
-        The runs, equal to those of :func:`run_duel`. A KeyboardInterrupt
-        ends the duels that still go on.
-
-    Raises:
-        StepAsideError: If settings contradict each other or cannot be met by
-            the robots.
+    A KeyboardInterrupt ends the duels that still go on.
     """
-    return _run(settings)
-
-
-def run_game(settings: GameSettings, report: Report | None = None) -> Run:
-    """Play a game at its level to its end; see :func:`run_duel`."""
-    return _run([settings], report)[0]
-
-
-def run_walk(settings: WalkSettings, report: Report | None = None) -> Run:
-    """Simulate a walk to its end, or to a fall; see :func:`run_duel`."""
-    return _run([settings], report)[0]
-
-
-def _run(
-    settings: Sequence[PlayableSettings], report: Report | None = None
-) -> list[Run]:
-    """Play games side by side to their ends."""
     games = [RecordedGame(each) for each in settings]
-    play(*games, report=report)
+    play(*games)
     return [game.run() for game in games]

@@ -16,13 +16,13 @@ from ..core.row_table import RowTable
 from ..locomotion.locomotion import StepStarted
 from ..perception.images import ColourImage, DepthImage
 from .game import GameInPlay, GameObserver, Progress, play
+from .game_settings import GameSettings
 from .outcome import Outcome
 from .physics_world import PhysicsWorld
 from .recorded_game import RecordedGame
 from .recorder import samples_every
 from .robot_player import RobotPlayer
 from .run import Run
-from .settings_as_game import PlayableSettings
 
 Image = ColourImage | DepthImage
 
@@ -213,7 +213,7 @@ def repeat_game(
     """
     recorder = SignalRecorder()
     settings = run.settings
-    if not isinstance(settings, PlayableSettings) or not run.robots:
+    if not isinstance(settings, GameSettings) or not run.robots:
         return RepeatedGame({}, f"a {run.game} cannot be repeated")
     game = RecordedGame(settings, (recorder,))
     game.rules = replace(game.rules, duration=run.duration)

@@ -3,20 +3,21 @@
 from collections.abc import Mapping
 from dataclasses import dataclass, fields, replace
 from pathlib import Path
-from typing import Any, TypeVar
+from typing import Any
 
 from ..core.errors import ConfigurationError, check_positive
 from ..locomotion.control_settings import ControlSettings, LegsSettings
 from ..planning import GaitSettings
 from ..robots.description import FILE, RobotDescription, load_robot
 from ..sim.body_settings import BODIES, BodySettings
+from ..strategies import Evasion
 from .configuration_file import parse_settings
-from .duel_settings import DuelSettings, RobotSettings, StartSettings
+from .game_settings import GameSettings
+from .player_settings import PLAYERS, PlayerSettings
 
-S = TypeVar("S")
 # Template of learned legs: speed [m/s], gain [1/s], and 0.4 s from decision to
 # decision, in path time as in gait time. Their CoM is over the feet.
-LEGS_GAIT: Mapping[str, float] = {
+LEGS_GAIT: Mapping[str, Any] = {
     "speed": 0.5,
     "gain": 0.4,
     "stride": 0.2,
@@ -63,21 +64,26 @@ class RobotGameSettings:
             )
 
 
-def settings_of_robot(robot: str) -> RobotSettings:
-    """Return gait and control of a robot, from its description.
+def settings_of_robot(robot: str) -> dict[str, Any]:
+    """Return robot, gait, control, legs and safety radius by a description.
 
     Raises:
         StepAsideError: If the description is invalid.
     """
-    own = settings_from_description(load_robot(robot))
+    description = load_robot(robot)
+    own = settings_from_description(description)
     if not own.control.feedback:  # the robot needs none, but a body may
         control = replace(own.control, method=None, feedback=None)
         own = replace(own, control=control)
-    return replace(own, robot=robot)
+    found = {name: getattr(own, name) for name in ("gait", "control", "legs")}
+    game = game_settings_from_description(description)
+    if game is not None:
+        found["evasion"] = Evasion(safety_radius=game.safety_radius)
+    return found | {"robot": robot}
 
 
-def settings_from_description(description: RobotDescription) -> RobotSettings:
-    """Return gait and control from a description."""
+def settings_from_description(description: RobotDescription) -> PlayerSettings:
+    """Return a player with robot, gait, control and legs of a description."""
     source = str(description.folder / FILE)
     gait: dict[str, Any] = dict(description.gait)
     network = description.locomotion.get("network", "")
@@ -86,23 +92,22 @@ def settings_from_description(description: RobotDescription) -> RobotSettings:
         gait |= LEGS_GAIT
     if description.sole:
         gait["sole"] = dict(description.sole)
-    return RobotSettings(
-        str(description.folder),
-        parse_settings(GaitSettings, gait, f"{source}, gait"),
-        parse_settings(
+    return PlayerSettings(
+        "robot",
+        robot=str(description.folder),
+        gait=parse_settings(GaitSettings, gait, f"{source}, gait"),
+        control=parse_settings(
             ControlSettings, dict(description.control), f"{source}, control"
         ),
-        LegsSettings(network),
+        legs=LegsSettings(network),
     )
 
 
 def body_of_robot(robot: str | Path, name: str) -> BodySettings:
     """Return the body of a preset, with the errors of a robot.
 
-    Args:
-        robot: Name of the robot, or folder of its description, whose
-            ``[body]`` replaces values of NAO.
-        name: Name of the preset; the ideal body is that of all robots.
+    The ideal body is that of all robots; in others the ``[body]`` of the
+    robot's description replaces values of NAO.
 
     Raises:
         StepAsideError: If the description is invalid.
@@ -117,16 +122,6 @@ def body_of_robot(robot: str | Path, name: str) -> BodySettings:
     )
 
 
-def with_legs(settings: S, network: str) -> S:
-    """Return settings for a walking policy and its usual game."""
-    changed: S = replace(
-        settings,  # type: ignore[type-var]
-        gait=replace(settings.gait, **LEGS_GAIT),  # type: ignore[attr-defined]
-        legs=LegsSettings(network),
-    )
-    return changed
-
-
 def game_settings_from_description(
     description: RobotDescription,
 ) -> RobotGameSettings | None:
@@ -137,69 +132,26 @@ def game_settings_from_description(
     return parse_settings(RobotGameSettings, dict(description.game), source)
 
 
-def with_robot(settings: S, robot: str) -> S:
-    """Return settings for another robot, from its description.
-
-    Gait and control are replaced, and in a duel also the distances.
+def with_distances(settings: GameSettings) -> GameSettings:
+    """Return a duel with the distances of its robots, the greater of each.
 
     Raises:
-        StepAsideError: If there is no such robot, or its description is
-            invalid.
+        StepAsideError: If a description is invalid.
     """
-    own = settings_of_robot(robot)
-    names = {field.name for field in fields(settings)}  # type: ignore[arg-type]
-    values: dict[str, Any] = {
-        field.name: getattr(own, field.name) for field in fields(own)
-    }
-    game = game_settings_from_description(load_robot(robot))
-    if isinstance(settings, DuelSettings) and game is not None:
-        values["strategy"] = _with_radius(settings.strategy, game)
-        values["start"] = _with_distances(settings.start, game)
-    changes = {k: v for k, v in values.items() if k in names}
-    changed: S = replace(settings, **changes)  # type: ignore[type-var]
-    return changed
-
-
-def with_players(
-    settings: DuelSettings, robots: Mapping[str, str]
-) -> DuelSettings:
-    """Return settings of a duel whose players are different robots.
-
-    Of each distance the greater of both robots is used.
-    """
-    for player, robot in robots.items():
-        own = settings_of_robot(robot)
-        change: dict[str, Any] = {f"{player}_robot": own}
-        settings = replace(settings, **change)
-        game = game_settings_from_description(load_robot(robot))
-        if game is None:
-            continue
-        start, strategy = settings.start, settings.strategy
-        larger = RobotGameSettings(
-            max(game.safety_radius, strategy.safety_radius),
-            max(game.start_least, start.least),
-            max(game.start_near, start.near),
-            max(game.start_far, start.far),
-            game.push_unit,
-        )
-        settings = replace(
-            settings,
-            strategy=_with_radius(strategy, larger),
-            start=_with_distances(start, larger),
-        )
-    return settings
-
-
-def _with_radius(strategy: Any, game: RobotGameSettings) -> Any:
-    return replace(strategy, safety_radius=game.safety_radius)
-
-
-def _with_distances(
-    start: StartSettings, game: RobotGameSettings
-) -> StartSettings:
-    return replace(
-        start,
-        least=game.start_least,
-        near=game.start_near,
-        far=game.start_far,
+    found = [
+        game_settings_from_description(load_robot(player.robot))
+        for player in settings.players
+        if player.body == "robot"
+    ]
+    games = [game for game in found if game is not None]
+    if settings.names != PLAYERS or not games:
+        return settings
+    radius = max(game.safety_radius for game in games)
+    evasion = replace(settings.evader.evasion, safety_radius=radius)
+    start = replace(
+        settings.start,
+        least=max(game.start_least for game in games),
+        near=max(game.start_near for game in games),
+        far=max(game.start_far for game in games),
     )
+    return settings.changed(start=start, evader={"evasion": evasion})

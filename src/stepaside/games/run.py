@@ -13,11 +13,10 @@ from ..arena import Room
 from ..core.player_identity import PlayerIdentity, Role
 from ..core.poses import Array
 from .duel_circle import angle_between, distance_between
-from .duel_settings import EVADER, PURSUER
 from .outcome import Outcome
+from .player_settings import EVADER, PURSUER, WALKER
 from .summary import Summary
 from .trajectory import Trajectory
-from .walk_settings import WALKER
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -95,11 +94,8 @@ class Run:
     @property
     def persons(self) -> tuple[str, ...]:
         """Names of the players that are drawn as persons."""
-        if self.game == "game":
-            people = [p for p in self.settings.players if p.body == "person"]
-            return tuple(p.name for p in people)
-        is_person = self.game == "duel" and self.settings.pursuer == "person"
-        return (PURSUER,) if is_person else ()
+        players = getattr(self.settings, "players", ())
+        return tuple(p.name for p in players if p.body == "person")
 
     @property
     def deciding(self) -> tuple[str, ...]:
@@ -241,17 +237,16 @@ class Run:
     def safety_areas(self) -> dict[str, float]:
         """Radius of the safety area of each player that has one, in [m]."""
         settings, radii = self.settings, {}
-        if self.game == "game":
+        if self.game in ("game", "duel"):
             radii = settings.safety_radii
-        elif self.game == "duel" or getattr(settings, "role", "") == EVADER:
-            radii = {EVADER: settings.strategy.area}
+        elif getattr(settings, "role", "") == EVADER:
+            radii = {EVADER: settings.evasion.area}
         return {name: r for name, r in radii.items() if isfinite(r)}
 
     @property
     def plan(self) -> Room | None:
         """Room of the game; None on an open floor."""
-        room: Any = getattr(self.settings, "room", None)
-        plan: Room | None = room.plan if self.game == "duel" else room
+        plan: Room | None = getattr(self.settings, "room", None)
         return plan
 
     def index_at(self, time: float) -> int:

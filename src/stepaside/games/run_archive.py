@@ -27,16 +27,14 @@ from .configuration_file import (
     replace_files,
     settings_entries,
 )
-from .duel_settings import DuelSettings
 from .experiment_settings import ExperimentSettings
 from .game_settings import GameSettings
 from .outcome import Outcome
 from .play_settings import PlaySettings
-from .player_names import MOST_PLAYERS, PLAYER_NAME
+from .player_settings import MOST_PLAYERS, PLAYER_NAME
 from .run import Run
 from .summary import Summary
 from .trajectory import FIELDS, check_record, tracks_in
-from .walk_settings import WalkSettings
 
 FORMAT = 5  # of a run folder
 CONFIGURATION = "configuration.toml"
@@ -56,9 +54,9 @@ READ_ERRORS = (  # raised for damaged files
     MemoryError,
 )
 KINDS: dict[str, type[Any]] = {
-    "duel": DuelSettings,
+    "duel": GameSettings,
     "game": GameSettings,
-    "walk": WalkSettings,
+    "walk": GameSettings,
     "play": PlaySettings,
     "experiment": ExperimentSettings,
 }

@@ -3,8 +3,8 @@
 import numpy as np
 
 from .outcome import Outcome
+from .player_settings import WALKER
 from .run import Run
-from .walk_settings import WALKER
 
 LEAST = 0.01  # closing speed below which a distance is constant, in [m/s]
 

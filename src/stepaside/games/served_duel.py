@@ -6,8 +6,8 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 from ..core.errors import ConfigurationError
 from .client_synchroniser import ClientSynchroniser
-from .duel_settings import DuelSettings
 from .game import Progress, play
+from .game_settings import GameSettings
 from .recorded_game import RecordedGame
 from .robot_player import VelocityWalker
 from .run import Run
@@ -33,7 +33,7 @@ class ServedDuel(NamedTuple):
 
 
 def serve_duel(
-    settings: DuelSettings,
+    settings: GameSettings,
     dds: "DdsParticipant",
     namespaces: Mapping[str, str],
     *,

@@ -10,19 +10,28 @@ from typing import Any
 
 from ..arena import Room, RoomRecipe, generate_room, load_room
 from ..core.entries import read_entries
-from ..core.errors import ConfigurationError
-from ..core.setting import NONE
+from ..core.errors import AnyPath, ConfigurationError, as_path, shown
+from ..core.setting import NONE, Entry, entries_of
 from ..planning import PRESETS
 from ..sim.body_settings import BODIES
-from .configuration_file import parse_settings
+from .configuration_file import load_settings, parse_settings
+from .game_settings import (
+    NOT_PLAYERS,
+    OF_ALL,
+    GameSettings,
+    duel,
+    walk,
+)
+from .player_settings import EVADER, MOST_PLAYERS, USED_BY, PlayerSettings
 from .robot_settings import (
+    LEGS_GAIT,
     body_of_robot,
-    with_legs,
-    with_players,
-    with_robot,
+    settings_of_robot,
+    with_distances,
 )
 
 PRESET = ""  # name of a preset among the entries that change it
+STARTED_FROM = {"duel": duel, "walk": walk}  # what a file changes
 RECIPE = "recipe"  # entries of a random room
 
 
@@ -51,82 +60,218 @@ def settings_of(
     entries: Mapping[str, Any],
     source: str = "",
     *,
+    base: Any = None,
     aside: Collection[str] = (),
 ) -> Any:
-    """Return settings of a game from nested entries.
+    """Return settings from nested entries.
 
-    ``robot`` and ``legs.network`` bring the gait, control and distances of
-    the robot; ``gait`` and ``body`` may be names of presets, and
-    ``room.plan`` a room file or the seed of a room by ``recipe``.
+    ``robot`` and ``legs.network`` bring gait and control of the robot, and
+    ``gait`` may be the name of a preset.
 
     Raises:
         StepAsideError: If an entry is unknown or out of its range, or if
             there is no such robot.
     """
     left, names = dict(entries), {each.name for each in fields(kind)}
-    base = kind()
-    if "robot" in names:
-        base = _of_robots(base, left)
-    for name, presets in (("gait", PRESETS), ("body", BODIES)):
-        if name in names:
-            base = _of_preset(base, left, name, presets)
-    if "room" in names:
-        _make_room(left)
+    base = kind() if base is None else base
+    if isinstance(left.get("robot"), str):
+        own = settings_of_robot(left["robot"])
+        if "evasion" in own and "evasion" in names:
+            radius = own["evasion"].safety_radius
+            own["evasion"] = replace(base.evasion, safety_radius=radius)
+        base = replace(base, **{k: v for k, v in own.items() if k in names})
+    legs = left.get("legs", {})
+    if isinstance(legs, Mapping) and legs.get("network") and "legs" in names:
+        base = replace(base, gait=replace(base.gait, **LEGS_GAIT))
+    if "gait" in names:
+        own_gait = PRESETS["nao"]
+        if "robot" in names:
+            own_gait = settings_of_robot(base.robot)["gait"]
+        preset = _preset(left, "gait", PRESETS)
+        if preset and own_gait != PRESETS["nao"]:
+            raise ConfigurationError(
+                f"gait {preset} requires a robot with NAO's gait: its lengths "
+                f"and times are NAO's, but {base.robot} has its own"
+            )
+        if preset:
+            base = replace(base, gait=PRESETS[preset])
     return parse_settings(kind, left, source, base=base, aside=aside)
 
 
-def _of_robots(base: Any, entries: dict[str, Any]) -> Any:
-    """Return settings of the robots and legs that entries name."""
-    base = with_robot(base, str(entries.pop("robot", base.robot)))
-    robots = {}
-    for player in ("pursuer", "evader"):
-        own = entries.get(f"{player}_robot")
-        if isinstance(own, str) and own != NONE:
-            robots[player] = str(entries.pop(f"{player}_robot"))
-        elif isinstance(own, Mapping):
-            robots[player] = str(own.get("robot", base.robot))
-    base = with_players(base, robots) if robots else base
-    legs = entries.get("legs", {})
-    network = legs.get("network") if isinstance(legs, Mapping) else None
-    return with_legs(base, network) if network else base
-
-
-def _of_preset(
-    base: Any,
-    entries: dict[str, Any],
-    name: str,
-    presets: Mapping[str, Any],
-) -> Any:
-    """Return settings with the gait or body of a preset."""
+def _preset(
+    entries: dict[str, Any], name: str, presets: Mapping[str, Any]
+) -> str:
+    """Return the preset that an entry names, which leaves its changes."""
     given = entries.get(name)
     changes = dict(given) if isinstance(given, Mapping) else {}
     preset = changes.pop(PRESET, given)
     if not isinstance(preset, str) or preset not in presets:
-        return base
-    if changes:
-        entries[name] = changes
-    else:
-        del entries[name]
-    value = presets[preset]
-    if name == "body" and hasattr(base, "robot"):
-        value = body_of_robot(base.robot, preset)
-    elif name == "gait" and base.gait != PRESETS["nao"]:
+        return ""
+    entries[name] = changes
+    return preset
+
+
+def load_game(path: AnyPath, **changes: Any) -> GameSettings:
+    """Read a game file; see :func:`read_game`.
+
+    Args:
+        path: TOML file.
+        changes: Changes of its entries.
+
+    Raises:
+        StepAsideError: If the file is not TOML, an entry is unknown or
+            invalid, or a robot does not exist.
+    """
+    file = as_path(path, "path")
+    made = read_game(load_settings(file), str(file))
+    return read_game(nested(changes), base=made) if changes else made
+
+
+def read_game(
+    entries: Mapping[str, Any],
+    source: str = "",
+    *,
+    base: GameSettings | None = None,
+) -> GameSettings:
+    """Turn nested entries into the settings of a game.
+
+    Entries of ``[[players]]`` change what the robot of the player brings.
+    Entries that only players have, like ``gait``, hold for all that use them
+    and do not have their own, and a table named like a player changes this
+    player. ``body`` may be the name of a preset, and ``room`` a room file or
+    the seed of a room by ``recipe``.
+
+    Args:
+        entries: The entries.
+        source: Where they come from, for messages.
+        base: Game that they change.
+
+    Raises:
+        StepAsideError: As :func:`load_game`.
+    """
+    left, before = dict(entries), source and f"{source}, "
+    if base is None and entries.get("game") in STARTED_FROM:
+        base = STARTED_FROM[entries["game"]]()
+    own = {p.name: p for p in base.players} if base else {}
+    tables = [(before + name, name, dict[str, Any]()) for name in own]
+    if (listed := left.pop("players", None)) is not None:
+        if not isinstance(listed, list):
+            raise ConfigurationError(
+                f"{before}players must be tables [[players]], got "
+                f"{shown(listed)}"
+            )
+        tables = [
+            (f"{before}player {number}, {each['name']}", each["name"], each)
+            for number, entry in enumerate(listed, start=1)
+            for each in _copies(entry, f"{before}player {number}")
+        ]
+    shared = {k: left.pop(k) for k in OF_ALL if k in left}
+    changes = []
+    for place, name, entry in tables:
+        player = own.get(name) or PlayerSettings(name)
+        mine = nested({} if name in NOT_PLAYERS else left.pop(name, {}), entry)
+        used = USED_BY.get(mine.get("body", player.body), set(OF_ALL))
+        common = {k: v for k, v in shared.items() if k in used}
+        where = place if mine else source
+        changes.append((where, player, nested(mine, common), mine))
+    if base is not None:
+        base = _with_distances(base, changes)
+    made = tuple(_player(*each) for each in changes)
+    if base is None:
+        base = GameSettings(players=made)
+    robots = [player.robot for player in made if player.body == "robot"]
+    preset = _preset(left, "body", BODIES)
+    if preset:
+        body = body_of_robot((robots or ["nao"])[0], preset)
+        base = replace(base, body=body)
+    _make_room(left)
+    if made != base.players:
+        left["players"] = made
+    return parse_settings(GameSettings, left, source, base=base)
+
+
+def _copies(entry: Any, source: str) -> list[dict[str, Any]]:
+    """Return an entry for each of ``count`` players alike, numbered."""
+    if not isinstance(entry, dict):
+        raise ConfigurationError(f"{source} must be a table, got {entry!r}")
+    rest, count = dict(entry), 1
+    if not isinstance(rest.get("name"), str):
         raise ConfigurationError(
-            f"gait {preset} requires a robot with NAO's gait: its lengths and "
-            f"times are NAO's, but {getattr(base, 'robot', 'it')} has its own"
+            f"{source} must have a name, got {rest.get('name')!r}"
         )
-    return replace(base, **{name: value})
+    if "count" not in rest:
+        return [rest]
+    count = rest.pop("count")
+    if type(count) is not int or not 1 <= count <= MOST_PLAYERS:
+        raise ConfigurationError(
+            f"{source}: count must be a whole number from 1 to "
+            f"{MOST_PLAYERS}, got {shown(count)}"
+        )
+    if count > 1 and "start" in rest:
+        raise ConfigurationError(
+            f"{source}: start must be omitted with count {count}, or all "
+            "would start at one place"
+        )
+    return [
+        rest | {"name": f"{rest['name']}-{number}"}
+        for number in range(1, count + 1)
+    ]
+
+
+def _with_distances(base: GameSettings, changes: list[Any]) -> GameSettings:
+    """Return a duel with the distances of the robots that entries name."""
+    robots = {
+        player.name: {"robot": entries["robot"]}
+        for _, player, entries, _ in changes
+        if isinstance(entries.get("robot"), str)
+    }
+    if base.game != "duel" or not robots:
+        return base
+    base = with_distances(base.changed(**robots))
+    for at, (where, player, entries, mine) in enumerate(changes):
+        if player.name == EVADER:
+            radius = {"safety_radius": base.evader.evasion.safety_radius}
+            entries = nested(entries, {"evasion": radius})
+            changes[at] = where, player, entries, mine
+    return base
+
+
+def _player(
+    source: str,
+    base: PlayerSettings,
+    entries: Mapping[str, Any],
+    mine: Mapping[str, Any],
+) -> PlayerSettings:
+    """Return the settings of one player; those of its own must have effect."""
+    player: PlayerSettings
+    player = settings_of(PlayerSettings, entries, source, base=base)
+    for key in mine.keys() - USED_BY[player.body]:
+        if getattr(player, key) != getattr(base, key):
+            raise ConfigurationError(
+                f"{source}: {key} must be omitted with body {player.body!r}, "
+                "as it has no effect"
+            )
+    return player
+
+
+def entries_of_game(base: GameSettings) -> dict[str, Entry]:
+    """Return every setting of a game and its players by its path."""
+    game, own = entries_of(GameSettings), entries_of(PlayerSettings)
+    common = {k: v for k, v in own.items() if k.partition(".")[0] in OF_ALL}
+    found = {k: v for k, v in game.items() if k != "players"} | common
+    for name in base.names:
+        if name not in NOT_PLAYERS:
+            found |= entries_of(PlayerSettings, name)
+    return found | entries_of(RoomRecipe, RECIPE)
 
 
 def _make_room(entries: dict[str, Any]) -> None:
     """Put a room in place of its file or its seed."""
-    recipe, room = entries.pop(RECIPE, None), entries.get("room", {})
-    plan = room.get("plan") if isinstance(room, Mapping) else None
+    recipe, plan = entries.pop(RECIPE, None), entries.get("room")
     if recipe is not None and type(plan) is not int:
         got = "none" if plan is None else f"{plan}"
         raise ConfigurationError(
-            f"{RECIPE} requires the seed of a random room as room.plan, got "
-            f"{got}"
+            f"{RECIPE} requires the seed of a random room as room, got {got}"
         )
     made: Room | None = None
     if type(plan) is int:
@@ -134,4 +279,4 @@ def _make_room(entries: dict[str, Any]) -> None:
     elif isinstance(plan, str) and plan != NONE:
         made = load_room(plan)
     if made is not None:
-        entries["room"] = {**room, "plan": made}
+        entries["room"] = made

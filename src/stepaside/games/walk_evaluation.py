@@ -14,11 +14,11 @@ from numpy.typing import NDArray
 from ..core.poses import Array
 from ..locomotion.zmp.mpc import MpcResult
 from .outcome import Outcome
+from .player_settings import WALKER
 from .robot_player import RobotPlayer
 from .run import Run
 from .summary import ErrorStatistics, SolverSummary, WalkingSummary
 from .trajectory import Trajectory
-from .walk_settings import WALKER
 
 WARM_UP = 3.0  # left out of the evaluation, in [s]
 TRACKED = ("com_x", "com_y", "zmp_x", "zmp_y")  # in [m]

@@ -150,7 +150,7 @@ class ControlSettings:
     """Method and feedback of walking control.
 
     Method and feedback that are None are decided by gait and body; see
-    :mod:`stepaside.games.implied_settings`.
+    :mod:`stepaside.games.player_settings`.
     """
 
     method: Method | None = setting(

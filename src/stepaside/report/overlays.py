@@ -198,7 +198,7 @@ def overlays_of(run: Run, every: int = 1) -> list[SceneLines]:
             )
         steps = footsteps_in(run, name)
         if len(steps):
-            sole = run.settings.robot_of(name).gait.sole
+            sole = run.settings.player(name).gait.sole
             outlines = soles(steps[:, 1:], sole)
             landed_at = np.repeat(steps[:, 0], 4)
             found.append(SceneLines("footsteps", name, outlines, landed_at))
@@ -223,7 +223,7 @@ def footsteps_in(run: Run, name: str) -> Array:
     landings = NO_FOOTSTEPS if track.landings is None else track.landings
     if track.qpos is None or not len(landings):
         return landings
-    robot = load_robot(run.settings.robot_of(name).robot)
+    robot = load_robot(run.settings.player(name).robot)
     model = robot.compile()
     feet = robot.left_foot, robot.right_foot
     left, right = (model.site(foot).id for foot in feet)

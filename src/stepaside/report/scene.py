@@ -8,9 +8,9 @@ import numpy as np
 from ..arena import Room
 from ..core.errors import ConfigurationError
 from ..core.poses import Array, Pose
-from ..games.game_furnishing import Scenery, scenery_of_game
+from ..games.game_furnishing import Scenery, scenery_of
+from ..games.game_settings import GameSettings
 from ..games.run import Run
-from ..games.settings_as_game import scenery_of
 from ..robots.description import load_robot
 from ..sim.person_body import (
     add_template,
@@ -43,9 +43,7 @@ class RunScene:
         self._templates = [
             name for name in run.players if name not in run.robots + persons
         ]
-        names = {
-            name: run.settings.robot_of(name).robot for name in run.robots
-        }
+        names = {name: run.settings.player(name).robot for name in run.robots}
         physics, seed = PhysicsSettings(), 0
         if run.game not in ("play", "experiment"):
             physics, seed = run.settings.physics, run.settings.seed
@@ -71,10 +69,8 @@ class RunScene:
 
     def _scenery_of(self, run: Run) -> Scenery:
         """Return everything but robots."""
-        if run.game == "game":
-            return scenery_of_game(run.settings, templates=self._templates)
-        if run.game == "duel":
-            return scenery_of(run.settings)
+        if isinstance(run.settings, GameSettings):
+            return scenery_of(run.settings, templates=self._templates)
         return Scenery(
             tuple(partial(add_template, name=name) for name in self._templates)
         )

@@ -3,7 +3,6 @@
 from dataclasses import dataclass
 from math import radians
 
-from ..arena import Room
 from ..core.errors import ConfigurationError, check_within
 from ..core.ranges import Range, check_count
 from ..core.setting import REQUIRED, check_settings, setting
@@ -240,7 +239,7 @@ CLUTTER = (
 
 @dataclass(frozen=True, slots=True)
 class SceneSettings:
-    """Walls, objects and floor plan around the robots."""
+    """Walls and objects around the robots, as cameras see them."""
 
     walls: float = setting(
         5.0,
@@ -259,10 +258,6 @@ class SceneSettings:
         [],
         "Objects in view of the cameras",
         presets={"clutter": list(CLUTTER), "none": []},
-    )
-    plan: Room | None = setting(
-        None,
-        "Room in which the game is played; an open floor without",
     )
 
     def __post_init__(self) -> None:

@@ -70,14 +70,14 @@ class Evasion:
             "m",
             "below a millimetre there is contact; 1e9 m means always",
         ),
-        needs=("strategy.trigger", "distance"),
+        needs=("evasion.trigger", "distance"),
     )
     release_distance: float = setting(
         inf,
         "Distance at which evasion ends",
         Range(1e-3, 1e9, "m", "and above safety_radius", also=(inf,)),
         words={"never": inf},
-        needs=("strategy.trigger", "distance"),
+        needs=("evasion.trigger", "distance"),
     )
     side_hysteresis: float = setting(
         radians(20.0),
@@ -85,7 +85,7 @@ class Evasion:
         "before the evader changes side {unit}; from a right angle on it "
         "never does",
         Range(0.0, pi, "rad", "half a turn"),
-        needs=("strategy.trigger", "distance"),
+        needs=("evasion.trigger", "distance"),
     )
     trigger: Trigger | None = setting(
         None,
@@ -100,20 +100,20 @@ class Evasion:
         "Predicted time to contact at which evasion begins {unit}, with the "
         "trigger time; 1.5 times as much ends it",
         Range(0.1, 60.0, "s", "a step takes longer than 0.1 s"),
-        needs=("strategy.trigger", "time"),
+        needs=("evasion.trigger", "time"),
     )
     clearance: float = setting(
         0.7,
         "Distance that counts as contact {unit}, with the trigger time",
         Range(0.1, 10.0, "m", "the bodies have a width"),
-        needs=("strategy.trigger", "time"),
+        needs=("evasion.trigger", "time"),
     )
     calmest: float = setting(
         1.0,
         "Minimum step rate, as a fraction of the gait's {unit}, with the "
         "trigger time: the slowest that leaves enough clearance is chosen",
         Range(0.5, 1.0, "1", "steps at a lower pace take too long"),
-        needs=("strategy.trigger", "time"),
+        needs=("evasion.trigger", "time"),
     )
 
     def __post_init__(self) -> None:

@@ -65,13 +65,14 @@ STRATEGIES: Mapping[str, tuple[str, Mapping[str, Any]]] = {
     "goal": ("GoalWalk", {}),
     "stand": ("StandStill", {}),
     "walk": ("Walk", {}),
+    "walk-backward": ("Walk", {"direction": Direction.BACKWARD}),
 }
 """Class of each named strategy, and its arguments."""
 
 LIMITS = Limits(0.1, 0.2, 0.04, 0.547)  # of trial decisions
 OF_EVASION = ("evasion",)  # strategies that use settings of an Evasion
 OTHERS = "FILE.py:NAME or FILE.onnx"
-_OBJECT = re.compile(r"object [\w.<>]+\(.*\)", re.DOTALL)
+_OBJECT = re.compile(r"object [\w.<>]+")
 _CALL = re.compile(
     r"(?P<name>(?P<file>.+\.(?:py(?=:)|onnx))(?::(?P<own>\w+))?|[^():]+)"
     r"(?:\((?P<arguments>.*)\))?",
@@ -90,25 +91,10 @@ class _Named(NamedTuple):
     own: str | None
 
 
-def describe_strategy(strategy: str | Strategy) -> str:
-    """Return the text that records a strategy: its name, or its class.
-
-    A strategy object is recorded by its class and plain values.
-    """
-    if isinstance(strategy, str):
-        return strategy
+def describe_strategy(strategy: Strategy) -> str:
+    """Return the text that records a strategy object: its class."""
     kind = type(strategy)
-    values: dict[str, Any] = {}
-    if is_dataclass(strategy):
-        values = {f.name: getattr(strategy, f.name) for f in fields(strategy)}
-    plain = ", ".join(
-        f"{name}={value!r}"
-        for name, value in values.items()
-        if isinstance(value, bool | int | float | str | None)
-    )
-    module = Path(kind.__module__).name  # without the folders of a file
-    module = module.partition("%")[0]
-    return f"object {module}.{kind.__qualname__}({plain})"
+    return f"object {kind.__qualname__}"
 
 
 def is_described(name: str) -> bool:

@@ -141,7 +141,8 @@ def claim_study(seeds: Sequence[int], legs: str = "") -> Study[ClaimTrial]:
         ]
     network = ""
     if legs:
-        network = digest_of(Path(games.legs_settings(legs, 0).legs.network))
+        own = games.legs_settings(legs, 0).evader.legs
+        network = digest_of(Path(own.network))
     return Study("claims", trials, run_trial, partial(_key, network))
 
 

@@ -7,8 +7,9 @@ import numpy as np
 
 from ..core.errors import PlanError
 from ..core.poses import Pose
-from ..games.duel_settings import EVADER, PURSUER, DuelSettings
-from ..games.recorded_game import run_duel
+from ..games.game_settings import GameSettings
+from ..games.player_settings import EVADER, PURSUER
+from ..games.recorded_game import run_game
 from ..games.run import Run
 from ..games.summary import PlanningSummary, TheorySummary
 from ..theory.unicycle.certificate import certify
@@ -22,14 +23,14 @@ OF_SUMMARY = (
 BEFORE = 2.0 / 3.0  # of a duel; means are taken over the rest
 
 
-def play_duel(settings: DuelSettings) -> Record:
+def play_duel(settings: GameSettings) -> Record:
     """Play one duel and return its record.
 
     Summary values in SI units, or [deg] as their names say, and the
     ``digest`` of the trajectories.
     """
     began = perf_counter()
-    run = run_duel(settings).uninterrupted()
+    run = run_game(settings).uninterrupted()
     return _record_of(run, perf_counter() - began)
 
 
@@ -79,7 +80,7 @@ def _evasion(run: Run) -> Record:
     """
     found: Record = {"evading_min_distance_m": None, "certified_m": None}
     triggered = run.summary.triggered_at_s
-    if triggered is None or run.settings.pursuer != "robot":
+    if triggered is None or run.settings.pursuer.body != "robot":
         return found
     since = run.times >= triggered - 1e-9
     if not since.any():
@@ -90,7 +91,8 @@ def _evasion(run: Run) -> Record:
         Pose(*run.pursuer.unicycle[first].tolist()),
         Pose(*run.evader.unicycle[first].tolist()),
     )
-    gait, strategy = run.settings.gait, run.settings.strategy
+    own = run.settings.evader
+    gait, strategy = own.gait, own.evasion
     ends = strategy.trigger == "time" or isfinite(strategy.release_distance)
     if ends or not run.settings.is_of_the_paper:
         return found  # the certificate assumes permanent evasion

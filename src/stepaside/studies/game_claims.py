@@ -15,14 +15,14 @@ from ..games.duel_circle import (
     distance_between,
     last_third,
 )
-from ..games.duel_settings import PLAYERS, DuelSettings, StartSettings
 from ..games.floor_games import StrategyTrack
+from ..games.game_settings import GameSettings, StartSettings, duel
 from ..games.outcome import Outcome
-from ..games.recorded_game import run_duel
-from ..games.robot_settings import with_robot
+from ..games.player_settings import PLAYERS
+from ..games.recorded_game import run_game
 from ..games.run import Run
+from ..games.settings_reader import read_game
 from ..planning import PRESETS
-from ..sim.camera_settings import SceneSettings
 from ..strategies.strategy_game import StepGame
 from ..theory.unicycle.circle_fit import fit_circle
 from .theory_claims import most_deviating
@@ -59,9 +59,9 @@ def walk_settings(
     preset: str = "nao",
     duration: float = WALK_TIME,
     friction: float | None = None,
-) -> DuelSettings:
+) -> GameSettings:
     """Return the settings of a duel in which both walk from the begin."""
-    settings = DuelSettings(
+    settings = duel(
         seed=seed,
         duration=duration,
         gait=PRESETS[preset],
@@ -75,21 +75,22 @@ def walk_settings(
 
 def measure_humanoids(seed: int) -> dict[str, float]:
     """Play the duel of Fig. 5 from the random initial poses of a seed."""
-    return read_circle(
-        play_instrumented(DuelSettings(seed=seed, duration=CIRCLE_TIME))
-    )
+    settings = duel(seed=seed, duration=CIRCLE_TIME)
+    return read_circle(play_instrumented(settings))
 
 
-def read_circle(duel: InstrumentedDuel) -> dict[str, float]:
+def read_circle(played: InstrumentedDuel) -> dict[str, float]:
     """Measure the circle of Sec. IV and the replanning of Sec. III-E."""
-    landings = [step for name in PLAYERS for step in step_times(duel, name)]
-    gait = duel.run.settings.gait
-    shares = [walked_arc_fraction(duel.plans[name], gait) for name in PLAYERS]
-    jumps = [reference_jumps(duel, name) for name in PLAYERS]
-    on_feet = [replanning_support(duel, name) for name in PLAYERS]
+    landings = [step for name in PLAYERS for step in step_times(played, name)]
+    gait = played.run.settings.gait
+    shares = [
+        walked_arc_fraction(played.plans[name], gait) for name in PLAYERS
+    ]
+    jumps = [reference_jumps(played, name) for name in PLAYERS]
+    on_feet = [replanning_support(played, name) for name in PLAYERS]
     position, velocity = np.max(jumps, axis=0).tolist()
-    pursuer, evader = (walking_speed(duel, name) for name in PLAYERS)
-    return last_circle(duel.run) | {
+    pursuer, evader = (walking_speed(played, name) for name in PLAYERS)
+    return last_circle(played.run) | {
         "same_speed": evader / pursuer if pursuer > 0.0 else nan,
         "landings": most_deviating(landings, gait.step_duration),
         "both_feet": float(np.min([share for share, _ in on_feet])),
@@ -177,25 +178,26 @@ def read_slip(
     }
 
 
-def _walk_of(duel: InstrumentedDuel) -> tuple[float, float, float]:
+def _walk_of(played: InstrumentedDuel) -> tuple[float, float, float]:
     """Return slip, speed and radius; NaN unless both robots walk."""
-    gait = duel.run.settings.gait
-    speeds = [walking_speed(duel, name) for name in PLAYERS]
+    gait = played.run.settings.gait
+    speeds = [walking_speed(played, name) for name in PLAYERS]
     least = MIN_SPEED * gait.stride / gait.step_duration
-    circle = last_circle(duel.run)
-    if duel.run.outcome is not Outcome.COMPLETED or not min(speeds) > least:
+    circle = last_circle(played.run)
+    if played.run.outcome is not Outcome.COMPLETED or not min(speeds) > least:
         return nan, nan, nan
     radius = 0.5 * (circle["pursuer_radius"] + circle["evader_radius"])
-    return mean_foot_slip(duel), float(np.mean(speeds)), radius
+    return mean_foot_slip(played), float(np.mean(speeds)), radius
 
 
-def legs_settings(robot: str, seed: int) -> DuelSettings:
+def legs_settings(robot: str, seed: int) -> GameSettings:
     """Return the settings of the duel of Fig. 5 on learned legs.
 
     The description in the folder of the robot names a policy.
     """
-    settings = with_robot(DuelSettings(seed=seed, duration=CIRCLE_TIME), robot)
-    if not settings.legs.walks:
+    settings = duel(seed=seed, duration=CIRCLE_TIME)
+    settings = read_game({"robot": robot}, base=settings)
+    if not settings.evader.legs.walks:
         raise ConfigurationError(
             f"the robot {robot!r} must have learned legs: its robot.toml "
             "names no network in [locomotion]"
@@ -205,7 +207,7 @@ def legs_settings(robot: str, seed: int) -> DuelSettings:
 
 def measure_legs(robot: str, seed: int) -> dict[str, float]:
     """Play the duel of Fig. 5 on the learned legs of a robot."""
-    return last_circle(run_duel(legs_settings(robot, seed)).uninterrupted())
+    return last_circle(run_game(legs_settings(robot, seed)).uninterrupted())
 
 
 DURATION = 40.0  # of the duels in rooms, in [s]
@@ -265,12 +267,12 @@ def read_evading(games: Mapping[tuple[str, str], Tracks]) -> dict[str, float]:
 
 def measure_room(seed: int) -> dict[str, float]:
     """Play a duel in the room of a seed, with a given map."""
-    run = run_duel(
-        DuelSettings(
+    run = run_game(
+        duel(
             seed=seed,
             duration=DURATION,
-            evader_strategy=AHEAD,
-            room=SceneSettings(plan=generate_room(RoomRecipe(discs=3), seed)),
+            evader={"strategy": AHEAD},
+            room=generate_room(RoomRecipe(discs=3), seed),
         )
     )
     return read_room(run.uninterrupted())

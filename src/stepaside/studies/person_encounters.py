@@ -8,9 +8,10 @@ import numpy as np
 from ..core.errors import check_choice
 from ..core.poses import wrap_angle
 from ..core.random_streams import named_generator
-from ..games.duel_settings import DuelSettings, StartSettings
+from ..games.game_settings import GameSettings, StartSettings
+from ..games.game_settings import duel as make_duel
 from ..games.outcome import Outcome
-from ..games.recorded_game import run_duel
+from ..games.recorded_game import run_game
 from ..games.run import Run
 from ..sim.crowd_motion import REACTIONS
 from ..sim.person_settings import PersonSettings
@@ -54,8 +55,8 @@ class Encounter:
     drawn: bool = False
     seed: int = 1  # seed of the game
     # all other settings of the game
-    duel: DuelSettings = field(
-        default_factory=lambda: DuelSettings(pursuer="person")
+    duel: GameSettings = field(
+        default_factory=lambda: make_duel(pursuer={"body": "person"})
     )
 
     def __post_init__(self) -> None:
@@ -84,25 +85,23 @@ class Encounter:
         )
 
     @property
-    def settings(self) -> DuelSettings:
+    def settings(self) -> GameSettings:
         """Settings of the game, with the person far enough away at first."""
         duel = self.duel.resolved()
-        strategy = replace(duel.strategy, trigger="time")
-        if duel.legs.walks:
-            strategy = replace(strategy, clearance=DashEvasion().clearance)
-        ahead = strategy.contact_time + STANDING
-        distance = strategy.clearance + self.speed * ahead
-        room, lingers = duel.room, self.reaction != "straight"
-        if duel.sensing == "cameras":
+        evasion = replace(duel.evader.evasion, trigger="time")
+        if duel.evader.legs.walks:
+            evasion = replace(evasion, clearance=DashEvasion().clearance)
+        ahead = evasion.contact_time + STANDING
+        distance = evasion.clearance + self.speed * ahead
+        scene, lingers = duel.scene, self.reaction != "straight"
+        if duel.evader.senses == "cameras":
             # A near wall would be detected before the person.
-            room = replace(room, walls=distance + WALL_CLEARANCE)
-        return replace(
-            duel,
+            scene = replace(scene, walls=distance + WALL_CLEARANCE)
+        return duel.changed(
             seed=self.seed,
             duration=(distance + PAST) / self.speed + lingers * LINGERING,
-            pursuer="person",
-            strategy=strategy,
-            room=room,
+            evader={"evasion": evasion},
+            scene=scene,
             person=self._person(distance),
             start=StartSettings(
                 distance, 0.0, wrap_angle(-radians(self.bearing))
@@ -133,7 +132,7 @@ class Encounter:
 def play_encounter(encounter: Encounter) -> Record:
     """Play an encounter and return its record."""
     person = encounter.person
-    run = run_duel(person.settings).uninterrupted()
+    run = run_game(person.settings).uninterrupted()
     summary = run.summary
     triggered = summary.triggered_at_s is not None
     return {

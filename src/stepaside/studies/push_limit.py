@@ -6,16 +6,19 @@ from functools import cache
 from math import radians
 
 from ..core.errors import ConfigurationError, check_choice, check_within
+from ..games.game_settings import GameSettings
+from ..games.game_settings import walk as make_walk
 from ..games.outcome import Outcome
-from ..games.recorded_game import run_walk
+from ..games.player_settings import WALKER
+from ..games.recorded_game import run_game
 from ..games.robot_settings import game_settings_from_description
-from ..games.walk_settings import WalkSettings
-from ..planning import Direction, Foot, ManeuverPlanner
+from ..planning import Foot, ManeuverPlanner
 from ..planning.maneuver import steady_plan
 from ..planning.push_bound import FootReach, push_bound
 from ..robots.description import load_robot
 from ..robots.forward_kinematics import ForwardKinematics
 from ..sim.push import Push
+from ..strategies import Walk, load_strategy
 from .tabulation import Record
 
 DIRECTIONS = {"left": 90.0, "right": -90.0, "forward": 0.0, "backward": 180.0}
@@ -34,7 +37,7 @@ class PushSettings:
     """Search for the largest push that a walk survives."""
 
     # settings of the walk; duration and pushes are ignored
-    walk: WalkSettings = field(default_factory=WalkSettings)
+    walk: GameSettings = field(default_factory=make_walk)
     direction: str = "left"  # direction of the push, a key of ``DIRECTIONS``
     # phase at which it begins, as a fraction of the gait cycle
     phase: float = 0.0
@@ -45,13 +48,14 @@ class PushSettings:
         check_choice(self.direction, DIRECTIONS, "direction")
         check_within(self.phase, 0.0, 1.0, "phase", "1", ConfigurationError)
 
-    def pushed(self, strength: float) -> WalkSettings:
+    def pushed(self, strength: float) -> GameSettings:
         """Return the walk with a push of a strength, in [N s] for NAO."""
         walk = self.walk.resolved()
-        begins = walk.gait.start_support + float(bool(walk.control.feedback))
+        own = walk.player(WALKER)
+        begins = own.gait.start_support + float(bool(own.control.feedback))
         time = begins + (BEFORE + 2.0 * self.phase) * walk.gait.step_duration
         push = Push(
-            strength * push_scale(walk.robot),
+            strength * push_scale(own.robot),
             time,
             radians(DIRECTIONS[self.direction]),
         )
@@ -91,19 +95,20 @@ def play_push(settings: PushSettings) -> Record:
     """
 
     def survives(strength: float) -> bool:
-        run = run_walk(settings.pushed(strength)).uninterrupted()
+        run = run_game(settings.pushed(strength)).uninterrupted()
         return run.outcome is Outcome.COMPLETED
 
     strength, tried = find_limit(survives)
     walk = settings.walk.resolved()
-    limit = strength * push_scale(walk.robot)
+    robot = walk.player(WALKER).robot
+    limit = strength * push_scale(robot)
     bound, impulse = (
         push_bound_at(settings.direction, settings.phase, walk, impulse=each)
         for each in (False, True)
     )
     return {
         "limit_n_s": limit,
-        "limit_m_s": limit / mass_of(walk.robot),
+        "limit_m_s": limit / mass_of(robot),
         "bound_n_s": bound,
         "impulse_bound_n_s": impulse,
         "of_bound": limit / bound,
@@ -137,7 +142,7 @@ def push_scale(robot: str) -> float:
 def push_bound_at(
     direction: str,
     phase: float,
-    walk: WalkSettings,
+    walk: GameSettings,
     *,
     impulse: bool = False,
 ) -> float:
@@ -147,15 +152,18 @@ def push_bound_at(
     middle of the push does not bound the push, during whose first half the ZMP
     can already react.
     """
-    gait, gains = walk.gait, walk.control.stabiliser
+    own = walk.resolved().player(WALKER)
+    gait, gains = own.gait, own.control.stabiliser
+    way = load_strategy(own.strategy)
+    assert isinstance(way, Walk)
     cycle = 2.0 * gait.step_duration
     lasts = 0.0 if impulse else LASTS
     passed = (phase * cycle + (0.5 * LASTS if impulse else 0.0)) % cycle
     foot = Foot.LEFT if passed < gait.step_duration else Foot.RIGHT
     plan = steady_plan(
         ManeuverPlanner(gait),
-        walk.bearing,
-        Direction.BACKWARD if walk.backward else Direction.FORWARD,
+        way.bearing,
+        way.direction,
         first_foot=foot,
     )
     reach = FootReach(
@@ -168,7 +176,7 @@ def push_bound_at(
         plan,
         passed % gait.step_duration,
         radians(DIRECTIONS[direction]),
-        mass_of(walk.robot),
+        mass_of(own.robot),
         reach,
         lasts=lasts,
     )

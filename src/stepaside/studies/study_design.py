@@ -108,7 +108,7 @@ def make_study(
             unicycles; or a function that takes the settings of a case by
             name and returns its record.
         settings: Settings that all cases share, nested, or by name with dots
-            like ``strategy.safety_radius``.
+            like ``evasion.safety_radius``.
         grid: Values of each setting that varies, by name with dots.
         variants: Axes whose values change several settings: for each axis
             the settings by the name, or the number, of the variant.

@@ -1,20 +1,17 @@
 """Games that a study can play: settings from entries, and flat records."""
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, fields, replace
-from typing import Any, NamedTuple, get_type_hints
+from dataclasses import dataclass, replace
+from typing import Any, NamedTuple
 
 from ..core.player_identity import Role
-from ..games.duel_settings import DuelSettings
 from ..games.floor_games import play_unicycles
-from ..games.game_file import parse_game
-from ..games.game_settings import GameSettings
+from ..games.game_settings import GameSettings, duel, walk
 from ..games.outcome import Outcome
-from ..games.recorded_game import run_game, run_walk
+from ..games.recorded_game import run_game
 from ..games.run_archive import results_of
-from ..games.settings_reader import settings_of
+from ..games.settings_reader import read_game, settings_of
 from ..games.unicycle_settings import UnicycleSettings
-from ..games.walk_settings import WalkSettings
 from ..strategies.registry import check_strategy_name
 from ..theory.unicycle.adaptive_simulation import simulate
 from .duel_record import play_duel
@@ -60,36 +57,42 @@ class TeamGame:
 class StudyGame(NamedTuple):
     """Game that a study can play."""
 
-    settings: type[Any]  # class of its settings
+    settings: Any  # class of its settings, or the game that they change
     play: Callable[[Any], Record]  # plays a game; returns its record
     values: tuple[str, ...]  # values of a record that are tabulated by default
 
 
-def settings_of_study(kind: type[Any], entries: Mapping[str, Any]) -> Any:
-    """Return settings from nested entries; see :func:`.settings_of`."""
+HOLDS = {Encounter: ("duel",), PushSettings: ("walk",)}  # games of others
+
+
+def settings_of_study(kind: Any, entries: Mapping[str, Any]) -> Any:
+    """Return settings from nested entries; see :func:`.read_game`.
+
+    The kind is a class of settings, or the game that they change.
+    """
     entries = dict(entries)
+    if isinstance(kind, GameSettings):
+        return read_game(entries, "the settings", base=kind)
     if kind is TeamGame:
         own = {
             k: entries.pop(k) for k in ("pursuers", "evaders") if k in entries
         }
-        return TeamGame(parse_game(entries, "the settings"), **own)
+        return TeamGame(read_game(entries, "the settings"), **own)
     if kind is Encounter:
-        duel = {"pursuer": "person", **entries.get("duel", {})}
-        if not duel.get("robot") and not duel.get("legs", {}).get("network"):
-            duel.setdefault("gait", "fast")  # NAO's, if none is chosen
-        entries["duel"] = duel
-    names, hints = {each.name for each in fields(kind)}, get_type_hints(kind)
-    inner = {
-        name: settings_of_study(hints[name], entries.pop(name, {}))
-        for name in ("walk", "duel")
-        if name in names
-    }
+        game = entries.get("duel", {})
+        if not game.get("robot") and not game.get("legs", {}).get("network"):
+            game = {"gait": "fast"} | game  # NAO's, if none is chosen
+        entries["duel"] = game
+    inner = {}
+    for name in HOLDS.get(kind, ()):
+        base, own = getattr(kind(), name), entries.pop(name, {})
+        inner[name] = read_game(own, "the settings", base=base)
     made = settings_of(kind, entries, "the settings")
     return replace(made, **inner)
 
 
-def _play_walk(settings: WalkSettings) -> Record:
-    run = run_walk(settings).uninterrupted()
+def _play_walk(settings: GameSettings) -> Record:
+    run = run_game(settings).uninterrupted()
     survived = run.outcome is Outcome.COMPLETED
     return flat(results_of(run)) | {"survived": survived}
 
@@ -154,10 +157,8 @@ def _play_game(settings: TeamGame) -> Record:
 
 
 GAMES: Mapping[str, StudyGame] = {
-    "duel": StudyGame(DuelSettings, play_duel, ("outcome", "min_distance_m")),
-    "walk": StudyGame(
-        WalkSettings, _play_walk, ("survived", "walking.speed_ratio")
-    ),
+    "duel": StudyGame(duel(), play_duel, ("outcome", "min_distance_m")),
+    "walk": StudyGame(walk(), _play_walk, ("survived", "walking.speed_ratio")),
     "push": StudyGame(
         PushSettings, play_push, ("limit_n_s", "bound_n_s", "of_bound")
     ),

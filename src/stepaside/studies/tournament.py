@@ -17,16 +17,16 @@ from ..arena import (
 from ..core.convex import grown_hull_area
 from ..core.errors import ConfigurationError, check_choice
 from ..core.poses import Array, Pose, rotate, wrap_angles
-from ..games.duel_settings import PLAYERS, DuelSettings
 from ..games.floor_games import StrategyTrack, play_strategies
 from ..games.floor_world import PARTS
+from ..games.game_settings import duel
 from ..games.outcome import Outcome
-from ..games.recorded_game import run_duel
+from ..games.player_settings import PLAYERS
+from ..games.recorded_game import run_game
 from ..games.run import Run
 from ..games.summary import PlanningSummary
 from ..locomotion.control_settings import MapSettings
 from ..robots.description import load_robot
-from ..sim.camera_settings import SceneSettings
 from ..sim.outline_measurement import measure_outline
 from ..strategies import Evasion, Pursuit, load_strategy
 from ..strategies.registry import file_of
@@ -175,15 +175,15 @@ def _humanoid_values(settings: PairingSettings) -> Record:
     room, starts = settings.arena()
     played = load_strategy(settings.evader)
     paper = played if isinstance(played, Evasion) else None
-    run = run_duel(
-        DuelSettings(
+    run = run_game(
+        duel(
             seed=settings.seed,
             duration=settings.game.duration,
-            strategy=paper or Evasion(),
-            evader_strategy="evasion" if paper else settings.evader,
-            pursuer_strategy=settings.pursuer,
-            sensing="cameras" if settings.map == "seen" else "ideal",
-            room=SceneSettings(plan=replace(room, starts=starts)),
+            evasion=paper or Evasion(),
+            evader={"strategy": "evasion" if paper else settings.evader},
+            pursuer={"strategy": settings.pursuer},
+            senses="cameras" if settings.map == "seen" else "ideal",
+            room=replace(room, starts=starts),
             map=MapSettings(source=settings.map),
         )
     )
@@ -281,10 +281,11 @@ def outcome_of(run: Run) -> Outcome:
 def clearance(run: Run, name: str) -> float | None:
     """Return the least distance of a trunk from resting obstacles, in [m]."""
     settings, track = run.settings, run.tracks[name]
-    if settings.room.plan is None:
+    if settings.room is None:
         return None
-    solids = ObstacleSet(settings.room.plan.solids)
-    trunk = measure_outline(load_robot(settings.robot), settings.gait).trunk
+    solids = ObstacleSet(settings.room.solids)
+    own = settings.player(name)
+    trunk = measure_outline(load_robot(own.robot), own.gait).trunk
     corners = [
         Pose(x, y, heading).transform_points(trunk)
         for (x, y), heading in zip(

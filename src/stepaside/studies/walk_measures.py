@@ -7,9 +7,10 @@ from typing import NamedTuple
 import numpy as np
 
 from ..core.poses import Array
-from ..games.duel_settings import PLAYERS, DuelSettings
 from ..games.game import GameInPlay, GameObserver, play
+from ..games.game_settings import GameSettings
 from ..games.physics_world import PhysicsWorld
+from ..games.player_settings import PLAYERS
 from ..games.recorded_game import RecordedGame
 from ..games.robot_player import RobotPlayer
 from ..games.run import Run
@@ -44,8 +45,8 @@ class InstrumentedDuel:
     plans: dict[str, tuple[WalkedPlan, ...]] = field(default_factory=dict)
 
 
-def play_instrumented(settings: DuelSettings) -> InstrumentedDuel:
-    """Play a duel to its end, as ``run_duel`` does, recording every tick."""
+def play_instrumented(settings: GameSettings) -> InstrumentedDuel:
+    """Play a duel to its end, as ``run_game`` does, recording every tick."""
     observers = {name: _TickObserver(settings, name) for name in PLAYERS}
     duel = RecordedGame(settings, tuple(observers.values()))
     play(duel)
@@ -66,11 +67,11 @@ def play_instrumented(settings: DuelSettings) -> InstrumentedDuel:
 class _TickObserver(GameObserver):
     """Observer of one robot of a match: its state at the end of each tick."""
 
-    def __init__(self, settings: DuelSettings, name: str) -> None:
+    def __init__(self, settings: GameSettings, name: str) -> None:
         self.rows: list[tuple[Array, Array, Array]] = []
         self.plans: list[WalkedPlan] = []
         self._name, self._plan = name, object()
-        self._robot = load_robot(settings.robot_of(name).robot)
+        self._robot = load_robot(settings.player(name).robot)
 
     def before(self, game: GameInPlay) -> None:
         """Record the state after the previous tick."""

@@ -14,10 +14,11 @@ from stepaside.cli.plan import PlanSettings
 from stepaside.cli.settings import flag_of
 from stepaside.core.setting import Setting as Description
 from stepaside.core.setting import settings_of
-from stepaside.games.duel_settings import DuelSettings
-from stepaside.games.game_settings import GameSettings, PlayerSettings
+from stepaside.games.game_settings import GameSettings
+from stepaside.games.game_settings import duel as make_duel
+from stepaside.games.game_settings import walk as make_walk
+from stepaside.games.player_settings import PlayerSettings
 from stepaside.games.unicycle_settings import UnicycleSettings
-from stepaside.games.walk_settings import WalkSettings
 from stepaside.report.film_settings import FilmSettings
 from stepaside.sim.camera_settings import RoomObject
 from stepaside.sim.push import Push
@@ -25,8 +26,8 @@ from stepaside.sim.push import Push
 from .markdown import table
 
 CONFIGURATIONS = (
-    DuelSettings(),
-    WalkSettings(),
+    make_duel(),
+    make_walk(),
     PlanSettings(),
     GameSettings(players=(PlayerSettings("one"),)),
 )
@@ -41,7 +42,7 @@ COMMANDS = {
 OPTIONS = {path: flag_of(path) for path in (*walk.NAMED, *duel.NAMED)}
 LISTS: Mapping[str, type[Any]] = {
     "players": PlayerSettings,
-    "room.things": RoomObject,
+    "scene.things": RoomObject,
     "pushes": Push,
 }
 

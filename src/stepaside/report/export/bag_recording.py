@@ -255,7 +255,7 @@ class PlayerTopics:
         qpos = self._track.qpos
         if self._model is None or qpos is None:
             return
-        self._sole = run.settings.robot_of(name).gait.sole
+        self._sole = run.settings.player(name).gait.sole
         torso = upright.inv() * Rotation.from_quat(
             qpos[:, 3:7], scalar_first=True
         )

@@ -78,9 +78,7 @@ def load_recording(
     run = load_run(folder)
     colours = colours_of_players(run.settings)
     models = {
-        name: RobotModel.of(
-            run.settings.robot_of(name).robot, colours.get(name)
-        )
+        name: RobotModel.of(run.settings.player(name).robot, colours.get(name))
         for name, track in run.tracks.items()
         if track.qpos is not None
     }

@@ -8,7 +8,7 @@ from typing import Any
 import viser
 
 from ...core.errors import StepAsideError
-from ...games.duel_settings import PLAYERS, PURSUER
+from ...games.player_settings import PLAYERS, PURSUER
 from ...games.robot_player import RobotPlayer
 from ...strategies import Strategy, Walk
 from .live_session import LiveSession

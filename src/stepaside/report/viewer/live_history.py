@@ -7,10 +7,10 @@ import numpy as np
 
 from ...core.poses import Array, Pose
 from ...games.duel_circle import angle_between
-from ...games.duel_settings import PLAYERS
 from ...games.game import GameInPlay, GameObserver
 from ...games.physics_world import PhysicsWorld
 from ...games.player import Player
+from ...games.player_settings import PLAYERS
 from ...games.recorded_game import RecordedGame
 from ...games.robot_player import PhysicalPlayer
 from ...perception.pipeline import FrameReport

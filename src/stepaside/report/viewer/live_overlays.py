@@ -7,7 +7,7 @@ import viser
 
 from ...core.convex import convex_hull
 from ...core.poses import Array, Pose
-from ...games.duel_settings import EVADER, PURSUER
+from ...games.player_settings import EVADER, PURSUER
 from ...locomotion.maneuver_walk import ManeuverWalk
 from ...planning import Foot
 from ...planning.plan import sole_corners

@@ -11,13 +11,14 @@ from typing import Any
 import viser
 
 from ...core.errors import StepAsideError
+from ...games.game_settings import GameSettings
 from ..camera_pictures import camera_picture
 from ..overlays import LAYERS
 from ..palette import rgb
 from ..scene import wall_corners
 from .drive_panel import DrivePanel, add_push
 from .live_overlays import SceneLayers, live_overlays, places_of
-from .live_session import LiveSession, LiveSettings
+from .live_session import LiveSession
 from .page_server import open_server, show_notice
 from .plots import Plots
 from .scene_bodies import SceneBodies
@@ -42,7 +43,7 @@ class Page:
         session: The game.
     """
 
-    def __init__(self, settings: LiveSettings, *, port: int) -> None:
+    def __init__(self, settings: GameSettings, *, port: int) -> None:
         """Serve a game, which is paused at first, at the next free port.
 
         Raises:

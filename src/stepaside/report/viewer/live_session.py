@@ -11,12 +11,11 @@ from time import perf_counter, sleep
 from ...core.errors import ConfigurationError, StepAsideError
 from ...core.player_identity import Role
 from ...games.duel_circle import circle_of_theory
-from ...games.duel_settings import DuelSettings
 from ...games.game_settings import GameSettings
+from ...games.game_starts import with_starts
 from ...games.outcome import Outcome
 from ...games.physics_world import PhysicsWorld
 from ...games.recorded_game import RecordedGame
-from ...games.settings_as_game import as_game, complete
 from ...sim.push import Push
 from ..palette import colours_in
 from ..run_folder import free_folder, write_run
@@ -24,7 +23,6 @@ from .live_history import LiveHistory
 
 LOG = logging.getLogger(__name__)
 MAX_DELAY = 0.25  # beyond which lost time is not caught up, in [s]
-LiveSettings = DuelSettings | GameSettings
 
 
 class LiveSession:
@@ -36,7 +34,7 @@ class LiveSession:
 
     Attributes:
         settings: Settings of the game, which a reset uses again.
-        played: The same as a game of players, with nothing left open.
+        played: The same with nothing left open.
         game: The game that is played; it has no end by time.
         running: Whether simulated time passes.
         speed: Simulated time per wall-clock time; inf for no limit.
@@ -51,7 +49,7 @@ class LiveSession:
             before the first measurement.
     """
 
-    def __init__(self, settings: LiveSettings) -> None:
+    def __init__(self, settings: GameSettings) -> None:
         """Start the loop with a game that is paused."""
         self.lock = threading.RLock()
         self.running = False
@@ -94,8 +92,8 @@ class LiveSession:
         if failed:
             raise failed[0]
 
-    def _begin(self, settings: LiveSettings) -> None:
-        if isinstance(settings, GameSettings) and settings.level != "physics":
+    def _begin(self, settings: GameSettings) -> None:
+        if settings.level != "physics":
             raise ConfigurationError(
                 "level must be physics for a live page, got "
                 f"{settings.level!r}"
@@ -111,13 +109,13 @@ class LiveSession:
         self.adopt_settings(settings)
         self.generation += 1
 
-    def adopt_settings(self, settings: LiveSettings) -> None:
+    def adopt_settings(self, settings: GameSettings) -> None:
         """Take settings that changed during the game, with their theory."""
         self.settings = settings
-        self.played = as_game(complete(settings))
+        self.played = with_starts(settings)
         self.colours = colours_in("light", self.names, self.played.identities)
         self._circle = None
-        if isinstance(settings, DuelSettings):
+        if settings.game == "duel":
             self._circle = circle_of_theory(settings)
 
     @property
@@ -159,7 +157,7 @@ class LiveSession:
         if self._thread.is_alive():
             self._thread.join(timeout=5.0)
 
-    def reset(self, settings: LiveSettings | None = None) -> None:
+    def reset(self, settings: GameSettings | None = None) -> None:
         """Start a new game, with the settings of the last one if None.
 
         Raises:

@@ -12,45 +12,42 @@ import viser
 from ...arena import Room, RoomRecipe, generate_room
 from ...core.errors import StepAsideError
 from ...core.setting import Setting, settings_of
-from ...games.duel_settings import EVADER, DuelSettings
-from ...games.implied_settings import EVASION
+from ...games.game_settings import GameSettings, StartSettings, duel
+from ...games.player_settings import EVADER, EVASION
 from ...games.robot_player import RobotPlayer
 from ...planning import PRESETS as GAITS
-from .live_session import LiveSession, LiveSettings
+from ...sim.person_settings import PersonSettings
+from .live_session import LiveSession
 
-UNUSED = {"duration"}  # a live game has no end
+UNUSED = {"duration", "game"}  # a live game has no end
 AS_STARTED = "as started"
 ROOM_SEED = 3  # of the room that is offered
 PERSON_DISTANCE, PERSON_SPEED = 2.5, 0.3  # in [m], [m/s]
 
 
-def presets_of(started: LiveSettings) -> dict[str, LiveSettings]:
+def presets_of(started: GameSettings) -> dict[str, GameSettings]:
     """Return the games that a page offers; that of its start comes first.
 
     Cameras are among them if the library that reads images is installed.
     """
-    if not isinstance(started, DuelSettings):
+    if started.game != "duel":
         return {AS_STARTED: started}
-    duel = DuelSettings(seed=started.seed)
+    seed = started.seed
     room = generate_room(RoomRecipe(discs=3), ROOM_SEED)
-    found: dict[str, LiveSettings] = {
+    found: dict[str, GameSettings] = {
         AS_STARTED: started,
-        "duel": duel,
-        "room": replace(
-            duel,
-            room=replace(duel.room, plan=room),
-            evader_strategy="look-ahead",
-        ),
-        "person": replace(
-            duel,
-            pursuer="person",
-            person=replace(duel.person, speed=PERSON_SPEED),
-            start=replace(duel.start, distance=PERSON_DISTANCE),
+        "duel": duel(seed=seed),
+        "room": duel(seed=seed, room=room, evader={"strategy": "look-ahead"}),
+        "person": duel(
+            seed=seed,
+            pursuer={"body": "person"},
+            person=PersonSettings(speed=PERSON_SPEED),
+            start=StartSettings(PERSON_DISTANCE),
             gait=GAITS["fast"],
         ),
     }
     if find_spec("cv2") is not None:
-        found["cameras"] = replace(duel, sensing="cameras")
+        found["cameras"] = duel(seed=seed, senses="cameras")
     return found
 
 
@@ -137,7 +134,7 @@ def _has_effect(above: tuple[Any, ...], name: str, described: Setting) -> bool:
             continue
         if wanted == "":
             return value is not None and value is not False
-        return value is None or bool(value == wanted)  # None is implied
+        return value in (None, "") or bool(value == wanted)  # implied
     return True
 
 
@@ -190,14 +187,14 @@ class SettingsPanel:
             visible=len(self._presets) > 1,
         )
         gui.add_markdown(
-            "Settings act at the next reset; those of the paper's evasion, "
-            "`strategy`, at the evader's next step. Angles are in [deg]; "
+            "Settings act at the next reset; those of the paper's evasion at "
+            "the evader's next step. Angles are in [deg]; "
             "empty means drawn or implied."
         )
         self._box = gui.add_folder("Settings")
         self._show(session.settings)
 
-    def _show(self, settings: LiveSettings) -> None:
+    def _show(self, settings: GameSettings) -> None:
         """Show the values of settings, with other controls where needed."""
         leaves = {leaf.path: leaf for leaf in leaves_of(settings)}
         known, self._leaves = self._leaves, leaves
@@ -240,11 +237,11 @@ class SettingsPanel:
             made = gui.add_text(name, value, hint=hint)
         else:
             made = gui.add_number(name, value, hint=hint)
-        if leaf.path.startswith("strategy."):
+        if ".evasion." in leaf.path:
             made.on_update(lambda _: self._attempt(self._adopt))
         return made
 
-    def values(self) -> LiveSettings:
+    def values(self) -> GameSettings:
         """Return the settings of the controls.
 
         Raises:
@@ -256,7 +253,7 @@ class SettingsPanel:
             value = leaf.read(self._controls[path].value)
             if value != leaf.value and not (value != value):
                 changed[path] = value
-        settings: LiveSettings = with_values(self._session.settings, changed)
+        settings: GameSettings = with_values(self._session.settings, changed)
         return settings
 
     def restart(self) -> bool:
@@ -272,7 +269,7 @@ class SettingsPanel:
         chosen = self._presets[self.preset.value]
         return self._attempt(lambda: self._begin(chosen))
 
-    def _begin(self, settings: LiveSettings) -> None:
+    def _begin(self, settings: GameSettings) -> None:
         self._session.reset(settings)
         self._show(self._session.settings)
 
@@ -289,13 +286,12 @@ class SettingsPanel:
         """Change the evader's strategy from its next plan on."""
         session, settings = self._session, self.values()
         now = session.settings
-        if not isinstance(settings, DuelSettings):
+        if now.game != "duel":
             return
-        assert isinstance(now, DuelSettings)
-        strategy = settings.strategy
-        if strategy == now.strategy:
+        strategy = settings.evader.evasion
+        if strategy == now.evader.evasion:
             return
-        played = now.resolved_evader
+        played = session.played.evader.strategy
         if played != EVASION:
             self._notify(f"these are settings of evasion, not of {played}")
             return
@@ -304,8 +300,9 @@ class SettingsPanel:
             evader = session.world.player(EVADER)
             if isinstance(evader, RobotPlayer):
                 evader.scheme.decisions.adopt(strategy)
-            session.adopt_settings(replace(now, strategy=strategy))
+            session.adopt_settings(now.changed(evader={"evasion": strategy}))
 
         session.call(change)
-        for leaf in leaves_of(strategy, "strategy."):
+        number = now.names.index(EVADER)
+        for leaf in leaves_of(strategy, f"players.{number}.evasion."):
             self._leaves[leaf.path] = leaf

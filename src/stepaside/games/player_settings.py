@@ -1,0 +1,259 @@
+"""Settings of one player, and what they imply where they are left open."""
+
+import re
+from dataclasses import dataclass, replace
+from math import pi
+
+from ..core.errors import ConfigurationError
+from ..core.player_identity import PlayerIdentity, Role
+from ..core.poses import Pose
+from ..core.ranges import Range
+from ..core.setting import REQUIRED, check_settings, setting
+from ..locomotion.control_settings import ControlSettings, LegsSettings
+from ..planning import PRESETS, GaitSettings
+from ..robots.description import load_robot
+from ..sim.body_settings import BodySettings
+from ..sim.crowd_motion import RADIUS, CrowdSettings
+from ..sim.person_settings import PersonSettings
+from ..sim.physics_settings import SightSettings
+from ..strategies import Evasion, load_strategy
+from ..strategies.registry import (
+    OF_EVASION,
+    STRATEGIES,
+    check_strategy_name,
+)
+from ..strategies.shield_settings import ShieldSettings
+
+MOST_PLAYERS = 32  # of one game
+PLAYER_NAME = re.compile(r"[a-z][a-z0-9-]{0,31}")
+PLAYERS = PURSUER, EVADER = ("pursuer", "evader")  # of a duel
+WALKER = "walker"  # player of a walk
+PURSUIT, EVASION, STEP_ASIDE = "pursuit", "evasion", "step-aside"
+BODY_KINDS = ("robot", "unicycle", "person", "run")
+SENSING = ("ideal", "cameras", "lidar")
+IDEAL = BodySettings()
+NAO_RADIUS = 0.14  # within which its body stands and sways, in [m]
+POSITION = Range(-100.0, 100.0, "m", "the farthest initial distance")
+TURN = Range(-2.0 * pi, 2.0 * pi, "rad", "a turn")
+STRATEGY_NAMES = (
+    f"{', '.join(STRATEGIES)}, with arguments like pursuit(gain=2), "
+    "FILE.py:NAME for your own, or FILE.onnx for a learned one"
+)
+ALWAYS = {"name", "role", "team", "body", "target", "start"}
+OF_TEMPLATE = {
+    *("robot", "gait", "strategy", "evasion", "shield", "goal", "draws_goal")
+}
+USED_BY = {  # settings of a player that its kind of body uses
+    "robot": ALWAYS | OF_TEMPLATE | {"control", "legs", "senses", "sight"},
+    "unicycle": ALWAYS | OF_TEMPLATE,
+    "person": ALWAYS | {"goal", "draws_goal", "person", "crowd"},
+    "run": ALWAYS | {"run", "run_player"},
+}
+
+
+@dataclass(frozen=True, slots=True)
+class PlayerSettings:
+    """Settings of one player."""
+
+    name: str = setting(
+        REQUIRED, "Name of the player: lower case, digits and hyphens"
+    )
+    role: str = setting(
+        "bystander", "Role of the player", names=tuple(r.value for r in Role)
+    )
+    team: str = setting("", "Team of the player; that of its role if empty")
+    body: str = setting(
+        "robot",
+        "Body of the player: a robot; its template unicycle; a person; or "
+        "the recorded motion of a player of a run",
+        names=BODY_KINDS,
+    )
+    robot: str = setting(
+        "nao", "Name of a robot, or folder of its description"
+    )
+    gait: GaitSettings = setting(
+        GaitSettings(), "Gait of a robot or a unicycle", presets=PRESETS
+    )
+    control: ControlSettings = setting(
+        ControlSettings(), "Walking control of a robot"
+    )
+    legs: LegsSettings = setting(
+        LegsSettings(), "Learned legs of a robot", needs=("body", "robot")
+    )
+    strategy: str = setting(
+        "",
+        "Strategy of a robot or a unicycle: "
+        f"{STRATEGY_NAMES}; if empty, it walks to its goal if "
+        "it has one, steps aside for people if it evades on learned legs, and "
+        "else plays that of the paper for its role; a bystander stands",
+        default_text="that of the paper; step-aside on learned legs against "
+        "a person",
+    )
+    evasion: Evasion = setting(
+        Evasion(),
+        "Settings of the paper's evasion strategy",
+        needs=("strategy", EVASION),
+    )
+    shield: ShieldSettings = setting(
+        ShieldSettings(), "Shield of the player", needs=("shield.enabled", "")
+    )
+    target: str = setting(
+        "",
+        "Name of the player that it plays against; the nearest opponent if "
+        "empty",
+    )
+    start: tuple[float, ...] = setting(
+        (),
+        "Initial position (x, y) [m] and heading [rad] in the world; drawn "
+        "from the seed if empty, and in a duel that of the game's start",
+    )
+    goal: tuple[float, ...] = setting(
+        (), "Position (x, y) in the world that the player walks to [m]"
+    )
+    draws_goal: bool = setting(
+        False,
+        "Draw the goal from the seed, at least a third of the longer side "
+        "of the room away from the start",
+    )
+    senses: str = setting(
+        "ideal",
+        "Sensing of other players by a robot: true poses (ideal), or "
+        "detection in simulated camera images, or of people in the scans of "
+        "a simulated lidar",
+        names=SENSING,
+    )
+    sight: SightSettings = setting(
+        SightSettings(), "Errors of ideal sensing", needs=("senses", "ideal")
+    )
+    person: PersonSettings = setting(
+        PersonSettings(),
+        "Motion of a person without a goal",
+        needs=("body", "person"),
+    )
+    crowd: CrowdSettings = setting(
+        CrowdSettings(),
+        "Motion of a person with a goal",
+        needs=("body", "person"),
+    )
+    run: str = setting(
+        "", "Run folder of a replayed player", needs=("body", "run")
+    )
+    run_player: str = setting(
+        "", "Name of the player in that run", needs=("body", "run")
+    )
+
+    def __post_init__(self) -> None:
+        """Validate ranges, name and combinations of settings."""
+        if not isinstance(self.name, str) or not PLAYER_NAME.fullmatch(
+            self.name
+        ):
+            raise ConfigurationError(
+                "player name must be lower case letters, digits and hyphens, "
+                f"at most 32, got {self.name!r:.40}"
+            )
+        prefix = f"{self.name}: "
+        check_settings(self, prefix=prefix)
+        if self.strategy:
+            check_strategy_name(
+                self.strategy, f"{prefix}strategy", recorded=True
+            )
+        for name, count in (("start", 3), ("goal", 2)):
+            values = getattr(self, name)
+            if len(values) not in (0, count):
+                raise ConfigurationError(
+                    f"{prefix}{name} must have {count} numbers, got "
+                    f"{len(values)}"
+                )
+            for value, allowed in zip(
+                values, (POSITION, POSITION, TURN), strict=False
+            ):
+                allowed.check(value, f"{prefix}{name}")
+        if (self.body == "run") != bool(self.run):
+            raise ConfigurationError(
+                f"{prefix}run must be a run folder with body 'run' only, got "
+                f"{self.run!r} with body {self.body!r}"
+            )
+
+    @property
+    def identity(self) -> PlayerIdentity:
+        """Name, role and team."""
+        return PlayerIdentity(
+            self.name, Role(self.role), self.team or self.role
+        )
+
+    @property
+    def pose(self) -> Pose | None:
+        """Initial pose in the world; None if it is drawn."""
+        return Pose(*self.start) if self.start else None
+
+    @property
+    def radius(self) -> float:
+        """Radius of the body among people, in [m].
+
+        That of a robot is NAO's, relative to the heights of their CoM.
+        """
+        if self.body == "person":
+            return RADIUS
+        return NAO_RADIUS * load_robot(self.robot).game.get("length_unit", 1.0)
+
+    @property
+    def decides(self) -> bool:
+        """Whether it has a strategy: a robot or a unicycle."""
+        return self.body in ("robot", "unicycle")
+
+    def resolved(
+        self,
+        body: BodySettings = IDEAL,
+        *,
+        person: bool = False,
+        walks: bool = True,
+    ) -> "PlayerSettings":
+        """Return the player with strategy, trigger and control.
+
+        Args:
+            body: Deviations of the bodies.
+            person: Whether an opponent is a person.
+            walks: Whether learned legs walk: not without physics.
+        """
+        if not self.decides:
+            return self
+        strategy, evasion = self.strategy, self.evasion
+        if not strategy and (self.goal or self.draws_goal):
+            strategy = "goal"
+        elif not strategy and self.role == EVADER:
+            # Learned legs step to every side.
+            aside = person and walks and self.legs.walks
+            strategy = STEP_ASIDE if aside else EVASION
+        elif not strategy:
+            strategy = PURSUIT if self.role == PURSUER else "stand"
+        elif strategy.startswith(f"{EVASION}("):
+            made = load_strategy(strategy, evasion)
+            assert isinstance(made, Evasion)
+            strategy, evasion = EVASION, made
+        if strategy in OF_EVASION and evasion.trigger is None:
+            # People walk at any speed, and a distance suits only one: a robot
+            # that is fast enough evades them by time to contact.
+            fast = person and self.gait.is_fast
+            evasion = replace(evasion, trigger="time" if fast else "distance")
+        control = implied_control(self.control, self.gait, body)
+        return replace(
+            self, strategy=strategy, evasion=evasion, control=control
+        )
+
+
+def implied_control(
+    control: ControlSettings, gait: GaitSettings, body: BodySettings
+) -> ControlSettings:
+    """Return walking control with a method and a choice of feedback.
+
+    Feedback is needed on every body but the ideal one, for plans from the
+    measured state, and for fast gaits.
+    """
+    feedback, method = control.feedback, control.method
+    if feedback is None:
+        planned = method in (None, "closed-form")
+        feedback = gait.is_fast or body != IDEAL or not planned
+    if method is None:
+        measures = feedback and not gait.is_fast
+        method = "measured" if measures else "closed-form"
+    return replace(control, method=method, feedback=feedback)

@@ -1,0 +1,386 @@
+"""Test settings of games: one schema for every kind, by every door."""
+
+import tomllib
+from dataclasses import replace
+from math import pi
+from pathlib import Path
+from typing import Any
+
+import pytest
+import tomli_w
+from click.testing import CliRunner
+
+from stepaside.cli.main import main
+from stepaside.core.errors import ConfigurationError
+from stepaside.core.player_identity import Role
+from stepaside.games.configuration_file import (
+    dump_configuration,
+    read_settings,
+)
+from stepaside.games.duel_circle import circle_of_theory, time_scale
+from stepaside.games.game_settings import (
+    MOST_ROBOTS,
+    GameSettings,
+    StartSettings,
+    duel,
+    walk,
+)
+from stepaside.games.game_starts import draw_start
+from stepaside.games.recorded_game import run_game
+from stepaside.games.robot_settings import LEGS_GAIT, body_of_robot
+from stepaside.games.settings_reader import load_game, read_game
+from stepaside.locomotion.control_settings import ControlSettings, MpcSettings
+from stepaside.planning import PRESETS, GaitSettings
+from stepaside.robots.description import load_robot
+from stepaside.sim.body_settings import BODIES
+from stepaside.sim.person_settings import PersonSettings
+from stepaside.strategies import Evasion
+from stepaside.theory.unicycle.circles import find_circle
+
+NAO = load_robot("nao")
+EXAMPLES = Path(__file__).parents[2] / "examples"
+HUNTER = {"name": "red", "role": "pursuer"}
+PREY = {"name": "blue", "role": "evader"}
+
+
+def game(*players: dict[str, Any], **entries: Any) -> GameSettings:
+    return read_game(entries | {"players": list(players)}, "game")
+
+
+def given(*words: str) -> dict[str, Any]:
+    """Return the configuration that a command would use."""
+    result = CliRunner().invoke(main, [*words, "--settings"])
+    assert result.exit_code == 0, result.output
+    return tomllib.loads(result.stdout)
+
+
+def changed_nao(folder: Path, **changes: str) -> str:
+    """Return a copy of NAO with another description."""
+    folder.mkdir(exist_ok=True)
+    text = (NAO.folder / "robot.toml").read_text(encoding="utf-8")
+    for old, new in changes.items():
+        assert old in text
+        text = text.replace(old, new)
+    (folder / "robot.toml").write_text(text, encoding="utf-8")
+    (folder / "model.xml").write_text(NAO.mjcf(), encoding="utf-8")
+    return str(folder)
+
+
+def test_starts_fill_their_ranges_and_repeat() -> None:
+    """Distance and offsets of both, in the ranges of the docstring."""
+    drawn = [draw_start(duel(seed=seed)) for seed in range(400)]
+    for name, low, high in (
+        ("distance", 0.6, 1.5),
+        ("pursuer_offset", -pi / 2, pi / 2),
+        ("evader_offset", -pi / 6, pi / 6),
+    ):
+        values = [getattr(start, name) for start in drawn]
+        assert low <= min(values) < low + 0.03 * (high - low)
+        assert high - 0.03 * (high - low) < max(values) <= high
+        fixed = duel(seed=7, start=StartSettings(**{name: 0.5}))
+        assert draw_start(fixed) == replace(drawn[7], **{name: 0.5})
+    person = draw_start(duel(seed=7, pursuer={"body": "person"}))
+    assert person.distance == pytest.approx((drawn[7].distance or 0.0) + 1.5)
+
+
+def test_a_setting_is_changed_of_the_game_of_all_or_of_one_player() -> None:
+    fast = PRESETS["fast"]
+    made = duel(
+        seed=3,
+        gait=fast,
+        pursuer={"body": "person", "person": PersonSettings(speed=1.0)},
+        evader={"strategy": "look-ahead"},
+    )
+    assert made.seed == 3 and made.evader.gait == fast
+    assert made.pursuer.gait == GaitSettings()  # a person has no use of it
+    assert made.pursuer.person.speed == 1.0 and made.robots == ("evader",)
+    assert made.changed(evader={"strategy": ""}).evader.strategy == ""
+    for changes, message in (
+        ({"weather": 1}, "unknown setting weather"),
+        ({"evader": {"mood": 1}}, "evader: .*mood"),
+        ({"evader": {"strategy": "nobody"}}, "evader: strategy.*nobody"),
+        ({"level": "steps"}, "game must be 'game' unless"),
+        ({"evader": {"body": "person"}}, "the last one as a robot"),
+    ):
+        with pytest.raises(ConfigurationError, match=message):
+            made.changed(**changes)
+
+
+@pytest.mark.parametrize(
+    ("entries", "message"),
+    [
+        ({"weather": 1}, "here: unknown entry weather; there are"),
+        ({"physics": {"tock": 1.0}}, "physics.tock; did you mean physics.tic"),
+        ({"physics": {"tick": "x"}}, r"physics.tick must lie in .* \[s\]"),
+        ({"duration": -1.0}, "duration must lie in"),
+        ({"seed": True}, "seed must be an integer in .*, got True"),
+        ({"physics": {"friction": float("nan")}}, "physics.friction .*nan"),
+        ({"pushes": [{"impulse": -1}]}, "pushes 1.impulse .*pushes 1.time"),
+        ({"seed": -1, "duration": 0}, "seed must .*; duration must"),
+        ({"physics": {"tick": 0.0031}}, "physics: tick must be a whole"),
+        ({"gait": {"stride": 30}}, "here: gait.stride must lie in"),
+        ({"evader": {"gait": {"stride": 30}}}, "here, evader: gait.stride"),
+        ({"evader": {"person": {"speed": 1}}}, "person must be omitted"),
+        ({"players": 3}, r"must be tables \[\[players\]\], got 3"),
+        ({"players": [{"role": "evader"}]}, "player 1 must have a name"),
+        ({"recipe": {"discs": 3}}, "requires the seed of a random room"),
+    ],
+)
+def test_errors_of_entries_are_named(
+    entries: dict[str, Any], message: str
+) -> None:
+    with pytest.raises(ConfigurationError, match=message):
+        read_game(entries, "here", base=duel())
+
+
+PERSON: dict[str, Any] = {"body": "person"}
+OPEN_LOOP = ControlSettings(feedback=False)
+CASES: dict[str, tuple[str, dict[str, Any], tuple[Any, ...]]] = {
+    # options, entries, and what they imply: method, feedback, strategy and
+    # trigger
+    "": ("", {}, ("closed-form", False, "evasion", "distance")),
+    "fast": (
+        "--gait fast",
+        {"gait": "fast"},
+        ("closed-form", True, "evasion", "distance"),
+    ),
+    "hardware": (
+        "--body hardware",
+        {"body": "hardware"},
+        ("measured", True, "evasion", "distance"),
+    ),
+    "mpc": (
+        "--set control.method=mpc",
+        {"control": {"method": "mpc"}},
+        ("mpc", True, "evasion", "distance"),
+    ),
+    "person": (
+        "--pursuer person",
+        {"pursuer": PERSON},
+        ("closed-form", False, "evasion", "distance"),
+    ),
+    "person, fast": (
+        "--pursuer person --gait fast",
+        {"pursuer": PERSON, "gait": "fast"},
+        ("closed-form", True, "evasion", "time"),
+    ),
+    "person, learned legs": (
+        "--pursuer person --set legs.network=walk.onnx",
+        {"pursuer": PERSON, "legs": {"network": "walk.onnx"}},
+        ("closed-form", False, "step-aside", None),
+    ),
+    "learned legs": (
+        "--set legs.network=walk.onnx",
+        {"legs": {"network": "walk.onnx"}},
+        ("closed-form", False, "evasion", "distance"),
+    ),
+    "explicit control": (
+        "--gait fast --body hardware --set control.feedback=false",
+        {"gait": "fast", "body": "hardware", "control": {"feedback": False}},
+        ("closed-form", False, "evasion", "distance"),
+    ),
+    "explicit trigger": (
+        "--pursuer person --gait fast --set evasion.trigger=distance",
+        {
+            "pursuer": PERSON,
+            "gait": "fast",
+            "evasion": {"trigger": "distance"},
+        },
+        ("closed-form", True, "evasion", "distance"),
+    ),
+    "explicit strategy": (
+        "--pursuer person --set legs.network=walk.onnx --strategy evasion",
+        {
+            "pursuer": PERSON,
+            "legs": {"network": "walk.onnx"},
+            "evader": {"strategy": "evasion"},
+        },
+        ("closed-form", False, "evasion", "distance"),
+    ),
+    "strategy with an argument": (
+        "--strategy evasion(angle=45deg)",
+        {"evader": {"strategy": "evasion(angle=45deg)"}},
+        ("closed-form", False, "evasion", "distance"),
+    ),
+}
+
+
+@pytest.mark.parametrize("case", CASES)
+def test_settings_imply_the_same_from_every_door(
+    case: str, tmp_path: Path
+) -> None:
+    words, entries, (method, feedback, strategy, trigger) = CASES[case]
+    resolved = read_game(entries, base=duel()).resolved()
+    evader = resolved.evader
+    assert (evader.control.method, evader.control.feedback) == (
+        method,
+        feedback,
+    )
+    assert evader.strategy == strategy
+    assert evader.evasion.trigger == trigger
+    assert resolved.resolved() == resolved
+    shown = given("duel", *words.split())
+    assert read_settings(GameSettings, tomli_w.dumps(shown), "") == resolved
+    file = tmp_path / "duel.toml"
+    file.write_text(tomli_w.dumps({"game": "duel"} | entries))
+    assert load_game(file).resolved() == resolved
+    file.write_text(dump_configuration(resolved))
+    assert load_game(file) == resolved
+
+
+def test_a_choice_that_is_left_open_follows_later_changes() -> None:
+    settings = duel(control=ControlSettings(mpc=MpcSettings(steps=3)))
+    hardware = replace(settings, body=BODIES["hardware"]).resolved()
+    wanted = ControlSettings("measured", True, mpc=MpcSettings(steps=3))
+    assert hardware.evader.control == wanted
+    mixed = duel(evader={"gait": PRESETS["fast"]}).resolved()
+    assert mixed.evader.control == ControlSettings("closed-form", True)
+    assert not mixed.pursuer.control.feedback
+
+
+def test_the_levels_of_templates_have_no_legs_that_step_sideways() -> None:
+    players: list[dict[str, Any]] = [
+        HUNTER | PERSON,
+        PREY | {"legs": {"network": "walk.onnx"}},
+        {"name": "green", "role": "evader", "goal": [1.0, 1.0]},
+        {"name": "gray"},
+    ]
+    for level, strategy in (("physics", "step-aside"), ("steps", "evasion")):
+        made = game(*players, level=level).resolved()
+        played = [player.strategy for player in made.players]
+        assert played == ["", strategy, "goal", "stand"]
+
+
+def test_a_run_shows_what_its_settings_implied() -> None:
+    fast = duel(duration=0.1, gait=PRESETS["fast"])
+    run = run_game(fast)
+    control = run.settings.evader.control
+    assert control == ControlSettings("closed-form", True)
+    assert run.settings.evader.strategy == "evasion"
+    again = run_game(run.settings)
+    assert dump_configuration(again.settings) == dump_configuration(
+        run.settings
+    )
+    walked = run_game(walk(duration=0.1, body=BODIES["hardware"]))
+    control = walked.settings.player("walker").control
+    assert control == ControlSettings("measured", True)
+
+
+def test_players_have_the_gait_of_their_robot_changed_by_the_file() -> None:
+    settings = game(HUNTER | {"gait": {"speed": 0.08}}, PREY, seed=4)
+    red, blue = settings.players
+    assert red.gait.speed == 0.08 and blue.gait.speed == 0.1
+    assert red.gait.gain == blue.gait.gain and red.control == blue.control
+    legs = game(HUNTER | {"legs": {"network": "walk.onnx"}}, PREY).players[0]
+    assert legs.gait.speed == LEGS_GAIT["speed"] and legs.legs.walks
+    assert red.identity.role is Role.PURSUER and red.identity.team == "pursuer"
+    assert settings.seed == 4 and settings.robots == ("red", "blue")
+    assert settings.opponents_of("red") == ("blue",)
+    shared = game(HUNTER, PREY, gait="fast", blue={"gait": {"speed": 0.2}})
+    assert [p.gait.speed for p in shared.players] == [
+        PRESETS["fast"].speed,
+        0.2,
+    ]
+
+
+def test_the_configuration_of_a_game_is_read_back_equal() -> None:
+    settings = game(
+        HUNTER | {"start": [0.0, 1.0, 0.5], "sight": {"delay": 0.1}},
+        PREY | {"goal": [2.0, 0.0]},
+        {"name": "guest", "body": "person", "crowd": {"speed": 1.0}},
+        room={"width": 4.0, "depth": 3.0},
+    )
+    entries = tomllib.loads(dump_configuration(settings))
+    assert read_game(entries) == settings.resolved()
+
+
+def test_an_entry_with_a_count_is_that_many_players(tmp_path: Path) -> None:
+    guests = {"name": "guest", "count": 3, "body": "person"}
+    settings = game(HUNTER, PREY, guests | {"draws_goal": True})
+    assert settings.names == ("red", "blue", "guest-1", "guest-2", "guest-3")
+    assert all(p.draws_goal for p in settings.players[2:])
+    with pytest.raises(ConfigurationError, match="robots in physics"):
+        game(HUNTER, PREY | {"count": MOST_ROBOTS})
+
+
+@pytest.mark.parametrize(
+    "name", sorted(EXAMPLES.glob("*.toml")), ids=lambda file: file.stem
+)
+def test_the_example_games_are_valid(name: Path) -> None:
+    assert load_game(name).players
+
+
+def test_cameras_look_for_a_player_of_a_colour() -> None:
+    watcher = HUNTER | {"senses": "cameras", "target": "grey"}
+    with pytest.raises(ConfigurationError, match="target must be a pursuer"):
+        game(watcher, {"name": "grey"})
+
+
+def test_a_description_gives_gait_control_and_distances(
+    tmp_path: Path,
+) -> None:
+    robot = changed_nao(
+        tmp_path,
+        **{
+            "stride = 0.04": "stride = 0.03",
+            "front = 0.095": "front = 0.08",
+            "feedback = false": "feedback = true",
+            "dead_zone = 0.015": "dead_zone = 0.02",
+            "safety_radius = 0.8": "safety_radius = 0.9",
+            "start_near = 0.6": "start_near = 1.4",
+        },
+    )
+    made = read_game({"robot": robot}, base=duel(seed=5, duration=3.0))
+    evader = made.evader
+    assert (made.seed, made.duration) == (5, 3.0)
+    assert evader.gait.stride == 0.03 and evader.gait.sole.front == 0.08
+    assert evader.control.feedback
+    assert evader.control.stabiliser.dead_zone == 0.02
+    assert evader.evasion.safety_radius == 0.9
+    drawn = draw_start(made).distance
+    assert drawn is not None and 1.4 <= drawn <= 1.5
+    for options, expected in (([], 0.9), (["evasion.safety_radius=2"], 2.0)):
+        words = [word for each in options for word in ("--set", each)]
+        shown = given("duel", "--set", f"pursuer.robot={robot}", *words)
+        pursuer, evading = shown["players"]
+        assert pursuer["gait"]["stride"] == 0.03
+        assert evading["gait"]["stride"] == 0.04
+        assert evading["evasion"]["safety_radius"] == expected
+
+
+def test_theory_of_different_gaits_is_in_real_time() -> None:
+    """A gait with a slower time scale is a slower unicycle."""
+    slow = GaitSettings(single_support=0.85, double_support=0.244)
+    pace = time_scale(GaitSettings())
+    assert time_scale(slow) == pytest.approx(0.5 * pace)
+    theory = circle_of_theory(duel(pursuer={"gait": slow}))
+    speeds, gains = (0.05 * pace, 0.1 * pace), (0.1 * pace, 0.2 * pace)
+    assert theory == find_circle(*speeds, *gains, pi / 2, "proportional")
+    both, usual = duel(gait=slow), circle_of_theory(duel())
+    assert circle_of_theory(both).distance_m == pytest.approx(usual.distance_m)
+    assert both.cycle == pytest.approx(2.0 * slow.step_duration)
+    assert duel(pursuer={"gait": slow}).cycle == both.cycle
+    argued = duel(evader={"strategy": "evasion(angle=45deg)"})
+    assert circle_of_theory(argued) == circle_of_theory(
+        duel(evasion=Evasion(angle=pi / 4))
+    )
+
+
+def test_a_body_has_the_errors_of_its_robot(tmp_path: Path) -> None:
+    """Those that its description gives; options come first."""
+    robot = changed_nao(
+        tmp_path, **{'name = "NAO"': 'name = "NAO"\nbody.delay_cycles = 1'}
+    )
+    assert body_of_robot(robot, "ideal") == BODIES["ideal"]
+    for name in ("delayed", "hardware"):
+        assert body_of_robot("nao", name) == BODIES[name]
+        expected = replace(BODIES[name], delay_cycles=1)
+        assert body_of_robot(robot, name) == expected
+    words = ("run", "walk", "--robot", robot, "--body", "hardware")
+    for options, cycles in (((), 1), (("--set", "body.delay_cycles=2"), 2)):
+        assert given(*words, *options)["body"]["delay_cycles"] == cycles
+    wrong = changed_nao(
+        tmp_path, **{'name = "NAO"': 'name = "NAO"\nbody.delay = 1'}
+    )
+    with pytest.raises(ConfigurationError, match="body: unknown entry delay"):
+        body_of_robot(wrong, "hardware")
