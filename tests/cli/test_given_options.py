@@ -353,7 +353,6 @@ def test_invalid_settings_are_refused_in_one_line(
             "delay_ticks requires joint control",
         ),
         ("theory bound --set pursuer_turn=2", "requires against any"),
-        ("theory bound --set response=1", "requires against person"),
         (
             "theory bound --against person --set horizon=2",
             "horizon requires against pursuit or any, got person",

@@ -14,7 +14,7 @@ from stepaside.theory.value import (
     ValueTable,
     solve_chauffeur,
 )
-from stepaside.theory.value.chauffeur import barrier_of, standing_table
+from stepaside.theory.value.chauffeur import barrier_of
 from stepaside.theory.value.checks import barrier_offsets, play
 from stepaside.theory.value.closed_forms import (
     chauffeur_barrier,
@@ -145,19 +145,6 @@ def test_ellipse_lies_between_its_discs() -> None:
         )
     ]
     assert found[0] < found[1] < found[2]
-
-
-def test_standing_never_helps_and_long_standing_is_contact(
-    table: ValueTable,
-) -> None:
-    values = [
-        standing_table(table, GAME, count * GAME.period).values
-        for count in (0, 1, 2, 4)
-    ]
-    for before, after in zip(values, values[1:], strict=False):
-        assert (after <= before).all() and after.mean() < before.mean()
-    late, ahead = standing_table(table, GAME, 0.8), (0.5, 0.0, 0.0)
-    assert float(late.value(ahead)) < 0.02 < float(table.value(ahead))
 
 
 @pytest.mark.parametrize("speed", [1.0, 1.4])

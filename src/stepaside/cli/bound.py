@@ -32,7 +32,6 @@ NAMED = (
 )
 RADIUS = 2.5  # of a person's turns by default, in [m]
 CONTACT = 0.55  # sum of the half widths of a robot and a person, in [m]
-RESPONSE = 0.4  # of a robot that starts to walk by default, in [s]
 
 
 @dataclass(frozen=True, slots=True)
@@ -84,13 +83,6 @@ class BoundSettings:
         "Speed of the evader across the line of sight",
         positive("m/s", None),
         default_text="evader_speed",
-        needs=("against", "person"),
-    )
-    response: float | None = setting(
-        None,
-        "Time for which a standing evader still stands",
-        Range(0.0, 60.0, "s", "a robot starts sooner", also=(None,)),
-        default_text="0.4",
         needs=("against", "person"),
     )
     capture: float | None = setting(
@@ -324,15 +316,11 @@ def _bound_person(
 ) -> dict[str, Any]:
     """Solve the game of a person, with its figure; return its values."""
     from ..theory.value import solve_chauffeur
-    from ..theory.value.chauffeur import standing_table
 
-    game, response = settings.chauffeur(), settings.response
-    capture = settings.capture or CONTACT
-    response = RESPONSE if response is None else response
+    game, capture = settings.chauffeur(), settings.capture or CONTACT
     solve = partial(solve_chauffeur, game, farthest=settings.farthest)
     tables = list(_solve(settings, 2, solve, quiet=quiet).values())
     table, found = tables[-1], tables[-1].rules.outside
-    standing = standing_table(table, game, response)
     result: dict[str, Any] = {
         "game": game,
         "period_s": game.period,
@@ -342,8 +330,6 @@ def _bound_person(
         "capture_m": capture,
         "avoidable": capture < found,
         "barrier_reach_m": _reach(table, capture),
-        "response_s": response,
-        "start_ahead_m": _reach(standing, capture),
         **_barrier_error(game, table, capture),
     }
     if tables[:-1]:
@@ -351,7 +337,7 @@ def _bound_person(
     if figure is not None:
         from ..report.value_figures import draw_chauffeur
 
-        draw_chauffeur(game, table, standing, capture, str(figure))
+        draw_chauffeur(game, table, capture, str(figure))
     return result
 
 

@@ -96,30 +96,25 @@ def _arrow(
 def draw_chauffeur(
     game: ChauffeurGame,
     table: ValueTable,
-    standing: ValueTable,
     capture: float,
     path: AnyPath,
 ) -> None:
     """Draw the guaranteed distance around a person, and its requirement.
 
-    ``standing`` is the table of an evader that stands for its response time;
-    the capture distance is that of contact, in [m].
+    The capture distance is that of contact, in [m].
     """
     figure, axes = panels(["ab"], 9.6, [3.2], legend=1, gaps=(1.4, 0.8))
-    _draw_map(axes["a"], table, standing, capture)
+    _draw_map(axes["a"], table, capture)
     _draw_agility(axes["b"], game.pursuer_speed, capture)
     own = game.velocities.smallest, game.turning_radius
     axes["b"].plot(*own, "o", c=EVADER)
     further = {
         "contact can be forced": Line2D([], [], color="w", lw=2.0),
-        "a robot that stands must start": Line2D(
-            [], [], color="w", lw=1.5, ls="--"
-        ),
         "this robot and person": Line2D(
             [], [], color=EVADER, marker="o", ls=""
         ),
     }
-    legend_below(figure, [], further, ncols=3, **GREY)
+    legend_below(figure, [], further, ncols=2, **GREY)
     save(figure, path)
 
 
@@ -143,22 +138,18 @@ def _draw_agility(ax: Any, pursuer_speed: float, capture: float) -> None:
     ax.set_title(f"{title}; red {capture:g} m")
 
 
-def _draw_map(
-    ax: Any, table: ValueTable, standing: ValueTable, capture: float
-) -> None:
+def _draw_map(ax: Any, table: ValueTable, capture: float) -> None:
     """Draw the guaranteed distance around the person."""
     x, y, _ = table.grid.axes()
-    inside = standing.values[:, :, 0] < 0.97 * standing.values.max()
+    inside = table.values[:, :, 0] < 0.97 * table.values.max()
     ahead = np.linspace(x[0], 1.5 * x[inside.any(axis=1)].max(), POINTS)
     left = np.linspace(-y[-1], y[-1], POINTS)
     poses = np.stack(np.broadcast_arrays(ahead[:, None], left, 0.0), axis=-1)
-    values, stood = table.value(poses), standing.value(poses)
+    values = table.value(poses)
     look = {"cmap": "cividis", "rasterized": True}
     image = ax.pcolormesh(left, ahead, values, vmin=0.0, **look)
     ax.figure.colorbar(image, ax=ax, label="guaranteed distance [m]")
-    for own, width, line in ((values, 2.0, "-"), (stood, 1.5, "--")):
-        look = {"colors": "w", "linewidths": width, "linestyles": line}
-        ax.contour(left, ahead, own, [capture], **look)
+    ax.contour(left, ahead, values, [capture], colors="w", linewidths=2.0)
     look = {"color": PURSUER, "width": 2.0, "headwidth": 8.0}
     ax.annotate("", (0.0, 0.3 * ahead[-1]), (0.0, 0.0), arrowprops=look)
     ax.invert_xaxis()  # left is to the left

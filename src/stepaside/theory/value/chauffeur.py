@@ -9,16 +9,15 @@ are straight lines against full turns, so that a period may be long.
 
 from collections.abc import Callable
 from dataclasses import dataclass, replace
-from math import ceil, tau
+from math import tau
 
 import numpy as np
 
 from ...core.errors import PlanError, check_positive, check_within
 from ...core.poses import Array
 from .closed_forms import chauffeur_barrier, guaranteed_distance
-from .outcomes import OutcomeRules
 from .pose_grid import PoseGrid, sub_poses
-from .solver import solve_game, step_back
+from .solver import solve_game
 from .table import ValueTable
 
 ROUND = 1e-9  # relative difference of speeds that count as equal
@@ -209,22 +208,3 @@ def barrier_of(game: ChauffeurGame, capture: float) -> Array:
     radius = game.turning_radius
     line = chauffeur_barrier(game.ratio, capture / radius, 41)[1:-1]
     return np.insert(radius * line, 2, 0.0, axis=1)
-
-
-def standing_table(
-    table: ValueTable, game: ChauffeurGame, response: float
-) -> ValueTable:
-    """Return the values of an evader that at first stands for a time, [s]."""
-    check_within(response, 0.0, tau / game.turn, "response", "s")
-    if response == 0.0:
-        return table
-    count = ceil(response / game.period - 1e-9)
-    still = sub_poses([(0.0, 0.0, 0.0)], 1.0)
-    answers = sub_poses(game.turns, response / count)
-    values = table.values
-    for _ in range(count):
-        rules: OutcomeRules = table.rules._replace(
-            outside=float(values[-1, 0, 0])
-        )
-        values = step_back(values, still, answers, rules, table.grid, values)
-    return replace(table, values=values, after=values)
