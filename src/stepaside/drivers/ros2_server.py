@@ -14,7 +14,7 @@ import numpy as np
 
 from ..core.rotations import quaternion_of
 from ..perception.camera_model import CameraModel
-from ..perception.images import ColourImage, Pixels
+from ..perception.images import ColourImage
 from ..perception.measurement import RobotState, Sighting
 from ..strategies.velocity_set import BodyVelocity
 from .robot import REST
@@ -130,21 +130,6 @@ def rotation_message(roll: float, pitch: float, yaw: float) -> Any:
     return make("geometry_msgs/Quaternion", x, y, z, w)
 
 
-def image_message(head: Any, pixels: Pixels) -> Any:
-    """Encode red, green and blue in ``rgb8``."""
-    height, width = pixels.shape[:2]
-    values = height, width, "rgb8", 0, 3 * width, pixels.tobytes()
-    return make("sensor_msgs/Image", head, *values)
-
-
-def compressed_message(head: Any, pixels: Pixels) -> Any:
-    """Encode red, green and blue as JPEG."""
-    import cv2
-
-    _, data = cv2.imencode(".jpg", cv2.cvtColor(pixels, cv2.COLOR_RGB2BGR))
-    return make("sensor_msgs/CompressedImage", head, "jpeg", data.tobytes())
-
-
 def camera_info_message(head: Any, camera: CameraModel) -> Any:
     """Return the calibration of a camera without distortion."""
     matrix = camera.calibration_matrix
@@ -195,13 +180,13 @@ class Ros2Server:
         self._joints = writer("joint_states", "sensor_msgs/msg/JointState")
         self._sight = writer(IDEAL, "geometry_msgs/msg/PointStamped")
         self._transforms = dds.writer("/tf", "tf2_msgs/msg/TFMessage", 100)
-        self._images = {
-            name: writer(f"camera/{name}", f"sensor_msgs/msg/{kind}")
-            for name, kind in (
-                *(("camera_info", "CameraInfo"), ("image_raw", "Image")),
-                ("image_raw/compressed", "CompressedImage"),
-            )
-        }
+        self._raw = writer("camera/image_raw", "sensor_msgs/msg/Image")
+        self._squeezed = writer(
+            "camera/image_raw/compressed", "sensor_msgs/msg/CompressedImage"
+        )
+        self._optics = writer(
+            "camera/camera_info", "sensor_msgs/msg/CameraInfo"
+        )
         self._description: Any = None
         if urdf:
             self._description = dds.writer(
@@ -215,7 +200,7 @@ class Ros2Server:
         self._seen: Sighting | None = None  # that was published
         self._image: ColourImage | None = None  # likewise
         self._ticks = self._silent = self._polls = 0
-        self._velocity, self._closed = REST, False
+        self._velocity = REST
         self._state: RobotState | None = None
         self.refused, self.answered = 0, True
 
@@ -241,8 +226,7 @@ class Ros2Server:
         """Take commands that have arrived; return whether time may go on."""
         present = self._commands.commanders()
         if self._commander is not None and self._commander not in present:
-            log.warning("%s: commander left", self._namespace or "/")
-            self._commander, self._velocity = None, REST
+            self.drop("it left")
         if self._commander is None:
             self._commands.choose()
         for sender, twist in self._commands.taken():
@@ -254,19 +238,13 @@ class Ros2Server:
             else:
                 self.refused += 1
         waits = self._lock_step and self.connected and not self.answered
-        if waits:
-            self._repeat()
+        if waits and self._state is not None:
+            # The report or its answer may be lost, as readers are best-effort;
+            # a client that has the report already answers as before.
+            self._polls += 1
+            if self._polls % REPEAT == 0:
+                self._publish(self._state)
         return not waits
-
-    def _repeat(self) -> None:
-        """Repeat a report from time to time while its answer is missing.
-
-        Readers are best-effort, so the report or the answer may be lost. A
-        client that has the report already answers as before.
-        """
-        self._polls += 1
-        if self._polls % REPEAT == 0 and self._state is not None:
-            self._publish(self._state)
 
     def act(self) -> None:
         """Command the robot for one tick."""
@@ -282,11 +260,14 @@ class Ros2Server:
 
     def close(self) -> None:
         """Remove the topics."""
-        if self._closed:
-            return
-        self._closed = True
         del self._odometry, self._joints, self._sight, self._transforms
-        del self._images, self._commands, self._description
+        del (
+            self._raw,
+            self._squeezed,
+            self._optics,
+            self._commands,
+            self._description,
+        )
 
     def _take(self, twist: Any) -> None:
         velocity = BodyVelocity(
@@ -372,21 +353,23 @@ class Ros2Server:
         self._sight.write(make("geometry_msgs/PointStamped", head, point))
 
     def _publish_image(self, image: ColourImage) -> None:
-        """Publish an image that is new, on topics with a subscriber.
-
-        Its frame is an optical one: x to the right, y down, z ahead.
-        """
+        """Publish an image that is new; x is to the right, y down, z ahead."""
         if image is self._image:
             return
         self._image = image
         head = header(image.time, self._frame("camera_optical_frame"))
-        encode = {
-            "camera_info": lambda: camera_info_message(head, image.camera),
-            "image_raw": lambda: image_message(head, image.pixels),
-            "image_raw/compressed": lambda: compressed_message(
-                head, image.pixels
-            ),
-        }
-        for name, writer in self._images.items():
-            if writer.get_matched_subscriptions():
-                writer.write(encode[name]())
+        self._optics.write(camera_info_message(head, image.camera))
+        if self._raw.get_matched_subscriptions():
+            height, width = image.pixels.shape[:2]
+            data = "rgb8", 0, 3 * width, image.pixels.tobytes()
+            self._raw.write(
+                make("sensor_msgs/Image", head, height, width, *data)
+            )
+        if self._squeezed.get_matched_subscriptions():
+            import cv2
+
+            bgr = cv2.cvtColor(image.pixels, cv2.COLOR_RGB2BGR)
+            jpeg = cv2.imencode(".jpg", bgr)[1].tobytes()
+            self._squeezed.write(
+                make("sensor_msgs/CompressedImage", head, "jpeg", jpeg)
+            )
