@@ -31,15 +31,11 @@ class Guardian:
     def __init__(
         self, join: Callable[[], Callable[[], None]], silence: float
     ) -> None:
-        """Fork the guardian, which watches until it is dismissed.
+        """Fork the guardian, which acts after a silence of control [s].
 
-        Args:
-            join: Function that connects to the robot and returns a function
-                that halts it. Called in the guardian process at once, as
-                connecting takes longer than halting the robot; called again,
-                if it failed at first, when the robot is to be halted.
-            silence: Time without a message from control after which the
-                guardian acts, in [s].
+        A function connects to the robot and returns one that halts it. It is
+        called in the guardian process at once, as connecting takes longer
+        than halting; and again, if it failed, when the robot is to be halted.
         """
         near, far = socket.socketpair(socket.AF_UNIX, socket.SOCK_SEQPACKET)
         parent = os.getpid()

@@ -66,21 +66,8 @@ class JointLoop:
         """Build the control scheme, then connect.
 
         In this order, as building takes longer than the time in which the
-        first report must be answered.
-
-        Args:
-            open_session: Function that connects to the robot.
-            motors: Motors of the robot.
-            strategy: Strategy, whose memory is cleared before each walk.
-            make_scheme: Factory of control schemes.
-            gains: Stiffness and damping of the motors while control moves
-                them; None for those that hold a posture. Shapes (motors,).
-            open_eyes: Function that opens a camera, if one is used, which
-                replaces the sightings of reports.
-            needs_forces: Whether control cannot work without foot forces.
-            dry_run: Whether control runs without any joint command.
-            clock: Time of this computer, in [s].
-            pause: Function that sleeps for a time, in [s].
+        first report must be answered. A camera replaces the sightings of
+        reports; other gains hold while control moves the motors.
         """
         self._strategy, self._make_scheme = strategy, make_scheme
         self._schemes = 0

@@ -94,16 +94,10 @@ class JointMotion:
         soft: bool = False,
         at_once: bool = False,
     ) -> None:
-        """Start limp.
+        """Start limp; control begins in the stance.
 
-        Args:
-            stance: Posture in which control begins, in [rad].
-            motors: Motors of the robot.
-            tick: Time from one target to the next, in [s].
-            crouch: Angles from which the robot can go limp, in [rad].
-            soft: Whether control chooses the gains of the motors: its targets
-                may then be far from the angles, and are not limited.
-            at_once: Whether stiffness rises and falls within one tick.
+        If control chooses soft gains, its targets may be far from the angles,
+        and are not limited. Stiffness may rise and fall within one tick.
         """
         self._motors, self._tick, self._soft = motors, tick, soft
         rest = [

@@ -48,12 +48,10 @@ class RobotCamera:
     ) -> None:
         """Begin without an image.
 
-        Args:
-            camera: The camera, with image() and close(), or a robot, which
-                is connected already.
-            needs_mount: Whether the images must bring the camera's pose.
-            apart: Whether it is a camera apart from the robot, whose times
-                are those of this computer; closed with this object.
+        The camera has image() and close(). A camera apart from the robot is
+        closed with this object, and its times are those of this computer;
+        a robot is connected already. Some images must bring the camera's
+        pose.
         """
         self._camera, self._methods = camera, MethodThread(camera)
         self._name = self._methods.name_of("image")

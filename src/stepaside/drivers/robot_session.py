@@ -50,16 +50,10 @@ class RobotSession:
         dry_run: bool = False,
         clock: Callable[[], float] = monotonic,
     ) -> None:
-        """Connect to the robot.
+        """Connect to the robot, unless it is connected already.
 
-        Args:
-            robot: The robot, a JointRobot or a VelocityRobot.
-            opened: Whether it is connected already.
-            guardian: Guardian that halts the robot if this process fails;
-                dismissed with the session.
-            switch: Dead-man switch, if used; closed with the session.
-            dry_run: Whether nothing is commanded.
-            clock: Time of this computer, in [s].
+        Guardian and dead-man switch end with the session. In a dry run
+        nothing is commanded.
 
         Raises:
             SessionLost: If the robot does not answer.

@@ -23,12 +23,9 @@ class Watchdog:
     def __init__(
         self, *, paced: bool = True, source: str = "odometry"
     ) -> None:
-        """Start before the first report.
+        """Start before the first report of a source.
 
-        Args:
-            paced: Whether the robot's clock runs in real time; that of a
-                simulator may pause or run faster.
-            source: What the reports are, for messages.
+        A clock that is not paced may pause or run faster than real time.
         """
         self._paced, self._source = paced, source
         self._newest: RobotState | None = None
