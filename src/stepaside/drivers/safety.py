@@ -91,49 +91,37 @@ def _accelerometer_fault(inputs: SafetyInputs) -> str:
     return ""
 
 
-def _heat(inputs: SafetyInputs) -> str:
-    if inputs.status == 2:
-        return "a motor of the legs reports heat"
-    if inputs.temperature > HOTTEST:
-        return f"a motor of the legs has {inputs.temperature:.0f} degC"
-    return ""
+def _conditions(
+    inputs: SafetyInputs,
+) -> tuple[tuple[SafetyReaction, float, object, str], ...]:
+    """Return what may forbid to continue.
 
-
-def _reasons(inputs: SafetyInputs) -> tuple[str, ...]:
-    """Return why the robot must not continue; empty where it may."""
-    tilt, load, current = inputs.tilt, inputs.load, inputs.current
-    found = (
-        (tilt > FALL, f"torso tilts by {tilt:.2f} rad: the robot falls"),
-        (inputs.status >= 3, "a motor of the legs reports critical heat"),
-        (True, _heat(inputs)),
-        (
-            current > 1.0,
-            f"a motor draws {current:.1f} times its stall current",
-        ),
-        (
-            inputs.charge < LOWEST_CHARGE,
-            f"battery is at {100.0 * inputs.charge:.0f} %",
-        ),
-        (True, _accelerometer_fault(inputs)),
-        (
-            load < LEAST_LOAD,
-            f"both feet are lifted: their load is {load:.1f} kg",
-        ),
-        (inputs.bumper, "a foot bumper is pressed"),
-        (True, inputs.hindrance),
+    Reactions; times for which they must hold without a break, in [s], longer
+    than a landing or a single bad reading; whether they hold; and reasons.
+    """
+    limp, rest, stand = reversed(SafetyReaction)
+    tilt, load, heat = inputs.tilt, inputs.load, inputs.temperature
+    current, charge = inputs.current, inputs.charge
+    fault, hindrance = _accelerometer_fault(inputs), inputs.hindrance
+    lean = f"torso tilts by {tilt:.2f} rad: the robot falls"
+    draw = f"a motor draws {current:.1f} times its stall current"
+    lifted = f"both feet are lifted: their load is {load:.1f} kg"
+    critical = "a motor of the legs reports critical heat"
+    hot = "a motor of the legs reports heat"
+    warm = f"a motor of the legs has {heat:.0f} degC"
+    empty = f"battery is at {100.0 * charge:.0f} %"
+    return (
+        (limp, 0.0, tilt > FALL, lean),
+        (limp, 0.0, inputs.status >= 3, critical),
+        (rest, 0.0, inputs.status == 2, hot),
+        (rest, 0.0, heat > HOTTEST, warm),
+        (rest, 0.5, current > 1.0, draw),
+        (rest, 0.5, charge < LOWEST_CHARGE, empty),
+        (stand, 0.3, fault, fault),
+        (stand, 0.3, load < LEAST_LOAD, lifted),
+        (stand, 0.05, inputs.bumper, "a foot bumper is pressed"),
+        (stand, 0.0, hindrance, hindrance),
     )
-    return tuple(why if holds else "" for holds, why in found)
-
-
-# Reactions to those reasons, and times for which they must last without a
-# break, in [s]: longer than a landing, or a single bad reading.
-REACTIONS = (
-    *((SafetyReaction.LIMP, 0.0), (SafetyReaction.LIMP, 0.0)),
-    *((SafetyReaction.REST, 0.0), (SafetyReaction.REST, 0.5)),
-    *((SafetyReaction.REST, 0.5), (SafetyReaction.STAND, 0.3)),
-    *((SafetyReaction.STAND, 0.3), (SafetyReaction.STAND, 0.05)),
-    (SafetyReaction.STAND, 0.0),
-)
 
 
 class Safety:
@@ -203,9 +191,9 @@ class Safety:
     def _due(self, inputs: SafetyInputs) -> tuple[SafetyReaction, str] | None:
         """Return the strongest reaction that is due, with its reason."""
         due: tuple[SafetyReaction, str] | None = None
-        rows = zip(_reasons(inputs), REACTIONS, strict=True)
-        for row, (why, (reaction, lasting)) in enumerate(rows):
-            if not why:
+        rows = enumerate(_conditions(inputs))
+        for row, (reaction, lasting, holds, why) in rows:
+            if not holds:
                 self._met.pop(row, None)
                 continue
             lasted = inputs.time - self._met.setdefault(row, inputs.time)
