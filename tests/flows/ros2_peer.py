@@ -135,6 +135,7 @@ class Ros2Robot:
         self.velocity = (0.0, 0.0)
         self.obeyed = [self.velocity]  # all that were commanded
         self.frozen = False  # its sensors
+        self.stays = False  # its odometry, whose stamps go on
         self.sight_age = 0.0  # [s]
         self.told: list[tuple[float, float, float]] = []  # its poses
         self._ends = Event()
@@ -161,7 +162,7 @@ class Ros2Robot:
                 continue
             sent = now
             if not self.frozen:
-                stamp, pose = now, self.pose
+                stamp, pose = now, pose if self.stays else self.pose
             self._tell(stamp, pose)
 
     def _move(self, passed: float) -> None:
