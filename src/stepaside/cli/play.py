@@ -128,37 +128,20 @@ def _refuse_unused(
     """Refuse options that have no effect with this role and robot."""
     addresses = connection.address, connection.dead_man
     on_ros2 = any(ROS2 in str(each) for each in addresses)
+    buttons = joints and connection.on_nao
+    topics = connection.address.startswith(ROS2)
+    sees = settings.senses == "cameras"
     rows = (  # whether they have an effect, the options, and what they need
-        (
-            not joints,
-            ("max_speed", "max_turn"),
-            "a robot with velocity commands",
-        ),
-        (
-            not (joints and connection.on_nao),
-            ("dead_man",),
-            "a robot without a chest button",
-        ),
-        (
-            joints,
-            ("delay_ticks", "legs.", "control."),
-            "joint control",
-        ),
-        (
-            settings.senses == "cameras",
-            ("images",),
-            "senses cameras, got ideal",
-        ),
-        (
-            connection.address.startswith(ROS2),
-            ("remap", "opponent", "people", "max_lateral"),
-            f"a robot at {ROS2}",
-        ),
-        (on_ros2, ("domain", "network"), f"a robot or a switch at {ROS2}"),
+        (not joints, "max_speed max_turn", "a robot with velocity commands"),
+        (not buttons, "dead_man", "a robot without a chest button"),
+        (joints, "delay_ticks legs. control.", "joint control"),
+        (sees, "images", "senses cameras, got ideal"),
+        (topics, "remap opponent people max_lateral", f"a robot at {ROS2}"),
+        (on_ros2, "domain network", f"a robot or a switch at {ROS2}"),
     )
     for has_effect, names, needed in rows:
         if not has_effect:
-            refuse_settings(names, needed)
+            refuse_settings(tuple(names.split()), needed)
 
 
 def _run(

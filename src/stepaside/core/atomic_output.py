@@ -56,15 +56,6 @@ def check_folder(folder: Path, name: str = "output", *, new: bool) -> None:
     _check_writable(place, folder, name)
 
 
-def free_file(file: Path) -> Path:
-    """Return the first path of name, name-2, ... that does not exist."""
-    found, number = file, 1
-    while os.path.lexists(found):
-        number += 1
-        found = file.with_name(f"{file.stem}-{number}{file.suffix}")
-    return found
-
-
 @contextmanager
 def atomic_draft(file: Path) -> Iterator[Path]:
     """Yield a draft that replaces the file atomically on success.
