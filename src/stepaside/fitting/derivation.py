@@ -97,26 +97,12 @@ class DerivedDescription:
     size: RobotSize  # size by which the gait was scaled
     lowest: float  # least CoM height in reach [m]
     highest: float  # greatest CoM height in reach [m]
-    # joints whose torque limit is in the model
-    published_torques: frozenset[str]
-    # joints whose speed limit is in the model
-    published_speeds: frozenset[str]
+    assumed_torques: list[str]  # joints whose torque limit is an estimate
+    assumed_speeds: list[str]  # likewise of speed limits
     lengths: float  # feasible share of nominal stride and step height
     zmp_offset: float  # likewise of the nominal ZMP offset
     loads: JointLoads  # joint loads of a step, relative to the torque limits
     is_weak: bool  # whether servos are softened, and feedback is needed
-
-    @property
-    def assumed_torques(self) -> list[str]:
-        """Joints whose torque limit is an estimate."""
-        servos = self.description.overlay.servos
-        return [name for name in servos if name not in self.published_torques]
-
-    @property
-    def assumed_speeds(self) -> list[str]:
-        """Joints whose speed limit is an estimate."""
-        limits = self.description.speed_limits
-        return [name for name in limits if name not in self.published_speeds]
 
 
 def derive(
@@ -145,10 +131,6 @@ def derive(
     )
     lowest, highest = _reachable_sizes(description, analysis, sole)
     size, lengths = choose_com_height(description, highest, lowest)
-    servos = gains_of(analysis, torques, size.com_height)
-    description = replace(
-        description, overlay=replace(description.overlay, servos=servos)
-    )
     gait = gait_of(size, lengths)
     zmp_offset, loads = choose_zmp_offset(
         *with_gait(description, gait), torques
@@ -159,8 +141,7 @@ def derive(
     lean = 0.0
     if overloaded:
         lean, loads = least_lean(*with_gait(description, gait), torques)
-    if weak:
-        servos = gains_of(analysis, torques, size.com_height, weak=True)
+    servos = gains_of(analysis, torques, size.com_height, weak=weak)
     description = replace(
         description,
         lean=lean,
@@ -181,8 +162,8 @@ def derive(
         size,
         lowest,
         highest.com_height,
-        frozenset(torques),
-        frozenset(speeds),
+        [name for name in servos if name not in torques],
+        [name for name in servos if name not in speeds],
         lengths,
         zmp_offset,
         loads,
@@ -348,10 +329,12 @@ def _structure(
 def _sole_frame(analysis: ModelAnalysis, side: int) -> SoleFrame:
     leg = analysis.legs[side]
     under = leg.ankle - (leg.ankle[2] - leg.sole) * leg.axes[:, 2]
-    x, y, z = (analysis.point_in(leg.foot, under).round(5) + 0.0).tolist()
-    turn = np.zeros(4)
+    frame, turn, back = analysis.data.body(leg.foot), np.zeros(4), np.zeros(4)
+    place = frame.xmat.reshape(3, 3).T @ (under - frame.xpos)
+    x, y, z = (place.round(5) + 0.0).tolist()
     mujoco.mju_mat2Quat(turn, leg.axes.ravel())
-    mujoco.mju_mulQuat(turn, analysis.torso_in(leg.foot), turn.copy())
+    mujoco.mju_negQuat(back, frame.xquat)
+    mujoco.mju_mulQuat(turn, back, turn.copy())
     w, a, b, c = (turn.round(7) + 0.0).tolist()
     return SoleFrame(leg.foot, (x, y, z), (w, a, b, c))
 

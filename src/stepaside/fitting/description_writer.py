@@ -85,7 +85,8 @@ def _words(derived: DerivedDescription) -> dict[str, str]:
         sole = f"{ASK} a guess from the length of the leg, measure it"
     speeds = "Speed limits of the model, in [rad/s]."
     if assumed := derived.assumed_speeds:
-        joints = f" of {', '.join(assumed)}" * bool(derived.published_speeds)
+        some = len(assumed) < len(own.speed_limits)
+        joints = f" of {', '.join(assumed)}" * some
         speeds = f"{ASK} no-load speeds{joints}, in [rad/s]."
     torques = ", ".join(derived.assumed_torques)
     weak = (

@@ -3,13 +3,11 @@
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
 
 import mujoco
 import numpy as np
 
 from ..core.errors import ModelError
-from ..core.poses import Array
 from ..robots.model_overlay import scaled_couplings, strip
 from ..robots.model_reader import read_model
 from .leg_detection import JOINT_TYPES, DetectedLeg, NoLegsError, find_legs
@@ -54,18 +52,6 @@ class ModelAnalysis:
             if model.jnt_type[i] in JOINT_TYPES
         ]
 
-    def torso_in(self, body: str) -> Array:
-        """Return the orientation of the torso in a body. Shape (4,)."""
-        quaternion = np.zeros(4)
-        mujoco.mju_negQuat(quaternion, self.data.body(body).xquat)
-        return quaternion
-
-    def point_in(self, body: str, point: Array) -> Array:
-        """Transform a point to the frame of a body, in [m]. Shape (3,)."""
-        frame = self.data.body(body)
-        in_body: Array = frame.xmat.reshape(3, 3).T @ (point - frame.xpos)
-        return in_body
-
 
 def analyse_model(path: Path, folders: Sequence[Path]) -> ModelAnalysis:
     """Find torso, legs and feet in a published model."""
@@ -77,7 +63,10 @@ def analyse_model(path: Path, folders: Sequence[Path]) -> ModelAnalysis:
                     f"{path}: the mass of {body.name!r} must be positive, got "
                     f"{body.mass:g} kg"
                 )
-        torso = _root_of(spec, path)
+        roots = list(spec.worldbody.bodies)
+        if not roots:
+            raise ModelError(f"{path} has no body")
+        torso = max(roots, key=lambda body: len(body.find_all("body"))).name
         couplings = [
             (each.name1, each.name2) for each in scaled_couplings(spec)
         ]
@@ -152,12 +141,3 @@ def forward_score(model: mujoco.MjModel, leg: DetectedLeg) -> float:
     if leg.is_guessed or abs(toes) < LEAST_ASYMMETRY:
         toes = 0.0
     return float(toes + KNEE_WEIGHT * bends)
-
-
-def _root_of(spec: Any, path: Path) -> str:
-    """Return the root body with the most descendants: the robot."""
-    roots = list(spec.worldbody.bodies)
-    if not roots:
-        raise ModelError(f"{path} has no body")
-    root = max(roots, key=lambda body: len(body.find_all("body")))
-    return str(root.name)
