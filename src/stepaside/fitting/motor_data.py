@@ -3,7 +3,6 @@
 import re
 from collections.abc import Mapping
 from pathlib import Path
-from typing import NamedTuple
 
 import mujoco
 import numpy as np
@@ -122,13 +121,17 @@ def gains_of(
     tipping = found.mass * GRAVITY * com_height
     time = np.sqrt(com_height / GRAVITY)
     legs = {name for leg in found.legs for name in leg.joints}
-    gains = {}
+    gains, model = {}, found.model
     for name in found.joints:
         if name in followers_of(found.model):
             continue
-        load = _load_of(found, name)
-        torque = torques.get(name)
-        if name in legs or load.mass > HEAVY * found.mass:
+        joint, torque = model.joint(name), torques.get(name)
+        body = int(joint.bodyid[0])
+        mass = float(model.body_subtreemass[body])
+        arm = found.data.subtree_com[body] - found.data.xanchor[joint.id]
+        lever = float(np.linalg.norm(arm))
+        carried = float(model.body_inertia[body].max()) + mass * lever**2
+        if name in legs or mass > HEAVY * found.mass:
             stiffness = STIFFNESS * tipping
             if weak and torque is not None:
                 soft = max(
@@ -137,11 +140,13 @@ def gains_of(
                 stiffness = min(stiffness, soft)
             inertia = ARMATURE * found.mass * com_height**2
         else:
-            stiffness = ARM_STIFFNESS * load.torque + 400.0 * load.inertia
-            inertia = 0.1 * load.inertia
-        passive = float(found.model.joint(name).damping[0])
+            stiffness = (
+                ARM_STIFFNESS * mass * GRAVITY * lever + 400.0 * carried
+            )
+            inertia = 0.1 * carried
+        passive = float(joint.damping[0])
         damping = max(DAMPING_TIME * time * stiffness, passive)
-        own = float(found.model.joint(name).armature[0])
+        own = float(joint.armature[0])
         if torque is None:
             torque = DEFAULT_TORQUE * stiffness / STIFFNESS
         gains[name] = ServoGains(
@@ -161,26 +166,6 @@ def followers_of(model: mujoco.MjModel) -> set[str]:
         for i in range(model.neq)
         if model.eq_type[i] == kind and model.eq_obj2id[i] >= 0
     }
-
-
-class _JointLoad(NamedTuple):
-    """What a joint carries: mass [kg], greatest torque [N m], inertia."""
-
-    mass: float
-    torque: float
-    inertia: float
-
-
-def _load_of(found: ModelAnalysis, name: str) -> _JointLoad:
-    model, data = found.model, found.data
-    joint = model.joint(name)
-    body = int(joint.bodyid[0])
-    mass = float(model.body_subtreemass[body])
-    lever = float(
-        np.linalg.norm(data.subtree_com[body] - data.xanchor[joint.id])
-    )
-    inertia = float(model.body_inertia[body].max()) + mass * lever**2
-    return _JointLoad(mass, mass * GRAVITY * lever, inertia)
 
 
 def _round(value: float) -> float:

@@ -49,9 +49,9 @@ def support_phases(
     sole = schedule.settings.sole
     sides = (first_foot, first_foot.other)
     starts = schedule.starts.tolist()
-    bearing = [rows for i in range(schedule.count) for rows in _step_rows(i)]
-    if schedule.standing:
-        bearing.insert(0, (0, 1))
+    bearing: list[tuple[int, ...]] = [(0, 1)] if schedule.standing else []
+    for row in range(1, schedule.count + 1):  # of the foot that stands
+        bearing += [(row,), (row, row + 1)]
     phases = []
     for i, rows in enumerate(bearing):
         if starts[i] >= duration - 1e-9:
@@ -67,11 +67,6 @@ def support_phases(
         )
         phases.append(phase)
     return tuple(phases)
-
-
-def _step_rows(step: int) -> tuple[tuple[int, ...], tuple[int, ...]]:
-    """Return the placement rows in single and double support of a step."""
-    return (step + 1,), (step + 1, step + 2)
 
 
 def sole_corners(pose: Array, foot: Foot, sole: SoleRectangle) -> Array:

@@ -103,7 +103,9 @@ def held_regions(
     region = Pose(*plan.placements[row].tolist()).transform_points(region)
     for phase in reversed(phases[now : until + 1]):
         rest = phase.end - max(phase.start, time)
-        region = _before(region, phase.corners, gait.eta, rest)
+        # DCMs that a ZMP under the feet brings into the region.
+        fade = exp(-gait.eta * rest)
+        region = _sum(fade * region, (1.0 - fade) * phase.corners)
     regions.append(region)
     return regions
 
@@ -137,12 +139,6 @@ def _held_after_landing(
     old = sole_corners(np.zeros(3), support, gait.sole)
     new = sole_corners(np.zeros(3), support.other, gait.sole)
     return convex_hull(np.concatenate([old, _sum(landings, new)]))
-
-
-def _before(region: Array, feet: Array, eta: float, duration: float) -> Array:
-    """Return the DCMs that a ZMP under the feet brings into a region."""
-    fade = exp(-eta * duration)
-    return _sum(fade * region, (1.0 - fade) * feet)
 
 
 def _sum(a: Array, b: Array) -> Array:

@@ -156,7 +156,14 @@ class Schedule:
     def sampler(self, times: ArrayLike) -> Sampler:
         """Build the maps to samples at times since the plan began, in [s]."""
         t = np.asarray(times, dtype=np.float64)
-        pendulum = np.concatenate(self._pendulum(t))
+        pivot, dcm, com = self.pendulum_map.sample(t)
+        zmp, maps = pivot, [dcm, com]
+        if self.has_swing_reaction:
+            index, local = self.zmp_map.locate(t)
+            local = np.minimum(local, self.durations[index])
+            zmp = evaluate(self.zmp_map.coefficients[:, index], local)
+            maps.append(pivot)
+        pendulum = np.concatenate([zmp, *maps])
         step, phase = self.swing_phases(t)
         gait = self.settings
         progress = swing_progress(phase, gait.swing_profile)
@@ -178,13 +185,3 @@ class Schedule:
             np.where(even, 0.0, lift),
             np.where(even, lift, 0.0),
         )
-
-    def _pendulum(self, times: Array) -> tuple[Array, ...]:
-        """Return the maps to ZMP, DCM, CoM and, if it differs, the pivot."""
-        pivot, dcm, com = self.pendulum_map.sample(times)
-        if not self.has_swing_reaction:
-            return pivot, dcm, com
-        index, local = self.zmp_map.locate(times)
-        local = np.minimum(local, self.durations[index])
-        zmp = evaluate(self.zmp_map.coefficients[:, index], local)
-        return zmp, dcm, com, pivot

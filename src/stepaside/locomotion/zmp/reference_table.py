@@ -1,5 +1,6 @@
 """References of a plan at the control ticks."""
 
+from functools import lru_cache
 from math import ceil
 from typing import NamedTuple
 
@@ -16,7 +17,6 @@ from ...planning.template_path import (
 from ...robots.leg_kinematics import BodyReference
 
 ZERO = (0.0, 0.0)
-CACHED = 256  # samplers; rational durations need only a few
 
 
 class ReferenceSample(NamedTuple):
@@ -86,7 +86,6 @@ class ReferenceTable:
         self._reaction: Array | None = None
         self._templates: list[Pose] = []
         self._lists: tuple[list[list[float]], ...] | None = None
-        self._samplers: dict[tuple[Schedule, int, int], Sampler] = {}
 
     def load(
         self,
@@ -103,7 +102,7 @@ class ReferenceTable:
         self._first = ceil((started - 1e-9) / tick)
         offset = self._first * tick - started
         count = max(1, ceil((duration - offset) / tick - 1e-6))
-        sampler = self._sampler(plan.schedule, offset, count)
+        sampler = _sampler(plan.schedule, round(offset, 9), tick, count)
         samples = plan.sample(sampler)
         settings = plan.schedule.settings
         path = path_samples(
@@ -187,16 +186,9 @@ class ReferenceTable:
         template = self._templates[i]
         return ReferenceSample(body, (x, y), (u, v), template, reaction)
 
-    def _sampler(
-        self, schedule: Schedule, offset: float, count: int
-    ) -> Sampler:
-        key = (schedule, round(offset * 1e9), count)
-        sampler = self._samplers.get(key)
-        if sampler is None:
-            times = offset + self._tick * np.arange(count)
-            sampler = schedule.sampler(times)
-            # Over hours the sums of durations drift, and the keys with them.
-            if len(self._samplers) >= CACHED:
-                del self._samplers[next(iter(self._samplers))]
-            self._samplers[key] = sampler
-        return sampler
+
+@lru_cache(maxsize=256)  # over hours the sums of durations drift
+def _sampler(
+    schedule: Schedule, offset: float, tick: float, count: int
+) -> Sampler:
+    return schedule.sampler(offset + tick * np.arange(count))
