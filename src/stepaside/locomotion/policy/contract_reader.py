@@ -221,15 +221,11 @@ def _parsed(text: str) -> Any:
         return json.loads(text)
     except ValueError:
         parts = [part.strip() for part in text.split(",")]
-    numbers = [float(x) if _is_number(x) else x for x in parts]
-    return numbers if len(numbers) > 1 else numbers[0]
-
-
-def _is_number(text: str) -> bool:
     try:
-        return isfinite(float(text))
+        numbers: list[Any] = list(map(float, parts))
     except ValueError:
-        return False
+        numbers = parts
+    return numbers if len(numbers) > 1 else numbers[0]
 
 
 def _converted(target: str, value: Any) -> Any:
@@ -476,35 +472,31 @@ def _misfits(contract: PolicyContract, network: PolicyNetwork) -> list[str]:
 
 def _implausible(values: Mapping[str, Any]) -> list[str]:
     """Find values that occur in published files and cannot be meant."""
-    texts = []
-    arrays = {
-        name: np.array(values[name]) for name in PER_JOINT if name in values
+    plausible = np.array([2.0])
+    stiffness, damping, scale, posture = (
+        np.array(values.get(name, plausible), dtype=float)
+        for name in ("stiffness", "damping", "action_scale", "default_posture")
+    )
+    sign = "-0" if np.signbit(damping).any() else "0"
+    unwritten = "at every joint: the exporter did not write the gains"
+    least, most = PERIODS
+    period = values.get("period", least)
+    found = {
+        "stiffness is 0 N m/rad: those joints are limp": (
+            (stiffness == 0.0).any()
+        ),
+        f"stiffness is 1 N m/rad {unwritten}": (
+            stiffness.size > 1 and (stiffness == 1.0).all()
+        ),
+        f"damping is {sign} {unwritten}": (
+            damping.size and (damping == 0.0).all()
+        ),
+        "action_scale is 0: those joints never move": (scale == 0.0).any(),
+        f"default_posture exceeds {ANGLE} rad: the unit must be [rad]": (
+            (np.abs(posture) > ANGLE).any()
+        ),
+        f"period must lie in [{least}, {most}] [s], got {period}": (
+            not least <= period <= most
+        ),
     }
-    stiffness, damping = arrays.get("stiffness"), arrays.get("damping")
-    if stiffness is not None:
-        if (stiffness == 0.0).any():
-            texts.append("stiffness is 0 N m/rad: those joints are limp")
-        elif stiffness.size > 1 and (stiffness == 1.0).all():
-            texts.append(
-                "stiffness is 1 N m/rad at every joint: the exporter did not "
-                "write the gains"
-            )
-    if damping is not None and damping.size and (damping == 0.0).all():
-        sign = "-0" if np.signbit(damping).any() else "0"
-        texts.append(
-            f"damping is {sign} at every joint: the exporter did not write "
-            "the gains"
-        )
-    if (arrays.get("action_scale", np.ones(1)) == 0.0).any():
-        texts.append("action_scale is 0: those joints never move")
-    if (np.abs(arrays.get("default_posture", np.zeros(1))) > ANGLE).any():
-        texts.append(
-            f"default_posture exceeds {ANGLE} rad: the unit must be [rad]"
-        )
-    period = values.get("period", PERIODS[0])
-    if not PERIODS[0] <= period <= PERIODS[1]:
-        texts.append(
-            f"period must lie in [{PERIODS[0]}, {PERIODS[1]}] [s], got "
-            f"{period}"
-        )
-    return texts
+    return [text for text, holds in found.items() if holds]
