@@ -13,7 +13,7 @@ from ..core.entries import load_entries, read_entries, to_entries
 from ..core.errors import AnyPath, ConfigurationError, as_path
 from ..core.poses import Array, Pose
 from ..core.ranges import Range
-from ..core.setting import REQUIRED, check_settings, setting
+from ..core.setting import REQUIRED, CheckedSettings, check_settings, setting
 from .obstacles import Obstacle, ObstacleSet
 from .shapes import (
     BEARING,
@@ -36,7 +36,7 @@ EXTENT = Range(SMALLEST, LARGEST, "m", "from a cupboard to a hall")
 
 
 @dataclass(frozen=True, slots=True)
-class Door:
+class Door(CheckedSettings, prefix="door "):
     """Gap in a wall."""
 
     side: str = setting(
@@ -53,20 +53,14 @@ class Door:
         0.6, "Width", Range(0.05, LARGEST, "m", "to the largest wall")
     )
 
-    def __post_init__(self) -> None:
-        check_settings(self, prefix="door ")
-
 
 @dataclass(frozen=True)
-class InitialPose:
+class InitialPose(CheckedSettings, prefix="start "):
     """Pose in a room at which a player starts."""
 
     x: float = setting(REQUIRED, "x", COORDINATE)
     y: float = setting(REQUIRED, "y", COORDINATE)
     theta: float = setting(0.0, "Heading", BEARING)
-
-    def __post_init__(self) -> None:
-        check_settings(self, prefix="start ")
 
     @property
     def pose(self) -> Pose:

@@ -12,7 +12,7 @@ from ..core.convex import convex_hull, next_corners, signed_area
 from ..core.errors import ConfigurationError, shown
 from ..core.poses import Array, Pose
 from ..core.ranges import Range
-from ..core.setting import REQUIRED, check_settings, setting
+from ..core.setting import REQUIRED, CheckedSettings, check_settings, setting
 from .obstacles import Obstacle
 
 SMALLEST = 1e-3  # least radius or edge, in [m]
@@ -27,7 +27,7 @@ CIRCLE_CORNERS = 72  # of the polygon that a disc is drawn as
 
 
 @dataclass(frozen=True)
-class Disc(Obstacle):
+class Disc(Obstacle, CheckedSettings, prefix="disc "):
     """Round obstacle: a pillar, a bin; in the frame of its room or map."""
 
     x: float = setting(REQUIRED, "x of its centre", COORDINATE)
@@ -35,9 +35,6 @@ class Disc(Obstacle):
     radius: float = setting(REQUIRED, "Radius", SIDE)
 
     kind: ClassVar[str] = "disc"
-
-    def __post_init__(self) -> None:
-        check_settings(self, prefix="disc ")
 
     @cached_property
     def points(self) -> Array:

@@ -13,7 +13,7 @@ import click
 from ..core.errors import PlanError
 from ..core.progress import show_progress
 from ..core.ranges import Range
-from ..core.setting import check_settings, setting
+from ..core.setting import CheckedSettings, setting
 from ..games.unicycle_settings import positive
 from .options import figure_option, json_option, output_file
 from .settings import refuse_settings, takes_settings
@@ -35,7 +35,7 @@ CONTACT = 0.55  # sum of the half widths of a robot and a person, in [m]
 
 
 @dataclass(frozen=True, slots=True)
-class BoundSettings:
+class BoundSettings(CheckedSettings):
     """Game, grid and solver of the bound."""
 
     against: str = setting(
@@ -119,10 +119,6 @@ class BoundSettings:
         "Number of random games simulated to check the table",
         Range(0, 1_000_000, "1", "more take hours", whole=True),
     )
-
-    def __post_init__(self) -> None:
-        """Validate ranges and names."""
-        check_settings(self)
 
     def cars(self) -> "CarGame":
         """Return the game against a pursuer that steers like a car."""

@@ -9,7 +9,7 @@ import click
 
 from ..core.errors import PlanError
 from ..core.ranges import Range
-from ..core.setting import check_settings, setting
+from ..core.setting import CheckedSettings, setting
 from ..games.game_settings import OF_ALL, GameSettings
 from ..planning import PRESETS, Direction, Foot, GaitSettings
 from .options import figure_option, json_option
@@ -25,7 +25,7 @@ FEET = {foot.name.lower(): foot for foot in Foot}
 
 
 @dataclass(frozen=True, slots=True)
-class PlanSettings:
+class PlanSettings(CheckedSettings, error=PlanError):
     """Settings of one maneuver."""
 
     role: str | None = setting(
@@ -58,10 +58,6 @@ class PlanSettings:
         "Gait",
         presets=PRESETS,
     )
-
-    def __post_init__(self) -> None:
-        """Check all values."""
-        check_settings(self, PlanError)
 
 
 # Entries of games, which the file of a plan may contain; players have gaits.

@@ -23,6 +23,7 @@ from pathlib import Path
 from types import NoneType, UnionType
 from typing import (
     Any,
+    ClassVar,
     Literal,
     NamedTuple,
     TypeVar,
@@ -447,3 +448,23 @@ def check_settings(
             object.__setattr__(settings, name, read)
     if reader.problems:
         raise error(reader.text)
+
+
+class CheckedSettings:
+    """Base of settings that :func:`check_settings` alone checks."""
+
+    __slots__ = ()
+    _checks: ClassVar[tuple[type[Exception], str]] = ConfigurationError, ""
+
+    def __init_subclass__(
+        cls,
+        error: type[StepAsideError] = ConfigurationError,
+        prefix: str = "",
+    ) -> None:
+        # A dataclass with slots is made again, without these arguments.
+        if (error, prefix) != (ConfigurationError, ""):
+            cls._checks = error, prefix
+
+    def __post_init__(self) -> None:
+        error, prefix = self._checks
+        check_settings(self, cast(Any, error), prefix=prefix)

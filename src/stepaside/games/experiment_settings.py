@@ -6,13 +6,13 @@ from typing import ClassVar
 from ..core.brief_repr import brief_repr
 from ..core.errors import ConfigurationError
 from ..core.ranges import Range
-from ..core.setting import check_settings, setting
+from ..core.setting import CheckedSettings, setting
 from ..planning import GaitSettings
 from .player_settings import PlayerSettings
 
 
 @dataclass(frozen=True, slots=True)
-class ExperimentSettings:
+class ExperimentSettings(CheckedSettings):
     """Settings of an experiment: its recording, and who is who in it."""
 
     game: ClassVar[str] = "experiment"
@@ -28,10 +28,6 @@ class ExperimentSettings:
         "Duration of a gait cycle, over which figures average the sway",
         Range(1e-3, 60.0, "s", "any gait"),
     )
-
-    def __post_init__(self) -> None:
-        """Validate the settings."""
-        check_settings(self)
 
     @property
     def gait(self) -> GaitSettings:

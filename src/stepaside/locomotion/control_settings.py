@@ -5,7 +5,7 @@ from typing import Literal, get_args
 
 from ..core.errors import ConfigurationError, shown
 from ..core.ranges import Range
-from ..core.setting import check_settings, setting
+from ..core.setting import CheckedSettings, check_settings, setting
 
 Method = Literal["closed-form", "measured", "mpc"]
 METHODS: tuple[str, ...] = get_args(Method)
@@ -16,7 +16,7 @@ TICKS = "a faster rate acts within one tick"
 
 
 @dataclass(frozen=True, slots=True)
-class StabiliserSettings:
+class StabiliserSettings(CheckedSettings):
     """Gains and limits of the stabiliser.
 
     They were tuned with pushes on both bodies; see ``docs/walking.md``.
@@ -100,13 +100,9 @@ class StabiliserSettings:
         Range(0.0, 1.0, "1", "a fraction"),
     )
 
-    def __post_init__(self) -> None:
-        """Validate the settings."""
-        check_settings(self)
-
 
 @dataclass(frozen=True, slots=True)
-class MpcSettings:
+class MpcSettings(CheckedSettings, prefix="mpc."):
     """Horizon and weights of the MPC."""
 
     steps: int = setting(
@@ -139,10 +135,6 @@ class MpcSettings:
             1e-6, 1e6, "1/s^2", "beyond, one of the two weights is negligible"
         ),
     )
-
-    def __post_init__(self) -> None:
-        """Validate the settings."""
-        check_settings(self, prefix="mpc.")
 
 
 @dataclass(frozen=True, slots=True)
@@ -197,7 +189,7 @@ STABILISED = ControlSettings("measured", True)
 
 
 @dataclass(frozen=True, slots=True)
-class LegsSettings:
+class LegsSettings(CheckedSettings):
     """Walking policy of a robot, in place of the paper's walk."""
 
     network: str = setting(
@@ -214,10 +206,6 @@ class LegsSettings:
         "Correct the velocity of a walking policy by gyro and leg odometry",
     )
 
-    def __post_init__(self) -> None:
-        """Check the ranges."""
-        check_settings(self)
-
     @property
     def walks(self) -> bool:
         """Whether the robot walks by a policy."""
@@ -225,7 +213,7 @@ class LegsSettings:
 
 
 @dataclass(frozen=True, slots=True)
-class MapSettings:
+class MapSettings(CheckedSettings, prefix="map."):
     """Map of the room that robots use."""
 
     source: str = setting(
@@ -246,7 +234,3 @@ class MapSettings:
         names=UNSEEN,
         needs=("map.source", "seen"),
     )
-
-    def __post_init__(self) -> None:
-        """Validate the settings."""
-        check_settings(self, prefix="map.")

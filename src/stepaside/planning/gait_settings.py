@@ -6,7 +6,7 @@ from math import sqrt
 from ..core.constants import GRAVITY
 from ..core.errors import PlanError, check_within
 from ..core.ranges import Range
-from ..core.setting import check_settings, setting
+from ..core.setting import CheckedSettings, check_settings, setting
 from .swing import SwingProfile
 
 # From about a thousandth to a hundred times the values of humanoids.
@@ -16,7 +16,7 @@ FAST_STEP = 0.4  # between those of the gaits "fast" and "nao", in [s]
 
 
 @dataclass(frozen=True, slots=True)
-class SoleRectangle:
+class SoleRectangle(CheckedSettings, error=PlanError, prefix="sole."):
     """Contact rectangle of the left sole; the right one mirrors it."""
 
     back: float = setting(
@@ -37,10 +37,6 @@ class SoleRectangle:
         "Distance of the inner edge from the foot frame",
         Range(1e-3, 10.0, "m", SMALL),
     )
-
-    def __post_init__(self) -> None:
-        """Check that the foot frame lies inside the sole."""
-        check_settings(self, PlanError, prefix="sole.")
 
 
 @dataclass(frozen=True, slots=True)

@@ -4,14 +4,14 @@ from dataclasses import dataclass
 from math import floor
 
 from ..core.ranges import Range
-from ..core.setting import check_settings, setting
+from ..core.setting import CheckedSettings, setting
 
 VIEWS = ("fixed", "follow", "top")
 WHY = "from a frame of a fast film to a night"
 
 
 @dataclass(frozen=True, slots=True)
-class FilmSettings:
+class FilmSettings(CheckedSettings):
     """Settings of a film."""
 
     width: int = setting(
@@ -58,10 +58,6 @@ class FilmSettings:
     captions: bool = setting(
         True, "Show players, time and distance in the video"
     )
-
-    def __post_init__(self) -> None:
-        """Validate the settings."""
-        check_settings(self)
 
     def frame_times(self, last: float) -> list[float]:
         """Return the times at which a run of a duration in [s] is shown."""

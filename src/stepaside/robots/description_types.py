@@ -4,7 +4,7 @@ from dataclasses import dataclass
 
 from ..core.errors import ModelError
 from ..core.ranges import Range
-from ..core.setting import REQUIRED, check_settings, setting
+from ..core.setting import REQUIRED, CheckedSettings, setting
 
 FOOT_FORCES = tuple(
     f"{side}_fsr_{place}"
@@ -25,7 +25,7 @@ def _at_least_zero(unit: str) -> Range:
 
 
 @dataclass(frozen=True, slots=True)
-class SensorNames:
+class SensorNames(CheckedSettings, error=ModelError, prefix="sensors."):
     """Names of a robot's sensors in its model."""
 
     gyro: str = setting("gyro", "Gyroscope, in the axes of the torso")
@@ -40,12 +40,9 @@ class SensorNames:
         count=(8, 8),
     )
 
-    def __post_init__(self) -> None:
-        check_settings(self, ModelError, prefix="sensors.")
-
 
 @dataclass(frozen=True, slots=True)
-class ReferencePoint:
+class ReferencePoint(CheckedSettings, error=ModelError, prefix="place."):
     """Reference point of the torso, and reach of the body around it.
 
     Robots farther apart than the sum of their reaches cannot touch.
@@ -64,12 +61,9 @@ class ReferencePoint:
         _above_zero("m"),
     )
 
-    def __post_init__(self) -> None:
-        check_settings(self, ModelError, prefix="place.")
-
 
 @dataclass(frozen=True, slots=True)
-class ServoGains:
+class ServoGains(CheckedSettings, error=ModelError):
     """Position servo of one joint."""
 
     stiffness: float = setting(
@@ -86,9 +80,6 @@ class ServoGains:
         "Reflected rotor inertia {unit}; 0 to keep that of the model",
         _at_least_zero("kg m^2"),
     )
-
-    def __post_init__(self) -> None:
-        check_settings(self, ModelError)
 
 
 @dataclass(frozen=True, slots=True)

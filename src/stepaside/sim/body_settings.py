@@ -8,14 +8,14 @@ from dataclasses import dataclass, replace
 from math import pi, radians
 
 from ..core.ranges import Range
-from ..core.setting import check_settings, setting
+from ..core.setting import CheckedSettings, setting
 from .physics_settings import PhysicsSettings
 
 SENSOR = "some hundred times NAO's; beyond, a sensor is useless"
 
 
 @dataclass(frozen=True, slots=True)
-class BodySettings:
+class BodySettings(CheckedSettings):
     """Errors of a real body; each default is ideal."""
 
     cycle: float = setting(
@@ -106,9 +106,6 @@ class BodySettings:
         "of NAO's size, with which it scales",
         Range(0.0, 0.1, "m", "half the depth of the torso"),
     )
-
-    def __post_init__(self) -> None:
-        check_settings(self)
 
     @property
     def has_ideal_servos(self) -> bool:

@@ -5,7 +5,7 @@ from math import radians
 
 from ..core.errors import ConfigurationError, check_within
 from ..core.ranges import Range, check_count
-from ..core.setting import REQUIRED, check_settings, setting
+from ..core.setting import REQUIRED, CheckedSettings, check_settings, setting
 from ..perception.camera_model import CameraModel
 from ..robots.head import Mount
 
@@ -30,7 +30,7 @@ RENDERERS = ("auto", *BACKENDS, RAYCAST)
 
 
 @dataclass(frozen=True, slots=True)
-class ColourSettings:
+class ColourSettings(CheckedSettings):
     """Settings of NAO's top camera."""
 
     optics: str = setting(
@@ -60,9 +60,6 @@ class ColourSettings:
         "Renderer of the camera images",
         names=RENDERERS,
     )
-
-    def __post_init__(self) -> None:
-        check_settings(self)
 
     def model(self) -> CameraModel:
         """Return the camera model with these optics."""
@@ -133,7 +130,7 @@ DEPTH_CAMERAS = {
 
 
 @dataclass(frozen=True, slots=True)
-class LidarSettings:
+class LidarSettings(CheckedSettings):
     """Lidar above the head; rate, noise and near limit of Livox's Mid-360."""
 
     rays: int = setting(
@@ -164,12 +161,9 @@ class LidarSettings:
         Range(0.0, 1.0, "1", "a fraction"),
     )
 
-    def __post_init__(self) -> None:
-        check_settings(self)
-
 
 @dataclass(frozen=True, slots=True)
-class CameraSettings:
+class CameraSettings(CheckedSettings):
     """Settings of all exteroceptive sensors of the robots."""
 
     colour: ColourSettings = setting(
@@ -201,16 +195,13 @@ class CameraSettings:
         Range(0.0, 0.5, "s", "in addition to a camera's latency"),
     )
 
-    def __post_init__(self) -> None:
-        check_settings(self)
-
     def depth_of(self, mount: Mount) -> DepthSettings:
         """Return the settings of the depth camera on a mount."""
         return self.rear if mount.on_torso else self.depth
 
 
 @dataclass(frozen=True, slots=True)
-class RoomObject:
+class RoomObject(CheckedSettings, prefix="room object "):
     """Object in the room."""
 
     kind: str = setting(REQUIRED, "Kind of object", names=KINDS)
@@ -224,9 +215,6 @@ class RoomObject:
         "Position along y of the world",
         Range(-20.0, 20.0, "m", "beyond, outside any room"),
     )
-
-    def __post_init__(self) -> None:
-        check_settings(self, prefix="room object ")
 
 
 # Outside the path of a duel, but in view of both robots.

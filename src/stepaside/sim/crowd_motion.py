@@ -13,7 +13,7 @@ from typing import NamedTuple
 from ..arena import NO_OBSTACLES, ObstacleSet
 from ..core.poses import Pose, wrap_angle
 from ..core.ranges import Range
-from ..core.setting import check_settings, setting
+from ..core.setting import CheckedSettings, setting
 
 RELAXATION = 0.5  # time to reach the desired velocity, in [s]
 STRENGTH = 5.1  # of the force from another walker, in [m/s^2]
@@ -123,7 +123,7 @@ STANDING = 0.1  # speed below which a robot stands, in [m/s]
 
 
 @dataclass(frozen=True, slots=True)
-class CrowdSettings:
+class CrowdSettings(CheckedSettings, prefix="crowd."):
     """Walk of a person to a goal."""
 
     speed: float = setting(
@@ -142,9 +142,6 @@ class CrowdSettings:
     returns: bool = setting(
         False, "Walk back to the start, and again, instead of halting"
     )
-
-    def __post_init__(self) -> None:
-        check_settings(self, prefix="crowd.")
 
 
 @dataclass(frozen=True, slots=True)

@@ -5,7 +5,7 @@ from math import inf, pi
 
 from ..core.errors import ConfigurationError
 from ..core.ranges import Range
-from ..core.setting import check_settings, setting
+from ..core.setting import CheckedSettings, check_settings, setting
 
 INTEGRATORS = ("implicitfast", "discrete")  # of MuJoCo
 
@@ -68,7 +68,7 @@ class PhysicsSettings:
 
 
 @dataclass(frozen=True, slots=True)
-class SightSettings:
+class SightSettings(CheckedSettings):
     """Settings of the ideal line of sight."""
 
     bearing_noise: float = setting(
@@ -98,6 +98,3 @@ class SightSettings:
         ),
         words={"every-tick": inf},
     )
-
-    def __post_init__(self) -> None:
-        check_settings(self)

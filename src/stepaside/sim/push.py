@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 from ..core.errors import ConfigurationError, shown
 from ..core.ranges import Range
-from ..core.setting import REQUIRED, check_settings, setting
+from ..core.setting import REQUIRED, CheckedSettings, setting
 
 if TYPE_CHECKING:
     import mujoco
@@ -19,7 +19,7 @@ MAX_STORED = 1000  # pushes; a live game may run without end
 
 
 @dataclass(frozen=True, slots=True)
-class Push:
+class Push(CheckedSettings, prefix="push "):
     """Constant horizontal force at the torso for a short time."""
 
     impulse: float = setting(
@@ -46,9 +46,6 @@ class Push:
         "Name of the pushed robot; by default the walker, or the evader of a "
         "duel",
     )
-
-    def __post_init__(self) -> None:
-        check_settings(self, prefix="push ")
 
     @classmethod
     def from_text(cls, text: str) -> "Push":

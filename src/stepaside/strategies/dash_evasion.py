@@ -8,7 +8,7 @@ import numpy as np
 
 from ..core.poses import ALL_AROUND, Array, Pose, wrap_angle
 from ..core.ranges import Range
-from ..core.setting import check_settings, setting
+from ..core.setting import CheckedSettings, setting
 from .dash_rollouts import (
     STEP,
     Dashes,
@@ -58,7 +58,7 @@ class DashMemory(NamedTuple):
 
 
 @dataclass(frozen=True, slots=True)
-class DashEvasion(BackwardStrategy):
+class DashEvasion(BackwardStrategy, CheckedSettings):
     """Evader that takes the straight dash with the largest clearance.
 
     At each decision it rolls out standing, dashes in all directions, and the
@@ -116,10 +116,6 @@ class DashEvasion(BackwardStrategy):
         "which on dashes are compared",
         Range(0.0, MOST, "s", "a time ahead"),
     )
-
-    def __post_init__(self) -> None:
-        """Validate the settings."""
-        check_settings(self)
 
     def begin(self) -> DashMemory:
         """Return the memory before the first sighting."""

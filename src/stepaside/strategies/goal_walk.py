@@ -8,7 +8,7 @@ import numpy as np
 
 from ..core.poses import Array, Pose, wrap_angle
 from ..core.ranges import Range
-from ..core.setting import check_settings, setting
+from ..core.setting import CheckedSettings, setting
 from .dash_rollouts import greatest_velocity
 from .knowledge import STAND, Intent, Knowledge
 from .pursuit import PursuitVariant
@@ -27,7 +27,7 @@ SOON = 2.5  # time to a predicted contact at which it halts, in [s]
 
 
 @dataclass(frozen=True, slots=True)
-class GoalWalk(PursuitVariant):
+class GoalWalk(PursuitVariant, CheckedSettings):
     """Walk to a goal, giving way to others.
 
     Among headings to both sides of the way to the goal it takes the one that
@@ -50,10 +50,6 @@ class GoalWalk(PursuitVariant):
         "Distance that counts as contact",
         Range(0.0, 10.0, "m", "the bodies have a width"),
     )
-
-    def __post_init__(self) -> None:
-        """Validate the settings."""
-        check_settings(self)
 
     def decide(self, knowledge: Knowledge, memory: Any) -> tuple[Intent, Any]:
         """Head for the goal, beside others, and halt there."""

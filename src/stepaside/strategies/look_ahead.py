@@ -19,7 +19,7 @@ import numpy as np
 from ..core.compilation import compiled, copy_values, inlined
 from ..core.poses import Array, Pose
 from ..core.ranges import Range
-from ..core.setting import check_settings, setting
+from ..core.setting import CheckedSettings, setting
 from .knowledge import ON_THE_SPOT, STAND, Intent, Knowledge
 from .opponent_track import OpponentTrack, track_of_steps
 from .search.distance_field import (
@@ -72,7 +72,7 @@ class LookAheadMemory(NamedTuple):
 
 
 @dataclass(frozen=True, slots=True)
-class LookAhead(BackwardStrategy):
+class LookAhead(BackwardStrategy, CheckedSettings):
     """Predictive evader: execute the first step of the best maneuver.
 
     A maneuver is a sequence of pieces with a constant turn each, followed by
@@ -106,10 +106,6 @@ class LookAhead(BackwardStrategy):
         Range(16, 200, "1", "accuracy, and time to solve", whole=True),
     )
     obstacles: bool = setting(True, "Avoid obstacles")
-
-    def __post_init__(self) -> None:
-        """Validate the settings."""
-        check_settings(self)
 
     def begin(self) -> LookAheadMemory:
         """Return the memory before the first sighting."""

@@ -11,7 +11,7 @@ from ..arena.shortest_path import first_waypoint
 from ..core.poses import wrap_angle
 from ..core.random_streams import named_generator
 from ..core.ranges import SEEDS, Range
-from ..core.setting import check_settings, setting
+from ..core.setting import CheckedSettings, setting
 from ..planning import Direction
 from ..theory import laws
 from .approach import correcting_heading
@@ -32,7 +32,7 @@ class PursuitMemory(NamedTuple):
 
 
 @dataclass(frozen=True, slots=True)
-class Pursuit:
+class Pursuit(CheckedSettings):
     """The paper's pursuer: head for the evader; and a family around it.
 
     With known obstacles it heads for the first vertex of the shortest path.
@@ -96,10 +96,6 @@ class Pursuit:
         "Time for which it stands again and again",
         Range(0.0, 1e6, "s", "0 never waits"),
     )
-
-    def __post_init__(self) -> None:
-        """Validate the settings."""
-        check_settings(self)
 
     def begin(self) -> PursuitMemory:
         """Return the memory before the first sighting."""

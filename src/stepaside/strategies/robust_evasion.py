@@ -11,7 +11,7 @@ from ..arena.obstacles import PackedObstacles
 from ..core.constants import CAPTURE_DISTANCE
 from ..core.poses import Array, Pose, wrap_angle
 from ..core.ranges import Range
-from ..core.setting import check_settings, setting
+from ..core.setting import CheckedSettings, setting
 from .knowledge import ON_THE_SPOT, Intent, Knowledge
 from .opponent_models import ASSUMED, MODELS, ModelFit
 from .search.beam_search import BeamRules, beam_search, play_moves
@@ -51,7 +51,7 @@ class RobustMemory(NamedTuple):
 
 
 @dataclass(frozen=True, slots=True)
-class RobustEvasion(BackwardStrategy):
+class RobustEvasion(BackwardStrategy, CheckedSettings):
     """Evader that plans against every model of the pursuer that is plausible.
 
     The models that explain the last seconds are kept; for some of them a beam
@@ -82,10 +82,6 @@ class RobustEvasion(BackwardStrategy):
         "Least distance of the own centre to obstacles",
         Range(0.0, 10.0, "m", "a body has a radius", above=True),
     )
-
-    def __post_init__(self) -> None:
-        """Validate the settings."""
-        check_settings(self)
 
     def begin(self) -> RobustMemory:
         """Return the memory before the first sighting."""

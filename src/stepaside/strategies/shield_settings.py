@@ -3,11 +3,11 @@
 from dataclasses import dataclass
 
 from ..core.ranges import Range
-from ..core.setting import check_settings, setting
+from ..core.setting import CheckedSettings, setting
 
 
 @dataclass(frozen=True, slots=True)
-class ShieldSettings:
+class ShieldSettings(CheckedSettings, prefix="shield."):
     """Settings of the shield, a filter around the strategy of a robot.
 
     It changes a decision only where contact with a person within these
@@ -62,7 +62,3 @@ class ShieldSettings:
         default_text="of the legs",
         needs=("shield.enabled", ""),
     )
-
-    def __post_init__(self) -> None:
-        """Check the ranges."""
-        check_settings(self, prefix="shield.")

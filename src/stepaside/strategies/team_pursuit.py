@@ -8,7 +8,7 @@ import numpy as np
 
 from ..core.poses import Array, wrap_angle
 from ..core.ranges import Range
-from ..core.setting import check_settings, setting
+from ..core.setting import CheckedSettings, setting
 from .knowledge import STAND, Intent, Knowledge
 from .pursuit import PursuitVariant
 
@@ -68,7 +68,7 @@ class AssignedPursuit(PursuitVariant):
 
 
 @dataclass(frozen=True, slots=True)
-class Pincer(PursuitVariant):
+class Pincer(PursuitVariant, CheckedSettings):
     """Pursuer that approaches from one side while teammates take others.
 
     It aims beside the evader, by an angle seen from there, and straight at
@@ -86,10 +86,6 @@ class Pincer(PursuitVariant):
         "Distance from which it heads straight for the evader",
         Range(0.0, 100.0, "m", "beyond, they never meet"),
     )
-
-    def __post_init__(self) -> None:
-        """Validate the settings."""
-        check_settings(self)
 
     def decide(self, knowledge: Knowledge, memory: Any) -> tuple[Intent, Any]:
         """Head for a point beside the evader, or for the evader itself."""

@@ -12,7 +12,7 @@ from typing import Literal, NamedTuple
 
 from ...core.errors import PolicyError
 from ...core.ranges import Range
-from ...core.setting import REQUIRED, check_settings, setting
+from ...core.setting import REQUIRED, CheckedSettings, check_settings, setting
 
 GAIN = "no motor is stiffer"
 NOT_FINITE = (inf,)
@@ -48,7 +48,7 @@ TERMS = {
 
 
 @dataclass(frozen=True, slots=True)
-class PhaseClock:
+class PhaseClock(CheckedSettings, error=PolicyError, prefix="clock."):
     """Clock of the gait that a policy observes."""
 
     period: float = setting(
@@ -79,10 +79,6 @@ class PhaseClock:
         "{unit}; 0 for a network without such an output",
         Range(0.0, 100.0, "1/s", "not negative"),
     )
-
-    def __post_init__(self) -> None:
-        """Check the ranges."""
-        check_settings(self, PolicyError, prefix="clock.")
 
 
 class CommandRanges(NamedTuple):
