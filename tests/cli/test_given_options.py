@@ -11,7 +11,7 @@ import pytest
 from click.testing import CliRunner, Result
 
 from stepaside.cli.main import main
-from stepaside.cli.plan import PlanSettings
+from stepaside.cli.theory import PlanSettings
 from stepaside.games.configuration_file import (
     dump_configuration,
     parse_settings,

@@ -8,10 +8,10 @@ from typing import Any
 import pytest
 from click.testing import CliRunner, Result
 
-from stepaside.cli.circle import circle
 from stepaside.cli.main import main
-from stepaside.cli.map import map as map_command
-from stepaside.cli.unicycles import unicycles
+from stepaside.cli.run import unicycles
+from stepaside.cli.theory import circle
+from stepaside.cli.theory import map as map_command
 from stepaside.report import unicycle_figures
 from stepaside.theory.unicycle.unicycle_game import Game, Unicycle
 

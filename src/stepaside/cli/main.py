@@ -36,7 +36,8 @@ class LazyGroup(click.Group):
         self,
         *args: Any,
         lazy: Mapping[str, str],
-        module: str = "{}",
+        module: str = "",
+        modules: Mapping[str, str] | None = None,
         default: str = "",
         **values: Any,
     ) -> None:
@@ -45,13 +46,15 @@ class LazyGroup(click.Group):
         Args:
             args: As for :class:`click.Group`.
             lazy: Short help of each command by name.
-            module: Module of a command, with {} for its name.
+            module: Module of the commands; one each of their names if empty.
+            modules: Other modules of some commands.
             default: Command for words that are no command; none if empty.
             values: As for :class:`click.Group`.
         """
         super().__init__(*args, **values)
-        self._lazy, self._module = lazy, module
-        self._default = default
+        self._lazy, self._default = lazy, default
+        self._modules = {name: module or name for name in lazy}
+        self._modules |= modules or {}
 
     def parse_args(self, ctx: click.Context, args: list[str]) -> list[str]:
         """Insert the default command unless a command is named."""
@@ -73,8 +76,7 @@ class LazyGroup(click.Group):
             if near:
                 ctx.fail(f"no command {cmd_name!r}; did you mean {near[0]}?")
             return None
-        name = self._module.format(cmd_name)
-        module = import_module(f"stepaside.cli.{name}")
+        module = import_module(f"stepaside.cli.{self._modules[cmd_name]}")
         command: click.Command = getattr(module, cmd_name)
         return command
 

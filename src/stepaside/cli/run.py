@@ -1,10 +1,49 @@
 """``stepaside run``: a game file, a walk, unicycles or a room."""
 
-from typing import Any
+import json
+from dataclasses import asdict
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
 
 import click
 
+from ..arena import Room, RoomRecipe
+from ..core.entries import to_entries
+from ..core.errors import PlanError
+from ..games.game_settings import GameSettings
+from ..games.game_settings import walk as make_walk
+from ..games.unicycle_settings import PAPER, UnicycleSettings
+from ..report.result_labels import CIRCLES, label_of
 from .main import LazyGroup
+from .options import (
+    figure_option,
+    file_argument,
+    folder_option,
+    json_option,
+    output_file,
+    seed_option,
+)
+from .run_output import finish_run, play_with_bar, run_folder
+from .settings import (
+    changes_of,
+    lists_option,
+    refuse_settings,
+    set_option,
+    set_pair,
+    takes_settings,
+)
+from .settings_text import commented
+from .tables import (
+    format_value,
+    plain,
+    print_table,
+    result_rows,
+    table_rows,
+)
+from .terminal import print_json, write_result
+
+if TYPE_CHECKING:
+    from ..theory.unicycle.unicycle_game import Game, RelativeStart
 
 COMMANDS = {
     "game": "Play the game of FILE; the word may be left out.",
@@ -14,9 +53,315 @@ COMMANDS = {
 }
 
 
-@click.group("run", cls=LazyGroup, lazy=COMMANDS, default="game")
+@click.group("run", cls=LazyGroup, lazy=COMMANDS, module="run", default="game")
 def run(**_: Any) -> None:
     """Play a game FILE, or run a walk, unicycles or a room.
 
     `stepaside run FILE` plays the game of the players that FILE lists.
     """
+
+
+@click.command("game")
+@file_argument("file")
+@click.option("--seed", metavar="NUMBER", help="Random seed.")
+@click.option("--duration", metavar="NUMBER", help="Simulated time [s].")
+@click.option("--level", metavar="TEXT", help="Level of simulation.")
+@lists_option
+@set_option
+@folder_option()
+@json_option
+def game(
+    file: Path,
+    sets: tuple[str, ...],
+    lists: bool,
+    output: Path | None,
+    as_json: bool,
+    **named: str | None,
+) -> None:
+    """Play the game of the players that FILE lists.
+
+    FILE is TOML with a table [[players]] for each player: a robot, its
+    template unicycle, a person, or a recorded player (docs/games.md). Prints
+    the closest approach of each pair, and writes a run folder, which
+    `stepaside show` shows.
+    """
+    from ..games.recorded_game import run_game
+    from ..games.settings_reader import (
+        entries_of_game,
+        load_game,
+        nested,
+        read_game,
+    )
+
+    texts = [(name, text) for name, text in named.items() if text]
+    texts += map(set_pair, sets)
+    settings = load_game(file)
+    changes = changes_of(texts, entries_of_game(settings))
+    settings = read_game(nested(changes), base=settings)
+    if lists:
+        write_result(commented(settings))
+        return
+    folder = run_folder(output, as_json, f"game-seed{settings.seed}")
+    run = play_with_bar(settings, run_game)
+    finish_run(run, folder, as_json)
+
+
+NAMED_OF_WALK = ("seed", "duration", "robot", "gait", "body", "pushes")
+
+
+@click.command("walk")
+@takes_settings(NAMED_OF_WALK, settings=make_walk())
+@click.option(
+    "--bearing",
+    metavar="ANGLE",
+    help="Desired heading in the frame of the support foot, like 10deg; "
+    "straight ahead by default.",
+)
+@click.option("--backward", is_flag=True, help="Walk backward.")
+@folder_option(help="Run folder; the run is not saved by default.")
+@json_option
+def walk(
+    settings: GameSettings,
+    bearing: str | None,
+    backward: bool,
+    output: Path | None,
+    as_json: bool,
+) -> None:
+    """Simulate the walk of one humanoid and measure it.
+
+    Speed, turning, slip, tracking error and estimation error are measured
+    after the first three seconds, in the frame of the support foot.
+    """
+    from ..games.recorded_game import run_game
+
+    if bearing or backward:
+        way = f"walk{'-backward' * backward}(bearing={bearing or 0})"
+        settings = settings.changed(walker={"strategy": way})
+    folder = run_folder(output, as_json, None)
+    run = play_with_bar(settings, run_game)
+    finish_run(run, folder, as_json)
+
+
+NAMED_OF_UNICYCLES = (
+    *("speed", "gain", "angle", "law", "distance"),
+    *("aim", "bearing", "duration", "evader_strategy"),
+)
+COMPARED = (
+    "radius_pursuer_m",
+    "radius_evader_m",
+    "distance_m",
+    "turning_rate_rad_s",
+    "headings_apart_rad",
+    "motions_apart_rad",
+)
+
+
+@click.command("unicycles")
+@takes_settings(NAMED_OF_UNICYCLES, settings=UnicycleSettings)
+@figure_option()
+@json_option
+def unicycles(
+    settings: UnicycleSettings, figure: Path | None, as_json: bool
+) -> None:
+    """Simulate one game of two unicycles and compare it with theory."""
+    game, start, names = settings.game, settings.start, settings.strategies
+    result: dict[str, Any] = {
+        "start": asdict(start),
+        "capture_distance_m": settings.capture,
+        "sample_time_s": settings.sample_time,
+        "game": to_entries(game),
+    }
+    if figure is not None and names is not None:
+        raise click.UsageError(
+            "--figure requires the strategies of the paper, without "
+            "sample_time"
+        )
+    run: Any = None
+    if names is None:
+        run, measured = _simulate(settings, start)
+        result |= measured | {"certified": _certify(game, start)}
+    else:
+        result |= _play_named(settings, names)
+    if names is None or names == PAPER:
+        from ..theory.unicycle.circles import circle_of
+
+        theory = plain(circle_of(game))
+        named = ("exists", *COMPARED, "time_constant_s")
+        result["theory"] = {name: theory[name] for name in named}
+        result["theory"]["radius_m"] = theory["radius_pursuer_m"]
+    if as_json:
+        print_json(result)
+    elif "theory" in result:
+        _print_unicycles(result)
+    else:
+        aside = ("game", "start")
+        shown = {k: v for k, v in result.items() if k not in aside}
+        print_table(result_rows(shown))
+    if figure is not None:
+        from ..report.unicycle_figures import draw_game
+
+        draw_game(run, str(figure))
+
+
+def _simulate(
+    settings: UnicycleSettings, start: "RelativeStart"
+) -> tuple[Any, dict[str, Any]]:
+    """Simulate with the adaptive integrator and measure the paths."""
+    from ..theory.unicycle.adaptive_simulation import simulate
+    from ..theory.unicycle.circle_fit import circle_at, measure
+    from ..theory.unicycle.circles import circles_of
+
+    run = simulate(
+        settings.game,
+        start,
+        settings.time,
+        capture_distance=settings.capture,
+    )
+    result: dict[str, Any] = {
+        "captured": run.captured,
+        "end_time_s": run.end_time,
+        "closest_distance_m": run.closest_distance,
+        "closest_time_s": run.closest_time,
+        "switch_times_s": list(run.switches),
+    }
+    if not run.captured:
+        found = plain(measure(run))
+        result |= {"radius_m": found["radius_pursuer_m"]} | found
+        result["turning_rate_rad_s"] = abs(found["turning_rate_rad_s"] or 0.0)
+        last = run.states([run.end_time])[0, :3]
+        ended = circle_at(circles_of(settings.game), last, run.sides[-1])
+        result["circle"] = ended and {
+            "direction": ended.direction,
+            "distance_m": ended.distance_m,
+            "stable": ended.stable,
+        }
+    return run, result
+
+
+def _certify(game: "Game", start: "RelativeStart") -> dict[str, Any] | None:
+    """Return the certified closest approach; None where it is undefined."""
+    from ..theory.unicycle.certificate import certify
+
+    try:
+        found = certify(game, start)
+    except PlanError:  # unequal players, the saturated law or moving back
+        return None
+    entries: dict[str, Any] = plain(found)
+    return entries
+
+
+def _play_named(
+    settings: UnicycleSettings, names: tuple[str, str]
+) -> dict[str, Any]:
+    """Simulate a game of any two strategies."""
+    import numpy as np
+
+    from ..core.poses import wrap_angle
+    from ..games.floor_games import play_unicycles
+    from ..strategies.registry import OF_EVASION
+    from ..theory.unicycle.circle_fit import fit_circle
+
+    if not set(names) & set(OF_EVASION):
+        refuse_settings(
+            ("angle", "law", "side_rule", "hysteresis"),
+            f"the strategy {' or '.join(OF_EVASION)}, got {names[1]}",
+        )
+    times, capture = (settings.time, settings.period), settings.capture
+    run = play_unicycles(settings.game, settings.start, names, times, capture)
+    paths = run.pursuer, run.evader
+    floor = [float(np.hypot(*(p - p[0])[:, :2].T).max()) for p in paths]
+    radii = [fit_circle(p[-len(p) // 5 :, :2])[1] for p in paths]
+    heading = float(run.pursuer[-1, 2] - run.evader[-1, 2])
+    return {
+        "pursuer_strategy": names[0],
+        "evader_strategy": names[1],
+        "captured": run.captured,
+        "end_time_s": float(run.times[-1]),
+        "closest_distance_m": run.closest_distance,
+        "distance_m": float(run.distances[-1]),
+        "radius_m": radii[0],
+        "radius_pursuer_m": radii[0],
+        "radius_evader_m": radii[1],
+        "headings_apart_rad": abs(wrap_angle(heading)),
+        "motions_apart_rad": abs(wrap_angle(heading + np.pi)),
+        "floor_used_pursuer_m": floor[0],
+        "floor_used_evader_m": floor[1],
+    }
+
+
+def _print_unicycles(result: dict[str, Any]) -> None:
+    """Print measured values beside the closed form."""
+    theory = result["theory"]
+    rows = [("", "simulated        closed form")]
+    for name in COMPARED:
+        cells = [result.get(name), theory[name]]
+        texts = [format_value(name, cell) for cell in cells]
+        rows.append((label_of(name), f"{texts[0]:<16} {texts[1]}"))
+    circle = result.get("circle")
+    if circle is not None:
+        name = CIRCLES[circle["direction"]]
+        rows.append(("ended on", f"the {name} circle"))
+    certified = result.get("certified")
+    if certified is not None and certified["holds"]:
+        text = f">= {certified['distance_m']:.6g} m"
+        rows.append(("certified distance", text))
+    ends = ("captured", "end_time_s", "closest_distance_m")
+    print_table([*rows, *table_rows(result, ends)])
+
+
+NAMED_OF_ROOM = ("width", "depth", "discs", "boxes", "polygons", "doors")
+
+
+@click.command("room")
+@file_argument("file", required=False)
+@seed_option()
+@takes_settings(NAMED_OF_ROOM, settings=RoomRecipe)
+@click.option(
+    "--output",
+    type=output_file("--output", ".toml", ".json"),
+    help="Write the room (.toml or .json).",
+)
+@figure_option()
+@json_option
+def room(
+    file: Path | None,
+    seed: int,
+    settings: RoomRecipe,
+    output: Path | None,
+    figure: Path | None,
+    as_json: bool,
+) -> None:
+    """Generate a random room with initial poses, or inspect a room FILE.
+
+    Prints the numbers of obstacles and doors, and the narrowest gap.
+    """
+    from ..arena import check_initial_poses, generate_room, load_room
+    from ..arena.room_generation import measure_room
+
+    if file is None:
+        made = generate_room(settings, seed)
+    else:
+        refuse_settings(("",), "a random room, got a room file")
+        made = load_room(file)
+        if made.starts is not None:
+            check_initial_poses(made, made.starts)
+    result = measure_room(made)
+    print_json(result) if as_json else print_table(result_rows(result))
+    if output is not None:
+        _write_room(made, output)
+    if figure is not None:
+        from ..report.plan_view import draw_room
+
+        draw_room(made, str(figure))
+
+
+def _write_room(made: Room, file: Path) -> None:
+    """Write a room in the format of the file suffix."""
+    from ..arena import room_to_entries, room_to_toml
+    from ..core.atomic_output import atomic_draft
+
+    text = room_to_toml(made)
+    if file.suffix.lower() == ".json":
+        text = json.dumps(room_to_entries(made), allow_nan=False) + "\n"
+    with atomic_draft(file) as draft:
+        draft.write_text(text, encoding="utf-8")

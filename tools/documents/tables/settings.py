@@ -7,11 +7,13 @@ from typing import Any, NamedTuple
 
 from stepaside.cli import duel, walk
 from stepaside.cli.bound import BoundSettings
-from stepaside.cli.circle import CircleSettings
 from stepaside.cli.connection_settings import ConnectionSettings
-from stepaside.cli.map import StartMapSettings
-from stepaside.cli.plan import PlanSettings
 from stepaside.cli.settings import flag_of
+from stepaside.cli.theory import (
+    CircleSettings,
+    PlanSettings,
+    StartMapSettings,
+)
 from stepaside.core.setting import Setting as Description
 from stepaside.core.setting import settings_of
 from stepaside.games.game_settings import GameSettings
