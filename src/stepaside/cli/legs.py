@@ -61,7 +61,7 @@ def inspect(
     if the network cannot run.
     """
     from ..locomotion.policy.contract_reader import RobotJoints, read_contract
-    from ..locomotion.policy.network import PolicyNetwork
+    from ..locomotion.policy.runner import PolicyNetwork
 
     loaded, joints = PolicyNetwork(network), RobotJoints()
     if robot is not None:
@@ -205,8 +205,8 @@ def measure(
         body_of_robot,
         settings_from_description,
     )
-    from ..locomotion.policy.legs_settings import LegsSettings
-    from ..locomotion.policy.response_file import (
+    from ..locomotion.control_settings import LegsSettings
+    from ..locomotion.policy.velocity_response import (
         response_entries,
         response_path,
     )

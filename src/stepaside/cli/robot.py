@@ -128,9 +128,8 @@ def init(
     that the model does not contain are marked ASK in the description: search
     for it and fill them in.
     """
-    from ..fitting.derivation import derive
+    from ..fitting.derivation import derive, report_of
     from ..fitting.description_writer import write_description
-    from ..fitting.model_report import report_of
     from ..robots.description import FILE, load_robot
 
     folder = output or Path(model.stem)

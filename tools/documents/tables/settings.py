@@ -5,7 +5,7 @@ from dataclasses import fields, is_dataclass
 from math import isfinite
 from typing import Any, NamedTuple
 
-from stepaside.cli import duel, walk
+from stepaside.cli import duel, run
 from stepaside.cli.bound import BoundSettings
 from stepaside.cli.connection_settings import ConnectionSettings
 from stepaside.cli.settings import flag_of
@@ -41,7 +41,7 @@ COMMANDS = {
     "theory bound": BoundSettings(),
     "show": FilmSettings(),
 }
-OPTIONS = {path: flag_of(path) for path in (*walk.NAMED, *duel.NAMED)}
+OPTIONS = {path: flag_of(path) for path in (*run.NAMED_OF_WALK, *duel.NAMED)}
 LISTS: Mapping[str, type[Any]] = {
     "players": PlayerSettings,
     "scene.things": RoomObject,
