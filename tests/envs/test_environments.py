@@ -82,18 +82,6 @@ def test_vector_games_are_those_of_single_environments(
         assert ends >= 6
 
 
-def test_vector_rates_of_unicycles_are_near_those_of_one() -> None:
-    settings = VARIANTS[0]
-    games = VectorDuel(1, role="evader", **settings)
-    single = DuelEnv("evader", **settings)
-    games.reset(seed=2)
-    single.reset(seed=2)
-    for _ in range(60):
-        many, *_ = games.step(BACK[None])
-        one, *_ = single.step(BACK)
-    np.testing.assert_allclose(many[0], one, atol=0.02)
-
-
 def test_a_mask_resets_some_games() -> None:
     games = VectorDuel(3, role="evader", **SHORT)
     games.reset(seed=1)
@@ -122,18 +110,6 @@ def test_any_strategy_is_an_opponent() -> None:
     assert np.isfinite(env.step(BACK)[0]).all()
     with pytest.raises(ConfigurationError, match="must walk forward, as a"):
         DuelEnv("evader", opponent="look-ahead")
-
-
-def test_full_state_holds_what_no_sense_gives() -> None:
-    settings: dict[str, Any] = {"level": "steps", "full_state": True, **SHORT}
-    env = duel_v0.parallel_env(**settings)
-    observations, infos = env.reset(seed=4)
-    chased, hunting = observations["evader"], observations["pursuer"]
-    # Bearing of the other, and the own bearing from the other.
-    np.testing.assert_allclose(chased[1:3], hunting[6:8], atol=1e-6)
-    np.testing.assert_allclose(hunting[1:3], chased[6:8], atol=1e-6)
-    assert chased[9] == 1.0
-    assert chased[8] == pytest.approx(infos["evader"]["closest_m"] / 0.5)
 
 
 def test_any_heading_draws_starts_of_all_headings() -> None:

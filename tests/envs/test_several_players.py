@@ -60,24 +60,6 @@ def test_velocities_are_observed_in_the_own_frame() -> None:
     np.testing.assert_allclose(ruby[4:6], [-1.0, 0.0], atol=1e-5)
 
 
-def test_returns_are_closest_approaches_and_sum_to_zero() -> None:
-    env = game_v0.parallel_env(game())
-    _, infos = env.reset(seed=1)
-    assert infos["blue"]["closest_m"] == {"blue": pytest.approx(1.0)}
-    total = dict.fromkeys(env.agents, 0.0)
-    while env.agents:
-        _, rewards, ended, late, infos = env.step(
-            {"red": AHEAD, "ruby": AHEAD, "blue": STILL}
-        )
-        for name, reward in rewards.items():
-            total[name] += reward
-    assert late["red"] and not ended["red"]
-    closest = infos["red"]["closest_m"]["blue"]
-    assert 0.5 < closest < 0.8
-    assert 0.5 * total["blue"] == pytest.approx(closest - 1.0)
-    assert total["red"] == total["ruby"] == -total["blue"]
-
-
 def test_capture_terminates_an_episode() -> None:
     env = game_v0.parallel_env(game(duration=30.0))
     env.reset(seed=1)

@@ -10,10 +10,9 @@ import pytest
 
 from stepaside.core.errors import ConfigurationError
 from stepaside.core.poses import Array
-from stepaside.games.game import play
 from stepaside.games.game_settings import GameSettings
 from stepaside.games.outcome import Outcome
-from stepaside.games.recorded_game import RecordedGame, run_game
+from stepaside.games.recorded_game import run_game
 from stepaside.games.run import Run
 from stepaside.games.run_archive import load_run
 from stepaside.games.settings_reader import read_game
@@ -134,39 +133,6 @@ def test_a_lidar_shows_people_to_a_robot_of_a_game() -> None:
     )
     # It has seen the person.
     assert run.summary.players["blue"].moved_at_s is not None
-
-
-def test_a_fall_ends_the_game_and_is_counted_for_its_player() -> None:
-    push = {
-        "impulse": 8.0,
-        "time": 0.1,
-        "direction": 0.0,
-        "player": "ruby",
-    }
-    match = RecordedGame(game(*THREE, duration=3.0, pushes=[push]))
-    play(match)
-    run = match.run()
-    assert run.outcome is Outcome.FALL and run.summary.fallen == ["ruby"]
-
-
-def test_a_contact_names_the_two_players() -> None:
-    near = (
-        robot("red", "pursuer", 0.0, 0.0, 0.0),
-        robot("blue", "evader", 2.0, 0.0, pi, strategy="stand"),
-        {
-            "name": "guest",
-            "body": "person",
-            "start": [-0.6, 0.0, 0.0],
-            "goal": [3.0, 0.0],
-            "crowd": {"speed": 1.5, "reaction": "none"},
-        },
-    )
-    run = run_game(game(*near, duration=3.0))
-    assert run.outcome is Outcome.CONTACT
-    assert run.summary.touched == ["guest", "red"]
-    red = run.summary.players["red"].crowd
-    assert red is not None and not red.success and red.collisions >= 1
-    assert 0.0 < red.intimate_s <= red.personal_s
 
 
 @pytest.mark.parametrize("level", ["steps", "unicycle"])

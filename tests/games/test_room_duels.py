@@ -13,16 +13,9 @@ from stepaside.arena import (
     Disc,
     Polygon,
     Room,
-    generate_room,
 )
-from stepaside.arena.room_generation import RoomRecipe
-from stepaside.cli.settings_text import commented
 from stepaside.core.errors import ConfigurationError
 from stepaside.core.poses import Pose
-from stepaside.games.configuration_file import (
-    dump_configuration,
-    read_settings,
-)
 from stepaside.games.game_settings import GameSettings, StartSettings, duel
 from stepaside.games.recorded_game import RecordedGame
 from stepaside.locomotion.control_settings import MapSettings
@@ -87,15 +80,3 @@ def test_a_room_excludes_other_starts_and_a_map_of_people() -> None:
             map=MapSettings(source="seen"),
         )
     assert placed(room, pursuer={"body": "person"}).robots == ("evader",)
-
-
-def test_a_configuration_keeps_the_room() -> None:
-    recipe = RoomRecipe(discs=2, boxes=1, polygons=1, doors=1)
-    room = generate_room(recipe, 3)
-    settings = placed(room)
-    for text in (dump_configuration(settings), commented(settings)):
-        read = read_settings(GameSettings, text, "here")
-        assert read.room is not None
-        for one, other in zip(read.room.solids, room.solids, strict=True):
-            np.testing.assert_allclose(one.centre, other.centre, atol=1e-12)
-        assert read.room.starts == room.starts

@@ -13,7 +13,6 @@ from stepaside.games.recorded_game import run_game
 from stepaside.games.run import Run
 from stepaside.games.run_captions import describe_state
 from stepaside.planning import GaitSettings
-from stepaside.report.viewer.live_session import LiveSession
 from stepaside.robots import leg_kinematics as kinematics
 from stepaside.strategies import Evasion
 
@@ -75,21 +74,3 @@ def test_an_unreachable_reference_ends_the_duel(run: Run) -> None:
         == run.message
         != describe_state(run, last - 1)
     )
-
-
-def test_a_live_duel_ends_and_can_be_restarted() -> None:
-    session = LiveSession(settings_of("robot"))
-    try:
-        session.step(2.0)
-        session.call(lambda: None)
-        assert session.error is None
-        assert session.outcome is Outcome.UNREACHABLE
-        ended = session.world.time
-        assert ended < 2.0
-        session.reset(settings_of("robot").changed(gait=GaitSettings()))
-        assert session.outcome is None
-        session.step(ended)
-        session.call(lambda: None)
-        assert session.outcome is None
-    finally:
-        session.close()

@@ -88,50 +88,6 @@ def test_the_torso_is_served_from_encoders_and_tilt(
         )
 
 
-def test_the_served_sighting_is_in_odometry(
-    walked: tuple[VelocityWalker, VelocityWalker, list[BodyVelocity]],
-) -> None:
-    own, other, _ = walked
-    state = own.state()
-    assert state.sighting is not None
-    _, bearing, distance, *_ = state.sighting
-    u, v = other.truth.position_reference_in_world
-    x, y = own.truth.position_reference_in_world
-    assert distance == pytest.approx(hypot(u - x, v - y), abs=0.01)
-    there = own.frame.compose(state.pose).inverse()
-    ahead, left, _ = there.compose(Pose(u, v, 0.0))
-    assert bearing == pytest.approx(atan2(left, ahead), abs=0.05)
-
-
-def test_a_robot_may_serve_no_sighting() -> None:
-    for offered in (True, False):
-        _, robots = commanded_robots(SETTINGS, ideal_sight=offered)
-        for robot in robots:
-            assert (robot.state().sighting is not None) == offered
-
-
-def test_a_hardware_like_robot_turns_by_its_command() -> None:
-    """Feet twist and joints yield, which only the gyro measures."""
-    hardware = replace(SETTINGS, seed=7, body=BODIES["hardware"])
-    game, players = commanded_robots(hardware)
-    world = game.in_physics
-    for player, forward in zip(players, (0.06, -0.06), strict=True):
-        player.command(BodyVelocity(forward, 0.0, 0.12))
-    turned = np.zeros(2)
-    headings = np.zeros(2)
-    learnt, cycles = round(12.0 / 0.012), round(14 * STEP / 0.012)
-    for tick in range(learnt + cycles):
-        now = np.array([player.truth.heading_in_world for player in players])
-        if tick > learnt:
-            turned += [wrap_angle(a) for a in now - headings]
-        headings = now
-        for player in players:
-            player.tick()
-        world.step()
-    rates = turned / (14 * STEP)
-    np.testing.assert_allclose(rates, 0.12, rtol=0.03)
-
-
 def test_a_served_sighting_is_relative_to_the_heading_of_its_time() -> None:
     """Also while the robot turns."""
     game, players = commanded_robots(SETTINGS)
