@@ -109,15 +109,6 @@ def test_nothing_is_replaced_unless_asked(tmp_path: Path) -> None:
     assert file.read_text() == "kept"
 
 
-def test_writing_follows_a_link(tmp_path: Path) -> None:
-    (tmp_path / "file").write_text("old")
-    (tmp_path / "link").symlink_to(tmp_path / "file")
-    with atomic_draft(tmp_path / "link") as draft:
-        draft.write_text("new")
-    assert (tmp_path / "link").is_symlink()
-    assert (tmp_path / "file").read_text() == "new"
-
-
 def test_a_failed_write_leaves_the_old_file(tmp_path: Path) -> None:
     file = tmp_path / "file"
     file.write_text("old")
@@ -210,46 +201,6 @@ def test_every_command_refuses_a_bad_path_in_one_line(
     assert result.output.count("\n") == 1 and "must" in result.output
     assert len(result.output) < 500
     assert sorted(tmp_path.rglob("*")) == before
-
-
-def test_a_figure_gets_a_suffix_and_replaces_the_one_before(
-    tmp_path: Path,
-) -> None:
-    words = [
-        "theory",
-        "plan",
-        "--role",
-        "evader",
-        "--bearing",
-        "1",
-        "--figure",
-    ]
-    file = tmp_path / "a.png"
-    file.write_text("old")
-    result = CliRunner().invoke(main, [*words, str(tmp_path / "a")])
-    assert result.exit_code == 0, result.output
-    assert file.read_bytes()[:4] == b"\x89PNG"
-
-
-def test_a_summary_is_printed_although_its_figure_cannot_be_written(
-    tmp_path: Path, folder: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    def full(*arguments: Any) -> None:
-        raise FULL
-
-    monkeypatch.setattr(Path, "write_bytes", full)
-    for words in (
-        ["theory", "plan", "--role", "evader", "--bearing", "1", "--figure"],
-        ["run", "unicycles", "--duration", "1", "--figure"],
-    ):
-        option = [words.pop(), str(tmp_path / "c.png")]
-        result = CliRunner().invoke(main, [*words, *option])
-        assert result.exit_code == 2
-        assert result.stderr.count("\n") == 1, result.stderr
-        assert "no space left" in result.stderr
-        assert len(result.stdout) > 100
-        assert "c.png" not in result.stdout
-        assert list(tmp_path.iterdir()) == []
 
 
 def test_a_duel_is_reported_although_it_cannot_be_written(

@@ -22,22 +22,6 @@ bound(fill, values)()
 fill(values)
 print(values.tolist())
 """
-PAIRS = """
-from typing import NamedTuple
-from stepaside.core.compilation import compiled
-
-class Pair(NamedTuple):
-    one: float
-    other: float
-
-@compiled
-def total(pair):
-    return pair.one + pair.other
-"""
-USER = """
-from callee import Pair, total
-print(total(Pair(1.0, 2.0)))
-"""
 CALLEES = {
     "compiled": """
 from stepaside.core.compilation import compiled
@@ -117,20 +101,6 @@ def test_functions_of_a_record_are_compiled_again_when_its_fields_move(
     )
     said, told = run(tmp_path, cache)
     assert said == "1" and "compiling" in told
-
-
-def test_a_renamed_type_is_compiled_again(tmp_path: Path) -> None:
-    """The cache names the types of arguments."""
-    caller, cache = tmp_path / "caller.py", tmp_path / "cache"
-    (tmp_path / "callee.py").write_text(PAIRS)
-    text = USER
-    for name in ("Pair", "Couple"):
-        caller.write_text(text)
-        assert run(tmp_path, cache)[0] == "3.0"
-        assert run(tmp_path, cache) == ("3.0", "")
-        text = text.replace(name, "Couple")
-        callee = tmp_path / "callee.py"
-        callee.write_text(callee.read_text().replace(name, "Couple"))
 
 
 def test_without_a_folder_to_write_to_it_compiles_and_says_so(

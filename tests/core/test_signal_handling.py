@@ -1,14 +1,11 @@
 """Test Ctrl-C, SIGTERM and SIGHUP: handled alike, deferred within a tick."""
 
 import signal
-from time import sleep
 
 import pytest
 
 from stepaside.core.signal_handling import (
-    LONGEST_DELAY,
     DeferredInterrupt,
-    interrupt,
     interruptible,
 )
 from stepaside.games.game_settings import walk
@@ -25,22 +22,6 @@ def test_every_signal_raises_keyboard_interrupt(
 ) -> None:
     with interruptible(), pytest.raises(KeyboardInterrupt):
         signal.raise_signal(number)
-
-
-def test_a_custom_handler_stays_installed() -> None:
-    def own(*_: object) -> None:
-        """Do nothing."""
-
-    before = signal.signal(signal.SIGINT, own)
-    try:
-        with interruptible():
-            assert signal.getsignal(signal.SIGINT) is own
-            assert signal.getsignal(signal.SIGTERM) is interrupt
-    finally:
-        signal.signal(signal.SIGINT, before)
-    with interruptible():
-        assert signal.getsignal(signal.SIGINT) is interrupt
-    assert signal.getsignal(signal.SIGINT) is before
 
 
 @pytest.mark.parametrize("number", SIGNALS)
@@ -83,13 +64,6 @@ def test_a_pending_interrupt_is_raised_once_at_the_end() -> None:
         signal.raise_signal(signal.SIGINT)
     with DeferredInterrupt() as deferred:
         deferred.let_through()
-
-
-def test_an_error_discards_a_pending_interrupt() -> None:
-    with pytest.raises(ValueError), DeferredInterrupt():
-        signal.raise_signal(signal.SIGINT)
-        raise ValueError
-    sleep(LONGEST_DELAY + 0.1)
 
 
 @pytest.mark.parametrize("times", [1, 2])

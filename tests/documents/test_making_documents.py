@@ -7,9 +7,8 @@ import pytest
 from PIL import Image
 
 from stepaside.studies.result_files import header, write_result
-from tools.documents.__main__ import old_results
 from tools.documents.blocks import with_tables
-from tools.documents.document import complaints, remade
+from tools.documents.document import remade
 from tools.documents.pictures import (
     PICTURES,
     Picture,
@@ -59,60 +58,6 @@ def test_a_marked_number_becomes_that_of_the_result(
     assert remade(text, store) == f"| It is {new}<!--= run:{mark}--> m |"
 
 
-def test_what_is_not_marked_stays(store: Store) -> None:
-    text = "A <!-- note --> 0.5 of 3\n\n| 1 |\n|---|\n"
-    assert remade(text, store) == text
-
-
-def test_remaking_twice_changes_nothing_more(store: Store) -> None:
-    text = "1.0<!--= run:ratio-->\n<!-- made: run.printed -->\nold\n"
-    once = remade(f"{text}<!-- /made -->\n", store)
-    assert "```\na  1\n```" in once and "old" not in once
-    assert remade(once, store) == once
-
-
-@pytest.mark.parametrize(
-    ("line", "complaint"),
-    [
-        ("0.98<!--= run:ratio-->", "2: wanted '0.99', got '0.98' (run:ratio)"),
-        ("1<!--= run:raito-->", "2: run:raito: no 'raito' among command"),
-        ("1<!--= run:list.2-->", "2: run:list.2: no '2' among 2 entries"),
-        ("1<!--= run:word-->", "2: run:word is no number, got 'none'"),
-        ("1<!--= run:truth-->", "2: run:truth is no number, got True"),
-        ("1<!--= other:ratio-->", "2: no result other.json"),
-        ("one<!--= run:ratio-->", "2: a mark must follow a number"),
-        ("1<!--= run:ratio +-->", "2: a mark must read <!--= name:path"),
-        (
-            "<!-- made: run.nothing -->\n<!-- /made -->",
-            "3: no table 'nothing'",
-        ),
-        ("<!-- made: run.rooms -->\n<!-- /made -->", "3: run does not hold"),
-        ("<!-- made: run.printed -->\n", "2: a block must read"),
-        ("<!-- /made -->", "2: a block must read"),
-        (
-            "<!-- made: run.printed -->\n\n```\na  2\n```\n\n<!-- /made -->",
-            "5: wanted 'a  1', got 'a  2' (run.printed)",
-        ),
-    ],
-)
-def test_a_complaint_names_line_wanted_and_got(
-    store: Store, tmp_path: Path, line: str, complaint: str
-) -> None:
-    file = tmp_path / "page.md"
-    file.write_text(f"# Page\n{line}\n", encoding="utf-8")
-    found = complaints(file, store)
-    assert len(found) == 1
-    assert found[0].startswith(f"page.md:{complaint}")
-
-
-def test_a_page_that_is_right_has_no_complaints(
-    store: Store, tmp_path: Path
-) -> None:
-    file = tmp_path / "page.md"
-    file.write_text("0.99<!--= run:ratio-->\n", encoding="utf-8")
-    assert complaints(file, store) == []
-
-
 def test_a_picture_is_drawn_again_only_when_results_change(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -140,15 +85,3 @@ def test_tables_of_settings_are_made_when_the_site_is_built(
     shown = with_tables(page, store)
     assert "| `gait.stride` |  | Step size along the path [m] |" in shown
     assert "| `seed` | `--seed` |" in shown and "built:" not in shown
-
-
-def test_results_of_another_version_are_told_with_what_renews_them(
-    tmp_path: Path,
-) -> None:
-    now = header({}, command="make now")
-    old = now | {"results": "old", "command": "make old"}
-    write_result(tmp_path / "now.json", now)
-    write_result(tmp_path / "old.json", old)
-    assert old_results(Store(tmp_path)) == [
-        "old: made with another version; again by: make old"
-    ]

@@ -3,8 +3,6 @@
 import re
 from pathlib import Path
 
-import pytest
-
 import stepaside
 from tools.documents import notebooks, site_links
 
@@ -38,25 +36,6 @@ def test_every_public_name_is_in_the_reference() -> None:
         re.findall(r"^\.\. (?!py:c)[\w:]+:: (\w+)$", page, re.MULTILINE)
     ) - {"stepaside"}
     assert listed == set(stepaside.__all__) - {"__version__"}
-
-
-def test_outputs_of_another_script_or_version_are_refused(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    nbformat = pytest.importorskip("nbformat")
-    monkeypatch.setattr(notebooks, "ROOT", tmp_path)
-    script = tmp_path / "lesson.py"
-    script.write_text("# %%\n1 + 1\n")
-    assert "no outputs" in (notebooks.complaint(script) or "")
-    book = nbformat.v4.new_notebook()
-    book.metadata[notebooks.KEY] = notebooks.fingerprint(script)
-    nbformat.write(book, script.with_suffix(".ipynb"))
-    assert notebooks.complaint(script) is None
-    script.write_text("# %%\n1 + 2\n")
-    assert "of another script" in (notebooks.complaint(script) or "")
-    script.write_text("# %%\n1 + 1\n")
-    monkeypatch.setattr(notebooks, "RESULTS", "another")
-    assert "of another results" in (notebooks.complaint(script) or "")
 
 
 def test_broken_links_of_a_site_are_found(tmp_path: Path) -> None:

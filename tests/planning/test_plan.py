@@ -56,25 +56,6 @@ def test_from_standing_it_begins_at_rest_midway_between_the_feet() -> None:
         np.testing.assert_allclose(begin.com_velocity[0], 0.0, atol=1e-12)
 
 
-def test_standing_on_feet_that_are_not_abreast_the_com_is_midway() -> None:
-    """Midway between the anchors, each ahead along its own foot."""
-    plan = PLANNER.plan(
-        0.0,
-        Direction.FORWARD,
-        first_foot=Foot.LEFT,
-        swing_start=Pose(-0.03, 0.11, 0.4),
-        standing=True,
-    )
-    ahead = GAIT.zmp_forward
-    middle = 0.5 * np.array(
-        [
-            -0.03 + ahead * np.cos(0.4) + ahead,
-            0.11 + ahead * np.sin(0.4),
-        ]
-    )
-    np.testing.assert_allclose(plan.sample([0.0]).com[0], middle)
-
-
 def test_zmp_stands_in_the_anchor_of_each_support_foot() -> None:
     """Ahead of the foot frame, along the foot's own heading."""
     plan = walking()

@@ -9,7 +9,6 @@ from hypothesis import strategies as st
 
 from reference_plans import KINDS, plan_of, reference_corners, reference_feet
 from stepaside.planning import Direction, Foot, ManeuverPlan
-from stepaside.planning.com import least_values
 
 ANGLES = np.linspace(0.0, 6.28, 25)
 AROUND = np.column_stack([np.cos(ANGLES), np.sin(ANGLES)])
@@ -100,23 +99,3 @@ def test_margin_sees_the_peak_of_a_correction_between_samples() -> None:
     assert shifted.margin(first) == pytest.approx(
         sole.outer - 0.030, abs=1e-12
     )
-
-
-@settings(max_examples=200, deadline=None)
-@given(
-    st.lists(
-        st.floats(-1.0, 1.0, allow_subnormal=False), min_size=4, max_size=4
-    ),
-    st.floats(0.1, 3.0),
-)
-def test_least_value_of_a_cubic_is_never_above_its_samples(
-    coefficients: list[float], duration: float
-) -> None:
-    """And is one of its values: dense samples come as near as they must."""
-    column = np.array(coefficients)[:, None]
-    times = np.linspace(0.0, duration, 2001)
-    values = np.polynomial.polynomial.polyval(times, column[:, 0])
-    least = float(least_values(column, duration)[0])
-    assert least <= values.min() + 1e-12
-    steepest = np.abs(np.diff(values)).max()
-    assert least >= values.min() - steepest

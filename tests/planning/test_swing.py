@@ -47,26 +47,6 @@ def test_acceleration_is_the_second_derivative(profile: SwingProfile) -> None:
     np.testing.assert_allclose(told[[0, -1]], 0.0, atol=1e-12)
 
 
-@pytest.mark.parametrize("order", [1, 2])
-@pytest.mark.parametrize("end", [0.0, 1.0])
-def test_speed_and_acceleration_vanish_at_both_ends(
-    end: float, order: int
-) -> None:
-    """A power less in the height, and the foot hits the floor with a jolt.
-
-    What is left of a cubic end at a distance h is of the order
-    h ** (3 - order).
-    """
-    phases = end + H * np.arange(-order, order + 1)
-    for values, third in (
-        (swing_progress(phases), 60.0),
-        (swing_progress(phases, "even"), 6.0 * 70.0 / 3.0),
-        (swing_height(phases, 0.02), 0.02 * 6.0 * 64.0),
-    ):
-        rate = derivative(values, order, H)
-        assert np.abs(rate).max() < third * H ** (3 - order)
-
-
 def test_height_peaks_at_its_apex_half_way() -> None:
     phases = np.linspace(0.0, 1.0, 101)
     heights = swing_height(phases, 0.03)

@@ -83,21 +83,6 @@ def test_the_zmp_is_ahead_of_the_pivot_by_the_feet_s_acceleration(
     assert np.abs(shift).max() > 9.0  # [m/s^2]: there is something to see
 
 
-def test_the_zmp_stays_in_the_feet_with_a_swing_reaction() -> None:
-    """Only the CoM gives way: the ZMP is planned as ever."""
-    heavy, light = (
-        some_plan(replace(FAST, swing_reaction=c), standing=False)
-        for c in (0.0037, 0.0)
-    )
-    times = inside_phases(heavy)[4:]  # beyond the correction
-    np.testing.assert_allclose(
-        heavy.sample(times).zmp, light.sample(times).zmp, atol=1e-12
-    )
-    # Forth and back over a whole step the leg takes as much as it gives.
-    apart = heavy.sample(times).com - light.sample(times).com
-    assert 1e-3 < np.abs(apart).max() < 0.01
-
-
 @pytest.mark.parametrize("direction", Direction)
 @pytest.mark.parametrize("bearing", [0.0, pi / 4, -pi / 2])
 def test_the_fast_gait_lands_soon_with_its_zmp_well_inside(

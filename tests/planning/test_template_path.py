@@ -79,27 +79,6 @@ def test_a_body_passes_its_sample_in_the_middle_of_single_support(
     )
 
 
-def test_a_body_is_past_the_middle_of_its_feet_when_a_step_ends() -> None:
-    """In closed form: a pendulum over a ZMP that ramps in double support."""
-    plan = steady_plan(
-        ManeuverPlanner(GAIT), 0.0, Direction.FORWARD, first_foot=Foot.LEFT
-    )
-    samples = path_samples(plan.placements, Foot.LEFT, GAIT.foot_spacing)
-    com = plan.sample([STEP]).com
-    clock = progress_by_time(plan.schedule, np.array([STEP]))
-    ((x, _, _),) = poses_on_path(samples, com, clock, GAIT)
-    eta, rest, ramp = GAIT.eta, GAIT.single_support, GAIT.double_support
-    # x - p over a standing foot is odd about the middle of support: a sinh;
-    # during the ramp x - p is odd about its middle, too: a sinh and a line.
-    # Both and their rates meet where the ramp begins.
-    s, c = np.sinh(0.5 * eta * rest), np.cosh(0.5 * eta * rest)
-    u, v = np.sinh(0.5 * eta * ramp), np.cosh(0.5 * eta * ramp)
-    a = np.linalg.solve([[s, u], [c, -v]], [0.0, 1.0 / (eta * ramp)])[0]
-    past = 0.5 - a * s
-    assert x / GAIT.stride - 0.5 == pytest.approx(past, abs=1e-3)
-    assert 1.0 / 7.0 < past < 1.0 / 6.0
-
-
 @pytest.mark.parametrize("speed", [0.05, 0.3, 0.5, 1.0])
 @pytest.mark.parametrize("bearing", [pi, -pi])
 def test_a_body_that_turns_has_the_heading_between_its_feet(

@@ -83,18 +83,6 @@ def test_game_agrees_with_the_printed_equations_on_the_floor(
     assert hypot(*(ours_e[0, :2] - e[:2])) < 4e-3
 
 
-def test_start_and_poses_are_inverse() -> None:
-    pursuer, evader = Pose(0.3, -0.2, 0.4), Pose(2.5, 1.0, -2.3)
-    start = RelativeStart.from_world(pursuer, evader)
-    moved = pursuer.compose(start.poses()[1])
-    np.testing.assert_allclose(moved[:2], evader[:2])
-    run = simulate(GAMES[0], start, 1.0)
-    first_p, first_e = run.poses([0.0])
-    np.testing.assert_allclose(first_p[0], 0.0, atol=1e-15)
-    turned = first_e[0, 2] - evader.theta + pursuer.theta
-    assert remainder(turned, tau) == pytest.approx(0)
-
-
 def test_sliding_evader_keeps_the_angle_exactly() -> None:
     game = GAMES[2]
     run = simulate(game, RelativeStart(5.0, 0.2, 0.4), 40.0)
@@ -122,13 +110,6 @@ def test_capture_is_an_event_at_the_given_distance() -> None:
     assert run.captured
     assert run.end_time == pytest.approx(1.3, abs=1e-9)  # they walk head on
     assert last_state(run)[0] == pytest.approx(0.4)
-
-
-def test_closest_approach_is_the_minimum_of_the_dense_output() -> None:
-    run = simulate(GAMES[0], RelativeStart(2.0, 0.3, 2.2), 30.0)
-    fine = run.states(np.linspace(0.0, run.end_time, 30001))[:, 0]
-    assert run.closest_distance <= fine.min() + 1e-12
-    assert run.closest_distance == pytest.approx(fine.min(), abs=1e-6)
 
 
 def test_fixed_side_has_a_reversed_circle_that_the_side_rule_removes() -> None:
@@ -164,21 +145,6 @@ def test_bad_values_are_refused(value: float) -> None:
         simulate(GAMES[0], RelativeStart(1.0), 1.0, capture_distance=value)
     with pytest.raises(PlanError, match="^distance must"):
         RelativeStart(value)
-
-
-@pytest.mark.parametrize("sign", [1, -1])
-def test_evader_that_crosses_behind_is_turned_to_from_the_other_side(
-    sign: int,
-) -> None:
-    """Its error wraps where it points straight away."""
-    game = make_game(1.0, 1.0, 0.1, 1e-6, side_rule="latched")
-    run = simulate(game, RelativeStart(1.0, sign * 3.0, -sign * pi / 2), 0.5)
-    (switch,) = run.switches
-    before, after = run.states([switch - 1e-9, switch + 1e-9])
-    assert before[1] == pytest.approx(sign * pi, abs=1e-6)
-    assert after[1] == pytest.approx(-sign * pi, abs=1e-6)
-    turning = np.diff(run.poses([switch - 0.01, switch, switch + 0.01])[0].T)
-    assert sign * turning[2, 0] > 0.0 > sign * turning[2, 1]
 
 
 def test_side_that_the_rule_forbids_changes_immediately() -> None:

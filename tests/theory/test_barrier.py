@@ -6,9 +6,7 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from stepaside.core.errors import PlanError
 from stepaside.theory.value.closed_forms import (
-    barrier_poses,
     barrier_slice,
     left_half,
     turn_back,
@@ -121,13 +119,3 @@ def test_both_halves_start_on_the_circle_and_meet(capture: float) -> None:
     head_on, _ = barrier_slice(capture, pi)
     np.testing.assert_allclose(head_on[:, 1], -head_on[::-1, 1], atol=0.1)
     assert head_on[:, 0].max() > capture + 2.0
-
-
-def test_poses_of_the_barrier_are_those_of_its_slices() -> None:
-    poses, pieces = barrier_poses(1.0, 5)
-    half, numbers = barrier_slice(1.0, pi)
-    np.testing.assert_allclose(poses[-len(half) :, :2], half)
-    np.testing.assert_array_equal(pieces[-len(half) :], numbers)
-    assert set(poses[:, 2]) == set(np.linspace(0.0, pi, 6)[1:])
-    with pytest.raises(PlanError, match="capture"):
-        barrier_poses(-1.0)

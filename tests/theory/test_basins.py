@@ -14,7 +14,6 @@ from stepaside.theory.unicycle.unicycle_game import Game, make_game
 
 FAST = make_game(2.0, 1.0, 1.0, 4.0)
 SLOW_EVADER = make_game(1.0, 1.0, 2.0, 0.5)
-NO_CIRCLE = make_game(1.0, 1.0, 0.5, 2.0, 0.0)
 STARTS = [[1.0, 0.3, 0.2], [2.0, -0.4, 0.5]]
 
 
@@ -31,14 +30,6 @@ def test_games_last_until_the_slower_player_has_settled(game: Game) -> None:
     drawn = random_starts(game, 500)
     assert 0.3 * unit <= drawn[:, 0].min() < 0.4 * unit
     assert 3.9 * unit < drawn[:, 0].max() <= 4.0 * unit
-
-
-def test_duration_is_bounded_and_needs_no_circle() -> None:
-    starts = np.array(STARTS)
-    assert find_basins(NO_CIRCLE, starts).duration == pytest.approx(80.0)
-    wide = make_game(1.0, 1.0, 0.5, 2.0, 0.02)
-    assert slowest(wide) > 100.0
-    assert find_basins(wide, starts).duration == pytest.approx(800.0)
 
 
 def test_fractions_and_closest_approach_are_over_all_starts() -> None:

@@ -42,13 +42,6 @@ def solved(share: float, loss: float = 0.0) -> ShieldTable:
     )
 
 
-def test_arcs_are_those_of_a_unicycle() -> None:
-    (arc,) = sub_poses([(1.0, 0.0, 0.5 * pi)], 1.0)
-    np.testing.assert_allclose(arc[-1], [2.0 / pi, 2.0 / pi, 0.5 * pi])
-    (crab,) = sub_poses([(0.0, 1.0, 0.0)], 2.0)
-    np.testing.assert_allclose(crab[-1], [0.0, 2.0, 0.0], atol=1e-12)
-
-
 def test_distances_below_the_closed_form_can_be_kept_and_above_not() -> None:
     assert solved(0.75).outside > 0.0
     assert solved(1.15).outside == 0.0

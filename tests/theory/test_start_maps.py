@@ -1,8 +1,6 @@
 """Test maps over starts and the search of the worst one."""
 
 from math import radians
-from types import SimpleNamespace
-from typing import Any
 
 import numpy as np
 import pytest
@@ -22,7 +20,6 @@ from stepaside.theory.unicycle.unicycle_game import (
 
 FACING = StartBox(0.8, 2.0, radians(30), radians(30.5))
 NAO = make_game(0.1, 0.1, 0.2, 0.2)
-FAST = make_game(2.0, 1.0, 1.0, 4.0)
 
 
 def test_map_is_symmetric_under_mirroring() -> None:
@@ -77,28 +74,3 @@ def test_evader_looking_away_can_walk_into_its_pursuer() -> None:
     assert worst.captured
     run = simulate(NAO, worst.start, 40.0, capture_distance=0.3)
     assert run.captured and isinstance(worst.start, RelativeStart)
-
-
-def test_search_finds_the_lowest_point(
-    monkeypatch: pytest.MonkeyPatch,
-) -> None:
-    """Of a made-up bowl with an edge, between the points of the grid."""
-    from stepaside.theory.unicycle import start_maps as maps
-
-    box, lowest = StartBox(1.0, 3.0, 0.5, 1.0), np.array([2.2, -0.1, 0.3])
-    played: list[np.ndarray] = []
-
-    def bowl(game: Game, starts: np.ndarray, *_: float, **__: object) -> Any:
-        played.append(np.asarray(starts))
-        off = np.abs(played[-1] - lowest).sum(axis=1)
-        return SimpleNamespace(closest_distance=0.5 + off)
-
-    monkeypatch.setattr(maps, "play_games", bowl)
-    found = map_starts(FAST, box, 1.0, shape=(3, 3, 3))
-    worst = find_worst_start(FAST, found, box, 1.0)
-    start = worst.start
-    got = [start.distance, start.pursuer_error, start.bearing]
-    np.testing.assert_allclose(got, lowest, atol=2e-3)
-    assert worst.closest_distance == pytest.approx(0.5, abs=4e-3)
-    assert not worst.captured
-    assert worst.games == sum(len(starts) for starts in played)
