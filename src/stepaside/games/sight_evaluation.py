@@ -52,16 +52,9 @@ class SightEvaluator:
         *,
         wears_trim: bool = True,
     ) -> None:
-        """Evaluate one robot.
+        """Evaluate one robot, with positions (x, y) of other things, in [m].
 
-        Args:
-            robot: The robot.
-            other: True state of its opponent.
-            perception: Perception of the robot.
-            head: Head of the robot.
-            things: Positions (x, y) of other objects in the world, in [m].
-            wears_trim: Whether the opponent wears the colour of a robot; a
-                person does not, so colour frames cannot detect it.
+        Colour frames cannot detect an opponent without the trim of a robot.
         """
         self._wears_trim = wears_trim
         self._robot, self._other = robot, other
@@ -94,9 +87,8 @@ class SightEvaluator:
         else:
             mount = head.top
         position, axes = self._camera(mount)
-        target = np.array(
-            [*self._other.position_torso_in_world, self._height()]
-        )
+        height = float(self._other.position_com_in_world[2])
+        target = np.array([*self._other.position_torso_in_world, height])
         point = axes.T @ (target - position)
         in_view = percept.camera.sees(point)
         in_view &= self._wears_trim or not is_colour
@@ -104,10 +96,10 @@ class SightEvaluator:
             distance = float(np.hypot(*point[:2]))
             in_view &= percept.near + NEAR_MARGIN < distance < percept.far
         others = [
-            self._azimuth(axes.T @ (np.array([x, y, 0.2]) - position))
+            _azimuth(axes.T @ (np.array([x, y, 0.2]) - position))
             for x, y in self._things
         ]
-        self._true[percept] = (self._azimuth(point), in_view, others)
+        self._true[percept] = (_azimuth(point), in_view, others)
 
     def evaluate(self, report: FrameReport) -> None:
         """Compare the detections of an image with the truth."""
@@ -150,13 +142,7 @@ class SightEvaluator:
         return bearing, torsos_apart(own, other)
 
     def array(self) -> Array:
-        """Return the recorded sightings beside the truth.
-
-        Returns:
-            Time [s], estimated bearing [rad] and distance [m], true bearing
-            [rad] and distance [m] at the time of the sighting, 1 while the
-            opponent is lost. Shape (n, 6).
-        """
+        """Return ``sight`` of a trajectory; truth at the time of sighting."""
         return np.array(self._rows, dtype=np.float64).reshape(-1, 6)
 
     def summary(self) -> SightSummary:
@@ -184,12 +170,9 @@ class SightEvaluator:
         place = body.xpos + axes @ mount.position_in_body
         return place, axes @ mount.axes_in_body
 
-    def _height(self) -> float:
-        return float(self._other.position_com_in_world[2])
 
-    @staticmethod
-    def _azimuth(point: Array) -> float:
-        return atan2(float(point[1]), float(point[0]))
+def _azimuth(point: Array) -> float:
+    return atan2(float(point[1]), float(point[0]))
 
 
 def _spread(errors: Array) -> ErrorSpread:
