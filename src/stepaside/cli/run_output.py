@@ -148,8 +148,10 @@ def _facts(
             facts += _facts(value, within=name if unit_of(name) else "")
         elif isinstance(value, bool | int | float | str):
             text = format_value(within or name, value, 4)
-            label = f"{label_of(within)} {name}" if within else label_of(name)
-            expected = theory and theory.get(name)
+            label = label_of(name)
+            if within:
+                label = f"{within.rpartition('_')[0].replace('_', ' ')} {name}"
+            expected = (theory or {}).get(name)
             if expected is not None:
                 text += f" (theory {format_value(name, expected, 4)})"
             facts.append(f"{label} {text}" if labelled else text)

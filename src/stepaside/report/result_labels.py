@@ -10,6 +10,7 @@ UNITS = {
     "_n_s": "N s",
     "_m_s": "m/s",
     "_rad": "deg",
+    "_deg_s": "deg/s",
     "_deg": "deg",
     "_us": "us",
     "_hz": "Hz",
