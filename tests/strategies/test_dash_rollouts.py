@@ -6,11 +6,10 @@ import numpy as np
 import pytest
 
 from stepaside.core.poses import ALL_AROUND, Pose, Sector
-from stepaside.strategies.dash_rollouts import (
+from stepaside.strategies.dash_evasion import (
     STEP,
     Opponent,
     closest_approaches,
-    greatest_velocity,
     make_dashes,
     roll_out,
     unseen_shares,
@@ -19,6 +18,7 @@ from stepaside.strategies.velocity_set import (
     STILL,
     AxisValues,
     VelocitySet,
+    greatest_velocity,
 )
 
 FAST, SLOW = 0.8, 0.4

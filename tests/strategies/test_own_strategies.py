@@ -151,9 +151,8 @@ def test_a_strategy_of_a_file_can_be_sent_to_another_process(
 
 
 def test_names_take_arguments() -> None:
-    assert load_strategy("pursuit(gain=2, sway=90deg)") == Pursuit(
-        gain=2, sway=pi / 2
-    )
+    assert load_strategy("pursuit(gain=2, pull=1)") == Pursuit(gain=2, pull=1)
+    assert load_strategy("evasion(angle=45deg)") == Evasion(pi / 4)
     assert load_strategy("pursuit(gain=inf)") == load_strategy("sharp")
     assert load_strategy("noisy( seed = 3 )") == Pursuit(
         gain=2.0, noise=0.5, seed=3

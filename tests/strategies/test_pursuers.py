@@ -59,13 +59,6 @@ def test_without_parameters_it_is_the_pursuer_of_the_paper() -> None:
         assert heading(Pursuit(), known(bearing)) == bearing
 
 
-def test_sway_adds_a_periodic_error() -> None:
-    swaying = Pursuit(sway=0.3, period=8.0)
-    for time, error in ((0.0, 0.0), (2.0, 0.3), (4.0, 0.0), (6.0, -0.3)):
-        seen = replace(known(0.4), time=time)
-        assert heading(swaying, seen) == pytest.approx(0.4 + error)
-
-
 def test_noise_depends_on_seed_and_step_alone() -> None:
     noisy, other = Pursuit(noise=0.5), Pursuit(noise=0.5, seed=1)
     errors = [

@@ -18,11 +18,9 @@ from stepaside.strategies import (
     StepGame,
     Strategy,
 )
-from stepaside.strategies.opponent_models import (
+from stepaside.strategies.robust_evasion import (
     MODELS,
     ModelFit,
-)
-from stepaside.strategies.robust_evasion import (
     RobustMemory,
     actions_of,
 )

@@ -8,7 +8,6 @@ import pytest
 
 from stepaside.arena import (
     NO_OBSTACLES,
-    Box,
     Disc,
     ObstacleSet,
     RoomRecipe,
@@ -23,15 +22,9 @@ from stepaside.strategies.look_ahead import (
     PIECES,
     SIGHT,
     Aims,
-    Problem,
     even_turns,
     judge,
     look_ahead,
-)
-from stepaside.strategies.search.distance_field import (
-    CELL,
-    distance_field,
-    field_clearance,
 )
 from stepaside.strategies.search.step_motion import (
     PlayerPair,
@@ -73,39 +66,17 @@ def test_a_step_is_the_arc_of_both_unicycles(
         np.testing.assert_allclose(got, (after.x, after.y, c, s), atol=1e-9)
 
 
-@pytest.mark.parametrize("seed", range(3))
-def test_the_distance_field_is_a_safe_and_tight_bound(seed: int) -> None:
-    """Within its cells and beyond, also where a cell has many neighbours."""
-    room = generate_room(RoomRecipe(discs=3, boxes=2, polygons=2), seed)
-    heap = [Box(0.6 + 0.02 * n, 0.6, 0.05, 0.05, 0.1 * n) for n in range(20)]
-    solids = ObstacleSet((*room.solids, *heap))
-    enough = 0.3
-    field = distance_field(solids.packed, enough, 0.2, -0.1, 1.2)
-    random = np.random.default_rng(seed)
-    points = random.uniform(-1.7, 1.7, (1500, 2))
-    exact = np.minimum(solids.clearance(points), enough)
-    found = [field_clearance(field, x, y) for x, y in points.tolist()]
-    np.testing.assert_allclose(found, exact, atol=1e-12)
-    cells = np.floor((points - (field.x, field.y)) / CELL).astype(int)
-    inside = np.all((cells >= 0) & (cells < len(field.bounds)), axis=1)
-    assert 200 < inside.sum() < 1400
-    bounds = field.bounds[tuple(cells[inside].T)]
-    diagonal = CELL * 2.0**0.5
-    assert np.all(bounds <= exact[inside] + 1e-12)
-    assert np.all(bounds >= exact[inside] - diagonal - 1e-12)
+AIMS = Aims(
+    even_turns(7, RULES.largest), 0.8, 0.205, 60.0, 1e-6, RULES, PACKED
+)
 
 
-AIMS = Aims(even_turns(7, RULES.largest), 0.8, 0.205, 60.0, 1e-6)
-
-
-def walked(both: PlayerPair, turns: Any, spot: int, packed: Any) -> float:
+def walked(both: PlayerPair, turns: Any, spot: int) -> float:
     """Return the score of a maneuver, step by step."""
-    reach = len(turns) * RULES.stride
-    field = distance_field(packed, AIMS.clearance, both.ex, both.ey, reach)
     score = AIMS.enough
     for n, turn in enumerate(turns):
         both = step_both(both, turn, 0.05 if n < spot else 1.0)
-        score = judge(both, score, Problem(AIMS, RULES, field))
+        score = judge(both, score, AIMS)
     return score
 
 
@@ -116,23 +87,23 @@ def test_the_maneuver_found_has_its_score_and_beats_others(seed: int) -> None:
     evader = Pose(*random.uniform([-1, -1, -pi], [1, 1, pi]).tolist())
     pursuer = Pose(*random.uniform([-1, -1, -pi], [1, 1, pi]).tolist())
     both = place(evader, pursuer)
-    found = look_ahead(both, np.zeros(0), 0, AIMS, RULES, PACKED)
-    assert walked(both, found.turns, found.spot, PACKED) == pytest.approx(
+    found = look_ahead(both, np.zeros(0), 0, AIMS)
+    assert walked(both, found.turns, found.spot) == pytest.approx(
         found.score, abs=1e-9
     )
     for _ in range(30):
         plan = np.repeat(random.choice(AIMS.turns, len(PIECES)), PIECES)
-        given = look_ahead(both, plan, 0, AIMS, RULES, PACKED)
+        given = look_ahead(both, plan, 0, AIMS)
         law = given.turns[len(plan) :]
         assert len(law) == HORIZON - len(plan) + given.spot
         assert given.score >= found.score - 1e-6
-    kept = look_ahead(both, found.turns, found.spot, AIMS, RULES, PACKED)
+    kept = look_ahead(both, found.turns, found.spot, AIMS)
     assert kept.score >= found.score - 1e-9
 
 
 def test_in_a_corner_it_turns_on_the_spot_first() -> None:
     corner = place(Pose(1.25, 1.25, -pi * 0.75), Pose(0.75, 0.75, pi / 4))
-    found = look_ahead(corner, np.zeros(0), 0, AIMS, RULES, PACKED)
+    found = look_ahead(corner, np.zeros(0), 0, AIMS)
     assert found.spot > 0 and found.spot % 2 == 0
     assert len(found.turns) == HORIZON + found.spot
     assert set(np.abs(found.turns[: found.spot])) == {RULES.largest}
@@ -144,8 +115,7 @@ def test_missing_clearance_and_lost_sight_are_penalised() -> None:
     disc = ObstacleSet((Disc(x, y, radius),)).packed
 
     def judged(both: PlayerPair, packed: Any) -> float:
-        field = distance_field(packed, AIMS.clearance, both.ex, both.ey, 1.0)
-        return judge(both, 0.9, Problem(AIMS, RULES, field))
+        return judge(both, 0.9, AIMS._replace(packed=packed))
 
     near = both._replace(
         ex=x + radius + 0.195, ey=y, px=x + radius + 1.195, py=y

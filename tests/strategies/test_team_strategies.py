@@ -12,13 +12,11 @@ from stepaside.arena import Box, ObstacleSet
 from stepaside.core.player_identity import PlayerIdentity, Role
 from stepaside.strategies.goal_walk import GoalWalk
 from stepaside.strategies.knowledge import Knowledge, Limits, OtherPlayer
-from stepaside.strategies.team_evasion import (
-    TeamEvasion,
-)
-from stepaside.strategies.team_pursuit import (
+from stepaside.strategies.team_strategies import (
     AssignedPursuit,
     CyclicPursuit,
     Pincer,
+    TeamEvasion,
     assign,
 )
 from stepaside.strategies.velocity_set import BodyVelocity, VelocitySet

@@ -16,10 +16,10 @@ from .strategy import StandStill as StandStill
 from .strategy import Strategy as Strategy
 from .strategy import Walk as Walk
 from .strategy_game import StepGame as StepGame
-from .team_evasion import TeamEvasion as TeamEvasion
-from .team_pursuit import AssignedPursuit as AssignedPursuit
-from .team_pursuit import CyclicPursuit as CyclicPursuit
-from .team_pursuit import Pincer as Pincer
+from .team_strategies import AssignedPursuit as AssignedPursuit
+from .team_strategies import CyclicPursuit as CyclicPursuit
+from .team_strategies import Pincer as Pincer
+from .team_strategies import TeamEvasion as TeamEvasion
 
 __all__ = [
     "AssignedPursuit",

@@ -9,10 +9,9 @@ import numpy as np
 from ..core.poses import Array, Pose, wrap_angle
 from ..core.ranges import Range
 from ..core.setting import CheckedSettings, setting
-from .dash_rollouts import greatest_velocity
 from .knowledge import STAND, Intent, Knowledge
 from .pursuit import PursuitVariant
-from .velocity_set import BodyVelocity, VelocitySet
+from .velocity_set import BodyVelocity, VelocitySet, greatest_velocity
 
 ARRIVED = 0.2  # distance from the goal at which it halts, in [m]
 HORIZON = 4.0  # of the prediction, in [s]

@@ -16,17 +16,13 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from ..arena.obstacles import PackedObstacles, clearance_at
 from ..core.compilation import compiled, copy_values, inlined
 from ..core.poses import Array, Pose
 from ..core.ranges import Range
 from ..core.setting import CheckedSettings, setting
 from .knowledge import ON_THE_SPOT, STAND, Intent, Knowledge
 from .opponent_track import OpponentTrack, track_of_steps
-from .search.distance_field import (
-    DistanceField,
-    distance_field,
-    field_clearance,
-)
 from .search.step_motion import (
     PAPERS,
     PlayerPair,
@@ -137,14 +133,14 @@ class LookAhead(BackwardStrategy, CheckedSettings):
             self.body_radius + MARGIN,
             min(PENALTY, MAP_ERROR_COST / map_error),
             map_error,
+            rules,
+            knowledge.obstacles_in_map.packed,
         )
         best = look_ahead(
             both,
             np.array(memory.plan[made:], dtype=np.float64),
             max(0, memory.spot - made),
             aims,
-            rules,
-            knowledge.obstacles_in_map.packed,
         )
         turn = float(best.turns[0])
         heading = turn / rules.share
@@ -239,14 +235,8 @@ class Aims(NamedTuple):
     clearance: float  # that the own centre requires [m]
     penalty: float  # of missing clearance, in [m] per [m]
     gain: float  # over the present maneuver that replaces it [m]
-
-
-class Problem(NamedTuple):
-    """All that a rollout needs."""
-
-    aims: Aims
     rules: StepRules
-    field: DistanceField
+    packed: PackedObstacles
 
 
 class BestManeuver(NamedTuple):
@@ -258,14 +248,13 @@ class BestManeuver(NamedTuple):
 
 
 @inlined
-def judge(both: PlayerPair, score: float, problem: Problem) -> float:
+def judge(both: PlayerPair, score: float, aims: Aims) -> float:
     """Return the score after one more step, given the score before it."""
-    aims = problem.aims
     dx, dy = both.px - both.ex, both.py - both.ey
     reward = min((dx * dx + dy * dy) ** 0.5, aims.enough)
     if reward < score:
         score = reward
-    clear = field_clearance(problem.field, both.ex, both.ey)
+    clear = clearance_at(aims.packed, both.ex, both.ey, aims.clearance)
     psi = abs(atan2(both.ec * dy - both.es * dx, both.ec * dx + both.es * dy))
     if psi > SIGHT:
         score = min(score, reward - BLINDNESS * (psi - SIGHT))
@@ -295,14 +284,14 @@ def roll_out(
     given: int,
     spot: int,
     worst: float,
-    problem: Problem,
+    aims: Aims,
 ) -> tuple[PlayerPair, float, int]:
     """Roll out given turns, then the law; return state, score and steps.
 
     The turns of the law are filled in. The first steps may turn on the spot;
     at a score that is no better than the worst the rollout ends.
     """
-    rules, side = problem.rules, 0.0
+    rules, side = aims.rules, 0.0
     for n in range(len(turns)):
         if n >= given:
             if side == 0.0:
@@ -312,7 +301,7 @@ def roll_out(
             turns[n] = law_turn(both, side, rules.share)
         pace = ON_THE_SPOT if n < spot else 1.0
         both = step_both(both, turns[n], pace, PAPERS, rules)
-        score = judge(both, score, problem)
+        score = judge(both, score, aims)
         if score <= worst:
             return both, score, n + 1
     return both, score, len(turns)
@@ -325,7 +314,7 @@ def descend(
     first: int,
     made: int,
     best: float,
-    problem: Problem,
+    aims: Aims,
     chosen: Any,
     work: Any,
 ) -> tuple[float, int]:
@@ -335,7 +324,7 @@ def descend(
     are in the scratch array; turns that are better than the best are written
     to ``chosen``. Both have shape (HORIZON + SPOTS,).
     """
-    tried, last, level = problem.aims.turns, len(PIECES) - 1, 0
+    tried, last, level = aims.turns, len(PIECES) - 1, 0
     index = np.zeros(len(PIECES), dtype=np.int64)
     begins = np.zeros(len(PIECES), dtype=np.int64)
     scores = np.zeros(len(PIECES))
@@ -346,7 +335,7 @@ def descend(
         if index[level] == len(tried):
             level -= 1
             continue
-        at, worst = begins[level], best + problem.aims.gain
+        at, worst = begins[level], best + aims.gain
         piece = work[at : at + PIECES[level]]
         for n in range(len(piece)):
             piece[n] = tried[index[level]]
@@ -358,7 +347,7 @@ def descend(
             len(piece),
             0,
             worst,
-            problem,
+            aims,
         )
         made += more
         if score <= worst:
@@ -370,7 +359,7 @@ def descend(
             store(here, states[level])
             continue
         rest = work[at : first + HORIZON]
-        here, score, more = roll_out(here, score, rest, 0, 0, worst, problem)
+        here, score, more = roll_out(here, score, rest, 0, 0, worst, aims)
         made += more
         if score > worst:
             best = score
@@ -386,8 +375,6 @@ def look_ahead(
     plan: Any,
     planned: int,
     aims: Aims,
-    rules: StepRules,
-    packed: Any,
 ) -> BestManeuver:
     """Find the best maneuver among obstacles.
 
@@ -398,15 +385,12 @@ def look_ahead(
     the spot, by the sharpest turn, are tried, too.
     """
     chosen, work = np.zeros(HORIZON + SPOTS), np.zeros(HORIZON + SPOTS)
-    reach = len(chosen) * rules.stride
-    field = distance_field(packed, aims.clearance, both.ex, both.ey, reach)
-    problem = Problem(aims, rules, field)
     start, best, spot, made = aims.enough, -inf, 0, 0
     for given in (0, min(len(plan), HORIZON)):
         copy_values(plan[:given], work)
         worst, begins = best - aims.gain, min(planned, given)
         _, score, more = roll_out(
-            both, start, work[:HORIZON], given, begins, worst, problem
+            both, start, work[:HORIZON], given, begins, worst, aims
         )
         made += more
         if score > worst:
@@ -414,17 +398,17 @@ def look_ahead(
             copy_values(work, chosen)
     if best >= start:
         return BestManeuver(best, chosen[: HORIZON + spot], spot)
-    found, made = descend(both, start, ROOT, made, best, problem, chosen, work)
+    found, made = descend(both, start, ROOT, made, best, aims, chosen, work)
     if found > best:
         best, spot = found, 0
     if best < TIGHT:
         for side in (-1.0, 1.0):
             here, score = both, start
             for n in range(SPOTS):
-                work[n] = side * rules.largest
+                work[n] = side * aims.rules.largest
                 worst, turn = best + aims.gain, work[n : n + 1]
                 here, score, more = roll_out(
-                    here, score, turn, 1, 1, worst, problem
+                    here, score, turn, 1, 1, worst, aims
                 )
                 made += more
                 if score <= worst:
@@ -432,7 +416,7 @@ def look_ahead(
                 if n % 2 == 0:
                     continue
                 found, made = descend(
-                    here, score, n + 1, made, best, problem, chosen, work
+                    here, score, n + 1, made, best, aims, chosen, work
                 )
                 if found > best:
                     best, spot = found, n + 1

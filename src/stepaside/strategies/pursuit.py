@@ -1,7 +1,7 @@
 """Pursuit: head for the evader (paper, Sec. II-A), and variations of it."""
 
 from dataclasses import dataclass, field, replace
-from math import atan2, cos, hypot, inf, pi, sin, tau
+from math import atan2, cos, hypot, inf, pi, sin
 from typing import Any, ClassVar, NamedTuple
 
 import numpy as np
@@ -70,16 +70,6 @@ class Pursuit(CheckedSettings):
         "between the players",
         Range(0.0, 10.0, "1", "beyond, it forgets the evader"),
     )
-    sway: float = setting(
-        0.0,
-        "Amplitude of a periodic error of its bearing",
-        Range(0.0, pi, "rad", "half a turn"),
-    )
-    period: float = setting(
-        10.0,
-        "Period of that error",
-        Range(0.1, 1e3, "s", "it is periodic"),
-    )
     noise: float = setting(
         0.0,
         "Standard deviation of a random error of its bearing in each step",
@@ -111,7 +101,7 @@ class Pursuit(CheckedSettings):
         if knowledge.time % (self.walking + self.waiting) >= self.walking:
             return STAND, memory
         seen, side = knowledge, 0
-        if self.lead or self.pull or self.sway or self.noise:
+        if self.lead or self.pull or self.noise:
             seen = self._aimed(knowledge, memory.track)
         bearing = seen.bearing
         if seen.obstacles_in_map:
@@ -151,20 +141,13 @@ class Pursuit(CheckedSettings):
                 bearing=wrap_angle(atan2(dy, dx) - theta),
                 distance=hypot(dx, dy) * way,
             )
-        error = self._error(knowledge)
-        if error:
-            bearing = wrap_angle(knowledge.bearing + error)
-            knowledge = replace(knowledge, bearing=bearing)
-        return knowledge
-
-    def _error(self, knowledge: Knowledge) -> float:
-        """Return the error of its bearing at a time, in [rad]."""
-        error = self.sway * sin(tau * knowledge.time / self.period)
         if self.noise:
             step = round(knowledge.time / knowledge.limits.step_duration)
             stream = named_generator(self.seed, f"noisy-pursuit/{step}")
-            error += min(max(self.noise * stream.normal(), -pi), pi)
-        return error
+            error = min(max(self.noise * stream.normal(), -pi), pi)
+            bearing = wrap_angle(knowledge.bearing + error)
+            knowledge = replace(knowledge, bearing=bearing)
+        return knowledge
 
     def _heading(self, bearing: float, limits: Limits) -> float:
         """Return the desired heading of eq. (2) at the own gain, in [rad].

@@ -10,11 +10,15 @@ import numpy as np
 
 from ..core.poses import Array
 from ..planning import Direction
-from .dash_rollouts import greatest_velocity
 from .knowledge import ON_THE_SPOT, Intent, Limits
 from .shield_settings import ShieldSettings
 from .table_cache import cached
-from .velocity_set import STILL, BodyVelocity, VelocitySet
+from .velocity_set import (
+    STILL,
+    BodyVelocity,
+    VelocitySet,
+    greatest_velocity,
+)
 
 if TYPE_CHECKING:  # the solver imports Numba
     from ..theory.value import ShieldGame, ShieldTable

@@ -1,7 +1,9 @@
 """Body velocities that legs deliver, and how fast they respond."""
 
-from math import expm1, hypot
-from typing import NamedTuple
+from math import cos, expm1, hypot, sin
+from typing import Any, NamedTuple
+
+from ..core.compilation import inlined
 
 Bounds = tuple[float, float]
 """Least and greatest value; zero is between them."""
@@ -91,3 +93,19 @@ def respond(
     return BodyVelocity(
         *(v + response_share(duration, lag) * (c - v) for v, c, lag in axes)
     )
+
+
+@inlined
+def greatest_velocity(angle: float, bounds: Any) -> tuple[float, float]:
+    """Return the fastest velocity in a direction of the body, in [m/s].
+
+    Components ahead and to the left, within a velocity set or its first two
+    bounds; a unicycle walks at its component of the velocity.
+    """
+    c, s = cos(angle), sin(angle)
+    ahead = bounds[0][1] if c > 0.0 else -bounds[0][0]
+    left = bounds[1][1] if s > 0.0 else -bounds[1][0]
+    if ahead > 0.0 and left > 0.0:
+        speed = 1.0 / hypot(c / ahead, s / left)
+        return speed * c, speed * s
+    return c * max(ahead, 0.0), s * max(left, 0.0)

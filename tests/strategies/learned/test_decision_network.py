@@ -17,7 +17,7 @@ from stepaside.strategies.learned import (
     dense_network,
     load_learned_strategy,
 )
-from stepaside.strategies.learned.decision_network import open_network
+from stepaside.strategies.learned.learned_strategy import open_network
 
 onnx = pytest.importorskip("onnx")
 RANDOM = np.random.default_rng(5)

@@ -1,7 +1,10 @@
 """Learned strategies: a network in an ONNX file, with its contract."""
 
-from .decision_network import dense_network
-from .learned_strategy import LearnedStrategy, load_learned_strategy
+from .learned_strategy import (
+    LearnedStrategy,
+    dense_network,
+    load_learned_strategy,
+)
 from .strategy_contract import StrategyContract
 
 __all__ = [

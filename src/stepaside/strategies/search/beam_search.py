@@ -12,14 +12,13 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from ...arena.obstacles import PackedObstacles
+from ...arena.obstacles import PackedObstacles, clearance_at
 from ...core.compilation import (
     compiled,
     compiled_loop,
     copy_values,
     inlined,
 )
-from .distance_field import DistanceField, distance_field, field_clearance
 from .step_motion import (
     PursuerModel,
     StepRules,
@@ -125,7 +124,7 @@ def expand(
     state: Any,
     arcs: Any,
     model: PursuerModel,
-    field: DistanceField,
+    packed: PackedObstacles,
     rules: BeamRules,
     new: Successors,
     made: int,
@@ -142,7 +141,8 @@ def expand(
     px, py, ahead, left = pursue(both, model, rules.step)
     state[4], state[5], state[6], state[7] = px, py, ahead, left
     # An evader that is too near to an obstacle may turn, or leave it.
-    near = field_clearance(field, ex, ey) - rules.clearance
+    enough = rules.clearance + CLEAR
+    near = clearance_at(packed, ex, ey, enough) - rules.clearance
     walking, turning = 0.0, -ON_SPOT_SLACK
     if near < turning:
         walking, turning = min(near + LEAVING, 0.0), near
@@ -155,7 +155,7 @@ def expand(
         square = dx * dx + dy * dy
         if square <= rules.capture * rules.capture:
             continue
-        clear = field_clearance(field, x, y) - rules.clearance
+        clear = clearance_at(packed, x, y, enough) - rules.clearance
         walks = abs(arcs[k, 0]) > SLOW * rules.step.stride
         if clear < (walking if walks else turning):
             continue
@@ -186,14 +186,14 @@ def expand_beam(
     beam: Any,
     arcs: Any,
     model: PursuerModel,
-    field: DistanceField,
+    packed: PackedObstacles,
     rules: BeamRules,
     new: Successors,
 ) -> int:
     """Write the successors of all states; return their number."""
     made = 0
     for b in range(len(beam)):
-        more = expand(beam[b], arcs, model, field, rules, new, made)
+        more = expand(beam[b], arcs, model, packed, rules, new, made)
         for m in range(made, more):
             new.origins[m, 0] = b
         made = more
@@ -297,10 +297,6 @@ def beam_search(
     """
     arcs = action_arcs(actions, rules.step.stride)
     width, horizon = rules.width, rules.horizon
-    reach = horizon * rules.step.stride + 0.2
-    field = distance_field(
-        packed, rules.clearance + CLEAR, start[0], start[1], reach
-    )
     new, beams = successors(width * len(arcs)), np.zeros((2, width, 9))
     chosen = np.zeros((horizon, width, 2), dtype=np.int32)
     places = 4
@@ -311,7 +307,7 @@ def beam_search(
     count, steps = 1, 0
     while steps < horizon:
         old, beam = beams[steps % 2], beams[(steps + 1) % 2]
-        made = expand_beam(old[:count], arcs, model, field, rules, new)
+        made = expand_beam(old[:count], arcs, model, packed, rules, new)
         if made == 0:
             break
         count = select_best(new, made, old, beam, table, chosen[steps])
@@ -336,13 +332,12 @@ def play_moves(
     Moves are turn [rad] and speed factor of each step, (n, 2); the distance is
     at most 0.8 m. The start is that of :func:`beam_search`.
     """
-    field = distance_field(packed, rules.clearance + CLEAR, 0.0, 0.0, 0.0)
     arcs = action_arcs(moves, rules.step.stride)
     state, new = np.zeros(9), successors(1)
     begin(start, state)
     for n in range(len(moves)):
         arc = arcs[n : n + 1]
-        if not expand(state, arc, model, field, rules, new, 0):
+        if not expand(state, arc, model, packed, rules, new, 0):
             return n, state[8]
         copy_values(new.poses[0, :4], state)
         state[8] = new.poses[0, 4]
