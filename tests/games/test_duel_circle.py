@@ -164,7 +164,7 @@ def test_nothing_converges_without_a_circle_or_a_record() -> None:
 
 
 def test_the_circle_is_that_of_the_arguments_of_evasion() -> None:
-    told = duel(evasion=Evasion(angle=radians(45.0)))
+    told = duel(evader={"evasion": Evasion(angle=radians(45.0))})
     named = duel(evader={"strategy": "evasion(angle=45deg)"})
     wanted, found = circle_of_theory(told), circle_of_theory(named)
     assert found.exists and found.distance_m == wanted.distance_m

@@ -145,7 +145,7 @@ def test_the_opponent_is_at_its_sightings(walked: Walked) -> None:
 def test_a_play_is_read_from_its_folder_with_checksums(walked: Walked) -> None:
     loaded = load_run(walked.folder, "play")
     assert loaded.summary == walked.run.summary
-    assert loaded.settings == EVADER
+    assert loaded.settings == EVADER.resolved()
     for name, track in walked.run.tracks.items():
         for key, array in track.arrays("").items():
             got = loaded.tracks[name].arrays("")[key]

@@ -7,6 +7,7 @@ import pytest
 from click.testing import CliRunner, Result
 
 from stepaside.cli.main import main
+from stepaside.games.game_settings import duel as make_duel
 from stepaside.games.game_settings import walk
 from stepaside.games.outcome import Outcome
 from stepaside.games.recorded_game import run_game
@@ -44,7 +45,7 @@ def test_a_walk_is_compared_with_walks_alone(
 
     duel = tmp_path / "duel"
     duel.mkdir()
-    write_run_files(duel, run_game(duel(duration=0.04)))
+    write_run_files(duel, run_game(make_duel(duration=0.04)))
     mixed = compare(duel)
     assert mixed.exit_code == 2 and mixed.output.count("\n") == 1
     assert "must be of the same game, got duel and walk" in mixed.output

@@ -39,10 +39,10 @@ def test_only_a_certified_start_has_a_certified_distance() -> None:
     assert 0.3 < play_duel(settings)["certified_m"] < 0.75
     for changes in (
         {"start": blind},
-        {"strategy": Evasion(saturated=True)},
-        {"strategy": Evasion(angle=0.0)},
+        {"evasion": Evasion(saturated=True)},
+        {"evasion": Evasion(angle=0.0)},
     ):
-        record = play_duel(replace(settings, **changes))
+        record = play_duel(settings.changed(**changes))
         assert record["certified_m"] is None
 
 

@@ -138,7 +138,7 @@ def test_json_and_a_configuration_are_printed_as_before() -> None:
         result = CliRunner().invoke(
             main, [*words, "--json", "--settings"], catch_exceptions=False
         )
-        assert result.exit_code == 0 and "[gait]" in result.stdout
+        assert result.exit_code == 0 and "[[players]]" in result.stdout
 
 
 MODELS = (

@@ -51,7 +51,8 @@ def test_games_turn_out_as_under_this_version(
     file = tmp_path / "study.toml"
     seeds = {
         "unicycles": "aim = [0.1, 0.5, 2.0]",
-        "walk": "bearing = [0.0, 0.3, -1.0]",
+        "walk": "walker.strategy = ['walk(bearing=0.0)', "
+        "'walk(bearing=0.3)', 'walk(bearing=-1.0)']",
     }.get(game, 'seed = "1:4"')
     file.write_text(
         f'game = "{game}"\n[grid]\n{seeds}\n[settings]\n{settings}\n'

@@ -200,6 +200,11 @@ def _load_complete_run(folder: Path) -> Run:
     find_files(entries, folder)
     source = str(folder / CONFIGURATION)
     settings = parse_settings(KINDS[plain["game"]], entries, source)
+    if settings.game != plain["game"]:
+        raise ConfigurationError(
+            f"game of run {folder} must be {settings.game}, as in "
+            f"{CONFIGURATION}, got {plain['game']!r}"
+        )
     return read_record(folder.resolve().name, settings, plain, arrays)
 
 
