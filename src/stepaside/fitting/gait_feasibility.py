@@ -108,6 +108,7 @@ def stabiliser_of(size: RobotSize) -> dict[str, float]:
         "ankle_rate": _round(ANKLE_RATE * time),
         "gap": _round(min(GAP * z, 0.5 * gap)),
         "step_speed": _round(STEP_SPEED * size.speed),
+        "stride_gain": 0.0,
         "load_share": 1.0,
     }
 

@@ -83,6 +83,11 @@ class StabiliserSettings(CheckedSettings):
         "Greatest speed at which an adapted footstep moves",
         Range(0.0, 100.0, "m/s", "no swing foot is faster"),
     )
+    stride_gain: float = setting(
+        0.3,
+        "Learning gain of the shortfall of footsteps",
+        Range(0.0, 1.0, "1", "a fraction"),
+    )
     joint_gain: float = setting(
         10.0,
         "Gain of the integral of joint errors",

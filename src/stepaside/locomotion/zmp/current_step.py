@@ -137,10 +137,17 @@ def shifted_swing(
     """Return a reference whose swing foot heads for a shifted landing."""
     if not step.walking or shift == (0.0, 0.0):
         return body
-    left = step.swing is Foot.LEFT
+    u, v = step.progress * shift[0], step.progress * shift[1]
+    return moved_swing(body, step.swing, u, v, 0.0)
+
+
+def moved_swing(
+    body: BodyReference, swing: Foot, x: float, y: float, turn: float
+) -> BodyReference:
+    """Return a reference whose swing foot is moved in odometry."""
+    left = swing is Foot.LEFT
     u, v, z, yaw = body.left_foot if left else body.right_foot
-    x, y = step.progress * shift[0], step.progress * shift[1]
-    moved = u + x, v + y, z, yaw
+    moved = u + x, v + y, z, yaw + turn
     if left:
         return body._replace(left_foot=moved)
     return body._replace(right_foot=moved)

@@ -15,17 +15,18 @@ plan stays in the sole.
 """
 
 from collections import deque
-from math import exp, hypot
+from math import atan2, exp, hypot
 from typing import NamedTuple
 
 import numpy as np
 
 from ...core.compilation import bound, compiled
-from ...core.poses import Array, Pose
+from ...core.poses import Array, Pose, wrap_angle
 from ...perception.measurement import RobotState
 from ...planning import CenterState, Foot, GaitSettings, ManeuverPlan
+from ...planning.swing import swing_progress
 from ...robots.description import RobotDescription
-from ...robots.forward_kinematics import ForwardKinematics
+from ...robots.forward_kinematics import ForwardKinematics, MeasuredPosture
 from ...robots.leg_kinematics import BodyReference, LegKinematics
 from ..control_settings import ControlSettings, StabiliserSettings
 from .current_step import (
@@ -33,6 +34,7 @@ from .current_step import (
     adapted_landing,
     beyond,
     clip_to,
+    moved_swing,
     shifted_swing,
     zmp_box,
 )
@@ -44,6 +46,8 @@ from .state_estimator import BodyState, StateEstimator
 ZERO = (0.0, 0.0)
 FREEZE = 0.95  # fraction of the swing after which the footstep is fixed
 ANKLE_BANDWIDTH = 50.0  # of the filter of the tilt of the stance foot [1/s]
+MAX_TURN = 0.08  # of the learned correction of a footstep [rad]
+STRIDE_BOUND = 0.056  # of that of its place, by the CoM height
 JOINT_BOUND = 0.03  # largest correction of a joint [rad]
 
 
@@ -102,6 +106,8 @@ class Stabiliser(OpenLoop):
             edge = gains.edge
             self.mpc = IntrinsicallyStableMpc(gait, settings.mpc, edge=edge)
         self._ankles = Ankles(gains, tick)
+        self._stride = StrideLearning(gait, gains.stride_gain)
+        self._angles: Array | None = None  # of the last measurement
         self._asked: deque[StabiliserTargets] = deque(
             maxlen=max(1, round(delay / tick) + 1)
         )
@@ -145,6 +151,7 @@ class Stabiliser(OpenLoop):
             return row.body
         self._react(step)
         body = shifted_swing(row.body, step, self.step_shift)
+        body = self._stride.aimed(body, step)
         x, y, z = row.body.com
         assert self.state is not None
         commanded = self._asked[0].body
@@ -183,6 +190,7 @@ class Stabiliser(OpenLoop):
             commanded.reaction,
         )
         self.state, self.tilt = state, state.tilt
+        self._angles = measurement.joint_positions
         self.ready = self.estimator.ready
         self.measured_heading = self.estimator.torso_heading
         dead = self.settings.stabiliser.dead_zone
@@ -276,6 +284,9 @@ class Stabiliser(OpenLoop):
         vx, vy, _ = turn.compose(Pose(eta * (dx - cx), eta * (dy - cy), 0.0))
         if hypot(u, v) > 1e-3:
             self.adapted += 1
+        elif self._angles is not None:
+            posture = self.estimator.kinematics.posture(self._angles)
+            self._stride.learn(posture, step)
         self.com_shift = self.dcm_shift = self.step_shift = ZERO
         return (
             Pose(landed.x + u, landed.y + v, landed.theta),
@@ -386,6 +397,49 @@ class JointCorrection:
             *(self._gain, self._keep, JOINT_BOUND),
         )
         return correction
+
+
+class StrideLearning:
+    """Correction of the swing foot's target by its previous shortfall.
+
+    With backlash and delay a foot lands a few percent short of its target. The
+    correction fades in with the swing, and out again in the double support,
+    where the joints only strain.
+    """
+
+    def __init__(self, gait: GaitSettings, gain: float) -> None:
+        self._gait, self._gain = gait, gain
+        bound = STRIDE_BOUND * gait.com_height
+        self._bounds = np.array([bound, bound, MAX_TURN])
+        self._aims = {foot: np.zeros(3) for foot in Foot}
+
+    def learn(self, posture: MeasuredPosture, step: CurrentStep) -> None:
+        """Update from the posture at the end of a step."""
+        own, other = (0, 1) if step.swing is Foot.LEFT else (1, 0)
+        feet, axes = (
+            posture.positions_feet_in_torso,
+            posture.axes_feet_in_torso,
+        )
+        x, y, _ = axes[other].T @ (feet[own] - feet[other])
+        turn = axes[other].T @ axes[own]
+        u, v, theta = step.support.inverse().compose(step.landing)
+        missed = wrap_angle(theta - atan2(turn[1, 0], turn[0, 0]))
+        short = self._gain * np.array([u - x, v - y, missed])
+        aim = self._aims[step.swing] + short
+        self._aims[step.swing] = np.clip(aim, -self._bounds, self._bounds)
+
+    def aimed(self, body: BodyReference, step: CurrentStep) -> BodyReference:
+        """Return a reference with the corrected target of the swing foot."""
+        if not step.walking:
+            return body
+        share = step.progress
+        if step.remaining < 0.0:
+            gait = self._gait if step.plan is None else step.plan.gait
+            stood = -step.remaining / gait.double_support
+            share = 1.0 - swing_progress(stood)
+        x, y, theta = (share * self._aims[step.swing]).tolist()
+        x, y = step.from_support(x, y)
+        return moved_swing(body, step.swing, x, y, theta)
 
 
 def build_balance(
