@@ -39,25 +39,6 @@ def test_help_shows_defaults() -> None:
     assert "Imperfections of the body. [default: ideal]" in text
 
 
-def test_plan_prints_footsteps_and_a_10_ms_grid() -> None:
-    plan = run_json(
-        "theory",
-        "plan",
-        "--role",
-        "pursuer",
-        "--bearing",
-        "40deg",
-        "--steps",
-        "20",
-    )
-    assert len(plan["footsteps"]) == 20
-    assert set(plan["footsteps"][0]) == {"foot", "x", "y", "theta"}
-    times = np.array(plan["times_s"])
-    np.testing.assert_allclose(np.diff(times), 0.01)
-    for name in ("zmp", "com", "com_velocity", "dcm"):
-        assert np.shape(plan[name]) == (len(times), 2)
-
-
 def test_plan_dcm_is_the_quadrature_of_its_zmp_pieces() -> None:
     """Eq. (16), from what the command prints alone."""
     plan = run_json("theory", "plan", "--role", "evader", "--bearing", "-2.2")
@@ -82,25 +63,6 @@ def test_plan_dcm_is_the_quadrature_of_its_zmp_pieces() -> None:
         rest = durations[-1] ** np.arange(4) @ coefficients[:, -1]
         total += rest * np.exp(-eta * (starts[-1] - now))
         np.testing.assert_allclose(plan["dcm"][index], total, atol=1e-9)
-
-
-def test_plan_writes_its_figure(tmp_path: Path) -> None:
-    file = tmp_path / "plan.png"
-    result = run(
-        *(
-            "theory",
-            "plan",
-            "--role",
-            "evader",
-            "--bearing",
-            "1",
-            "--steps",
-            "6",
-        ),
-        *("--figure", str(file)),
-    )
-    assert result.exit_code == 0
-    assert file.read_bytes()[:4] == b"\x89PNG"
 
 
 def test_duel_writes_a_run_folder_that_repeats_it(tmp_path: Path) -> None:

@@ -18,7 +18,7 @@ from stepaside.games.game_settings import duel
 from stepaside.games.player_settings import PLAYERS
 from stepaside.games.run import Run
 from stepaside.games.trajectory import Trajectory
-from stepaside.report import film, film_layers
+from stepaside.report import film
 from stepaside.report.film import hidden_walls
 from stepaside.report.film_camera import (
     MARGIN,
@@ -28,7 +28,6 @@ from stepaside.report.film_camera import (
 )
 from stepaside.report.film_captions import caption
 from stepaside.report.film_settings import VIEWS, FilmSettings
-from stepaside.report.overlays import theory_ring
 from stepaside.report.palette import PALETTES
 from stepaside.sim.room_furnishing import add_solids
 from synthetic_run import run_of
@@ -120,26 +119,6 @@ def test_a_view_has_the_axes_of_mujoco_s_camera(name: str) -> None:
     np.testing.assert_allclose(eye.up, view.axes[1], atol=1e-6)
 
 
-def test_the_light_shines_on_the_target() -> None:
-    model = mujoco.MjModel.from_xml_string(
-        "<mujoco><worldbody><light dir='0.3 0 -1' castshadow='true'/>"
-        "</worldbody></mujoco>"
-    )
-    data = mujoco.MjData(model)
-    mujoco.mj_forward(model, data)
-    scene = mujoco.MjvScene(model, 10)
-    every, camera = mujoco.mjtCatBit.mjCAT_ALL, mujoco.MjvCamera()
-    mujoco.mjv_updateScene(
-        model, data, mujoco.MjvOption(), None, camera, every, scene
-    )
-    target = np.array([5.0, -2.0, 0.3])
-    film_layers.aim_light(scene, target)
-    (light,) = [x for x in scene.lights[: scene.nlight] if x.castshadow]
-    away = target - light.pos
-    np.testing.assert_allclose(np.cross(away, light.dir), 0.0, atol=1e-5)
-    assert away @ light.dir > 1.0
-
-
 def test_labels_stand_at_their_places_and_values_below() -> None:
     grey = np.full((360, 640, 3), 128, dtype=np.uint8)
     view = FilmCamera(run(), "fixed", FOVY, ASPECT).view(0)
@@ -160,24 +139,6 @@ def test_labels_stand_at_their_places_and_values_below() -> None:
     assert caption(small, run(), 0, [], project, 1.0) is small
     long = replace(run(), message="x" * 500 + "\x1b\n")
     caption(grey, long, len(TIMES) - 1, [], project, 1.0)
-
-
-def test_lines_of_a_film_are_bars_along_their_segments() -> None:
-    model = mujoco.MjModel.from_xml_string("<mujoco><worldbody/></mujoco>")
-    circle = theory_ring(1.0, 2.0, 0.5)
-    scene = mujoco.MjvScene(model, 100)
-    film_layers.add_layers(scene, [circle], 0.0, {}, {})
-    segments = circle.shown(0.0, {})
-    assert scene.ngeom == len(segments) == 72
-    for geom, (start, end) in zip(scene.geoms, segments, strict=False):
-        axis = geom.size[2] * np.asarray(geom.mat).reshape(3, 3)[:, 2]
-        np.testing.assert_allclose(geom.pos - axis, start, atol=1e-6)
-        np.testing.assert_allclose(geom.pos + axis, end, atol=1e-6)
-        ink = from_hex(PALETTES["light"].theory)
-        np.testing.assert_allclose(geom.rgba[:3], ink, atol=1e-6)
-    full = mujoco.MjvScene(model, 10)
-    film_layers.add_layers(full, [circle], 0.0, {}, {})
-    assert full.ngeom == 10
 
 
 @pytest.mark.parametrize(
