@@ -1,8 +1,10 @@
 """Parts of the live page: settings panel, cameras, history, session."""
 
 from collections.abc import Iterator
-from math import inf, radians
+from math import inf, pi, radians
 from pathlib import Path
+from types import SimpleNamespace
+from typing import Any
 
 import numpy as np
 import pytest
@@ -22,6 +24,7 @@ from stepaside.games.game_settings import (  # noqa: E402
 )
 from stepaside.games.player_settings import PlayerSettings  # noqa: E402
 from stepaside.games.run_archive import load_run  # noqa: E402
+from stepaside.perception.images import ColourImage  # noqa: E402
 from stepaside.report.overlays import footsteps_in  # noqa: E402
 from stepaside.report.scene import wall_corners  # noqa: E402
 from stepaside.report.viewer.live_overlays import (  # noqa: E402
@@ -33,7 +36,11 @@ from stepaside.report.viewer.settings_panel import (  # noqa: E402
     leaves_of,
     with_values,
 )
-from stepaside.report.viewer.status_text import page_text  # noqa: E402
+from stepaside.report.viewer.status_panel import (  # noqa: E402
+    FOUND,
+    camera_picture,
+    page_text,
+)
 from stepaside.report.viewer.viewer_cameras import overview  # noqa: E402
 
 FOV = 1.309  # [rad]
@@ -219,3 +226,47 @@ def test_a_game_of_players_is_pushed_reset_and_saved(tmp_path: Path) -> None:
         assert session.played.players[0].gait.stride == 0.02
     finally:
         session.close()
+
+
+def image(azimuths: tuple[float, ...], *, depth: bool = False) -> Any:
+    camera = SimpleNamespace(width=80, height=60, focal_x=60.0)
+    if depth:
+        depths = np.zeros((60, 80))
+        depths[:, 20:40], depths[:, 40:60], depths[:, 60:] = 1.0, 2.0, 9.0
+        shown: Any = SimpleNamespace(camera=camera, depths=depths, far=4.0)
+    else:
+        pixels = np.full((60, 80, 3), 7, dtype=np.uint8)
+        shown = ColourImage(0.0, camera, pixels)  # type: ignore[arg-type]
+    return SimpleNamespace(image=shown, azimuths=azimuths)
+
+
+@pytest.mark.parametrize(
+    ("azimuth", "column"),
+    [(0.0, 40.0), (0.3, 40.0 - 60.0 * np.tan(0.3)), (-0.3, 58.56)],
+)
+def test_a_line_stands_where_something_was_found(
+    azimuth: float, column: float
+) -> None:
+    """Three times as large; what is to the left is left in the picture."""
+    large = camera_picture(image((azimuth,)))
+    assert large.shape == (180, 240, 3)
+    marked = np.flatnonzero((large[0] == FOUND).all(axis=1))
+    at = int(3 * column)
+    np.testing.assert_array_equal(marked, [at - 1, at, at + 1])
+    assert (large[:, marked] == FOUND).all()
+    assert (np.delete(large, marked, axis=1) == 7).all()
+
+
+def test_what_is_out_of_the_picture_gets_no_line() -> None:
+    for azimuth in (0.6, -0.6, 1.5, pi / 2):
+        assert (camera_picture(image((azimuth,))) == 7).all()
+
+
+def test_depth_is_darker_the_farther_and_black_where_nothing_is() -> None:
+    shades = camera_picture(image((), depth=True))[0, ::60]
+    np.testing.assert_array_equal(shades[:, 0], shades[:, 2])
+    nothing, near, far, beyond = shades[:, 0].tolist()
+    assert nothing == 0
+    assert near == int(255.0 * (1.0 - 0.85 * 0.25))
+    assert far == int(255.0 * (1.0 - 0.85 * 0.5))
+    assert beyond == int(255.0 * 0.15)

@@ -1,10 +1,10 @@
 """Films of a run, rendered off screen by several processes."""
 
 import os
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from contextlib import contextmanager
 from fractions import Fraction
-from functools import partial
+from functools import cache, partial
 from pathlib import Path
 
 import mujoco
@@ -12,6 +12,7 @@ import numpy as np
 
 from ..core.atomic_output import atomic_draft, reason_of
 from ..core.errors import ConfigurationError, OutputError
+from ..core.player_colours import from_hex
 from ..core.poses import Array
 from ..core.worker_pool import worker_pool
 from ..games.run import Run
@@ -26,12 +27,15 @@ from ..sim.offscreen_rendering import (
 from ..sim.room_furnishing import is_room_wall
 from .film_camera import HEIGHT, FilmCamera
 from .film_captions import caption
-from .film_layers import add_layers, aim_light
 from .film_settings import FilmSettings
-from .overlays import overlays_of
+from .overlays import SceneLines, overlays_of
 from .palette import colours_in
 from .scene import RunScene
 
+HALF_WIDTH = 0.0025  # of a line, in [m]
+TRAIL = 20.0  # time for which paths and footsteps remain, in [s]
+LIGHT_DISTANCE = 4.0  # from a light to its target, in [m]
+GEOMS = mujoco.mjtGeom
 CHUNK = 15  # images that one worker renders at a time
 PERIOD = 0.1  # between the points of a path, in [s]
 QUALITY = RenderQuality(samples=4, shadow=2048, slices=18, stacks=10)
@@ -272,3 +276,44 @@ def _write_gif(
             loop=0,
             optimize=True,
         )
+
+
+def add_layers(
+    scene: mujoco.MjvScene,
+    overlays: Iterable[SceneLines],
+    now: float,
+    places: Mapping[str, Array],
+    colours: Mapping[str, str],
+) -> None:
+    """Add lines of a time, in [s], to a scene.
+
+    Places are the positions of the players then, in [m], by name.
+    """
+    for overlay in overlays:
+        rgba = _rgba(overlay.colour("light", colours))
+        for start, end in overlay.shown(now, places, TRAIL):
+            if scene.ngeom < scene.maxgeom:
+                _add_bar(scene.geoms[scene.ngeom], start, end, rgba)
+                scene.ngeom += 1
+
+
+def _add_bar(
+    geom: mujoco.MjvGeom, start: Array, end: Array, rgba: Array
+) -> None:
+    """Make a geom a bar, which has far fewer vertices than a cylinder."""
+    none, upright = np.zeros(3), np.eye(3).ravel()
+    mujoco.mjv_initGeom(geom, GEOMS.mjGEOM_CYLINDER, none, none, upright, rgba)
+    mujoco.mjv_connector(geom, GEOMS.mjGEOM_CYLINDER, HALF_WIDTH, start, end)
+    geom.type = GEOMS.mjGEOM_BOX
+
+
+@cache
+def _rgba(colour: str) -> Array:
+    return np.array([*from_hex(colour), 1.0], dtype=np.float32)
+
+
+def aim_light(scene: mujoco.MjvScene, target: Array) -> None:
+    """Move the lights that cast shadows so that they shine on a target."""
+    for light in scene.lights[: scene.nlight]:
+        if light.castshadow:
+            light.pos[:] = target - LIGHT_DISTANCE * np.asarray(light.dir)

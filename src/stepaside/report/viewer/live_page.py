@@ -12,7 +12,6 @@ import viser
 
 from ...core.errors import StepAsideError
 from ...games.game_settings import GameSettings
-from ..camera_pictures import camera_picture
 from ..overlays import LAYERS
 from ..palette import rgb
 from ..scene import wall_corners
@@ -20,10 +19,9 @@ from .drive_panel import DrivePanel, add_push
 from .live_overlays import SceneLayers, live_overlays, places_of
 from .live_session import LiveSession
 from .page_server import open_server, show_notice
-from .plots import Plots
 from .scene_bodies import SceneBodies
 from .settings_panel import SettingsPanel
-from .status_text import page_text
+from .status_panel import Plots, camera_picture, page_text
 from .viewer_cameras import CAMERAS, ViewerCameras
 
 LOG = logging.getLogger(__name__)
