@@ -35,7 +35,6 @@ NOT_MEASURED = {
     ("docs/images/README.md", "picture"),
     ("docs/nao.md", "data"),
     ("README.md", "extra"),
-    ("docs/robots-real.md", "`images`"),
     ("docs/robots-real.md", "topic"),
     ("docs/robots-real.md", "event"),
     ("docs/code.md", "package"),

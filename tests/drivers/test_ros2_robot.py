@@ -454,7 +454,7 @@ def test_an_invalid_remapping_is_refused(rules: list[str]) -> None:
 def test_a_domain_that_has_no_ports_is_refused(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
-    with pytest.raises(ConfigurationError, match=r"in \[0, 232\], got 233"):
+    with pytest.raises(ConfigurationError, match=r"in \[0, 232\], got '233'"):
         DdsParticipant(233)
     monkeypatch.setenv("ROS_DOMAIN_ID", "seven")
     with pytest.raises(ConfigurationError, match="ROS_DOMAIN_ID.*'seven'"):

@@ -97,7 +97,6 @@ class JointLoop:
         self._heard = clock()
         self._first = 0.0  # time of the first report, on the robot's clock
         self._count, self._start = -1, 0
-        self._said = SafetyState.LIMP  # state that was logged
         self._shown: tuple[SafetyState, bool] | None = None
         # One that does not stand by itself may be stiff at first.
         self._is_released = robot.stands
@@ -392,9 +391,6 @@ class JointLoop:
     def _write(self, wanted: Array) -> None:
         """Answer the newest report with the targets of control, in [rad]."""
         assert self.report is not None
-        if self.state is not self._said:
-            self._said = self.state
-            log.info("%s: %s", self.state.value, self.reason)
         targets, stiffness = self._motion.move(self.state, self.report, wanted)
         shown = self.state, self.report.sighting is not None
         if shown != self._shown:

@@ -1,5 +1,6 @@
 """Safe operation of a robot driven by its joints: states and conditions."""
 
+import logging
 from enum import Enum, IntEnum
 from math import atan2, degrees, hypot, inf
 from typing import NamedTuple
@@ -11,6 +12,7 @@ from ..core.constants import GRAVITY
 from ..core.poses import Array
 from ..perception.measurement import RobotState
 
+log = logging.getLogger(__name__)
 WARM_UP = 3  # valid frames before the first reaction
 FALL = 0.6  # tilt of the torso that counts as a fall, in [rad]
 LOOK_AHEAD = 0.15  # over which the tilt is predicted, in [s]
@@ -203,6 +205,7 @@ class Safety:
 
     def _enter(self, state: SafetyState, reason: str, time: float) -> None:
         self.state, self.reason, self._since = state, reason, time
+        log.info("%s: %s", state.value, reason)
 
     def _stop(self, afterwards: SafetyState, why: str, time: float) -> None:
         self._afterwards = afterwards
