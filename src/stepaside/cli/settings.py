@@ -339,7 +339,10 @@ def _refuse_unused(
                     for each in holders or players or (settings,)
                     if hasattr(each, _head(path))
                 ]
-                values = list(map(attrgetter(path), owners or (settings,)))
+                owners = owners or [settings]
+                if not hasattr(owners[0], _head(path)):
+                    continue  # these are settings of something else
+                values = list(map(attrgetter(path), owners))
                 met = [
                     value == needed if needed else value not in (None, False)
                     for value in values
