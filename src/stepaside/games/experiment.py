@@ -5,15 +5,16 @@ from dataclasses import dataclass, replace
 from itertools import chain
 from math import atan2
 from pathlib import Path
-from typing import Any
+from typing import Any, ClassVar
 
 import numpy as np
 
+from ..core.brief_repr import brief_repr
 from ..core.errors import ConfigurationError
 from ..core.poses import Array
 from ..core.rotations import rotation_of
+from ..core.setting import CheckedSettings, setting
 from .evaluation import measure
-from .experiment_settings import ExperimentSettings
 from .outcome import Outcome
 from .player_settings import MOST_PLAYERS, PLAYER_NAME
 from .run import Run
@@ -29,6 +30,21 @@ POSE_FIELDS = {
     "geometry_msgs/msg/PoseStamped": ("pose",),
     "geometry_msgs/msg/PoseWithCovarianceStamped": ("pose", "pose"),
 }
+
+
+@dataclass(frozen=True, slots=True)
+class ExperimentSettings(CheckedSettings):
+    """Settings of an experiment: its recording, and who is who in it."""
+
+    game: ClassVar[str] = "experiment"
+    cycle: ClassVar[float] = 1.0  # over which figures average the sway [s]
+    __repr__ = brief_repr
+
+    source: str = setting("", "Name of the recording")
+    frames: tuple[str, ...] = setting(
+        (), "Players, as NAME=FRAME or NAME=/TOPIC"
+    )
+    world: str = setting("", "Frame in which all poses are")
 
 
 @dataclass(frozen=True, slots=True, eq=False)

@@ -99,19 +99,20 @@ class Run:
 
     @property
     def deciding(self) -> tuple[str, ...]:
-        """Names of the players of a game that have a strategy."""
-        if self.game != "game":
+        """Names of the players that have a strategy, as far as is known."""
+        players = getattr(self.settings, "players", None)
+        if players is None:
             return self.players
-        return tuple(p.name for p in self.settings.players if p.decides)
+        return tuple(p.name for p in players if p.decides)
 
     @property
     def identities(self) -> Mapping[str, PlayerIdentity]:
         """Identity of each player that has a role, by name."""
-        if self.game == "game":
-            found: dict[str, PlayerIdentity] = self.settings.identities
-            return found
         roles = {role.value: role for role in Role}
-        return {
+        known: dict[str, PlayerIdentity] = getattr(
+            self.settings, "identities", {}
+        )
+        return known or {
             name: PlayerIdentity(name, roles[name], name)
             for name in self.players
             if name in roles
@@ -236,10 +237,9 @@ class Run:
     @property
     def safety_areas(self) -> dict[str, float]:
         """Radius of the safety area of each player that has one, in [m]."""
-        settings, radii = self.settings, {}
-        if self.game in ("game", "duel"):
-            radii = settings.safety_radii
-        elif getattr(settings, "role", "") == EVADER:
+        settings = self.settings
+        radii = getattr(settings, "safety_radii", {})
+        if getattr(settings, "role", "") == EVADER:
             radii = {EVADER: settings.evasion.area}
         return {name: r for name, r in radii.items() if isfinite(r)}
 

@@ -27,7 +27,7 @@ from .configuration_file import (
     replace_files,
     settings_entries,
 )
-from .experiment_settings import ExperimentSettings
+from .experiment import ExperimentSettings
 from .game_settings import GameSettings
 from .outcome import Outcome
 from .play_settings import PlaySettings
