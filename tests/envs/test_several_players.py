@@ -154,3 +154,17 @@ def test_invalid_arguments_are_refused(
     guest = {"name": "guest", "body": "person", "start": [3.0, 3.0, 0.0]}
     with pytest.raises(ConfigurationError, match=message):
         game_v0.parallel_env(**{"game": with_more(guest)} | change)
+
+
+def test_a_unicycle_learns_in_physics() -> None:
+    settings = game("physics", duration=2.5)
+    *robots, blue = settings.players
+    moved = replace(blue, body="unicycle", start=(0.0, 0.0, pi / 2.0))
+    env = game_v0.parallel_env(replace(settings, players=(*robots, moved)))
+    env.reset(seed=1)
+    while env.agents:
+        env.step(dict.fromkeys(env.agents, STILL) | {"blue": AHEAD})
+        assert env.episode is not None
+        place = env.episode.poses["blue"]
+    assert place.y < -0.03 and abs(place.x) < 1e-6  # it walks backward
+    env.close()

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from ..games.game_strategies import strategy_of
+from ..games.floor_games import strategy_of
 from .connection_settings import ConnectionSettings, with_feedback
 
 if TYPE_CHECKING:

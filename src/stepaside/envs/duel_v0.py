@@ -101,12 +101,9 @@ class DuelParallelEnv(ParallelGames):
         )
         robots = {n: s for n, s in played.items() if n in duel.robots}
         game = RecordedGame(duel, strategies=robots, recorded=False)
+        room, period = duel.room or OPEN_FLOOR, duel.evader.gait.step_duration
         episode = Episode(
-            game,
-            held,
-            duel.room or OPEN_FLOOR,
-            period=duel.evader.gait.step_duration,
-            patience=LONGEST_WAIT,
+            game, held, room, period=period, patience=LONGEST_WAIT
         )
         if not episode.sees:
             game.world.close()

@@ -11,11 +11,8 @@ from numpy.typing import NDArray
 from ..arena import OPEN_FLOOR
 from ..core.constants import CAPTURE_DISTANCE
 from ..core.errors import AnyPath, ConfigurationError, check_within
-from ..games.floor_games import floor_of, rules_of
-from ..games.game import GameInPlay
 from ..games.game_settings import GameSettings
-from ..games.game_starts import with_starts
-from ..games.physics_world import PhysicsWorld
+from ..games.recorded_game import RecordedGame
 from ..games.settings_reader import load_game
 from ..strategies.knowledge import Knowledge, OtherPlayer
 from ..strategies.learned.strategy_contract import (
@@ -105,20 +102,12 @@ class GameParallelEnv(ParallelGames):
             name: HeldIntent(direction_of(self.game.player(name).role))
             for name in self.possible_agents
         }
-        seed = (seed + STRIDE * number) % SEEDS
-        game = with_starts(replace(self.game, seed=seed))
-        physics = game.level == "physics"
+        settings = replace(self.game, seed=(seed + STRIDE * number) % SEEDS)
+        game = RecordedGame(settings, strategies=held, recorded=False)
+        game.rules = replace(game.rules, capture=CAPTURE_DISTANCE)
+        room = settings.room or OPEN_FLOOR
         return Episode(
-            GameInPlay(
-                PhysicsWorld(game, strategies=held)
-                if physics
-                else floor_of(game, held),
-                replace(rules_of(game), capture=CAPTURE_DISTANCE),
-            ),
-            held,
-            game.room or OPEN_FLOOR,
-            period=self.period,
-            patience=LONGEST_WAIT,
+            game, held, room, period=self.period, patience=LONGEST_WAIT
         )
 
     def observe(self, episode: Episode, name: str) -> NDArray[np.float32]:

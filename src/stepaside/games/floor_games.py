@@ -1,6 +1,7 @@
 """Games on the floor: of two strategies, and of the settings of a game."""
 
 from collections.abc import Callable, Mapping
+from dataclasses import replace
 from math import pi
 from types import MappingProxyType
 from typing import NamedTuple
@@ -14,11 +15,14 @@ from ..core.errors import ConfigurationError, StrategyError
 from ..core.player_identity import PlayerIdentity, Role
 from ..core.poses import Array, Pose, wrap_angles
 from ..planning import GaitSettings
-from ..sim.crowd_motion import CrowdMotion
+from ..sim.crowd_motion import RADIUS, CrowdMotion
 from ..sim.person_motion import PersonMotion, Place
 from ..strategies.evasion import Evasion
+from ..strategies.goal_walk import GoalWalk
 from ..strategies.knowledge import Limits, limits_of
+from ..strategies.pursuit import Pursuit
 from ..strategies.registry import load_strategy
+from ..strategies.shield import shielded
 from ..strategies.strategy import Strategy
 from ..strategies.strategy_game import StepGame
 from ..strategies.velocity_set import VelocitySet
@@ -37,11 +41,13 @@ from .floor_world import (
 )
 from .game import GameInPlay, GameRules, play
 from .game_settings import GameSettings
-from .game_strategies import MARGIN, strategy_of
 from .outcome import Outcome
 from .player_settings import PlayerSettings
 
 UNBOUNDED = 1e9  # safety radius of a game without safety area, in [m]
+MARGIN = 0.06  # of bodies and of their sway, in [m]
+ORIGIN = Pose(0.0, 0.0, 0.0)
+COMFORT = 0.35  # beyond contact, that a walk to a goal keeps free, in [m]
 PAIR = {
     name: PlayerIdentity(name, Role(name), name)
     for name in ("pursuer", "evader")
@@ -327,6 +333,30 @@ def motion_of(
     }
     crowd = CrowdMotion(own.crowd, pose, (own.goal[0], own.goal[1]), solids)
     return FloorPerson(own.name, crowd, bodies)
+
+
+def strategy_of(
+    player: PlayerSettings,
+    map_in_world: Pose = ORIGIN,
+    given: Strategy | None = None,
+) -> Strategy:
+    """Return the strategy of a player, or a given one, with its shield.
+
+    It knows places in a map, whose pose in the world is given.
+    """
+    strategy = load_strategy(given or player.strategy, player.evasion)
+    if isinstance(strategy, GoalWalk) and player.goal:
+        x, y = player.goal
+        goal = map_in_world.inverse().compose(Pose(x, y, 0.0))
+        contact = player.radius + RADIUS + MARGIN
+        strategy = replace(
+            strategy,
+            goal=(goal.x, goal.y),
+            contact=contact,
+            clearance=contact + COMFORT,
+            pursuit=Pursuit(body_radius=player.radius + MARGIN),
+        )
+    return shielded(strategy, player.shield)
 
 
 def agent_of(

@@ -17,9 +17,8 @@ from .duel_circle import (
     missing_circle_reason,
     time_scale,
 )
-from .floor_games import play_template
+from .floor_games import play_template, strategy_of
 from .game_settings import GameSettings
-from .game_strategies import strategy_of
 from .player_settings import EVADER, PURSUER
 from .run import Run
 from .summary import Summary, TheorySummary

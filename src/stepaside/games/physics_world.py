@@ -27,11 +27,10 @@ from ..sim.physics_settings import PhysicsSettings
 from ..sim.push import pushes_by_robot
 from ..sim.world import World
 from ..strategies import Strategy
-from .floor_games import motion_of
+from .floor_games import motion_of, strategy_of
 from .floor_world import Seen
 from .game_furnishing import scenery_of
 from .game_settings import GameSettings
-from .game_strategies import strategy_of
 from .outcome import Outcome
 from .player import FloorPlayer, MarkerBody, Player
 from .player_settings import PlayerSettings
@@ -76,8 +75,6 @@ class PhysicsWorld(World):
         Args:
             settings: Settings with the initial poses filled in.
             rendered: Whether to render the world; cameras do so anyway.
-            has_things: Whether there are obstacles besides the players; by
-                default, whether there is a room.
             remote: Whether the true line of sight is measured, by name of
                 each robot that other processes command by velocities.
             strategies: Replace those of the settings, by name.
@@ -112,7 +109,9 @@ class PhysicsWorld(World):
             for name, setup in self._setups.items()
         }
         self._motions = {
-            own.name: motion_of(settings, own, self.physics.tick)
+            own.name: motion_of(
+                settings, own, self.physics.tick, strategies.get(own.name)
+            )
             for own in settings.players
             if own.body != "robot"
         }
