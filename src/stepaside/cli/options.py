@@ -37,9 +37,7 @@ class TextType(click.ParamType[Any]):
 def output_file(option: str, *suffixes: str) -> TextType:
     """Return the type of an output file, which is replaced if it exists.
 
-    Args:
-        option: Name of the option, for messages.
-        suffixes: Allowed suffixes; a name without one gets the first.
+    A name without suffix gets the first of the suffixes.
     """
 
     def parse(value: str) -> Path:

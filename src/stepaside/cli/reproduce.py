@@ -98,13 +98,7 @@ def reproduce(
 def _write_page(
     output: Path, given: tuple[int, int], rows: list[dict[str, Any]]
 ) -> Path:
-    """Write figures, results and the report.
-
-    Args:
-        output: Folder of the report.
-        given: Seed and number of runs.
-        rows: Rows of all claims.
-    """
+    """Write figures, results and the report; given are seed and runs."""
     from ..report.claims_page import markdown_page
     from ..studies.results_version import RESULTS, library_versions
     from ..studies.theory_claims import FIG_2, play
@@ -133,13 +127,8 @@ def draw_figures(
 ) -> list[tuple[str, str]]:
     """Draw counterparts of Fig. 2 and Fig. 5, and a sweep over strategies.
 
-    Args:
-        folder: Folder of the figures.
-        game: The game of Fig. 2.
-        seed: Seed of the duel; None to leave it out.
-
-    Returns:
-        Caption and file name of each figure.
+    The game is that of Fig. 2, the seed that of the duel, if any. Returns
+    caption and file name of each figure.
     """
     from ..games import duel, run_game
     from ..report.run_figure import draw_run

@@ -24,10 +24,7 @@ def run_folder(
 ) -> Path | None:
     """Return the folder of a run, checked; None if it is not saved.
 
-    Args:
-        output: Requested folder.
-        as_json: Whether the result is printed as JSON.
-        name: Name of a new folder in ``runs``; None for no such folder.
+    Without an ``output`` it is a new folder in ``runs`` of a name, if any.
 
     Raises:
         ConfigurationError: If the folder is not empty or not writable.
@@ -44,12 +41,7 @@ def run_folder(
 def play_with_bar(
     settings: Any, play: Callable[[Any, "Callable[[Progress], None]"], "Run"]
 ) -> "Run":
-    """Play a game with a progress bar on standard error.
-
-    Args:
-        settings: Settings of the game.
-        play: Function that plays it and reports its progress.
-    """
+    """Play a game with a progress bar on standard error."""
     look = "{desc} {bar} {n:.0f}/{total:.0f} s simulated{postfix}"
     total = settings.duration
     with show_progress(

@@ -15,9 +15,7 @@ WIDTH = 76  # characters of a comment
 def commented(settings: Any, sections: Collection[str] = ()) -> str:
     """Return a configuration in TOML with a comment above each entry.
 
-    Args:
-        settings: Settings; the comments are their descriptions.
-        sections: Sections and entries to return; all if empty.
+    Sections and entries are all if none is given.
     """
     summary = f"# {(type(settings).__doc__ or '').splitlines()[0]}"
     return "\n".join([summary, *_lines(settings, (), sections)]) + "\n"

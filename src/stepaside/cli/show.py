@@ -211,48 +211,31 @@ def _write(
 
         write_run(path, runs[0])
     elif suffix in FIGURES:
-        _draw(runs, path)
+        from ..report.run_figure import draw_run, draw_runs
+
+        draw_runs(runs, path) if runs[1:] else draw_run(runs[0], path)
     elif suffix in PAGES:
         from ..report.replay_page import write_page
 
         write_page(runs[0], path)
     elif suffix in FILMS:
-        if suffix == ".gif":
-            film = _small(film)
-        more["pictures"] = _render(folders[0], path, _even(film))
+        more["pictures"] = _render(folders[0], path, film)
     else:
         more["absent"] = _export(folders[0], path, repeat=repeat)
     files = (file for file in (path, *path.rglob("*")) if file.is_file())
     return {"bytes": sum(file.stat().st_size for file in files)} | more
 
 
-def _draw(runs: "list[Run]", file: Path) -> None:
-    """Draw the figure of one run, or several runs in one figure."""
-    from ..report.run_figure import draw_run, draw_runs
-
-    draw_run(runs[0], file) if len(runs) == 1 else draw_runs(runs, file)
-
-
-def _even(film: FilmSettings) -> FilmSettings:
-    """Return settings with even sides: H.264 halves the colour's."""
-    return replace(
-        film,
-        width=film.width - film.width % 2,
-        height=film.height - film.height % 2,
-    )
-
-
-def _small(film: FilmSettings) -> FilmSettings:
-    """Return settings of a GIF: small, unless they are given."""
-    given = click.get_current_context().meta[GIVEN]
-    chosen = {k: v for k, v in GIF.items() if k not in given}
-    return replace(film, **chosen)
-
-
 def _render(run: Path, file: Path, film: FilmSettings) -> int:
     """Render a film with a progress bar; return the number of images."""
     from ..report.film import write_film
 
+    if file.suffix == ".gif":  # small, unless a size is given
+        given = click.get_current_context().meta[GIVEN]
+        film = replace(film, **{k: GIF[k] for k in GIF if k not in given})
+    # H.264 halves the colour's sides.
+    width, height = (side - side % 2 for side in (film.width, film.height))
+    film = replace(film, width=width, height=height)
     with show_progress("film", unit="frames") as bar:
         return write_film(run, file, film, counter(bar))
 

@@ -27,11 +27,6 @@ def echo(text: str = "", *, err: bool = False, nl: bool = True) -> None:
 
     File names and entries of run folders may contain escape sequences that
     a terminal would execute.
-
-    Args:
-        text: One or more lines.
-        err: Whether to print to standard error.
-        nl: Whether to end with a newline.
     """
     click.echo(visible(text, but="\n\t"), err=err, nl=nl)
 
@@ -99,11 +94,7 @@ def write_result(text: str) -> None:
 
 
 def exit_interrupted(message: str) -> NoReturn:
-    """Report what is saved, and exit with the status of its signal.
-
-    Args:
-        message: Sentence about what is saved.
-    """
+    """Report what is saved, and exit with the status of its signal."""
     echo(f"stepaside: interrupted; {message}", err=True)
     raise SystemExit(interrupted_status())
 
@@ -111,9 +102,7 @@ def exit_interrupted(message: str) -> NoReturn:
 def resume_message(done: str, path: Path | None) -> str:
     """Return a sentence about the saved part of a campaign.
 
-    Args:
-        done: Finished part, like ``3 of 10 duels``.
-        path: File or folder of the records; None if nothing is recorded.
+    It is ``done``, like ``3 of 10 duels``, and recorded at a path, if any.
     """
     if path is None:
         return f"{done} finished; {NOTHING_SAVED} without --output"

@@ -9,41 +9,23 @@ from ..core.player_identity import PlayerIdentity, Role
 
 
 class Palette(NamedTuple):
-    """Colours of one theme, as ``#rrggbb``.
+    """Colours of one theme, as ``#rrggbb``."""
 
-    Attributes:
-        paper: Background of text.
-        ink: Text.
-        soft: Secondary text.
-        grid: Grid and separating lines.
-        sky: Background of the scene.
-        floor: One half of the floor's tiles.
-        tile: The other half.
-        pursuer: The pursuer.
-        evader: The evader.
-        others: Further players, in this order.
-        pushed: Pushes.
-        theory: Values of the theory.
-        mean: Means over a gait cycle.
-        sway: The same quantities at every sample.
-        support: Support polygons.
-    """
-
-    paper: str
-    ink: str
-    soft: str
+    paper: str  # background of text
+    ink: str  # text
+    soft: str  # secondary text
     grid: str
-    sky: str
-    floor: str
-    tile: str
+    sky: str  # background of the scene
+    floor: str  # one half of the floor's tiles
+    tile: str  # the other half
     pursuer: str
     evader: str
-    others: tuple[str, ...]
+    others: tuple[str, ...]  # further players, in this order
     pushed: str
     theory: str
-    mean: str
-    sway: str
-    support: str
+    mean: str  # means over a gait cycle
+    sway: str  # the same quantities at every sample
+    support: str  # support polygons
 
 
 # Red and blue differ in brightness, too, for readers with colour blindness.
@@ -98,11 +80,7 @@ def colours_in(
 ) -> dict[str, str]:
     """Return the colour of each player: its role's, or the next free one.
 
-    Args:
-        theme: Name in ``PALETTES``.
-        players: Their names.
-        identities: Identities by name; players of one role have shades of
-            its colour.
+    Players of one role have shades of its colour.
     """
     palette = PALETTES[theme]
     base = {

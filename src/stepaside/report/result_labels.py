@@ -71,12 +71,7 @@ def _unit_suffix(name: str) -> str:
 
 
 def label_of(name: str, *, unit: bool = False) -> str:
-    """Return the label of a result entry.
-
-    Args:
-        name: Name like ``closest_distance_m``.
-        unit: Whether to append the unit in brackets.
-    """
+    """Return the label of an entry, with its unit in brackets if asked for."""
     label = LABELS.get(name) or name.removesuffix(_unit_suffix(name))
     label = label.replace("_", " ").strip()
     symbol = unit_of(name)

@@ -86,10 +86,6 @@ def save_run(folder: Path, run: Run) -> tuple[Path | None, OutputError | None]:
     A game that was interrupted is written without figures, since the user is
     waiting for the prompt.
 
-    Args:
-        folder: Folder to create.
-        run: The game.
-
     Returns:
         Folder that was written, or None if both failed; and the error of the
         first attempt, or None if it succeeded.

@@ -107,21 +107,13 @@ class RunScene:
 
 
 def wall_corners(room: Room | None) -> Array:
-    """Return the corners of all walls of a room, in [m]. Shape (n, 2).
-
-    Args:
-        room: The room; None for an open floor, which has no walls.
-    """
+    """Return the corners of all walls of a room, in [m]. Shape (n, 2)."""
     walls = () if room is None else room.walls
     return np.concatenate([np.zeros((0, 2)), *(w.points for w in walls)])
 
 
 def _distance_walked(positions: Array) -> Array:
-    """Return the length of the path up to each sample, in [m]. Shape (n,).
-
-    Args:
-        positions: In the world, in [m]. Shape (n, 2).
-    """
+    """Return the length of a path (n, 2) up to each sample, in [m]."""
     steps = np.diff(positions, axis=0)
     lengths = np.hypot(steps[:, 0], steps[:, 1])
     return np.concatenate([[0.0], np.cumsum(lengths)])

@@ -21,12 +21,10 @@ ACTIVE = {ord(c): f"\\u{ord(c):04x}" for c in "<>&\u2028\u2029"}
 
 
 def visible(text: str, *, but: str = "") -> str:
-    r"""Escape invisible characters, like ``\x1b`` for escape.
+    r"""Escape invisible characters, like ``\x1b`` for escape, ``but`` some.
 
-    Args:
-        text: Untrusted text; it may contain lone surrogates, as file names
-            that are not valid UTF-8 do.
-        but: Characters that are not escaped.
+    The text may contain lone surrogates, as file names that are not valid
+    UTF-8 do.
     """
     return "".join(
         c.encode("unicode_escape").decode("ascii")
@@ -57,9 +55,6 @@ def for_markdown(text: str) -> str:
 def for_script(value: Any) -> str:
     """Return JSON that cannot end the script element around it.
 
-    Args:
-        value: Plain values.
-
     Raises:
         ValueError: If a number is NaN or inf.
     """
@@ -70,14 +65,9 @@ def for_script(value: Any) -> str:
 def fill_page(template: str, texts: Mapping[str, str], run: Any) -> str:
     """Fill in a page template and allow only its own scripts.
 
-    All placeholders are replaced in one pass, so that placeholders in the
-    filled-in text have no effect.
-
-    Args:
-        template: Page with placeholders like ``@@NAME@@``; ``@@RUN@@`` is in
-            a script element, ``@@POLICY@@`` in an attribute.
-        texts: Untrusted text for the placeholders.
-        run: JSON value for ``@@RUN@@``.
+    Placeholders are like ``@@NAME@@``; ``@@RUN@@`` is a JSON value in a
+    script element, ``@@POLICY@@`` in an attribute. All are replaced in one
+    pass, so that those in the untrusted texts have no effect.
     """
     from html import escape
 
@@ -87,11 +77,7 @@ def fill_page(template: str, texts: Mapping[str, str], run: Any) -> str:
 
 
 def policy_of(page: str) -> str:
-    """Return a content security policy for a page's inline elements.
-
-    Args:
-        page: Page; only its inline scripts and styles are allowed.
-    """
+    """Return a policy that allows a page's inline scripts and styles only."""
     allowed: dict[str, list[str]] = {"script": [], "style": []}
     for kind, text in INLINE.findall(page):
         digest = b64encode(sha256(text.encode()).digest()).decode("ascii")

@@ -124,15 +124,8 @@ def inside_of_wall(model: mujoco.MjModel, geom: int) -> TriangleMesh:
     """Return the inner face of a room's wall, and its footprint.
 
     Pages draw only the front of a face: from outside, the nearest wall hides
-    nothing then, and its footprint shows where it stands.
-
-    Args:
-        model: Model of a room that is centered at the world's origin.
-        geom: Number of a box.
-
-    Returns:
-        Two rectangles in the frame of the geom, with counterclockwise
-        vertices on the visible side.
+    nothing then, and its footprint shows where it stands. The room is
+    centered at the world's origin.
     """
     half: Array = np.array(model.geom_size[geom])
     rotation = np.zeros(9)

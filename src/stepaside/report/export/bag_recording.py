@@ -61,13 +61,9 @@ def write_bag(
     recording: Recording,
     report: Callable[[int, int], None],
 ) -> None:
-    """Write a ROS 2 bag in MCAP with URDF files.
+    """Write a ROS 2 bag in MCAP, with URDF files, into an existing folder.
 
-    Args:
-        folder: Existing folder; gets ``NAME.mcap`` and ``metadata.yaml``, so
-            that it is a bag itself.
-        recording: The recording.
-        report: Called with the samples done and their number.
+    ``report`` is called with the samples done and their number.
     """
     from rosbags.rosbag2 import CompressionMode, StoragePlugin, Writer
     from rosbags.rosbag2.enums import CompressionFormat

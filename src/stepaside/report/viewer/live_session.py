@@ -186,13 +186,7 @@ class LiveSession:
         self.call(lambda: self.world.player(player).push(push))
 
     def save(self, parent: Path) -> Path:
-        """Write the game so far, which pauses meanwhile.
-
-        Args:
-            parent: Parent of the run folder.
-
-        Returns:
-            The run folder.
+        """Write the game so far into a new run folder, and return that.
 
         Raises:
             ConfigurationError: If nothing has been recorded yet.

@@ -53,11 +53,7 @@ class SceneBodies:
     ) -> None:
         """Add all visible bodies but walls, and a label above each player.
 
-        Args:
-            scene: Scene to add to.
-            model: Model of the bodies, whose names begin with the player's.
-            data: Their poses at first.
-            players: Names of the players.
+        Names of bodies begin with their player's.
         """
         looks = defaultdict[
             int, defaultdict[tuple[Any, ...], list[trimesh.Trimesh]]
@@ -102,12 +98,7 @@ class SceneBodies:
             handle.remove()
 
     def move(self, positions: Array, quaternions: Array) -> None:
-        """Move all bodies and labels.
-
-        Args:
-            positions: In the world, in [m]. Shape (bodies, 3).
-            quaternions: (w, x, y, z). Shape (bodies, 4).
-        """
+        """Move all bodies and labels: positions in [m], quaternions wxyz."""
         for body, frame in self._frames.items():
             frame.position = positions[body]
             frame.wxyz = quaternions[body]
