@@ -11,15 +11,10 @@ Array = NDArray[np.float64]
 
 
 class Sector(NamedTuple):
-    """Range of directions.
+    """Range of directions."""
 
-    Attributes:
-        middle: Middle of the range, in [rad].
-        half: Half of its width, in [rad].
-    """
-
-    middle: float
-    half: float
+    middle: float  # middle of the range, in [rad]
+    half: float  # half of its width, in [rad]
 
 
 ALL_AROUND = (Sector(0.0, pi),)

@@ -6,25 +6,16 @@ from .errors import ConfigurationError, Kind, as_number, shown
 
 
 class Range(NamedTuple):
-    """Permitted values of a number, with the reason for the bounds.
+    """Permitted values of a number, with the reason for the bounds."""
 
-    Attributes:
-        low: Lower bound.
-        high: Upper bound.
-        unit: Unit of both; ``1`` for a ratio or a count.
-        why: Reason for the bounds, in a few words.
-        above: Whether the lower bound is excluded.
-        whole: Whether the value must be an integer.
-        also: Further permitted values, such as infinity, zero, or None for a
-            value that is drawn at random.
-    """
-
-    low: float
-    high: float
-    unit: str
-    why: str
-    above: bool = False
-    whole: bool = False
+    low: float  # lower bound
+    high: float  # upper bound
+    unit: str  # unit of both; 1 for a ratio or a count
+    why: str  # reason for the bounds, in a few words
+    above: bool = False  # whether the lower bound is excluded
+    whole: bool = False  # whether the value must be an integer
+    # Further permitted values, such as infinity, zero, or None for a value
+    # that is drawn at random.
     also: tuple[float | None, ...] = ()
 
     def check(

@@ -46,31 +46,26 @@ _KEY = "setting"  # in the metadata of a field
 
 @dataclass(frozen=True)
 class Setting:
-    """Description of one setting.
+    """Description of one setting."""
 
-    Attributes:
-        meaning: What it sets, without final period. ``{unit}`` marks the
-            place of the unit, which otherwise follows at the end; counts
-            need none.
-        range: Range of a number, or of each number of an array or a table;
-            None for any finite one.
-        names: Permitted texts; empty if any is.
-        presets: Values by the name that an option takes instead.
-        words: Special values by their word on the command line.
-        default_text: What the help shows as default instead of the value.
-        needs: Path and value of another setting without which this one, or
-            this section, has no effect; an empty value stands for any but
-            None and false.
-        count: Least and greatest number of entries of an array.
-    """
-
+    # What it sets, without final period. {unit} marks the place of the unit,
+    # which otherwise follows at the end; counts need none.
     meaning: str
+    # Range of a number, or of each number of an array or a table; None for
+    # any finite one.
     range: Range | None = None
-    names: tuple[str, ...] = ()
+    names: tuple[str, ...] = ()  # permitted texts; empty if any is
+    # Values by the name that an option takes instead.
     presets: Mapping[Any, Any] | None = None
+    # Special values by their word on the command line.
     words: Mapping[str, Any] | None = None
+    # What the help shows as default instead of the value.
     default_text: str = ""
+    # Path and value of another setting without which this one, or this
+    # section, has no effect; an empty value stands for any but None and
+    # false.
     needs: tuple[str, str] | None = None
+    # Least and greatest number of entries of an array.
     count: tuple[int, int] | None = None
 
     @property
@@ -135,17 +130,11 @@ def settings_of(kind: type[Any]) -> Mapping[str, Setting]:
 
 
 class Entry(NamedTuple):
-    """Field of a dataclass or a named tuple.
+    """Field of a dataclass or a named tuple."""
 
-    Attributes:
-        hint: Type.
-        described: Description.
-        default: Default; :data:`REQUIRED` if there is none.
-    """
-
-    hint: Any
-    described: Setting
-    default: Any
+    hint: Any  # type
+    described: Setting  # description
+    default: Any  # default; REQUIRED if there is none
 
 
 @cache

@@ -38,27 +38,18 @@ _PROBES = np.linspace(0.0, 1.0, 9)[1:]  # of a step, at which events are seen
 
 @dataclass(frozen=True)
 class PlayedGame:
-    """Simulated game with dense output.
-
-    Attributes:
-        game: Parameters of the game.
-        captured: Whether the distance fell to the capture distance.
-        end_time: Time of capture or end of the game, in [s].
-        closest_distance: Closest approach, in [m].
-        closest_time: Time of the closest approach, in [s].
-        switches: Times of transitions between smooth pieces, in [s].
-        sides: Side at the start and after each switch.
-    """
+    """Simulated game with dense output."""
 
     __repr__ = brief_repr
 
-    game: Game
-    captured: bool
-    end_time: float
-    closest_distance: float
-    closest_time: float
+    game: Game  # parameters of the game
+    captured: bool  # whether the distance fell to the capture distance
+    end_time: float  # time of capture or end of the game, in [s]
+    closest_distance: float  # closest approach, in [m]
+    closest_time: float  # time of the closest approach, in [s]
+    # Times of transitions between smooth pieces, in [s].
     switches: tuple[float, ...]
-    sides: tuple[int, ...]
+    sides: tuple[int, ...]  # side at the start and after each switch
     _pieces: tuple[Callable[[Array], Array], ...] = field(repr=False)
 
     def states(self, times: ArrayLike) -> Array:

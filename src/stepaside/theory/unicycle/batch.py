@@ -26,31 +26,22 @@ MAX_STEPS = 1e8  # of one game: some seconds of computing time
 
 @dataclass(frozen=True, slots=True)
 class Outcomes:
-    """Outcomes of many games; every array has shape (n,).
-
-    Attributes:
-        closest_distance: Closest approach of each game, in [m].
-        closest_time: Time of the closest approach, in [s].
-        captured: Whether the distance fell to the capture distance.
-        capture_time: Time of capture, in [s]; NaN without capture.
-        settled_time: Time after which the game stays within 2 % and 0.02 rad
-            of a circle, in [s]; inf if it does not, or is captured.
-        circle: Index of the final circle in ``circles_of(game)``; -1 for
-            none.
-        states: Final r [m], a, psi [rad]. Shape (n, 3).
-        sides: Final side. Shape (n,).
-    """
+    """Outcomes of many games; every array has shape (n,)."""
 
     __repr__ = brief_repr
 
-    closest_distance: Array
-    closest_time: Array
+    closest_distance: Array  # closest approach of each game, in [m]
+    closest_time: Array  # time of the closest approach, in [s]
+    # Whether the distance fell to the capture distance.
     captured: NDArray[np.bool_]
-    capture_time: Array
+    capture_time: Array  # time of capture, in [s]; NaN without capture
+    # Time after which the game stays within 2 % and 0.02 rad of a circle, in
+    # [s]; inf if it does not, or is captured.
     settled_time: Array
+    # Index of the final circle in circles_of(game); -1 for none.
     circle: NDArray[np.int64]
-    states: Array
-    sides: NDArray[np.int64]
+    states: Array  # final r [m], a, psi [rad]. Shape (n, 3)
+    sides: NDArray[np.int64]  # final side. Shape (n,)
 
 
 def play_games(

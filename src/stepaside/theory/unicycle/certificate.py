@@ -48,17 +48,13 @@ _TAIL = 1e-6  # |d| below which the remainder is at most v |d| / k, in [rad]
 
 @dataclass(frozen=True, slots=True)
 class Certificate:
-    """Certified lower bound of the distance of one game.
+    """Certified lower bound of the distance of one game."""
 
-    Attributes:
-        holds: Whether a bound is proved for this initial state: it is
-            positive, no error wraps and no side changes. The game then
-            converges to the circle.
-        distance_m: Lower bound of the distance at all times, in [m]; None
-            if nothing is proved.
-    """
-
+    # Whether a bound is proved for this initial state: it is positive, no
+    # error wraps and no side changes. The game then converges to the circle.
     holds: bool
+    # Lower bound of the distance at all times, in [m]; None if nothing is
+    # proved.
     distance_m: float | None = None
 
 

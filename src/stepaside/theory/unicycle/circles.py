@@ -36,41 +36,30 @@ class Circle:
 
     Given for side +1; side -1 has the mirror image. Quantities are NaN and
     ``eigenvalues`` is empty if no circle exists.
-
-    Attributes:
-        exists: Whether the circle exists.
-        radius_pursuer_m: Radius of the pursuer's circle, in [m].
-        radius_evader_m: Radius of the evader's circle, in [m].
-        distance_m: Distance between the two, in [m].
-        turning_rate_rad_s: Common turning rate, in [rad/s].
-        headings_apart_rad: Angle between the headings, in [rad].
-        motions_apart_rad: Angle between the directions of motion, in [rad].
-        eigenvalues: Eigenvalues of the linearisation, slowest first, in
-            [1/s]; of the sliding motion if the evader slides.
-        stable: Whether all of them have negative real part.
-        time_constant_s: Time constant of the slowest mode, in [s]; inf if
-            unstable.
-        pursuer_error_rad: Error of the pursuer on the circle, in [rad].
-        evader_error_rad: Error of the evader on the circle, in [rad].
-        bearing_rad: Bearing of the pursuer in the evader's frame, not
-            wrapped: the evader's error minus the angle, in [rad].
-        sliding: Whether the saturated evader slides on zero error.
     """
 
-    exists: bool
-    radius_pursuer_m: float = nan
-    radius_evader_m: float = nan
-    distance_m: float = nan
-    turning_rate_rad_s: float = nan
-    headings_apart_rad: float = nan
+    exists: bool  # whether the circle exists
+    radius_pursuer_m: float = nan  # radius of the pursuer's circle, in [m]
+    radius_evader_m: float = nan  # radius of the evader's circle, in [m]
+    distance_m: float = nan  # distance between the two, in [m]
+    turning_rate_rad_s: float = nan  # common turning rate, in [rad/s]
+    headings_apart_rad: float = nan  # angle between the headings, in [rad]
+    # Angle between the directions of motion, in [rad].
     motions_apart_rad: float = nan
+    # Eigenvalues of the linearisation, slowest first, in [1/s]; of the
+    # sliding motion if the evader slides.
     eigenvalues: tuple[complex, ...] = ()
-    stable: bool = False
+    stable: bool = False  # whether all of them have negative real part
+    # Time constant of the slowest mode, in [s]; inf if unstable.
     time_constant_s: float = nan
+    # Error of the pursuer on the circle, in [rad].
     pursuer_error_rad: float = nan
+    # Error of the evader on the circle, in [rad].
     evader_error_rad: float = nan
+    # Bearing of the pursuer in the evader's frame, not wrapped: the evader's
+    # error minus the angle, in [rad].
     bearing_rad: float = nan
-    sliding: bool = False
+    sliding: bool = False  # whether the saturated evader slides on zero error
 
     @property
     def direction(self) -> int:

@@ -22,19 +22,13 @@ _LONGEST = 400.0  # longest game, in units of one over the smaller gain
 
 @dataclass(frozen=True, slots=True)
 class StartBox:
-    """Box of initial states.
+    """Box of initial states."""
 
-    Attributes:
-        nearest: Least distance, in [m].
-        farthest: Largest distance, in [m].
-        aim: Largest magnitude of the pursuer's error, in [rad].
-        facing: Largest magnitude of the bearing of the pursuer in the
-            evader's frame, in [rad]; for example half the field of view.
-    """
-
-    nearest: float
-    farthest: float
-    aim: float = pi
+    nearest: float  # least distance, in [m]
+    farthest: float  # largest distance, in [m]
+    aim: float = pi  # largest magnitude of the pursuer's error, in [rad]
+    # Largest magnitude of the bearing of the pursuer in the evader's frame,
+    # in [rad]; for example half the field of view.
     facing: float = pi
 
     def __post_init__(self) -> None:
@@ -62,19 +56,12 @@ class StartBox:
 
 @dataclass(frozen=True, slots=True)
 class StartMap:
-    """Outcomes of games over a grid of initial states.
+    """Outcomes of games over a grid of initial states."""
 
-    Attributes:
-        distances: Distances, in [m]. Shape (n,).
-        pursuer_errors: Errors of the pursuer, in [rad]. Shape (m,).
-        bearings: Bearings of the pursuer, in [rad]. Shape (l,).
-        outcomes: Outcomes of all games, in C order over (n, m, l).
-    """
-
-    distances: Array
-    pursuer_errors: Array
-    bearings: Array
-    outcomes: Outcomes
+    distances: Array  # distances, in [m]. Shape (n,)
+    pursuer_errors: Array  # errors of the pursuer, in [rad]. Shape (m,)
+    bearings: Array  # bearings of the pursuer, in [rad]. Shape (l,)
+    outcomes: Outcomes  # outcomes of all games, in C order over (n, m, l)
 
     @property
     def shape(self) -> tuple[int, int, int]:
@@ -196,25 +183,17 @@ def _local_minima(start_map: StartMap) -> tuple[Array, Array]:
 
 @dataclass(frozen=True, slots=True)
 class Basins:
-    """Final circles of games from many initial states.
+    """Final circles of games from many initial states."""
 
-    Attributes:
-        circles: Circles of the game, in the order of ``circles_of``.
-        shares: Fraction of the games that settled on each circle, in [1].
-        captured: Fraction of the games that ended by capture, in [1].
-        unsettled: Fraction with neither within the duration, in [1].
-        closest_distance: Mean closest approach, in [m].
-        starts: Number of initial states.
-        duration: Duration of each game, in [s].
-    """
-
+    # Circles of the game, in the order of circles_of.
     circles: tuple[Circle, ...]
+    # Fraction of the games that settled on each circle, in [1].
     shares: tuple[float, ...]
-    captured: float
-    unsettled: float
-    closest_distance: float
-    starts: int
-    duration: float
+    captured: float  # fraction of the games that ended by capture, in [1]
+    unsettled: float  # fraction with neither within the duration, in [1]
+    closest_distance: float  # mean closest approach, in [m]
+    starts: int  # number of initial states
+    duration: float  # duration of each game, in [s]
 
 
 def random_starts(

@@ -34,16 +34,11 @@ class SpeedEllipse:
 
     The set is bounded by two half ellipses through the three speeds; that
     of a disc has equal ones. Any smaller velocity is possible, too.
-
-    Attributes:
-        forward: Largest speed towards the pursuer, in [m/s].
-        backward: Largest speed away from it, in [m/s].
-        sideways: Largest speed across the line of sight, in [m/s].
     """
 
-    forward: float
-    backward: float
-    sideways: float
+    forward: float  # largest speed towards the pursuer, in [m/s]
+    backward: float  # largest speed away from it, in [m/s]
+    sideways: float  # largest speed across the line of sight, in [m/s]
 
     def __post_init__(self) -> None:
         """Check the speeds."""
@@ -81,17 +76,11 @@ class SpeedEllipse:
 
 @dataclass(frozen=True, slots=True)
 class ChauffeurGame:
-    """Speeds of both players and the agility of the pursuer.
+    """Speeds of both players and the agility of the pursuer."""
 
-    Attributes:
-        pursuer_speed: Speed of the pursuer, in [m/s].
-        turning_radius: Tightest radius of its turns, in [m].
-        velocities: Velocities of the evader.
-    """
-
-    pursuer_speed: float
-    turning_radius: float
-    velocities: SpeedEllipse
+    pursuer_speed: float  # speed of the pursuer, in [m/s]
+    turning_radius: float  # tightest radius of its turns, in [m]
+    velocities: SpeedEllipse  # velocities of the evader
 
     def __post_init__(self) -> None:
         """Check the values."""

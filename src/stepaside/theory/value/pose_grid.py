@@ -32,18 +32,13 @@ class PoseGrid(NamedTuple):
 
     On a grid of one heading the robot faces along the line of sight, away
     from its opponent.
-
-    Attributes:
-        left: x of the first node, in [m].
-        spacing: Spacing of positions, in [m].
-        shape: Nodes along x, y and the heading.
-        right: y of the first node, in [m]; from 0 on the values of the other
-            half are those of the mirror image.
     """
 
-    left: float
-    spacing: float
-    shape: tuple[int, int, int]
+    left: float  # x of the first node, in [m]
+    spacing: float  # spacing of positions, in [m]
+    shape: tuple[int, int, int]  # nodes along x, y and the heading
+    # Y of the first node, in [m]; from 0 on the values of the other half are
+    # those of the mirror image.
     right: float = 0.0
 
     @classmethod

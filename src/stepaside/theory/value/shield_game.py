@@ -22,15 +22,11 @@ SEGMENTS = 2  # of a response, between which the person changes its walk
 
 @dataclass(frozen=True, slots=True)
 class PersonModel:
-    """What a person may do.
+    """What a person may do."""
 
-    Attributes:
-        speed: Greatest speed, in [m/s].
-        turning_radius: Radius of the tightest turn at that speed, in [m]; the
-            turning rate that follows bounds slower walks, too.
-    """
-
-    speed: float
+    speed: float  # greatest speed, in [m/s]
+    # Radius of the tightest turn at that speed, in [m]; the turning rate that
+    # follows bounds slower walks, too.
     turning_radius: float
 
     def __post_init__(self) -> None:
@@ -60,21 +56,16 @@ class PersonModel:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class ShieldGame:
-    """Person, motions of the robot, and disturbance of a sampled game.
+    """Person, motions of the robot, and disturbance of a sampled game."""
 
-    Attributes:
-        person: What the person may do.
-        motions: Poses in the frame of the robot, see :func:`.sub_poses`; with
-            each its mirror image. Shape (n, PARTS, 3).
-        period: Time between two decisions of the robot, in [s].
-        loss: Radius of the disturbance of the position per period, in [m].
-        jump: Radius of a further disturbance at each decision, in [m].
-    """
-
-    person: PersonModel
+    person: PersonModel  # what the person may do
+    # Poses in the frame of the robot, see sub_poses; with each its mirror
+    # image. Shape (n, PARTS, 3).
     motions: Array
-    period: float
+    period: float  # time between two decisions of the robot, in [s]
+    # Radius of the disturbance of the position per period, in [m].
     loss: float = 0.0
+    # Radius of a further disturbance at each decision, in [m].
     jump: float = 0.0
 
     def __post_init__(self) -> None:

@@ -25,26 +25,21 @@ class ShieldTable:
 
     Poses are those of the robot in the frame of the person, in [m] and
     [rad]. Shape (n, 3).
-
-    Attributes:
-        game: Game that was solved.
-        walking: Guaranteed distance of a walking robot, cut off.
-        standing: That of a robot that stands for the wait, and then starts,
-            at each node, in [m]. Shape ``grid.shape``.
-        starts: Guaranteed distance of a robot that starts with each motion of
-            the game, at the nodes of the whole grid; empty without a
-            response. Shape ``(n, *grid.whole().shape)``.
-        response: Longest time from the decision of a standing robot until its
-            motion begins, in [s].
-        wait: Time until a standing robot decides again, in [s].
     """
 
-    game: ShieldGame
-    walking: ValueTable
+    game: ShieldGame  # game that was solved
+    walking: ValueTable  # guaranteed distance of a walking robot, cut off
+    # That of a robot that stands for the wait, and then starts, at each node,
+    # in [m]. Shape grid.shape.
     standing: Array
+    # Guaranteed distance of a robot that starts with each motion of the game,
+    # at the nodes of the whole grid; empty without a response. Shape (n,
+    # *grid.whole().shape).
     starts: Array
+    # Longest time from the decision of a standing robot until its motion
+    # begins, in [s].
     response: float
-    wait: float
+    wait: float  # time until a standing robot decides again, in [s]
 
     __repr__ = brief_repr
 

@@ -23,25 +23,15 @@ TIE = 1e-3  # weight of the value after a period where it decides nothing
 
 @dataclass(frozen=True)
 class ValueTable:
-    """Distance that a robot can keep, by its pose in the opponent's frame.
+    """Distance that a robot can keep, by its pose in the opponent's frame."""
 
-    Attributes:
-        values: Distances of the nodes, in [m]. Shape ``grid.shape``.
-        after: Least values within the disturbance, likewise.
-        motions: Motions of the robot. Shape (n, parts, 3).
-        answers: Motions of its opponent. Shape (m, parts, 3).
-        rules: How outcomes are read from the values.
-        change: How much a value still fell over the last period, in [m].
-        seconds: Computing time, in [s].
-    """
-
-    values: Array
-    after: Array
-    motions: Array
-    answers: Array
-    rules: OutcomeRules
-    change: float
-    seconds: float
+    values: Array  # distances of the nodes, in [m]. Shape grid.shape
+    after: Array  # least values within the disturbance, likewise
+    motions: Array  # motions of the robot. Shape (n, parts, 3)
+    answers: Array  # motions of its opponent. Shape (m, parts, 3)
+    rules: OutcomeRules  # how outcomes are read from the values
+    change: float  # how much a value still fell over the last period, in [m]
+    seconds: float  # computing time, in [s]
 
     __repr__ = brief_repr
 
