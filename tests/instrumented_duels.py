@@ -13,7 +13,7 @@ from stepaside.games.outcome import Outcome
 from stepaside.games.player_settings import PLAYERS
 from stepaside.games.run import Run
 from stepaside.games.trajectory import Trajectory
-from stepaside.studies.walk_measures import InstrumentedDuel, WalkedPlan
+from stepaside.studies.game_claims import InstrumentedDuel, WalkedPlan
 
 RADIUS = 4.0 * 0.1 / (pi * 0.2)
 WEIGHT = 52.0  # of a robot, in [N]

@@ -12,7 +12,7 @@ from stepaside.core.poses import Array
 from stepaside.games.outcome import Outcome
 from stepaside.studies import game_claims as read
 from stepaside.studies.claims import SEEDED, Claim, Readings, load_claims
-from stepaside.studies.walk_measures import (
+from stepaside.studies.game_claims import (
     InstrumentedDuel,
     play_instrumented,
 )

@@ -12,7 +12,7 @@ import pytest
 
 from stepaside.games.game_settings import StartSettings, duel
 from stepaside.strategies import Evasion
-from stepaside.studies.duel_record import play_duel
+from stepaside.studies.study_games import play_duel
 
 
 def test_a_record_holds_the_figures_of_its_duel() -> None:

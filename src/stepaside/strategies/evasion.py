@@ -130,14 +130,6 @@ class Evasion:
         """
         return self.clearance if self.trigger == "time" else self.safety_radius
 
-    def begins_at(self, speed: float) -> float:
-        """Return the distance at which evasion begins, in [m].
-
-        The pursuer approaches head-on at a speed, in [m/s].
-        """
-        ahead = self.contact_time * speed if self.trigger == "time" else 0.0
-        return self.area + ahead
-
     def begin(self) -> EvasionMemory:
         """Return the memory of an evader that does not evade yet."""
         return EvasionMemory()

@@ -1,13 +1,15 @@
 """Readings of games for the claims of Sec. III-E, IV and V."""
 
 from collections.abc import Callable, Mapping
-from dataclasses import replace
-from math import degrees, inf, nan
+from dataclasses import dataclass, field, replace
+from math import acos, degrees, inf, nan
+from typing import NamedTuple
 
 import numpy as np
 
 from ..arena import RoomRecipe, generate_room
 from ..core.errors import ConfigurationError
+from ..core.poses import Array
 from ..games.duel_circle import (
     angle_between,
     circle_of_theory,
@@ -16,13 +18,17 @@ from ..games.duel_circle import (
     last_third,
 )
 from ..games.floor_games import StrategyTrack
+from ..games.game import GameInPlay, GameObserver, play
 from ..games.game_settings import GameSettings, StartSettings, duel
 from ..games.outcome import Outcome
+from ..games.physics_world import PhysicsWorld
 from ..games.player_settings import PLAYERS
-from ..games.recorded_game import run_game
+from ..games.recorded_game import RecordedGame, run_game
+from ..games.robot_player import RobotPlayer
 from ..games.run import Run
 from ..games.settings_reader import read_game
-from ..planning import PRESETS
+from ..planning import PRESETS, GaitSettings
+from ..robots.description import load_robot
 from ..strategies.strategy_game import StepGame
 from ..theory.unicycle.circle_fit import fit_circle
 from .theory_claims import most_deviating
@@ -35,18 +41,269 @@ from .tournament import (
     play_track,
     players_touched,
 )
-from .walk_measures import (
-    InstrumentedDuel,
-    distance_walked,
-    largest_tilt,
-    mean_foot_slip,
-    play_instrumented,
-    reference_jumps,
-    replanning_support,
-    step_times,
-    walked_arc_fraction,
-    walking_speed,
-)
+
+
+class WalkedPlan(NamedTuple):
+    """Plan that was walked until it was replaced."""
+
+    start_time: float  # begin of its motion, not necessarily at a tick [s]
+    first_sent_time: float  # tick of the first joint targets of the plan [s]
+    from_standing: bool  # whether the robot stood at its begin
+
+
+@dataclass(frozen=True, slots=True)
+class InstrumentedDuel:
+    """Duel with records of every control tick."""
+
+    run: Run  # the duel
+    ticks: Array  # times of the control ticks [s]. (n,)
+    # by robot, loads of left and right foot at the end of each tick [N]. (n,
+    # 2)
+    loads: dict[str, Array] = field(default_factory=dict)
+    # by robot, positions of left and right foot in the world at the end of
+    # each tick [m]. (n, 2, 2)
+    feet: dict[str, Array] = field(default_factory=dict)
+    # by robot, CoM reference of the joint targets of each tick, in the
+    # odometry frame [m]. (n, 2)
+    references: dict[str, Array] = field(default_factory=dict)
+    # by robot, the plans that were walked
+    plans: dict[str, tuple[WalkedPlan, ...]] = field(default_factory=dict)
+
+
+def play_instrumented(settings: GameSettings) -> InstrumentedDuel:
+    """Play a duel to its end, as ``run_game`` does, recording every tick."""
+    observers = {name: _TickObserver(settings, name) for name in PLAYERS}
+    duel = RecordedGame(settings, tuple(observers.values()))
+    play(duel)
+    run, world = duel.run().uninterrupted(), duel.in_physics
+    found = InstrumentedDuel(
+        run,
+        world.physics.tick * np.arange(world.ticks, dtype=np.float64),
+    )
+    for name, observer in observers.items():
+        loads, feet, references = zip(*observer.rows, strict=True)
+        found.loads[name] = np.array(loads)
+        found.feet[name] = np.array(feet)
+        found.references[name] = np.array(references)
+        found.plans[name] = tuple(observer.plans)
+    return found
+
+
+class _TickObserver(GameObserver):
+    """Observer of one robot of a match: its state at the end of each tick."""
+
+    def __init__(self, settings: GameSettings, name: str) -> None:
+        self.rows: list[tuple[Array, Array, Array]] = []
+        self.plans: list[WalkedPlan] = []
+        self._name, self._plan = name, object()
+        self._robot = load_robot(settings.player(name).robot)
+
+    def before(self, game: GameInPlay) -> None:
+        """Record the state after the previous tick."""
+        world, robot = game.world, self._robot
+        assert isinstance(world, PhysicsWorld)
+        if len(self.rows) == world.ticks:
+            return
+        player = world.player(self._name)
+        assert isinstance(player, RobotPlayer)
+        walk = player.scheme.walk
+        data = world.data
+        forces = [
+            data.sensor(f"{self._name}/{sensor}").data[0]
+            for sensor in robot.sensors.feet  # of the left one first
+        ]
+        sites = [
+            data.site(f"{self._name}/{sole}").xpos[:2]
+            for sole in (robot.left_foot, robot.right_foot)
+        ]
+        self.rows.append(
+            (
+                np.reshape(forces, (2, -1)).sum(axis=1),
+                np.array(sites),
+                np.array(walk.reference.com[:2]),
+            )
+        )
+        if walk.plan is not self._plan and walk.plan is not None:
+            sent = (world.ticks - 1) * world.physics.tick
+            standing = walk.plan.schedule.standing
+            self.plans.append(WalkedPlan(walk.plan_started, sent, standing))
+        self._plan = walk.plan
+
+    def ended(self, game: GameInPlay) -> None:
+        """Record the state after the last tick."""
+        self.before(game)
+
+
+CONTACT_LOAD = 1.0  # load from which a foot is in contact, in [N]
+SWING_FRACTION = 0.35  # least swing, as a fraction of the single support
+# Time before lift-off at which the plan already unloads a foot, in [s].
+UNLOADING = 0.03
+FIT_TICKS = 6  # ticks on either side of a replan for the polynomial fit
+
+
+def swing_intervals(ticks: Array, load: Array, single_support: float) -> Array:
+    """Return lift-off and landing of each swing, in [s]. (m, 2).
+
+    Times [s] and loads [N] of a foot have shape (n,). Times without load that
+    are shorter than a planned swing are bounces at landing or lift-off.
+    """
+    on = load > CONTACT_LOAD
+    changes = np.flatnonzero(on[1:] != on[:-1]) + 1
+    pairs = np.stack([changes[:-1], changes[1:]], axis=-1)
+    swings: Array = ticks[pairs[~on[pairs[:, 0]]]]
+    long = np.ptp(swings, axis=1) > SWING_FRACTION * single_support
+    found: Array = swings[long]
+    return found
+
+
+def _swings(duel: InstrumentedDuel, name: str) -> list[Array]:
+    """Return the swings of left and right foot."""
+    single = duel.run.settings.gait.single_support
+    return [
+        swing_intervals(duel.ticks, load, single)
+        for load in duel.loads[name].T
+    ]
+
+
+def step_times(duel: InstrumentedDuel, name: str) -> list[float]:
+    """Return the times between landings of either foot, in [s], or [inf]."""
+    landings = np.sort(np.concatenate(_swings(duel, name))[:, 1])
+    intervals: list[float] = np.diff(landings).tolist()
+    return intervals or [inf]
+
+
+def replanning_support(
+    duel: InstrumentedDuel, name: str
+) -> tuple[float, float]:
+    """Measure the contact state at which plans are replaced.
+
+    At the end of double support the plan completely unloads the foot that is
+    about to swing: a foot unloaded just before still counts as in contact.
+    Returns the fraction of the plans that follow the previous one after
+    exactly one landing, while both feet are in contact; and the longest time
+    from a plan to the next lift-off, in [s]. NaN without plans.
+    """
+    flights = np.concatenate(_swings(duel, name))
+    lifts, landings = np.sort(flights, axis=0).T
+    sent = np.array([plan.first_sent_time for plan in duel.plans[name]])
+    if not len(lifts):
+        return nan, nan
+    # A plan without a later lift-off cannot be evaluated.
+    sent = sent[sent <= lifts[-1] + UNLOADING]
+    if len(sent) < 2:
+        return nan, nan
+    in_air = (flights[:, 0] + UNLOADING <= sent[1:, None]) & (
+        sent[1:, None] < flights[:, 1]
+    )
+    landed = np.diff(np.searchsorted(landings, sent))
+    good = (landed == 1) & ~in_air.any(axis=1)
+    next_lifts = lifts[np.searchsorted(lifts, sent[1:] - UNLOADING)]
+    return float(good.mean()), float((next_lifts - sent[1:]).max())
+
+
+def walked_arc_fraction(
+    plans: tuple[WalkedPlan, ...], gait: GaitSettings
+) -> float:
+    """Return the largest fraction of its arc that a plan was walked.
+
+    The gait walks along the path slower than the template drives it. NaN
+    for fewer than two plans.
+    """
+    times = [
+        later.first_sent_time
+        - plan.first_sent_time
+        - plan.from_standing * gait.start_support
+        for plan, later in zip(plans, plans[1:], strict=False)
+    ]
+    time_scale = gait.path_interval / gait.step_duration
+    return max(times, default=nan) * time_scale * gait.gain
+
+
+def reference_jumps(duel: InstrumentedDuel, name: str) -> tuple[float, float]:
+    """Return the largest jumps of the CoM reference at a replan.
+
+    In [m] and [m/s], from polynomials through the references of the last ticks
+    before and of the first ticks after it; NaN without plans.
+    """
+    sent, ticks = duel.references[name], duel.ticks
+    jumps = []
+    for plan in duel.plans[name]:
+        first = int(np.searchsorted(ticks, plan.start_time - 1e-9))
+        if FIT_TICKS <= first <= len(ticks) - FIT_TICKS:
+            before, after = (
+                _extrapolate(ticks, sent, plan.start_time, number)
+                for number in (first - FIT_TICKS, first)
+            )
+            jumps.append(np.abs(after - before).max(axis=1))
+    if not jumps:
+        return nan, nan
+    position, velocity = np.max(jumps, axis=0).tolist()
+    return position, velocity
+
+
+def _extrapolate(
+    ticks: Array, sent: Array, instant: float, first: int
+) -> Array:
+    """Return position and velocity at an instant by a polynomial. (2, 2)."""
+    period = float(ticks[1] - ticks[0])
+    rows = slice(first, first + FIT_TICKS)
+    powers = np.vander((ticks[rows] - instant) / period, increasing=True)
+    values: Array = np.array(np.linalg.solve(powers, sent[rows])[:2])
+    values[1] /= period
+    return values
+
+
+def _samples_of_cycle(duel: InstrumentedDuel) -> int:
+    """Return the number of samples in a gait cycle.
+
+    Chords over a cycle have no sway.
+    """
+    times = duel.run.times
+    return round(float(duel.run.settings.cycle) / float(times[1] - times[0]))
+
+
+def walking_speed(duel: InstrumentedDuel, name: str) -> float:
+    """Return the speed over the last third, in [m/s]; NaN if too short."""
+    times, cycle = duel.run.times, _samples_of_cycle(duel)
+    last = duel.run.tracks[name].unicycle[len(times) * 2 // 3 :, :2]
+    if len(last) <= cycle:
+        return nan
+    chords = np.hypot(*(last[cycle:] - last[:-cycle]).T)
+    return float(chords.mean() / (cycle * (times[1] - times[0])))
+
+
+def distance_walked(duel: InstrumentedDuel, name: str) -> float:
+    """Return the path length of the torso, in [m]."""
+    positions = duel.run.tracks[name].torso[:, :2]
+    corners = np.vstack(
+        [positions[:: _samples_of_cycle(duel)], positions[-1:]]
+    )
+    return float(np.hypot(*np.diff(corners, axis=0).T).sum())
+
+
+def largest_tilt(duel: InstrumentedDuel) -> float:
+    """Return the largest angle of a torso from the vertical, in [deg]."""
+    postures = [duel.run.tracks[name].qpos for name in PLAYERS]
+    upward = min(
+        float((1.0 - 2.0 * (qpos[:, 4:6] ** 2).sum(axis=1)).min())
+        for qpos in postures
+        if qpos is not None
+    )
+    return degrees(acos(max(-1.0, min(1.0, upward))))
+
+
+def mean_foot_slip(duel: InstrumentedDuel) -> float:
+    """Return the mean slip of a foot from landing to lift-off, in [m]."""
+    slips = []
+    for name in PLAYERS:
+        for side, flights in enumerate(_swings(duel, name)):
+            feet = duel.feet[name][:, side]
+            landed = np.searchsorted(duel.ticks, flights[:-1, 1])
+            lifted = np.searchsorted(duel.ticks, flights[1:, 0]) - 1
+            slips.append(np.hypot(*(feet[lifted] - feet[landed]).T))
+    distances = np.concatenate(slips)
+    return float(distances.mean()) if len(distances) else nan
+
 
 SLIPPERY = 0.05  # sliding friction of a floor on which feet slip
 MIN_SPEED = 0.5  # fraction of the gait's speed below which a robot is stuck

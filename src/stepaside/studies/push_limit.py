@@ -90,8 +90,8 @@ def find_limit(survives: Callable[[float], bool]) -> tuple[float, int]:
 def play_push(settings: PushSettings) -> Record:
     """Walk until the largest push that the walk survives is known.
 
-    The record has it beside the bounds of a push and of an impulse on the
-    linear inverted pendulum, in [N s], and their ratios.
+    The record has it beside the bound of the linear inverted pendulum, in
+    [N s], and their ratio.
     """
 
     def survives(strength: float) -> bool:
@@ -102,18 +102,11 @@ def play_push(settings: PushSettings) -> Record:
     walk = settings.walk.resolved()
     robot = walk.player(WALKER).robot
     limit = strength * push_scale(robot)
-    bound, impulse = (
-        push_bound_at(settings.direction, settings.phase, walk, impulse=each)
-        for each in (False, True)
-    )
+    bound = push_bound_at(settings.direction, settings.phase, walk)
     return {
         "limit_n_s": limit,
-        "limit_m_s": limit / mass_of(robot),
         "bound_n_s": bound,
-        "impulse_bound_n_s": impulse,
         "of_bound": limit / bound,
-        "of_impulse_bound": limit / impulse,
-        "above_bound": limit > bound,
         "walks": tried,
     }
 
@@ -139,26 +132,17 @@ def push_scale(robot: str) -> float:
     return own.push_unit / nao.push_unit
 
 
-def push_bound_at(
-    direction: str,
-    phase: float,
-    walk: GameSettings,
-    *,
-    impulse: bool = False,
-) -> float:
+def push_bound_at(direction: str, phase: float, walk: GameSettings) -> float:
     """Return the push bound of the linear inverted pendulum, in [N s].
 
-    The walk is in its steady gait cycle when it is pushed. An impulse at the
-    middle of the push does not bound the push, during whose first half the ZMP
-    can already react.
+    The walk is in its steady gait cycle when it is pushed.
     """
     own = walk.resolved().player(WALKER)
     gait, gains = own.gait, own.control.stabiliser
     way = load_strategy(own.strategy)
     assert isinstance(way, Walk)
     cycle = 2.0 * gait.step_duration
-    lasts = 0.0 if impulse else LASTS
-    passed = (phase * cycle + (0.5 * LASTS if impulse else 0.0)) % cycle
+    passed = phase * cycle % cycle
     foot = Foot.LEFT if passed < gait.step_duration else Foot.RIGHT
     plan = steady_plan(
         ManeuverPlanner(gait),
@@ -178,5 +162,5 @@ def push_bound_at(
         radians(DIRECTIONS[direction]),
         mass_of(own.robot),
         reach,
-        lasts=lasts,
+        lasts=LASTS,
     )
