@@ -5,8 +5,8 @@ from typing import Any
 
 import pytest
 from PIL import Image
+from result_files import header, write_result
 
-from stepaside.studies.result_files import header, write_result
 from tools.documents.blocks import with_tables
 from tools.documents.document import remade
 from tools.documents.pictures import (

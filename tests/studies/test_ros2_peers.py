@@ -8,8 +8,7 @@ import sys
 from pathlib import Path
 
 import pytest
-
-from stepaside.studies.result_files import read_result
+from result_files import read_result
 
 ROOT = Path(__file__).parents[2]
 

@@ -16,8 +16,7 @@ from benchmark_options import ask, machine
 from duel import measure_camera_duel, measure_duel
 from mpc import measure_mpc
 from planner import measure_planner
-
-from stepaside.studies.result_files import header, write_result
+from result_files import header, write_result
 
 LIBRARIES = ("mujoco", "numpy", "drake", "daqp", "numba")
 

@@ -13,9 +13,9 @@ from typing import Any
 import numpy as np
 from benchmark_options import ask, machine
 from numpy.typing import NDArray
+from result_files import header, write_result
 
 from stepaside.core.poses import wrap_angles
-from stepaside.studies.result_files import header, write_result
 from stepaside.theory.value import (
     CarGame,
     ValueTable,

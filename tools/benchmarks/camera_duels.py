@@ -10,6 +10,7 @@ and a mannequin in the room::
 from typing import NamedTuple
 
 from benchmark_options import ask, machine, seeds_of
+from result_files import header, write_result
 from resumable_jobs import Row, finished, gather, spread
 
 from stepaside.games import duel, run_game
@@ -19,7 +20,6 @@ from stepaside.sim.camera_settings import (
     CameraSettings,
     SceneSettings,
 )
-from stepaside.studies.result_files import header, write_result
 
 BEYOND = 0.85  # start distance for a meaningful trigger, in [m]
 LIBRARIES = ("mujoco", "numpy", "opencv-python-headless")

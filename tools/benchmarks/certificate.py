@@ -9,8 +9,8 @@ from math import pi, radians
 
 import numpy as np
 from benchmark_options import ask
+from result_files import header, write_result
 
-from stepaside.studies.result_files import header, write_result
 from stepaside.theory.unicycle.certificate import certify
 from stepaside.theory.unicycle.unicycle_game import RelativeStart, make_game
 

@@ -9,10 +9,10 @@ from typing import Any
 
 import numpy as np
 from benchmark_options import ask, machine
+from result_files import header, write_result
 
 from stepaside.core.errors import PlanError
 from stepaside.core.poses import Array
-from stepaside.studies.result_files import header, write_result
 from stepaside.theory.value import (
     ChauffeurGame,
     SpeedEllipse,

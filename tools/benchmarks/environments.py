@@ -22,11 +22,11 @@ from typing import Any
 
 import numpy as np
 from benchmark_options import ask, machine
+from result_files import header, write_result
 
 from stepaside.envs import VectorDuel, duel_v0
 from stepaside.envs.vector_duel import BatchedDuel
 from stepaside.strategies import Pursuit
-from stepaside.studies.result_files import header, write_result
 
 ROUNDS = 3
 SETTINGS: dict[str, Any] = {"level": "steps", "duration": 60.0}

@@ -18,10 +18,10 @@ from tempfile import TemporaryDirectory
 import numpy as np
 from benchmark_options import ask, machine
 from click.testing import CliRunner
+from result_files import header, write_result
 
 from stepaside.cli.main import main as stepaside
 from stepaside.core.poses import Array
-from stepaside.studies.result_files import header, write_result
 
 EVERY = 2  # in samples of 20 ms
 DECIMALS = 4

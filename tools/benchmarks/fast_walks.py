@@ -8,6 +8,7 @@
 from math import radians
 
 from benchmark_options import ask
+from result_files import header, write_result
 from resumable_jobs import Row, finished, gather
 
 from stepaside.games.game_settings import GameSettings, walk
@@ -16,7 +17,6 @@ from stepaside.games.run_archive import results_of
 from stepaside.locomotion.control_settings import ControlSettings
 from stepaside.planning import PRESETS
 from stepaside.sim.body_settings import BODIES
-from stepaside.studies.result_files import header, write_result
 
 KEPT = (
     "outcome",

@@ -16,6 +16,7 @@ from pathlib import Path
 from typing import Any
 
 from benchmark_options import ask
+from result_files import header, write_result
 from resumable_jobs import finished, gather
 
 from stepaside.games.forecast import forecast
@@ -31,7 +32,6 @@ from stepaside.sim.camera_settings import (
     CameraSettings,
 )
 from stepaside.sim.person_settings import PersonSettings
-from stepaside.studies.result_files import header, write_result
 from stepaside.theory.value.closed_forms import guaranteed_distance
 
 RADII = (2.5, 4.0, 8.0)  # of the turns of people, in [m]

@@ -13,13 +13,13 @@ have their usual rate.
 from typing import NamedTuple
 
 from benchmark_options import ask, seeds_of
+from result_files import header, write_result
 from resumable_jobs import Row, finished, gather, spread
 
 from stepaside.games import duel, run_game
 from stepaside.games.run_archive import results_of
 from stepaside.sim.camera_settings import CameraSettings, ColourSettings
 from stepaside.sim.person_settings import PersonSettings
-from stepaside.studies.result_files import header, write_result
 
 DURATION = 90.0  # duration of each duel, in [s]
 WALKS = {

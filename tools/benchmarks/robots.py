@@ -14,6 +14,7 @@ from time import monotonic
 from typing import Any, NamedTuple
 
 from benchmark_options import ask
+from result_files import header, write_result
 
 from stepaside.fitting.derivation import derive, report_of
 from stepaside.fitting.description_writer import write_description
@@ -22,7 +23,6 @@ from stepaside.games.recorded_game import run_game
 from stepaside.games.run_archive import results_of
 from stepaside.games.settings_reader import read_game
 from stepaside.robots.description import FILE
-from stepaside.studies.result_files import header, write_result
 
 SEED, DURATION = 7, 120.0
 

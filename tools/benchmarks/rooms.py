@@ -13,6 +13,7 @@ from pathlib import Path
 from typing import NamedTuple
 
 from benchmark_options import ask, machine, seeds_of
+from result_files import header, read_result, write_result
 from resumable_jobs import Row, finished, gather, spread
 
 from stepaside.arena import RoomRecipe, generate_room
@@ -20,7 +21,6 @@ from stepaside.core.constants import CAPTURE_DISTANCE
 from stepaside.games import duel, run_game
 from stepaside.games.run_archive import results_of
 from stepaside.locomotion.control_settings import MAPS, MapSettings
-from stepaside.studies.result_files import header, read_result, write_result
 from stepaside.studies.tournament import clearance
 
 RECIPE = RoomRecipe(discs=3)

@@ -21,6 +21,7 @@ from typing import Any
 
 import numpy as np
 from benchmark_options import ask, machine
+from result_files import header, write_result
 from resumable_jobs import Row, finished, gather
 
 from stepaside.core.poses import Pose, wrap_angle
@@ -36,7 +37,6 @@ from stepaside.strategies.shield import ShieldedStrategy
 from stepaside.strategies.shield_model import ShieldModel
 from stepaside.strategies.shield_settings import ShieldSettings
 from stepaside.strategies.velocity_set import BodyVelocity, VelocitySet
-from stepaside.studies.result_files import header, write_result
 
 MODULES = ("theory/value", "strategies/shield", "games/floor_games")
 STEP = 0.04  # of the integration, in [s]; a part of a step

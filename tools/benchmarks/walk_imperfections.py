@@ -11,6 +11,7 @@ from dataclasses import replace
 from typing import Any
 
 from benchmark_options import ask, seeds_of
+from result_files import header, write_result
 from resumable_jobs import Row, finished, gather, spread
 
 from stepaside.games.game_settings import GameSettings
@@ -22,7 +23,6 @@ from stepaside.locomotion.control_settings import (
     StabiliserSettings,
 )
 from stepaside.sim.body_settings import BODIES, BodySettings
-from stepaside.studies.result_files import header, write_result
 
 BEARING = 0.3  # desired heading at every step, in [rad]
 ESTIMATED = 30.0  # duration of the walks for estimation errors, in [s]

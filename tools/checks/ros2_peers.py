@@ -47,7 +47,7 @@ from stepaside.perception.camera_model import CameraModel
 from stepaside.perception.images import ColourImage
 from stepaside.perception.measurement import RobotState, Sighting
 from stepaside.strategies.velocity_set import BodyVelocity
-from stepaside.studies.result_files import header, write_result
+from stepaside.studies.results_version import RESULTS, library_versions
 
 RESULT = Path("docs/results/ros2-peers.json")
 DOMAIN = 60 + os.getpid() % 40  # separate ROS 2 domain
@@ -429,8 +429,14 @@ def main() -> int:
         found.append({"name": name.capitalize(), **own, "rows": rows})
     settings = {"walked_s": WALKED, "enough": peer.ENOUGH}
     names = " ".join(entry.partition("=")[0] for entry in arguments.pythons)
-    head = header(settings, command=f"make ros2-peers ROS2='{names}'")
-    write_result(arguments.output, head, distributions=found)
+    result = {
+        "command": f"make ros2-peers ROS2='{names}'",
+        "results": RESULTS,
+        "libraries": library_versions(),
+        "settings": settings,
+        "distributions": found,
+    }
+    arguments.output.write_text(json.dumps(result, indent=1) + "\n", "utf-8")
     passed = all(r["passed"] for each in found for r in each["rows"])
     return 0 if passed else 1
 

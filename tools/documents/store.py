@@ -1,10 +1,8 @@
 """Access to results by name, and to their values by address."""
 
+import json
 from pathlib import Path
 from typing import Any
-
-from stepaside.core.errors import ConfigurationError
-from stepaside.studies.result_files import read_result
 
 ROOT = Path(__file__).parents[2]
 RESULTS = ROOT / "docs" / "results"
@@ -38,9 +36,10 @@ class Store:
         """
         if name not in self._read:
             try:
-                found = read_result(self.folder / f"{name}.json")
-            except ConfigurationError as error:
-                raise DocumentError(str(error)) from error
+                text = (self.folder / f"{name}.json").read_text("utf-8")
+                found = dict(json.loads(text))
+            except (FileNotFoundError, ValueError) as error:
+                raise DocumentError(f"no result {name}.json") from error
             self._read[name] = found
         return self._read[name]
 

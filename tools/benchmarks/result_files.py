@@ -12,9 +12,9 @@ from math import isfinite
 from pathlib import Path
 from typing import Any
 
-from ..core.atomic_output import atomic_draft
-from ..core.errors import ConfigurationError
-from .results_version import RESULTS, library_versions
+from stepaside.core.atomic_output import atomic_draft
+from stepaside.core.errors import ConfigurationError
+from stepaside.studies.results_version import RESULTS, library_versions
 
 DIGITS = 6  # significant digits of numbers in a result
 
@@ -48,14 +48,7 @@ def write_result(
 
 def read_result(file: Path) -> dict[str, Any]:
     """Read a result."""
-    try:
-        return dict(json.loads(file.read_text(encoding="utf-8")))
-    except FileNotFoundError:
-        raise ConfigurationError(f"no result {file.name}") from None
-    except ValueError as error:
-        raise ConfigurationError(
-            f"{file.name} is not a result: {error}"
-        ) from error
+    return dict(json.loads(file.read_text(encoding="utf-8")))
 
 
 def _near(word: str) -> str:
