@@ -26,7 +26,6 @@ from .player import MotionLog, Player
 
 if TYPE_CHECKING:
     from ..drivers.ros2_server import BodyPlace
-    from ..locomotion.policy.policy_legs import PolicyWalk
     from ..perception.pipeline import FrameReport, Perception
 
 log = logging.getLogger(__name__)
@@ -44,137 +43,11 @@ CLOSELY = {
 }
 
 
-class PhysicalPlayer(Player):
-    """Simulated robot; what moves it is up to subclasses.
+class RobotPlayer(Player):
+    """Simulated robot with its controller.
 
     Attributes:
-        robot: Simulated robot.
-        walk: Its locomotion; None if another process moves its joints.
         plans: Whether it walks by maneuvers.
-    """
-
-    def __init__(
-        self,
-        robot: SimulatedRobot,
-        walk: "ManeuverWalk | PolicyWalk | None" = None,
-        frame: Pose | None = None,
-    ) -> None:
-        """Take a robot that stands in its world."""
-        self.name, self.truth, self.robot = robot.name, robot.truth, robot
-        self.walk, self.frame = walk, frame
-        self.plans = self.maneuvers is not None
-        self._measured: tuple[int, RobotState] | None = None
-
-    def measure(self) -> RobotState:
-        """Return the measurement of this tick; noise is drawn once."""
-        ticks = self.robot.world.ticks
-        if self._measured is None or self._measured[0] != ticks:
-            self._measured = ticks, self.robot.read()
-        return self._measured[1]
-
-    @property
-    def maneuvers(self) -> ManeuverWalk | None:
-        """Walk of a robot that plans its steps."""
-        return None if self.walk is None else self.walk.maneuvers
-
-    @property
-    def zmp(self) -> tuple[float, float]:
-        """Center of its foot forces in the world, in [m]; NaN in flight."""
-        return self.robot.measured_zmp()
-
-    @property
-    def pushes(self) -> tuple[ScheduledPush, ...]:
-        """Pushes that have been applied or scheduled."""
-        return self.robot.pushes
-
-    @property
-    def begun(self) -> StepStarted | None:
-        """Step begun at the last tick, if any."""
-        return None if self.walk is None else self.walk.begun
-
-    @property
-    def is_moving(self) -> bool:
-        """Whether it has left its standing state."""
-        return self.walk is None or self.walk.phase is not Phase.STANDING
-
-    @property
-    def has_fallen(self) -> bool:
-        """Whether it has fallen, or has detected a fall.
-
-        Raises:
-            PolicyError: If a robot on learned legs fell before it could walk.
-        """
-        fallen, now = self.truth.has_fallen, self.robot.world.time
-        if self.walk is None or not fallen or self.plans or now > AT_ONCE:
-            detected = self.walk and self.walk.phase is Phase.FALLEN
-            return fallen or bool(detected)
-        raise PolicyError(
-            f"legs: {self.name} fell at {now:.2f} s, while it was to "
-            "stand: the contract does not fit the network"
-        )
-
-    def motion_log(self, *, closely: bool) -> MotionLog | RobotLog:
-        """Return an empty log of its motion, closely with foot states."""
-        states, walk = self.robot.state_log(), self.maneuvers
-        if walk is None:
-            return states
-        columns, row = REFERENCES, partial(self._planned, walk)
-        if closely:
-            columns, row = REFERENCES | CLOSELY, partial(self._close_row, walk)
-        return MotionLog(columns, row, states)
-
-    def _planned(self, walk: ManeuverWalk) -> tuple[float, ...]:
-        """Return the references of CoM and ZMP in the world."""
-        x, y, u, v = walk.planned_centers
-        return *self._in_world(x, y), *self._in_world(u, v)
-
-    def _in_world(self, x: float, y: float) -> tuple[float, float]:
-        """Return a point of odometry in the world, in [m]."""
-        assert self.frame is not None
-        return self.frame.compose(Pose(x, y, 0.0))[:2]
-
-    def _close_row(self, walk: ManeuverWalk) -> tuple[float, ...]:
-        """Return references, foot states and estimates in the world."""
-        stance, frame = self.robot.stance, self.frame
-        assert frame is not None
-        step = walk.step(self.robot.world.time)
-        foot, state = step.swing.other, walk.balance.state
-        sole = stance.left_sole if foot is Foot.LEFT else stance.right_sole
-        estimate = (np.nan,) * CLOSELY["estimate"]
-        if state is not None:
-            turned = Pose(0.0, 0.0, frame.theta)
-            estimate = (
-                *self._in_world(*state.com),
-                *turned.compose(Pose(*state.velocity, 0.0))[:2],
-                *self._in_world(*state.zmp),
-                *state.tilt,
-            )
-        return (
-            *self._planned(walk),
-            *stance.velocity,
-            *stance.tilt,
-            *sole,
-            foot.value,
-            float(step.walking and step.remaining > 0.0),
-            *frame.compose(step.support),
-            walk.balance.planned_heading + frame.theta,
-            *estimate,
-        )
-
-    def push(self, *pushes: Push) -> None:
-        """Schedule pushes of the torso, now or later."""
-        self.robot.push(*pushes)
-
-    def close(self) -> None:
-        """Close the cameras."""
-        self.robot.close()
-
-
-class RobotPlayer(PhysicalPlayer):
-    """Simulated robot with a strategy.
-
-    Attributes:
-        scheme: Controller.
     """
 
     frame: Pose
@@ -183,8 +56,10 @@ class RobotPlayer(PhysicalPlayer):
         self, robot: SimulatedRobot, scheme: ControlScheme, frame: Pose
     ) -> None:
         """Combine a robot and its controller."""
-        super().__init__(robot, scheme.locomotion, frame)
-        self.scheme = scheme
+        self.name, self.truth, self.robot = robot.name, robot.truth, robot
+        self.scheme, self.frame = scheme, frame
+        self.walk = scheme.locomotion
+        self.plans = self.maneuvers is not None
         # Exact sightings are read when a decision is due.
         self._coasts = robot.sees_exactly
         self._feels = scheme.locomotion.feels or not self._coasts
@@ -222,6 +97,100 @@ class RobotPlayer(PhysicalPlayer):
             targets = scheme.update(robot.read(sees=sees, feels=self._feels))
         robot.write(targets)
 
+    @property
+    def maneuvers(self) -> ManeuverWalk | None:
+        """Walk of a robot that plans its steps."""
+        return self.walk.maneuvers
+
+    @property
+    def zmp(self) -> tuple[float, float]:
+        """Center of its foot forces in the world, in [m]; NaN in flight."""
+        return self.robot.measured_zmp()
+
+    @property
+    def pushes(self) -> tuple[ScheduledPush, ...]:
+        """Pushes that have been applied or scheduled."""
+        return self.robot.pushes
+
+    @property
+    def begun(self) -> StepStarted | None:
+        """Step begun at the last tick, if any."""
+        return self.walk.begun
+
+    @property
+    def is_moving(self) -> bool:
+        """Whether it has left its standing state."""
+        return self.walk.phase is not Phase.STANDING
+
+    @property
+    def has_fallen(self) -> bool:
+        """Whether it has fallen, or has detected a fall.
+
+        Raises:
+            PolicyError: If a robot on learned legs fell before it could walk.
+        """
+        fallen, now = self.truth.has_fallen, self.robot.world.time
+        if not fallen or self.plans or now > AT_ONCE:
+            return fallen or self.walk.phase is Phase.FALLEN
+        raise PolicyError(
+            f"legs: {self.name} fell at {now:.2f} s, while it was to "
+            "stand: the contract does not fit the network"
+        )
+
+    def motion_log(self, *, closely: bool) -> MotionLog | RobotLog:
+        """Return an empty log of its motion, closely with foot states."""
+        states, walk = self.robot.state_log(), self.maneuvers
+        if walk is None:
+            return states
+        columns, row = REFERENCES, partial(self._planned, walk)
+        if closely:
+            columns, row = REFERENCES | CLOSELY, partial(self._close_row, walk)
+        return MotionLog(columns, row, states)
+
+    def _planned(self, walk: ManeuverWalk) -> tuple[float, ...]:
+        """Return the references of CoM and ZMP in the world."""
+        x, y, u, v = walk.planned_centers
+        return *self._in_world(x, y), *self._in_world(u, v)
+
+    def _in_world(self, x: float, y: float) -> tuple[float, float]:
+        """Return a point of odometry in the world, in [m]."""
+        return self.frame.compose(Pose(x, y, 0.0))[:2]
+
+    def _close_row(self, walk: ManeuverWalk) -> tuple[float, ...]:
+        """Return references, foot states and estimates in the world."""
+        stance, frame = self.robot.stance, self.frame
+        step = walk.step(self.robot.world.time)
+        foot, state = step.swing.other, walk.balance.state
+        sole = stance.left_sole if foot is Foot.LEFT else stance.right_sole
+        estimate = (np.nan,) * CLOSELY["estimate"]
+        if state is not None:
+            turned = Pose(0.0, 0.0, frame.theta)
+            estimate = (
+                *self._in_world(*state.com),
+                *turned.compose(Pose(*state.velocity, 0.0))[:2],
+                *self._in_world(*state.zmp),
+                *state.tilt,
+            )
+        return (
+            *self._planned(walk),
+            *stance.velocity,
+            *stance.tilt,
+            *sole,
+            foot.value,
+            float(step.walking and step.remaining > 0.0),
+            *frame.compose(step.support),
+            walk.balance.planned_heading + frame.theta,
+            *estimate,
+        )
+
+    def push(self, *pushes: Push) -> None:
+        """Schedule pushes of the torso, now or later."""
+        self.robot.push(*pushes)
+
+    def close(self) -> None:
+        """Close the cameras."""
+        self.robot.close()
+
 
 class VelocityWalker(RobotPlayer):
     """Simulated robot that walks at velocities that another process commands.
@@ -244,6 +213,7 @@ class VelocityWalker(RobotPlayer):
         self.description = description
         self._forward = ForwardKinematics(description)
         self._image: ColourImage | None = None
+        self._measured: tuple[int, RobotState] | None = None
         self._ignores_lateral = False
 
     def command(self, velocity: BodyVelocity) -> None:
@@ -270,8 +240,14 @@ class VelocityWalker(RobotPlayer):
         self.robot.write(self.scheme.update(self.measure()))
 
     def measure(self) -> RobotState:
-        """Return the measurement of this tick, and keep its last image."""
-        measured = super().measure()
+        """Return the measurement of this tick, and keep its last image.
+
+        Noise is drawn once.
+        """
+        ticks = self.robot.world.ticks
+        if self._measured is None or self._measured[0] != ticks:
+            self._measured = ticks, self.robot.read()
+        measured = self._measured[1]
         for percept in measured.percepts:
             if isinstance(percept, ColourImage):
                 self._image = percept

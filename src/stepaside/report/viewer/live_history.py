@@ -12,7 +12,7 @@ from ...games.physics_world import PhysicsWorld
 from ...games.player import Player
 from ...games.player_settings import PLAYERS
 from ...games.recorded_game import RecordedGame
-from ...games.robot_player import PhysicalPlayer
+from ...games.robot_player import RobotPlayer
 from ...perception.pipeline import FrameReport
 from ...planning import Foot
 
@@ -31,7 +31,7 @@ def true_odometry(player: Player) -> Pose | None:
     odometry drifts. None for a player that does not plan.
     """
     walk = player.maneuvers
-    if walk is None or not isinstance(player, PhysicalPlayer):
+    if walk is None or not isinstance(player, RobotPlayer):
         return None
     step = walk.step(player.robot.world.time)
     stance, foot = player.robot.stance, step.swing.other
