@@ -1,6 +1,5 @@
 """Evaluation of a recorded game: its summary."""
 
-from collections.abc import Collection
 from dataclasses import replace
 from itertools import combinations
 from math import isfinite
@@ -29,7 +28,6 @@ from .summary import (
     PlayerSummary,
     Summary,
 )
-from .trajectory import PlanningTimes
 
 if TYPE_CHECKING:
     from .camera_senses import SightObserver
@@ -106,7 +104,7 @@ def _player(run: Run, name: str, late: NDArray[np.bool_]) -> PlayerSummary:
 def summarise(
     run: Run,
     game: GameInPlay,
-    planning: Collection[PlanningTimes],
+    planning: PlanningSummary | None,
     sight: "SightObserver | None",
 ) -> Summary:
     """Compute the summary of a game that was played.
@@ -114,7 +112,7 @@ def summarise(
     Args:
         run: The run; its summary is not used.
         game: The game.
-        planning: Planning times of each player.
+        planning: Plans of all robots in physics.
         sight: Evaluation of perception.
     """
     summary = measure(run)
@@ -139,27 +137,8 @@ def summarise(
         touched=list(game.touched),
         fallen=list(game.fallen),
         players=players,
-        planning=_planning(planning),
+        planning=planning,
         sight=together,
-    )
-
-
-def _planning(players: Collection[PlanningTimes]) -> PlanningSummary:
-    plans = np.sort(1e6 * np.concatenate([p.times for p in players]))
-    margins = [p.zmp_margin for p in players if p.zmp_margin is not None]
-    median, late = None, None
-    if len(plans):
-        # np.median and np.quantile would import numpy.ma for it.
-        ranks = np.arange(len(plans))
-        at = np.array([0.5, 0.99]) * ranks[-1]
-        median, late = np.interp(at, ranks, plans).tolist()
-    return PlanningSummary(
-        steps=sum(p.steps for p in players),
-        replans=len(plans),
-        max_com_velocity_jump_m_s=max(p.velocity_jump for p in players),
-        min_zmp_margin_m=min(margins, default=None),
-        median_us=median,
-        p99_us=late,
     )
 
 

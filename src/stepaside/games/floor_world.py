@@ -27,7 +27,7 @@ from ..strategies.velocity_set import STILL, respond
 from .game import GameInPlay, GameObserver
 from .outcome import Outcome
 from .run_archive import load_run
-from .trajectory import PlanningTimes, Trajectory
+from .trajectory import Trajectory
 
 PERIOD = 0.02  # of records, and of the decisions of people, in [s]
 AT_ONCE = 1e-9  # times that differ by less are one instant, in [s]
@@ -500,11 +500,6 @@ class FloorRecorder(GameObserver):
     def tracks(self) -> dict[str, Trajectory]:
         """Return the trajectories, with each CoM on the floor, by name."""
         return {name: _track(rows) for name, rows in self.poses().items()}
-
-    def planning(self) -> dict[str, PlanningTimes]:
-        """Return no planning times, by name of the player."""
-        none = PlanningTimes(0, np.zeros(0), 0.0, None)
-        return dict.fromkeys(self.world.motions, none)
 
 
 def _track(poses: Array) -> Trajectory:

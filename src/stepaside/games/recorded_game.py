@@ -132,7 +132,9 @@ class RecordedGame(GameInPlay):
             times=self.recorder.times,
             tracks=tracks,
         )
-        planning = self.recorder.planning().values()
+        planning = None
+        if isinstance(self.recorder, Recorder):
+            planning = self.recorder.planning()
         run = replace(run, summary=summarise(run, self, planning, eyes))
         if run.game == "duel":
             moves = self.in_physics.first_moves

@@ -4,12 +4,13 @@ import numpy as np
 
 from ..core.poses import Array, Pose
 from ..locomotion.locomotion import StepStarted
-from ..planning import Foot, ManeuverPlan
+from ..planning import Foot
 from ..sim.world import World
 from .game import GameInPlay, GameObserver
 from .physics_world import PhysicsWorld
 from .player import Player
-from .trajectory import PlanningTimes, Trajectory, margin_of
+from .summary import PlanningSummary
+from .trajectory import Trajectory
 
 PERIOD = 0.02  # between samples, in [s]
 
@@ -50,17 +51,6 @@ class PlayerRecord:
             for step in self.begun
         ]
         return np.array(rows, dtype=np.float64).reshape(-1, 5)
-
-    def planning(self) -> PlanningTimes:
-        """Return the planning times of the player."""
-        times = [s.planning_time for s in self.begun]
-        plans: list[ManeuverPlan] = [step.plan for step in self.begun]
-        return PlanningTimes(
-            len(self.begun),
-            np.array([t for t in times if t is not None], dtype=np.float64),
-            max((s.velocity_jump for s in self.begun), default=0.0),
-            margin_of(plans),
-        )
 
 
 class Recorder(GameObserver):
@@ -109,6 +99,28 @@ class Recorder(GameObserver):
         """Return the trajectories recorded so far, by name of the player."""
         return {name: rec.track() for name, rec in self._records.items()}
 
-    def planning(self) -> dict[str, PlanningTimes]:
-        """Return the planning times, by name of the player."""
-        return {name: rec.planning() for name, rec in self._records.items()}
+    def planning(self) -> PlanningSummary:
+        """Return what is known of the plans of all players."""
+        begun = [step for rec in self._records.values() for step in rec.begun]
+        plans = [step.plan for step in begun]
+        times = [s.planning_time for s in begun if s.planning_time is not None]
+        median, late = None, None
+        if times:
+            # np.median and np.quantile would import numpy.ma for it.
+            at = np.array([0.5, 0.99]) * (len(times) - 1)
+            sorted_times = 1e6 * np.sort(times)
+            ranks = np.arange(len(times))
+            median, late = np.interp(at, ranks, sorted_times).tolist()
+        return PlanningSummary(
+            steps=len(begun),
+            replans=len(times),
+            max_com_velocity_jump_m_s=max(
+                (step.velocity_jump for step in begun), default=0.0
+            ),
+            min_zmp_margin_m=min(
+                (p.margin(p.schedule.first_step_duration) for p in plans),
+                default=None,
+            ),
+            median_us=median,
+            p99_us=late,
+        )

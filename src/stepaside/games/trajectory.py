@@ -8,7 +8,6 @@ import numpy as np
 from ..core.brief_repr import brief_repr
 from ..core.errors import ConfigurationError
 from ..core.poses import Array
-from ..planning import ManeuverPlan
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -77,24 +76,6 @@ class Trajectory:
 
 
 FIELDS = tuple(field.name for field in fields(Trajectory))
-
-
-@dataclass(frozen=True, slots=True, eq=False)
-class PlanningTimes:
-    """Planning times and plan quality of one player."""
-
-    steps: int  # begun
-    times: Array  # processor time of planning each maneuver [s]
-    velocity_jump: float  # greatest, of the CoM reference [m/s]
-    zmp_margin: float | None  # least, where plans were executed [m]
-
-
-def margin_of(plans: list[ManeuverPlan]) -> float | None:
-    """Return the smallest ZMP margin of the executed parts of plans [m]."""
-    return min(
-        (plan.margin(plan.schedule.first_step_duration) for plan in plans),
-        default=None,
-    )
 
 
 WIDTHS: Mapping[str, int] = {
