@@ -54,14 +54,10 @@ class Arenas(NamedTuple):
     """Arenas, drawn once; an episode takes one of them.
 
     Arena i is that of seed i in a tournament, in the same room.
-
-    Attributes:
-        rooms: Room of each arena.
-        starts: Initial poses of pursuer and evader in each.
     """
 
     rooms: tuple[Room, ...]
-    starts: tuple[tuple[Pose, Pose], ...]
+    starts: tuple[tuple[Pose, Pose], ...]  # of pursuer and evader
 
     def indices(
         self, seeds: ArrayLike, episodes: ArrayLike
@@ -196,11 +192,7 @@ class EnvironmentSettings:
         return discrete_headings(self.headings)
 
     def contract(self, role: str) -> StrategyContract:
-        """Return the contract of a strategy learned here, without full state.
-
-        Args:
-            role: "pursuer" or "evader".
-        """
+        """Return the contract of a strategy learned here, by a role."""
         return StrategyContract(
             direction_of(role), self.sensed_terms, self.action_headings
         )
@@ -232,16 +224,10 @@ class IntentActions:
         return Intent(heading, speed) if speed > 0.0 else STAND
 
     def rows(self, actions: Any) -> Array:
-        """Return headings [rad] and speed factors of many actions.
-
-        Args:
-            actions: Shape (n,) if discrete, else (n, 2).
-
-        Returns:
-            Shape (n, 2).
+        """Return headings [rad] and speed factors of actions. Shape (n, 2).
 
         Raises:
-            PlanError: If the actions have another shape, or are not finite.
+            PlanError: If the actions are not in the space.
         """
         values, count = np.array(actions), len(self._rows)
         if count:

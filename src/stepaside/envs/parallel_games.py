@@ -66,11 +66,6 @@ class Episode:
     A step lasts a period, or one decision on the floor. A robot in physics
     decides when a foot has landed, by the intent that it holds then; its
     knowledge is that of its last decision.
-
-    Attributes:
-        game: The game.
-        room: Its room.
-        identities: Identity of each player, by name.
     """
 
     def __init__(
@@ -84,12 +79,8 @@ class Episode:
     ) -> None:
         """Begin; in physics, stand until all controlled players see others.
 
-        Args:
-            game: The game.
-            held: Strategy of each controlled player, by name.
-            room: Its room.
-            period: Duration of a step, in [s]; one decision by default.
-            patience: Longest time until they see others, in [s].
+        Their longest patience is in [s], and so is the period of a step, one
+        decision by default.
         """
         self.game, self.room, self._held = game, room, held
         self.identities, self._period = game.rules.identities, period
@@ -155,20 +146,13 @@ class Episode:
         It is 0 after a fall, or contact with anything but an opponent.
         """
         game, ids = self.game, self.identities
-        lost = set(game.fallen) | {
-            name
-            for name in ids.keys() & set(game.touched)
-            if not any(
-                ids[name].opposes(ids[other])
-                for other in ids.keys() & set(game.touched)
-            )
-        }
-        return {
-            name: 0.0 if name in lost else apart
-            for name, apart in self._nearest(
-                lambda *pair: game.closest[pair]
-            ).items()
-        }
+        found = self._nearest(lambda *pair: game.closest[pair])
+        touched = ids.keys() & set(game.touched)
+        for name in found.keys() & (touched | set(game.fallen)):
+            met = any(ids[name].opposes(ids[other]) for other in touched)
+            if name in game.fallen or not met:
+                found[name] = 0.0
+        return found
 
     @property
     def distances(self) -> dict[str, float]:
@@ -214,14 +198,7 @@ class ParallelGames(ParallelEnv[str, NDArray[np.float32], Any]):
         space: Box,
         render_mode: str | None,
     ) -> None:
-        """Build the spaces.
-
-        Args:
-            names: Names of the players that learn.
-            choice: Settings of the actions.
-            space: Space of the observations of each.
-            render_mode: "rgb_array" for images from above, or None.
-        """
+        """Build the spaces of the players that learn, by name."""
         if render_mode is not None:
             modes = tuple(self.metadata["render_modes"])
             check_choice(render_mode, modes, "render_mode")
@@ -238,12 +215,7 @@ class ParallelGames(ParallelEnv[str, NDArray[np.float32], Any]):
 
     @abstractmethod
     def begin(self, seed: int, number: int) -> Episode:
-        """Begin an episode.
-
-        Args:
-            seed: Seed of the environment, below 2^31.
-            number: Number of the episode since it was seeded.
-        """
+        """Begin an episode of a seed, by its number since seeding."""
 
     @abstractmethod
     def observe(self, episode: Episode, name: str) -> NDArray[np.float32]:
@@ -295,10 +267,7 @@ class ParallelGames(ParallelEnv[str, NDArray[np.float32], Any]):
         dict[str, bool],
         Infos,
     ]:
-        """Play one decision of all players.
-
-        Args:
-            actions: Action of each agent.
+        """Play one decision of all players, by the action of each agent.
 
         Raises:
             PlanError: If an action is missing or invalid, or the episode is

@@ -108,14 +108,7 @@ def law_of(strategy: Strategy) -> BatchLaw:
 
 
 class BatchedDuel:
-    """Games side by side, at level "unicycle" or "steps".
-
-    Attributes:
-        arenas: Their rooms and starts.
-        state: State of all games.
-        rules: Rules.
-        outcomes: Outcome code of each game. Shape (n,).
-    """
+    """Games side by side, at level "unicycle" or "steps"."""
 
     def __init__(
         self,
@@ -306,10 +299,6 @@ class VectorDuel(VectorEnv[Batch, Any, Any]):
         self, actions: Any
     ) -> tuple[Batch, Any, Any, Any, dict[str, Any]]:
         """Play one decision of all games.
-
-        Returns:
-            Observations, rewards, whether each game ended, whether each was
-            truncated, and infos.
 
         Raises:
             PlanError: If the actions are invalid, or nothing was reset.

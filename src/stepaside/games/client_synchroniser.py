@@ -57,10 +57,7 @@ class ClientSynchroniser(GameObserver):
     ) -> None:
         """Synchronise a match with servers.
 
-        Args:
-            servers: Servers of the robots that other processes control.
-            tick: Control period of the world, in [s].
-            lock_step: Wait for every answer instead of for the clock.
+        In lock step it waits for every answer instead of for the clock.
         """
         self._servers, self._tick = servers, tick
         self._lock_step = lock_step
