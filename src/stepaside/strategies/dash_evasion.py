@@ -232,11 +232,9 @@ class DashMemory(NamedTuple):
 
     track: OpponentTrack = TRACK  # last positions of the opponent
     time: float = 0.0  # time of the last decision [s]
-    # own velocity at that time, by the response of the legs
-    velocity: BodyVelocity = STILL
+    velocity: BodyVelocity = STILL  # own, then, by the response of the legs
     command: BodyVelocity = STILL  # velocity that was desired since then
-    # direction of the dash in the map [rad]; None while the robot stands
-    angle: float | None = None
+    angle: float | None = None  # of the dash in the map [rad]; None: stands
     compared: float = -inf  # time at which dashes were last compared [s]
 
 

@@ -21,9 +21,7 @@ class EvasionMemory(NamedTuple):
     """Memory of an evader."""
 
     evading: bool = False  # whether it evades
-    # side of evasion, +1 or -1, see :mod:`stepaside.theory.laws`; 0 while it
-    # does not evade
-    side: int = 0
+    side: int = 0  # +1 or -1; 0 while it does not evade
     safe: int = 0  # number of consecutive decisions in which standing was safe
 
 

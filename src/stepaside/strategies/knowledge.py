@@ -26,19 +26,14 @@ FASTEST = 100.0  # desired velocity; more is an error, in [m/s] and [rad/s]
 class Limits:
     """Limits of the own gait."""
 
-    # driving speed of the template at speed factor 1 [m/s] of path time
-    speed: float
-    # steering gain k [1/s] of path time; in (6) the turning rate [rad/s]
-    gain: float
+    speed: float  # of the template at factor 1 [m/s] of path time
+    gain: float  # k [1/s] of path time; in (6) the turning rate [rad/s]
     stride: float  # length of one step at speed factor 1 [m]
     step_duration: float  # time between decisions while walking [s]
-    # velocities that the legs deliver; None for a unicycle
-    velocities: VelocitySet | None = None
-    # longest stride of the outer foot in a turn [m]; None for any
-    outer_stride: float | None = None
+    velocities: VelocitySet | None = None  # None for a unicycle
+    outer_stride: float | None = None  # in a turn [m]; None for any
     foot_spacing: float = 0.0  # coronal distance between the feet [m]
-    # bearings at which the robot sees others
-    views: tuple[Sector, ...] = ALL_AROUND
+    views: tuple[Sector, ...] = ALL_AROUND  # where it sees others
 
     @property
     def share(self) -> float:
@@ -97,22 +92,17 @@ class Knowledge:
     """
 
     time: float  # present time [s]
-    # of the opponent in the frame, in [-pi, pi] [rad], positive to the left
-    bearing: float
+    bearing: float  # of the opponent in the frame [rad], positive left
     distance: float  # horizontal distance to the opponent at the sighting [m]
     limits: Limits  # limits of the own gait
-    # turning rate of the line of sight over the floor [rad/s]; None until it
-    # is known
-    bearing_rate: float | None = None
-    # rate at which the distance decreases [m/s]; None until it is known
-    closing_speed: float | None = None
+    bearing_rate: float | None = None  # of the line of sight [rad/s]
+    closing_speed: float | None = None  # None until it is known [m/s]
     age: float = 0.0  # time since the sighting [s]
     # pose of the frame in the map: the frame of a known room, else the own
     # odometry
     pose_in_map: Pose = Pose(0.0, 0.0, 0.0)
     moving: bool = False  # whether the body is walking
-    # known obstacles, walls included; iterate over it for single ones
-    obstacles_in_map: ObstacleSet = NO_OBSTACLES
+    obstacles_in_map: ObstacleSet = NO_OBSTACLES  # walls included
     # velocity of the opponent over the floor, components ahead and to the left
     # in the frame [m/s]; None until it is known
     velocity: tuple[float, float] | None = None
@@ -122,8 +112,7 @@ class Knowledge:
     step_start_in_map: Pose | None = None
     spread: float = 0.0  # standard deviation of the opponent's position [m]
     map_error: float = 0.0  # largest position error of the obstacles [m]
-    # own name, role and team; None where players are not recognised
-    identity: PlayerIdentity | None = None
+    identity: PlayerIdentity | None = None  # None if not told apart
     # all other players that have been seen, the opponent among them; empty if
     # sightings do not tell who was seen
     others: tuple[OtherPlayer, ...] = ()

@@ -26,8 +26,7 @@ class OpponentTrack(NamedTuple):
 
     step: float  # duration of a step of a gait [s]
     span: float = 3.25  # age up to which positions are kept, in steps
-    # least time between two of them but the newest, in steps
-    spacing: float = 0.125
+    spacing: float = 0.125  # least, but before the newest, in steps
     rows: tuple[SeenOpponent, ...] = ()  # the positions
 
     def note(

@@ -27,8 +27,7 @@ class PursuitMemory(NamedTuple):
     """Memory of a pursuer."""
 
     side: int = 0  # side of the present detour, 1 left or -1 right; 0 for none
-    # track of the evader, if its course is needed
-    track: OpponentTrack | None = None
+    track: OpponentTrack | None = None  # if a course is needed
 
 
 @dataclass(frozen=True, slots=True)

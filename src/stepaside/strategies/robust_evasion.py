@@ -53,9 +53,7 @@ class FitRules(NamedTuple):
 
     window: int  # positions that a model is fitted to
     settling: int  # positions that show an error
-    # error over the least, rms, from which on a model does not explain the
-    # path
-    ruled_out: float
+    ruled_out: float  # error over the least of a model that is not so
 
 
 EXACT_SIGHT = FitRules(3, 3, 3.0)
@@ -72,13 +70,11 @@ class ModelFit(NamedTuple):
     """Fit of every model to the observed motion."""
 
     time: float = -1.0  # time of the last observation [s]; negative before it
-    # own pose, position of the pursuer and time in steps then. (6,)
-    seen: Array = np.zeros(6)
+    seen: Array = np.zeros(6)  # own pose, pursuer [m], time [steps]
     # last observations, a step apart, without sway
     # (:func:`~.search.step_motion.fit_heading`). (n, 6)
     path: Array = np.empty((0, 6))
-    # pose of the pursuer at the end of the path by each model
-    poses: tuple[tuple[float, float, float], ...] = ()
+    poses: tuple[tuple[float, float, float], ...] = ()  # at the end of it
     # forgetting mean of the mean squared distance of each model from the path
     # [m^2]
     errors: tuple[float, ...] = (0.0,) * len(MODELS)
@@ -191,8 +187,7 @@ class RobustMemory(NamedTuple):
     """Memory of a robust evader."""
 
     fit: ModelFit = ModelFit()  # models of the pursuer, and their errors
-    # turn [rad] and speed factor of the planned steps to come. (n, 2)
-    moves: Array = np.empty((0, 2))
+    moves: Array = np.empty((0, 2))  # turn [rad], speed factor to come
     assumed: tuple[int, ...] = ()  # models that were searched for the plan
     planned: int = 0  # number of steps of the plan when it was made
     promised: float = 0.0  # mean number of its steps to come that it survives
@@ -289,15 +284,11 @@ class RobustEvasion(BackwardStrategy, CheckedSettings):
 class PlannedGame(NamedTuple):
     """Game against every model that is plausible, from what has been seen."""
 
-    # models of the pursuer, first those that are searched
-    models: tuple[PursuerModel, ...]
-    # poses of evader and pursuer by each model. Shape (6,) each
-    starts: list[Array]
+    models: tuple[PursuerModel, ...]  # those that are searched first
+    starts: list[Array]  # both poses by each model. (6,) each
     weights: Array  # weight of each, one in all. (n,)
     searched: int  # number of models that are searched
-    # steps by which a new plan must survive longer than the rest of the last
-    # one
-    kept: float
+    kept: float  # steps by which a new plan must survive longer
     packed: PackedObstacles  # obstacles
     rules: BeamRules  # rules of the games, and size of the search
 

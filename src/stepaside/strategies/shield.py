@@ -103,8 +103,7 @@ class TemplatePoint(NamedTuple):
     """
 
     position: Vector  # its position in the map [m]
-    # velocity of the body over the floor, by the lag of its legs [m/s]
-    drift: Vector = (0.0, 0.0)
+    drift: Vector = (0.0, 0.0)  # of the body by its lag [m/s]
 
     def advance(
         self, command: Vector, body: Vector, lag: float, duration: float
@@ -129,8 +128,7 @@ class HeldMotion(NamedTuple):
 
     number: int  # its number in the choices of the model
     heading: float  # heading in the map at which it began [rad]
-    # time until which it is held [s]; infinite until the robot has started
-    until: float
+    until: float  # time [s]; infinite until the robot has started
 
 
 class ShieldMemory(NamedTuple):
@@ -138,15 +136,11 @@ class ShieldMemory(NamedTuple):
 
     inner: Any  # memory of the strategy
     track: OpponentTrack | None = None  # positions of the opponent
-    # heading of the opponent; None until a window has passed
-    course: Course | None = None
-    # motion that replaces decisions; None for none
-    held: HeldMotion | None = None
+    course: Course | None = None  # None until a window has passed
+    held: HeldMotion | None = None  # None for none
     time: float = 0.0  # time of the last decision [s]
-    # template point of legs then; None before
-    template: TemplatePoint | None = None
-    # velocity over the floor that was commanded [m/s]
-    command: tuple[float, float] = (0.0, 0.0)
+    template: TemplatePoint | None = None  # of legs; None before
+    command: tuple[float, float] = (0.0, 0.0)  # over the floor [m/s]
     replaced: int = 0  # number of decisions that were replaced
     guarded: bool = False  # whether contact was excluded at the last decision
 

@@ -51,9 +51,7 @@ class BackwardStrategy:
 class Walk:
     """Walk with a constant desired heading."""
 
-    # desired heading in the frame of each support foot [rad]
-    bearing: float = 0.0
-    # whether the robot walks forward or backward
+    bearing: float = 0.0  # heading in the frame of each foot [rad]
     direction: Direction = Direction.FORWARD
     saturated: bool = False  # whether it turns by (6) instead of (8)
     speed_factor: float = 1.0  # fraction of the gait's speed [0, 1]; 0 stands

@@ -19,21 +19,13 @@ class StepGame:
     # largest turn of a step [rad]; by default that of eq. (2), pi times gain
     # times stride over speed
     largest_turn: float | None = None
-    # capture distance [m]: at it or below it the evader is captured
-    capture: float = CAPTURE_DISTANCE
-    # clearance of the evader's centre below which it touches an obstacle [m]
-    body_radius: float = 0.2
-    # whether obstacles stop the pursuer; otherwise it walks through them
-    solid_pursuer: bool = False
+    capture: float = CAPTURE_DISTANCE  # distance of a capture [m]
+    body_radius: float = 0.2  # least clearance of the evader [m]
+    solid_pursuer: bool = False  # whether obstacles stop it
     duration: float = 180.0  # duration of a game [s]
-    # decisions per step; with more than one, the players approximate unicycles
-    # under feedback
-    decisions: int = 1
-    # speed and stride of the pursuer over those of the evader; its turns are
-    # the same
-    pursuer_speed_ratio: float = 1.0
-    # steering gain of the pursuer over that of the evader
-    pursuer_gain_ratio: float = 1.0
+    decisions: int = 1  # per step; with more, like unicycles
+    pursuer_speed_ratio: float = 1.0  # also of strides
+    pursuer_gain_ratio: float = 1.0  # of the steering
 
     def __post_init__(self) -> None:
         """Validate the rules."""

@@ -39,14 +39,12 @@ class VelocitySet(NamedTuple):
     forward: Bounds  # bounds ahead [m/s]
     lateral: Bounds  # bounds to the left [m/s]; (0, 0) for a unicycle
     turn: Bounds  # bounds of the turning rate [rad/s]
-    # time by which the motion along each axis is behind that of its final
-    # velocity [s]
-    lags: AxisValues = AxisValues()
+    lags: AxisValues = AxisValues()  # delay of the motion [s]
     # motion along each axis from the command to stand until the body stands,
     # at the greatest velocity [m, m, rad]
     halting: AxisValues = AxisValues()
     # greatest distance of the body from a point that follows commands at once,
-    # see :mod:`.shield_template` [m]; 0 if it is not known
+    # see :class:`.shield.TemplatePoint` [m]; 0 if it is not known
     tube: float = 0.0
 
     @property

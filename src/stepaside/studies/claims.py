@@ -53,8 +53,7 @@ class Claim:
     level: str
     expected: float  # expected value
     unit: str  # unit of the values
-    # largest difference at which the claim holds; zero for an inequality
-    tolerance: float = 0.0
+    tolerance: float = 0.0  # zero for an inequality
     # "=", "<" or ">": how measured values must compare with the expected one
     relation: str = "="
     printed: str | None = None  # the printed text, where it differs

@@ -43,16 +43,11 @@ class Encounter:
     """Encounter with one approaching person."""
 
     speed: float = 1.0  # speed of the person [m/s]
-    # bearing of the person at first in the frame of the robot [deg]
-    bearing: float = 0.0
-    # lateral offset of the path from the robot, to its left [m]
-    offset: float = 0.0
-    # what the person does near the robot, one of ``LADDER``
-    reaction: str = "straight"
-    # distance from the robot at which a person halts or turns towards it [m]
-    change_at: float = 1.2
-    # whether these but the reaction are drawn by the seed instead
-    drawn: bool = False
+    bearing: float = 0.0  # at first in the frame of the robot [deg]
+    offset: float = 0.0  # of the path, to the robot's left [m]
+    reaction: str = "straight"  # near the robot, of ``LADDER``
+    change_at: float = 1.2  # where it halts or turns to it [m]
+    drawn: bool = False  # all but the reaction, by the seed
     seed: int = 1  # seed of the game
     # all other settings of the game
     duel: GameSettings = field(

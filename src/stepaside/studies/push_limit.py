@@ -39,8 +39,7 @@ class PushSettings:
     # settings of the walk; duration and pushes are ignored
     walk: GameSettings = field(default_factory=make_walk)
     direction: str = "left"  # direction of the push, a key of ``DIRECTIONS``
-    # phase at which it begins, as a fraction of the gait cycle
-    phase: float = 0.0
+    phase: float = 0.0  # at which it begins, of the gait cycle
     seed: int = 1  # seed of the walk
 
     def __post_init__(self) -> None:

@@ -60,11 +60,9 @@ class PairingSettings:
     # "room"; "open" without walls, with the starts of duels; or "any heading",
     # open with any headings, where no game ends by capture
     floor: str = "room"
-    # recipe of the random room
     room: RoomRecipe = field(default_factory=RoomRecipe)
     room_file: str = ""  # file of a room that all games share, instead
-    # rules of the game. At level "physics" only the duration is used
-    game: StepGame = field(default_factory=StepGame)
+    game: StepGame = field(default_factory=StepGame)  # physics: duration
     map: str = "given"  # map of the humanoids: "given", "seen" or "none"
 
     def __post_init__(self) -> None:

@@ -34,8 +34,7 @@ class OpenNetwork(NamedTuple):
     session: Any  # the session
     name: str  # name of its input
     kind: Any  # type of the numbers of its input
-    # number of observations that it takes at once; None for any
-    rows: int | None
+    rows: int | None  # that it takes at once; None for any
     width: int | None  # number of values of an observation; None for any
 
     @property
@@ -151,8 +150,7 @@ class LearnedStrategy:
     """Strategy whose intent is the output of a network."""
 
     saturated: ClassVar = False
-    # content of an ONNX file, as of :func:`dense_network`
-    network: bytes = field(repr=False)
+    network: bytes = field(repr=False)  # content of an ONNX file
     contract: StrategyContract  # what it reads and what its outputs mean
     name: str = "network"  # name for messages, such as the file
 

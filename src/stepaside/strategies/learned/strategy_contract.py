@@ -142,11 +142,8 @@ def _clearances(known: Knowledge) -> list[float]:
 class StrategyContract:
     """Observation of a network, and meaning of its outputs."""
 
-    # whether the body drives forward, as a pursuer does, or backward, as an
-    # evader does
-    direction: Direction
-    # terms of the observation, in order; see :data:`SENSED_TERMS`
-    terms: tuple[str, ...]
+    direction: Direction  # of driving: forward, or backward
+    terms: tuple[str, ...]  # in order; see :data:`SENSED_TERMS`
     # desired heading of each discrete action [rad], None to stand: the action
     # with the largest output is taken. Empty for continuous actions: the
     # outputs are a heading [rad], limited to half a turn, and a speed factor,

@@ -53,8 +53,7 @@ class BeamRules(NamedTuple):
     clearance: float  # least clearance of the evader's centre [m]
     width: int  # number of states that go on
     horizon: int  # number of steps
-    # worth of the least distance of a game so far [m] per [m], at most 3
-    caution: float = 0.0
+    caution: float = 0.0  # worth of the least distance [m] per [m]
 
 
 class Successors(NamedTuple):
