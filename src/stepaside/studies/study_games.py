@@ -3,7 +3,6 @@
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 from math import isfinite
-from time import perf_counter
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -14,12 +13,10 @@ from ..core.poses import Pose
 from ..games.floor_games import play_unicycles
 from ..games.game_settings import GameSettings, duel, walk
 from ..games.outcome import Outcome
-from ..games.player_settings import EVADER, PURSUER
 from ..games.recorded_game import run_game
 from ..games.run import Run
 from ..games.run_archive import results_of
 from ..games.settings_reader import read_game, settings_of
-from ..games.summary import PlanningSummary, TheorySummary
 from ..games.unicycle_settings import UnicycleSettings
 from ..strategies.registry import check_strategy_name
 from ..theory.unicycle.adaptive_simulation import simulate
@@ -30,76 +27,37 @@ from .push_limit import PushSettings, play_push
 from .tabulation import Record, flat
 from .tournament import PairingSettings, play_pairing
 
-OF_SUMMARY = (
-    *("distance_m", "relative_orientation_deg", "min_distance_m"),
-    *("converged_at_s", "triggered_at_s", "triggered_at_distance_m"),
-)
 BEFORE = 2.0 / 3.0  # of a duel; means are taken over the rest
 
 
 def play_duel(settings: GameSettings) -> Record:
-    """Play one duel and return its record.
-
-    Summary values in SI units, or [deg] as their names say, and the
-    ``digest`` of the trajectories.
-    """
-    began = perf_counter()
+    """Play one duel and return its record: what it came to, by flat names."""
     run = run_game(settings).uninterrupted()
-    return _record_of(run, perf_counter() - began)
-
-
-def _record_of(run: Run, wall: float) -> Record:
-    """Return the record of a run that took a computing time, in [s]."""
-    summary, players = run.summary, run.summary.players
-    theory = summary.theory or TheorySummary()
-    planning = summary.planning or PlanningSummary(0, 0)
-    since = summary.converged_at_s
-    record = {
-        "seed": run.settings.seed,
-        "outcome": run.outcome.value,
-        "message": run.message,
-        "duration_s": run.duration,
-        "start_distance_m": run.settings.start.distance,
-        "pursuer_radius_m": players[PURSUER].radius_m,
-        "evader_radius_m": players[EVADER].radius_m,
-        **{name: getattr(summary, name) for name in OF_SUMMARY},
+    since, (closest, certified) = run.summary.converged_at_s, _evasion(run)
+    both = closest is not None and certified is not None
+    return flat(results_of(run)) | {
         "on_circle": since is not None,
         "on_circle_in_time": since is not None
         and since < BEFORE * run.settings.duration,
-        "min_zmp_margin_m": planning.min_zmp_margin_m,
-        "max_com_velocity_jump_m_s": planning.max_com_velocity_jump_m_s,
-        "theory_radius_m": theory.radius_m,
-        "theory_distance_m": theory.distance_m,
-        "theory_orientation_deg": theory.relative_orientation_deg,
-        **_evasion(run),
+        "evading_min_distance_m": closest,
+        "certified_m": certified,
+        "over_certificate_m": closest - certified if both else None,
     }
-    closest, certified = (
-        record["evading_min_distance_m"],
-        record["certified_m"],
-    )
-    both = closest is not None and certified is not None
-    record["over_certificate_m"] = closest - certified if both else None
-    if summary.sight is not None:
-        for name in ("lost_s", "detection_rate", "false_detections"):
-            record[name] = getattr(summary.sight, name)
-    record["wall_s"] = round(wall, 3)
-    return record
 
 
-def _evasion(run: Run) -> Record:
-    """Return the closest approach while evading, and its certificate.
+def _evasion(run: Run) -> tuple[Any, Any]:
+    """Return the closest approach while evading, and its certificate, in [m].
 
     The certificate is that of two unicycles at the poses of the players when
     evasion begins, with an evader that keeps its side.
     """
-    found: Record = {"evading_min_distance_m": None, "certified_m": None}
     triggered = run.summary.triggered_at_s
     if triggered is None or run.settings.pursuer.body != "robot":
-        return found
+        return None, None
     since = run.times >= triggered - 1e-9
     if not since.any():
-        return found
-    found["evading_min_distance_m"] = float(run.distance[since].min())
+        return None, None
+    closest = float(run.distance[since].min())
     first = int(np.argmax(since))
     start = RelativeStart.from_world(
         Pose(*run.pursuer.unicycle[first].tolist()),
@@ -109,7 +67,7 @@ def _evasion(run: Run) -> Record:
     gait, strategy = own.gait, own.evasion
     ends = strategy.trigger == "time" or isfinite(strategy.release_distance)
     if ends or not run.settings.is_of_the_paper:
-        return found  # the certificate assumes permanent evasion
+        return closest, None  # it assumes permanent evasion
     try:
         game = make_game(
             gait.speed,
@@ -122,10 +80,8 @@ def _evasion(run: Run) -> Record:
         )
         certificate = certify(game, start)
     except PlanError:  # the certificate does not cover this game
-        return found
-    if certificate.holds:
-        found["certified_m"] = certificate.distance_m
-    return found
+        return closest, None
+    return closest, certificate.distance_m if certificate.holds else None
 
 
 @dataclass(frozen=True)
