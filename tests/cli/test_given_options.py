@@ -195,32 +195,6 @@ def test_changing_the_method_keeps_feedback_of_the_file(
     assert (found.method, found.feedback) == ("closed-form", True)
 
 
-def test_feedback_option_keeps_other_control_settings_of_the_file(
-    file: Path,
-) -> None:
-    for told, words, method, feedback in (
-        (
-            'method = "closed-form"',
-            "--set control.feedback=true",
-            "closed-form",
-            True,
-        ),
-        ('method = "closed-form"', "--body hardware", "measured", True),
-        (
-            'method = "mpc"\nfeedback = true',
-            "--set control.feedback=true",
-            "mpc",
-            True,
-        ),
-        ("feedback = false", "--set control.feedback=true", "measured", True),
-    ):
-        text = f"seed = 3\n[control]\n{told}\n[control.mpc]\nsteps = 3\n"
-        file.write_text(text, encoding="utf-8")
-        found = settings(f"duel --config {file} {words}").evader.control
-        assert (found.method, found.feedback) == (method, feedback), words
-        assert found.mpc.steps == 3
-
-
 def test_walk_file_has_its_own_entries(tmp_path: Path) -> None:
     walk = make_walk(
         0.2,
@@ -296,36 +270,6 @@ def test_a_file_that_lacks_what_it_must_say_is_refused(
     ("line", "message"),
     [
         (
-            "run walk --set gait.stride=0",
-            r"stride must lie in [0.0001, 10] [m], got 0",
-        ),
-        ("run walk --set gait.foot_spacing=0.05", "foot_spacing must exceed"),
-        ("duel --set body.efficiency=nan", "efficiency must lie in"),
-        (
-            "duel --set evasion.safety_radius=wide",
-            "safety_radius must lie in",
-        ),
-        (
-            "duel --set cameras.colour.renderer=paint",
-            "renderer must be",
-        ),
-        ("theory plan --role evader", "missing option --bearing"),
-        ("theory plan --bearing 1", "missing option --role"),
-        ("view --set scene.walls=0.5", "walls must lie in"),
-    ],
-)
-def test_invalid_settings_are_refused_in_one_line(
-    line: str, message: str
-) -> None:
-    result = run(line)
-    assert result.exit_code == 2
-    assert len(result.stderr.splitlines()) == 1 and message in result.stderr
-
-
-@pytest.mark.parametrize(
-    ("line", "message"),
-    [
-        (
             "duel --set person.speed=1",
             "person.speed requires body person, got robot",
         ),
@@ -363,16 +307,3 @@ def test_options_without_effect_are_refused(line: str, message: str) -> None:
     result = run(line)
     assert result.exit_code == 2
     assert len(result.stderr.splitlines()) == 1 and message in result.stderr
-
-
-def test_plan_uses_the_requested_gait() -> None:
-    line = "theory plan --role pursuer --bearing 0 --steps 4 --json"
-    usual, long = (
-        json.loads(run(f"{line}{more}").stdout)
-        for more in ("", " --set gait.stride=0.06")
-    )
-    apart = [
-        found["footsteps"][2]["x"] - found["footsteps"][1]["x"]
-        for found in (usual, long)
-    ]
-    assert apart == pytest.approx([0.04, 0.06])

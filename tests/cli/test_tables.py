@@ -7,7 +7,7 @@ from typing import Any
 import pytest
 from click.testing import CliRunner, Result
 
-from stepaside.cli.main import COMMANDS, main
+from stepaside.cli.main import main
 from stepaside.cli.tables import format_value
 from stepaside.core import progress
 from stepaside.games import game
@@ -112,14 +112,6 @@ def test_progress_lines_are_periodic(
     assert 8 <= len(lines) <= 10
     assert "% , " not in lines[0] and "of 1000 games" in lines[0]
     assert "about" in lines[0] and "left" in lines[0]
-
-
-def test_bare_command_prints_help() -> None:
-    bare = CliRunner().invoke(main, [])
-    asked = CliRunner().invoke(main, ["--help"])
-    assert bare.exit_code == asked.exit_code == 0
-    assert bare.stdout == asked.stdout and not bare.stderr
-    assert len(bare.stdout.splitlines()) > len(COMMANDS)
 
 
 def test_readme_names_every_extra() -> None:

@@ -92,17 +92,6 @@ def test_sampled_simulation_reaches_the_closed_form() -> None:
         assert played[name] == pytest.approx(played["theory"][name], abs=1e-3)
 
 
-def test_figures_are_written(tmp_path: Path) -> None:
-    for command, words, name in [
-        (unicycles, "--figure", "game.png"),
-        (circle, "--starts 0 --figure", "sweep.png"),
-        (map_command, f"{MAP} --figure", "map.png"),
-    ]:
-        result = run(command, f"{words} {tmp_path / name}")
-        assert result.exit_code == 0, result.output
-        assert (tmp_path / name).stat().st_size > 10_000
-
-
 def test_map_names_the_worst_start() -> None:
     found = loads(map_command, MAP)
     assert found["games"] == 50

@@ -120,20 +120,5 @@ def test_a_duel_s_figure_shows_its_distance_beside_theory(
     assert run.theory[1] in levels
 
 
-def test_runs_are_compared_in_one_figure(
-    drawn: list[Figure], tmp_path: Path
-) -> None:
-    folders = [tmp_path / name for name in ("one", "two")]
-    for seed, folder in enumerate(folders):
-        words = ["duel", "--duration", "1", "--seed", str(seed)]
-        done = CliRunner().invoke(main, [*words, "--output", str(folder)])
-        assert done.exit_code == 0
-    drawn.clear()
-    words = ["show", *map(str, folders), "-o"]
-    done = CliRunner().invoke(main, [*words, str(tmp_path / "a.png")])
-    assert done.exit_code == 0, done.output
-    assert all(name in named(drawn[-1]) for name in ("one", "two"))
-
-
 def test_figures_are_drawn_without_a_screen() -> None:
     assert matplotlib.get_backend().lower() == "agg"

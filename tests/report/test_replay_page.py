@@ -18,7 +18,6 @@ from stepaside.games.recorded_game import run_game
 from stepaside.games.run import Run
 from stepaside.games.run_captions import describe_state
 from stepaside.games.trajectory import Trajectory
-from stepaside.report import replay_page
 from stepaside.report.overlays import overlays_of
 from stepaside.report.replay_page import write_page
 from stepaside.report.scene import RunScene
@@ -112,21 +111,6 @@ def test_bodies_on_the_page_are_where_they_were(
         np.testing.assert_allclose(places[row], there, atol=3e-4, rtol=0.0)
         turned = stage.data.xquat[shown["bodies"]]
         np.testing.assert_allclose(turns[row], turned, atol=2e-5)
-
-
-def test_a_torso_without_visible_parts_is_on_the_page(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    run = made()
-    torso = RunScene(run).model.body("evader/torso").id
-
-    def others(model: Any) -> list[Any]:
-        return [own for own in visual_geoms_of(model) if own.body != torso]
-
-    monkeypatch.setattr(replay_page, "visual_geoms_of", others)
-    shown = content(run, tmp_path)
-    assert torso not in {part["body"] for part in shown["parts"]}
-    assert torso in shown["bodies"] and shown["players"][1]["torso"] == torso
 
 
 def moved(track: Trajectory, away: float) -> Trajectory:
