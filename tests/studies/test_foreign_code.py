@@ -127,20 +127,6 @@ def test_json_goes_out_where_standard_error_is_closed(tmp_path: Path) -> None:
     assert json.loads(found.stdout)["evader_strategy"] == name
 
 
-def test_json_and_a_configuration_are_printed_as_before() -> None:
-    for words in (
-        (
-            "run",
-            "walk",
-        ),
-        ("duel",),
-    ):
-        result = CliRunner().invoke(
-            main, [*words, "--json", "--settings"], catch_exceptions=False
-        )
-        assert result.exit_code == 0 and "[[players]]" in result.stdout
-
-
 MODELS = (
     "<mujoco/>",
     "<mujoco><worldbody/></mujoco>",

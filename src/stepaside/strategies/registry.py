@@ -261,21 +261,17 @@ def _create(named: _Named, file: Path, name: str) -> Any:
 
 
 def _strategies_in(loaded: ModuleType) -> list[str]:
-    """Return the names of possible strategies that a file defines.
+    """Return the names of strategies and of functions that a file defines.
 
     Whether a function returns a strategy shows only when it is called.
     """
-    found = []
-    for name, thing in vars(loaded).items():
-        own = getattr(thing, "__module__", None) == loaded.__name__
-        decides = hasattr(thing, "decide")
-        if isinstance(thing, type):
-            fits = own and decides
-        else:
-            fits = decides or (own and isinstance(thing, FunctionType))
-        if fits and not name.startswith("_"):
-            found.append(name)
-    return sorted(found)
+    return sorted(
+        name
+        for name, thing in vars(loaded).items()
+        if not name.startswith("_")
+        and getattr(thing, "__module__", None) == loaded.__name__
+        and (hasattr(thing, "decide") or isinstance(thing, FunctionType))
+    )
 
 
 def trial_knowledge() -> Iterator[Knowledge]:
