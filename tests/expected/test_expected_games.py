@@ -21,7 +21,8 @@ from expected.asking import GAME, answer, command, own_evader
 from legs_robot import nao_on_legs
 from stepaside.cli.run_output import print_run
 from stepaside.envs import game_v0  # registers the environments, too
-from stepaside.games.recorded_game import run_duels
+from stepaside.games.game import play
+from stepaside.games.recorded_game import RecordedGame
 from stepaside.games.served_duel import serve_duel
 
 SHORT = sa.duel(duration=1.2, start=sa.StartSettings(distance=0.7))
@@ -241,12 +242,6 @@ def test_discrete_headings_are_evenly_spaced_on_the_circle(
     np.testing.assert_allclose(turns, 2.0 * np.pi / number)
 
 
-def test_a_study_in_this_process_takes_a_strategy_object() -> None:
-    settings = {"duration": 0.2, "evader.strategy": Own()}
-    run = sa.run_study(sa.make_study("duel", settings))
-    assert [record["outcome"] for record in run.records()] == ["completed"]
-
-
 def test_a_parameter_of_an_own_strategy_is_an_axis(tmp_path: Path) -> None:
     own = own_evader(tmp_path / "own.py")
     study = tmp_path / "study.toml"
@@ -271,12 +266,12 @@ def test_strategies_of_two_files_of_one_name_can_be_pickled(
 
 
 def test_duels_that_had_finished_survive_an_interruption() -> None:
-    long = SHORT.changed(
-        duration=9.0, evader={"strategy": Own(presses_at=6.0)}
-    )
-    first, second = run_duels([SHORT, long])
-    assert first.outcome is sa.Outcome.COMPLETED
-    assert second.outcome is sa.Outcome.INTERRUPTED
+    pressing = {"evader": Own(presses_at=6.0)}
+    first = RecordedGame(SHORT)
+    second = RecordedGame(SHORT.changed(duration=9.0), strategies=pressing)
+    play(first, second)
+    assert first.run().outcome is sa.Outcome.COMPLETED
+    assert second.run().outcome is sa.Outcome.INTERRUPTED
 
 
 def test_a_study_in_python_shows_its_progress(

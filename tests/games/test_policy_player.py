@@ -12,7 +12,6 @@ from stepaside.games.game import play
 from stepaside.games.game_settings import GameSettings, duel
 from stepaside.games.recorded_game import (
     RecordedGame,
-    run_duels,
     run_game,
 )
 from stepaside.games.robot_player import RobotPlayer
@@ -41,7 +40,10 @@ def test_duels_side_by_side_have_the_bits_of_each_alone(
         replace(standing, seed=seed, duration=duration)
         for seed, duration in ((1, 0.3), (2, 0.1), (3, 0.3))
     ]
-    for run, settings in zip(run_duels(many), many, strict=True):
+    games = [RecordedGame(settings) for settings in many]
+    play(*games)
+    for game, settings in zip(games, many, strict=True):
+        run = game.run()
         alone = run_game(settings)
         assert run.settings == alone.settings
         assert (run.outcome, run.message) == (alone.outcome, alone.message)

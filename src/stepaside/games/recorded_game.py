@@ -188,13 +188,3 @@ def run_game(
     game = RecordedGame(settings, strategies=strategies)
     play(game, report=report)
     return game.run()
-
-
-def run_duels(settings: Sequence[GameSettings]) -> list[Run]:
-    """Play duels side by side; the runs equal those of :func:`run_game`.
-
-    A KeyboardInterrupt ends the duels that still go on.
-    """
-    games = [RecordedGame(each) for each in settings]
-    play(*games)
-    return [game.run() for game in games]
