@@ -19,10 +19,8 @@ from synthetic_duel_record import (
     CYCLE,
     SETTINGS,
     THEORY,
-    TIMES,
     Record,
     stepped,
-    still,
 )
 
 
@@ -100,67 +98,6 @@ def test_they_converge_within_5_degrees_and_5_percent(
     right = THEORY.distance_m
     found = since(Record(stepped(at, (1.0 + 0.2 * side) * right, right)))
     assert found == pytest.approx(at + LATE, abs=0.021)
-
-
-@pytest.mark.parametrize("share", [0.9, -0.9, 1.1, -1.1])
-def test_a_duel_just_outside_the_band_never_converges(share: float) -> None:
-    away = still(THEORY.distance_m * (1.0 + 0.05 * share))
-    apart = still(THEORY.headings_apart_rad + np.radians(5.0 * share))
-    expected = 0.0 if abs(share) < 1.0 else None
-    assert since(Record(away)) == expected
-    assert since(Record(apart=apart)) == expected
-
-
-def test_convergence_counts_only_after_the_last_departure() -> None:
-    right, off = THEORY.distance_m, 1.2 * THEORY.distance_m
-
-    def left(times: Array) -> Array:
-        return np.where((times > 20.0) & (times < 25.0), off, right)
-
-    found = since(Record(left))
-    assert found == pytest.approx(25.0 + LATE, abs=0.021)
-    gone = Record(stepped(40.0, right, off))
-    assert since(gone) is None
-
-
-def test_the_last_five_seconds_must_be_on_the_circle() -> None:
-    right, off = THEORY.distance_m, 1.2 * THEORY.distance_m
-    just = Record(stepped(54.9 - LATE, off, right))
-    assert since(just) == pytest.approx(54.9, abs=0.1)
-    late = Record(stepped(55.1 - LATE, off, right))
-    assert since(late) is None
-
-
-@pytest.mark.parametrize("samples", [3, 9, 55])
-def test_a_truncated_cycle_at_the_end_is_not_evaluated(samples: int) -> None:
-    """Sway whose half cycles are off, but whose whole ones are not.
-
-    However few samples a cycle has.
-    """
-    times = CYCLE / samples * np.arange(30 * samples, dtype=float)
-
-    def sway(times: Array) -> Array:
-        phase = 2.0 * pi * (times - times[-1]) / CYCLE
-        off: Array = np.radians(12.0) * np.sin(phase)
-        return THEORY.headings_apart_rad + off
-
-    found = since(Record(apart=sway, times=times))
-    assert found is not None and found < CYCLE
-
-
-def test_the_last_complete_cycle_is_evaluated() -> None:
-    """A departure 0.8 of a cycle before the end is detected."""
-    left = 60.0 - 0.8 * CYCLE
-    far = 1.12 * THEORY.distance_m
-    gone = Record(stepped(left, THEORY.distance_m, far))
-    assert since(gone) is None
-
-
-def test_nothing_converges_without_a_circle_or_a_record() -> None:
-    back = SETTINGS.changed(evasion=Evasion(angle=0.0))
-    assert since(Record(), back) is None
-    assert since(Record(times=TIMES[:2])) is None
-    assert since(Record(times=TIMES[:200])) is None
 
 
 def test_the_circle_is_that_of_the_arguments_of_evasion() -> None:

@@ -132,33 +132,6 @@ def replay(*words: object) -> Result:
     return CliRunner().invoke(main, ["show", *map(str, words)])
 
 
-@pytest.mark.parametrize(
-    "words",
-    [
-        ("pursuer=a", "evader=b"),
-        ("pursuer=/a/odometry", "evader=/b/odometry"),
-        ("pursuer=a", "evader=/b/odometry"),
-    ],
-)
-def test_two_robots_on_a_circle_are_measured(
-    circling: Path, words: tuple[str, str]
-) -> None:
-    run = import_experiment(circling, words)
-    summary = run.summary
-    assert summary.distance_m == pytest.approx(0.8 * 2**0.5, rel=1e-3)
-    assert summary.relative_orientation_deg == pytest.approx(90.0, abs=0.1)
-    for player in summary.players.values():
-        assert player.radius_m == pytest.approx(0.8, rel=1e-3)
-        speed = player.path_m / run.duration
-        assert speed == pytest.approx(0.8 * RATE, rel=1e-2)
-    times: Array = run.times
-    expected = [on_circle(t, 0.8, 0.0) for t in times.tolist()]
-    np.testing.assert_allclose(run.pursuer.torso, expected, atol=1e-6)
-    # Chords between poses at 7 Hz are inside the circle by a little.
-    expected = [on_circle(t, 0.8, 0.5 * pi) for t in times.tolist()]
-    np.testing.assert_allclose(run.evader.torso, expected, atol=1e-3)
-
-
 def test_a_duel_that_is_exported_and_imported_has_the_same_circle(
     tmp_path: Path,
 ) -> None:
@@ -221,36 +194,6 @@ def test_invalid_poses_are_left_out_and_noted(tmp_path: Path) -> None:
     times: Array = run.times
     expected = [on_circle(t, 1.0, 0.0) for t in times.tolist()]
     np.testing.assert_allclose(run.pursuer.torso, expected, atol=1e-6)
-
-
-def test_static_transforms_may_come_after_the_first_poses(
-    tmp_path: Path,
-) -> None:
-    start = Pose(3.0, -1.0, 2.0)
-    static = transform(0.0, "map", "a/odom", start)
-    entries = [tf("/tf_static", 0.12, static)]
-    for time in np.arange(0.0, 10.0, 0.05).tolist():
-        pose = start.inverse().compose(on_circle(time, 0.8, 0.0))
-        entries.append(tf("/tf", time, transform(time, "a/odom", "a", pose)))
-        pose = on_circle(time, 0.8, 0.5 * pi)
-        entries.append(tf("/tf", time, transform(time, "map", "b", pose)))
-    bag = write_bag(tmp_path / "late", entries)
-    run = import_experiment(bag, ("pursuer=a", "evader=b"))
-    assert run.duration == pytest.approx(9.95, abs=1e-6)
-    assert run.summary.distance_m == pytest.approx(0.8 * 2**0.5, rel=1e-3)
-
-
-def test_without_stamps_the_times_of_recording_count(tmp_path: Path) -> None:
-    entries = []
-    for name, ahead in (("a", 0.0), ("b", 1.0)):
-        for time in np.arange(0.0, 10.0, 0.1).tolist():
-            pose = on_circle(time, 1.0, ahead)
-            _, *rest = odometry(f"/{name}", 0.0, "map", pose)
-            entries.append((time, rest[0], rest[1], rest[2]))
-    bag = write_bag(tmp_path / "unset", entries)
-    run = import_experiment(bag, ("pursuer=/a", "evader=/b"))
-    assert run.duration == pytest.approx(9.9, abs=1e-6)
-    np.testing.assert_allclose(np.diff(run.times), 0.1, atol=1e-6)
 
 
 def _apart(folder: Path) -> Path:
@@ -328,13 +271,3 @@ def test_a_bag_that_cannot_be_measured_is_refused_in_one_line(
     result = replay(bag, *frames, f"--output={tmp_path}/run")
     assert result.exit_code == 2 and result.stderr.count("\n") == 1
     assert sorted(tmp_path.rglob("*")) == before
-
-
-def test_options_of_bags_and_of_runs_are_told_apart(circling: Path) -> None:
-    result = replay(circling)
-    assert result.exit_code == 2 and "--frame NAME=FRAME" in result.stderr
-    both = "--frame=pursuer=a", "--frame=evader=b"
-    result = replay(circling, *both, "-o", "film.mp4")
-    assert result.exit_code == 2 and "requires a run folder" in result.stderr
-    result = replay(circling.parent, *both)
-    assert result.exit_code == 2 and "requires a ROS 2 bag" in result.stderr

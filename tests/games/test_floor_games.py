@@ -26,28 +26,6 @@ def of_strategies(level: str, **changes: Any) -> StrategyTrack:
     )
 
 
-def of_a_file(level: str, **more: Any) -> Any:
-    players = [
-        {"name": role, "role": role, "start": list(start)}
-        for role, start in zip(("pursuer", "evader"), START, strict=True)
-    ]
-    entries = {"level": level, "duration": 40.0, "players": players}
-    return run_game(read_game(entries | more, "game"))
-
-
-@pytest.mark.parametrize("level", PARTS)
-def test_a_duel_is_the_same_from_a_file_and_from_python(level: str) -> None:
-    track, run = of_strategies(level, duration=24.0), of_a_file(level)
-    pursuer, evader = (run.tracks[n].unicycle for n in ("pursuer", "evader"))
-    apart = np.hypot(*(evader - pursuer)[:, :2].T)
-    assert apart.min() == pytest.approx(track.closest_distance, abs=1e-4)
-    gait = run.settings.player("evader").gait  # a file has gait time
-    times = track.times * gait.step_duration / gait.path_interval
-    then = np.interp(times, run.times, apart)
-    # Samples 20 ms apart cut the corner where the evader begins to walk.
-    np.testing.assert_allclose(then, track.distances, atol=4e-4)
-
-
 def test_levels_differ_by_the_delay_of_a_decision() -> None:
     steps, unicycle = (of_strategies(level, duration=120.0) for level in PARTS)
     expected = 4.0 * 0.1 * sin(pi / 4.0) / (0.2 * pi / 2.0)
@@ -95,30 +73,6 @@ def test_capture_ends_a_game_from_every_door(level: str) -> None:
     assert run.message.startswith("red captured blue at")
     red = run.tracks["red"].unicycle[-1]
     assert 0.65 <= red[0] < 0.65 + 0.04
-
-
-def test_players_of_different_gaits_each_keep_their_pace() -> None:
-    players = [
-        {"name": "red", "role": "pursuer", "start": [0.0, 0.0, 0.0]},
-        {
-            "name": "blue",
-            "role": "evader",
-            "start": [5.0, 0.0, pi],
-            "strategy": "walk",
-            "gait": {"single_support": 0.7, "double_support": 0.3},
-        },
-    ]
-    run = run_game(
-        read_game(
-            {"level": "steps", "duration": 12.0, "players": players}, "game"
-        )
-    )
-    for name in ("red", "blue"):
-        gait = run.settings.player(name).gait
-        path = run.tracks[name].unicycle
-        way = float(np.hypot(*(path[-1] - path[0])[:2]))
-        walked = 12.0 / gait.step_duration
-        assert way == pytest.approx(gait.stride * walked, rel=1e-6), name
 
 
 def test_a_pursuer_that_walls_stop_stays_clear_of_them() -> None:

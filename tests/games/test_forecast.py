@@ -1,7 +1,7 @@
 """Test the forecast of a duel against an independent integrator."""
 
 from dataclasses import replace
-from math import atan2, cos, hypot, inf, pi, radians, sin
+from math import atan2, cos, hypot, pi, radians, sin
 from typing import Any
 
 import pytest
@@ -9,14 +9,12 @@ import pytest
 from stepaside.core.poses import wrap_angle
 from stepaside.games.duel_circle import (
     circle_of_theory,
-    missing_circle_reason,
     time_scale,
 )
 from stepaside.games.forecast import forecast
 from stepaside.games.game_settings import GameSettings, StartSettings, duel
 from stepaside.games.game_starts import with_starts
 from stepaside.games.summary import TheorySummary
-from stepaside.sim.person_settings import PersonSettings
 from stepaside.strategies import Evasion
 
 pytestmark = pytest.mark.usefixtures("blank_figures")
@@ -125,44 +123,3 @@ def test_contact_is_expected_with_an_evader_that_faces_away(
 ) -> None:
     settings = replace(BASE, start=replace(START, evader_offset=offset))
     assert told(settings).expected == "contact"
-
-
-@pytest.mark.parametrize("release", [0.81, 0.85, 0.899])
-def test_a_release_distance_within_the_circle_gives_no_circle(
-    release: float,
-) -> None:
-    settings = playing(release_distance=release)
-    assert circle_of_theory(playing(release_distance=1.5)).exists
-    assert not circle_of_theory(settings).exists
-    found = told(settings)
-    assert found.expected == "no circle"
-    assert found.words == missing_circle_reason(settings)
-    assert f"evasion ends at {release:g} m" in (found.words or "")
-
-
-def test_an_evader_by_time_has_no_circle() -> None:
-    settings = playing(trigger="time")
-    assert not circle_of_theory(settings).exists
-    assert told(settings).expected == "no circle"
-    assert "time to contact" in missing_circle_reason(settings)
-
-
-@pytest.mark.parametrize(
-    ("person", "exists"),
-    [
-        (PersonSettings(), True),
-        (PersonSettings(halt_after=3.0), False),
-        (PersonSettings("straight"), False),
-        (PersonSettings(backward=True), False),
-        (PersonSettings(feint_at=1.0), False),
-        (PersonSettings(halt_after=inf), True),
-    ],
-)
-def test_only_a_person_that_keeps_steering_has_a_circle(
-    person: PersonSettings, exists: bool
-) -> None:
-    settings = BASE.changed(pursuer={"body": "person"}, person=person)
-    assert circle_of_theory(settings).exists is exists
-    assert forecast(settings).expected is None
-    if not exists:
-        assert "the person" in missing_circle_reason(settings)

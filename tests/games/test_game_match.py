@@ -9,12 +9,10 @@ import numpy as np
 import pytest
 
 from stepaside.core.errors import ConfigurationError
-from stepaside.core.poses import Array
 from stepaside.games.game_settings import GameSettings
 from stepaside.games.outcome import Outcome
 from stepaside.games.recorded_game import run_game
 from stepaside.games.run import Run
-from stepaside.games.run_archive import load_run
 from stepaside.games.settings_reader import read_game
 from stepaside.report.run_folder import write_run
 
@@ -69,31 +67,6 @@ def test_robots_people_and_unicycles_play_in_one_world() -> None:
     )
 
 
-def test_the_summary_has_every_player_and_every_pair() -> None:
-    run = played()
-    assert [*run.summary.players] == [*run.players]
-    assert len(run.summary.pairs) == 10
-    for names, pair in run.summary.pairs.items():
-        one, other = (
-            run.tracks[name].torso[:, :2] for name in names.split(" - ")
-        )
-        apart = np.hypot(*(one - other).T)
-        assert pair.closest_m == apart.min()
-        assert pair.closest_at_s == run.times[apart.argmin()]
-    met = {n for n, p in run.summary.players.items() if p.crowd is not None}
-    assert met == {"red", "ruby", "blue", "ghost"}
-
-
-def test_a_game_is_written_and_read_back_equal(tmp_path: Path) -> None:
-    run = played()
-    write_run(tmp_path / "run", run, drawn=False)
-    again = load_run(tmp_path / "run", "game")
-    assert again.settings == run.settings and again.summary == run.summary
-    for name, track in run.tracks.items():
-        for key, values in track.arrays(name).items():
-            np.testing.assert_array_equal(again.arrays()[key], values)
-
-
 def test_a_recorded_player_repeats_its_motion(tmp_path: Path) -> None:
     run = played()
     write_run(tmp_path / "run", run, drawn=False)
@@ -114,25 +87,6 @@ def test_a_recorded_player_repeats_its_motion(tmp_path: Path) -> None:
     )
     with pytest.raises(ConfigurationError, match="run_player must be one of"):
         run_game(game(ghost | {"run_player": "nobody"}, THREE[2]))
-
-
-def test_a_lidar_shows_people_to_a_robot_of_a_game() -> None:
-    person = {
-        "name": "guest",
-        "role": "pursuer",
-        "body": "person",
-        "start": [-2.0, 0.0, 0.0],
-        "person": {"speed": 0.5},
-    }
-    run = run_game(
-        game(
-            robot("blue", "evader", 0.0, 0.0, pi, senses="lidar"),
-            person,
-            duration=3.0,
-        )
-    )
-    # It has seen the person.
-    assert run.summary.players["blue"].moved_at_s is not None
 
 
 @pytest.mark.parametrize("level", ["steps", "unicycle"])
@@ -162,13 +116,6 @@ def test_a_player_walks_to_its_goal_around_a_person(level: str) -> None:
     )
 
 
-def poses_of(run: Run, name: str) -> Array:
-    """Return the poses of a player on the floor. Shape (n, 3)."""
-    poses = run.tracks[name].place
-    assert poses is not None
-    return poses
-
-
 PATH_OF_PERSON: dict[str, dict[str, Any]] = {
     "goal": {"goal": [2.0, 1.0]},
     "drawn goal": {"draws_goal": True},
@@ -179,46 +126,3 @@ PATH_OF_PERSON: dict[str, dict[str, Any]] = {
         "person": {"path": "straight", "speed": 0.5, "reaction": "regular"}
     },
 }
-
-
-@pytest.mark.parametrize("level", ["steps", "physics"])
-@pytest.mark.parametrize("path", PATH_OF_PERSON)
-def test_people_begin_in_the_direction_of_their_walk(
-    path: str, level: str
-) -> None:
-    more = PATH_OF_PERSON[path]
-    run = run_game(
-        game(
-            {"name": "robot", "start": [0.0, 0.0, 0.0]},
-            {"name": "guest", "body": "person", **more},
-            seed=2,
-            duration=0.2,
-            level=level,
-        )
-    )
-    poses = poses_of(run, "guest")
-    headings = poses[:, 2]
-    assert np.abs(np.diff(headings)).max() < 0.05  # not an arbitrary angle
-    guest = run.settings.player("guest")
-    np.testing.assert_allclose(poses[0], guest.start)
-
-
-@pytest.mark.parametrize("path", ["steer", "straight"])
-def test_a_person_walks_backward_from_its_start(path: str) -> None:
-    walk = {"path": path, "speed": 0.5, "backward": True}
-    settings = game(
-        {"name": "robot", "start": [0.0, 0.0, 0.0]},
-        {
-            "name": "guest",
-            "body": "person",
-            "person": walk,
-            "start": [2.0, 0.0, 0.0],
-        },
-        duration=0.4,
-        level="steps",
-    )
-    run = run_game(settings)
-    x, y, theta = poses_of(run, "guest").T
-    np.testing.assert_allclose(theta, 0.0, atol=1e-6)  # it looks away
-    np.testing.assert_allclose(x, 2.0 - 0.5 * run.times, atol=1e-6)
-    np.testing.assert_allclose(y, 0.0, atol=1e-6)

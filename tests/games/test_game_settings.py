@@ -12,24 +12,19 @@ from click.testing import CliRunner
 
 from stepaside.cli.main import main
 from stepaside.core.errors import ConfigurationError
-from stepaside.core.player_identity import Role
 from stepaside.games.configuration_file import (
     dump_configuration,
     read_settings,
 )
 from stepaside.games.duel_circle import circle_of_theory, time_scale
 from stepaside.games.game_settings import (
-    MOST_ROBOTS,
     GameSettings,
     StartSettings,
     duel,
-    walk,
 )
 from stepaside.games.game_starts import draw_start
-from stepaside.games.recorded_game import run_game
-from stepaside.games.robot_settings import LEGS_GAIT, body_of_robot
+from stepaside.games.robot_settings import body_of_robot
 from stepaside.games.settings_reader import load_game, read_game
-from stepaside.locomotion.control_settings import ControlSettings, MpcSettings
 from stepaside.planning import PRESETS, GaitSettings
 from stepaside.robots.description import load_robot
 from stepaside.sim.body_settings import BODIES
@@ -38,9 +33,6 @@ from stepaside.strategies import Evasion
 from stepaside.theory.unicycle.circles import find_circle
 
 NAO = load_robot("nao")
-EXAMPLES = Path(__file__).parents[2] / "examples"
-HUNTER = {"name": "red", "role": "pursuer"}
-PREY = {"name": "blue", "role": "evader"}
 
 
 def game(*players: dict[str, Any], **entries: Any) -> GameSettings:
@@ -64,23 +56,6 @@ def changed_nao(folder: Path, **changes: str) -> str:
     (folder / "robot.toml").write_text(text, encoding="utf-8")
     (folder / "model.xml").write_text(NAO.mjcf(), encoding="utf-8")
     return str(folder)
-
-
-def test_starts_fill_their_ranges_and_repeat() -> None:
-    """Distance and offsets of both, in the ranges of the docstring."""
-    drawn = [draw_start(duel(seed=seed)) for seed in range(400)]
-    for name, low, high in (
-        ("distance", 0.6, 1.5),
-        ("pursuer_offset", -pi / 2, pi / 2),
-        ("evader_offset", -pi / 6, pi / 6),
-    ):
-        values = [getattr(start, name) for start in drawn]
-        assert low <= min(values) < low + 0.03 * (high - low)
-        assert high - 0.03 * (high - low) < max(values) <= high
-        fixed = duel(seed=7, start=StartSettings(**{name: 0.5}))
-        assert draw_start(fixed) == replace(drawn[7], **{name: 0.5})
-    person = draw_start(duel(seed=7, pursuer={"body": "person"}))
-    assert person.distance == pytest.approx((drawn[7].distance or 0.0) + 1.5)
 
 
 def test_a_setting_is_changed_of_the_game_of_all_or_of_one_player() -> None:
@@ -134,7 +109,6 @@ def test_errors_of_entries_are_named(
 
 
 PERSON: dict[str, Any] = {"body": "person"}
-OPEN_LOOP = ControlSettings(feedback=False)
 CASES: dict[str, tuple[str, dict[str, Any], tuple[Any, ...]]] = {
     # options, entries, and what they imply: method, feedback, strategy and
     # trigger
@@ -228,94 +202,6 @@ def test_settings_imply_the_same_from_every_door(
     assert load_game(file) == resolved
 
 
-def test_a_choice_that_is_left_open_follows_later_changes() -> None:
-    settings = duel(control=ControlSettings(mpc=MpcSettings(steps=3)))
-    hardware = replace(settings, body=BODIES["hardware"]).resolved()
-    wanted = ControlSettings("measured", True, mpc=MpcSettings(steps=3))
-    assert hardware.evader.control == wanted
-    mixed = duel(evader={"gait": PRESETS["fast"]}).resolved()
-    assert mixed.evader.control == ControlSettings("closed-form", True)
-    assert not mixed.pursuer.control.feedback
-
-
-def test_the_levels_of_templates_have_no_legs_that_step_sideways() -> None:
-    players: list[dict[str, Any]] = [
-        HUNTER | PERSON,
-        PREY | {"legs": {"network": "walk.onnx"}},
-        {"name": "green", "role": "evader", "goal": [1.0, 1.0]},
-        {"name": "gray"},
-    ]
-    for level, strategy in (("physics", "step-aside"), ("steps", "evasion")):
-        made = game(*players, level=level).resolved()
-        played = [player.strategy for player in made.players]
-        assert played == ["", strategy, "goal", "stand"]
-
-
-def test_a_run_shows_what_its_settings_implied() -> None:
-    fast = duel(duration=0.1, gait=PRESETS["fast"])
-    run = run_game(fast)
-    control = run.settings.evader.control
-    assert control == ControlSettings("closed-form", True)
-    assert run.settings.evader.strategy == "evasion"
-    again = run_game(run.settings)
-    assert dump_configuration(again.settings) == dump_configuration(
-        run.settings
-    )
-    walked = run_game(walk(duration=0.1, body=BODIES["hardware"]))
-    control = walked.settings.player("walker").control
-    assert control == ControlSettings("measured", True)
-
-
-def test_players_have_the_gait_of_their_robot_changed_by_the_file() -> None:
-    settings = game(HUNTER | {"gait": {"speed": 0.08}}, PREY, seed=4)
-    red, blue = settings.players
-    assert red.gait.speed == 0.08 and blue.gait.speed == 0.1
-    assert red.gait.gain == blue.gait.gain and red.control == blue.control
-    legs = game(HUNTER | {"legs": {"network": "walk.onnx"}}, PREY).players[0]
-    assert legs.gait.speed == LEGS_GAIT["speed"] and legs.legs.walks
-    assert red.identity.role is Role.PURSUER and red.identity.team == "pursuer"
-    assert settings.seed == 4 and settings.robots == ("red", "blue")
-    assert settings.opponents_of("red") == ("blue",)
-    shared = game(HUNTER, PREY, gait="fast", blue={"gait": {"speed": 0.2}})
-    assert [p.gait.speed for p in shared.players] == [
-        PRESETS["fast"].speed,
-        0.2,
-    ]
-
-
-def test_the_configuration_of_a_game_is_read_back_equal() -> None:
-    settings = game(
-        HUNTER | {"start": [0.0, 1.0, 0.5], "sight": {"delay": 0.1}},
-        PREY | {"goal": [2.0, 0.0]},
-        {"name": "guest", "body": "person", "crowd": {"speed": 1.0}},
-        room={"width": 4.0, "depth": 3.0},
-    )
-    entries = tomllib.loads(dump_configuration(settings))
-    assert read_game(entries) == settings.resolved()
-
-
-def test_an_entry_with_a_count_is_that_many_players(tmp_path: Path) -> None:
-    guests = {"name": "guest", "count": 3, "body": "person"}
-    settings = game(HUNTER, PREY, guests | {"draws_goal": True})
-    assert settings.names == ("red", "blue", "guest-1", "guest-2", "guest-3")
-    assert all(p.draws_goal for p in settings.players[2:])
-    with pytest.raises(ConfigurationError, match="robots in physics"):
-        game(HUNTER, PREY | {"count": MOST_ROBOTS})
-
-
-@pytest.mark.parametrize(
-    "name", sorted(EXAMPLES.glob("*.toml")), ids=lambda file: file.stem
-)
-def test_the_example_games_are_valid(name: Path) -> None:
-    assert load_game(name).players
-
-
-def test_cameras_look_for_a_player_of_a_colour() -> None:
-    watcher = HUNTER | {"senses": "cameras", "target": "grey"}
-    with pytest.raises(ConfigurationError, match="target must be a pursuer"):
-        game(watcher, {"name": "grey"})
-
-
 def test_a_description_gives_gait_control_and_distances(
     tmp_path: Path,
 ) -> None:
@@ -384,3 +270,20 @@ def test_a_body_has_the_errors_of_its_robot(tmp_path: Path) -> None:
     )
     with pytest.raises(ConfigurationError, match="body: unknown entry delay"):
         body_of_robot(wrong, "hardware")
+
+
+def test_starts_fill_their_ranges_and_repeat() -> None:
+    """Distance and offsets of both, in the ranges of the docstring."""
+    drawn = [draw_start(duel(seed=seed)) for seed in range(400)]
+    for name, low, high in (
+        ("distance", 0.6, 1.5),
+        ("pursuer_offset", -pi / 2, pi / 2),
+        ("evader_offset", -pi / 6, pi / 6),
+    ):
+        values = [getattr(start, name) for start in drawn]
+        assert low <= min(values) < low + 0.03 * (high - low)
+        assert high - 0.03 * (high - low) < max(values) <= high
+        fixed = duel(seed=7, start=StartSettings(**{name: 0.5}))
+        assert draw_start(fixed) == replace(drawn[7], **{name: 0.5})
+    person = draw_start(duel(seed=7, pursuer={"body": "person"}))
+    assert person.distance == pytest.approx((drawn[7].distance or 0.0) + 1.5)

@@ -50,13 +50,6 @@ def test_drawn_starts_keep_their_distance_and_face_opponents(
     assert min(sights) <= radians(30.0)
 
 
-def test_equal_seeds_draw_equal_starts_and_given_ones_stay() -> None:
-    settings = game(seed=3)
-    assert with_starts(settings) == with_starts(settings)
-    assert with_starts(settings) != with_starts(replace(settings, seed=4))
-    assert with_starts(with_starts(settings)) == with_starts(settings)
-
-
 def test_overlapping_starts_are_refused() -> None:
     near = {"name": "guest", "body": "person", "start": [0.1, 0.0, 0.0]}
     also = {"name": "host", "body": "person", "start": [0.4, 0.0, 0.0]}
@@ -68,23 +61,6 @@ def test_overlapping_starts_are_refused() -> None:
     guest = game(near).player("guest")
     assert least_distance(guest, guest) == 0.5
     assert least_distance(guest, game().player("red")) == 0.45
-
-
-def test_a_room_without_space_and_a_start_in_a_wall_are_refused() -> None:
-    room = {"width": 1.2, "depth": 1.2}
-    with pytest.raises(ConfigurationError, match="there is no such place"):
-        with_starts(game(room=room))
-    outside = {"name": "guest", "body": "person", "start": [3.0, 0.0, 0.0]}
-    with pytest.raises(ConfigurationError, match="free floor of the room"):
-        with_starts(game(outside, room=room))
-
-
-def test_starts_in_a_room_keep_clear_of_its_walls() -> None:
-    settings = with_starts(game(room={"width": 4.0, "depth": 4.0}))
-    assert settings.room is not None
-    poses = [p.pose for p in settings.players]
-    points = [pose[:2] for pose in poses if pose is not None]
-    assert settings.room.clearance(points).min() >= 0.3
 
 
 @pytest.mark.parametrize(("width", "depth"), [(6.0, 6.0), (12.0, 1.6)])

@@ -3,10 +3,9 @@
 import numpy as np
 import pytest
 
-from fake_players import TICK, FakeObserver, clock, fake_game, raising
+from fake_players import TICK, FakeObserver, fake_game, raising
 from stepaside.core.errors import ReachError, StrategyError
-from stepaside.core.player_identity import Role
-from stepaside.games.game import Progress, play
+from stepaside.games.game import play
 from stepaside.games.outcome import Outcome
 from stepaside.games.recorder import Recorder
 
@@ -23,15 +22,6 @@ def test_players_act_in_turn_before_physics() -> None:
     assert world.told == 3 * turn
     assert watcher.ended_with == [(game.outcome, game.message, world.time)]
     assert world.closed == 1
-
-
-@pytest.mark.parametrize(
-    ("duration", "ticks"), [(0.04, 10), (0.0399, 10), (0.0401, 11)]
-)
-def test_a_game_lasts_its_duration(duration: float, ticks: int) -> None:
-    game, world = fake_game(0.0, 2.0, duration=duration)
-    play(game)
-    assert game.outcome is Outcome.COMPLETED and world.ticks == ticks
 
 
 @pytest.mark.parametrize(
@@ -86,59 +76,9 @@ def test_an_interrupt_keeps_games_that_have_ended() -> None:
     assert going.outcome is Outcome.INTERRUPTED
 
 
-def test_any_other_error_closes_the_world_as_well() -> None:
-    watcher = FakeObserver()
-    game, world = fake_game(0.0, 2.0, observers=[watcher])
-    world.players[1].does[3] = raising(RuntimeError("a bolt came loose"))
-    with pytest.raises(RuntimeError, match="bolt"):
-        play(game)
-    assert world.closed == 1 and watcher.ended_with == []
-
-
-def test_a_fall_ends_a_game_before_a_contact() -> None:
-    game, world = fake_game(0.0, 0.5)
-    world.fell, world.contacts = ("a", "b"), ("a", "b")
-    assert game.tick() is Outcome.FALL and world.ticks == 1
-    assert game.message == "a and b fell at 0.00 s"
-    assert game.fallen == ("a", "b") and game.touched == ()
-
-
 def test_a_contact_ends_a_game() -> None:
     game, world = fake_game(0.0, 0.5)
     world.contacts = ("a", "thing 0")
     assert game.tick() is Outcome.CONTACT
     assert game.message == "a and thing 0 touched at 0.00 s"
     assert game.touched == ("a", "thing 0") and game.fallen == ()
-
-
-def test_closest_approach_and_first_capture_are_noted() -> None:
-    """In physics a capture ends no game."""
-    game, world = fake_game(0.0, 5.0)
-    closest = []
-    for x in (4.0, 0.3, 3.0, 0.2):
-        world.players[1].x = x
-        assert game.tick() is None
-        closest.append(game.closest["b", "a"])
-    assert closest == [4.0, 0.3, 0.3, 0.2]
-    assert game.captured_at == {("b", "a"): 2 * TICK}
-
-
-@pytest.mark.parametrize(
-    ("places", "roles", "distance"),
-    [
-        ((0.0,), (), None),
-        ((0.0, 3.0, 1.0), (Role.PURSUER, Role.EVADER), 3.0),
-        ((0.0, 3.0, 1.0), (), 1.0),
-    ],
-)
-def test_progress_tells_the_distance_of_opponents_or_of_all(
-    places: tuple[float, ...],
-    roles: tuple[Role, ...],
-    distance: float | None,
-    monkeypatch: pytest.MonkeyPatch,
-) -> None:
-    clock(monkeypatch, 1.0)
-    told: list[Progress] = []
-    game, _ = fake_game(*places, duration=2 * TICK, roles=roles)
-    play(game, report=told.append)
-    assert told == [Progress(TICK, distance, TICK)]

@@ -6,7 +6,7 @@ import pytest
 
 from stepaside.core.poses import Pose
 from stepaside.games.game_settings import GameSettings, StartSettings, duel
-from stepaside.games.recorded_game import RecordedGame, run_game
+from stepaside.games.recorded_game import run_game
 from stepaside.sim.person_motion import (
     PersonMotion,
     template_approach,
@@ -40,6 +40,23 @@ def test_a_person_that_passes_outside_triggers_nothing() -> None:
     assert summary.min_distance_m == pytest.approx(theory, abs=0.05)
 
 
+def test_the_template_evader_escapes_from_a_slower_pursuer() -> None:
+    def approach(speed: float) -> float:
+        person = PersonSettings("straight", speed)
+        return template_approach(
+            lambda pose, evader: PersonMotion(person, pose, evader),
+            Pose(0.0, 0.0, 0.0),
+            Pose(1.5, 0.0, pi),
+            unicycle=Unicycle(0.1, 0.2),
+            angle=0.0,
+            safety_radius=0.8,
+            duration=60.0,
+        )
+
+    assert approach(0.1) == pytest.approx(0.8, abs=0.01)
+    assert approach(0.2) < 0.1 < approach(0.05)
+
+
 def test_a_slow_person_is_evaded_close_to_theory() -> None:
     """The robot loses the person's path until its first step lands."""
     result = run_game(duel_with(PersonSettings("steer", 0.073, 0.146), 40.0))
@@ -56,31 +73,3 @@ def test_a_slow_person_is_evaded_close_to_theory() -> None:
     assert summary.min_distance_m == pytest.approx(
         theory - 0.073 * late, abs=0.03
     )
-
-
-def test_a_person_without_a_solid_body_walks_through_a_robot() -> None:
-    person = PersonSettings("straight", 0.6, solid=False)
-    standing = duel_with(person, 5.0).changed(evader={"strategy": "stand"})
-    result = run_game(standing)
-    assert result.outcome.value == "completed"
-    closest = result.summary.min_distance_m
-    assert closest is not None and closest < 0.05
-    model = RecordedGame(standing).in_physics.model
-    assert model.body("pursuer/trunk").geomnum[0] > 0  # sensors see it
-
-
-def test_the_template_evader_escapes_from_a_slower_pursuer() -> None:
-    def approach(speed: float) -> float:
-        person = PersonSettings("straight", speed)
-        return template_approach(
-            lambda pose, evader: PersonMotion(person, pose, evader),
-            Pose(0.0, 0.0, 0.0),
-            Pose(1.5, 0.0, pi),
-            unicycle=Unicycle(0.1, 0.2),
-            angle=0.0,
-            safety_radius=0.8,
-            duration=60.0,
-        )
-
-    assert approach(0.1) == pytest.approx(0.8, abs=0.01)
-    assert approach(0.2) < 0.1 < approach(0.05)

@@ -6,8 +6,6 @@ import pytest
 
 from stepaside.core.poses import Pose
 from stepaside.games.floor_games import play_template
-from stepaside.games.game_settings import duel
-from stepaside.games.game_starts import draw_start
 from stepaside.planning import PRESETS
 from stepaside.sim.person_motion import PersonMotion
 from stepaside.sim.person_settings import PersonSettings
@@ -55,17 +53,3 @@ def test_the_template_steps_aside_as_the_unicycle_of_theory() -> None:
     turned = 0.5 * pi / turning
     aside = FAST.speed * (1.0 / turning + time - turned)
     assert met(speed, far=9.0) == pytest.approx(aside, abs=0.02)
-
-
-def test_a_faster_person_begins_farther_away() -> None:
-    def drawn(speed: float) -> float:
-        start = draw_start(
-            duel(
-                pursuer={"body": "person"}, person=PersonSettings(speed=speed)
-            )
-        )
-        assert start.distance is not None
-        return start.distance
-
-    assert drawn(0.05) == drawn(0.15) < 3.0
-    assert drawn(1.0) - drawn(0.15) == pytest.approx(0.85 * 5.0)

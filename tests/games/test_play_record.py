@@ -15,12 +15,10 @@ from stepaside.games.configuration_file import dump_configuration
 from stepaside.games.game_settings import StartSettings
 from stepaside.games.game_settings import duel as make_duel
 from stepaside.games.outcome import Outcome
-from stepaside.games.play_rows import monotonic_times
 from stepaside.games.play_settings import PlaySettings
 from stepaside.games.recorded_game import RecordedGame
 from stepaside.games.robot_player import RobotPlayer
 from stepaside.games.run_archive import complete_play, load_run
-from stepaside.games.run_captions import describe_state
 from stepaside.robots.description import load_robot
 from stepaside.robots.tree_cache import load_tree
 from stepaside.sim.body_settings import BODIES
@@ -124,43 +122,6 @@ def test_the_replayed_path_is_the_true_one_up_to_slip(
     assert off[:, 2].max() < 0.01
 
 
-def test_the_opponent_is_at_its_sightings(walked: Walked) -> None:
-    run, frame = walked.run, walked.frame.inverse()
-    other = run.tracks["pursuer"].torso
-    for row in range(0, len(other), 10):
-        tick = min(round(run.times[row] / 0.012), len(walked.others) - 1)
-        x, y = walked.others[tick]
-        wanted = frame.compose(Pose(x, y, 0.0))
-        off = hypot(other[row, 0] - wanted.x, other[row, 1] - wanted.y)
-        assert off < 0.03  # at 0.1 m/s a sighting is some ticks old
-    closest = min(
-        hypot(x - place.x, y - place.y)
-        for (x, y), (_, place, _) in zip(
-            walked.others, walked.true, strict=True
-        )
-    )
-    assert run.summary.min_distance_m == pytest.approx(closest, abs=0.01)
-
-
-def test_a_play_is_read_from_its_folder_with_checksums(walked: Walked) -> None:
-    loaded = load_run(walked.folder, "play")
-    assert loaded.summary == walked.run.summary
-    assert loaded.settings == EVADER.resolved()
-    for name, track in walked.run.tracks.items():
-        for key, array in track.arrays("").items():
-            got = loaded.tracks[name].arrays("")[key]
-            np.testing.assert_array_equal(got, array)
-    assert describe_state(loaded, 3) == "walking (chest button)"
-    file = walked.folder / "summary.json"
-    told = file.read_text()
-    file.write_text(told.replace("long enough", "for ever"))
-    try:
-        with pytest.raises(ConfigurationError, match="was modified"):
-            load_run(walked.folder)
-    finally:
-        file.write_text(told)
-
-
 def test_a_truncated_record_is_replayed_to_its_end(
     walked: Walked, tmp_path: Path
 ) -> None:
@@ -176,9 +137,3 @@ def test_a_truncated_record_is_replayed_to_its_end(
     (cut / "play.json").write_text('{"columns": {"times_s": 1}}')
     with pytest.raises(ConfigurationError, match="must hold the columns"):
         load_run(cut)
-
-
-def test_record_time_continues_where_a_robot_clock_restarts() -> None:
-    times = np.array([-0.024, -0.012, 0.0, 0.012, 900.0, 900.012, 0.0, 0.0])
-    wanted = 0.012 * np.array([0, 1, 2, 3, 4, 5, 6, 6])
-    np.testing.assert_allclose(monotonic_times(times), wanted, atol=1e-9)

@@ -1,7 +1,6 @@
 """Test duels in rooms: obstacles, starts, contacts and files."""
 
 from dataclasses import replace
-from math import pi
 from typing import Any
 
 import mujoco
@@ -50,22 +49,6 @@ def test_obstacles_in_the_world_are_those_of_the_room() -> None:
         if abs(away) > 1e-4:
             wanted = 2.0 - HEIGHT if away < 0.0 else -1.0
             assert down == pytest.approx(wanted, abs=1e-6)
-
-
-def test_players_begin_at_the_starts_of_the_room() -> None:
-    room = replace(FULL, starts=STARTS)
-    duel = RecordedGame(placed(room))
-    for player, start in zip(duel.in_physics.players, STARTS, strict=True):
-        np.testing.assert_allclose(
-            player.truth.position_reference_in_world, start[:2], atol=1e-6
-        )
-        assert player.truth.heading_in_world == pytest.approx(start.theta)
-    told = duel.settings.start
-    assert told.distance == pytest.approx(2.0)
-    assert told.pursuer_offset == pytest.approx(0.8 - pi / 2)
-    assert told.evader_offset == pytest.approx(-1.5 + pi / 2)
-    again = RecordedGame(duel.settings).settings
-    assert again.start == told and again.room == duel.settings.room
 
 
 def test_a_room_excludes_other_starts_and_a_map_of_people() -> None:

@@ -1,7 +1,6 @@
 """Test duels with camera sensing, rendered by ray casting."""
 
 from dataclasses import replace
-from functools import cache
 from math import atan2, degrees, hypot, radians
 
 import numpy as np
@@ -9,19 +8,16 @@ import pytest
 
 from stepaside.control.sight_sources import CameraSight
 from stepaside.core.poses import wrap_angle, wrap_angles
-from stepaside.games import Outcome, Run, duel, run_game
+from stepaside.games import duel, run_game
 from stepaside.games.game_settings import StartSettings
 from stepaside.games.recorded_game import RecordedGame
 from stepaside.games.robot_player import RobotPlayer
-from stepaside.games.run_archive import results_of
 from stepaside.perception.gaze import MAX_YAW, SCAN_SPEED
-from stepaside.perception.images import ColourImage
 from stepaside.perception.pipeline import Perception
 from stepaside.sim.camera_settings import (
     CameraSettings,
     ColourSettings,
 )
-from stepaside.sim.offscreen_rendering import BACKENDS, choose_renderer
 from stepaside.sim.person_settings import PersonSettings
 
 RAYS = CameraSettings(colour=ColourSettings(renderer="raycast"))
@@ -32,11 +28,6 @@ SEEING = duel(
     cameras=RAYS,
     start=StartSettings(1.1, radians(20.0), radians(-10.0)),
 )
-
-
-@cache
-def play() -> Run:
-    return run_game(SEEING)
 
 
 def walkers(duel: RecordedGame) -> list[RobotPlayer]:
@@ -50,24 +41,6 @@ def walkers(duel: RecordedGame) -> list[RobotPlayer]:
 def perception_of(walker: RobotPlayer) -> Perception:
     assert isinstance(walker.scheme.senses, CameraSight)
     return walker.scheme.senses.perception
-
-
-def test_robots_with_cameras_begin_as_those_with_ideal_sight() -> None:
-    result = play()
-    assert result.outcome is Outcome.COMPLETED
-    summary = results_of(result)
-    triggered = summary["triggered_at_distance_m"]
-    assert triggered == pytest.approx(0.8, abs=0.05)
-    assert summary["sight"]["camera"] == "raycast"
-    assert summary["sight"]["detection_rate"] > 0.97
-    assert summary["sight"]["false_detections"] <= 2
-    for own in summary["players"].values():
-        error = own["sight"]["bearing_error_deg"]
-        assert error["median"] < 1.5
-        assert error["p95"] < 5.0
-        assert own["sight"]["lost_s"] < 1.0
-    error = summary["players"]["evader"]["sight"]["distance_error_m"]
-    assert error["median"] < 0.05
 
 
 def test_the_pursuer_finds_an_opponent_outside_its_view() -> None:
@@ -94,32 +67,6 @@ def test_the_pursuer_finds_an_opponent_outside_its_view() -> None:
     np.testing.assert_allclose(np.diff(landings), 0.547, atol=1e-6)
     assert times[-1] - landings[-1] < 0.547
     assert true_bearing[-1] < true_bearing[found] - radians(20.0)
-
-
-@pytest.mark.parametrize("distance", [0.5, 0.8])
-def test_the_evader_tracks_below_the_near_limit_of_its_camera(
-    distance: float,
-) -> None:
-    """The shadow gives the bearing, and the width of trim the distance."""
-    start = StartSettings(distance, 0.0, radians(15.0))
-    duel = RecordedGame(replace(SEEING, start=start))
-    pursuer, evader = (walker.robot for walker in walkers(duel))
-    scheme = walkers(duel)[1].scheme
-    senses = scheme.senses
-    perception = perception_of(walkers(duel)[1])
-    for _ in range(200):
-        measurement = evader.read()
-        senses.see(measurement, scheme.locomotion.step, None)
-        targets = scheme.joint_targets.copy()
-        senses.aim(targets)
-        evader.write(targets)
-        evader.step()
-        pursuer.step()
-    seen = perception.sighting
-    assert seen is not None
-    assert degrees(seen.bearing) == pytest.approx(-15.0, abs=1.5)
-    # From the front trim is as wide as the shoulders, else half as wide.
-    assert seen.distance == pytest.approx(duel.distance, rel=0.35)
 
 
 def test_a_person_nearby_is_one_track_and_not_lost() -> None:
@@ -172,40 +119,3 @@ def test_a_rear_camera_shows_a_person_behind(rear: bool) -> None:
     assert np.degrees(np.abs(error)).max() < 5.0
     assert np.abs(distance[known] - away[known]).max() < 0.25
     assert not lost[known].any()
-
-
-def test_images_are_dropped_and_delayed_as_set() -> None:
-    cameras = replace(RAYS, drop_frames=0.5, added_latency=0.2)
-    duel = RecordedGame(replace(SEEING, cameras=cameras, duration=4.0))
-    pursuer = walkers(duel)[0]
-    ages: list[float] = []
-    while duel.world.time < 4.0:
-        now = duel.world.time
-        duel.tick()
-        for report in pursuer.reports:
-            assert isinstance(report.image, ColourImage)
-            ages.append(now - report.image.time)
-    assert min(ages) == pytest.approx(0.25, abs=0.005)
-    assert max(ages) == pytest.approx(0.25, abs=0.005)
-    assert 15 < len(ages) < 45  # of 60
-
-
-def test_rendering_and_ray_casting_agree() -> None:
-    """Both renderers give the same direction, where available."""
-    renderer = choose_renderer("auto")
-    if renderer not in BACKENDS:
-        pytest.skip("no off-screen graphics (EGL, OSMesa) on this machine")
-    azimuths = {}
-    for kind in (renderer, "raycast"):
-        cameras = CameraSettings(colour=ColourSettings(renderer=kind))
-        start = StartSettings(1.0, radians(10.0), radians(-10.0))
-        duel = RecordedGame(replace(SEEING, cameras=cameras, start=start))
-        found: list[float] = []
-        while duel.world.time < 0.1:
-            duel.tick()
-            for report in duel.in_physics.players[0].reports:
-                found.extend(report.azimuths)
-        duel.world.close()
-        azimuths[kind] = degrees(found[0])
-    assert azimuths[renderer] == pytest.approx(azimuths["raycast"], abs=0.8)
-    assert azimuths[renderer] == pytest.approx(-10.0, abs=1.5)

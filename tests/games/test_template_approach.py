@@ -1,6 +1,6 @@
 """Test games of people and the template of an evader."""
 
-from math import atan2, cos, pi, sin
+from math import pi
 
 import pytest
 
@@ -78,16 +78,3 @@ def test_a_template_walks_in_path_time(pace: float) -> None:
     back = rest[8].pose_in_map.inverse().compose(rest[0].pose_in_map)
     assert abs(way) == pytest.approx(8 * GAIT.stride, rel=0.05)
     assert back.x == pytest.approx(8 * GAIT.stride, rel=0.05)
-
-
-def test_velocities_are_known_in_the_frame_of_the_template() -> None:
-    walker = Leaving(1.0)
-    for frame in (Pose(0.0, 0.0, 0.0), Pose(1.0, 2.0, 1.3)):
-        walker.told.clear()
-        met(frame, 0.3, walker)
-        known = walker.told[5]
-        # The person walks straight at where the evader stood.
-        way = atan2(0.1, 3.0)
-        walks = Pose(0.3 * cos(way), 0.3 * sin(way), 0.0)
-        back = Pose(0.0, 0.0, pi - 0.2).inverse().compose(walks)
-        assert known.velocity == pytest.approx(back[:2], abs=1e-6)

@@ -4,12 +4,10 @@ from dataclasses import replace
 from math import atan2, hypot
 from pathlib import Path
 
-import numpy as np
 import pytest
 
 from commanded_robots import commanded_robots
 from stepaside.core.poses import Pose, wrap_angle
-from stepaside.core.rotations import rotation
 from stepaside.drivers.robot import REST
 from stepaside.games.game_settings import StartSettings, duel
 from stepaside.games.robot_player import VelocityWalker
@@ -68,24 +66,6 @@ def test_odometry_is_where_the_robot_is(
         u, v = robot.truth.position_reference_in_world
         assert hypot(x - u, y - v) < 0.02
         assert abs(wrap_angle(heading - robot.truth.heading_in_world)) < 0.05
-
-
-def test_the_torso_is_served_from_encoders_and_tilt(
-    walked: tuple[VelocityWalker, VelocityWalker, list[BodyVelocity]],
-) -> None:
-    """To some millimetres: the floor gives way under the feet."""
-    for robot in walked[:2]:
-        state = robot.state()
-        (x, y, z), (roll, pitch, yaw) = robot.torso()
-        base = robot.frame.compose(state.pose).compose(Pose(x, y, yaw))
-        body = f"{robot.name}/{robot.description.torso}"
-        data = robot.robot.world.data.body(body)
-        np.testing.assert_allclose(data.xpos[:2], base[:2], atol=0.02)
-        assert z == pytest.approx(data.xpos[2], abs=0.005)
-        axes = data.xmat.reshape(3, 3)
-        np.testing.assert_allclose(
-            rotation(roll, pitch, base.theta), axes, atol=0.06
-        )
 
 
 def test_a_served_sighting_is_relative_to_the_heading_of_its_time() -> None:

@@ -125,20 +125,6 @@ def test_a_hardware_like_body_walks_and_turns_as_planned(
         assert errors[name]["rms"] < 0.014
 
 
-def test_without_feedback_a_hardware_like_body_walks_short_and_slides() -> (
-    None
-):
-    """The baseline for the tests of feedback."""
-    settings = walk(duration=20.0, body=BODIES["hardware"])
-    told = [
-        results_of(run_game(settings.changed(control=control)))["walking"]
-        for control in (OPEN_LOOP, STABILISED)
-    ]
-    alone, helped = told
-    assert alone["speed_ratio"] < 0.96 < helped["speed_ratio"]
-    assert alone["slip_per_step_m"] > 1.5 * helped["slip_per_step_m"]
-
-
 @pytest.mark.parametrize(("phase", "side"), SIDEWAYS)
 def test_feedback_survives_sideways_pushes(phase: float, side: float) -> None:
     result = pushed(1.2, side * pi / 2, phase, feedback=True)
@@ -148,16 +134,6 @@ def test_feedback_survives_sideways_pushes(phase: float, side: float) -> None:
     assert result.summary.walking.push_impulse_n_s == pytest.approx(
         given, abs=0.02
     )
-
-
-@pytest.mark.parametrize(("direction", "least"), [(0.0, 1), (pi, 0)])
-def test_feedback_adapts_footsteps_to_a_push_along_the_walk(
-    direction: float, least: int
-) -> None:
-    result = pushed(2.2, direction, 0.0, feedback=True)
-    check_recovery(result, heading=0.15)
-    assert result.summary.walking is not None
-    assert least <= result.summary.walking.adapted_steps <= 3
 
 
 def test_a_walk_is_repeated_to_the_bit_only_with_its_seed() -> None:

@@ -1,7 +1,5 @@
 """Test how a walk begins, is evaluated and ends."""
 
-from math import pi
-
 import numpy as np
 import pytest
 
@@ -9,7 +7,6 @@ from stepaside.games.game_settings import walk
 from stepaside.games.outcome import Outcome
 from stepaside.games.recorded_game import RecordedGame, run_game
 from stepaside.games.walk_evaluation import upright_samples
-from stepaside.sim.push import Push
 from walkers import walker_of
 
 
@@ -54,26 +51,3 @@ def test_a_walk_lasts_its_duration(duration: float, ticks: int) -> None:
     assert walking.push_impulse_n_s == (0.0, 0.0)
     assert planning.min_zmp_margin_m is not None
     assert planning.min_zmp_margin_m > 0.02
-
-
-def test_steps_and_pushes_of_a_walk_are_counted() -> None:
-    pushes = (Push(0.1, 0.5, 0.0), Push(0.05, 1.0, pi / 2))
-    settings = walk(duration=3.0, pushes=pushes)
-    result = run_game(settings)
-    gait = settings.gait
-    # The first step begins after the start support.
-    steps = (3.0 - gait.start_support) / gait.step_duration
-    walking, planning = result.summary.walking, result.summary.planning
-    assert walking is not None and planning is not None
-    assert abs(planning.steps - steps) <= 1.0
-    given = walking.push_impulse_n_s
-    assert given == pytest.approx((0.1, 0.05), abs=0.01)
-    rows = result.walker.pushes
-    assert rows is not None
-    np.testing.assert_allclose(rows[:, 0], [0.5, 1.0])
-    np.testing.assert_allclose(rows[:, 1], 0.1)
-    np.testing.assert_allclose(rows[:, 4:].sum(axis=0), given, atol=1e-3)
-    for time, _, x, y, *_ in rows:
-        at = result.walker.torso[result.index_at(time)]
-        np.testing.assert_allclose((x, y), at[:2], atol=2e-3)
-    assert result.settings == settings.resolved()

@@ -1,7 +1,6 @@
 """Test exported runs with readers that are not ours."""
 
 import json
-from collections.abc import Iterator
 from pathlib import Path
 from typing import Any, NamedTuple
 from xml.etree.ElementTree import fromstring
@@ -20,8 +19,6 @@ from stepaside.games.run import Run
 from stepaside.games.run_archive import load_run, write_run_files
 from stepaside.report.export.room_model import RoomModel
 from stepaside.robots.description import load_robot
-
-EXAMPLES = Path(__file__).parents[2] / "examples"
 
 
 class Bag(NamedTuple):
@@ -179,100 +176,6 @@ def test_the_zmp_follows_from_the_wrenches_of_the_soles(
         np.testing.assert_allclose(moment / force, zmp[index], atol=2e-3)
 
 
-def test_points_footsteps_and_strategy_are_those_of_the_run(
-    bag: Bag, run: Run
-) -> None:
-    com = bag.topics["/evader/com"][50][1].pose.position
-    np.testing.assert_allclose((com.x, com.y, com.z), run.evader.com[50])
-    landings = run.evader.landings
-    assert landings is not None
-    landed = bag.topics["/evader/footsteps/landed"]
-    assert 2 < len(landed) <= len(landings)
-    planned = bag.topics["/evader/footsteps/planned"]
-    sole = 48  # points
-    assert all(m.width == 5 * sole for _, m in planned)
-    assert [m.width for _, m in landed] == [
-        sole * (n + 1) for n in range(len(landed))
-    ]
-    for (_, one), (_, other) in zip(landed, planned, strict=False):
-        real, plan = points(one)[-sole:], points(other)[:sole]
-        apart = np.hypot(*(real - plan).mean(axis=0)[:2])
-        assert 0.0 < apart < 0.01
-    # The first sole covers its footstep: side, x, y, heading.
-    _, side, x, y, heading = landings[0]
-    away = points(planned[0][1])[:sole, :2] - (x, y)
-    ahead = away @ (np.cos(heading), np.sin(heading))
-    gait = run.settings.gait
-    assert ahead.min() == pytest.approx(gait.sole.back, abs=1e-6)
-    assert ahead.max() == pytest.approx(gait.sole.front, abs=1e-6)
-    outward = away @ (-np.sin(heading), np.cos(heading))
-    outward *= 1.0 if side > 0.5 else -1.0
-    assert outward.min() == pytest.approx(-gait.sole.inner, abs=1e-6)
-    assert outward.max() == pytest.approx(gait.sole.outer, abs=1e-6)
-    bearing = bag.topics["/evader/strategy/sighting_bearing_rad"]
-    assert abs(bearing[-1][1].data) < np.pi
-    sides = {m.data for _, m in bag.topics["/evader/strategy/memory_side"]}
-    assert sides <= {-1.0, 0.0, 1.0}
-    distances = [m.data for _, m in bag.topics["/distance_m"]]
-    np.testing.assert_allclose(distances, run.distance)
-
-
-def test_the_model_travels_with_the_bag_and_late_readers_get_it(
-    bag: Bag,
-) -> None:
-    [(_, text)] = bag.topics["/pursuer/robot_description"]
-    model = mujoco.MjModel.from_xml_string(text.data)
-    assert model.joint("HeadYaw").id >= 0
-    links = {link.get("name") for link in fromstring(text.data).iter("link")}
-    assert links <= {*poses_in_map(bag, 0)} and "pursuer/l_sole" in links
-    pursuer, evader = (
-        (bag.folder / f"{name}.urdf").read_text()
-        for name in ("pursuer", "evader")
-    )
-    assert evader != pursuer  # the accents have the colours of roles
-    from rosbags.highlevel import AnyReader
-    from rosbags.interfaces import ConnectionExtRosbag2, QosDurability
-
-    with AnyReader([bag.folder]) as reader:
-        kept = set()
-        for connection in reader.connections:
-            assert isinstance(connection.ext, ConnectionExtRosbag2)
-            [quality] = connection.ext.offered_qos_profiles
-            if quality.durability is QosDurability.TRANSIENT_LOCAL:
-                kept.add(connection.topic)
-        assert reader.message_count == sum(
-            len(messages) for messages in bag.topics.values()
-        )
-    assert {"/tf_static", "/pursuer/robot_description"} <= kept
-    assert "/tf" not in kept
-
-
-def test_the_layout_names_topics_and_frames_of_the_bag(bag: Bag) -> None:
-    file = EXAMPLES / "foxglove-layout.json"
-    layout = json.loads(file.read_text(encoding="utf-8"))
-    panels = layout["configById"]
-    topics = {*panels["3D!scene"]["topics"]}
-    topics |= {
-        layer["topic"]
-        for layer in panels["3D!scene"]["layers"].values()
-        if "topic" in layer
-    }
-    for panel in panels.values():
-        topics |= {p["value"].split(".")[0] for p in panel.get("paths", ())}
-    assert topics - {"/room/robot_description"} <= set(bag.topics)
-    frames = {"frame:" + frame for frame in poses_in_map(bag, 0)}
-    assert set(panels["3D!scene"]["transforms"]) <= frames
-
-    def leaves(node: Any) -> Iterator[str]:
-        if isinstance(node, str):
-            yield node
-        else:
-            yield from leaves(node["first"])
-            yield from leaves(node["second"])
-
-    assert sorted(leaves(layout["layout"])) == sorted(panels)
-
-
 def test_the_room_travels_with_the_bag(tmp_path: Path) -> None:
     """A disc stands still in its frame; a person moves."""
     pytest.importorskip("rosbags", reason="rosbags is not installed")
@@ -301,24 +204,6 @@ def test_the_room_travels_with_the_bag(tmp_path: Path) -> None:
     np.testing.assert_allclose(
         np.linalg.norm(model.quaternions, axis=2), 1.0, atol=1e-9
     )
-
-
-def test_tables_hold_the_samples(folder: Path, run: Run) -> None:
-    polars = pytest.importorskip("polars", reason="polars is not installed")
-    text = polars.read_csv(export(folder, "csv") / "samples.csv")
-    binary = export(folder, "parquet")
-    table = polars.read_parquet(binary / "samples.parquet")
-    assert text.columns == table.columns
-    np.testing.assert_array_equal(table["time_s"], run.times)
-    for column, values in (
-        ("evader/com/z_m", run.evader.com[:, 2]),
-        ("distance/m", run.distance),
-    ):
-        np.testing.assert_array_equal(table[column], values)
-        np.testing.assert_array_equal(text[column], values)
-    steps = polars.read_parquet(binary / "evader-footsteps-planned.parquet")
-    assert run.evader.landings is not None
-    np.testing.assert_array_equal(steps.to_numpy(), run.evader.landings)
 
 
 def test_without_a_repeated_game_channels_are_absent_and_said_to_be(

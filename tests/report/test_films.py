@@ -1,8 +1,7 @@
 """Films: cameras, captions, lines, walls, and the files."""
 
 from collections.abc import Iterator
-from dataclasses import replace
-from functools import cache, partial
+from functools import cache
 from math import cos, sin
 from pathlib import Path
 from typing import Any
@@ -12,7 +11,6 @@ import numpy as np
 import pytest
 
 from stepaside.arena import Door, Room
-from stepaside.core.player_colours import from_hex
 from stepaside.core.poses import Array
 from stepaside.games.game_settings import duel
 from stepaside.games.player_settings import PLAYERS
@@ -26,9 +24,7 @@ from stepaside.report.film_camera import (
     FilmCamera,
     framing,
 )
-from stepaside.report.film_captions import caption
 from stepaside.report.film_settings import VIEWS, FilmSettings
-from stepaside.report.palette import PALETTES
 from stepaside.sim.room_furnishing import add_solids
 from synthetic_run import run_of
 
@@ -77,18 +73,6 @@ def test_both_players_are_in_the_image_from_foot_to_head(
         assert (positions <= [0.97 * ASPECT, 0.97]).all()
 
 
-def test_the_following_camera_is_nearer_and_moves_smoothly() -> None:
-    fixed, follow = (
-        FilmCamera(run(), name, FOVY, ASPECT) for name in ("fixed", "follow")
-    )
-    views = [follow.view(i) for i in range(len(TIMES))]
-    assert views[0].distance < 0.6 * fixed.view(0).distance
-    rows = np.array([[*view.target, view.distance] for view in views])
-    accelerations = np.diff(rows, 2, axis=0) / 0.1**2
-    assert np.abs(accelerations).max() < 0.5  # [m/s2]
-    assert follow.reach > views[0].distance
-
-
 @pytest.mark.parametrize(
     "direction", [(0.0, -20.0), (60.0, -32.0), (90.0, -89.9)]
 )
@@ -117,49 +101,6 @@ def test_a_view_has_the_axes_of_mujoco_s_camera(name: str) -> None:
     eye = scene.camera[0]
     np.testing.assert_allclose(eye.forward, view.axes[2], atol=1e-6)
     np.testing.assert_allclose(eye.up, view.axes[1], atol=1e-6)
-
-
-def test_labels_stand_at_their_places_and_values_below() -> None:
-    grey = np.full((360, 640, 3), 128, dtype=np.uint8)
-    view = FilmCamera(run(), "fixed", FOVY, ASPECT).view(0)
-    project = partial(view.project, fovy=FOVY)
-    place = np.array([*run().tracks["evader"].torso[0, :2], 0.62])
-    colour = PALETTES["light"].evader
-    told = caption(grey, run(), 0, [("evader", place, colour)], project, 1.0)
-    assert told.shape == grey.shape and (grey == 128).all()
-    assert told[-5, 300].min() > 180  # the band
-    at = project(place)
-    assert at is not None
-    x, y = 320 + 180 * at[0], 180 * (1.0 - at[1])
-    chip = told[int(y) - 12 : int(y), int(x) - 12 : int(x) + 12]
-    ink = 255.0 * np.array(from_hex(colour))
-    assert np.abs(chip - ink).sum(axis=2).min() < 60
-    assert (caption(grey, run(), 0, [], project, 2.0) != told).any()
-    small = np.full((90, 160, 3), 128, dtype=np.uint8)
-    assert caption(small, run(), 0, [], project, 1.0) is small
-    long = replace(run(), message="x" * 500 + "\x1b\n")
-    caption(grey, long, len(TIMES) - 1, [], project, 1.0)
-
-
-@pytest.mark.parametrize(
-    ("shot", "last", "expected"),
-    [
-        (FilmSettings(rate=10.0, duration=0.3), 9.0, [0.0, 0.1, 0.2, 0.3]),
-        (FilmSettings(rate=10.0, begin=0.8), 1.0, [0.8, 0.9, 1.0]),
-        (
-            FilmSettings(rate=10.0, speed=4.0, duration=1.0),
-            9.0,
-            [0.0, 0.4, 0.8],
-        ),
-        (FilmSettings(rate=10.0, begin=2.0), 2.0, [2.0]),
-        (FilmSettings(rate=10.0, begin=2.1), 2.0, []),
-        (FilmSettings(rate=10.0, begin=5.0), 2.0, []),
-    ],
-)
-def test_pictures_of_a_film_are_evenly_spaced(
-    shot: FilmSettings, last: float, expected: list[float]
-) -> None:
-    np.testing.assert_allclose(shot.frame_times(last), expected, atol=1e-12)
 
 
 SHAPES = [(3.0, 3.0), (2.0, 8.0), (9.0, 1.6)]
@@ -201,63 +142,9 @@ def test_walls_between_the_camera_and_the_room_are_hidden_for_one_image(
     assert model.ngeom == 5  # two of them beside the door
 
 
-def still(plan: Room | None) -> Run:
-    """Return a run of two standing players near the center."""
-    times = np.linspace(0.0, 2.0, 21)
-    tracks = {}
-    for name, x in (("pursuer", -0.3), ("evader", 0.4)):
-        torso = np.tile([x, 0.1, 0.0], (21, 1))
-        tracks[name] = Trajectory(com=torso.copy(), torso=torso)
-    settings = duel(room=plan)
-    return run_of(times, tracks, settings=settings)
-
-
-@pytest.mark.parametrize("shape", SHAPES)
-@pytest.mark.parametrize("aspect", [0.6, 1.8])
-def test_the_top_view_of_a_film_shows_the_whole_room(
-    shape: tuple[float, float], aspect: float
-) -> None:
-    room = Room(width=shape[0], depth=shape[1])
-    view = FilmCamera(still(room), "top", 45.0, aspect).view(0)
-    for wall in room.walls:
-        for x, y in wall.points.tolist():
-            seen = view.project(np.array([x, y, 0.6]), 45.0)
-            assert seen is not None
-            assert abs(seen[0]) < aspect and abs(seen[1]) < 1.0
-
-
 def shades(count: int) -> Iterator[Any]:
     for number in range(count):
         yield np.full((48, 64, 3), 40 * number, dtype=np.uint8)
-
-
-@pytest.mark.parametrize("kind", ["gif", "mp4"])
-def test_films_have_their_pictures_and_their_rate(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, kind: str
-) -> None:
-    monkeypatch.setattr(film, "load_run", lambda folder: run())
-    monkeypatch.setattr(film, "render_images", lambda *_: shades(6))
-    told: list[tuple[int, int]] = []
-    file = tmp_path / f"run.{kind}"
-    shot = FilmSettings(64, 48, rate=5.0, duration=1.0)
-
-    def report(done: int, all_of_them: int) -> None:
-        told.append((done, all_of_them))
-
-    assert film.write_film(tmp_path, file, shot, report) == 6
-    assert told == [(done, 6) for done in range(1, 7)]
-    assert list(tmp_path.iterdir()) == [file]
-    if kind == "gif":
-        image = pytest.importorskip("PIL.Image").open(file)
-        assert image.n_frames == 6 and image.info["duration"] == 200
-        assert image.info["loop"] == 0 and image.size == (64, 48)
-        return
-    av = pytest.importorskip("av")
-    with av.open(str(file)) as out:
-        assert out.streams.video[0].average_rate == 5
-        frames = [f.to_ndarray(format="rgb24") for f in out.decode(video=0)]
-    levels = [frame.mean() for frame in frames]
-    np.testing.assert_allclose(levels, 40.0 * np.arange(6), atol=6.0)
 
 
 def test_a_film_that_fails_leaves_nothing_behind(

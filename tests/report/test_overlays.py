@@ -1,7 +1,5 @@
 """What lies over a scene: laws of its lines."""
 
-from dataclasses import replace
-
 import numpy as np
 import pytest
 
@@ -10,20 +8,15 @@ from stepaside.games.recorded_game import run_game
 from stepaside.games.run import Run
 from stepaside.locomotion.control_settings import ControlSettings
 from stepaside.report.overlays import (
-    LAYERS,
     PUSH_LENGTH,
     PUSH_SHOWN,
     footsteps_in,
-    line_of_sight,
     overlays_of,
     push_arrows,
-    safety_ring,
-    soles,
 )
 from stepaside.report.scene import RunScene
 from stepaside.sim.body_settings import BODIES
 
-PLACES = {"a": np.array([1.0, 2.0, 0.3]), "b": np.array([-1.0, 0.5, 0.0])}
 PUSHES = np.array([[2.0, 0.1, 0.5, -0.5, 0.3, 0.4]])
 
 
@@ -31,20 +24,6 @@ PUSHES = np.array([[2.0, 0.1, 0.5, -0.5, 0.3, 0.4]])
 def run() -> Run:
     start = StartSettings(0.7, 0.0, 0.3)
     return run_game(duel(seed=3, duration=3.0, start=start))
-
-
-def test_a_ring_moves_with_its_player() -> None:
-    shown = safety_ring("a", 0.8).shown(0.0, PLACES)
-    away = np.hypot(*(shown[..., :2] - PLACES["a"][:2]).T)
-    np.testing.assert_allclose(away, 0.8)
-    np.testing.assert_allclose(shown[:, 1], np.roll(shown[:, 0], -1, 0))
-
-
-def test_a_line_of_sight_connects_two_players() -> None:
-    (line,) = line_of_sight("a", "b").shown(5.0, PLACES)
-    height = LAYERS["line of sight"].height
-    ends = [[*PLACES[name][:2], height] for name in "ab"]
-    np.testing.assert_allclose(line, ends)
 
 
 def test_an_arrow_is_shown_for_a_second_along_its_push() -> None:
@@ -73,39 +52,6 @@ def test_a_path_grows_and_forgets_what_is_older_than_the_trail(
     np.testing.assert_allclose(shown[:, 0, :2], com[:-1])
     np.testing.assert_allclose(shown[:, 1, :2], com[1:])
     assert len(path.shown(1e3, {})) == len(run.times) - 1
-
-
-def test_outlines_of_soles_lie_where_the_soles_landed(run: Run) -> None:
-    rows = footsteps_in(run, "pursuer")
-    sole = run.settings.player("pursuer").gait.sole
-    outlines = soles(rows[:, 1:], sole).reshape(len(rows), 4, 2, 2)
-    for (_, side, x, y, heading), outline in zip(rows, outlines, strict=True):
-        away = outline[:, 0] - (x, y)
-        ahead = away @ (np.cos(heading), np.sin(heading))
-        aside = side * (away @ (-np.sin(heading), np.cos(heading)))
-        assert (ahead.min(), ahead.max()) == pytest.approx(
-            (sole.back, sole.front)
-        )
-        assert (aside.min(), aside.max()) == pytest.approx(
-            (-sole.inner, sole.outer)
-        )
-
-
-def test_colours_are_those_of_the_players_or_of_the_layer(
-    run: Run,
-) -> None:
-    pursuer = replace(run.pursuer, pushes=PUSHES)
-    tracks = {**run.tracks, "pursuer": pursuer}
-    run = replace(run, tracks=tracks)
-    colours = {"pursuer": "#ff0000", "evader": "#0000ff"}
-    found = {
-        (each.layer, each.owner): each.colour("light", colours)
-        for each in overlays_of(run)
-    }
-    assert found["CoM trace", "evader"] == "#0000ff"
-    assert found["footsteps", "pursuer"] == "#ff0000"
-    assert found["pushes", "pursuer"] not in colours.values()
-    assert found["line of sight", "pursuer-evader"] not in colours.values()
 
 
 def test_footsteps_of_a_run_are_where_the_soles_landed() -> None:

@@ -2,7 +2,6 @@
 
 import json
 import shutil
-import threading
 from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
@@ -20,24 +19,16 @@ from browsing import (
     launched,
     looking,
     open_page,
-    press,
     until,
 )
 from injection_strings import HOSTILE
-from match_callbacks import observe_ticks, stop_observing
 from stepaside.cli.main import main
 from stepaside.games.configuration_file import dump_configuration
-from stepaside.games.game_settings import StartSettings, duel
-from stepaside.games.recorded_game import RecordedGame
-from stepaside.games.robot_player import RobotPlayer
 from stepaside.games.run_archive import load_run
 from stepaside.report.replay_page import write_page
 from stepaside.report.scene import RunScene
 from stepaside.report.text_escaping import visible
-from stepaside.report.viewer.live_session import LiveSession
 from stepaside.sim.person_settings import PersonSettings
-
-SLOW = 0.02  # speed at which a sight of some seconds lasts for minutes
 
 pytestmark = [
     pytest.mark.skipif(CHROMIUM is None, reason="there is no Chromium here"),
@@ -75,96 +66,6 @@ def flat(browser: Any) -> Iterator[tuple[Any, list[str]]]:
     page.on("dialog", lambda dialog: wrong.append(dialog.message))
     yield page, wrong
     chromium.close()
-
-
-def test_a_live_duel_can_be_watched_pushed_and_driven(browser: Any) -> None:
-    from stepaside.report.viewer.live_page import Page
-
-    start = StartSettings(distance=1.2, pursuer_offset=0.5, evader_offset=0.0)
-    live = Page(duel(start=start), port=8731)
-    live.start()
-    session = live.session
-
-    def slow_down(duel: RecordedGame) -> None:
-        """Let the walk towards the evader last, however slow the page is."""
-        if duel.world.time > 1.0:
-            session.speed = SLOW
-
-    slowing = observe_ticks(session.game, slow_down)
-    pursuer = session.world.players[0]
-    assert isinstance(pursuer, RobotPlayer)
-    try:
-        page = open_page(browser)
-        page.goto(f"http://127.0.0.1:{live.server.get_port()}")
-        page.get_by_text("standing").first.wait_for()
-        assert session.world.time == 0.0
-
-        press(page, "Start")
-        page.get_by_text("walking: pursuer").first.wait_for()
-        pause = page.get_by_role("button", name="Pause", exact=True)
-        pause.first.wait_for()
-        keep_picture(page, "live.png")
-        press(page, "Pause")
-        until(page, lambda: not session.running)
-        settle(page, session)
-        stopped = session.world.time
-        assert 1.0 < stopped < 5.0
-        settle(page, session)
-        assert session.world.time == stopped
-
-        press(page, "Push")
-        page.get_by_text("pushed the pursuer left").wait_for()
-        until(page, lambda: pursuer.robot.pusher is not None)
-        stop_observing(session.game, slowing)
-        session.speed = 1.0
-        press(page, "Start")
-        pusher = pursuer.robot.pusher
-        assert pusher is not None
-        until(page, lambda: abs(pusher.impulse[1]) > 0.1)
-
-        press(page, "left")
-        mind = pursuer.scheme
-        until(
-            page,
-            lambda: (p := mind.walk.plan) is not None and p.bearing > 0.8,
-        )
-        page.get_by_text("walks to the left").first.wait_for()
-
-        press(page, "Pause")
-        until(page, lambda: not session.running)
-        tab = page.get_by_role("tab", name="Settings").first
-        field = page.get_by_label("seed").first
-
-        def opens() -> bool:
-            """A click is lost while the page draws its panel anew."""
-            tab.click(force=True)
-            return bool(field.is_visible())
-
-        until(page, opens)
-        field.fill("-1")
-        field.press("Enter")
-
-        def is_refused() -> bool:
-            """A reset before the value arrives begins another duel."""
-            press(page, "reset")
-            notice = page.get_by_text("seed must").first
-            return bool(notice.is_visible())
-
-        until(page, is_refused)
-        page.close()
-    finally:
-        live.close()
-    assert threading.active_count() < 50
-
-
-def settle(page: Any, session: LiveSession) -> None:
-    """Wait until the loop behind the page begins a round."""
-    for _ in range(3):
-        served = threading.Event()
-        threading.Thread(
-            target=lambda done=served: session.call(done.set), daemon=True
-        ).start()
-        until(page, served.is_set)
 
 
 @pytest.fixture(scope="module")

@@ -4,15 +4,9 @@ import mujoco
 import numpy as np
 import pytest
 
-from stepaside.core.errors import ConfigurationError
-from stepaside.core.player_colours import from_hex
 from stepaside.report import replay_page
-from stepaside.report.palette import PALETTES
 from stepaside.report.visual_geoms import (
-    MAX_TRIANGLES,
-    TriangleMesh,
     label_over,
-    simplify,
     visual_geoms_of,
 )
 
@@ -79,51 +73,6 @@ def test_a_label_stands_over_the_highest_point_of_a_player() -> None:
     assert body == 1 and height == pytest.approx(0.44)
 
 
-def test_a_large_mesh_becomes_small_and_keeps_its_extent() -> None:
-    trimesh = pytest.importorskip("trimesh")
-    ball = trimesh.creation.icosphere(subdivisions=4, radius=0.3)
-    large = TriangleMesh(ball.vertices, ball.faces)
-    small = simplify(large)
-    assert 200 < len(small.faces) <= MAX_TRIANGLES < len(large.faces)
-    radii = np.linalg.norm(small.vertices, axis=1)
-    assert 0.27 < radii.min() and radii.max() <= 0.3 + 1e-9
-    assert simplify(small) is small
-
-
-def luminance(colour: str) -> float:
-    linear = [
-        c / 12.92 if c <= 0.04045 else ((c + 0.055) / 1.055) ** 2.4
-        for c in from_hex(colour)
-    ]
-    return float(np.dot([0.2126, 0.7152, 0.0722], linear))
-
-
-def contrast(first: str, second: str) -> float:
-    """Contrast ratio as WCAG 2.2 defines it, from 1 to 21."""
-    darker, lighter = sorted(map(luminance, (first, second)))
-    return (lighter + 0.05) / (darker + 0.05)
-
-
-@pytest.mark.parametrize("theme", PALETTES)
-def test_text_and_lines_of_pages_have_the_contrast_of_wcag(theme: str) -> None:
-    """Text at least 4.5 to 1, lines at least 3 to 1."""
-    palette = PALETTES[theme]
-    for text in ("ink", "soft", "pursuer", "evader", "theory", "mean"):
-        assert contrast(getattr(palette, text), palette.paper) > 4.5
-    for line in ("pursuer", "evader", "theory", "support"):
-        for background in ("floor", "tile", "sky", "paper"):
-            ratio = contrast(
-                getattr(palette, line), getattr(palette, background)
-            )
-            assert ratio > 3.0, (line, background)
-
-
-def test_contrast_agrees_with_wcag() -> None:
-    assert contrast("#000000", "#ffffff") == pytest.approx(21.0)
-    assert contrast("#777777", "#ffffff") == pytest.approx(4.48, abs=0.005)
-    assert contrast("#1f5fbf", "#1f5fbf") == 1.0
-
-
 def test_three_js_has_its_licence_and_nothing_else_is_included() -> None:
     text = replay_page.three_js()
     assert text.startswith("/**\n * @license\n")
@@ -131,15 +80,3 @@ def test_three_js_has_its_licence_and_nothing_else_is_included() -> None:
     assert "THREE={}" in text[:600]
     assert "</script" not in text and "@@" not in text
     assert "TrackballControls" not in text and "GLTFLoader" not in text
-
-
-def test_a_trimesh_without_three_js_is_refused(
-    monkeypatch: pytest.MonkeyPatch,
-) -> None:
-    replay_page.three_js.cache_clear()
-    monkeypatch.setattr(replay_page, "TEMPLATE", "another.html")
-    with pytest.raises(
-        ConfigurationError, match="trimesh that contains three"
-    ):
-        replay_page.three_js()
-    replay_page.three_js.cache_clear()

@@ -41,19 +41,6 @@ def made() -> Run:
     return replace(run, name="a </b> run", tracks=tracks)
 
 
-def thinned(track: Trajectory, every: int) -> Trajectory:
-    """Track with some of its samples."""
-    assert track.qpos is not None
-    return replace(
-        track,
-        com=track.com[::every],
-        place=None if track.place is None else track.place[::every],
-        torso=track.torso[::every],
-        qpos=track.qpos[::every],
-        zmp=None,
-    )
-
-
 def content(run: Run, folder: Path) -> Any:
     """Data of the page's script."""
     file = folder / "run.html"
@@ -63,24 +50,6 @@ def content(run: Run, folder: Path) -> Any:
     assert "a </b> run" not in text and "a &lt;/b&gt; run" in text
     (found,) = re.findall(r"(\{\"times\".*\})", text)
     return json.loads(found)
-
-
-def test_a_page_shows_twenty_moments_a_second_and_the_last(
-    tmp_path: Path,
-) -> None:
-    shown = content(made(), tmp_path)
-    expected = [*(0.04 * np.arange(51)), 2.02]
-    np.testing.assert_allclose(shown["times"], expected, atol=1e-9)
-
-
-def test_a_page_without_frequent_samples_shows_them_all(
-    tmp_path: Path,
-) -> None:
-    run = made()
-    tracks = {n: thinned(track, 25) for n, track in run.tracks.items()}
-    thin = replace(run, times=TIMES[::25], tracks=tracks)
-    shown = content(thin, tmp_path)
-    np.testing.assert_allclose(shown["times"], TIMES[::25], atol=1e-9)
 
 
 def poses(shown: Any) -> tuple[Array, Array]:

@@ -2,7 +2,6 @@
 
 import json
 from dataclasses import replace
-from math import degrees
 from pathlib import Path
 from typing import Any
 
@@ -10,16 +9,13 @@ import numpy as np
 import pytest
 
 from stepaside.core.errors import ConfigurationError, OutputError
-from stepaside.core.poses import Array
 from stepaside.games.game_settings import StartSettings, duel
 from stepaside.games.recorded_game import run_game
 from stepaside.games.run import Run
 from stepaside.games.run_archive import FORMAT, load_run, results_of
-from stepaside.games.trajectory import Trajectory
 from stepaside.report import run_figure
 from stepaside.report.run_folder import check_output, write_run
 from stepaside.report.scene import RunScene
-from synthetic_run import CIRCLE, check_same, run_of
 
 SETTINGS = duel(seed=3, duration=0.4, start=StartSettings(1.3, 0.4, -0.2))
 
@@ -36,21 +32,6 @@ def draw_nothing(*arguments: Any) -> None:
 @pytest.fixture(autouse=True)
 def quick(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(run_figure, "draw_run", draw_nothing)
-
-
-def test_a_run_comes_back_as_it_was(tmp_path: Path, result: Run) -> None:
-    folder = tmp_path / "runs" / "first"
-    figure = write_run(folder, result)
-    assert figure == folder / "duel.png" and figure.is_file()
-    assert sorted(p.name for p in folder.iterdir()) == [
-        *("checksums.txt", "configuration.toml", "duel.png"),
-        *("summary.json", "trajectories.npz"),
-    ]
-    assert folder.stat().st_mode & 0o777 == 0o755
-    assert list(folder.parent.iterdir()) == [folder]
-    run = load_run(folder)
-    assert run.name == "first"
-    check_same(run, result)
 
 
 def test_an_empty_folder_is_taken(tmp_path: Path, result: Run) -> None:
@@ -155,46 +136,6 @@ def test_a_folder_that_lacks_a_file_is_no_run(
         load_run(folder)
 
 
-TIMES = np.linspace(0.0, 40.0, 401)
-
-
-def synthetic_duel(**told: Any) -> Run:
-    """Robots that wander, and then go round (3, -2) by halves."""
-    angle = 0.5 * TIMES
-    away = np.where(TIMES < 20.0, 5.0, 0.0)[:, None]
-    ring = np.column_stack([np.cos(angle), np.sin(angle), angle])
-    middle = np.array([3.0, -2.0, 0.0]) + away
-    pursuer, evader = middle + 0.6 * ring, middle - 0.6 * ring
-    pursuer[:, 2], evader[:, 2] = angle, angle + 1.2
-    tracks = {
-        name: Trajectory(torso.copy(), torso)
-        for name, torso in (("pursuer", pursuer), ("evader", evader))
-    }
-    return run_of(TIMES, tracks, **told)
-
-
-def test_a_run_tells_its_distance_and_angle_in_degrees() -> None:
-    run = synthetic_duel()
-    np.testing.assert_array_equal(run.times, TIMES)
-    np.testing.assert_allclose(run.distance, 1.2)
-    np.testing.assert_allclose(run.orientation, degrees(1.2))
-
-
-def test_the_circle_lies_round_the_way_after_they_converged() -> None:
-    """A whole turn takes 12.6 s; what was before has another middle."""
-    run = synthetic_duel(theory=CIRCLE, converged_at_s=40.0 - 4.0 * np.pi)
-    assert run.circle is not None and run.theory is not None
-    assert run.circle[:2] == pytest.approx((3.0, -2.0), abs=0.02)
-    assert run.circle[2] == run.theory[0]
-    late = synthetic_duel(theory=CIRCLE, converged_at_s=20.0).circle
-    assert late is not None and late[0] == pytest.approx(3.0, abs=0.05)
-    early = synthetic_duel(theory=CIRCLE, converged_at_s=0.0).circle
-    assert early is not None and early[0] == pytest.approx(5.5, abs=0.05)
-    assert early[1] == pytest.approx(0.5, abs=0.05)
-    assert synthetic_duel(theory=CIRCLE).circle is None
-    assert synthetic_duel().circle is None
-
-
 def test_the_stage_puts_the_bodies_where_they_were(
     result: Run,
 ) -> None:
@@ -221,45 +162,3 @@ def test_the_stage_puts_the_bodies_where_they_were(
             np.testing.assert_allclose(
                 stage.data.xpos[torso], posture[:3], atol=1e-6
             )
-
-
-def test_a_person_is_put_where_it_walked() -> None:
-    settings = duel(
-        duration=0.4,
-        pursuer={"body": "person"},
-        start=StartSettings(2.5, 0.0, 0.0),
-    )
-    result = run_game(settings)
-    count = len(result.times)
-    walked = np.column_stack(
-        [
-            np.linspace(0.0, 0.5, count),
-            np.linspace(0.0, -0.3, count),
-            np.linspace(0.0, 1.0, count),
-        ]
-    )
-    person = replace(result.pursuer, torso=walked)
-    tracks = {**result.tracks, "pursuer": person}
-    stage = RunScene(replace(result, tracks=tracks))
-    trunk = stage.model.body("pursuer/trunk").id
-    legs = []
-    for index in (0, count // 2, count - 1):
-        stage.put(index)
-        place = stage.data.xpos[trunk]
-        np.testing.assert_allclose(place[:2], walked[index, :2], atol=0.05)
-        frame = stage.data.xmat[trunk]
-        heading = np.arctan2(frame[3], frame[0])
-        assert heading == pytest.approx(walked[index, 2], abs=0.1)
-        legs.append(_legs(stage, float(heading)))
-    assert np.abs(legs[1] - legs[0]).max() > 0.02
-    assert np.abs(legs[2] - legs[1]).max() > 0.02
-
-
-def _legs(stage: RunScene, heading: float) -> Array:
-    """Axes of the person's parts, seen from its trunk. Shape (n, 3, 3)."""
-    names = [stage.model.body(i).name for i in range(stage.model.nbody)]
-    own = [i for i, name in enumerate(names) if name.startswith("pursuer/")]
-    c, s = np.cos(heading), np.sin(heading)
-    turn = np.array([[c, s, 0.0], [-s, c, 0.0], [0.0, 0.0, 1.0]])
-    seen: Array = turn @ stage.data.xmat[own].reshape(-1, 3, 3)
-    return seen

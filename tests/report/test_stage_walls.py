@@ -7,19 +7,10 @@ import mujoco
 import numpy as np
 import pytest
 
-from stepaside.arena import Disc, Door, Room
-from stepaside.core.poses import Array, Pose
-from stepaside.report.viewer.scene_bodies import SceneBodies
+from stepaside.arena import Door, Room
+from stepaside.core.poses import Array
 from stepaside.report.visual_geoms import VisualGeom, visual_geoms_of
-from stepaside.robots.description import load_robot
-from stepaside.sim.person_body import (
-    add_person,
-    mocap_indices,
-    set_person_pose,
-)
-from stepaside.sim.physics_settings import PhysicsSettings
 from stepaside.sim.room_furnishing import add_solids
-from stepaside.sim.world import build_model
 
 
 class Scene:
@@ -98,54 +89,3 @@ def test_no_wall_hides_the_inside_of_the_room_from_outside(
     for wall in room.walls:
         beyond = np.array([*(1.5 * wall.points.mean(axis=0)), 0.3])
         assert hides(all_faces, eye, beyond)
-
-
-def test_the_footprint_of_a_wall_faces_upward() -> None:
-    room = Room(width=3.0, depth=2.0)
-    model = room_model(room)
-    for part in visual_geoms_of(model):
-        triangles = triangles_of(part, model)
-        flat = np.ptp(triangles[:, :, 2], axis=1) < 1e-9
-        normals = np.cross(
-            triangles[:, 1] - triangles[:, 0],
-            triangles[:, 2] - triangles[:, 0],
-        )
-        assert flat.sum() == 2 and (normals[flat, 2] > 0.0).all()
-        area = 0.5 * normals[flat, 2].sum()
-        xy = np.abs(triangles[flat]).reshape(-1, 3)[:, :2].max(axis=0)
-        assert area > 0.0 and (xy >= [1.0, 1.0]).any()
-
-
-def test_only_walls_of_the_room_lose_their_outer_faces() -> None:
-    model = room_model(
-        Room(width=3.0, depth=3.0, obstacles=(Disc(0.5, 0, 0.2),))
-    )
-    shadows = {g.kind: g.casts_shadow for g in visual_geoms_of(model)}
-    assert shadows == {"cylinder": True, "mesh": False}
-    kinds = sorted(geom.kind for geom in visual_geoms_of(model))
-    assert kinds == ["cylinder", "mesh", "mesh", "mesh", "mesh"]
-
-
-@pytest.mark.parametrize("place", [(0.0, 0.0), (12.0, -5.0)])
-def test_the_label_of_a_person_is_above_its_head(
-    place: tuple[float, float],
-) -> None:
-    model = build_model(
-        {"evader": load_robot("nao")},
-        PhysicsSettings(),
-        seed=1,
-        furnish=lambda spec: add_person(spec, "pursuer"),
-    )
-    data = mujoco.MjData(model)
-    set_person_pose(
-        data, mocap_indices(model, "pursuer"), Pose(*place, 0.4), 1.3
-    )
-    mujoco.mj_kinematics(model, data)
-    scene: Any = Scene()
-    bodies = SceneBodies(scene, model, data, ("pursuer", "evader"))
-    bodies.move(data.xpos, data.xquat)
-    x, y, z = scene.items["/names/pursuer"].position
-    assert np.hypot(x - place[0], y - place[1]) < 0.3
-    assert 1.74 <= z <= 1.94
-    high = scene.items["/names/evader"].position[2]
-    assert 0.5 < high < 0.75
