@@ -16,9 +16,7 @@ from stepaside.cli.theory import (
 )
 from stepaside.core.setting import Setting as Description
 from stepaside.core.setting import settings_of
-from stepaside.games.game_settings import GameSettings
 from stepaside.games.game_settings import duel as make_duel
-from stepaside.games.game_settings import walk as make_walk
 from stepaside.games.player_settings import PlayerSettings
 from stepaside.games.unicycle_settings import UnicycleSettings
 from stepaside.report.film_settings import FilmSettings
@@ -29,9 +27,8 @@ from .markdown import table
 
 CONFIGURATIONS = (
     make_duel(),
-    make_walk(),
+    PlayerSettings("one"),
     PlanSettings(),
-    GameSettings(players=(PlayerSettings("one"),)),
 )
 COMMANDS = {
     "play": ConnectionSettings(),
