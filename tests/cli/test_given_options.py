@@ -18,7 +18,6 @@ from stepaside.games.configuration_file import (
 )
 from stepaside.games.game_settings import duel
 from stepaside.games.game_settings import walk as make_walk
-from stepaside.planning import PRESETS
 from stepaside.sim.body_settings import BODIES
 from stepaside.sim.camera_settings import CLUTTER
 from stepaside.sim.push import Push
@@ -104,28 +103,6 @@ def test_printed_configuration_repeats_the_run(tmp_path: Path) -> None:
     assert first == again
 
 
-@pytest.mark.parametrize("name", ["duel", "view", "run walk"])
-def test_every_command_takes_gait_body_and_floor(name: str) -> None:
-    found = settings(
-        f"{name} --gait as-printed --set gait.single_support=0.2 "
-        "--set gait.stride=0.03 --set gait.com_height=0.26 --body delayed "
-        "--set body.backlash=2deg --set physics.friction=0.5 "
-        "--set control.method=mpc --set control.mpc.steps=3 --seed 0"
-    )
-    gait = replace(
-        PRESETS["as-printed"],
-        single_support=0.2,
-        stride=0.03,
-        com_height=0.26,
-    )
-    assert {own.gait for own in found.players} == {gait}
-    delayed = replace(BODIES["delayed"], backlash=radians(2.0))
-    assert found.body == delayed
-    assert found.physics.friction == 0.5 and found.seed == 0
-    control = found.players[0].control
-    assert control.mpc.steps == 3 and control.feedback
-
-
 def test_safety_radius_and_release_distance_change_together() -> None:
     """Each alone would be invalid with the default of the other."""
     line = (
@@ -186,15 +163,6 @@ def test_options_switch_off_flags_of_a_file(file: Path) -> None:
     assert clutter == list(CLUTTER)
 
 
-def test_changing_the_method_keeps_feedback_of_the_file(
-    file: Path,
-) -> None:
-    found = settings(
-        f"duel --config {file} --set control.method=closed-form"
-    ).evader.control
-    assert (found.method, found.feedback) == ("closed-form", True)
-
-
 def test_walk_file_has_its_own_entries(tmp_path: Path) -> None:
     walk = make_walk(
         0.2,
@@ -242,14 +210,6 @@ def test_pushes_are_replaced_or_removed_and_name_the_player(
         refused = run(words)
         assert refused.exit_code == 2 and refused.stderr.count("\n") == 1
         assert f"push player must be one of {who}," in refused.stderr
-
-
-def test_plan_takes_files_of_duels(file: Path) -> None:
-    file.write_text(f"{SWITCHES}[gait]\nspeed = 0.08\n", encoding="utf-8")
-    assert settings(f"theory plan --config {file}").gait.speed == 0.08
-    file.write_text("weather = 1", encoding="utf-8")
-    refused = run(f"theory plan --config {file}")
-    assert refused.exit_code == 2 and "unknown entry weather" in refused.stderr
 
 
 def test_a_file_that_lacks_what_it_must_say_is_refused(

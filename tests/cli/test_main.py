@@ -33,12 +33,6 @@ def test_every_command_has_help(command: str) -> None:
     assert "Usage" in result.stdout
 
 
-def test_help_shows_defaults() -> None:
-    text = " ".join(run("duel", "--help").stdout.split())
-    assert "Simulated time [s]. [default: 120]" in text
-    assert "Imperfections of the body. [default: ideal]" in text
-
-
 def test_plan_dcm_is_the_quadrature_of_its_zmp_pieces() -> None:
     """Eq. (16), from what the command prints alone."""
     plan = run_json("theory", "plan", "--role", "evader", "--bearing", "-2.2")
@@ -87,14 +81,6 @@ def test_duel_writes_a_run_folder_that_repeats_it(tmp_path: Path) -> None:
     assert first == again
     arrays = np.load(folder / "trajectories.npz")
     assert arrays["pursuer_com"].shape == (len(arrays["times_s"]), 3)
-
-
-def test_duel_ends_with_a_table_and_two_paths(tmp_path: Path) -> None:
-    folder = tmp_path / "run"
-    result = run("duel", "--duration", "1", "--output", str(folder))
-    assert result.exit_code == 0
-    assert "(theory 0.9003 m)" in result.stdout
-    assert str(folder / "duel.png") in result.stdout
 
 
 BAD = [
@@ -164,14 +150,6 @@ def test_bad_configuration_is_refused(
     assert result.exit_code == 2
     assert re.search(message, result.stderr), result.stderr
     assert not output.exists()
-
-
-def test_robot_writes_a_valid_mujoco_model() -> None:
-    import mujoco
-
-    text = run("robot", "nao", "--mjcf").stdout
-    assert mujoco.MjModel.from_xml_string(text).nbody == 26
-    assert run_json("robot", "nao")["hinges"] == 24
 
 
 def test_interrupted_duel_reports_its_run(

@@ -7,11 +7,10 @@ import click
 import pytest
 from click.testing import CliRunner
 
-from stepaside.cli.main import COMMANDS, all_commands, main
+from stepaside.cli.main import all_commands, main
 
 SCREEN = 50  # lines
 MOST = 16  # options, with --set, --config, --settings, --output and --json
-ROBOTS = ("duel", "view", "serve", "play", "run walk", "theory plan")
 
 
 def options_of(name: str) -> list[click.Option]:
@@ -27,16 +26,6 @@ def test_the_help_of_a_command_fits_one_screen(name: str) -> None:
     for option in options_of(name):
         assert option.help and len(option.help) > 5, option.opts
         assert "{" not in option.help, option.opts
-
-
-def test_there_are_at_most_a_dozen_commands() -> None:
-    assert len(COMMANDS) <= 12
-
-
-@pytest.mark.parametrize("name", ROBOTS)
-def test_commands_with_robots_take_any_setting_and_a_file(name: str) -> None:
-    spelled = {word for option in options_of(name) for word in option.opts}
-    assert spelled >= {"--config", "--settings", "--set"}
 
 
 @pytest.mark.parametrize(

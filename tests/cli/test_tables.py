@@ -2,16 +2,13 @@
 
 import re
 from pathlib import Path
-from typing import Any
 
 import pytest
 from click.testing import CliRunner, Result
 
 from stepaside.cli.main import main
-from stepaside.cli.tables import format_value
 from stepaside.core import progress
 from stepaside.games import game
-from stepaside.report.result_labels import label_of, unit_of
 
 pytestmark = pytest.mark.usefixtures("blank_figures", "inline_workers")
 
@@ -70,48 +67,9 @@ def test_tables_show_no_raw_keys(words: str, progress_lines: None) -> None:
     assert not re.findall(r"\b(?:True|False|None)\b", table), shown.stdout
 
 
-@pytest.mark.parametrize(
-    ("name", "value", "label", "text"),
-    [
-        ("some_distance_m", 0.5, "some distance", "0.5 m"),
-        ("turning_rate_rad_s", 0.25, "turning rate", "0.25 rad/s"),
-        ("headings_apart_rad", 1.0, "angle between headings", "57.2958 deg"),
-        ("other_share", 0.25, "other", "25 %"),
-        ("floor_m2", 9.0, "floor area", "9 m^2"),
-        ("time_constant_s", None, "time constant", "-"),
-        ("stable", False, "stable", "no"),
-        ("games", 12, "games", "12"),
-        ("eigenvalues_per_s", [[-1.0, 2.0]], "eigenvalues", "-1+2i 1/s"),
-    ],
-)
-def test_name_becomes_a_label_and_its_suffix_a_unit(
-    name: str, value: Any, label: str, text: str
-) -> None:
-    assert label_of(name) == label
-    assert format_value(name, value) == text
-    unit = unit_of(name)
-    with_unit = f"{label} [{unit}]" if unit else label
-    assert label_of(name, unit=True) == with_unit
-
-
 @pytest.mark.parametrize("words", ["run walk --duration 9", TABLES[0]])
 def test_progress_is_not_among_json(words: str, progress_lines: None) -> None:
     assert shown_by(f"{words} --json").stdout.startswith("{")
-
-
-def test_progress_lines_are_periodic(
-    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
-) -> None:
-    """A thousand updates over a hundred seconds are ten lines at most."""
-    clock = iter(0.1 * n for n in range(2000))
-    monkeypatch.setattr(progress, "monotonic", lambda: next(clock))
-    with progress.show_progress("work", 1000, "games") as bar:
-        for _ in range(1000):
-            bar.update(1)
-    lines = capsys.readouterr().err.splitlines()
-    assert 8 <= len(lines) <= 10
-    assert "% , " not in lines[0] and "of 1000 games" in lines[0]
-    assert "about" in lines[0] and "left" in lines[0]
 
 
 def test_readme_names_every_extra() -> None:

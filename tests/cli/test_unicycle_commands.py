@@ -12,8 +12,6 @@ from stepaside.cli.main import main
 from stepaside.cli.run import unicycles
 from stepaside.cli.theory import circle
 from stepaside.cli.theory import map as map_command
-from stepaside.report import unicycle_figures
-from stepaside.theory.unicycle.unicycle_game import Game, Unicycle
 
 COMPARED = (
     "radius_m",
@@ -184,32 +182,6 @@ def test_certified_distance_is_shown_only_where_it_holds() -> None:
     assert loads(unicycles, FAST)["certified"] is None
 
 
-def test_game_reports_its_final_circle() -> None:
-    words = f"{FAST} --distance 0.6 --aim -1.7 --bearing -2.1"
-    assert loads(unicycles, words)["circle"]["direction"] == -1
-    assert "the reversed circle" in run(unicycles, words).output
-
-
-def test_named_strategies_of_the_paper_play_the_same_game() -> None:
-    words = "--speed 0.1 --gain 0.2 --set sample_time=0.4 --duration 60"
-    held = loads(unicycles, words)
-    named = loads(unicycles, f"{words} --strategy evasion")
-    for name in ("closest_distance_m", "distance_m"):
-        assert named[name] == pytest.approx(held[name], abs=1e-3)
-    assert named["pursuer_strategy"] == "pursuit"
-    assert named["floor_used_evader_m"] > 1.0
-    short = loads(unicycles, "--duration 20 --set pursuer_strategy=pursuit")
-    free = loads(unicycles, "--duration 20")
-    assert short["closest_distance_m"] == pytest.approx(
-        free["closest_distance_m"], abs=0.01
-    )
-
-
-def test_standing_evader_is_captured() -> None:
-    words = "--strategy stand --aim 0 --set capture=0.1"
-    assert loads(unicycles, words)["captured"]
-
-
 def test_unknown_strategy_is_refused() -> None:
     for words, message in (
         ("--strategy dance", "strategy must be one of evasion"),
@@ -222,11 +194,3 @@ def test_unknown_strategy_is_refused() -> None:
         result = CliRunner().invoke(unicycles, words.split())
         assert result.exit_code != 0
         assert message in result.output + str(result.exception)
-
-
-def test_circle_within_capture_distance_has_no_marks() -> None:
-    """Such a game ends before anything can be measured."""
-    game = Game(Unicycle(0.1, 1e9), Unicycle(0.1, 1e9))
-    assert unicycle_figures.simulate_circle(game) is None
-    large = Game(Unicycle(0.1, 0.2), Unicycle(0.1, 0.2))
-    assert unicycle_figures.simulate_circle(large) is not None

@@ -10,12 +10,10 @@ from fake_robot import (
     TICK,
     FakeStrategy,
     Run,
-    measure,
 )
 from stepaside.core.poses import Pose
 from stepaside.locomotion.locomotion import Phase
 from stepaside.locomotion.maneuver_walk import SETTLING
-from stepaside.perception.measurement import Sighting
 from stepaside.planning import Foot
 
 
@@ -104,16 +102,6 @@ def test_the_bearing_counts_from_the_path_where_the_body_is() -> None:
     (_, known) = run.scheme.decisions.memory
     assert known.pose_in_map.theta == pytest.approx(walked)
     assert 0.6 < known.pose_in_map.x / GAIT.stride < 0.7
-
-
-def test_a_late_sighting_refers_to_its_own_time() -> None:
-    run = Run()
-    for i in range(100):
-        run.legs.torso_heading = 0.01 * i
-        run.until((i + 1) * TICK, distance=None)
-    seen = Sighting(40 * TICK, 0.1, 1.0)
-    run.scheme.update(measure(100 * TICK)._replace(sighting=seen))
-    assert run.asked == pytest.approx([0.1 + 0.40])
 
 
 def test_without_a_reason_it_brings_its_feet_abreast_and_rests() -> None:

@@ -28,24 +28,6 @@ def decisions(strategy: FakeStrategy | None = None) -> StrategyRunner:
     return made
 
 
-def test_knowledge_is_in_the_frame_of_the_template() -> None:
-    made = decisions()
-    made.decide(3.0, Sighting(2.5, 0.4, 1.5), moving=True)
-    (known,) = made.memory
-    assert known.bearing == pytest.approx(0.4 + 0.2 - 0.5)
-    assert known.time == 3.0 and known.age == 0.5 and known.distance == 1.5
-    assert (
-        known.pose_in_map == PLACE
-        and known.moving
-        and not known.obstacles_in_map
-    )
-    limits = known.limits
-    assert (limits.speed, limits.gain) == (GAIT.speed, GAIT.gain)
-    assert (limits.stride, limits.step_duration) == (GAIT.stride, STEP)
-    made.decide(3.0, Sighting(3.1, 0.4, 1.5), moving=False)
-    assert made.memory[1].age == 0.0 and not made.memory[1].moving
-
-
 def test_a_step_begins_beside_the_foot_that_landed() -> None:
     made = decisions()
     foot = Pose(0.3, -0.2, 0.7)

@@ -1,7 +1,6 @@
 """Test what is derived from a model as a vendor publishes it."""
 
 from collections.abc import Callable
-from dataclasses import replace
 from pathlib import Path
 
 import mujoco
@@ -20,15 +19,8 @@ from stepaside.fitting.motor_data import (
     STIFFNESS,
     gains_of,
 )
-from stepaside.fitting.robot_verification import (
-    PATHS,
-    WalkTrial,
-    trials_of,
-    walk_trial,
-)
 from stepaside.games import duel, run_game
 from stepaside.games.robot_settings import (
-    body_of_robot,
     settings_from_description,
 )
 from stepaside.games.settings_reader import read_game
@@ -38,7 +30,6 @@ from stepaside.robots.description import (
     load_robot,
 )
 from stepaside.robots.tree_compiler import compile_tree
-from stepaside.sim.body_settings import BODIES
 from stepaside.sim.ground_truth import TrueRobotState
 
 PUBLISHERS: dict[str, Callable[[Path], Path]] = {
@@ -68,16 +59,6 @@ def strangers(
         )
         for kind, publish in PUBLISHERS.items()
     }
-
-
-@pytest.mark.parametrize("kind", PUBLISHERS)
-def test_the_hardware_body_has_the_torque_limits_of_the_model(
-    kind: str, strangers: dict[str, Described]
-) -> None:
-    derived, read = strangers[kind]
-    found = body_of_robot(read.folder, "hardware")
-    assert len(derived.assumed_torques) < len(read.overlay.servos)
-    assert found == replace(BODIES["hardware"], efficiency=1.0, servo_gain=1.0)
 
 
 @pytest.mark.parametrize("kind", PUBLISHERS)
@@ -167,19 +148,6 @@ def test_a_weak_servo_is_no_stiffer_than_its_torque_allows(
         )
 
 
-def test_speed_limits_are_those_of_the_urdf_or_asked_for(
-    strangers: dict[str, Described],
-) -> None:
-    (told, _), (untold, _) = strangers["urdf"], strangers["mjcf"]
-    assert set(told.description.speed_limits.values()) == {9.5}
-    limits = untold.description.speed_limits
-    assert not told.assumed_speeds and untold.assumed_speeds == [*limits]
-    assert "ASK" not in write_description(told).replace("with ASK", "")
-    assert "# ASK: not in the model; no-load speeds" in (
-        write_description(untold)
-    )
-
-
 def test_the_place_of_a_torso_is_midway_between_its_hips(
     strangers: dict[str, Described],
 ) -> None:
@@ -195,14 +163,6 @@ def test_the_place_of_a_torso_is_midway_between_its_hips(
     np.testing.assert_allclose(
         state.position_torso_in_world, np.mean(hips, axis=0)
     )
-
-
-def test_a_missing_mesh_is_removed_and_reported(
-    strangers: dict[str, Described],
-) -> None:
-    found, _ = strangers["mjcf"]
-    assert found.analysis.missing == ("lost.stl",)
-    assert "lost.stl" in write_description(found)
 
 
 def test_an_invalid_model_is_refused_in_one_line(tmp_path: Path) -> None:
@@ -229,24 +189,6 @@ def test_equal_shapes_walk_alike() -> None:
     near, far = game_of_size(small, one), game_of_size(large, other)
     for name in ("safety_radius", "start_near", "start_far", "start_least"):
         assert far[name] == pytest.approx(times * near[name], rel=0.01)
-
-
-@pytest.mark.parametrize(
-    ("kind", "feedback"), [("mjcf", False), ("urdf", True)]
-)
-def test_a_derived_robot_walks_backward_in_a_circle(
-    kind: str, feedback: bool, strangers: dict[str, Described]
-) -> None:
-    _, robot = strangers[kind]
-    (trial,) = [
-        trial
-        for trial in trials_of(robot, feedback=feedback)
-        if trial.path is PATHS[-1]
-    ]
-    walked = walk_trial(
-        WalkTrial(robot, trial.gait, trial.control, trial.path)
-    )
-    assert walked.is_steady, walked
 
 
 def test_a_robot_of_other_size_plays_by_its_own_distances(

@@ -1,21 +1,17 @@
 """Test checks of a stranger, and the search for a better way to walk."""
 
-import json
 import shutil
-from dataclasses import replace
 from pathlib import Path
 
 import pytest
 from click.testing import CliRunner
 
 import stepaside.fitting.gait_search as tuning
-import stepaside.fitting.robot_verification as checking
 import vendor_humanoid as stranger
 from inline_executor import InlineExecutor
 from stepaside.cli.main import main
 from stepaside.fitting.derivation import derive
 from stepaside.fitting.description_writer import (
-    rewrite_description,
     write_description,
 )
 from stepaside.fitting.gait_search import Candidate, search_gait
@@ -24,8 +20,6 @@ from stepaside.fitting.robot_verification import (
     JointStrain,
     WalkTrial,
     WalkTrialResult,
-    check_requirements,
-    check_robot,
 )
 from stepaside.games.robot_settings import settings_from_description
 from stepaside.robots.description import (
@@ -65,38 +59,6 @@ def walked(
         1.0 if trial.path.bearing else None,
         CALM,
     )
-
-
-def test_a_derived_robot_meets_all_requirements(own: RobotDescription) -> None:
-    found = check_requirements(own)
-    warned = [f.name for f in found if f.verdict != "pass"]
-    assert warned == ["estimates"], found
-    assert {"free joint", "sensors", "actuators", "reach"} <= {
-        f.name for f in found
-    }
-
-
-def test_a_robot_that_walks_as_described_passes(
-    own: RobotDescription, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    told: list[tuple[int, int]] = []
-
-    def falls_with_feedback(trial: WalkTrial) -> WalkTrialResult:
-        return walked(trial, 0.3, falls=bool(trial.control.feedback))
-
-    monkeypatch.setattr(checking, "walk_trial", falls_with_feedback)
-    checked = check_robot(
-        own, InlineExecutor(), lambda *done: told.append(done)
-    )
-    assert checked.passes and told[-1] == (10, 10)
-    by_name = {f.name: f for f in checked.findings}
-    assert by_name["walks open loop"].verdict == "pass"
-    assert by_name["walks with feedback"].verdict == "warn"
-    asks = replace(own, control=own.control | {"feedback": True})
-    asks = replace(asks, control=asks.control | {"method": "measured"})
-    assert not check_robot(asks, InlineExecutor()).passes
-    plain = checked.to_json()
-    assert json.loads(json.dumps(plain)) == plain
 
 
 def search(
@@ -153,26 +115,6 @@ def test_a_search_escapes_from_falls(
     best = found.best.candidate
     assert best.times < 1.0 and best.zmp < 0.0
     assert len(walks) < 45  # most fall in their first walk
-
-
-def test_tuned_values_are_written_with_the_previous_ones(
-    own: RobotDescription,
-    tmp_path: Path,
-) -> None:
-    folder = shutil.copytree(own.folder, tmp_path / "own")
-    text = (folder / FILE).read_text(encoding="utf-8")
-    made = Candidate(1.0, stiffness=1.6, times=0.8).applied(own)
-    assert made is not None
-    for _ in range(2):  # a second search replaces the words of the first
-        text = rewrite_description(text, made, ["0.9 before, 0.1 after"])
-        (folder / FILE).write_text(text, encoding="utf-8")
-        again = load_robot(folder)
-        assert again.gait == pytest.approx(made.gait)
-        assert again.control == made.control
-        assert again.overlay == made.overlay
-        assert text.count("0.9 before") == 1
-    assert text.count("tuned, was") == 4  # two supports, method, feedback
-    assert "# Joint chains from the torso" in text
 
 
 def test_the_command_does_not_change_a_steady_robot(

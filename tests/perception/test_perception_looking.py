@@ -13,22 +13,6 @@ def eyes() -> Eyes:
     return made
 
 
-def test_the_head_prefers_the_main_track(eyes: Eyes) -> None:
-    eyes.know(*eyes.beside(0.6, 1.0), identified=False)
-    eyes.know(*eyes.beside(1.5, -0.5))
-    seen = eyes.see(0.0)
-    assert seen.bearing == pytest.approx(-0.5)
-    assert eyes.target is not None
-    assert eyes.target[:2] == pytest.approx((-0.5, 1.5))
-
-
-def test_a_lost_opponent_gives_no_sighting(eyes: Eyes) -> None:
-    eyes.know(*eyes.beside(1.0, 0.5))
-    assert eyes.see(0.0) is not None
-    assert eyes.see(10.0) is None
-    assert eyes.perception.sighting is None and eyes.perception.searching
-
-
 def test_a_robot_with_a_map_scans_the_room_first() -> None:
     """Until then it gives no sighting, so that the robot stands."""
     eyes, yaws = Eyes(scan=RoomScan(behind=False)), []

@@ -36,15 +36,6 @@ def test_the_rear_camera_looks_backward_from_the_torso() -> None:
     assert HEAD.body_of(HEAD.depth[0]) == HEAD.body_of(HEAD.top) == "head"
 
 
-def test_a_torso_may_carry_several_cameras(tmp_path: Path) -> None:
-    more = "[[rear]]\nplace = [0.0, 0.1, 0.0]\npitch = 0\nyaw = 90\n"
-    more += "[[rear]]"
-    head = rewritten(tmp_path, "[rear]", more)
-    _, left, back = head.depth_mounts(rear=True)
-    np.testing.assert_allclose(left.axes_in_body[:, 0], (0, 1, 0), atol=1e-15)
-    np.testing.assert_allclose(back.axes_in_body[:, 0], (-1, 0, 0), atol=1e-15)
-
-
 def rewritten(folder: Path, old: str, new: str) -> HeadDescription:
     text = (NAO.folder / "head.toml").read_text(encoding="utf-8")
     assert old in text
