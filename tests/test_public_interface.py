@@ -2,6 +2,7 @@
 
 import os
 from collections.abc import Callable, Iterator
+from functools import cache
 from importlib import import_module
 from inspect import getdoc, getmembers, isclass, signature
 from math import inf, nan, pi, tau
@@ -15,10 +16,13 @@ import numpy as np
 import pytest
 
 import stepaside
-from public_values import a_bound, a_plan, a_run, plan
 from stepaside import (
     Direction,
+    Foot,
+    GaitSettings,
     RelativeStart,
+    Run,
+    duel,
 )
 from stepaside.arena import Box, MovingBox, Room, load_room
 from stepaside.core.errors import StepAsideError
@@ -37,12 +41,37 @@ from stepaside.studies import (
     merge_results,
     run_study,
 )
-from stepaside.theory.value import load_table
+from stepaside.theory.value import CarGame, load_table, solve_cars
+
+
+@cache
+def a_run() -> Run:
+    return stepaside.run_game(duel(seed=3, duration=0.4))
+
+
+@cache
+def a_bound() -> Any:
+    game = CarGame(1.0, 1.0, pursuer_gain=1.0)
+    return solve_cars(game, 4.0, 8, horizon=0.1)
+
+
+@cache
+def a_plan() -> Any:
+    return plan(0.3)
+
+
+def plan(bearing: Any) -> Any:
+    return stepaside.ManeuverPlanner(GaitSettings()).plan(
+        bearing, Direction.BACKWARD, first_foot=Foot.LEFT, standing=True
+    )
+
 
 DOORS = [
     "stepaside",
     *(m.name for m in walk_packages(stepaside.__path__, "stepaside.")),
 ]
+
+
 PATH_NAMES = ("path", "file", "folder")
 
 

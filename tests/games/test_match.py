@@ -1,13 +1,161 @@
 """Test the loop and the judge of games on a fake world."""
 
+from collections.abc import Callable
+from math import hypot, inf
+from types import SimpleNamespace
+from typing import Any
+
 import numpy as np
 import pytest
 
-from fake_players import TICK, FakeObserver, fake_game, raising
 from stepaside.core.errors import ReachError, StrategyError
-from stepaside.games.game import play
+from stepaside.core.player_identity import PlayerIdentity, Role
+from stepaside.core.poses import Array, Pose
+from stepaside.games.game import GameInPlay, GameObserver, GameRules, play
 from stepaside.games.outcome import Outcome
 from stepaside.games.recorder import Recorder
+
+TICK = 0.004
+
+
+class FakeLog:
+    """Samples of what a player was told to be seen as."""
+
+    def __init__(self, player: "FakePlayer") -> None:
+        self._player = player
+        self._seen: list[float] = []
+
+    def add(self) -> None:
+        """Take a sample."""
+        self._seen.append(self._player.x)
+
+    def truncate(self, count: int) -> None:
+        """Keep the first samples."""
+        del self._seen[count:]
+
+    def arrays(self) -> dict[str, Array]:
+        """Return what every player has."""
+        poses = np.array([(x, 0.0, 0.0) for x in self._seen]).reshape(-1, 3)
+        com = poses + (0.0, 0.0, 0.3)
+        return {"com": com, "place": poses, "torso": poses.copy()}
+
+
+class FakePlayer:
+    """Stands where it is told, and does what it is told at a tick."""
+
+    begun = frame = None
+    pushes = ()
+
+    def __init__(self, world: "FakeWorld", name: str, x: float) -> None:
+        self.world, self.name, self.x = world, name, x
+        self.does: dict[int, Callable[[], None]] = {}
+
+    def motion_log(self, *, closely: bool) -> FakeLog:
+        """Return an empty log."""
+        return FakeLog(self)
+
+
+class FakeWorld:
+    """A clock, players on a line, and falls and contacts as they are told."""
+
+    contact = Outcome.CONTACT
+
+    def __init__(self, *places: float) -> None:
+        self.ticks, self.closed, self.acting = 0, 0, ""
+        self.physics = SimpleNamespace(tick=TICK)
+        self.fell: tuple[str, ...] = ()
+        self.contacts: tuple[str, ...] = ()
+        self.told: list[str] = []
+        self.players = [
+            FakePlayer(self, name, x)
+            for name, x in zip("abcdef", places, strict=False)
+        ]
+
+    @property
+    def time(self) -> float:
+        """Time, in [s]."""
+        return self.ticks * float(self.physics.tick)
+
+    def states(self) -> dict[str, Pose]:
+        """Poses of all players."""
+        return {p.name: Pose(p.x, 0.0, 0.0) for p in self.players}
+
+    def apart(self, one: str, other: str) -> float:
+        """Distance of two players."""
+        x, y = (self.states()[name].x for name in (one, other))
+        return hypot(x - y, 0.0)
+
+    def decide(self) -> None:
+        """Let all players do what they were told for this tick."""
+        for player in self.players:
+            self.acting = player.name
+            self.told.append(player.name)
+            player.does.get(self.ticks, lambda: None)()
+
+    def step(self, limit: float = inf) -> None:
+        """Let a tick pass."""
+        self.told.append("time passes")
+        self.ticks += 1
+
+    def fallen(self) -> tuple[str, ...]:
+        """Players whose fall was requested."""
+        return self.fell if self.ticks else ()
+
+    def touching(self) -> tuple[str, ...]:
+        """Players whose contact was requested."""
+        return self.contacts if self.ticks else ()
+
+    def close(self) -> None:
+        """Count it."""
+        self.closed += 1
+
+
+class FakeObserver(GameObserver):
+    """Tells the world's list when it looked."""
+
+    def __init__(self) -> None:
+        self.ended_with: list[tuple[Outcome | None, str, float]] = []
+
+    def before(self, game: GameInPlay) -> None:
+        """Look first."""
+        self._tell(game, "before")
+
+    def acted(self, game: GameInPlay) -> None:
+        """Look after all acted."""
+        self._tell(game, "acted")
+
+    def ended(self, game: GameInPlay) -> None:
+        """Note how it ended."""
+        self.ended_with.append((game.outcome, game.message, game.world.time))
+
+    def _tell(self, game: GameInPlay, word: str) -> None:
+        world: Any = game.world
+        world.told.append(word)
+
+
+def fake_game(
+    *places: float,
+    duration: float = 1.0,
+    observers: Any = (),
+    roles: tuple[Role, ...] = (Role.PURSUER, Role.EVADER),
+) -> tuple[GameInPlay, Any]:
+    """Players on a line, named a, b, c, ...: by default a pursues b."""
+    world: Any = FakeWorld(*places)
+    identities = {
+        player.name: PlayerIdentity(player.name, role, role)
+        for player, role in zip(world.players, roles, strict=False)
+    }
+    rules = GameRules(duration, identities=identities)
+    return GameInPlay(world, rules, observers), world
+
+
+def raising(error: BaseException) -> Callable[[], None]:
+    """Callable that raises an error."""
+
+    def act() -> None:
+        raise error
+
+    return act
 
 
 def test_players_act_in_turn_before_physics() -> None:

@@ -6,14 +6,28 @@ from pathlib import Path
 
 import pytest
 
-from commanded_robots import commanded_robots
 from stepaside.core.poses import Pose, wrap_angle
 from stepaside.drivers.robot import REST
-from stepaside.games.game_settings import StartSettings, duel
+from stepaside.games.game_settings import GameSettings, StartSettings, duel
+from stepaside.games.player_settings import PLAYERS
+from stepaside.games.recorded_game import RecordedGame
 from stepaside.games.robot_player import VelocityWalker
 from stepaside.locomotion.control_settings import STABILISED, LegsSettings
 from stepaside.sim.body_settings import BODIES
 from stepaside.strategies.velocity_set import BodyVelocity
+
+
+def commanded_robots(
+    settings: GameSettings, *, ideal_sight: bool = True
+) -> tuple[RecordedGame, list[VelocityWalker]]:
+    """Return a duel of two robots that are commanded by velocities."""
+    game = RecordedGame(settings, remote=dict.fromkeys(PLAYERS, ideal_sight))
+    robots = [
+        p for p in game.in_physics.players if isinstance(p, VelocityWalker)
+    ]
+    assert len(robots) == 2
+    return game, robots
+
 
 SETTINGS = duel(
     seed=7,
@@ -21,6 +35,8 @@ SETTINGS = duel(
     body=replace(BODIES["delayed"], cycle=0.012),
     control=STABILISED,
 )
+
+
 STEP = 0.547  # of the gait, in [s]
 
 
