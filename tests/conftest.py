@@ -37,15 +37,12 @@ settings.load_profile("untimed")
 # of their path below tests/: one worker compiles them.
 COMPILED = {
     "theory/test_barrier": "bound",
-    "theory/test_bound": "bound",
-    "theory/test_upwind_scheme": "bound",
     "theory/": "unicycle",
     "strategies/test_beam_search": "beam",
     "strategies/test_robust_evasion": "beam",
     "strategies/test_look_ahead": "steps",
     "strategies/test_step_motion": "steps",
     "control/test_clearance": "steps",
-    "studies/test_tournament": "steps",
 }
 # Begin first, so that no worker is left alone with one at the end.
 LONG = (
@@ -104,7 +101,7 @@ def pytest_collection(session: pytest.Session) -> None:
 
 
 def pytest_collection_finish() -> None:
-    """Keep ten thousand tests out of each collection of garbage."""
+    """Keep thousands of tests out of each collection of garbage."""
     gc.freeze()
 
 
