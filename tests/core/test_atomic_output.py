@@ -213,7 +213,7 @@ def test_a_duel_is_reported_although_it_cannot_be_written(
     words = ["duel", "--duration", "0.1", "--output", str(tmp_path / "run")]
     result = CliRunner().invoke(main, words)
     assert result.exit_code == 2 and "no space left" in result.stderr
-    assert "start distance" in result.stdout
+    assert "not reached" in result.stdout
     assert list(tmp_path.iterdir()) == []
 
 

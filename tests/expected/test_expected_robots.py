@@ -77,7 +77,7 @@ def test_trim_of_another_height_gives_the_right_distance(
         ),
         *("--set", "start.pursuer_offset=0", "--set", "start.evader_offset=0"),
     ).json
-    assert summary["pursuer"]["sight"]["distance_error_m"]["median"] < 0.1
+    assert summary["players"]["pursuer"]["sight"]["distance_error_m"]["median"] < 0.1
 
 
 def mapped(robot: Path, away: float, heights: tuple[float, float]) -> bool:
