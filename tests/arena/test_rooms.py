@@ -20,7 +20,6 @@ from stepaside.arena import (
     generate_room,
     load_room,
     path_exists,
-    room_from_entries,
     room_to_toml,
 )
 from stepaside.arena.shapes import CentreLine
@@ -127,7 +126,7 @@ def test_room_survives_a_round_trip_through_a_file(tmp_path: Path) -> None:
     )
     assert answer.exit_code == 0, answer.output
     assert load_room(again) == room
-    assert room_from_entries(json.loads(answer.output)["room"]) == room
+    assert Room.from_entries(json.loads(answer.output)["room"]) == room
 
 
 @pytest.mark.parametrize(

@@ -12,9 +12,9 @@ from click.testing import CliRunner, Result
 
 from stepaside.cli.main import main
 from stepaside.cli.theory import PlanSettings
+from stepaside.core.entries import read_entries
 from stepaside.games.configuration_file import (
     dump_configuration,
-    parse_settings,
 )
 from stepaside.games.game_settings import duel
 from stepaside.games.game_settings import walk as make_walk
@@ -59,7 +59,7 @@ def printed(line: str) -> dict[str, Any]:
 
 def settings(line: str) -> Any:
     (name,) = (each for each in KINDS if line.startswith(each))
-    return parse_settings(type(KINDS[name]), printed(line), line)
+    return read_entries(type(KINDS[name]), printed(line), line)
 
 
 @pytest.fixture

@@ -11,10 +11,10 @@ import tomli_w
 from click.testing import CliRunner
 
 from stepaside.cli.main import main
+from stepaside.core.entries import read_entries
 from stepaside.core.errors import ConfigurationError
 from stepaside.games.configuration_file import (
     dump_configuration,
-    read_settings,
 )
 from stepaside.games.duel_circle import circle_of_theory, time_scale
 from stepaside.games.game_settings import (
@@ -194,7 +194,7 @@ def test_settings_imply_the_same_from_every_door(
     assert evader.evasion.trigger == trigger
     assert resolved.resolved() == resolved
     shown = given("duel", *words.split())
-    assert read_settings(GameSettings, tomli_w.dumps(shown), "") == resolved
+    assert read_entries(GameSettings, shown) == resolved
     file = tmp_path / "duel.toml"
     file.write_text(tomli_w.dumps({"game": "duel"} | entries))
     assert load_game(file).resolved() == resolved

@@ -6,8 +6,6 @@ from .room import OPEN_FLOOR as OPEN_FLOOR
 from .room import Door as Door
 from .room import Room as Room
 from .room import load_room as load_room
-from .room import room_from_entries as room_from_entries
-from .room import room_to_entries as room_to_entries
 from .room import room_to_toml as room_to_toml
 from .room_generation import BODY_RADIUS as BODY_RADIUS
 from .room_generation import RoomRecipe as RoomRecipe

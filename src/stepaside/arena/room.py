@@ -115,6 +115,27 @@ class Room:
         for pose in self.starts or ():
             InitialPose(*pose)
 
+    @staticmethod
+    def from_entries(entries: Mapping[str, Any]) -> "Room":
+        """Build a room from the entries of a file."""
+        return read_entries(RoomEntries, entries).room
+
+    def to_entries(self) -> dict[str, Any]:
+        """Return the entries of a file of the room."""
+        entries: dict[str, Any] = {}
+        if self.has_walls:
+            entries |= {"width": self.width, "depth": self.depth}
+        if self.starts is not None:
+            pursuer, evader = map(to_entries, self.starts)
+            entries |= {"pursuer": pursuer, "evader": evader}
+        for obstacle in self.obstacles:
+            listed = entries.setdefault(LISTED[obstacle.kind], [])
+            listed.append(to_entries(obstacle))
+        for name in ("doors", "moving"):
+            if getattr(self, name):
+                entries[name] = to_entries(getattr(self, name))
+        return entries
+
     def _check_doors(self) -> None:
         if self.doors and not self.has_walls:
             raise ERROR("a room must have walls for its doors")
@@ -272,33 +293,11 @@ def load_room(file: AnyPath) -> Room:
     file = as_path(file, "file")
     entries = load_entries(file)
     try:
-        return room_from_entries(entries)
+        return Room.from_entries(entries)
     except ConfigurationError as error:
         raise ConfigurationError(f"room {file}: {error}") from error
 
 
-def room_from_entries(entries: Mapping[str, Any]) -> Room:
-    """Build a room from the entries of a file; see :class:`RoomEntries`."""
-    return read_entries(RoomEntries, entries).room
-
-
-def room_to_entries(room: Room) -> dict[str, Any]:
-    """Return the entries of a file from which the room can be rebuilt."""
-    entries: dict[str, Any] = {}
-    if room.has_walls:
-        entries |= {"width": room.width, "depth": room.depth}
-    if room.starts is not None:
-        pursuer, evader = map(to_entries, room.starts)
-        entries |= {"pursuer": pursuer, "evader": evader}
-    for obstacle in room.obstacles:
-        listed = entries.setdefault(LISTED[obstacle.kind], [])
-        listed.append(to_entries(obstacle))
-    for name in ("doors", "moving"):
-        if getattr(room, name):
-            entries[name] = to_entries(getattr(room, name))
-    return entries
-
-
 def room_to_toml(room: Room) -> str:
     """Return the room as the text of a TOML file."""
-    return tomli_w.dumps(room_to_entries(room))
+    return tomli_w.dumps(room.to_entries())

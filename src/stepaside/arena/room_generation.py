@@ -20,7 +20,6 @@ from .room import (
     SMALLEST,
     Door,
     Room,
-    room_to_entries,
 )
 from .shapes import Box, Disc, Polygon
 
@@ -115,7 +114,7 @@ def measure_room(room: Room) -> dict[str, Any]:
         "doors": len(room.doors),
         "closed": room.is_closed,
         "narrowest_gap_m": min((x for x in gaps if x > 1e-6), default=None),
-        "room": room_to_entries(room),
+        "room": room.to_entries(),
     }
 
 

@@ -283,10 +283,10 @@ def _read(
         entries = nested(given, file)
         own = {field.name for field in fields(kind)}
         if not made:  # the first refuses what no class knows
-            own |= entries.keys() - known
+            own |= entries.keys() - known - {*aside}
         chosen = {k: v for k, v in entries.items() if k in own}
         source = source if not changes else ""
-        settings = settings_of(kind, chosen, source, aside=aside)
+        settings = settings_of(kind, chosen, source)
         if hasattr(settings, "resolved"):
             settings = settings.resolved()
         made[name] = settings

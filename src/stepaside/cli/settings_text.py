@@ -5,7 +5,7 @@ from dataclasses import is_dataclass
 from textwrap import wrap
 from typing import Any
 
-from ..arena import Room, room_to_entries
+from ..arena import Room
 from ..core.entries import to_entries
 from ..core.setting import settings_of
 
@@ -38,7 +38,7 @@ def _lines(
         if isinstance(value, Room):
             import tomli_w
 
-            entries = {name: room_to_entries(value)}
+            entries = {name: value.to_entries()}
             subsections += ["", comment, tomli_w.dumps(entries).strip()]
         elif isinstance(value, tuple) and value and is_dataclass(value[0]):
             for one in value:

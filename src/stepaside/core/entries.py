@@ -3,14 +3,14 @@
 import errno
 import json
 import tomllib
-from collections.abc import Callable, Collection, Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import fields, is_dataclass
 from enum import Enum
 from pathlib import Path
 from typing import Any, TypeVar
 
 from .errors import ConfigurationError, StepAsideError
-from .setting import EntryReader, Readers
+from .setting import EntryReader
 
 S = TypeVar("S")
 ERROR = ConfigurationError
@@ -67,61 +67,38 @@ def read_entries(
     source: str = "",
     *,
     base: S | None = None,
-    readers: Readers | None = None,
-    aside: Collection[str] = (),
     ignoring: bool = False,
     error: type[StepAsideError] = ERROR,
 ) -> S:
     """Turn nested entries into a dataclass.
 
     Types, ranges, units and names are those of its fields; see
-    :func:`~.setting.setting`.
-
-    Args:
-        kind: The dataclass.
-        entries: Sections and values.
-        source: Where they come from, for messages.
-        base: Value that holds for omitted entries, in sections as well; by
-            default the defaults of the class.
-        readers: Functions that read some classes, such as rooms.
-        aside: Entries that are ignored, as they belong to something else.
-        ignoring: Whether all unknown entries are ignored.
-        error: Class of the error.
-
-    Raises:
-        StepAsideError: Of class ``error``; names every entry that is
-            unknown, missing, of the wrong type or out of its range.
+    :func:`~.setting.setting`. The source is for messages, and the base gives
+    what entries omit, in sections as well.
     """
-    left = set(aside) - {field.name for field in fields(kind)}  # type: ignore[arg-type]
-    own = {name: value for name, value in entries.items() if name not in left}
-    reader = EntryReader(readers, ignoring=ignoring)
-    made: S = reader.read_table(own, kind, "", base)
+    reader = EntryReader(ignoring=ignoring)
+    made: S = reader.read_table(entries, kind, "", base)
     if reader.problems:
         raise error(f"{source}: {reader.text}" if source else reader.text)
     return made
 
 
-def to_entries(value: Any, writers: Readers | None = None) -> Any:
-    """Return a value as nested entries, without those that are None.
-
-    Args:
-        value: Dataclass, or a value in one.
-        writers: Functions that write some classes, such as rooms.
-    """
-    if writers and type(value) in writers:
-        return writers[type(value)](value)
+def to_entries(value: Any) -> Any:
+    """Return a value as nested entries, without those that are None."""
+    if hasattr(value, "to_entries"):
+        return value.to_entries()
     if is_dataclass(value) and not isinstance(value, type):
         value = {f.name: getattr(value, f.name) for f in fields(value)}
     elif hasattr(value, "_asdict"):
         value = value._asdict()
     if isinstance(value, Mapping):
         return {
-            name: to_entries(each, writers)
+            name: to_entries(each)
             for name, each in value.items()
             if each is not None
         }
     if isinstance(value, list | tuple):
-        return [to_entries(each, writers) for each in value]
+        return [to_entries(each) for each in value]
     if isinstance(value, Path):
         return str(value)
     return value.value if isinstance(value, Enum) else value

@@ -139,12 +139,7 @@ class Entry(NamedTuple):
 
 @cache
 def entries_of(kind: Any, section: str = "") -> dict[str, Entry]:
-    """Return every setting by its path, like ``physics.friction``.
-
-    Args:
-        kind: Class of the settings.
-        section: Path of the section that they are.
-    """
+    """Return every setting by its path, like ``physics.friction``."""
     found = dict[str, Entry]()
     for name, entry in _entries(kind).items():
         path = _joined(section, name)
@@ -182,7 +177,6 @@ def _entries(kind: Any) -> dict[str, Entry]:
 
 
 _PLAIN = Setting("")
-Readers = Mapping[type[Any], Callable[[Any], Any]]
 
 
 class EntryReader:
@@ -191,17 +185,13 @@ class EntryReader:
     Integers become floats where the type is float, arrays tuples, tables
     dataclasses or named tuples. A boolean is not a number, and a number is
     finite unless its range permits infinity.
-
-    Attributes:
-        problems: What does not fit: path, rule, unit and value of each.
+    The problems are what does not fit: path, rule, unit and value of each.
     """
 
-    def __init__(
-        self, readers: Readers | None = None, *, ignoring: bool = False
-    ) -> None:
-        """Begin; see :func:`~.entries.read_entries`."""
+    def __init__(self, *, ignoring: bool = False) -> None:
+        """Begin; unknown entries may be ignored."""
         self.problems: list[str] = []
-        self._readers, self._ignoring = readers or {}, ignoring
+        self._ignoring = ignoring
 
     @property
     def text(self) -> str:
@@ -238,10 +228,8 @@ class EntryReader:
             return self._read_any(value, args, path, described, base)
         if origin is Literal or described.names:
             return self._read_name(value, path, described.names or args)
-        if hint in self._readers:
-            if isinstance(value, hint):
-                return value
-            return self._read_by(self._readers[hint], value, path)
+        if isinstance(value, Mapping) and hasattr(hint, "from_entries"):
+            return self._read_by(hint.from_entries, value, path)
         if isinstance(value, str) and hasattr(hint, "from_text"):
             return self._read_by(hint.from_text, value, path)
         if is_dataclass(hint) or hasattr(hint, "_fields"):
@@ -422,10 +410,7 @@ def check_settings(
 ) -> None:
     """Check types, ranges and names of settings, and convert numbers.
 
-    Args:
-        settings: Dataclass of settings.
-        error: Class of the error.
-        prefix: Prefix of each name in messages, like ``person.``.
+    Names in messages have the prefix, like ``person.``.
     """
     reader, kind = EntryReader(), cast(Any, type(settings))
     for name, (hint, described, _) in _entries(kind).items():

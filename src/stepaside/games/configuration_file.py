@@ -1,71 +1,29 @@
 """Configuration files: settings read from and written to TOML."""
 
-from collections.abc import Callable, Collection, Mapping
+from collections.abc import Callable
 from math import isfinite
-from pathlib import Path
-from typing import Any, TypeVar
+from typing import Any
 
 import tomli_w
 
-from ..arena import Room, room_from_entries, room_to_entries
-from ..core.entries import (
-    load_entries,
-    parse_entries,
-    read_entries,
-    to_entries,
-)
+from ..core.entries import load_entries, to_entries
 from ..core.errors import AnyPath, as_path
 
 ROBOTS = "robots"  # folder of descriptions and networks in a run folder
-S = TypeVar("S")  # a frozen dataclass of settings
-READERS = {Room: room_from_entries}
-WRITERS = {Room: room_to_entries}
-
-
-def parse_settings(
-    kind: type[S],
-    entries: Mapping[str, Any],
-    source: str,
-    *,
-    aside: Collection[str] = (),
-    base: S | None = None,
-) -> S:
-    """Turn nested entries into settings; see :func:`.read_entries`."""
-    return read_entries(
-        kind, entries, source, base=base, readers=READERS, aside=aside
-    )
-
-
-def read_settings(
-    kind: type[S], text: str, source: str, *, aside: Collection[str] = ()
-) -> S:
-    """Parse settings from TOML text; see :func:`.read_entries`."""
-    return parse_settings(
-        kind, parse_entries(text, source), source, aside=aside
-    )
 
 
 def load_settings(path: AnyPath) -> dict[str, Any]:
-    """Read the entries of a file of settings, with the files beside it.
-
-    Raises:
-        ConfigurationError: If the file is not TOML.
-    """
+    """Read the entries of a file, with robots and networks beside it."""
     file = as_path(path, "path")
     entries = load_entries(file)
-    find_files(entries, file.parent)
-    return entries
-
-
-def find_files(entries: Any, folder: Path) -> None:
-    """Find robots and networks that a run folder holds."""
 
     def found(value: str) -> str:
         inside = value.startswith(f"{ROBOTS}/") and ".." not in value
-        there = folder.resolve() / value
+        there = file.parent.resolve() / value
         return str(there) if inside and there.exists() else value
 
     replace_files(entries, found)
+    return entries
 
 
 def replace_files(entries: Any, change: Callable[[str], str]) -> None:
@@ -93,7 +51,7 @@ def settings_entries(settings: Any) -> dict[str, Any]:
     """
     if hasattr(settings, "resolved"):
         settings = settings.resolved()
-    entries: dict[str, Any] = to_entries(settings, WRITERS)
+    entries: dict[str, Any] = to_entries(settings)
     return entries
 
 

@@ -2,7 +2,8 @@
 
 from collections.abc import Mapping
 from dataclasses import replace
-from math import atan2, cos, hypot, pi, radians, sin
+from itertools import combinations
+from math import atan2, cos, dist, hypot, pi, radians, sin
 
 import numpy as np
 
@@ -200,21 +201,17 @@ def _draw_goal(
     room, least = settings.room, settings.start.far
     if room is not None and room.width and room.depth:
         least = max(room.width, room.depth) / 3.0
-    for _ in range(MOST_DRAWS):
-        place = _draw_place(settings, generator)
-        if place is None:
-            continue
-        x, y = place
-        if hypot(x - start.x, y - start.y) >= least and all(
-            hypot(x - u, y - v)
-            >= least_distance(player, settings.player(name))
-            for name, (u, v) in goals.items()
-        ):
-            return x, y
-    raise ConfigurationError(
-        f"goal of {player.name} must be at least {least:g} [m] from its "
-        "start, and there is no such place"
-    )
+    keep = [
+        ((u, v), least_distance(player, settings.player(name)))
+        for name, (u, v) in goals.items()
+    ]
+    found = _draw_place(settings, [*keep, (start[:2], least)], generator)
+    if found is None:
+        raise ConfigurationError(
+            f"goal of {player.name} must be at least {least:g} [m] from its "
+            "start, and there is no such place"
+        )
+    return found
 
 
 def least_distance(one: PlayerSettings, other: PlayerSettings) -> float:
@@ -235,18 +232,14 @@ def _radius(player: PlayerSettings) -> float:
 def _check_apart(settings: GameSettings, poses: dict[str, Pose]) -> None:
     """Check that given starts keep clear of each other and of the room."""
     names = list(poses)
-    for i, name in enumerate(names):
-        for other in names[:i]:
-            least = least_distance(
-                settings.player(name), settings.player(other)
+    for other, name in combinations(names, 2):
+        least = least_distance(settings.player(name), settings.player(other))
+        away = dist(poses[name][:2], poses[other][:2])
+        if away < least - 1e-9:
+            raise ConfigurationError(
+                f"starts of {other} and {name} must be at least {least:g} [m] "
+                f"apart, or they overlap, got {away:.3g}"
             )
-            (x, y, _), (u, v, _) = poses[name], poses[other]
-            away = hypot(u - x, v - y)
-            if away < least - 1e-9:
-                raise ConfigurationError(
-                    f"starts of {other} and {name} must be at least "
-                    f"{least:g} [m] apart, or they overlap, got {away:.3g}"
-                )
     room = settings.room
     if room is None or not names:
         return
@@ -256,12 +249,7 @@ def _check_apart(settings: GameSettings, poses: dict[str, Pose]) -> None:
 
 
 def _check_free(place: str, gap: float) -> None:
-    """Check that a place is on the free floor of the room.
-
-    Args:
-        place: What it is, for the message.
-        gap: Clearance of the body there, in [m].
-    """
+    """Check that a place has a clearance, in [m], from room and obstacles."""
     if gap < 0.0:
         raise ConfigurationError(
             f"{place} must be on the free floor of the room, got a clearance "
@@ -275,42 +263,43 @@ def _draw_position(
     poses: dict[str, Pose],
     generator: np.random.Generator,
 ) -> tuple[float, float]:
-    for _ in range(MOST_DRAWS):
-        place = _draw_place(settings, generator)
-        if place is None:
-            continue
-        x, y = place
-        if all(
-            hypot(other.x - x, other.y - y)
-            >= max(
-                settings.start.near,
-                least_distance(player, settings.player(name)),
-            )
-            for name, other in poses.items()
-        ):
-            return x, y
-    raise ConfigurationError(
-        f"start of {player.name} must be at least "
-        f"{settings.start.near:g} [m] from "
-        f"all others, and there is no such place among {len(poses)} players"
-    )
+    near = settings.start.near
+    keep = [
+        (pose[:2], max(near, least_distance(player, settings.player(name))))
+        for name, pose in poses.items()
+    ]
+    found = _draw_place(settings, keep, generator)
+    if found is None:
+        raise ConfigurationError(
+            f"start of {player.name} must be at least {near:g} [m] from all "
+            f"others, and there is no such place among {len(poses)} players"
+        )
+    return found
 
 
 def _draw_place(
-    settings: GameSettings, generator: np.random.Generator
+    settings: GameSettings,
+    keep: list[tuple[tuple[float, ...], float]],
+    generator: np.random.Generator,
 ) -> tuple[float, float] | None:
-    """Return a place on the free floor, in [m]; None if the draw missed it."""
+    """Return a place on the free floor, in [m]; None if there is none.
+
+    It keeps the distance, in [m], of each of some places.
+    """
     room = settings.room
-    if room is None or room.width is None or room.depth is None:
-        away = settings.start.far * float(np.sqrt(generator.uniform()))
-        angle = generator.uniform(-pi, pi)
-        x, y = away * cos(angle), away * sin(angle)
-    else:
-        x = generator.uniform(-0.5 * room.width, 0.5 * room.width)
-        y = generator.uniform(-0.5 * room.depth, 0.5 * room.depth)
-    if room is not None and room.clearance([(x, y)])[0] < WALL_MARGIN:
-        return None
-    return float(x), float(y)
+    for _ in range(MOST_DRAWS):
+        if room is None or room.width is None or room.depth is None:
+            away = settings.start.far * float(np.sqrt(generator.uniform()))
+            angle = generator.uniform(-pi, pi)
+            x, y = away * cos(angle), away * sin(angle)
+        else:
+            x = generator.uniform(-0.5 * room.width, 0.5 * room.width)
+            y = generator.uniform(-0.5 * room.depth, 0.5 * room.depth)
+        if room is not None and room.clearance([(x, y)])[0] < WALL_MARGIN:
+            continue
+        if all(dist((x, y), place) >= least for place, least in keep):
+            return float(x), float(y)
+    return None
 
 
 def _draw_heading(
@@ -324,10 +313,8 @@ def _draw_heading(
     names = names or [*settings.opponents_of(player.name)]
     if not names or player.role == "bystander":
         return float(generator.uniform(-pi, pi))
-    nearest = min(
-        (poses[name] for name in names),
-        key=lambda pose: hypot(pose.x - own.x, pose.y - own.y),
-    )
+    others = (poses[name] for name in names)
+    nearest = min(others, key=lambda pose: dist(pose[:2], own[:2]))
     sight = atan2(nearest.y - own.y, nearest.x - own.x)
     most = pi / 2 if player.role == "pursuer" else radians(30.0)
     return wrap_angle(sight + float(generator.uniform(-most, most)))

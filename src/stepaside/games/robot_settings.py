@@ -1,19 +1,20 @@
 """Settings of gait, control and games from a robot description."""
 
 from collections.abc import Mapping
-from dataclasses import dataclass, fields, replace
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
-from ..core.errors import ConfigurationError, check_positive
+from ..core.entries import read_entries
+from ..core.errors import LARGEST, LEAST, ConfigurationError
+from ..core.ranges import Range
+from ..core.setting import REQUIRED, check_settings, setting
 from ..locomotion.control_settings import ControlSettings, LegsSettings
 from ..planning import GaitSettings
 from ..robots.description import FILE, RobotDescription, load_robot
 from ..sim.body_settings import BODIES, BodySettings
 from ..strategies import Evasion
-from .configuration_file import parse_settings
-from .game_settings import GameSettings
-from .player_settings import PLAYERS, PlayerSettings
+from .player_settings import PlayerSettings
 
 # Template of learned legs: speed [m/s], gain [1/s], and 0.4 s from decision to
 # decision, in path time as in gait time. Their CoM is over the feet.
@@ -25,37 +26,41 @@ LEGS_GAIT: Mapping[str, Any] = {
     "double_support": 0.1,
     "zmp_forward": 0.0,
 }
-UNITS = {"push_unit": "N s", "force_unit": "N"}  # other fields are in [m]
+
+
+def _positive(unit: str) -> Range:
+    return Range(LEAST, LARGEST, unit, "others may overflow a double")
 
 
 @dataclass(frozen=True, slots=True)
 class RobotGameSettings:
-    """Distances of a robot's games, and its scales relative to NAO.
+    """Distances of a robot's games, and its scales relative to NAO."""
 
-    Attributes:
-        safety_radius: Safety radius of the robot as evader, in [m].
-        start_least: Smallest distance at which a game may begin, in [m].
-        start_near: Smallest distance that is drawn for a start, in [m].
-        start_far: Greatest distance that is drawn for a start, in [m].
-        push_unit: Impulse equivalent to 1 N s on NAO, in [N s].
-        force_unit: Force equivalent to 1 N on NAO, by weight, in [N].
-        length_unit: Length equivalent to 1 m for NAO, by CoM height, in [m].
-    """
-
-    safety_radius: float
-    start_least: float
-    start_near: float
-    start_far: float
-    push_unit: float
-    force_unit: float = 1.0
-    length_unit: float = 1.0
+    safety_radius: float = setting(
+        REQUIRED, "Safety radius of the robot as evader", _positive("m")
+    )
+    start_least: float = setting(
+        REQUIRED, "Smallest distance at which it may begin", _positive("m")
+    )
+    start_near: float = setting(
+        REQUIRED, "Smallest distance that is drawn", _positive("m")
+    )
+    start_far: float = setting(
+        REQUIRED, "Greatest distance that is drawn", _positive("m")
+    )
+    push_unit: float = setting(
+        REQUIRED, "Impulse like 1 N s on NAO", _positive("N s")
+    )
+    force_unit: float = setting(
+        1.0, "Force like 1 N on NAO, by weight", _positive("N")
+    )
+    length_unit: float = setting(
+        1.0, "Length like 1 m for NAO, by CoM height", _positive("m")
+    )
 
     def __post_init__(self) -> None:
         """Check that values are positive and distances in order."""
-        for field in fields(self):
-            unit = UNITS.get(field.name, "m")
-            value = getattr(self, field.name)
-            check_positive(value, f"game.{field.name}", unit)
+        check_settings(self, prefix="game.")
         if not self.start_least <= self.start_near <= self.start_far:
             raise ConfigurationError(
                 "game.start_least, start_near and start_far must not "
@@ -65,18 +70,13 @@ class RobotGameSettings:
 
 
 def settings_of_robot(robot: str) -> dict[str, Any]:
-    """Return robot, gait, control, legs and safety radius by a description.
-
-    Raises:
-        StepAsideError: If the description is invalid.
-    """
-    description = load_robot(robot)
-    own = settings_from_description(description)
+    """Return robot, gait, control, legs and safety radius by a description."""
+    own = settings_from_description(load_robot(robot))
     if not own.control.feedback:  # the robot needs none, but a body may
         control = replace(own.control, method=None, feedback=None)
         own = replace(own, control=control)
     found = {name: getattr(own, name) for name in ("gait", "control", "legs")}
-    game = game_settings_from_description(description)
+    game = game_of_robot(robot)
     if game is not None:
         found["evasion"] = Evasion(safety_radius=game.safety_radius)
     return found | {"robot": robot}
@@ -95,8 +95,8 @@ def settings_from_description(description: RobotDescription) -> PlayerSettings:
     return PlayerSettings(
         "robot",
         robot=str(description.folder),
-        gait=parse_settings(GaitSettings, gait, f"{source}, gait"),
-        control=parse_settings(
+        gait=read_entries(GaitSettings, gait, f"{source}, gait"),
+        control=read_entries(
             ControlSettings, dict(description.control), f"{source}, control"
         ),
         legs=LegsSettings(network),
@@ -108,50 +108,21 @@ def body_of_robot(robot: str | Path, name: str) -> BodySettings:
 
     The ideal body is that of all robots; in others the ``[body]`` of the
     robot's description replaces values of NAO.
-
-    Raises:
-        StepAsideError: If the description is invalid.
     """
     preset = BODIES[name]
     description = load_robot(robot)
     if name == "ideal" or not description.body:
         return preset
     source = f"{description.folder / FILE}, body"
-    return parse_settings(
+    return read_entries(
         BodySettings, dict(description.body), source, base=preset
     )
 
 
-def game_settings_from_description(
-    description: RobotDescription,
-) -> RobotGameSettings | None:
-    """Return the game settings of a description; None if it has none."""
+def game_of_robot(robot: str | Path) -> RobotGameSettings | None:
+    """Return the distances and scales of a robot; None if it has none."""
+    description = load_robot(robot)
     if not description.game:
         return None
     source = f"{description.folder / FILE}, game"
-    return parse_settings(RobotGameSettings, dict(description.game), source)
-
-
-def with_distances(settings: GameSettings) -> GameSettings:
-    """Return a duel with the distances of its robots, the greater of each.
-
-    Raises:
-        StepAsideError: If a description is invalid.
-    """
-    found = [
-        game_settings_from_description(load_robot(player.robot))
-        for player in settings.players
-        if player.body == "robot"
-    ]
-    games = [game for game in found if game is not None]
-    if settings.names != PLAYERS or not games:
-        return settings
-    radius = max(game.safety_radius for game in games)
-    evasion = replace(settings.evader.evasion, safety_radius=radius)
-    start = replace(
-        settings.start,
-        least=max(game.start_least for game in games),
-        near=max(game.start_near for game in games),
-        far=max(game.start_far for game in games),
-    )
-    return settings.changed(start=start, evader={"evasion": evasion})
+    return read_entries(RobotGameSettings, dict(description.game), source)

@@ -22,8 +22,7 @@ from ..robots.description import known_robots
 from .archive_reader import read_arrays, read_bytes
 from .configuration_file import (
     ROBOTS,
-    find_files,
-    parse_settings,
+    load_settings,
     replace_files,
     settings_entries,
 )
@@ -160,7 +159,7 @@ def load_run(folder: AnyPath, game: str | None = None) -> Run:
         if not (folder / SUMMARY).exists() and has_play_rows(folder):
             entries = load_entries(folder / CONFIGURATION)
             source = str(folder / CONFIGURATION)
-            settings = parse_settings(PlaySettings, entries, source)
+            settings = read_entries(PlaySettings, entries, source)
             run = run_of_play(folder, settings)
         else:
             run = _load_complete_run(folder)
@@ -196,10 +195,9 @@ def _load_complete_run(folder: Path) -> Run:
                 f"{' or '.join(map(str, known))}, got {value!r:.40}"
             )
     arrays = read_arrays(folder / TRAJECTORIES)
-    entries = load_entries(folder / CONFIGURATION)
-    find_files(entries, folder)
+    entries = load_settings(folder / CONFIGURATION)
     source = str(folder / CONFIGURATION)
-    settings = parse_settings(KINDS[plain["game"]], entries, source)
+    settings = read_entries(KINDS[plain["game"]], entries, source)
     if settings.game != plain["game"]:
         raise ConfigurationError(
             f"game of run {folder} must be {settings.game}, as in "

@@ -4,7 +4,7 @@ The robot, its legs, and the presets of gait and body that the entries name
 are read first; all other entries change these.
 """
 
-from collections.abc import Collection, Mapping
+from collections.abc import Mapping
 from dataclasses import fields, replace
 from typing import Any
 
@@ -14,7 +14,7 @@ from ..core.errors import AnyPath, ConfigurationError, as_path, shown
 from ..core.setting import NONE, Entry, entries_of
 from ..planning import PRESETS
 from ..sim.body_settings import BODIES
-from .configuration_file import load_settings, parse_settings
+from .configuration_file import load_settings
 from .game_settings import (
     NOT_PLAYERS,
     OF_ALL,
@@ -26,8 +26,8 @@ from .player_settings import EVADER, MOST_PLAYERS, USED_BY, PlayerSettings
 from .robot_settings import (
     LEGS_GAIT,
     body_of_robot,
+    game_of_robot,
     settings_of_robot,
-    with_distances,
 )
 
 PRESET = ""  # name of a preset among the entries that change it
@@ -61,16 +61,11 @@ def settings_of(
     source: str = "",
     *,
     base: Any = None,
-    aside: Collection[str] = (),
 ) -> Any:
     """Return settings from nested entries.
 
     ``robot`` and ``legs.network`` bring gait and control of the robot, and
     ``gait`` may be the name of a preset.
-
-    Raises:
-        StepAsideError: If an entry is unknown or out of its range, or if
-            there is no such robot.
     """
     left, names = dict(entries), {each.name for each in fields(kind)}
     base = kind() if base is None else base
@@ -95,7 +90,7 @@ def settings_of(
             )
         if preset:
             base = replace(base, gait=PRESETS[preset])
-    return parse_settings(kind, left, source, base=base, aside=aside)
+    return read_entries(kind, left, source, base=base)
 
 
 def _preset(
@@ -112,11 +107,7 @@ def _preset(
 
 
 def load_game(path: AnyPath, **changes: Any) -> GameSettings:
-    """Read a game file; see :func:`read_game`.
-
-    Args:
-        path: TOML file.
-        changes: Changes of its entries.
+    """Read a TOML file of a game, with changes of its entries.
 
     Raises:
         StepAsideError: If the file is not TOML, an entry is unknown or
@@ -139,12 +130,8 @@ def read_game(
     Entries that only players have, like ``gait``, hold for all that use them
     and do not have their own, and a table named like a player changes this
     player. ``body`` may be the name of a preset, and ``room`` a room file or
-    the seed of a room by ``recipe``.
-
-    Args:
-        entries: The entries.
-        source: Where they come from, for messages.
-        base: Game that they change.
+    the seed of a room by ``recipe``. The source is for messages, and the
+    base is the game that the entries change.
 
     Raises:
         StepAsideError: As :func:`load_game`.
@@ -187,14 +174,14 @@ def read_game(
     _make_room(left)
     if made != base.players:
         left["players"] = made
-    return parse_settings(GameSettings, left, source, base=base)
+    return read_entries(GameSettings, left, source, base=base)
 
 
 def _copies(entry: Any, source: str) -> list[dict[str, Any]]:
     """Return an entry for each of ``count`` players alike, numbered."""
     if not isinstance(entry, dict):
         raise ConfigurationError(f"{source} must be a table, got {entry!r}")
-    rest, count = dict(entry), 1
+    rest = dict(entry)
     if not isinstance(rest.get("name"), str):
         raise ConfigurationError(
             f"{source} must have a name, got {rest.get('name')!r}"
@@ -227,13 +214,24 @@ def _with_distances(base: GameSettings, changes: list[Any]) -> GameSettings:
     }
     if base.game != "duel" or not robots:
         return base
-    base = with_distances(base.changed(**robots))
+    named = [
+        p.robot for p in base.changed(**robots).players if p.body == "robot"
+    ]
+    games = [each for each in map(game_of_robot, named) if each is not None]
+    if not games:
+        return base
+    radius = max(game.safety_radius for game in games)
     for at, (where, player, entries, mine) in enumerate(changes):
         if player.name == EVADER:
-            radius = {"safety_radius": base.evader.evasion.safety_radius}
-            entries = nested(entries, {"evasion": radius})
-            changes[at] = where, player, entries, mine
-    return base
+            own = {"evasion": {"safety_radius": radius}}
+            changes[at] = where, player, nested(entries, own), mine
+    start = replace(
+        base.start,
+        least=max(game.start_least for game in games),
+        near=max(game.start_near for game in games),
+        far=max(game.start_far for game in games),
+    )
+    return replace(base, start=start)
 
 
 def _player(

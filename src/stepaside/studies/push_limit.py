@@ -11,7 +11,7 @@ from ..games.game_settings import walk as make_walk
 from ..games.outcome import Outcome
 from ..games.player_settings import WALKER
 from ..games.recorded_game import run_game
-from ..games.robot_settings import game_settings_from_description
+from ..games.robot_settings import game_of_robot
 from ..planning import Foot, ManeuverPlanner
 from ..planning.maneuver import steady_plan
 from ..planning.push_bound import FootReach, push_bound
@@ -122,10 +122,7 @@ def push_scale(robot: str) -> float:
     It is the ratio of the push units of their descriptions, which scale with
     mass and pendulum speed; without them, the ratio of the masses.
     """
-    own, nao = (
-        game_settings_from_description(load_robot(name))
-        for name in (robot, REFERENCE)
-    )
+    own, nao = map(game_of_robot, (robot, REFERENCE))
     if own is None or nao is None:
         return mass_of(robot) / mass_of(REFERENCE)
     return own.push_unit / nao.push_unit
