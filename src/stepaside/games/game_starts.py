@@ -1,6 +1,6 @@
 """Initial poses of the players of a game."""
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from itertools import combinations
 from math import atan2, cos, dist, hypot, pi, radians, sin
@@ -279,7 +279,7 @@ def _draw_position(
 
 def _draw_place(
     settings: GameSettings,
-    keep: list[tuple[tuple[float, ...], float]],
+    keep: Sequence[tuple[tuple[float, ...], float]],
     generator: np.random.Generator,
 ) -> tuple[float, float] | None:
     """Return a place on the free floor, in [m]; None if there is none.
