@@ -84,9 +84,6 @@ def test_the_first_page_installs_what_its_commands_need() -> None:
     assert "[viewer]" in install
 
 
-@pytest.mark.xfail(
-    strict=True, reason="the reference lacks environments and games"
-)
 @pytest.mark.parametrize("name", ["DuelEnv", "GameSettings"])
 def test_the_reference_has_environments_and_games(name: str) -> None:
     text = (DOCS / "api.md").read_text("utf-8")
