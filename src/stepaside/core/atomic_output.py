@@ -22,11 +22,7 @@ def check_file(
 ) -> None:
     """Check that a file can be written, without creating it.
 
-    Args:
-        file: Output file.
-        name: Name of the option, for messages.
-        suffixes: Permitted suffixes; any if empty.
-        overwrite: Whether an existing file may be replaced.
+    The name is that of the option, for messages; without suffixes any may be.
     """
     there, rule = _existing(file, name), ""
     if suffixes and file.suffix.lower() not in suffixes:

@@ -85,11 +85,9 @@ def parallel_range() -> Any:
 
 
 def bound(function: Callable[..., R], *arguments: Any) -> Callable[[], R]:
-    """Return a function of fixed arguments, compiled for them at once.
+    """Return a compiled function of fixed arguments, compiled at once.
 
-    Args:
-        function: A :func:`compiled` function.
-        arguments: Arrays, whose memory must stay where it is, and numbers.
+    Arrays among these must stay where they are in memory.
     """
     if not isinstance(function, _Compiled):
         return partial(function, *arguments)

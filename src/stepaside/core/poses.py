@@ -53,14 +53,8 @@ def arc(ahead: ArrayLike, left: ArrayLike, turn: ArrayLike) -> Array:
 
     A chord of an arc has length sinc(turn / 2) of the arc's and points along
     turn / 2; this form has no singularity at zero.
-
-    Args:
-        ahead: Distances driven ahead in the own frame, in [m].
-        left: Distances driven to the left, in [m]. All are broadcast.
-        turn: Angles turned meanwhile, in [rad].
-
-    Returns:
-        Poses in the initial frame, in [m] and [rad]. Shape (..., 3).
+    Distances driven ahead and to the left, in [m], and turns, in [rad], are
+    broadcast. Shape (..., 3), in the initial frame.
     """
     half = 0.5 * np.asarray(turn, dtype=np.float64)
     x, y = np.sinc(half / pi) * rotate(ahead, left, half)

@@ -16,18 +16,10 @@ def show_progress(
     bar_format: str | None = None,
     quiet: bool = False,
 ) -> Any:
-    """Return a progress display on standard error.
+    """Return a progress display on standard error, as a context manager.
 
-    Args:
-        name: Name of the work, one word.
-        total: Size of the work, in its unit; None if not known yet.
-        unit: Unit of the work; empty for a fraction of 1.
-        bar_format: Format of the bar, for tqdm.
-        quiet: Whether to print lines instead of a bar on a terminal, too.
-
-    Returns:
-        Context manager with ``n`` and ``total``, which may be set, and
-        ``update``, ``refresh`` and ``set_postfix_str`` of a tqdm bar.
+    It is a bar of tqdm on a terminal, unless ``quiet``, and else prints lines.
+    The total is None if not known yet; without unit it is a fraction of 1.
     """
     if quiet or not sys.stderr.isatty():
         return PlainProgress(name, total, unit)
@@ -47,18 +39,12 @@ def counter(bar: Any) -> Callable[[int, int], None]:
 
 
 class PlainProgress:
-    """Progress as one line every few seconds, for logs and pipes.
-
-    Attributes:
-        n: Finished work, in its unit.
-        initial: Part of it that was finished before, and took no time.
-        total: Total work; None if not known yet.
-    """
+    """Progress as one line every few seconds, for logs and pipes."""
 
     def __init__(self, name: str, total: float | None, unit: str) -> None:
         """Start at zero."""
-        self.n: float = 0
-        self.initial: float = 0
+        self.n: float = 0  # finished work
+        self.initial: float = 0  # part finished before, which took no time
         self.total = total
         self._name, self._unit, self._postfix = name, unit, ""
         self._began = self._printed = monotonic()

@@ -8,11 +8,7 @@ FIRST_CAPACITY = 256  # rows
 
 
 class RowTable:
-    """Rows of floats in one array, which doubles when it is full.
-
-    Attributes:
-        count: Number of rows.
-    """
+    """Rows of floats in one array, which doubles when it is full."""
 
     def __init__(self, columns: int) -> None:
         """Begin without rows."""

@@ -227,7 +227,10 @@ class EntryReader:
         if origin in (Union, UnionType):
             return self._read_any(value, args, path, described, base)
         if origin is Literal or described.names:
-            return self._read_name(value, path, described.names or args)
+            names = described.names or args
+            if isinstance(value, str) and value in names:
+                return value
+            return self._note(path, f"be one of {', '.join(names)}", value)
         if isinstance(value, Mapping) and hasattr(hint, "from_entries"):
             return self._read_by(hint.from_entries, value, path)
         if isinstance(value, str) and hasattr(hint, "from_text"):
@@ -329,11 +332,6 @@ class EntryReader:
             del self.problems[before:]
         self.problems += told
         return None
-
-    def _read_name(self, value: Any, path: str, names: Collection[str]) -> Any:
-        if isinstance(value, str) and value in names:
-            return value
-        return self._note(path, f"be one of {', '.join(names)}", value)
 
     def _read_by(
         self, read: Callable[[Any], Any], value: Any, path: str

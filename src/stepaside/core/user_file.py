@@ -58,12 +58,7 @@ sys.meta_path.append(_Finder())
 def load_user_file(path: str, where: str) -> ModuleType:
     """Execute a Python file, which may import modules of its folder.
 
-    Args:
-        path: Path of the file.
-        where: What the file is given for, for messages.
-
-    Raises:
-        ConfigurationError: If there is no such file, or it fails to run.
+    Messages tell where it is given.
     """
     file = Path(path).expanduser().resolve()
     if not file.is_file():

@@ -188,13 +188,8 @@ class GameSettings:
     def changed(self, **changes: Any) -> "GameSettings":
         """Return the game with other settings.
 
-        Args:
-            changes: Settings of the game; of all players that use them, like
-                ``gait``; or a dictionary of the settings of one player, by
-                its name.
-
-        Raises:
-            ConfigurationError: If a setting is unknown or invalid.
+        They are those of the game; of all players that use them, like
+        ``gait``; or a dictionary for one player, by its name.
         """
         listed = changes.pop("players", self.players)
         rest, common, own = dict[str, Any](), dict[str, Any](), {}
@@ -354,20 +349,13 @@ NOT_PLAYERS = {*OF_ALL, *(each.name for each in fields(GameSettings))}
 
 
 def check_players(players: tuple[PlayerSettings, ...]) -> None:
-    """Check that names are unique and that roles and targets fit.
-
-    Raises:
-        ConfigurationError: If there is no player, two have one name, a role
-            has no opponent, or a target does not exist.
-    """
+    """Check that names are unique and that roles and targets fit."""
     if not players:
         raise ConfigurationError("players must be at least 1, got 0")
     names = [p.name for p in players]
-    twice = next((n for n in names if names.count(n) > 1), None)
-    if twice is not None:
+    if len(set(names)) < len(names):
         raise ConfigurationError(
-            f"player names must be unique, got {twice!r} "
-            f"{names.count(twice)} times"
+            f"player names must be unique, got {', '.join(names)}"
         )
     roles = {Role(p.role) for p in players}
     for role, needed in (
@@ -376,36 +364,24 @@ def check_players(players: tuple[PlayerSettings, ...]) -> None:
     ):
         # Pursuers that are assigned to each other need no evader.
         alone = [p for p in players if p.role == role and not p.target]
-        if alone and not roles & needed and not _is_cyclic(alone):
+        cyclic = len(alone) > 1 and {p.strategy for p in alone} == {"cyclic"}
+        if alone and not roles & needed and not cyclic:
             wanted = " or ".join(sorted(needed))
             raise ConfigurationError(
                 f"role {role} of {alone[0].name} needs an opponent: a player "
                 f"of role {wanted}, or a target, got none"
             )
     for player in players:
-        if player.target and player.target not in names:
+        others = [name for name in names if name != player.name]
+        if player.target and player.target not in others:
             raise ConfigurationError(
-                f"{player.name}: target must be a player, one of "
-                f"{', '.join(names)}, got {player.target!r}"
+                f"{player.name}: target must be another player, one of "
+                f"{', '.join(others)}, got {player.target!r}"
             )
-        if player.target == player.name:
-            raise ConfigurationError(
-                f"{player.name}: target must be another player, got itself"
-            )
-
-
-def _is_cyclic(players: list[PlayerSettings]) -> bool:
-    """Return whether all of several players pursue the next of their team."""
-    return len(players) > 1 and all(p.strategy == "cyclic" for p in players)
 
 
 def check_senses(settings: GameSettings) -> None:
-    """Check that each robot can sense its opponents.
-
-    Raises:
-        ConfigurationError: If cameras or lidars cannot tell the opponents,
-            or the room cannot be mapped.
-    """
+    """Check that each robot can sense its opponents."""
     seeing = settings.sensing_by("cameras")
     other = next((p for p in settings.players if p.senses != "ideal"), None)
     if settings.level != "physics" and other is not None:

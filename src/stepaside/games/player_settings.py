@@ -210,10 +210,7 @@ class PlayerSettings:
     ) -> "PlayerSettings":
         """Return the player with strategy, trigger and control.
 
-        Args:
-            body: Deviations of the bodies.
-            person: Whether an opponent is a person.
-            walks: Whether learned legs walk: not without physics.
+        A person may be an opponent; learned legs do not walk without physics.
         """
         if not self.decides:
             return self
@@ -233,27 +230,17 @@ class PlayerSettings:
         if strategy in OF_EVASION and evasion.trigger is None:
             # People walk at any speed, and a distance suits only one: a robot
             # that is fast enough evades them by time to contact.
-            fast = person and self.gait.is_fast
-            evasion = replace(evasion, trigger="time" if fast else "distance")
-        control = implied_control(self.control, self.gait, body)
+            timed = person and self.gait.is_fast
+            trigger = "time" if timed else "distance"
+            evasion = replace(evasion, trigger=trigger)
+        feedback, method = self.control.feedback, self.control.method
+        fast = self.gait.is_fast
+        if feedback is None:  # plans from the measured state need it, too
+            planned = method in (None, "closed-form")
+            feedback = fast or body != IDEAL or not planned
+        if method is None:
+            method = "measured" if feedback and not fast else "closed-form"
+        control = replace(self.control, method=method, feedback=feedback)
         return replace(
             self, strategy=strategy, evasion=evasion, control=control
         )
-
-
-def implied_control(
-    control: ControlSettings, gait: GaitSettings, body: BodySettings
-) -> ControlSettings:
-    """Return walking control with a method and a choice of feedback.
-
-    Feedback is needed on every body but the ideal one, for plans from the
-    measured state, and for fast gaits.
-    """
-    feedback, method = control.feedback, control.method
-    if feedback is None:
-        planned = method in (None, "closed-form")
-        feedback = gait.is_fast or body != IDEAL or not planned
-    if method is None:
-        measures = feedback and not gait.is_fast
-        method = "measured" if measures else "closed-form"
-    return replace(control, method=method, feedback=feedback)

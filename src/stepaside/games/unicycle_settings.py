@@ -152,13 +152,10 @@ class UnicycleSettings(UnicycleGameSettings):
     @property
     def strategies(self) -> tuple[str, str] | None:
         """Strategies of pursuer and evader; None for the paper's ODE."""
-        named = self.pursuer_strategy, self.evader_strategy
-        if not any(named) and not self.sample_time:
+        pursuer, evader = self.pursuer_strategy, self.evader_strategy
+        if not (pursuer or evader or self.sample_time):
             return None
-        pursuer, evader = (
-            own or paper for own, paper in zip(named, PAPER, strict=True)
-        )
-        return pursuer, evader
+        return pursuer or PAPER[0], evader or PAPER[1]
 
     @property
     def period(self) -> float:
