@@ -57,17 +57,6 @@ class Range(NamedTuple):
         return "".join(f" or {name}" for name in named)
 
 
-def check_count(values: object, most: int, name: str) -> None:
-    """Check that a value is a list or tuple of at most ``most`` entries."""
-    count = len(values) if isinstance(values, list | tuple) else None
-    if count is None or count > most:
-        got = values if count is None else count
-        raise ConfigurationError(
-            f"{name} must be a list of at most {most} entries, "
-            f"got {shown(got)}"
-        )
-
-
 SEEDS = Range(
     0, 2**128 - 1, "1", "random generators take seeds of 128 bits", whole=True
 )

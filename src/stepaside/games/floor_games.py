@@ -9,7 +9,6 @@ from typing import NamedTuple
 import numpy as np
 
 from ..arena import NO_OBSTACLES, OPEN_FLOOR, ObstacleSet, Room
-from ..core.brief_repr import brief_repr
 from ..core.constants import CAPTURE_DISTANCE
 from ..core.errors import ConfigurationError, StrategyError
 from ..core.player_identity import PlayerIdentity, Role
@@ -77,10 +76,6 @@ class StrategyTrack(NamedTuple):
     clearances: Array
     decision: float
     longest_decision: float
-
-    def __repr__(self) -> str:
-        """Return the fields in one short line."""
-        return brief_repr(self)
 
     @property
     def captured(self) -> bool:

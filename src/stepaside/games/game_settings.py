@@ -9,7 +9,7 @@ from ..arena import Room
 from ..core.brief_repr import brief_repr
 from ..core.errors import ConfigurationError, check_within
 from ..core.player_identity import PlayerIdentity, Role
-from ..core.ranges import RUNTIME, SEEDS, Range, check_count
+from ..core.ranges import RUNTIME, SEEDS, Range
 from ..core.setting import check_settings, setting
 from ..locomotion.control_settings import MapSettings
 from ..planning import GaitSettings
@@ -36,7 +36,7 @@ from .player_settings import (
 
 GAME_LEVELS = ("physics", "steps", "unicycle")
 GAME_KINDS = {"game": None, "duel": PLAYERS, "walk": (WALKER,)}
-MOST_ROBOTS = 12  # in physics
+MOST_ROBOTS = Range(0, 12, "1", "in physics", whole=True)
 OF_ALL = (  # settings of players that a game may give for all
     *("robot", "gait", "control", "legs", "senses", "sight", "evasion"),
     *("person", "crowd"),
@@ -155,13 +155,16 @@ class GameSettings:
         "Lidar of players that sense by one",
         needs=("senses", "lidar"),
     )
-    pushes: tuple[Push, ...] = setting((), "Pushes on the robots")
-    players: tuple[PlayerSettings, ...] = setting((), "The players")
+    pushes: tuple[Push, ...] = setting(
+        (), "Pushes on the robots", count=(0, MOST_PUSHES)
+    )
+    players: tuple[PlayerSettings, ...] = setting(
+        (), "The players", count=(0, MOST_PLAYERS)
+    )
 
     def __post_init__(self) -> None:
         """Validate ranges, and that the players fit together."""
         check_settings(self)
-        check_count(self.players, MOST_PLAYERS, "players")
         check_players(self.players)
         robots, names = self.robots, GAME_KINDS[self.game]
         bodies = {p.body for p in self.players}
@@ -178,8 +181,7 @@ class GameSettings:
                 f"at level {self.level}"
             )
         if self.level == "physics":
-            check_count(robots, MOST_ROBOTS, "robots in physics")
-        check_count(self.pushes, MOST_PUSHES, "pushes")
+            MOST_ROBOTS.check(len(robots), "number of robots")
         if self.pushes and not robots:
             raise ConfigurationError("pushes need a robot, got none")
         check_pushes(self.pushes, robots)

@@ -230,9 +230,8 @@ class PlayerSettings:
         if strategy in OF_EVASION and evasion.trigger is None:
             # People walk at any speed, and a distance suits only one: a robot
             # that is fast enough evades them by time to contact.
-            timed = person and self.gait.is_fast
-            trigger = "time" if timed else "distance"
-            evasion = replace(evasion, trigger=trigger)
+            soon = person and self.gait.is_fast
+            evasion = replace(evasion, trigger="time" if soon else "distance")
         feedback, method = self.control.feedback, self.control.method
         fast = self.gait.is_fast
         if feedback is None:  # plans from the measured state need it, too

@@ -11,6 +11,7 @@ from typing import Any
 from ..arena import Room, RoomRecipe, generate_room, load_room
 from ..core.entries import read_entries
 from ..core.errors import AnyPath, ConfigurationError, as_path, shown
+from ..core.ranges import Range
 from ..core.setting import NONE, Entry, entries_of
 from ..planning import PRESETS
 from ..sim.body_settings import BODIES
@@ -32,6 +33,7 @@ from .robot_settings import (
 
 PRESET = ""  # name of a preset among the entries that change it
 STARTED_FROM = {"duel": duel, "walk": walk}  # what a file changes
+COUNT = Range(1, MOST_PLAYERS, "1", "players of a game", whole=True)
 RECIPE = "recipe"  # entries of a random room
 
 
@@ -189,11 +191,7 @@ def _copies(entry: Any, source: str) -> list[dict[str, Any]]:
     if "count" not in rest:
         return [rest]
     count = rest.pop("count")
-    if type(count) is not int or not 1 <= count <= MOST_PLAYERS:
-        raise ConfigurationError(
-            f"{source}: count must be a whole number from 1 to "
-            f"{MOST_PLAYERS}, got {shown(count)}"
-        )
+    COUNT.check(count, f"{source}: count")
     if count > 1 and "start" in rest:
         raise ConfigurationError(
             f"{source}: start must be omitted with count {count}, or all "

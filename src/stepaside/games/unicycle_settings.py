@@ -3,9 +3,8 @@
 from dataclasses import dataclass
 from math import pi
 
-from ..core.errors import ConfigurationError, check_within
 from ..core.ranges import Range
-from ..core.setting import check_settings, setting
+from ..core.setting import CheckedSettings, setting
 from ..theory.unicycle.unicycle_game import (
     Game,
     RelativeStart,
@@ -25,7 +24,7 @@ def positive(unit: str, *also: float | None) -> Range:
 
 
 @dataclass(frozen=True, slots=True)
-class UnicycleGameSettings:
+class UnicycleGameSettings(CheckedSettings):
     """Speeds, gains and evasion of two unicycles."""
 
     speed: float = setting(1.0, "Speed v of both players", positive("m/s"))
@@ -66,18 +65,6 @@ class UnicycleGameSettings:
         Range(0.0, pi / 2, "rad", "beyond, it never changes side"),
         needs=("side_rule", "behind"),
     )
-
-    def __post_init__(self) -> None:
-        """Validate ranges and names."""
-        check_settings(self)
-        check_within(
-            self.hysteresis,
-            0.0,
-            min(self.angle, pi - self.angle),
-            "hysteresis",
-            "rad",
-            ConfigurationError,
-        )
 
     @property
     def game(self) -> Game:

@@ -100,10 +100,6 @@ class PlanSamples(NamedTuple):
     right_height: Array
     pivot: Array  # ZMP less the reaction of the swing leg [m]. Shape (m, 2)
 
-    def __repr__(self) -> str:
-        """Return the fields in one short line."""
-        return brief_repr(self)
-
 
 @dataclass(frozen=True, slots=True)
 class ManeuverPlan:

@@ -4,7 +4,7 @@ from dataclasses import dataclass
 from math import radians
 
 from ..core.errors import ConfigurationError, check_within
-from ..core.ranges import Range, check_count
+from ..core.ranges import Range
 from ..core.setting import REQUIRED, CheckedSettings, check_settings, setting
 from ..perception.camera_model import CameraModel
 from ..robots.head import Mount
@@ -226,7 +226,7 @@ CLUTTER = (
 
 
 @dataclass(frozen=True, slots=True)
-class SceneSettings:
+class SceneSettings(CheckedSettings):
     """Walls and objects around the robots, as cameras see them."""
 
     walls: float = setting(
@@ -246,8 +246,5 @@ class SceneSettings:
         [],
         "Objects in view of the cameras",
         presets={"clutter": list(CLUTTER), "none": []},
+        count=(0, MAX_OBJECTS),
     )
-
-    def __post_init__(self) -> None:
-        check_settings(self)
-        check_count(self.things, MAX_OBJECTS, "things")
