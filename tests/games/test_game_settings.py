@@ -13,9 +13,6 @@ from click.testing import CliRunner
 from stepaside.cli.main import main
 from stepaside.core.entries import read_entries
 from stepaside.core.errors import ConfigurationError
-from stepaside.games.configuration_file import (
-    dump_configuration,
-)
 from stepaside.games.duel_circle import circle_of_theory, time_scale
 from stepaside.games.game_settings import (
     GameSettings,
@@ -24,7 +21,11 @@ from stepaside.games.game_settings import (
 )
 from stepaside.games.game_starts import draw_start
 from stepaside.games.robot_settings import body_of_robot
-from stepaside.games.settings_reader import load_game, read_game
+from stepaside.games.settings_reader import (
+    dump_configuration,
+    load_game,
+    read_game,
+)
 from stepaside.planning import PRESETS, GaitSettings
 from stepaside.robots.description import load_robot
 from stepaside.sim.body_settings import BODIES

@@ -11,7 +11,6 @@ from stepaside.core.errors import ConfigurationError
 from stepaside.core.poses import Array, Pose, wrap_angle
 from stepaside.drivers.play_log import PlayLog, PlayTick, joint_row
 from stepaside.drivers.safety import SafetyState
-from stepaside.games.configuration_file import dump_configuration
 from stepaside.games.game_settings import StartSettings
 from stepaside.games.game_settings import duel as make_duel
 from stepaside.games.outcome import Outcome
@@ -19,6 +18,7 @@ from stepaside.games.play_settings import PlaySettings
 from stepaside.games.recorded_game import RecordedGame
 from stepaside.games.robot_player import RobotPlayer
 from stepaside.games.run_archive import complete_play, load_run
+from stepaside.games.settings_reader import dump_configuration
 from stepaside.robots.description import load_robot
 from stepaside.robots.tree_cache import load_tree
 from stepaside.sim.body_settings import BODIES

@@ -13,8 +13,8 @@ from click.testing import CliRunner
 
 from injection_strings import HOSTILE
 from stepaside.cli.main import main
-from stepaside.games.configuration_file import dump_configuration
 from stepaside.games.run_archive import load_run
+from stepaside.games.settings_reader import dump_configuration
 from stepaside.report.replay_page import write_page
 from stepaside.report.scene import RunScene
 from stepaside.report.text_escaping import visible

@@ -82,7 +82,7 @@ def inspect(
 
 def _facts(reading: "ContractReading") -> dict[str, Any]:
     """Return contract and network as JSON values."""
-    from ..games.configuration_file import json_settings
+    from ..games.settings_reader import settings_entries
 
     used, network = reading.convention, reading.network
     return {
@@ -92,7 +92,7 @@ def _facts(reading: "ContractReading") -> dict[str, Any]:
         "recurrent": [str(given) for given, _ in network.states],
         "convention": None if used is None else used.name,
         "source": None if used is None else used.source,
-        "contract": json_settings(reading.values),
+        "contract": plain(settings_entries(reading.values)),
         "sources": reading.sources,
         "findings": [each._asdict() for each in reading.findings],
     }

@@ -9,10 +9,10 @@ from typing import TYPE_CHECKING
 from ..core.atomic_output import reason_of
 from ..core.errors import OutputError, StepAsideError
 from ..drivers.play_log import PlayLog, PlayTick
-from ..games.configuration_file import dump_configuration, json_settings
 from ..games.outcome import Outcome
 from ..games.play_settings import PlaySettings
 from ..games.run_archive import CONFIGURATION, complete_play
+from ..games.settings_reader import dump_configuration, settings_entries
 
 if TYPE_CHECKING:
     from .connection_settings import ConnectionSettings
@@ -32,7 +32,7 @@ class PlayRecord:
     ) -> None:
         """Check the folder, which must not exist or must be empty."""
         self._settings = replace(settings, language=connection.language)
-        spelled = json_settings(self._settings)
+        spelled = settings_entries(self._settings)
         about = asdict(replace(connection, record=None)) | {
             name: spelled[name] for name in ("gait", "control")
         }

@@ -22,10 +22,10 @@ from ..core.setting import (
     entries_of,
     similar_paths,
 )
-from ..games.configuration_file import load_settings
 from ..games.game_settings import GameSettings
 from ..games.settings_reader import (
     entries_of_game,
+    load_settings,
     nested,
     read_game,
     settings_of,

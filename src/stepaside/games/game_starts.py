@@ -92,7 +92,7 @@ def _with_start_of_duel(settings: GameSettings) -> GameSettings:
         poses = plan.starts or draw_initial_poses(plan, settings.seed)
         check_initial_poses(plan, poses)
         settings = replace(settings, room=replace(plan, starts=poses))
-        start = _agreeing(settings.start, start_of(poses))
+        start = _start_in_room(settings.start, poses)
     own = settings.pursuer
     if own.body == "person" and own.person.backward:  # it looks away
         x, y, theta = poses[0]
@@ -119,26 +119,20 @@ def draw_start(settings: GameSettings) -> StartSettings:
     return replace(start, **missing)
 
 
-def start_of(starts: tuple[Pose, Pose]) -> StartSettings:
-    """Return the start settings of poses of both players in the world."""
-    (x, y, pursuer), (u, v, evader) = starts
-    line_of_sight = atan2(v - y, u - x)
-    return StartSettings(
-        hypot(u - x, v - y),
-        wrap_angle(pursuer - line_of_sight),
-        wrap_angle(evader - line_of_sight - pi),
-    )
-
-
-def _agreeing(given: StartSettings, drawn: StartSettings) -> StartSettings:
-    """Return the start of a room; reject a different one in the settings.
-
-    Distances between which starts are drawn stay those of the robots.
-    """
-    found = {}
-    for name in ("distance", "pursuer_offset", "evader_offset"):
-        value, found[name] = getattr(given, name), getattr(drawn, name)
-        if value is not None and not abs(value - found[name]) < SAME:
+def _start_in_room(
+    given: StartSettings, poses: tuple[Pose, Pose]
+) -> StartSettings:
+    """Return the start of poses in a room; reject a different one."""
+    (x, y, pursuer), (u, v, evader) = poses
+    sight = atan2(v - y, u - x)
+    found = {
+        "distance": hypot(u - x, v - y),
+        "pursuer_offset": wrap_angle(pursuer - sight),
+        "evader_offset": wrap_angle(evader - sight - pi),
+    }
+    for name, drawn in found.items():
+        value = getattr(given, name)
+        if value is not None and not abs(value - drawn) < SAME:
             raise ConfigurationError(
                 f"start.{name} must be omitted in a room, which gives "
                 f"the initial poses, got {value:g}"

@@ -20,18 +20,18 @@ from ..core.errors import AnyPath, ConfigurationError, as_path
 from ..core.poses import Array
 from ..robots.description import known_robots
 from .archive_reader import read_arrays, read_bytes
-from .configuration_file import (
-    ROBOTS,
-    load_settings,
-    replace_files,
-    settings_entries,
-)
 from .experiment import ExperimentSettings
 from .game_settings import GameSettings
 from .outcome import Outcome
 from .play_settings import PlaySettings
 from .player_settings import MOST_PLAYERS, PLAYER_NAME
 from .run import Run
+from .settings_reader import (
+    ROBOTS,
+    load_settings,
+    replace_files,
+    settings_entries,
+)
 from .summary import Summary
 from .trajectory import FIELDS, check_record, tracks_in
 

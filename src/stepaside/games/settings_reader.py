@@ -4,18 +4,19 @@ The robot, its legs, and the presets of gait and body that the entries name
 are read first; all other entries change these.
 """
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import fields, replace
 from typing import Any
 
+import tomli_w
+
 from ..arena import Room, RoomRecipe, generate_room, load_room
-from ..core.entries import read_entries
+from ..core.entries import load_entries, read_entries, to_entries
 from ..core.errors import AnyPath, ConfigurationError, as_path, shown
 from ..core.ranges import Range
 from ..core.setting import NONE, Entry, entries_of
 from ..planning import PRESETS
 from ..sim.body_settings import BODIES
-from .configuration_file import load_settings
 from .game_settings import (
     NOT_PLAYERS,
     OF_ALL,
@@ -33,6 +34,7 @@ from .robot_settings import (
 
 PRESET = ""  # name of a preset among the entries that change it
 STARTED_FROM = {"duel": duel, "walk": walk}  # what a file changes
+ROBOTS = "robots"  # folder of descriptions and networks in a run folder
 COUNT = Range(1, MOST_PLAYERS, "1", "players of a game", whole=True)
 RECIPE = "recipe"  # entries of a random room
 
@@ -276,3 +278,46 @@ def _make_room(entries: dict[str, Any]) -> None:
         made = load_room(plan)
     if made is not None:
         entries["room"] = made
+
+
+def load_settings(path: AnyPath) -> dict[str, Any]:
+    """Read the entries of a file, with robots and networks beside it."""
+    file = as_path(path, "path")
+    entries = load_entries(file)
+
+    def found(value: str) -> str:
+        inside = value.startswith(f"{ROBOTS}/") and ".." not in value
+        there = file.parent.resolve() / value
+        return str(there) if inside and there.exists() else value
+
+    replace_files(entries, found)
+    return entries
+
+
+def replace_files(entries: Any, change: Callable[[str], str]) -> None:
+    """Replace the names of robots and networks in nested entries."""
+    if isinstance(entries, list):
+        for each in entries:
+            replace_files(each, change)
+    elif isinstance(entries, dict):
+        for key, value in entries.items():
+            if key in ("robot", "network") and isinstance(value, str):
+                entries[key] = change(value)
+            else:
+                replace_files(value, change)
+
+
+def dump_configuration(settings: Any) -> str:
+    """Return the TOML text from which the same settings are read."""
+    return tomli_w.dumps(settings_entries(settings))
+
+
+def settings_entries(settings: Any) -> dict[str, Any]:
+    """Return settings as the nested entries of a configuration file.
+
+    What they leave open is resolved.
+    """
+    if hasattr(settings, "resolved"):
+        settings = settings.resolved()
+    entries: dict[str, Any] = to_entries(settings)
+    return entries
