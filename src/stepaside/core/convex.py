@@ -50,12 +50,9 @@ def next_corners(polygon: Array) -> Array:
 def half_planes(polygon: Array) -> tuple[Array, Array]:
     """Return the half planes whose intersection is a convex polygon.
 
-    Corners are counter-clockwise. Shape (n, 2).
-
-    Returns:
-        Unit normals a that point outwards, and offsets b in [m]: a point p
-        is inside if a p <= b for all, and b - a p is its distance from an
-        edge. Shapes (n, 2), (n,).
+    Corners are counter-clockwise. Shape (n, 2). Of unit normals a that point
+    outwards and offsets b in [m], b - a p is the distance of a point p inside
+    from an edge. Shapes (n, 2), (n,).
     """
     edges = next_corners(polygon) - polygon
     normals = np.column_stack([edges[:, 1], -edges[:, 0]])

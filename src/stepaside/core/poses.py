@@ -62,17 +62,11 @@ def arc(ahead: ArrayLike, left: ArrayLike, turn: ArrayLike) -> Array:
 
 
 class Pose(NamedTuple):
-    """Pose of a frame in the plane, relative to a parent frame.
+    """Pose of a frame in the plane, relative to a parent frame."""
 
-    Attributes:
-        x: Coordinate along the parent's sagittal axis, in [m].
-        y: Coordinate along the parent's coronal axis (left), in [m].
-        theta: Heading, counter-clockwise, in [rad].
-    """
-
-    x: float
-    y: float
-    theta: float
+    x: float  # along the parent's sagittal axis, in [m]
+    y: float  # along the parent's coronal axis (left), in [m]
+    theta: float  # heading, counter-clockwise, in [rad]
 
     def compose(self, child: "Pose") -> "Pose":
         """Return the pose in the parent frame of a pose in this frame."""

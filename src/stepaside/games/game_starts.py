@@ -37,9 +37,6 @@ def with_starts(settings: GameSettings) -> GameSettings:
     headings: pursuers look up to a right angle beside their opponent,
     evaders up to 30 degrees beside theirs, people with a goal to the goal,
     others anywhere. A person with a path begins where and as the path does.
-
-    Raises:
-        ConfigurationError: If given starts overlap, or there is no space.
     """
     if settings.game == "duel":
         return _with_start_of_duel(settings)

@@ -117,8 +117,7 @@ def load_game(path: AnyPath, **changes: Any) -> GameSettings:
         StepAsideError: If the file is not TOML, an entry is unknown or
             invalid, or a robot does not exist.
     """
-    file = as_path(path, "path")
-    made = read_game(load_settings(file), str(file))
+    made = read_game(load_settings(path), str(path))
     return read_game(nested(changes), base=made) if changes else made
 
 
@@ -136,9 +135,6 @@ def read_game(
     player. ``body`` may be the name of a preset, and ``room`` a room file or
     the seed of a room by ``recipe``. The source is for messages, and the
     base is the game that the entries change.
-
-    Raises:
-        StepAsideError: As :func:`load_game`.
     """
     left, before = dict(entries), source and f"{source}, "
     if base is None and entries.get("game") in STARTED_FROM:
