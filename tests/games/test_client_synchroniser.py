@@ -4,7 +4,7 @@ from typing import Any
 
 import pytest
 
-from stepaside.games.client_synchroniser import ClientSynchroniser
+from stepaside.games.served_duel import ClientSynchroniser
 
 TICK = 0.012  # [s]
 
@@ -51,7 +51,7 @@ class FakeServer:
 @pytest.fixture
 def clock(monkeypatch: pytest.MonkeyPatch) -> Clock:
     clock = Clock()
-    module = "stepaside.games.client_synchroniser"
+    module = "stepaside.games.served_duel"
     monkeypatch.setattr(f"{module}.monotonic", clock)
     monkeypatch.setattr(f"{module}.sleep", clock.pause)
     return clock

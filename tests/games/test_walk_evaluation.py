@@ -8,9 +8,9 @@ import numpy as np
 import pytest
 
 from stepaside.core.poses import Array
+from stepaside.games.evaluation import express_in_support_foot, measured
 from stepaside.games.game_settings import walk
 from stepaside.games.trajectory import WIDTHS, Trajectory
-from stepaside.games.walk_evaluation import express_in_support_foot, measured
 
 SETTINGS = walk(seed=4)
 CYCLE = 2.0 * SETTINGS.gait.step_duration

@@ -3,10 +3,10 @@
 import numpy as np
 import pytest
 
+from stepaside.games.evaluation import upright_samples
 from stepaside.games.game_settings import walk
 from stepaside.games.outcome import Outcome
 from stepaside.games.recorded_game import RecordedGame, run_game
-from stepaside.games.walk_evaluation import upright_samples
 from walkers import walker_of
 
 

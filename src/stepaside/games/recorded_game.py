@@ -10,7 +10,7 @@ from ..locomotion.zmp.mpc import MpcResult
 from ..robots.description import RobotDescription
 from ..strategies import Strategy
 from ..strategies.registry import describe_strategy
-from .evaluation import summarise
+from .evaluation import summarise, summarise_walk
 from .floor_games import floor_of, rules_of
 from .floor_world import PERIOD, FloorRecorder, FloorWorld
 from .forecast import evaluate_duel
@@ -23,7 +23,6 @@ from .player_settings import WALKER
 from .recorder import Recorder
 from .robot_player import RobotPlayer
 from .run import Run
-from .walk_evaluation import summarise_walk
 
 if TYPE_CHECKING:
     from .camera_senses import SightObserver

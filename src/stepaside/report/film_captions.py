@@ -8,8 +8,7 @@ from typing import Any
 import numpy as np
 
 from ..core.poses import Array
-from ..games.run import Run
-from ..games.run_captions import describe_state
+from ..games.run import Run, describe_state
 from ..perception.images import Pixels
 from .palette import PALETTES
 from .text_escaping import visible

@@ -12,8 +12,8 @@ from ..core.errors import AnyPath
 from ..core.player_colours import markers_of
 from ..core.poses import Array
 from ..games.duel_circle import cycle_mean, distance_between, whole_cycles
+from ..games.evaluation import express_in_support_foot
 from ..games.run import Run
-from ..games.walk_evaluation import express_in_support_foot
 from .figure_style import (
     LEFT,
     LIGHT,

@@ -12,7 +12,7 @@ from ...core.player_colours import Colour
 from ...core.poses import Array
 from ...games.game import Progress
 from ...games.game_furnishing import colours_of_players
-from ...games.play_rows import read_played
+from ...games.play_conversion import read_played
 from ...games.replayed_signals import RobotSignals, repeat_game
 from ...games.run import Run
 from ...games.run_archive import load_run
