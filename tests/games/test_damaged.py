@@ -14,7 +14,7 @@ import numpy as np
 import pytest
 
 from stepaside.core.errors import ConfigurationError
-from stepaside.games import run_archive as reading
+from stepaside.games import trajectory as reading
 from stepaside.games.game_settings import duel
 from stepaside.games.recorded_game import run_game
 from stepaside.games.run import Run

@@ -42,7 +42,6 @@ from .trajectory import Trajectory
 if TYPE_CHECKING:
     from ..locomotion.zmp.mpc import MpcResult
     from .camera_senses import SightObserver
-    from .robot_player import RobotPlayer
 
 MOVED = 0.02  # distance from the start that counts as motion, in [m]
 MIN_TURN = 0.5  # of a path to which a circle can be fitted, in [rad]
@@ -280,20 +279,13 @@ def upright_samples(
     return mask
 
 
-def summarise_walk(
-    run: Run, walker: "RobotPlayer", solved: "Sequence[MpcResult]"
-) -> WalkingSummary:
+def summarise_walk(run: Run, solved: "Sequence[MpcResult]") -> WalkingSummary:
     """Compute the summary of a walk; with the results of its MPC, if any."""
     mask = upright_samples(run.times, run.outcome)
     in_foot = express_in_support_foot(run.times, run.tracks[WALKER])
     columns = {name: values[mask] for name, values in in_foot.items()}
-    pusher = walker.robot.pusher
-    return replace(
-        measured(columns, run.settings.cycle),
-        adapted_steps=walker.scheme.walk.balance.adapted,
-        push_impulse_n_s=(0.0, 0.0) if pusher is None else pusher.impulse,
-        solver=_solver(solved),
-    )
+    walking = measured(columns, run.settings.cycle)
+    return replace(walking, solver=_solver(solved))
 
 
 def measured(columns: dict[str, Array], cycle: float) -> WalkingSummary:

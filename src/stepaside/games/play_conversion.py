@@ -30,9 +30,8 @@ from .outcome import Outcome
 from .play_settings import PlaySettings
 from .player_settings import PLAYERS
 from .run import Run
-from .run_archive import read_bytes
 from .summary import PlanningSummary, PlaySummary, StateChange, Summary
-from .trajectory import Trajectory, check_record
+from .trajectory import Trajectory, check_record, read_bytes
 
 PERIOD = 0.02  # approximate smallest period of the samples of a run, in [s]
 MAX_GAP = 10.0  # between ticks of one clock, in [s]

@@ -141,7 +141,14 @@ class RecordedGame(GameInPlay):
         if run.game == "walk":
             walker = self.in_physics.player(WALKER)
             assert isinstance(walker, RobotPlayer)
-            walking = summarise_walk(run, walker, self.solved)
+            pusher = walker.robot.pusher
+            walking = replace(
+                summarise_walk(run, self.solved),
+                adapted_steps=walker.scheme.walk.balance.adapted,
+                push_impulse_n_s=(
+                    (0.0, 0.0) if pusher is None else pusher.impulse
+                ),
+            )
             return replace(run, summary=replace(run.summary, walking=walking))
         return run
 

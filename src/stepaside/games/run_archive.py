@@ -1,11 +1,10 @@
-"""Run folders: a recorded game on disk, read within limits of size."""
+"""Run folders: a recorded game on disk."""
 
 import json
 import re
 from collections.abc import Collection
 from dataclasses import asdict, dataclass
 from hashlib import sha256
-from io import BytesIO
 from pathlib import Path
 from shutil import copy, copytree
 from typing import Any
@@ -33,41 +32,13 @@ from .settings_reader import (
     settings_entries,
 )
 from .summary import Summary
-from .trajectory import FIELDS, check_record, tracks_in
-
-MAX_BYTES = 2**30  # of a file, and of all its arrays; a game of a day has less
-MAX_HEADER_BYTES = 512  # of one array
-
-
-def read_bytes(file: Path) -> bytes:
-    """Read a regular file that is not too large; ValueError for others."""
-    if not file.is_file() or file.stat().st_size > MAX_BYTES:
-        raise ValueError(f"{file.name} must be a file of <= {MAX_BYTES} bytes")
-    return file.read_bytes()
-
-
-def read_arrays(file: Path) -> dict[str, Array]:
-    """Read the arrays of an ``npz`` file by name; all hold real numbers.
-
-    Damaged files raise what numpy and zipfile raise, or ValueError.
-    """
-    with np.load(
-        BytesIO(read_bytes(file)),
-        allow_pickle=False,
-        max_header_size=MAX_HEADER_BYTES,
-    ) as archive:
-        size = sum(member.file_size for member in archive.zip.infolist())
-        if size > MAX_BYTES:
-            raise ValueError(
-                f"arrays of {file.name} must have at most {MAX_BYTES} "
-                f"bytes, got {size}"
-            )
-        arrays = {name: np.asarray(archive[name]) for name in archive.files}
-    for name, array in arrays.items():
-        if array.dtype not in (np.float32, np.float64) or array.ndim > 2:
-            raise ValueError(f"{name} must be a table of real numbers")
-    return arrays
-
+from .trajectory import (
+    FIELDS,
+    check_record,
+    read_arrays,
+    read_bytes,
+    tracks_in,
+)
 
 FORMAT = 5  # of a run folder
 CONFIGURATION = "configuration.toml"
