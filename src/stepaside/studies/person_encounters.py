@@ -12,7 +12,6 @@ from ..games.game_settings import GameSettings, StartSettings
 from ..games.game_settings import duel as make_duel
 from ..games.outcome import Outcome
 from ..games.recorded_game import run_game
-from ..games.run import Run
 from ..sim.crowd_motion import REACTIONS
 from ..sim.person_settings import PersonSettings
 from ..strategies import DashEvasion
@@ -32,10 +31,6 @@ STANDING = 1.5  # time before a person can trigger evasion, in [s]
 WALL_CLEARANCE = 4.0  # from the person to the walls with cameras, in [m]
 PAST = 2.5  # distance that they walk on behind the robot, in [m]
 LINGERING = 3.0  # time for what people do near the robot, in [s]
-LATE = 1.5  # before contact, during which a change of course is late, in [s]
-CHANGE = 0.5  # least change of velocity relative to the speed
-RESTING = 0.1  # speed below which a person is at rest, in [m/s]
-SAME = 0.05  # by which closest approaches may differ, in [m]
 
 
 @dataclass(frozen=True, slots=True)
@@ -143,32 +138,4 @@ def play_encounter(encounter: Encounter) -> Record:
         "triggered_at_distance_m": summary.triggered_at_distance_m,
         "closest_m": summary.min_distance_m,
         "theory_closest_m": summary.theory and summary.theory.min_distance_m,
-        "cause": cause_of(run),
     }
-
-
-def cause_of(run: Run) -> str | None:
-    """Explain how a game with a person ended; None without contact and fall.
-
-    "fall"; "did not start" if the robot never moved; "walked into" a person at
-    rest; "point too" if the template, which knows the person exactly, is
-    touched as well; "late change" of the person's velocity; else "legs", which
-    fell short of the template.
-    """
-    if run.outcome is Outcome.FALL:
-        return "fall"
-    if run.outcome is not Outcome.CONTACT:
-        return None
-    if run.summary.triggered_at_s is None:
-        return "did not start"
-    moved = np.gradient(run.pursuer.torso[:, :2], run.times, axis=0)
-    recent = run.times >= run.times[-1] - LATE
-    speed = float(np.hypot(*moved[-1]))
-    if speed < RESTING:
-        return "walked into"
-    theory, closest = run.summary.theory, run.summary.min_distance_m or 0.0
-    least = None if theory is None else theory.min_distance_m
-    if least is not None and least <= closest + SAME:
-        return "point too"
-    change = np.hypot(*(moved[recent] - moved[-1]).T).max()
-    return "late change" if change > CHANGE * speed else "legs"
