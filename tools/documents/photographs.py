@@ -49,7 +49,7 @@ def live(browser: Any, settings: GameSettings) -> Iterator[tuple[Page, Any]]:
     served.start()
     try:
         page = opened(browser, f"http://127.0.0.1:{served.server.get_port()}")
-        page.get_by_text("Camera").first.wait_for()
+        page.get_by_text("s simulated").first.wait_for()
         page.locator(".mantine-Notification-closeButton").first.click()
         yield served, page
     finally:
