@@ -86,7 +86,7 @@ def test_properties_of_observations_are_those_of_the_metadata(
     terms = facts["contract"]["terms"]
     scales = [[0.25], [1.0], [1.0], [0.05], [1.0], [2.0, 2.0, 0.25]]
     assert [term["scale"] for term in terms] == scales
-    assert [term["clip"] for term in terms] == [5.0, *5 * ["inf"]]
+    assert [term["clip"] for term in terms] == [5.0, *5 * [None]]
 
 
 def test_a_history_is_that_of_the_metadata(tmp_path: Path) -> None:
