@@ -121,7 +121,7 @@ def test_the_least_sufficient_lean_is_chosen(
 
 def test_a_walk_that_leans_on_purpose_may_tilt_by_that_too() -> None:
     def unsteadiness(tilt: float, lean: float) -> float:
-        nothing = (0.0, 1.0, None, None)
+        nothing = (0.0, 1.0, None)
         return WalkTrialResult(
             *("forward", True, "walked", True, 1.0, tilt), *nothing, lean
         ).unsteadiness

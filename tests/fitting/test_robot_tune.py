@@ -17,7 +17,6 @@ from stepaside.fitting.description_writer import (
 from stepaside.fitting.gait_search import Candidate, search_gait
 from stepaside.fitting.robot_verification import (
     PATHS,
-    JointStrain,
     WalkTrial,
     WalkTrialResult,
 )
@@ -27,8 +26,6 @@ from stepaside.robots.description import (
     RobotDescription,
     load_robot,
 )
-
-CALM = JointStrain(0.1, "knee", 0.4, "hip", 0.0, 0.001)
 
 
 @pytest.fixture(scope="module")
@@ -57,7 +54,6 @@ def walked(
         0.0,
         1.0,
         1.0 if trial.path.bearing else None,
-        CALM,
     )
 
 

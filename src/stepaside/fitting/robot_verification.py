@@ -11,14 +11,11 @@ import mujoco
 import numpy as np
 
 from ..core.errors import StepAsideError
-from ..core.poses import Array
-from ..games.game import GameInPlay, GameObserver, play
+from ..games.game import play
 from ..games.game_settings import walk
 from ..games.outcome import Outcome
-from ..games.physics_world import PhysicsWorld
 from ..games.player_settings import WALKER
 from ..games.recorded_game import RecordedGame
-from ..games.robot_player import RobotPlayer
 from ..games.robot_settings import settings_from_description
 from ..locomotion.control_settings import ControlSettings
 from ..locomotion.zmp.reference_table import initial_stance
@@ -35,69 +32,6 @@ GREATEST_TILT = 8.0  # of the torso in a steady walk, in [deg]
 GREATEST_COM_ERROR = 0.06  # rms in a steady walk, by the CoM height
 GREATEST_DEVIATION = 0.15  # relative, of speed and turning from the plan
 FALLEN = 10.0  # unsteadiness of a walk that ends in a fall
-STANDING_FROM = 0.3  # time at which transients have settled, in [s]
-STANDING_UNTIL = 0.6  # time before which no robot starts walking, in [s]
-
-
-class JointStrain(NamedTuple):
-    """Joint loads of a robot in a walk."""
-
-    standing: float  # greatest fraction of a torque limit while standing
-    standing_joint: str
-    walking: float  # greatest fraction of a torque limit while walking
-    walking_joint: str
-    saturated: float  # fraction of ticks with a joint at its torque limit
-    sag: float  # mean deficit of the CoM height while standing [m]
-
-
-class StrainGauge(GameObserver):
-    """Observer that measures the joint strain of the only player."""
-
-    def __init__(self) -> None:
-        self._loads: list[Array] = []
-        self._sags: list[float] = []
-        self._names: list[str] = []
-        self._limits = np.zeros(0)
-        self._standing = 0  # ticks
-
-    def acted(self, game: GameInPlay) -> None:
-        """Record the actuator forces of this tick."""
-        world = game.world
-        assert isinstance(world, PhysicsWorld)
-        model, data, now = world.model, world.data, world.time
-        if now < STANDING_FROM:
-            return
-        if not self._names:
-            self._names = [
-                model.joint(joint).name.split("/", 1)[1]
-                for joint in model.actuator_trnid[:, 0]
-            ]
-            limits = model.actuator_forcerange[:, 1]
-            self._limits = np.where(limits > 0.0, limits, np.inf)
-        self._loads.append(np.abs(data.actuator_force) / self._limits)
-        if now < STANDING_UNTIL:
-            self._standing += 1
-            (walker,) = world.players
-            assert isinstance(walker, RobotPlayer)
-            height = walker.scheme.walk.reference.com[2]
-            actual = float(walker.truth.position_com_in_world[2])
-            self._sags.append(height - actual)
-
-    def strain(self) -> JointStrain:
-        """Return the strain so far."""
-        if not self._loads:
-            return JointStrain(0.0, "", 0.0, "", 0.0, 0.0)
-        loads = np.array(self._loads)
-        standing = loads[: self._standing].max(axis=0, initial=0.0)
-        walking = loads.max(axis=0)
-        return JointStrain(
-            float(standing.max()),
-            self._names[int(standing.argmax())],
-            float(walking.max()),
-            self._names[int(walking.argmax())],
-            float((loads > 0.999).any(axis=1).mean()),
-            float(np.mean(self._sags)) if self._sags else 0.0,
-        )
 
 
 class TrialPath(NamedTuple):
@@ -141,18 +75,14 @@ class WalkTrialResult(NamedTuple):
     speed: float | None = None  # speed by that of the plan; None likewise
     # turning by that of the plan; None also for a straight path
     turning: float | None = None
-    # joint strain; None if the walk could not begin
-    strain: JointStrain | None = None
     # commanded lean of the torso [deg], which adds to the tilt
     lean: float = 0.0
 
     def to_json(self) -> dict[str, Any]:
         """Return the result as values for JSON."""
-        strain = self.strain
         return self._asdict() | {
             "steady": self.is_steady,
             "unsteadiness": self.unsteadiness,
-            "strain": None if strain is None else strain._asdict(),
         }
 
     @property
@@ -209,9 +139,8 @@ def walk_trial(trial: WalkTrial) -> WalkTrialResult:
         control=trial.control,
     ).resolved()
     feedback = bool(settings.player(WALKER).control.feedback)
-    gauge = StrainGauge()
     try:
-        game = RecordedGame(settings, (gauge,), description=trial.description)
+        game = RecordedGame(settings, description=trial.description)
     except StepAsideError as error:
         return WalkTrialResult(path.name, feedback, str(error))
     play(game)
@@ -230,7 +159,6 @@ def walk_trial(trial: WalkTrial) -> WalkTrialResult:
         max(errors) / gait.com_height if len(errors) == 2 else None,
         walking.speed_ratio,
         walking.yaw_ratio if path.bearing else None,
-        gauge.strain(),
         degrees(trial.description.lean),
     )
 
@@ -239,8 +167,6 @@ GREATEST_FOOT_DIFFERENCE = 0.05  # from mirroring each other, by the CoM height
 GREATEST_COM_OFFSET = 0.05  # lateral, by the CoM height
 LEAST_REACH_MARGIN = 0.01  # of the CoM height, by the greatest in reach
 GREATEST_STEP_LOAD = 0.95  # of a torque limit in a step
-GREATEST_LOAD = 0.9  # of a torque limit in a simulated walk
-GREATEST_SAG = 0.02  # of the CoM while standing, in [m]
 # Unsteadiness up to which the circle is within 5 % of theory.
 ACCURATE = 0.35
 TUNE = "`stepaside robot tune` searches for a"
@@ -302,7 +228,6 @@ def check_robot(
     feedback = bool(description.control.get("feedback", False))
     described = [each for each in walks if each.feedback == feedback]
     others = [each for each in walks if each.feedback != feedback]
-    found += _strains(described)
     found += [_steadiness(described), _steadiness(others, described=False)]
     return VerificationReport(tuple(found), tuple(walks), feedback)
 
@@ -484,32 +409,6 @@ CHECKS: dict[
     "torque": (_strength, "see [overlay.servos]"),
 }
 """Checks without walking, with remedies for what they cannot compute."""
-
-
-def _strains(walks: list[WalkTrialResult]) -> Iterator[RequirementCheck]:
-    """Check torques while standing and walking, and the sag of the CoM."""
-    strains = [walk.strain for walk in walks if walk.strain is not None]
-    if not strains:
-        return
-    standing = max(strains, key=lambda s: s.standing)
-    walking = max(strains, key=lambda s: s.walking)
-    for name, load, joint in (
-        ("standing", standing.standing, standing.standing_joint),
-        ("walking", walking.walking, walking.walking_joint),
-    ):
-        yield _judge(
-            f"torque, {name}",
-            f"{100.0 * load:.0f} % of the limit of {joint}",
-            "warn" if load > GREATEST_LOAD else None,
-            f"see the torque limit of {joint}, or reduce gait.stride and "
-            "gait.speed",
-        )
-    yield _judge(
-        "sag",
-        f"{1e3 * standing.sag:.1f} mm",
-        "warn" if standing.sag > GREATEST_SAG else None,
-        "raise the stiffness of the leg servos",
-    )
 
 
 def _steadiness(
