@@ -13,10 +13,7 @@ from stepaside.arena import (
     RoomRecipe,
     generate_room,
 )
-from stepaside.arena.room_generation import (
-    FARTHEST,
-    NEAREST,
-)
+from stepaside.arena.room import FARTHEST, NEAREST
 from stepaside.arena.shapes import MovingBox
 from stepaside.core.poses import wrap_angle
 

@@ -2,13 +2,13 @@ from .obstacles import NO_OBSTACLES as NO_OBSTACLES
 from .obstacles import Obstacle as Obstacle
 from .obstacles import ObstacleSet as ObstacleSet
 from .obstacles import clearance_between as clearance_between
+from .room import BODY_RADIUS as BODY_RADIUS
 from .room import OPEN_FLOOR as OPEN_FLOOR
 from .room import Door as Door
 from .room import Room as Room
+from .room import RoomRecipe as RoomRecipe
 from .room import load_room as load_room
 from .room import room_to_toml as room_to_toml
-from .room_generation import BODY_RADIUS as BODY_RADIUS
-from .room_generation import RoomRecipe as RoomRecipe
 from .room_generation import check_initial_poses as check_initial_poses
 from .room_generation import draw_any_start as draw_any_start
 from .room_generation import draw_initial_poses as draw_initial_poses

@@ -10,7 +10,7 @@ import tomli_w
 from numpy.typing import ArrayLike, NDArray
 
 from ..core.entries import load_entries, read_entries, to_entries
-from ..core.errors import AnyPath, ConfigurationError, as_path
+from ..core.errors import AnyPath, ConfigurationError, as_path, check_within
 from ..core.poses import Array, Pose
 from ..core.ranges import Range
 from ..core.setting import REQUIRED, CheckedSettings, check_settings, setting
@@ -30,6 +30,7 @@ ERROR = ConfigurationError
 Solids = tuple[Obstacle, ...]
 SIDES = ("east", "north", "west", "south")
 KINDS = ("disc", "box", "polygon")  # of obstacles, in the order of files
+BODY_RADIUS = 0.20  # of a player among obstacles, in [m]
 SMALLEST, LARGEST = 0.5, 100.0  # of a room, in [m]
 MAX_COUNT = 500  # of obstacles, of doors and of moving boxes
 EXTENT = Range(SMALLEST, LARGEST, "m", "from a cupboard to a hall")
@@ -301,3 +302,54 @@ def load_room(file: AnyPath) -> Room:
 def room_to_toml(room: Room) -> str:
     """Return the room as the text of a TOML file."""
     return tomli_w.dumps(room.to_entries())
+
+
+NUMBER = Range(0, MAX_COUNT, "1", "more take too long", whole=True)
+SIDE = Range(SMALLEST, LARGEST, "m", "of a room", also=(None,))
+RADIUS = Range(0.01, LARGEST, "m", "from a post to the largest room")
+NEAREST, FARTHEST = 0.6, 1.5  # initial distance, as in a duel, in [m]
+
+
+@dataclass(frozen=True, slots=True)
+class RoomRecipe:
+    """Size of random rooms and number of obstacles in them."""
+
+    width: float | None = setting(
+        3.0, "Width of the floor, along x; none for no walls", SIDE
+    )
+    depth: float | None = setting(
+        3.0, "Depth of the floor, along y; none for no walls", SIDE
+    )
+    discs: int = setting(0, "Number of discs", NUMBER)
+    boxes: int = setting(0, "Number of boxes", NUMBER)
+    polygons: int = setting(
+        0,
+        "Number of polygons with three to six corners",
+        NUMBER,
+    )
+    doors: int = setting(0, "Number of doors in the walls", NUMBER)
+    smallest: float = setting(0.1, "Minimum radius of an obstacle", RADIUS)
+    largest: float = setting(
+        0.25,
+        "Maximum radius of an obstacle, of its circumcircle for boxes and "
+        "polygons",
+        RADIUS,
+    )
+    door_width: float = setting(
+        0.6,
+        "Width of a door",
+        Range(SMALLEST / 2, LARGEST, "m", "from a body to the largest room"),
+    )
+
+    def __post_init__(self) -> None:
+        check_settings(self)
+        Room(self.width, self.depth)
+        least = self.smallest
+        check_within(self.largest, least, LARGEST, "largest", "m", ERROR)
+        if self.doors and self.width is None:
+            raise ERROR("a room must have walls for its doors")
+
+    @property
+    def floor(self) -> tuple[float, float]:
+        """Sides of the floor that obstacles are drawn on, in [m]."""
+        return self.width or 2 * FARTHEST, self.depth or 2 * FARTHEST

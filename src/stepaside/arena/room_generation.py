@@ -1,29 +1,18 @@
 """Random rooms and initial poses, and the free space between."""
 
-from dataclasses import dataclass
 from itertools import combinations
 from math import ceil, pi, radians, tau
 from typing import Any
 
 import numpy as np
 
-from ..core.errors import ConfigurationError, check_within
+from ..core.errors import ConfigurationError
 from ..core.poses import Array, Pose
 from ..core.random_streams import named_generator
-from ..core.ranges import Range
-from ..core.setting import check_settings, setting
 from .obstacles import Obstacle, clearance_between
-from .room import (
-    LARGEST,
-    MAX_COUNT,
-    SIDES,
-    SMALLEST,
-    Door,
-    Room,
-)
+from .room import BODY_RADIUS, FARTHEST, NEAREST, SIDES, Door, Room, RoomRecipe
 from .shapes import Box, Disc, Polygon
 
-BODY_RADIUS = 0.20  # of a player among obstacles, in [m]
 PLAYERS = ("pursuer", "evader")
 CELL = 0.02  # of the grid for paths and areas, in [m]
 MOST_CELLS = 4_000_000
@@ -118,60 +107,10 @@ def measure_room(room: Room) -> dict[str, Any]:
     }
 
 
-ERROR = ConfigurationError
 MAX_DRAWS = 2000  # of one obstacle, before a room counts as full
 # Clearance of a body at its initial pose, in [m]: the radius of the tightest
 # turn by (2).
 TURN_CLEARANCE = 0.16
-COUNT = Range(0, MAX_COUNT, "1", "more take too long", whole=True)
-SIDE = Range(SMALLEST, LARGEST, "m", "of a room", also=(None,))
-RADIUS = Range(0.01, LARGEST, "m", "from a post to the largest room")
-NEAREST, FARTHEST = 0.6, 1.5  # initial distance, as in a duel, in [m]
-
-
-@dataclass(frozen=True, slots=True)
-class RoomRecipe:
-    """Size of random rooms and number of obstacles in them."""
-
-    width: float | None = setting(
-        3.0, "Width of the floor, along x; none for no walls", SIDE
-    )
-    depth: float | None = setting(
-        3.0, "Depth of the floor, along y; none for no walls", SIDE
-    )
-    discs: int = setting(0, "Number of discs", COUNT)
-    boxes: int = setting(0, "Number of boxes", COUNT)
-    polygons: int = setting(
-        0,
-        "Number of polygons with three to six corners",
-        COUNT,
-    )
-    doors: int = setting(0, "Number of doors in the walls", COUNT)
-    smallest: float = setting(0.1, "Minimum radius of an obstacle", RADIUS)
-    largest: float = setting(
-        0.25,
-        "Maximum radius of an obstacle, of its circumcircle for boxes and "
-        "polygons",
-        RADIUS,
-    )
-    door_width: float = setting(
-        0.6,
-        "Width of a door",
-        Range(SMALLEST / 2, LARGEST, "m", "from a body to the largest room"),
-    )
-
-    def __post_init__(self) -> None:
-        check_settings(self)
-        Room(self.width, self.depth)
-        least = self.smallest
-        check_within(self.largest, least, LARGEST, "largest", "m", ERROR)
-        if self.doors and self.width is None:
-            raise ERROR("a room must have walls for its doors")
-
-    @property
-    def floor(self) -> tuple[float, float]:
-        """Sides of the floor that obstacles are drawn on, in [m]."""
-        return self.width or 2 * FARTHEST, self.depth or 2 * FARTHEST
 
 
 def generate_room(recipe: RoomRecipe, seed: int) -> Room:

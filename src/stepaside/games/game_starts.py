@@ -7,7 +7,7 @@ from math import atan2, cos, dist, hypot, pi, radians, sin
 
 import numpy as np
 
-from ..arena import check_initial_poses, draw_initial_poses
+from .. import arena
 from ..core.errors import ConfigurationError
 from ..core.poses import Pose, wrap_angle
 from ..core.random_streams import named_generator
@@ -86,8 +86,8 @@ def _with_start_of_duel(settings: GameSettings) -> GameSettings:
             Pose(start.distance, 0.0, pi + start.evader_offset),
         )
     else:
-        poses = plan.starts or draw_initial_poses(plan, settings.seed)
-        check_initial_poses(plan, poses)
+        poses = plan.starts or arena.draw_initial_poses(plan, settings.seed)
+        arena.check_initial_poses(plan, poses)
         settings = replace(settings, room=replace(plan, starts=poses))
         start = _start_in_room(settings.start, poses)
     own = settings.pursuer

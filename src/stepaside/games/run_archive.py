@@ -5,9 +5,10 @@ import re
 from collections.abc import Collection
 from dataclasses import asdict, dataclass
 from hashlib import sha256
+from importlib import import_module
 from pathlib import Path
 from shutil import copy, copytree
-from typing import Any
+from typing import TYPE_CHECKING, Any
 from zipfile import BadZipFile
 from zlib import error as DeflateError
 
@@ -19,10 +20,8 @@ from ..core.entries import load_entries, read_entries
 from ..core.errors import AnyPath, ConfigurationError, as_path
 from ..core.poses import Array
 from ..robots.description import known_robots
-from .experiment import ExperimentSettings
-from .game_settings import GameSettings
+from .game_settings import GAME_KINDS
 from .outcome import Outcome
-from .play_settings import PlaySettings
 from .player_settings import MOST_PLAYERS, PLAYER_NAME
 from .run import Run
 from .settings_reader import (
@@ -39,6 +38,9 @@ from .trajectory import (
     read_bytes,
     tracks_in,
 )
+
+if TYPE_CHECKING:
+    from .play_settings import PlaySettings
 
 FORMAT = 5  # of a run folder
 CONFIGURATION = "configuration.toml"
@@ -57,14 +59,12 @@ READ_ERRORS = (  # raised for damaged files
     RuntimeError,
     MemoryError,
 )
-KINDS: dict[str, type[Any]] = {
-    "duel": GameSettings,
-    "game": GameSettings,
-    "walk": GameSettings,
-    "play": PlaySettings,
-    "experiment": ExperimentSettings,
+KINDS = {
+    **dict.fromkeys(GAME_KINDS, "game_settings:GameSettings"),
+    "play": "play_settings:PlaySettings",
+    "experiment": "experiment:ExperimentSettings",
 }
-"""Settings, by kind of game."""
+"""Module and class of the settings, by kind of game."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -130,7 +130,7 @@ def _keep_robots(entries: Any, folder: Path) -> None:
 
 
 def complete_play(
-    folder: Path, settings: PlaySettings, outcome: Outcome, message: str
+    folder: Path, settings: "PlaySettings", outcome: Outcome, message: str
 ) -> Run:
     """Complete the run folder of a player that has ended.
 
@@ -164,7 +164,7 @@ def load_run(folder: AnyPath, game: str | None = None) -> Run:
         if not (folder / SUMMARY).exists() and has_play_rows(folder):
             entries = load_entries(folder / CONFIGURATION)
             source = str(folder / CONFIGURATION)
-            settings = read_entries(PlaySettings, entries, source)
+            settings = _read_settings("play", entries, source)
             run = run_of_play(folder, settings)
         else:
             run = _load_complete_run(folder)
@@ -180,6 +180,12 @@ def load_run(folder: AnyPath, game: str | None = None) -> Run:
             f"run {folder} must be one of a {game}, got one of a {run.game}"
         )
     return run
+
+
+def _read_settings(game: str, entries: dict[str, Any], source: str) -> Any:
+    module, _, name = KINDS[game].partition(":")
+    kind = getattr(import_module(f".{module}", __package__), name)
+    return read_entries(kind, entries, source)
 
 
 def _load_complete_run(folder: Path) -> Run:
@@ -202,7 +208,7 @@ def _load_complete_run(folder: Path) -> Run:
     arrays = read_arrays(folder / TRAJECTORIES)
     entries = load_settings(folder / CONFIGURATION)
     source = str(folder / CONFIGURATION)
-    settings = read_entries(KINDS[plain["game"]], entries, source)
+    settings = _read_settings(plain["game"], entries, source)
     if settings.game != plain["game"]:
         raise ConfigurationError(
             f"game of run {folder} must be {settings.game}, as in "

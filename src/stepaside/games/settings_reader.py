@@ -10,7 +10,8 @@ from typing import Any
 
 import tomli_w
 
-from ..arena import Room, RoomRecipe, generate_room, load_room
+from .. import arena
+from ..arena import Room, RoomRecipe, load_room
 from ..core.entries import load_entries, read_entries, to_entries
 from ..core.errors import AnyPath, ConfigurationError, as_path, shown
 from ..core.ranges import Range
@@ -269,7 +270,9 @@ def _make_room(entries: dict[str, Any]) -> None:
         )
     made: Room | None = None
     if type(plan) is int:
-        made = generate_room(read_entries(RoomRecipe, recipe or {}), plan)
+        made = arena.generate_room(
+            read_entries(RoomRecipe, recipe or {}), plan
+        )
     elif isinstance(plan, str) and plan != NONE:
         made = load_room(plan)
     if made is not None:
