@@ -21,8 +21,8 @@ from stepaside.arena import (
 )
 from stepaside.control.scheme import ControlScheme
 from stepaside.core.poses import Array, Pose
-from stepaside.locomotion.guard import Guard, GuardDecision, KnownRoom
-from stepaside.locomotion.locomotion import Phase
+from stepaside.locomotion.guard import Guard, KnownRoom
+from stepaside.locomotion.locomotion import GuardDecision, Phase
 from stepaside.locomotion.swept_outline import BodyOutline
 from stepaside.perception.measurement import RobotState, Sighting
 from stepaside.planning import (

@@ -10,9 +10,9 @@ from stepaside.core.poses import Pose
 from stepaside.locomotion.guard import (
     GAINED,
     Guard,
-    GuardDecision,
     ManeuverClearance,
 )
+from stepaside.locomotion.locomotion import GuardDecision
 from stepaside.planning import (
     Direction,
     Foot,

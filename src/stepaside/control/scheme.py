@@ -1,23 +1,20 @@
 """The control scheme of one robot (paper, Fig. 4), and how it is built."""
 
 from math import pi
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING
 
 from ..core.poses import Array, Pose
 from ..locomotion.control_settings import ControlSettings
-from ..locomotion.guard import FootstepAdjustment, Guard, Surroundings
 from ..locomotion.locomotion import (
     MotionRequest,
     Phase,
     StepStarted,
 )
 from ..locomotion.maneuver_walk import ManeuverWalk, velocity_limits
-from ..locomotion.swept_outline import BodyOutline, lateral_sway
-from ..locomotion.zmp.stabiliser import build_balance
+from ..locomotion.zmp.open_loop import LoadFeedforward, OpenLoop
 from ..perception.measurement import RobotState, Sighting
-from ..planning import Direction, Foot, GaitSettings, ManeuverPlanner
+from ..planning import Direction, Foot, GaitSettings
 from ..robots.description import RobotDescription
-from ..robots.forward_kinematics import ForwardKinematics
 from ..robots.leg_kinematics import LegKinematics
 from ..strategies import Walk
 from ..strategies.knowledge import STAND, Intent
@@ -27,7 +24,9 @@ from .sight_sources import CameraSight, MeasuredSight, SightSource
 from .strategy_runner import StrategyRunner
 
 if TYPE_CHECKING:
+    from ..locomotion.guard import ClearanceSetup
     from ..locomotion.policy.policy_legs import PolicyWalk
+    from ..robots.forward_kinematics import ForwardKinematics
 
 
 class ControlScheme:
@@ -144,14 +143,6 @@ class ControlScheme:
         return targets
 
 
-class ClearanceSetup(NamedTuple):
-    """Known obstacles, body outline and required clearance of one robot."""
-
-    surroundings: Surroundings  # known obstacles
-    outline: BodyOutline
-    margin: float  # required clearance [m]
-
-
 def build_scheme(
     strategy: Strategy,
     description: RobotDescription,
@@ -161,7 +152,7 @@ def build_scheme(
     tick: float,
     delay: float = 0.0,
     senses: SightSource | None = None,
-    clearance: ClearanceSetup | None = None,
+    clearance: "ClearanceSetup | None" = None,
 ) -> ControlScheme:
     """Build the control scheme of one robot that walks by maneuvers.
 
@@ -205,51 +196,32 @@ def build_walk(
     *,
     tick: float,
     delay: float = 0.0,
-    clearance: ClearanceSetup | None = None,
-    forward: ForwardKinematics | None = None,
+    clearance: "ClearanceSetup | None" = None,
+    forward: "ForwardKinematics | None" = None,
 ) -> ManeuverWalk:
     """Build the walk by maneuvers of one robot; see :func:`build_scheme`.
 
     ``forward`` are the kinematics of the measured body; built if not given.
     """
     legs = LegKinematics(description, tick=tick)
-    balance = build_balance(
-        *(description, gait, control),
-        tick=tick,
-        delay=delay,
-        kinematics=legs,
-        forward=forward,
-    )
-    guard = None
-    if clearance is not None:
-        guard = build_guard(clearance, gait, control)
+    loads = None
+    if not control.feedback or control.stabiliser.load_share > 0.0:
+        loads = LoadFeedforward(legs, zmp_forward=gait.zmp_forward, tick=tick)
+    balance = OpenLoop(legs, loads)
+    if control.feedback:
+        from ..locomotion.zmp.stabiliser import build_stabiliser
+
+        balance = build_stabiliser(
+            *(description, gait, control, legs, loads),
+            tick=tick,
+            delay=delay,
+            forward=forward,
+        )
+    guard = None if clearance is None else clearance.guard(gait, control)
     return ManeuverWalk(
         gait, legs, balance, tick=tick, delay=delay, guard=guard
     )
 
-
-def build_guard(
-    clearance: ClearanceSetup, gait: GaitSettings, control: ControlSettings
-) -> Guard:
-    """Build the guard; with the MPC it also adjusts footsteps."""
-    planner = ManeuverPlanner(gait)
-    footholds = None
-    if control.method == "mpc":
-        radius = (
-            clearance.outline.radius + clearance.margin + lateral_sway(gait)
-        )
-        footholds = FootstepAdjustment(planner, control.stabiliser, radius)
-    return Guard(
-        clearance.surroundings,
-        clearance.outline,
-        planner,
-        margin=clearance.margin,
-        footholds=footholds,
-    )
-
-
-if TYPE_CHECKING:
-    from ..locomotion.policy.policy_legs import PolicyWalk
 
 SLOW = 1e-3  # speed [m/s] or turning rate [rad/s] that counts as zero
 IN_PLACE = 1e-3  # speed factor of a turn on the spot

@@ -5,7 +5,7 @@ from math import atan2, cos, hypot, pi, sin
 
 from ..core.history import History
 from ..core.poses import ALL_AROUND, Pose, Sector
-from ..locomotion.guard import Surroundings
+from ..locomotion.locomotion import Surroundings
 from ..perception.measurement import Sighting
 from ..planning import Foot, GaitSettings
 from ..planning.template_path import pose_beside_foot

@@ -36,7 +36,6 @@ from .player import FloorPlayer, MarkerBody, Player
 from .player_settings import PlayerSettings
 from .robot_placing import (
     RobotSetup,
-    clearance_in,
     policy_physics,
     robot_at_velocities,
     robot_with_strategy,
@@ -251,11 +250,7 @@ class PhysicsWorld(World):
         settings = self._settings
         setup = self._setups[own.name]._replace(truth=self._states[own.name])
         if own.name not in self._remote:
-            seen = {} if self._senses is None else self._senses.perceptions
-            known = clearance_in(
-                settings.room, settings.map, setup, seen.get(own.name)
-            )
-            setup = self._with_senses(own, setup._replace(clearance=known))
+            setup = self._with_senses(own, self._with_room(setup))
             strategy = self._strategies[own.name]
             return robot_with_strategy(self, setup, strategy)
         if own.senses == "lidar":
@@ -266,9 +261,23 @@ class PhysicsWorld(World):
         if own.senses == "cameras" or self._remote[own.name]:
             setup = self._with_senses(own, setup)
         if settings.map.source == "given":  # it builds no map of its own
-            known = clearance_in(settings.room, settings.map, setup)
-            setup = setup._replace(clearance=known)
+            setup = self._with_room(setup)
         return robot_at_velocities(self, setup)
+
+    def _with_room(self, setup: RobotSetup) -> RobotSetup:
+        """Return the setup of a robot with its knowledge of the room."""
+        room, known = self._settings.room, self._settings.map
+        if room is None or known.source == "none":
+            return setup
+        from ..sim.outline_measurement import clearance_in
+
+        seen = self._senses.perceptions if self._senses else {}
+        eyes = seen.get(setup.name)
+        clearance = clearance_in(
+            *(room, known, setup.start, setup.description, setup.gait),
+            None if eyes is None else eyes.floor,
+        )
+        return setup._replace(clearance=clearance)
 
     def _with_senses(
         self, own: PlayerSettings, setup: RobotSetup

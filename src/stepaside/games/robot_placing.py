@@ -4,9 +4,7 @@ from collections.abc import Iterable
 from dataclasses import is_dataclass, replace
 from typing import TYPE_CHECKING, NamedTuple
 
-from ..arena import Room
 from ..control.scheme import (
-    ClearanceSetup,
     ControlScheme,
     VelocityScheme,
     build_scheme,
@@ -19,21 +17,13 @@ from ..core.random_streams import named_generator
 from ..locomotion.control_settings import (
     ControlSettings,
     LegsSettings,
-    MapSettings,
-)
-from ..locomotion.guard import (
-    KnownRoom,
-    MappedRoom,
-    Surroundings,
 )
 from ..locomotion.maneuver_walk import ManeuverWalk
-from ..locomotion.swept_outline import lateral_sway
 from ..planning import GaitSettings
 from ..robots.description import RobotDescription
 from ..robots.leg_kinematics import LegKinematics
 from ..sim.body_settings import BodySettings
 from ..sim.ground_truth import IdealLineOfSight, TrueRobotState
-from ..sim.outline_measurement import measure_outline
 from ..sim.physics_settings import PhysicsSettings
 from ..sim.simulated_robot import SimulatedRobot
 from ..sim.world import World
@@ -41,12 +31,12 @@ from ..strategies import Strategy
 from .robot_player import RobotPlayer, VelocityWalker
 
 if TYPE_CHECKING:
+    from ..locomotion.guard import ClearanceSetup
     from ..locomotion.policy.policy_legs import (
         InitialPosture,
         PolicyLegs,
         PolicyWalk,
     )
-    from ..perception.pipeline import Perception
     from ..sim.ranging import Lidar
     from ..sim.sensor_suite import SensorSuite
 
@@ -67,7 +57,7 @@ class RobotSetup(NamedTuple):
     sights: tuple[IdealLineOfSight, ...] = ()  # of each other player
     eyes: "SensorSuite | Lidar | None" = None
     # Knowledge of the room; who knows the room also knows its pose in it.
-    clearance: ClearanceSetup | None = None
+    clearance: "ClearanceSetup | None" = None
 
     def true_state_in(self, world: World) -> TrueRobotState:
         """Return the true state of the robot in a world that contains it."""
@@ -94,7 +84,7 @@ class RobotSetup(NamedTuple):
             own, posture = standing.contract, standing.standing
             pairs = zip(own.stiffness, own.damping, strict=True)
             gains = dict(zip(own.joints, pairs, strict=True))
-        around = self.clearance and self.clearance.surroundings
+        known = self.clearance
         return SimulatedRobot(
             world,
             self.name,
@@ -107,7 +97,7 @@ class RobotSetup(NamedTuple):
             sights=self.sights,
             eyes=self.eyes,
             truth=self.truth or self.true_state_in(world),
-            knows_pose=isinstance(around, KnownRoom),
+            knows_pose=known is not None and known.surroundings.needs_pose,
             gains=gains,
         )
 
@@ -115,16 +105,11 @@ class RobotSetup(NamedTuple):
         self, world: World
     ) -> tuple[SimulatedRobot, "PolicyWalk"]:
         """Place it on learned legs, with a guard against obstacles."""
-        from ..locomotion.guard import VelocityGuard
         from ..locomotion.policy.policy_legs import PolicyWalk, load_legs
 
         legs = load_legs(self.legs, self.description, tick=world.physics.tick)
-        guard, known = None, self.clearance
-        if known is not None:
-            distance = known.outline.radius + known.margin
-            guard = VelocityGuard(
-                known.surroundings, legs.velocities, distance
-            )
+        known = self.clearance
+        guard = known and known.velocity_guard(legs.velocities)
         return self.place(world, legs), PolicyWalk(legs, self.gait, guard)
 
 
@@ -179,25 +164,6 @@ def robot_at_velocities(world: World, setup: RobotSetup) -> VelocityWalker:
     return VelocityWalker(robot, scheme, setup.start, setup.description)
 
 
-def clearance_in(
-    room: Room | None,
-    known: MapSettings,
-    setup: RobotSetup,
-    perception: "Perception | None" = None,
-) -> ClearanceSetup | None:
-    """Return the knowledge that a robot has of the room, given or mapped."""
-    if room is None or known.source == "none":
-        return None
-    surroundings: Surroundings = KnownRoom(room, setup.start)
-    if known.source == "seen":
-        assert perception is not None and perception.floor is not None
-        surroundings = MappedRoom(
-            perception.floor, unknown_is_free=known.unseen == "free"
-        )
-    outline = measure_outline(setup.description, setup.gait)
-    return ClearanceSetup(surroundings, outline, known.margin)
-
-
 def with_body_radius(strategy: Strategy, setup: RobotSetup) -> Strategy:
     """Return a strategy whose body radius is at least that of the robot.
 
@@ -206,7 +172,7 @@ def with_body_radius(strategy: Strategy, setup: RobotSetup) -> Strategy:
     known = setup.clearance
     if known is None or not is_dataclass(strategy):
         return strategy
-    radius = known.outline.radius + known.margin + lateral_sway(setup.gait)
+    radius = known.radius(setup.gait)
     if getattr(strategy, "body_radius", radius) >= radius:
         return strategy
     enlarged: Strategy = replace(strategy, body_radius=radius)

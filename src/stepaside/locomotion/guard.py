@@ -19,32 +19,21 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ..arena import NO_OBSTACLES, ObstacleSet, Room
+from ..arena import ObstacleSet, Room
 from ..core.poses import Array, Pose, arc, rotate
 from ..perception.floor_map import CELL, FloorMap
 from ..perception.measurement import RobotState
-from ..planning import ManeuverPlan, ManeuverPlanner
+from ..planning import GaitSettings, ManeuverPlan, ManeuverPlanner
 from ..planning.maneuver import landing_state
 from ..strategies.knowledge import Intent
 from ..strategies.velocity_set import STILL, BodyVelocity, VelocitySet
-from .control_settings import StabiliserSettings
-from .swept_outline import BodyOutline
+from .control_settings import ControlSettings, StabiliserSettings
+from .locomotion import GuardDecision, Surroundings
+from .swept_outline import BodyOutline, lateral_sway
 from .zmp.mpc import load_solver
 
-HERE = Pose(0.0, 0.0, 0.0)
 AHEAD = 2.0  # horizon for moving obstacles: two steps, in [s]
 REFRESH_PERIOD = 0.25  # of obstacles that may change, in [s]
-
-
-class Surroundings:
-    """Obstacles known to a robot: none, on an open floor."""
-
-    solids = NO_OBSTACLES
-    pose_odometry_in_map = HERE
-    map_error = 0.0
-
-    def note(self, measurement: RobotState, pose: Pose) -> None:
-        """Update from a measurement; the pose of the CoM is in odometry."""
 
 
 class KnownRoom(Surroundings):
@@ -53,6 +42,8 @@ class KnownRoom(Surroundings):
     Odometry that only counts steps drifts: the measured pose aligns it. Pushed
     boxes cover the floor until a halt begun with the next step has ended.
     """
+
+    needs_pose = True
 
     def __init__(self, room: Room, start: Pose) -> None:
         self._room, self._next = room, 0.0
@@ -107,13 +98,6 @@ SHARES = (1.0, 0.6, 0.3, 0.0)  # of the desired speed
 SLOWING = 1.5  # cost of giving up all speed, as a deviation in [rad]
 SAMPLES = 9  # of an arc until the next decision; chords are off by < 1 mm
 GAIN = 0.005  # by which a robot too near must gain clearance, in [m]
-
-
-class GuardDecision(NamedTuple):
-    """Intent that the guard accepts in place of the requested one."""
-
-    intent: Intent  # heading and speed
-    back: bool = False  # whether the driving direction is reversed
 
 
 PlanFor = Callable[[GuardDecision], ManeuverPlan]
@@ -504,3 +488,34 @@ def _sides(plan: ManeuverPlan) -> Array:
     sides: Array = np.ones(len(plan.placements) - 2)
     sides[1::2] = -1.0
     return plan.first_foot.value * sides
+
+
+class ClearanceSetup(NamedTuple):
+    """Known obstacles, body outline and required clearance of one robot."""
+
+    surroundings: Surroundings  # known obstacles
+    outline: BodyOutline
+    margin: float  # required clearance [m]
+
+    def radius(self, gait: GaitSettings) -> float:
+        """Return the least distance of a walking CoM from obstacles [m]."""
+        return self.outline.radius + self.margin + lateral_sway(gait)
+
+    def guard(self, gait: GaitSettings, control: ControlSettings) -> Guard:
+        """Build the guard; with the MPC it also adjusts footsteps."""
+        planner = ManeuverPlanner(gait)
+        footholds = None
+        if control.method == "mpc":
+            footholds = FootstepAdjustment(
+                planner, control.stabiliser, self.radius(gait)
+            )
+        return Guard(
+            *(self.surroundings, self.outline, planner),
+            margin=self.margin,
+            footholds=footholds,
+        )
+
+    def velocity_guard(self, velocities: VelocitySet) -> VelocityGuard:
+        """Build the guard of learned legs."""
+        distance = self.outline.radius + self.margin
+        return VelocityGuard(self.surroundings, velocities, distance)

@@ -3,7 +3,9 @@
 from enum import Enum
 from typing import NamedTuple, Protocol
 
+from ..arena import NO_OBSTACLES
 from ..core.poses import Pose
+from ..perception.measurement import RobotState
 from ..planning import Direction, Foot, GaitSettings, ManeuverPlan
 from ..strategies.knowledge import Intent
 from ..strategies.velocity_set import STILL, BodyVelocity
@@ -57,6 +59,25 @@ def template_velocity(
     return BodyVelocity(
         speed * intent.pace, 0.0, law(intent.heading, gait.gain) * intent.pace
     )
+
+
+class GuardDecision(NamedTuple):
+    """Intent that a guard accepts in place of the requested one."""
+
+    intent: Intent  # heading and speed
+    back: bool = False  # whether the driving direction is reversed
+
+
+class Surroundings:
+    """Obstacles known to a robot: none, on an open floor."""
+
+    solids = NO_OBSTACLES
+    pose_odometry_in_map = Pose(0.0, 0.0, 0.0)
+    map_error = 0.0
+    needs_pose = False  # measured in the room, to align odometry
+
+    def note(self, measurement: RobotState, pose: Pose) -> None:
+        """Update from a measurement; the pose of the CoM is in odometry."""
 
 
 class IntentSource(Protocol):

@@ -3,6 +3,7 @@
 from collections.abc import Iterator
 from math import pi
 from time import process_time
+from typing import TYPE_CHECKING
 
 from ..core.poses import Array, Pose
 from ..perception.measurement import RobotState
@@ -18,8 +19,13 @@ from ..planning import (
 from ..planning.maneuver import landing_state
 from ..robots.leg_kinematics import BodyReference, LegKinematics
 from ..strategies.velocity_set import VelocitySet
-from .guard import Guard, GuardDecision
-from .locomotion import IntentSource, MotionRequest, Phase, StepStarted
+from .locomotion import (
+    GuardDecision,
+    IntentSource,
+    MotionRequest,
+    Phase,
+    StepStarted,
+)
 from .zmp.current_step import (
     CurrentStep,
     first_step_of,
@@ -27,6 +33,9 @@ from .zmp.current_step import (
 )
 from .zmp.open_loop import OpenLoop
 from .zmp.reference_table import ReferenceTable, resting_sample
+
+if TYPE_CHECKING:
+    from .guard import Guard
 
 SETTLING = 1.0  # how long a halted robot takes to come to rest, in [s]
 RETRY_PERIOD = 0.2  # between attempts of a blocked robot, in [s]
@@ -48,7 +57,7 @@ class ManeuverWalk:
         tick: float,
         delay: float = 0.0,
         first_foot: Foot = Foot.LEFT,
-        guard: Guard | None = None,
+        guard: "Guard | None" = None,
     ) -> None:
         self.gait = gait
         self.kinematics = kinematics

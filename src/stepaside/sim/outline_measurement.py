@@ -1,15 +1,28 @@
-"""Outline of a robot on the floor, measured on its model."""
+"""Outline of a robot, and what it knows of the room around it."""
+
+from typing import TYPE_CHECKING
 
 import mujoco
 import numpy as np
 from numpy.typing import NDArray
 
-from ..core.poses import Array
+from ..arena import Room
+from ..core.poses import Array, Pose
+from ..locomotion.control_settings import MapSettings
+from ..locomotion.guard import (
+    ClearanceSetup,
+    KnownRoom,
+    MappedRoom,
+)
+from ..locomotion.locomotion import Surroundings
 from ..locomotion.swept_outline import BodyOutline
 from ..locomotion.zmp.reference_table import initial_stance
 from ..planning import GaitSettings
 from ..robots.description import RobotDescription
 from ..robots.leg_kinematics import LegKinematics
+
+if TYPE_CHECKING:
+    from ..perception.floor_map import FloorMap
 
 SIDES = 32  # of the polygon around the trunk
 
@@ -99,3 +112,22 @@ def _reach(
     shift = data.geom_xpos[geom]
     found: Array = along @ shift + turned @ offset + reach
     return found
+
+
+def clearance_in(
+    room: Room,
+    known: MapSettings,
+    start: Pose,
+    description: RobotDescription,
+    gait: GaitSettings,
+    floor: "FloorMap | None" = None,
+) -> ClearanceSetup:
+    """Return what a robot knows of a room, given or mapped on its floor."""
+    surroundings: Surroundings = KnownRoom(room, start)
+    if known.source == "seen":
+        assert floor is not None
+        surroundings = MappedRoom(
+            floor, unknown_is_free=known.unseen == "free"
+        )
+    outline = measure_outline(description, gait)
+    return ClearanceSetup(surroundings, outline, known.margin)

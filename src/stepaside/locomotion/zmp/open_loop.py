@@ -1,6 +1,7 @@
 """Joint targets of a plan in open loop, with load feedforward."""
 
 from collections.abc import Callable
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -11,9 +12,11 @@ from ...planning import CenterState, ManeuverPlan
 from ...robots.joint_loads import LegLoads
 from ...robots.leg_kinematics import BodyReference, LegKinematics
 from .current_step import CurrentStep
-from .mpc import MpcResult
 from .reference_table import ReferenceTable
-from .state_estimator import BodyState
+
+if TYPE_CHECKING:
+    from .mpc import MpcResult
+    from .state_estimator import BodyState
 
 STANDING_TICKS = 64  # computed at once
 BOUND = 0.03  # of the feedforward, in [rad]: a lost leg reference jumps
@@ -29,8 +32,8 @@ class OpenLoop:
     """
 
     feels = False  # joint angles, IMU or forces on the soles
-    state: BodyState | None = None  # last estimate
-    solved: MpcResult | None = None  # at this tick
+    state: "BodyState | None" = None  # last estimate
+    solved: "MpcResult | None" = None  # at this tick
     adapted = 0  # footsteps moved so far
     commanded: BodyReference | None = None  # if feedback changes it
     ready = True  # to begin to walk

@@ -442,27 +442,18 @@ class StrideLearning:
         return moved_swing(body, step.swing, x, y, theta)
 
 
-def build_balance(
+def build_stabiliser(
     description: RobotDescription,
     gait: GaitSettings,
     control: ControlSettings,
+    kinematics: LegKinematics,
+    loads: LoadFeedforward | None,
     *,
     tick: float,
     delay: float,
-    kinematics: LegKinematics,
     forward: ForwardKinematics | None = None,
-) -> OpenLoop:
-    """Build the balance control that the settings select.
-
-    ``forward`` are the kinematics of the measured body.
-    """
-    loads = None
-    if not control.feedback or control.stabiliser.load_share > 0.0:
-        loads = LoadFeedforward(
-            kinematics, zmp_forward=gait.zmp_forward, tick=tick
-        )
-    if not control.feedback:
-        return OpenLoop(kinematics, loads)
+) -> Stabiliser:
+    """Build the feedback; ``forward`` are kinematics of the measured body."""
     forward = forward or ForwardKinematics(description)
     estimator = StateEstimator(
         forward, forward.force_sensors(), gait.eta, tick
