@@ -78,7 +78,7 @@ def test_people_touch_a_standing_robot_if_their_path_leads_through_it() -> (
         "people",
         *calls.changes(person="straight", drawn="true", seed="0:5"),
         *calls.changes(speed=1.0, bearing=0),
-        *calls.changes(duel__evader__strategy="stand", duel__senses="lidar"),
+        *calls.changes(evader__strategy="stand", senses="lidar"),
         *("--by", "offset"),
     )
     through = [row for row in rows if abs(row["offset"]) < 0.15]

@@ -4,17 +4,14 @@ from dataclasses import replace
 from math import pi, sin
 from typing import Any
 
-import numpy as np
 import pytest
 
 from stepaside.arena import RoomRecipe
 from stepaside.games.outcome import Outcome
-from stepaside.games.run import Run
 from stepaside.strategies import StepGame
 from stepaside.strategies import table_cache as tables
 from stepaside.studies import tournament as studied
 from stepaside.studies.tournament import (
-    ASIDE,
     PairingSettings,
     circle_distance,
     play_pairing,
@@ -74,38 +71,3 @@ def test_sharp_and_herding_capture_a_survivor_of_the_papers_pursuer() -> None:
     }
     assert survived["pursuit"] == 4
     assert survived["sharp"] == 0 and survived["herding"] <= 1
-
-
-def test_humanoids_play_by_the_same_words() -> None:
-    """A second of a duel: the figures are those that steps have as well."""
-    in_steps = replace(SETTINGS, evader=ASIDE)
-    game = StepGame(duration=1.0)
-    settings = replace(in_steps, level="physics", game=game)
-    found, steps = play_pairing(settings), play_pairing(in_steps)
-    assert set(steps) - set(found) == {"clearance_m"}
-    assert found["outcome"] == "completed" and found["touched"] == []
-    assert found["survived_s"] == pytest.approx(1.0)
-    assert found["bound_m"] == pytest.approx(steps["bound_m"], abs=0.02)
-    pursuer, evader = settings.arena()[1]
-    apart = np.hypot(pursuer.x - evader.x, pursuer.y - evader.y)
-    assert found["closest_m"] == pytest.approx(apart, abs=0.05)
-    for player in ("pursuer", "evader"):
-        assert 0.1 < found[f"{player}_clearance_m"] < 1.5
-
-
-def test_a_duel_that_is_stopped_is_no_game(
-    monkeypatch: pytest.MonkeyPatch,
-) -> None:
-    """Games in this process, without workers, are interrupted."""
-    ended: Run = Run("", None, Outcome.INTERRUPTED, "", 0.0, np.zeros(0), {})
-    played: list[int] = []
-
-    def cut_short(settings: Any) -> Any:
-        played.append(settings.seed)
-        return ended
-
-    monkeypatch.setattr(studied, "run_game", cut_short)
-    settings = replace(SETTINGS, level="physics", game=StepGame(duration=1.0))
-    with pytest.raises(KeyboardInterrupt):
-        play_pairing(settings)
-    assert played == [3]

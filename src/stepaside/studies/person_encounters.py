@@ -1,15 +1,14 @@
 """Encounters with approaching people."""
 
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, replace
 from math import atan2, cos, radians, sin
 
 import numpy as np
 
-from ..core.errors import check_choice
 from ..core.poses import wrap_angle
 from ..core.random_streams import named_generator
+from ..core.setting import CheckedSettings, setting
 from ..games.game_settings import GameSettings, StartSettings
-from ..games.game_settings import duel as make_duel
 from ..games.outcome import Outcome
 from ..games.recorded_game import run_game
 from ..sim.crowd_motion import REACTIONS
@@ -34,31 +33,23 @@ LINGERING = 3.0  # time for what people do near the robot, in [s]
 
 
 @dataclass(frozen=True, slots=True)
-class Encounter:
-    """Encounter with one approaching person."""
+class Encounter(CheckedSettings):
+    """Encounter with one approaching person, the pursuer of a duel."""
 
+    game: GameSettings
     speed: float = 1.0  # speed of the person [m/s]
     bearing: float = 0.0  # at first in the frame of the robot [deg]
     offset: float = 0.0  # of the path, to the robot's left [m]
-    reaction: str = "straight"  # near the robot, of ``LADDER``
+    reaction: str = setting("straight", "Reaction to the robot", names=LADDER)
     change_at: float = 1.2  # where it halts or turns to it [m]
-    drawn: bool = False  # all but the reaction, by the seed
-    seed: int = 1  # seed of the game
-    # all other settings of the game
-    duel: GameSettings = field(
-        default_factory=lambda: make_duel(pursuer={"body": "person"})
-    )
-
-    def __post_init__(self) -> None:
-        """Validate the settings."""
-        check_choice(self.reaction, LADDER, "reaction")
+    drawn: bool = False  # all but the reaction, by the seed of the game
 
     @property
     def person(self) -> "Encounter":
         """The encounter with what is drawn by the seed."""
         if not self.drawn:
             return self
-        shares = named_generator(self.seed, "person").random(4)
+        shares = named_generator(self.game.seed, "person").random(4)
         values = np.round(LEAST + shares * (MOST - LEAST), 6).tolist()
         speed, bearing, offset, change = values
         if self.reaction == "turning":
@@ -77,7 +68,7 @@ class Encounter:
     @property
     def settings(self) -> GameSettings:
         """Settings of the game, with the person far enough away at first."""
-        duel = self.duel.resolved()
+        duel = self.game.resolved()
         evasion = replace(duel.evader.evasion, trigger="time")
         if duel.evader.legs.walks:
             evasion = replace(evasion, clearance=DashEvasion().clearance)
@@ -88,7 +79,6 @@ class Encounter:
             # A near wall would be detected before the person.
             scene = replace(scene, walls=distance + WALL_CLEARANCE)
         return duel.changed(
-            seed=self.seed,
             duration=(distance + PAST) / self.speed + lingers * LINGERING,
             evader={"evasion": evasion},
             scene=scene,

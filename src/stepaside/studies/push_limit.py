@@ -1,13 +1,12 @@
 """Largest push that a walk survives, by bisection, and its bound."""
 
-from collections.abc import Callable
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, replace
 from functools import cache
 from math import radians
 
-from ..core.errors import ConfigurationError, check_choice, check_within
+from ..core.ranges import Range
+from ..core.setting import CheckedSettings, setting
 from ..games.game_settings import GameSettings
-from ..games.game_settings import walk as make_walk
 from ..games.outcome import Outcome
 from ..games.player_settings import WALKER
 from ..games.recorded_game import run_game
@@ -26,30 +25,27 @@ BEFORE = 6  # steps before a push
 AFTER = 4.0  # time after a push, in [s]
 LASTS = 0.1  # duration of a push, in [s]
 REFERENCE = "nao"  # robot to which strengths of pushes refer
-# In [N s] for NAO; see :func:`push_scale`.
-RESOLUTION = 0.1  # to which a limit is found
-STRIDE = 0.4  # between pushes before bisection
-LARGEST = 8.0
+FINENESS = 10  # of a limit, per 1 N s for NAO; see :func:`push_scale`
+STRIDE, LARGEST = 4, 80  # of pushes, in steps of this fineness
 
 
 @dataclass(frozen=True)
-class PushSettings:
+class PushTrial(CheckedSettings):
     """Search for the largest push that a walk survives."""
 
-    # settings of the walk; duration and pushes are ignored
-    walk: GameSettings = field(default_factory=make_walk)
-    direction: str = "left"  # direction of the push, a key of ``DIRECTIONS``
-    phase: float = 0.0  # at which it begins, of the gait cycle
-    seed: int = 1  # seed of the walk
-
-    def __post_init__(self) -> None:
-        """Validate the settings."""
-        check_choice(self.direction, DIRECTIONS, "direction")
-        check_within(self.phase, 0.0, 1.0, "phase", "1", ConfigurationError)
+    game: GameSettings  # the walk; its duration and pushes are ignored
+    direction: str = setting(
+        "left", "Direction of the push", names=tuple(DIRECTIONS)
+    )
+    phase: float = setting(
+        0.0,
+        "Phase of the gait cycle at which it begins",
+        Range(0.0, 1.0, "1", "a cycle"),
+    )
 
     def pushed(self, strength: float) -> GameSettings:
         """Return the walk with a push of a strength, in [N s] for NAO."""
-        walk = self.walk.resolved()
+        walk = self.game.resolved()
         own = walk.player(WALKER)
         begins = own.gait.start_support + float(bool(own.control.feedback))
         time = begins + (BEFORE + 2.0 * self.phase) * walk.gait.step_duration
@@ -58,50 +54,26 @@ class PushSettings:
             time,
             radians(DIRECTIONS[self.direction]),
         )
-        return replace(
-            walk, seed=self.seed, duration=time + AFTER, pushes=(push,)
-        )
+        return replace(walk, duration=time + AFTER, pushes=(push,))
 
 
-def find_limit(survives: Callable[[float], bool]) -> tuple[float, int]:
-    """Return the largest strength survived, in [N s], and the pushes tried.
-
-    Pushes grow by a stride until one is not survived; then the interval
-    below it is bisected.
-    """
-    limit, failed, tried = 0.0, None, 0
-    while failed is None and round(limit + STRIDE, 6) <= LARGEST:
-        strength, tried = round(limit + STRIDE, 6), tried + 1
-        if survives(strength):
-            limit = strength
-        else:
-            failed = strength
-    while failed and (parts := round((failed - limit) / RESOLUTION)) > 1:
-        strength = round(limit + parts // 2 * RESOLUTION, 6)
-        tried += 1
-        if survives(strength):
-            limit = strength
-        else:
-            failed = strength
-    return limit, tried
-
-
-def play_push(settings: PushSettings) -> Record:
+def play_push(trial: PushTrial) -> Record:
     """Walk until the largest push that the walk survives is known.
 
-    The record has it beside the bound of the linear inverted pendulum, in
-    [N s], and their ratio.
+    Pushes grow by a stride until one is not survived; then the interval
+    below it is bisected. The record has the limit beside the bound of the
+    linear inverted pendulum, in [N s], and their ratio.
     """
-
-    def survives(strength: float) -> bool:
-        run = run_game(settings.pushed(strength)).uninterrupted()
-        return run.outcome is Outcome.COMPLETED
-
-    strength, tried = find_limit(survives)
-    walk = settings.walk.resolved()
-    robot = walk.player(WALKER).robot
-    limit = strength * push_scale(robot)
-    bound = push_bound_at(settings.direction, settings.phase, walk)
+    low, high, tried = 0, LARGEST + 1, 0
+    while high - low > 1:
+        middle = low + (STRIDE if high > LARGEST else (high - low) // 2)
+        settings, tried = trial.pushed(middle / FINENESS), tried + 1
+        if run_game(settings).uninterrupted().outcome is Outcome.COMPLETED:
+            low = middle
+        else:
+            high = middle
+    limit = low / FINENESS * push_scale(trial.game.player(WALKER).robot)
+    bound = bound_of_push(trial)
     return {
         "limit_n_s": limit,
         "bound_n_s": bound,
@@ -128,35 +100,31 @@ def push_scale(robot: str) -> float:
     return own.push_unit / nao.push_unit
 
 
-def push_bound_at(direction: str, phase: float, walk: GameSettings) -> float:
+def bound_of_push(trial: PushTrial) -> float:
     """Return the push bound of the linear inverted pendulum, in [N s].
 
     The walk is in its steady gait cycle when it is pushed.
     """
-    own = walk.resolved().player(WALKER)
+    own = trial.game.resolved().player(WALKER)
     gait, gains = own.gait, own.control.stabiliser
     way = load_strategy(own.strategy)
     assert isinstance(way, Walk)
-    cycle = 2.0 * gait.step_duration
-    passed = phase * cycle % cycle
-    foot = Foot.LEFT if passed < gait.step_duration else Foot.RIGHT
-    plan = steady_plan(
-        ManeuverPlanner(gait),
-        way.bearing,
-        way.direction,
-        first_foot=foot,
-    )
-    reach = FootReach(
-        gains.reach_forward,
-        gains.reach_backward,
-        gains.reach_outward,
-        gains.gap,
-    )
+    step, into = divmod(2.0 * trial.phase % 2.0, 1.0)
     return push_bound(
-        plan,
-        passed % gait.step_duration,
-        radians(DIRECTIONS[direction]),
+        steady_plan(
+            ManeuverPlanner(gait),
+            way.bearing,
+            way.direction,
+            first_foot=Foot.RIGHT if step else Foot.LEFT,
+        ),
+        into * gait.step_duration,
+        radians(DIRECTIONS[trial.direction]),
         mass_of(own.robot),
-        reach,
+        FootReach(
+            gains.reach_forward,
+            gains.reach_backward,
+            gains.reach_outward,
+            gains.gap,
+        ),
         lasts=LASTS,
     )

@@ -18,7 +18,7 @@ from ..core.errors import AnyPath, ConfigurationError, as_path, check_choice
 from ..games.settings_reader import nested
 from ..strategies.registry import file_of
 from .study import MOST_CASES, Study
-from .study_games import GAMES, settings_of_study
+from .study_games import GAMES
 from .tabulation import Record
 
 PRESETS = Path(__file__).with_name("presets")
@@ -26,6 +26,7 @@ SEED = "seed"
 SECTIONS = ("game", "settings", "grid", "variants", "cases", "by", "values")
 COMMA = re.compile(r",(?![^(\[{]*[)\]}])")  # not one within brackets
 SPACING = {"first", "last", "number"}  # of evenly spaced values
+RANGE = re.compile(r"(\d+):(\d+)")  # of seeds, without its end
 SEEDS_OF_A_GAME = "0:20"  # of a game file
 
 Case = Mapping[str, Any]
@@ -70,7 +71,7 @@ class _Design(NamedTuple):
             if name in self.variants:
                 changes = dict(self.variants[name][value])
             entries = nested(changes, entries)
-        return settings_of_study(GAMES[self.game].settings, entries)
+        return GAMES[self.game].settings_of(entries)
 
     def measure(self, case: Case) -> Record:
         """Play the game of a case; return its record."""
@@ -164,7 +165,7 @@ def load_study(file: AnyPath, sets: Sequence[str] = ()) -> Study[Case]:
     A file has ``game``; ``settings`` that all cases share; ``grid``, a table
     of lists whose combinations are played; ``variants``, tables of named
     settings; ``cases``, a list of tables; ``by`` and ``values``, the table.
-    In a grid ``"0:40"`` for the seed is a range without its end, and
+    In a grid ``"0:40"`` is a range without its end, as for seeds, and
     ``{first, last, number}`` gives evenly spaced values. A game file is the
     study of its game with 20 seeds.
 
@@ -252,7 +253,7 @@ def _set(entries: dict[str, Any], text: str) -> None:
                 f"{path} must be of {', '.join(named)}, got {word!r:.60}"
             )
         entries["variants"][path] = chosen
-    elif isinstance(value, list | dict) or (path == SEED and ":" in word):
+    elif isinstance(value, list | dict) or RANGE.fullmatch(word):
         entries["settings"].pop(path, None)
         entries["grid"][path] = value
     elif path in entries["grid"]:
@@ -274,10 +275,8 @@ def _values(axis: str, value: Any, file: Path) -> Sequence[Any]:
     """Return the values along an axis of a grid."""
     if isinstance(value, list):
         return value
-    if axis == SEED and isinstance(value, str):
-        first, colon, end = value.partition(":")
-        if colon and first.isdigit() and end.isdigit():
-            return range(int(first), int(end))
+    if isinstance(value, str) and (ends := RANGE.fullmatch(value)):
+        return range(*map(int, ends.groups()))
     if isinstance(value, dict) and set(value) == SPACING:
         try:
             number = min(value["number"], MOST_CASES + 1)
@@ -286,8 +285,8 @@ def _values(axis: str, value: Any, file: Path) -> Sequence[Any]:
             raise ConfigurationError(f"{file}: {axis}: {error}") from error
         return [float(x) for x in spaced]
     raise ConfigurationError(
-        f"{file}: {axis} must be a list, {{first, last, number}}, or for "
-        f"{SEED} a range like '0:40', got {value!r:.60}"
+        f"{file}: {axis} must be a list, {{first, last, number}} or a range "
+        f"like '0:40', got {value!r:.60}"
     )
 
 

@@ -1,7 +1,7 @@
 """Games that a study can play: settings from entries, and flat records."""
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, fields
 from math import isfinite
 from typing import Any, NamedTuple
 
@@ -18,12 +18,11 @@ from ..games.run import Run
 from ..games.run_archive import results_of
 from ..games.settings_reader import read_game, settings_of
 from ..games.unicycle_settings import UnicycleSettings
-from ..strategies.registry import check_strategy_name
 from ..theory.unicycle.adaptive_simulation import simulate
 from ..theory.unicycle.certificate import certify
 from ..theory.unicycle.unicycle_game import RelativeStart, make_game
 from .person_encounters import Encounter, play_encounter
-from .push_limit import PushSettings, play_push
+from .push_limit import PushTrial, play_push
 from .tabulation import Record, flat
 from .tournament import PairingSettings, play_pairing
 
@@ -86,72 +85,52 @@ def _evasion(run: Run) -> tuple[Any, Any]:
 
 @dataclass(frozen=True)
 class TeamGame:
-    """A game, with one strategy for all of a role."""
+    """A game, with one strategy for all of a role; empty for their own."""
 
-    game: GameSettings  # settings of the game
-    pursuers: str = ""  # strategy of all pursuers; empty for those of the game
-    evaders: str = ""  # strategy of all evaders; empty for those of the game
-
-    def __post_init__(self) -> None:
-        """Validate the strategies."""
-        for name, role in (
-            (self.pursuers, "pursuer"),
-            (self.evaders, "evader"),
-        ):
-            if name:
-                check_strategy_name(name, role)
+    game: GameSettings
+    pursuers: str = ""
+    evaders: str = ""
 
     @property
     def settings(self) -> GameSettings:
         """Settings of the game with these strategies."""
-        names: dict[str, str] = {
-            Role.PURSUER: self.pursuers,
-            Role.EVADER: self.evaders,
-        }
-        players = tuple(
-            replace(own, strategy=names.get(own.role) or own.strategy)
-            if own.decides
-            else own
-            for own in self.game.players
+        names = {Role.PURSUER: self.pursuers, Role.EVADER: self.evaders}
+        return self.game.with_players(
+            {
+                own.name: {"strategy": names[Role(own.role)]}
+                for own in self.game.players
+                if own.decides and names.get(Role(own.role))
+            }
         )
-        return replace(self.game, players=players)
+
+    def __post_init__(self) -> None:
+        """Validate the strategies."""
+        _ = self.settings
 
 
 class StudyGame(NamedTuple):
     """Game that a study can play."""
 
-    settings: Any  # class of its settings, or the game that they change
+    base: Any  # game that the settings change; or the class of all settings
     play: Callable[[Any], Record]  # plays a game; returns its record
     values: tuple[str, ...]  # values of a record that are tabulated by default
+    # class of settings that stand beside those of the game, its first field
+    own: type[Any] | None = None
 
-
-HOLDS = {Encounter: ("duel",), PushSettings: ("walk",)}  # games of others
-
-
-def settings_of_study(kind: Any, entries: Mapping[str, Any]) -> Any:
-    """Return settings from nested entries; see :func:`.read_game`.
-
-    The kind is a class of settings, or the game that they change.
-    """
-    entries = dict(entries)
-    if isinstance(kind, GameSettings):
-        return read_game(entries, "the settings", base=kind)
-    if kind is TeamGame:
-        own = {
-            k: entries.pop(k) for k in ("pursuers", "evaders") if k in entries
-        }
-        return TeamGame(read_game(entries, "the settings"), **own)
-    if kind is Encounter:
-        game = entries.get("duel", {})
-        if not game.get("robot") and not game.get("legs", {}).get("network"):
-            game = {"gait": "fast"} | game  # NAO's, if none is chosen
-        entries["duel"] = game
-    inner = {}
-    for name in HOLDS.get(kind, ()):
-        base, own = getattr(kind(), name), entries.pop(name, {})
-        inner[name] = read_game(own, "the settings", base=base)
-    made = settings_of(kind, entries, "the settings")
-    return replace(made, **inner)
+    def settings_of(self, entries: Mapping[str, Any]) -> Any:
+        """Return settings from nested entries; see :func:`.read_game`."""
+        rest, source = dict(entries), "the settings"
+        if isinstance(self.base, type):
+            return settings_of(self.base, rest, source)
+        if self.own is None:
+            return read_game(rest, source, base=self.base)
+        names = [each.name for each in fields(self.own)[1:]]
+        own = {name: rest.pop(name) for name in names if name in rest}
+        chosen = rest.get("robot") or rest.get("legs", {}).get("network")
+        if self.own is Encounter and not chosen:
+            rest = {"gait": "fast"} | rest  # NAO's
+        made = self.own(read_game(rest, source, base=self.base))
+        return settings_of(self.own, own, source, base=made)
 
 
 def _play_walk(settings: GameSettings) -> Record:
@@ -162,38 +141,36 @@ def _play_walk(settings: GameSettings) -> Record:
 
 def _play_unicycles(settings: UnicycleSettings) -> Record:
     game, start, names = settings.game, settings.start, settings.strategies
-    if names is not None:
+    if names is None:
+        played = simulate(
+            game, start, settings.time, capture_distance=settings.capture
+        )
+        outcome = "captured" if played.captured else "completed"
+        ended, closest = played.end_time, played.closest_distance
+        nearest = played.closest_time
+        distance = played.states([ended])[0, 0]
+    else:
         times = settings.time, settings.period
         track = play_unicycles(game, start, names, times, settings.capture)
-        nearest = int(track.distances.argmin())
-        ended, distance = track.times, float(track.distances[-1])
-        return {
-            "outcome": track.outcome.value,
-            "duration_s": float(ended[-1]),
-            "closest_m": track.closest_distance,
-            "closest_at_s": float(ended[nearest]),
-            "distance_m": distance,
-        }
-    played = simulate(
-        game, start, settings.time, capture_distance=settings.capture
-    )
-    (end,) = played.states([played.end_time])
+        outcome, closest = track.outcome.value, track.closest_distance
+        nearest = track.times[track.distances.argmin()]
+        ended, distance = track.times[-1], track.distances[-1]
     return {
-        "outcome": "captured" if played.captured else "completed",
-        "duration_s": played.end_time,
-        "closest_m": played.closest_distance,
-        "closest_at_s": played.closest_time,
-        "distance_m": float(end[0]),
+        "outcome": outcome,
+        "duration_s": float(ended),
+        "closest_m": closest,
+        "closest_at_s": float(nearest),
+        "distance_m": float(distance),
     }
 
 
-def _play_game(settings: TeamGame) -> Record:
+def _play_game(trial: TeamGame) -> Record:
     """Play a game of any number of players; return its record.
 
     For robots among people the measures of crowd navigation have their name
     in front.
     """
-    run = run_game(settings.settings).uninterrupted()
+    run = run_game(trial.settings).uninterrupted()
     summary = run.summary
     record: Record = {
         "outcome": run.outcome.value,
@@ -223,15 +200,19 @@ GAMES: Mapping[str, StudyGame] = {
     "duel": StudyGame(duel(), play_duel, ("outcome", "min_distance_m")),
     "walk": StudyGame(walk(), _play_walk, ("survived", "walking.speed_ratio")),
     "push": StudyGame(
-        PushSettings, play_push, ("limit_n_s", "bound_n_s", "of_bound")
+        walk(), play_push, ("limit_n_s", "bound_n_s", "of_bound"), PushTrial
     ),
     "person": StudyGame(
-        Encounter,
+        duel(pursuer={"body": "person"}),
         play_encounter,
         ("contact", "fell", "closest_m"),
+        Encounter,
     ),
     "game": StudyGame(
-        TeamGame, _play_game, ("captured", "contact", "fell", "closest_m")
+        None,
+        _play_game,
+        ("captured", "contact", "fell", "closest_m"),
+        TeamGame,
     ),
     "tournament": StudyGame(
         PairingSettings,

@@ -1,4 +1,4 @@
-"""Games of a tournament: an evader against a pursuer, on any level."""
+"""Games of a tournament: an evader against a pursuer, without physics."""
 
 from dataclasses import dataclass, field, replace
 from math import inf, isfinite, pi, radians
@@ -6,41 +6,29 @@ from math import inf, isfinite, pi, radians
 import numpy as np
 
 from ..arena import (
+    OPEN_FLOOR,
     ObstacleSet,
     Room,
     RoomRecipe,
     draw_any_start,
-    draw_initial_poses,
     generate_room,
-    load_room,
 )
 from ..core.convex import grown_hull_area
-from ..core.errors import ConfigurationError, check_choice
 from ..core.poses import Array, Pose, rotate, wrap_angles
+from ..core.setting import check_settings, setting
 from ..games.floor_games import StrategyTrack, play_strategies
 from ..games.floor_world import PARTS
-from ..games.game_settings import duel
 from ..games.outcome import Outcome
 from ..games.player_settings import PLAYERS
-from ..games.recorded_game import run_game
 from ..games.run import Run
-from ..games.summary import PlanningSummary
-from ..locomotion.control_settings import MapSettings
 from ..robots.description import load_robot
 from ..sim.outline_measurement import measure_outline
-from ..strategies import Evasion, Pursuit, load_strategy
-from ..strategies.registry import file_of
+from ..strategies import Pursuit, load_strategy
 from ..strategies.strategy_game import StepGame
 from ..strategies.table_cache import pursuit_bound
 from ..theory.unicycle.circles import find_circle
 from .tabulation import Record
 
-HUMANOIDS = "physics"
-CHOICES = {
-    "level": ("steps", "unicycle", HUMANOIDS),
-    "floor": ("room", "open", "any heading"),
-    "map": ("given", "seen", "none"),
-}
 EARLIEST_CAPTURE = 0.02  # with any heading capture ends no game, in [m]
 SIGHT = radians(148.0)  # greatest bearing in view of a turned head, in [rad]
 ASIDE = "evasion(safety_radius=100)"  # beyond every distance of these games
@@ -54,34 +42,23 @@ class PairingSettings:
     evader: str = "look-ahead"  # name of the evader
     pursuer: str = "pursuit"  # name of the pursuer
     seed: int = 0  # seed of the room and of the initial poses
-    # "steps"; "unicycle", with eight decisions per step; or "physics", with
-    # simulated humanoids
-    level: str = "steps"
-    # "room"; "open" without walls, with the starts of duels; or "any heading",
-    # open with any headings, where no game ends by capture
-    floor: str = "room"
+    level: str = setting(
+        "steps", "Level; a unicycle decides eight times", names=tuple(PARTS)
+    )
+    floor: str = setting(
+        "room",
+        "Floor: open without walls, with the starts of duels, or with any "
+        "headings, where no game ends by capture",
+        names=("room", "open", "any heading"),
+    )
     room: RoomRecipe = field(default_factory=RoomRecipe)
-    room_file: str = ""  # file of a room that all games share, instead
-    game: StepGame = field(default_factory=StepGame)  # physics: duration
-    map: str = "given"  # map of the humanoids: "given", "seen" or "none"
+    game: StepGame = field(default_factory=StepGame)
 
     def __post_init__(self) -> None:
         """Validate the settings."""
-        for name, known in CHOICES.items():
-            check_choice(getattr(self, name), known, name)
+        check_settings(self)
         load_strategy(self.evader)
         load_strategy(self.pursuer)
-        if self.level == HUMANOIDS:
-            ratio = self.game.pursuer_speed_ratio
-            if ratio != 1.0:
-                raise ConfigurationError(
-                    "game.pursuer_speed_ratio must be 1 [1] at level "
-                    f"{HUMANOIDS}, got {ratio}"
-                )
-        elif self.map != "given":
-            raise ConfigurationError(
-                f"map must be 'given' at level {self.level}, got {self.map!r}"
-            )
 
     @property
     def rules(self) -> StepGame:
@@ -91,27 +68,15 @@ class PairingSettings:
         return self.game
 
     def arena(self) -> tuple[Room, tuple[Pose, Pose]]:
-        """Return the room, and the initial poses of pursuer and evader.
-
-        Raises:
-            ConfigurationError: If a room with moving boxes is not played in
-                by humanoids.
-        """
+        """Return the room, and the initial poses of pursuer and evader."""
+        if self.floor == "any heading":
+            return OPEN_FLOOR, draw_any_start(self.seed)
         recipe = self.room
-        if self.room_file:
-            room = load_room(self.room_file)
-            if room.moving and self.level != HUMANOIDS:
-                raise ConfigurationError(
-                    f"level must be {HUMANOIDS!r} in a room with moving "
-                    f"boxes, got {self.level!r}"
-                )
-        elif self.floor == "any heading":
-            room = Room(starts=draw_any_start(self.seed))
-        else:
-            if self.floor == "open":
-                recipe = replace(recipe, width=None, depth=None)
-            room = generate_room(recipe, self.seed)
-        return room, room.starts or draw_initial_poses(room, self.seed)
+        if self.floor == "open":
+            recipe = replace(recipe, width=None, depth=None)
+        room = generate_room(recipe, self.seed)
+        assert room.starts is not None
+        return room, room.starts
 
 
 def play_track(settings: PairingSettings) -> StrategyTrack:
@@ -128,99 +93,37 @@ def play_pairing(settings: PairingSettings) -> Record:
     Values in SI units: ``survived_s`` ends with capture or contact,
     ``bound_m`` is the closest approach under optimal play on an open floor,
     ``reached_m`` the closest approach, 0 after contact with an obstacle, and
-    ``regret_m`` their difference. Of humanoids ``touched`` names the bodies in
-    contact, ``PLAYER_clearance_m`` is the least distance of a trunk from
-    resting obstacles, and ``decision_s`` the time of a whole replan.
+    ``regret_m`` their difference.
     """
-    humanoids = settings.level == HUMANOIDS
-    found = (_humanoid_values if humanoids else _step_values)(settings)
-    outcome, closest = found["outcome"], found["closest_m"]
-    reached = 0.0 if outcome == "touched" else closest
+    track, game = play_track(settings), settings.rules
+    outcome, closest = track.outcome, track.closest_distance
+    bound = bound_of(track.pursuer[0], track.evader[0], game)
+    reached = 0.0 if outcome is Outcome.TOUCHED else closest
+    seconds = (len(track.distances) - 1) * game.period / PARTS[settings.level]
+    clear, places = float(track.clearances.min()), track.evader[:, :2]
+    turns = np.abs(wrap_angles(np.diff(track.evader[:, 2])))
     return {
         "evader": settings.evader,
         "pursuer": settings.pursuer,
         "seed": settings.seed,
-        **found,
-        "survived": outcome == "completed",
-        "captured": outcome == "captured",
-        "touched_obstacle": outcome == "touched",
-        "of_bound": closest / found["bound_m"],
-        "reached_m": reached,
-        "regret_m": found["bound_m"] - reached,
-        "circle_m": circle_distance(settings.rules, settings.pursuer),
-    }
-
-
-def _step_values(settings: PairingSettings) -> Record:
-    """Play a game at level "steps" or "unicycle" and return its values."""
-    track, game = play_track(settings), settings.rules
-    seconds = (len(track.distances) - 1) * game.period / PARTS[settings.level]
-    clear = float(track.clearances.min())
-    return {
-        "outcome": track.outcome.value,
+        "outcome": outcome.value,
         "survived_s": seconds,
-        "closest_m": float(track.distances.min()),
-        "bound_m": bound_of(track.pursuer[0], track.evader[0], game),
+        "closest_m": closest,
+        "bound_m": bound,
         "clearance_m": clear if isfinite(clear) else None,
-        **_motion(track.evader, track.bearings, seconds, game.body_radius),
+        "floor_m2": grown_hull_area(places, game.body_radius),
+        "walked_m": float(np.hypot(*np.diff(places, axis=0).T).sum()),
+        "turning_rad_s": float(turns.sum()) / max(seconds, 1e-9),
+        "unseen": float((np.abs(track.bearings) > SIGHT).mean()),
         "decision_s": track.decision,
         "longest_decision_s": track.longest_decision,
-    }
-
-
-def _humanoid_values(settings: PairingSettings) -> Record:
-    """Play a game in physics and return its values."""
-    room, starts = settings.arena()
-    played = load_strategy(settings.evader)
-    paper = played if isinstance(played, Evasion) else None
-    run = run_game(
-        duel(
-            seed=settings.seed,
-            duration=settings.game.duration,
-            evasion=paper or Evasion(),
-            evader={"strategy": "evasion" if paper else settings.evader},
-            pursuer={"strategy": settings.pursuer},
-            senses="cameras" if settings.map == "seen" else "ideal",
-            room=replace(room, starts=starts),
-            map=MapSettings(source=settings.map),
-        )
-    )
-    summary = run.uninterrupted().summary
-    planning = summary.planning or PlanningSummary(0, 0)
-    pursuer, evader = (run.tracks[name].unicycle for name in PLAYERS)
-    aims = pursuer[:, :2] - evader[:, :2]
-    bearings = np.arctan2(aims[:, 1], aims[:, 0]) - evader[:, 2]
-    captured = summary.captured_at_s
-    radius, seconds = settings.game.body_radius, run.duration
-    return {
-        "outcome": outcome_of(run).value,
-        "contact": players_touched(run),
-        "touched": list(summary.touched),
-        "survived_s": seconds if captured is None else captured,
-        "closest_m": summary.min_distance_m,
-        "bound_m": bound_of(pursuer[0], evader[0], settings.game),
-        **_motion(evader, wrap_angles(bearings), seconds, radius),
-        "decision_s": 1e-6 * (planning.median_us or 0.0),
-        "longest_decision_s": 1e-6 * (planning.p99_us or 0.0),
-        **{f"{name}_clearance_m": clearance(run, name) for name in PLAYERS},
-    }
-
-
-def _motion(
-    evader: Array, bearings: Array, seconds: float, radius: float
-) -> Record:
-    """Return the values of an evader's motion.
-
-    Its poses (n, 3), bearings of the pursuer from it [rad], duration [s] and
-    radius [m].
-    """
-    turns = np.abs(wrap_angles(np.diff(evader[:, 2])))
-    walked = np.hypot(*np.diff(evader[:, :2], axis=0).T)
-    return {
-        "floor_m2": grown_hull_area(evader[:, :2], radius),
-        "walked_m": float(walked.sum()),
-        "turning_rad_s": float(turns.sum()) / max(seconds, 1e-9),
-        "unseen": float((np.abs(bearings) > SIGHT).mean()),
+        "survived": outcome is Outcome.COMPLETED,
+        "captured": outcome is Outcome.CAPTURED,
+        "touched_obstacle": outcome is Outcome.TOUCHED,
+        "of_bound": closest / bound,
+        "reached_m": reached,
+        "regret_m": bound - reached,
+        "circle_m": circle_distance(game, settings.pursuer),
     }
 
 
@@ -240,10 +143,10 @@ def circle_distance(game: StepGame, pursuer: str) -> float | None:
     The evader moves aside, with the gain of the game. None for a pursuer that
     does not steer by eq. (2), or of another speed.
     """
-    if file_of(pursuer) is not None or game.pursuer_speed_ratio != 1.0:
-        return None
     strategy = load_strategy(pursuer)
-    ratio = getattr(strategy, "gain", inf)
+    if not isinstance(strategy, Pursuit) or game.pursuer_speed_ratio != 1.0:
+        return None
+    ratio = strategy.gain
     if ratio == inf or strategy != Pursuit(gain=ratio):
         return None
     circle = find_circle(
