@@ -101,7 +101,7 @@ def mapped(robot: Path, away: float, heights: tuple[float, float]) -> bool:
     eyes.see(0.0)
     body = eyes.perception.body
     assert body is not None
-    eye = camera_pose(body, head.depth[0])
+    eye = camera_pose(body, head.depth_cameras[0])
     rays = eye.rays(CAMERA)
     depths = away / np.hypot(rays[..., 0], rays[..., 1])
     above = eye.position_in_odometry[2] + depths * rays[..., 2]

@@ -21,7 +21,7 @@ from stepaside.robots.head import load_head
 
 TICK = 0.004
 CAMERA_HEIGHT, ROBOT = 0.5, 0.5725  # of a NAO, in [m]
-COUPLING = load_head(load_robot("nao")).coupling
+COUPLING = load_head(load_robot("nao")).pitch_limits
 
 
 def at(bearing: float, distance: float, height: float = 0.0) -> GazeTarget:

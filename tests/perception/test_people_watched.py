@@ -40,7 +40,7 @@ class Watch:
         """Take in one tick of a scene."""
         body, percepts = self.perception.body, list[Percept]()
         if self._ticks % 4 == 0 and body is not None:
-            place, axes, _ = camera_pose(body, HEAD.depth[0])
+            place, axes, _ = camera_pose(body, HEAD.depth_cameras[0])
             posts: list[Post] = [(x, y, 0.15, 1.7) for x, y in people]
             taken = body.time  # a tick ago, with the head as it was then
             image = draw(CAMERA, place, axes, posts, self._walls, taken)
@@ -192,7 +192,7 @@ class WatchBehind(Watch):
         """Take in one tick of a scene, shown by the camera on the back."""
         body, percepts = self.perception.body, list[Percept]()
         if self._ticks % 4 == 0 and body is not None:
-            place, axes, _ = camera_pose(body, HEAD.depth[1])
+            place, axes, _ = camera_pose(body, HEAD.depth_cameras[1])
             posts: list[Post] = [(x, y, 0.15, 1.7) for x, y in people]
             image = draw(CAMERA, place, axes, posts, self._walls, body.time)
             percepts.append(replace(image, number=1))

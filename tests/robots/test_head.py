@@ -15,7 +15,7 @@ HEAD = load_head(NAO)
 
 
 def test_cameras_point_forward_and_slightly_down() -> None:
-    for mount, degrees in ((HEAD.top, 1.2), (HEAD.depth[0], 8.0)):
+    for mount, degrees in ((HEAD.top, 1.2), (HEAD.depth_cameras[0], 8.0)):
         ahead = cos(radians(degrees)), 0.0, -sin(radians(degrees))
         np.testing.assert_allclose(mount.axes_in_body[:, 0], ahead, atol=1e-15)
         np.testing.assert_allclose(
@@ -24,16 +24,21 @@ def test_cameras_point_forward_and_slightly_down() -> None:
         assert (
             mount.axes_in_body[2, 2] > 0.9 and mount.position_in_body[1] == 0.0
         )
-    assert HEAD.depth[0].position_in_body[2] > HEAD.top.position_in_body[2]
+    assert (
+        HEAD.depth_cameras[0].position_in_body[2]
+        > HEAD.top.position_in_body[2]
+    )
 
 
 def test_the_rear_camera_looks_backward_from_the_torso() -> None:
-    rear = HEAD.depth[1]
+    rear = HEAD.depth_cameras[1]
     np.testing.assert_allclose(
         rear.axes_in_body, np.diag([-1.0, -1.0, 1.0]), atol=1e-15
     )
     assert rear.on_torso and HEAD.body_of(rear) == "torso"
-    assert HEAD.body_of(HEAD.depth[0]) == HEAD.body_of(HEAD.top) == "head"
+    assert (
+        HEAD.body_of(HEAD.depth_cameras[0]) == HEAD.body_of(HEAD.top) == "head"
+    )
 
 
 def rewritten(folder: Path, old: str, new: str) -> HeadDescription:

@@ -8,7 +8,6 @@ import numpy as np
 import pytest
 
 from stepaside.core.poses import Array
-from stepaside.core.rotations import rotation
 from stepaside.perception.camera_model import CameraModel
 from stepaside.robots.head import Mount
 from stepaside.sim.camera_settings import DepthSettings
@@ -16,7 +15,7 @@ from stepaside.sim.ranging import RayCaster
 from stepaside.sim.sensor_suite import cast_depths
 
 CAMERA = CameraModel.of_field_of_view(40, 30, radians(58.0), radians(45.0))
-AHEAD = Mount(np.array([0.1, 0.0, 0.0]), np.eye(3))
+AHEAD = Mount((0.1, 0.0, 0.0))
 CLEAN = DepthSettings(noise=0.0, missing=0.0, step=1e-5)
 
 
@@ -48,7 +47,7 @@ def cast(
 
 def test_a_ray_goes_from_its_mount_on_a_turned_body() -> None:
     """The body looks to the left; the mount is aside and looks down."""
-    mount = Mount(np.array([0.1, -0.2, 0.05]), rotation(0, radians(30), 0))
+    mount = Mount((0.1, -0.2, 0.05), pitch=30.0)
     at = 'pos="1 2 0.5" quat="0.70710678 0 0 0.70710678"'
     _, caster = cast(
         "", np.array([[2.0, 0.0, 0.0], [3.0, 0.0, 2.0]]), mount, at

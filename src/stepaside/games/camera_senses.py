@@ -109,7 +109,7 @@ class SightEvaluator:
             return
         head, is_colour = self._head, isinstance(percept, ColourImage)
         if isinstance(percept, DepthImage):
-            mount = head.depth[percept.number]
+            mount = head.depth_cameras[percept.number]
         else:
             mount = head.top
         position, axes = self._camera(mount)

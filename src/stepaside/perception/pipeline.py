@@ -10,8 +10,6 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cache
 
-import numpy as np
-
 from ..core.history import History
 from ..core.poses import Array, Pose, Sector, wrap_angle
 from ..robots.description import RobotDescription
@@ -375,10 +373,10 @@ def build_perception(
         detector,
         selection,
         HeadControl(
-            *(head.coupling, tick, size.height), glances=glances, scan=scan
+            *(head.pitch_limits, tick, size.height), glances=glances, scan=scan
         ),
         head.top,
-        head.depth,
+        head.depth_cameras,
         size,
         kinematics,
         None if scan is None else FloorMap(),
@@ -391,7 +389,7 @@ def build_posed_perception(
     detector: ColourDetector, coupling: Array, *, tick: float
 ) -> Perception:
     """Build the perception of a robot that gives the poses of its camera."""
-    at_head = Mount(np.zeros(3), np.eye(3))
+    at_head = Mount((0.0, 0.0, 0.0))
     gaze = HeadControl(coupling, tick, NAO_SIZE.height)
     selection = TargetSelection(Tracker(PERSON_MOTION))
     return Perception(detector, selection, gaze, at_head, [at_head])

@@ -1,7 +1,9 @@
 """Head of a robot: its joints and cameras."""
 
 from dataclasses import dataclass
+from functools import cached_property
 from math import radians
+from typing import ClassVar
 
 import numpy as np
 
@@ -15,17 +17,35 @@ from .description import RobotDescription
 from .description_types import Place
 
 FILE = "head.toml"
+ANGLE = Range(-180.0, 180.0, "deg", "half a turn")
 
 
-@dataclass(frozen=True, slots=True, eq=False)
+@dataclass(frozen=True)
 class Mount:
-    """Pose of a sensor on a body: the head, or the torso."""
+    """Pose of a sensor on the head."""
 
-    position_in_body: Array  # position in the frame of the body [m], (3,)
-    # axes (forward, left, up) of the sensor, as columns, (3, 3)
-    axes_in_body: Array
-    # whether the body is the torso, which the head joints do not turn
-    on_torso: bool = False
+    on_torso: ClassVar[bool] = False  # where the head joints do not turn it
+    place: Place = setting(REQUIRED, "Place in the frame of the body [m]")
+    roll: float = setting(0.0, "Roll", ANGLE)
+    pitch: float = setting(0.0, "Pitch, positive downward", ANGLE)
+    yaw: float = setting(0.0, "Yaw, positive leftward", ANGLE)
+
+    @cached_property
+    def position_in_body(self) -> Array:
+        """Position in the frame of the body, in [m]. Shape (3,)."""
+        return np.array(self.place, dtype=np.float64)
+
+    @cached_property
+    def axes_in_body(self) -> Array:
+        """Axes forward, left and up, as columns. Shape (3, 3)."""
+        return rotation(*map(radians, (self.roll, self.pitch, self.yaw)))
+
+
+@dataclass(frozen=True)
+class TorsoMount(Mount):
+    """Pose of a sensor on the torso."""
+
+    on_torso: ClassVar[bool] = True
 
 
 def depth_camera_name(number: int) -> str:
@@ -33,61 +53,9 @@ def depth_camera_name(number: int) -> str:
     return f"depth_camera_{number}" if number else "depth_camera"
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class HeadDescription:
-    """Description of an actuated head with its sensors."""
-
-    body: str  # body that carries the cameras of the head
-    torso: str  # body that carries all other sensors
-    yaw: str
-    pitch: str
-    # name of the colour camera in the model; one that the model lacks is added
-    # with camera sensing
-    camera: str
-    # pitch limits by yaw: rows yaw, least pitch, greatest pitch [rad], (3, n)
-    coupling: Array
-    top: Mount  # mount of the colour camera on the body
-    # mounts of the depth cameras: the first on the head, any others on the
-    # torso
-    depth: tuple[Mount, ...]
-
-    def body_of(self, mount: Mount) -> str:
-        """Return the name of the body of a mount."""
-        return self.torso if mount.on_torso else self.body
-
-    def depth_mounts(self, *, rear: bool) -> tuple[Mount, ...]:
-        """Return the mounts of the depth cameras, the rear ones if wanted."""
-        if not rear:
-            return self.depth[:1]
-        if len(self.depth) == 1:
-            raise ModelError(
-                f"the robot has no rear camera: {FILE} needs [rear] with "
-                "place, pitch and yaw"
-            )
-        return self.depth
-
-
-ANGLE = Range(-180.0, 180.0, "deg", "half a turn")
-
-
 @dataclass(frozen=True)
-class _SensorEntries:
-    """Camera in ``head.toml``."""
-
-    place: Place = setting(REQUIRED, "Place in the frame of the body [m]")
-    roll: float = setting(0.0, "Roll", ANGLE)
-    pitch: float = setting(0.0, "Pitch, positive downward", ANGLE)
-    yaw: float = setting(0.0, "Yaw, positive leftward", ANGLE)
-
-    def mount(self, *, on_torso: bool = False) -> Mount:
-        """Return the mount."""
-        turn = radians(self.roll), radians(self.pitch), radians(self.yaw)
-        return Mount(np.array(self.place), rotation(*turn), on_torso)
-
-
-@dataclass(frozen=True)
-class _CouplingEntries:
-    """Pitch limits by yaw in ``head.toml``."""
+class YawCoupling:
+    """Pitch limits by yaw."""
 
     yaw: tuple[float, ...] = setting(REQUIRED, "Yaw, ascending", ANGLE)
     pitch_min: tuple[float, ...] = setting(REQUIRED, "Least pitch", ANGLE)
@@ -103,19 +71,48 @@ class _CouplingEntries:
 
 
 @dataclass(frozen=True)
-class _HeadEntries:
-    """Entries of ``head.toml``."""
+class HeadDescription:
+    """Description of an actuated head with its sensors: ``head.toml``."""
 
+    torso: str
     body: str = setting(REQUIRED, "Body that carries the cameras")
     yaw: str = setting(REQUIRED, "Yaw joint")
     pitch: str = setting(REQUIRED, "Pitch joint")
-    coupling: _CouplingEntries = setting(REQUIRED, "Pitch limits by yaw")
-    top: _SensorEntries = setting(REQUIRED, "Colour camera")
-    depth: _SensorEntries = setting(REQUIRED, "Depth camera")
-    camera: str = setting("upper_camera", "Colour camera in the model")
-    rear: _SensorEntries | tuple[_SensorEntries, ...] = setting(
+    coupling: YawCoupling = setting(REQUIRED, "Pitch limits by yaw")
+    top: Mount = setting(REQUIRED, "Colour camera")
+    depth: Mount = setting(REQUIRED, "Depth camera")
+    camera: str = setting(
+        "upper_camera",
+        "Colour camera in the model; one that it lacks is added with camera "
+        "sensing",
+    )
+    rear: TorsoMount | tuple[TorsoMount, ...] = setting(
         (), "Depth cameras on the torso"
     )
+
+    @cached_property
+    def pitch_limits(self) -> Array:
+        """Rows yaw, least and greatest pitch, in [rad]. Shape (3, n)."""
+        return np.radians([*vars(self.coupling).values()])
+
+    @cached_property
+    def depth_cameras(self) -> tuple[Mount, ...]:
+        """Mounts of all depth cameras; the first is on the head."""
+        rear = self.rear if isinstance(self.rear, tuple) else (self.rear,)
+        return self.depth, *rear
+
+    def body_of(self, mount: Mount) -> str:
+        """Return the name of the body of a mount."""
+        return self.torso if mount.on_torso else self.body
+
+    def depth_mounts(self, *, rear: bool) -> tuple[Mount, ...]:
+        """Return the mounts of the depth cameras, the rear ones if wanted."""
+        if rear and not self.rear:
+            raise ModelError(
+                f"the robot has no rear camera: {FILE} needs [rear] with "
+                "place, pitch and yaw"
+            )
+        return self.depth_cameras if rear else (self.depth,)
 
 
 def load_head(description: RobotDescription) -> HeadDescription:
@@ -126,16 +123,5 @@ def load_head(description: RobotDescription) -> HeadDescription:
             f"{description.name} has no cameras: {path} is missing; "
             "without it sensing must be ideal"
         )
-    entries = load_entries(path, ModelError)
-    own = read_entries(_HeadEntries, entries, str(path), error=ModelError)
-    rear = own.rear if isinstance(own.rear, tuple) else (own.rear,)
-    return HeadDescription(
-        own.body,
-        description.torso,
-        own.yaw,
-        own.pitch,
-        own.camera,
-        np.radians([*vars(own.coupling).values()]),
-        own.top.mount(),
-        (own.depth.mount(), *(each.mount(on_torso=True) for each in rear)),
-    )
+    entries = load_entries(path, ModelError) | {"torso": description.torso}
+    return read_entries(HeadDescription, entries, str(path), error=ModelError)

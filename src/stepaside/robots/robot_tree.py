@@ -11,6 +11,7 @@ from typing import NamedTuple
 from ..core.brief_repr import brief_repr
 
 HINGE, SLIDE = "hinge", "slide"
+UNLIMITED = 1e6  # limit of joints without limits, in [rad] or [m]
 Triple = tuple[float, float, float]
 # Beyond its radius points are still of a moving robot itself, in [m].
 OWN_MARGIN = 0.06

@@ -12,6 +12,7 @@ from .geom_points import geom_points_in_world
 from .robot_tree import (
     HINGE,
     SLIDE,
+    UNLIMITED,
     BodySize,
     Link,
     LinkFrame,
@@ -26,7 +27,6 @@ KINDS = {
 }
 ZERO = (0.0, 0.0, 0.0)
 TORSO = Link("", -1, "", ZERO, ZERO, 0.0, 0.0, 0.0, 0.0, ZERO)
-UNLIMITED = 1e6  # of joints without limits, in [rad] or [m]
 DECIMALS = 14  # to which numbers are rounded: 0 and 1 become exact
 
 

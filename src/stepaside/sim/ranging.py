@@ -165,7 +165,7 @@ class Lidar(StreamedSensors[LidarScan]):
             for i in np.flatnonzero(self._own)
         )
         height = top - float(data.xpos[body, 2]) + ABOVE
-        self._mount = Mount(np.array([0.0, 0.0, height]), np.eye(3))
+        self._mount = Mount((0.0, 0.0, height))
         around = np.arange(settings.rays) * (2.0 * np.pi / settings.rays)
         self._rays = np.concatenate(
             [_ring(around, np.radians(degrees)) for degrees in RINGS]

@@ -263,20 +263,24 @@ class PlayerTopics:
     def _add_joints(self, model: RobotModel, qpos: Array) -> None:
         """Add the frames of links."""
         column = {name: 7 + i for i, name in enumerate(model.joints)}
-        for joint in model.tree.joints:
-            above = f"{self._name}/{joint.parent}"
-            below = f"{self._name}/{joint.child}"
-            turn = Rotation.from_matrix(joint.axes)
-            if joint.number is None:
+        for joint in ElementTree.fromstring(model.urdf).iter("joint"):
+            parts: dict[str, Any] = {part.tag: part.attrib for part in joint}
+            above = f"{self._name}/{parts['parent']['link']}"
+            below = f"{self._name}/{parts['child']['link']}"
+            place = np.array(parts["origin"]["xyz"].split(), dtype=np.float64)
+            angles = np.array(parts["origin"]["rpy"].split(), np.float64)
+            turn = Rotation.from_euler("xyz", angles)
+            if "axis" not in parts:
                 fixed = turn.as_quat(scalar_first=True)
-                self.static.append((above, below, joint.position, fixed))
+                self.static.append((above, below, place, fixed))
                 continue
-            values = qpos[:, column[joint.name]].astype(np.float64)
-            places = np.tile(joint.position, (len(values), 1))
-            if joint.kind == "prismatic":
-                places = places + np.outer(values, joint.axes @ joint.axis)
+            axis = np.array(parts["axis"]["xyz"].split(), dtype=np.float64)
+            values = qpos[:, column[joint.attrib["name"]]].astype(np.float64)
+            places = np.tile(place, (len(values), 1))
+            if joint.attrib["type"] == "prismatic":
+                places = places + np.outer(values, turn.apply(axis))
                 values = np.zeros(len(values))
-            turns = turn * Rotation.from_rotvec(np.outer(values, joint.axis))
+            turns = turn * Rotation.from_rotvec(np.outer(values, axis))
             quaternions = turns.as_quat(scalar_first=True)
             self.moving.append(MovingFrame(above, below, places, quaternions))
 

@@ -17,7 +17,7 @@ from ...games.replayed_signals import RobotSignals, repeat_game
 from ...games.run import Run
 from ...games.run_archive import load_run
 from ...robots.description import RobotDescription, load_robot
-from ...robots.urdf_writer import UrdfTree, urdf_of, urdf_tree
+from ...robots.urdf_writer import urdf_of
 
 BEYOND = (
     "joint velocities and efforts, IMU, foot forces, DCM, planned footsteps, "
@@ -30,7 +30,6 @@ class RobotModel:
     """Model of a robot in a recording, in the colour of its player."""
 
     urdf: str  # XML text
-    tree: UrdfTree
     joints: tuple[str, ...]  # their names, in the order of qpos
     foot_sites: Array  # force sensors in their soles' frames, [m], (8, 3)
 
@@ -46,7 +45,6 @@ class RobotModel:
         ]
         return cls(
             urdf_of(description, colour),
-            urdf_tree(description, model),
             tuple(joints),
             _foot_sites(description, model),
         )
