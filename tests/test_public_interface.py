@@ -32,7 +32,6 @@ from stepaside.strategies.learned import (
     LearnedStrategy,
     StrategyContract,
     dense_network,
-    load_learned_strategy,
 )
 from stepaside.studies import (
     Study,
@@ -136,7 +135,6 @@ def kept(tmp_path_factory: pytest.TempPathFactory) -> Path:
     (folder / "study.toml").write_text("game = 'duel'\ngrid.seed = '0:7'\n")
     (folder / "room.toml").write_text("width = 3.0\ndepth = 2.0\n")
     a_bound().save(folder / "bound.npz")
-    a_network().save(folder / "evader.onnx")
     nao = stepaside.load_robot("nao").folder
     (folder / "robot").symlink_to(nao, target_is_directory=True)
     return folder
@@ -150,10 +148,6 @@ READERS: dict[str, tuple[str, Callable[[Any], Any]]] = {
     "load_table": ("bound.npz", lambda p: load_table(p).grid),
     "load_room": ("room.toml", load_room),
     "load_study": ("study.toml", lambda p: len(load_study(p).cases)),
-    "load_learned_strategy": (
-        "evader.onnx",
-        lambda p: load_learned_strategy(p).contract,
-    ),
 }
 
 

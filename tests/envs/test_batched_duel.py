@@ -22,8 +22,11 @@ from stepaside.strategies import (
     StandStill,
     Strategy,
 )
-from stepaside.strategies.learned import StrategyContract, dense_network
-from stepaside.strategies.learned.strategy_contract import discrete_headings
+from stepaside.strategies.learned import (
+    StrategyContract,
+    dense_network,
+    discrete_headings,
+)
 
 ROOM = RoomRecipe(3.0, 3.0, discs=2, boxes=1)
 OUTCOMES = {"completed": RUNNING, "captured": CAPTURED, "touched": TOUCHED}

@@ -16,7 +16,7 @@ from train_evader import (
 from stepaside.envs import VectorDuel
 from stepaside.planning import Direction
 from stepaside.strategies import StepGame
-from stepaside.strategies.learned.strategy_contract import observe
+from stepaside.strategies.learned import observe
 from stepaside.strategies.registry import trial_knowledge
 
 RANDOM = np.random.default_rng(8)

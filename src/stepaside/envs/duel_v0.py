@@ -19,7 +19,7 @@ from ..games.floor_games import floor_of_two, rules_of_two
 from ..games.game import GameInPlay
 from ..games.player_settings import PLAYERS
 from ..games.recorded_game import RecordedGame
-from ..strategies.learned.strategy_contract import (
+from ..strategies.learned import (
     FARTHEST,
     FULL_STATE_TERMS,
     length_unit,

@@ -31,7 +31,7 @@ from ..games.game_settings import duel as make_duel
 from ..games.player_settings import PLAYERS
 from ..planning import Direction
 from ..strategies.knowledge import STAND, Intent
-from ..strategies.learned.strategy_contract import (
+from ..strategies.learned import (
     FULL_STATE_TERMS,
     HEADINGS,
     SENSED_TERMS,
@@ -87,7 +87,7 @@ class EnvironmentSettings:
         duration: Duration of an episode, in [s]: path time, in physics
             simulated time.
         full_state: Whether observations also contain what no sense gives;
-            see :data:`.observation_terms.FULL_STATE_TERMS`.
+            see :data:`.strategies.learned.FULL_STATE_TERMS`.
         action: "continuous" (heading and speed factor) or "discrete".
         headings: Number of headings of discrete actions; one more action
             stands.

@@ -15,7 +15,7 @@ from ..games.game_settings import GameSettings
 from ..games.recorded_game import RecordedGame
 from ..games.settings_reader import load_game
 from ..strategies.knowledge import Knowledge, OtherPlayer
-from ..strategies.learned.strategy_contract import (
+from ..strategies.learned import (
     FARTHEST,
     FASTEST,
     HEADINGS,

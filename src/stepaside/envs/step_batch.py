@@ -13,13 +13,13 @@ from numpy.typing import NDArray
 from ..arena.obstacles import PackedObstacles, hull_clearance
 from ..core.compilation import compiled, copy_values, inlined
 from ..core.poses import Array
-from ..strategies.learned.strategy_contract import (
+from ..strategies.learned import (
     CLEAREST,
     FARTHEST,
     FASTEST,
     FULL_STATE_TERMS,
+    RING_POINTS,
     SENSED_TERMS,
-    ring_points,
 )
 from ..strategies.search.step_motion import walk_arc
 from ..theory import laws
@@ -38,7 +38,6 @@ TERM_CODES = {
     name: code for code, name in enumerate((*SENSED_TERMS, *FULL_STATE_TERMS))
 }
 """Terms that :func:`observe_games` computes."""
-RING = ring_points()
 
 
 class BatchState(NamedTuple):
@@ -260,8 +259,8 @@ def clearances_around(
 ) -> None:
     """Fill in the term "clearances" of a player at a pose."""
     unit = rules.unit
-    for k in range(len(RING)):
-        u, v = unit * RING[k, 0], unit * RING[k, 1]
+    for k in range(len(RING_POINTS)):
+        u, v = unit * RING_POINTS[k, 0], unit * RING_POINTS[k, 1]
         x = pose[0] + pose[2] * u - pose[3] * v
         y = pose[1] + pose[3] * u + pose[2] * v
         clear = room_clearance(rooms, room, x, y, CLEAREST * unit) / unit
@@ -308,12 +307,12 @@ def observe_games(
                 out[i, at] = 1.0 if state.walking[i, player] else 0.0
             elif code == 5:
                 if player == 0:
-                    out[i, at : at + len(RING)] = CLEAREST
+                    out[i, at : at + len(RING_POINTS)] = CLEAREST
                 else:
                     clearances_around(
                         own, rooms, state.rooms[i], rules, out[i, at:]
                     )
-                at += len(RING) - 1
+                at += len(RING_POINTS) - 1
             elif code == 6:
                 out[i, at] = -opponent[2] * dx - opponent[3] * dy
                 out[i, at + 1] = opponent[3] * dx - opponent[2] * dy

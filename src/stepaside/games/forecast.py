@@ -9,7 +9,7 @@ from ..core.poses import Pose
 from ..robots.description import load_robot
 from ..sim.person_motion import PersonMotion, Place, template_approach
 from ..sim.person_settings import PersonSettings
-from ..strategies.registry import is_described
+from ..strategies.registry import OBJECT
 from ..theory.unicycle.unicycle_game import Unicycle
 from .duel_circle import (
     circle_of_theory,
@@ -120,7 +120,7 @@ def _approach_of_person(settings: GameSettings) -> float | None:
     start, own = settings.start, settings.evader
     gait, legs, strategy = own.gait, own.legs, own.evasion
     person = settings.pursuer.person
-    if start.distance is None or is_described(own.strategy):
+    if start.distance is None or own.strategy.startswith(OBJECT):
         return None
     if not (settings.is_of_the_paper or legs.walks):
         return None

@@ -12,7 +12,7 @@ from dataclasses import fields, is_dataclass, replace
 from difflib import get_close_matches
 from math import inf, pi, radians
 from pathlib import Path
-from types import FunctionType, ModuleType
+from types import FunctionType
 from typing import Any, NamedTuple
 
 from .. import strategies
@@ -71,8 +71,7 @@ STRATEGIES: Mapping[str, tuple[str, Mapping[str, Any]]] = {
 
 LIMITS = Limits(0.1, 0.2, 0.04, 0.547)  # of trial decisions
 OF_EVASION = ("evasion",)  # strategies that use settings of an Evasion
-OTHERS = "FILE.py:NAME or FILE.onnx"
-_OBJECT = re.compile(r"object [\w.<>]+")
+OBJECT = "object "  # begins the text that records a strategy object
 _CALL = re.compile(
     r"(?P<name>(?P<file>.+\.(?:py(?=:)|onnx))(?::(?P<own>\w+))?|[^():]+)"
     r"(?:\((?P<arguments>.*)\))?",
@@ -93,13 +92,7 @@ class _Named(NamedTuple):
 
 def describe_strategy(strategy: Strategy) -> str:
     """Return the text that records a strategy object: its class."""
-    kind = type(strategy)
-    return f"object {kind.__qualname__}"
-
-
-def is_described(name: str) -> bool:
-    """Return whether a name only records the class of a strategy."""
-    return _OBJECT.fullmatch(name) is not None
+    return OBJECT + type(strategy).__qualname__
 
 
 def check_strategy_name(
@@ -110,7 +103,7 @@ def check_strategy_name(
     Messages name the setting. Recorded text is that of
     :func:`describe_strategy`, too.
     """
-    if recorded and is_described(name):
+    if recorded and name.startswith(OBJECT):
         return
     named = _parse(name, what)
     if named.arguments and named.file is None:
@@ -140,12 +133,6 @@ def load_strategy(
     if not isinstance(name, str):
         validate_strategy(name, describe_strategy(name))
         return name
-    if is_described(name):
-        raise ConfigurationError(
-            f"strategy must be a name or FILE.py:NAME, got {name!r}: it was "
-            "given as a Python object, which a configuration cannot make "
-            "again; give its FILE.py:NAME, or the object from Python"
-        )
     named = _parse(name)
     if named.file is None:
         return _make(named, evasion or Evasion())
@@ -169,6 +156,12 @@ def file_of(name: str) -> Path | None:
 
 def _parse(text: str, what: str = "strategy") -> _Named:
     """Return the parts of the name of a strategy."""
+    if text.startswith(OBJECT):
+        raise ConfigurationError(
+            f"{what} must be a name or FILE.py:NAME, got {text!r}: it was "
+            "given as a Python object, which a configuration cannot make "
+            "again; give its FILE.py:NAME, or the object from Python"
+        )
     found = _CALL.fullmatch(text)
     name = found["name"].strip() if found else text
     own, file = found and found["own"], file_of(text)
@@ -181,16 +174,16 @@ def _parse(text: str, what: str = "strategy") -> _Named:
                 f"{what} {name} must have arguments like gain=2, got {each!r}"
             )
         arguments[key] = _value(value)
-    if file and not own and arguments:
+    is_file = file and own is None and name.endswith(".onnx")
+    if is_file and arguments:
         raise ConfigurationError(
             f"{what} {name} must have no arguments, got {', '.join(arguments)}"
         )
-    is_file = file and own is None and name.endswith(".onnx")
     if name in STRATEGIES or is_file or (own and own.isidentifier()):
         return _Named(name, arguments, file, own)
     raise ConfigurationError(
-        f"{what} must be one of {', '.join(STRATEGIES)}, {OTHERS}, "
-        f"got {text!r:.80}{_hint(name, STRATEGIES)}"
+        f"{what} must be one of {', '.join(STRATEGIES)}, FILE.py:NAME or "
+        f"FILE.onnx, got {text!r:.80}{_hint(name, STRATEGIES)}"
     )
 
 
@@ -236,12 +229,19 @@ def _create(named: _Named, file: Path, name: str) -> Any:
     """Return the strategy that a name in a file denotes, created if needed."""
     given, where = named.arguments, f"strategy {named.name}"
     loaded = load_user_file(str(file), where)
-    if not hasattr(loaded, name):
-        available = ", ".join(_strategies_in(loaded)) or "no strategy"
+    thing = getattr(loaded, name, None)
+    if thing is None:
+        own = [
+            key
+            for key, each in vars(loaded).items()
+            if not key.startswith("_")
+            and getattr(each, "__module__", None) == loaded.__name__
+            and (hasattr(each, "decide") or isinstance(each, FunctionType))
+        ]
         raise ConfigurationError(
-            f"{where}: the file has no {name}, but {available}"
+            f"{where}: the file has no {name}, but "
+            f"{', '.join(sorted(own)) or 'no strategy'}"
         )
-    thing = getattr(loaded, name)
     is_made = not isinstance(thing, type) and hasattr(thing, "decide")
     if is_made and not given:
         return thing
@@ -258,20 +258,6 @@ def _create(named: _Named, file: Path, name: str) -> Any:
             f"{where}: {name}({listed}) must make a strategy, got "
             f"{type(error).__name__}: {error}"
         ) from error
-
-
-def _strategies_in(loaded: ModuleType) -> list[str]:
-    """Return the names of strategies and of functions that a file defines.
-
-    Whether a function returns a strategy shows only when it is called.
-    """
-    return sorted(
-        name
-        for name, thing in vars(loaded).items()
-        if not name.startswith("_")
-        and getattr(thing, "__module__", None) == loaded.__name__
-        and (hasattr(thing, "decide") or isinstance(thing, FunctionType))
-    )
 
 
 def trial_knowledge() -> Iterator[Knowledge]:
@@ -299,16 +285,14 @@ def validate_strategy(candidate: Any, name: str) -> None:
         except FAILURES as error:
             require(False, rule, f"{type(error).__name__}: {error}")
 
-    kind = type(candidate).__name__
     for method in ("begin", "decide"):
         has = callable(getattr(candidate, method, None))
-        require(has, f"must have a method {method}", f"a {kind} without")
-    for key, wanted, rule in (
-        ("direction", Direction, "direction must be a Direction"),
-        ("saturated", bool, "saturated must be true or false"),
-    ):
-        value = attempt(f"must have {key}", getattr, candidate, key, None)
-        require(isinstance(value, wanted), rule, repr(value))
+        got = f"a {type(candidate).__name__} without"
+        require(has, f"must have a method {method}", got)
+    for key, kind in (("direction", Direction), ("saturated", bool)):
+        value = getattr(candidate, key, None)
+        rule = f"{key} must be a {kind.__name__}"
+        require(isinstance(value, kind), rule, repr(value))
     memory = attempt("begin() must return a memory", candidate.begin)
     rule = "decide(knowledge, memory) must return (Intent, memory)"
     for knowledge in trial_knowledge():
@@ -318,11 +302,7 @@ def validate_strategy(candidate: Any, name: str) -> None:
         )
         for each in (one, other):
             pair = isinstance(each, tuple) and len(each) == 2
-            require(
-                pair and isinstance(each[0], Intent),
-                "decide must return (Intent, memory)",
-                repr(each),
-            )
+            require(pair and isinstance(each[0], Intent), rule, repr(each))
         require(
             one[0] == other[0],
             "the same knowledge and memory must give the same intent",

@@ -16,8 +16,8 @@ from stepaside.strategies.learned import (
     StrategyContract,
     dense_network,
     load_learned_strategy,
+    open_network,
 )
-from stepaside.strategies.learned.learned_strategy import open_network
 
 onnx = pytest.importorskip("onnx")
 RANDOM = np.random.default_rng(5)

@@ -23,10 +23,8 @@ from stepaside.strategies import (
 from stepaside.strategies.learned import (
     LearnedStrategy,
     StrategyContract,
-    dense_network,
-)
-from stepaside.strategies.learned.strategy_contract import (
     contract_of,
+    dense_network,
     discrete_headings,
 )
 from stepaside.theory.unicycle import RelativeStart
@@ -113,12 +111,18 @@ def test_metadata_hold_the_contract() -> None:
 @pytest.mark.parametrize(
     ("change", "message"),
     [
-        ({"stepaside_strategy": None}, "stepaside_strategy is missing"),
-        ({"stepaside_strategy": "9"}, "must be 1, got 9"),
-        ({"direction": "up"}, "must be forward or backward, got up"),
+        (
+            {"stepaside_strategy": None},
+            "stepaside_strategy must be 1, got None",
+        ),
+        ({"stepaside_strategy": "9"}, "must be 1, got '9'"),
+        ({"direction": "up"}, "must be forward or backward, got 'up'"),
         ({"observation_names": "7"}, "observation_names must be a list"),
         ({"observation_names": '["sonar"]'}, "term 'sonar'; there are"),
-        ({"action_headings": '["left"]'}, "must be numbers .* got 'left'"),
+        (
+            {"action_headings": '["left"]'},
+            r"heading must lie in .* got 'left'",
+        ),
         ({"action_headings": "[99]"}, r"heading must lie in .* got 99"),
     ],
 )

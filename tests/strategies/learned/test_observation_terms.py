@@ -11,7 +11,7 @@ from stepaside.arena.shapes import Disc
 from stepaside.core.errors import PolicyError
 from stepaside.core.poses import Pose
 from stepaside.strategies.knowledge import Knowledge, Limits
-from stepaside.strategies.learned.strategy_contract import (
+from stepaside.strategies.learned import (
     SENSED_TERMS,
     observe,
     width_of,
