@@ -11,6 +11,7 @@ from click.testing import CliRunner
 
 from stepaside.arena import (
     OPEN_FLOOR,
+    Box,
     Disc,
     Door,
     Room,
@@ -22,8 +23,8 @@ from stepaside.arena import (
     path_exists,
     room_to_toml,
 )
-from stepaside.arena.shapes import CentreLine
 from stepaside.cli.main import main
+from stepaside.core.entries import read_entries
 from stepaside.core.errors import ConfigurationError
 from stepaside.core.poses import wrap_angle
 
@@ -32,12 +33,9 @@ PILLAR = Room(4.0, 2.0, (Disc(0.0, 0.0, 0.3),))
 
 def two_rooms(gap: float) -> Room:
     """Room divided by a wall with a gap in [m]."""
-    half = 0.5 * gap
-    walls = (
-        CentreLine((0.0, -1.5), (0.0, -half)).box,
-        CentreLine((0.0, half), (0.0, 1.5)).box,
-    )
-    return Room(3.0, 3.0, walls)
+    middle, length = 0.75 + 0.25 * gap, 1.5 - 0.5 * gap
+    walls = [Box(0.0, y, 0.1, length) for y in (-middle, middle)]
+    return Room(3.0, 3.0, tuple(walls))
 
 
 def test_clearance_is_the_distance_to_the_nearest_solid() -> None:
@@ -126,7 +124,7 @@ def test_room_survives_a_round_trip_through_a_file(tmp_path: Path) -> None:
     )
     assert answer.exit_code == 0, answer.output
     assert load_room(again) == room
-    assert Room.from_entries(json.loads(answer.output)["room"]) == room
+    assert read_entries(Room, json.loads(answer.output)["room"]) == room
 
 
 @pytest.mark.parametrize(
@@ -139,24 +137,23 @@ def test_room_survives_a_round_trip_through_a_file(tmp_path: Path) -> None:
         ),
         ("width = true\ndepth = 3.0", r"width must lie in .* \[m\], got True"),
         ("height = 3.0", "unknown entry height; there are width"),
-        ("discs = 3", "discs must be an array, got 3"),
-        ("discs = [3]", "discs 1 must be a table"),
-        ("[[discs]]\nx = 1\ny = 0", "missing entry discs 1.radius"),
+        ("obstacles = 3", "obstacles must be an array, got 3"),
+        ("obstacles = [3]", "obstacles 1 must be a table"),
         (
-            "[[discs]]\nx = 1\ny = 0\nradius = nan",
-            "discs 1.radius must lie in .*nan",
+            "[[obstacles]]\nx = 1\ny = 0",
+            "obstacles 1: missing entry radius",
         ),
         (
-            "[[discs]]\nx = 1\ny = 0\nr = 1\nradius = 1",
-            "unknown entry discs 1.r; there are x, y, radius",
+            "[[obstacles]]\nx = 1\ny = 0\nradius = nan",
+            "obstacles 1: radius must lie in .*nan",
         ),
         (
-            "[[polygons]]\ncorners = [[0,0],[1,1],[1,0],[0,1]]",
-            "polygons 1: polygon must not cross itself",
+            "[[obstacles]]\nx = 1\ny = 0\nr = 1\nradius = 1",
+            "obstacles 1: an obstacle must have the entries of one shape",
         ),
         (
-            "[[walls]]\nstart = [0]\nend = [1, 1]",
-            "walls 1.start must have 2 entries",
+            "[[obstacles]]\ncorners = [[0,0],[1,1],[1,0],[0,1]]",
+            "obstacles 1: polygon must not cross itself",
         ),
         ("[[doors]]\nside = 'up'", "doors 1.side must be one of east"),
         ("[[doors]]\nside = 'east'", "must have walls for its doors"),
@@ -165,14 +162,14 @@ def test_room_survives_a_round_trip_through_a_file(tmp_path: Path) -> None:
             "doors must lie in their wall",
         ),
         (
-            "width=1.0\ndepth=1.0\n[[discs]]\nx=0.7\ny=0\nradius=0.1",
+            "width=1.0\ndepth=1.0\n[[obstacles]]\nx=0.7\ny=0\nradius=0.1",
             "must stand between the walls",
         ),
-        ("pursuer = {x = 0, y = 0}", "got no evader"),
+        ("starts = [[0, 0, 0]]", "starts must have 2 entries"),
         ("width = ", "room.toml: "),
         (
-            "pursuer={x=0,y=0}\nevader={x=1,y=0}\n"
-            "[[discs]]\nx=0.1\ny=0\nradius=0.1",
+            "starts = [[0, 0, 0], [1, 0, 0]]\n"
+            "[[obstacles]]\nx=0.1\ny=0\nradius=0.1",
             "the pursuer must start at least 0.2",
         ),
     ],

@@ -64,7 +64,7 @@ duration = 20.0
 [room]
 width = 6.0
 depth = 6.0
-boxes = [{ x = 1.0, y = 0.0, width = 0.4, depth = 0.4, heading = 0.0 }]
+obstacles = [{ x = 1.0, y = 0.0, width = 0.4, depth = 0.4 }]
 [[players]]
 name = "red"
 role = "pursuer"

@@ -143,9 +143,8 @@ def test_cameras_see_where_the_other_is(tmp_path: Path) -> None:
 ROOM = """
 width = 3.0
 depth = 3.0
-discs = [{ x = 1.0, y = 0.0, radius = 0.2 }]
-pursuer = { x = -0.2, y = 0.0, theta = 0.0 }
-evader = { x = 0.5, y = 0.0, theta = 3.14159 }
+obstacles = [{ x = 1.0, y = 0.0, radius = 0.2 }]
+starts = [[-0.2, 0.0, 0.0], [0.5, 0.0, 3.14159]]
 """
 
 

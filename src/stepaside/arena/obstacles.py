@@ -1,8 +1,8 @@
 """Obstacles on the floor: the base class of shapes, and sets of them."""
 
 from abc import ABC, abstractmethod
-from collections.abc import Iterable, Iterator
-from dataclasses import dataclass
+from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import dataclass, fields
 from functools import cached_property
 from math import inf, sqrt, tau
 from typing import Any, ClassVar, NamedTuple
@@ -11,6 +11,8 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ..core.compilation import compiled, inlined
+from ..core.entries import read_entries
+from ..core.errors import ConfigurationError
 from ..core.poses import Array
 
 
@@ -157,6 +159,22 @@ class Obstacle(ABC):
     """Convex shape on the floor: the hull of points, grown by a radius."""
 
     kind: ClassVar[str]  # "disc", "box" or "polygon"
+
+    @staticmethod
+    def from_entries(entries: Mapping[str, Any]) -> "Obstacle":
+        """Read the shape that has such entries."""
+        names = {
+            kind: {each.name for each in fields(kind)}
+            for kind in Obstacle.__subclasses__()
+        }
+        for kind, own in names.items():
+            if own.issuperset(entries):
+                return read_entries(kind, entries)
+        listed = "; ".join(", ".join(sorted(own)) for own in names.values())
+        raise ConfigurationError(
+            f"an obstacle must have the entries of one shape: {listed}; got "
+            f"{', '.join(entries)}"
+        )
 
     @property
     @abstractmethod

@@ -1,9 +1,7 @@
 """Rooms: walls with doors, obstacles and moving boxes; room files."""
 
-from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Any
 
 import numpy as np
 import tomli_w
@@ -15,21 +13,11 @@ from ..core.poses import Array, Pose
 from ..core.ranges import Range
 from ..core.setting import REQUIRED, CheckedSettings, check_settings, setting
 from .obstacles import Obstacle, ObstacleSet
-from .shapes import (
-    BEARING,
-    COORDINATE,
-    WALL,
-    Box,
-    CentreLine,
-    Disc,
-    MovingBox,
-    Polygon,
-)
+from .shapes import BEARING, COORDINATE, WALL, Box, MovingBox
 
 ERROR = ConfigurationError
 Solids = tuple[Obstacle, ...]
 SIDES = ("east", "north", "west", "south")
-KINDS = ("disc", "box", "polygon")  # of obstacles, in the order of files
 BODY_RADIUS = 0.20  # of a player among obstacles, in [m]
 SMALLEST, LARGEST = 0.5, 100.0  # of a room, in [m]
 MAX_COUNT = 500  # of obstacles, of doors and of moving boxes
@@ -56,20 +44,6 @@ class Door(CheckedSettings, prefix="door "):
 
 
 @dataclass(frozen=True)
-class InitialPose(CheckedSettings, prefix="start "):
-    """Pose in a room at which a player starts."""
-
-    x: float = setting(REQUIRED, "x", COORDINATE)
-    y: float = setting(REQUIRED, "y", COORDINATE)
-    theta: float = setting(0.0, "Heading", BEARING)
-
-    @property
-    def pose(self) -> Pose:
-        """The pose."""
-        return Pose(self.x, self.y, self.theta)
-
-
-@dataclass(frozen=True)
 class Room:
     """Room in its own frame: x along its width, y along its depth.
 
@@ -81,8 +55,7 @@ class Room:
     depth: float | None = setting(None, "Depth of the floor, along y", EXTENT)
     obstacles: tuple[Obstacle, ...] = setting(
         (),
-        "Obstacles at rest, which may touch each other; sorted as in files: "
-        "discs, then boxes, then polygons",
+        "Obstacles at rest: discs, boxes and polygons, which may touch",
         count=(0, MAX_COUNT),
     )
     doors: tuple[Door, ...] = setting(
@@ -102,8 +75,6 @@ class Room:
             raise ERROR("a room must have both width and depth, or neither")
         check_settings(self, prefix="room ")
         self._check_doors()
-        ordered = sorted(self.obstacles, key=lambda o: KINDS.index(o.kind))
-        object.__setattr__(self, "obstacles", tuple(ordered))
         ends = [place for box in self.moving for place in box.ends]
         for obstacle in (*self.obstacles, *ends):
             if self.has_walls and not self.is_inside([obstacle.centre])[0]:
@@ -114,28 +85,9 @@ class Room:
                     f"got one at ({x:g}, {y:g})"
                 )
         for pose in self.starts or ():
-            InitialPose(*pose)
-
-    @staticmethod
-    def from_entries(entries: Mapping[str, Any]) -> "Room":
-        """Build a room from the entries of a file."""
-        return read_entries(RoomEntries, entries).room
-
-    def to_entries(self) -> dict[str, Any]:
-        """Return the entries of a file of the room."""
-        entries: dict[str, Any] = {}
-        if self.has_walls:
-            entries |= {"width": self.width, "depth": self.depth}
-        if self.starts is not None:
-            pursuer, evader = map(to_entries, self.starts)
-            entries |= {"pursuer": pursuer, "evader": evader}
-        for obstacle in self.obstacles:
-            listed = entries.setdefault(LISTED[obstacle.kind], [])
-            listed.append(to_entries(obstacle))
-        for name in ("doors", "moving"):
-            if getattr(self, name):
-                entries[name] = to_entries(getattr(self, name))
-        return entries
+            for name, value in pose._asdict().items():
+                limits = BEARING if name == "theta" else COORDINATE
+                limits.check(value, f"start {name}")
 
     def _check_doors(self) -> None:
         if self.doors and not self.has_walls:
@@ -244,64 +196,19 @@ OPEN_FLOOR = Room()
 """Unbounded floor without obstacles."""
 
 
-LISTED = {"disc": "discs", "box": "boxes", "polygon": "polygons"}
-COUNT = (0, MAX_COUNT)
-
-
-@dataclass(frozen=True)
-class RoomEntries:
-    """Entries of a room file."""
-
-    width: float | None = setting(None, "Width of the floor", EXTENT)
-    depth: float | None = setting(None, "Depth of the floor", EXTENT)
-    pursuer: InitialPose | None = setting(None, "Initial pose of the pursuer")
-    evader: InitialPose | None = setting(None, "Initial pose of the evader")
-    discs: tuple[Disc, ...] = setting((), "Discs", count=COUNT)
-    boxes: tuple[Box, ...] = setting((), "Boxes", count=COUNT)
-    polygons: tuple[Polygon, ...] = setting((), "Polygons", count=COUNT)
-    walls: tuple[CentreLine, ...] = setting((), "Inner walls", count=COUNT)
-    doors: tuple[Door, ...] = setting((), "Gaps in the walls", count=COUNT)
-    moving: tuple[MovingBox, ...] = setting((), "Moving boxes", count=COUNT)
-
-    def __post_init__(self) -> None:
-        check_settings(self)
-        if (self.pursuer is None) != (self.evader is None):
-            missing = "evader" if self.evader is None else "pursuer"
-            raise ConfigurationError(
-                "initial poses must be given for both players, got no "
-                f"{missing}"
-            )
-
-    @property
-    def room(self) -> Room:
-        """The room."""
-        walls = (wall.box for wall in self.walls)
-        starts = None
-        if self.pursuer is not None and self.evader is not None:
-            starts = self.pursuer.pose, self.evader.pose
-        return Room(
-            self.width,
-            self.depth,
-            (*self.discs, *self.boxes, *self.polygons, *walls),
-            self.doors,
-            starts,
-            self.moving,
-        )
-
-
 def load_room(file: AnyPath) -> Room:
     """Read a room from a TOML file, or a JSON file with the suffix ".json"."""
     file = as_path(file, "file")
     entries = load_entries(file)
     try:
-        return Room.from_entries(entries)
+        return read_entries(Room, entries)
     except ConfigurationError as error:
         raise ConfigurationError(f"room {file}: {error}") from error
 
 
 def room_to_toml(room: Room) -> str:
     """Return the room as the text of a TOML file."""
-    return tomli_w.dumps(room.to_entries())
+    return tomli_w.dumps(to_entries(room))
 
 
 NUMBER = Range(0, MAX_COUNT, "1", "more take too long", whole=True)

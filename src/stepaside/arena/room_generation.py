@@ -6,6 +6,7 @@ from typing import Any
 
 import numpy as np
 
+from ..core.entries import to_entries
 from ..core.errors import ConfigurationError
 from ..core.poses import Array, Pose
 from ..core.random_streams import named_generator
@@ -103,7 +104,7 @@ def measure_room(room: Room) -> dict[str, Any]:
         "doors": len(room.doors),
         "closed": room.is_closed,
         "narrowest_gap_m": min((x for x in gaps if x > 1e-6), default=None),
-        "room": room.to_entries(),
+        "room": to_entries(room),
     }
 
 

@@ -2,7 +2,7 @@
 
 from dataclasses import dataclass
 from functools import cached_property
-from math import atan2, hypot, tau
+from math import hypot, tau
 from typing import ClassVar
 
 import numpy as np
@@ -108,32 +108,6 @@ class Box(Obstacle):
     def centre(self) -> tuple[float, float]:
         """Centre (x, y), in [m]."""
         return self.x, self.y
-
-
-@dataclass(frozen=True)
-class CentreLine:
-    """Centre line of a wall in a room file."""
-
-    start: Point = setting(REQUIRED, "First end (x, y)", COORDINATE)
-    end: Point = setting(REQUIRED, "Second end (x, y)", COORDINATE)
-    thickness: float = setting(WALL, "Thickness", SIDE)
-
-    def __post_init__(self) -> None:
-        check_settings(self, prefix="wall ")
-        SIDE.check(self.length, "wall length")
-
-    @property
-    def length(self) -> float:
-        """Length, in [m]."""
-        return hypot(self.end[0] - self.start[0], self.end[1] - self.start[1])
-
-    @property
-    def box(self) -> Box:
-        """The wall."""
-        x, y = (0.5 * np.add(self.start, self.end)).tolist()
-        (a, b), (c, d) = self.start, self.end
-        heading = atan2(d - b, c - a)
-        return Box(x, y, self.length, self.thickness, heading)
 
 
 def hull(points: ArrayLike) -> Polygon:

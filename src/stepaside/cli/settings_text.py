@@ -5,7 +5,6 @@ from dataclasses import is_dataclass
 from textwrap import wrap
 from typing import Any
 
-from ..arena import Room
 from ..core.entries import to_entries
 from ..core.setting import settings_of
 
@@ -35,12 +34,7 @@ def _lines(
             f"# {line}" for line in wrap(each.full_text, WIDTH)
         )
         path = (*section, name)
-        if isinstance(value, Room):
-            import tomli_w
-
-            entries = {name: value.to_entries()}
-            subsections += ["", comment, tomli_w.dumps(entries).strip()]
-        elif isinstance(value, tuple) and value and is_dataclass(value[0]):
+        if isinstance(value, tuple) and value and is_dataclass(value[0]):
             for one in value:
                 subsections += ["", comment, f"[[{'.'.join(path)}]]"]
                 subsections += _lines(one, path)

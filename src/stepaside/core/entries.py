@@ -85,8 +85,6 @@ def read_entries(
 
 def to_entries(value: Any) -> Any:
     """Return a value as nested entries, without those that are None."""
-    if hasattr(value, "to_entries"):
-        return value.to_entries()
     if is_dataclass(value) and not isinstance(value, type):
         value = {f.name: getattr(value, f.name) for f in fields(value)}
     elif hasattr(value, "_asdict"):
