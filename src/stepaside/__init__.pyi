@@ -53,8 +53,8 @@ from .theory.unicycle import RelativeStart as RelativeStart
 from .theory.unicycle import find_circle as find_circle
 from .theory.unicycle import make_game as make_game
 from .theory.unicycle import play_games as play_games
-from .theory.unicycle.adaptive_simulation import simulate as simulate
 from .theory.unicycle.certificate import certify as certify
+from .theory.unicycle.simulation import simulate as simulate
 
 __version__: str
 

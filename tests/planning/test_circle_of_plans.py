@@ -16,8 +16,7 @@ from stepaside.core.poses import Array, Pose, wrap_angle
 from stepaside.perception.measurement import RobotState, Sighting
 from stepaside.planning import Foot, GaitSettings
 from stepaside.strategies import Evasion, Pursuit
-from stepaside.theory.unicycle.circle_fit import fit_circle
-from stepaside.theory.unicycle.circles import Circle, find_circle
+from stepaside.theory.unicycle.circles import Circle, find_circle, fit_circle
 from stepaside.theory.unicycle.unicycle_game import (
     RelativeStart,
     Unicycle,

@@ -22,7 +22,7 @@ from stepaside.planning.path import UnicycleTrajectory, place_footsteps
 from stepaside.planning.plan import PlanSamples
 from stepaside.studies import theory_claims
 from stepaside.studies.claims import ONCE, load_claims
-from stepaside.theory.unicycle.adaptive_simulation import PlayedGame
+from stepaside.theory.unicycle.simulation import PlayedGame
 from stepaside.theory.unicycle.unicycle_game import Game
 
 Patch = Callable[[pytest.MonkeyPatch], None]
@@ -52,8 +52,7 @@ def seen_as(change: Callable[[Game, Array, Array, Array], Pair]) -> Patch:
             return SimpleNamespace(
                 game=game,
                 end_time=run.end_time,
-                states=run.states,
-                sides=run.sides,
+                circle=run.circle,
                 poses=poses,
             )
 

@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 
-from stepaside.theory.unicycle.batch import play_games
 from stepaside.theory.unicycle.circles import circles_of
+from stepaside.theory.unicycle.simulation import play_games
 from stepaside.theory.unicycle.start_maps import (
     duration_and_step,
     find_basins,

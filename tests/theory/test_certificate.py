@@ -6,11 +6,11 @@ import numpy as np
 import pytest
 
 from stepaside.core.errors import PlanError
-from stepaside.theory.unicycle.batch import play_games
 from stepaside.theory.unicycle.certificate import (
     certify,
 )
 from stepaside.theory.unicycle.circles import circle_of
+from stepaside.theory.unicycle.simulation import play_games
 from stepaside.theory.unicycle.unicycle_game import (
     Game,
     RelativeStart,

@@ -5,13 +5,8 @@ from math import pi
 import numpy as np
 import pytest
 
-from stepaside.theory.unicycle.adaptive_simulation import simulate
-from stepaside.theory.unicycle.circle_fit import (
-    circle_at,
-    measure,
-    settling_time,
-)
-from stepaside.theory.unicycle.circles import circles_of
+from stepaside.theory.unicycle.circles import circles_of, settling_time
+from stepaside.theory.unicycle.simulation import measure, play_games, simulate
 from stepaside.theory.unicycle.unicycle_game import RelativeStart, make_game
 
 FAST = make_game(2.0, 1.0, 1.0, 4.0)
@@ -31,20 +26,16 @@ def test_settling_time_waits_for_the_slowest_circle_and_one_turn() -> None:
 
 def test_circle_is_named_within_two_percent_on_either_side() -> None:
     circles = circles_of(FAST)
-    for circle in circles:
+    for n, circle in enumerate(circles):
         state = np.array(
             [circle.distance_m, circle.pursuer_error_rad, circle.bearing_rad]
         )
+        sizes = np.diag([circle.distance_m, 1.0, 1.0])
         for side in (1, -1):
-            here = state * [1.0, side, side]
-            assert circle_at(circles, here, side) == circle
-            assert circle_at(circles, here, -side) is None
-            for k, size in enumerate((circle.distance_m, 1.0, 1.0)):
-                near, far = here.copy(), here.copy()
-                near[k] += 0.019 * size
-                far[k] += 0.021 * size
-                assert circle_at(circles, near, side) == circle
-                assert circle_at(circles, far, side) is None
+            for by, found in ((0.0, n), (0.019, n), (0.021, -1)):
+                starts = (state + by * sizes) * [1.0, side, side]
+                out = play_games(FAST, starts, 1e-6)
+                assert (out.circle == found).all()
 
 
 def test_game_without_a_circle_is_measured_over_its_last_tenth() -> None:

@@ -7,13 +7,13 @@ import pytest
 
 from stepaside.core.errors import PlanError
 from stepaside.core.poses import wrap_angle
-from stepaside.theory.unicycle.batch import play_games
 from stepaside.theory.unicycle.circles import (
     Circle,
     circle_of,
     circles_of,
     find_circle,
 )
+from stepaside.theory.unicycle.simulation import play_games
 from stepaside.theory.unicycle.start_maps import (
     find_basins,
     random_starts,

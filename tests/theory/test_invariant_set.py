@@ -5,11 +5,9 @@ from math import pi
 import numpy as np
 import pytest
 
-from stepaside.theory.unicycle.adaptive_simulation import simulate
-from stepaside.theory.unicycle.batch import play_games
 from stepaside.theory.unicycle.certificate import stays_unwrapped
-from stepaside.theory.unicycle.circle_fit import circle_at
 from stepaside.theory.unicycle.circles import circles_of
+from stepaside.theory.unicycle.simulation import play_games, simulate
 from stepaside.theory.unicycle.unicycle_game import (
     Game,
     RelativeStart,
@@ -79,9 +77,8 @@ def test_unwrapped_motion_can_end_on_the_reversed_circle() -> None:
     start = RelativeStart(0.656, error, error - pi / 2 + 2.0 * pi)
     run = simulate(KEPT, start, 80.0, side=1)
     assert run.switches == ()  # nothing wraps
-    last = run.states([run.end_time])[0, :3]
     circles = circles_of(KEPT)
-    assert circle_at(circles, last, 1) == circles[1]
+    assert run.circle == circles[1]
     assert circles[1].direction == -1 and not circles[1].behind
     assert not stays_unwrapped(KEPT, error, start.bearing)
 

@@ -5,8 +5,7 @@ from math import radians
 import numpy as np
 import pytest
 
-from stepaside.theory.unicycle.adaptive_simulation import simulate
-from stepaside.theory.unicycle.batch import play_games
+from stepaside.theory.unicycle.simulation import play_games, simulate
 from stepaside.theory.unicycle.start_maps import (
     StartBox,
     find_worst_start,

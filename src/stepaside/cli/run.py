@@ -206,10 +206,8 @@ def unicycles(
 def _simulate(
     settings: UnicycleSettings, start: "RelativeStart"
 ) -> tuple[Any, dict[str, Any]]:
-    """Simulate with the adaptive integrator and measure the paths."""
-    from ..theory.unicycle.adaptive_simulation import simulate
-    from ..theory.unicycle.circle_fit import circle_at, measure
-    from ..theory.unicycle.circles import circles_of
+    """Simulate the laws of the paper and measure the paths."""
+    from ..theory.unicycle.simulation import measure, simulate
 
     run = simulate(
         settings.game,
@@ -228,12 +226,10 @@ def _simulate(
         found = plain(measure(run))
         result |= {"radius_m": found["radius_pursuer_m"]} | found
         result["turning_rate_rad_s"] = abs(found["turning_rate_rad_s"] or 0.0)
-        last = run.states([run.end_time])[0, :3]
-        ended = circle_at(circles_of(settings.game), last, run.sides[-1])
-        result["circle"] = ended and {
-            "direction": ended.direction,
-            "distance_m": ended.distance_m,
-            "stable": ended.stable,
+        result["circle"] = run.circle and {
+            "direction": run.circle.direction,
+            "distance_m": run.circle.distance_m,
+            "stable": run.circle.stable,
         }
     return run, result
 
@@ -259,7 +255,7 @@ def _play_named(
     from ..core.poses import wrap_angle
     from ..games.floor_games import play_unicycles
     from ..strategies.registry import OF_EVASION
-    from ..theory.unicycle.circle_fit import fit_circle
+    from ..theory.unicycle.circles import fit_circle
 
     if not set(names) & set(OF_EVASION):
         refuse_settings(

@@ -276,7 +276,7 @@ def map(  # noqa: A001 (the command's name)
     settings: StartMapSettings, figure: Path | None, as_json: bool
 ) -> None:
     """Simulate games over a grid of initial poses and find the worst one."""
-    from ..theory.unicycle.batch import accurate_step
+    from ..theory.unicycle.simulation import accurate_step
     from ..theory.unicycle.start_maps import (
         StartBox,
         find_worst_start,

@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 from ..core.constants import CAPTURE_DISTANCE
 from ..core.poses import Array
 from ..sim.crowd_motion import RADIUS
-from ..theory.unicycle.circle_fit import fit_circle
+from ..theory.unicycle.circles import fit_circle
 from .duel_circle import (
     angle_between,
     cycle_mean,

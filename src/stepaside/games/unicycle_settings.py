@@ -5,6 +5,7 @@ from math import pi
 
 from ..core.ranges import Range
 from ..core.setting import CheckedSettings, setting
+from ..theory.unicycle.circles import settling_time
 from ..theory.unicycle.unicycle_game import (
     Game,
     RelativeStart,
@@ -132,8 +133,6 @@ class UnicycleSettings(UnicycleGameSettings):
     @property
     def time(self) -> float:
         """Simulated time, in [s]."""
-        from ..theory.unicycle.circle_fit import settling_time
-
         return self.duration or settling_time(self.game)
 
     @property

@@ -10,9 +10,13 @@ from matplotlib.colors import ListedColormap
 
 from ..core.errors import AnyPath
 from ..core.poses import Array
-from ..theory.unicycle.adaptive_simulation import PlayedGame, simulate
-from ..theory.unicycle.circle_fit import FittedCircle, measure, settling_time
-from ..theory.unicycle.circles import Circle, circle_of
+from ..theory.unicycle.circles import Circle, circle_of, settling_time
+from ..theory.unicycle.simulation import (
+    FittedCircle,
+    PlayedGame,
+    measure,
+    simulate,
+)
 from ..theory.unicycle.start_maps import StartMap
 from ..theory.unicycle.unicycle_game import (
     Game,

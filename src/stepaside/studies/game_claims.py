@@ -30,7 +30,7 @@ from ..games.settings_reader import read_game
 from ..planning import PRESETS, GaitSettings
 from ..robots.description import load_robot
 from ..strategies.strategy_game import StepGame
-from ..theory.unicycle.circle_fit import fit_circle
+from ..theory.unicycle.circles import fit_circle
 from .theory_claims import most_deviating
 from .tournament import (
     ASIDE,

@@ -18,8 +18,8 @@ from ..games.run import Run
 from ..games.run_archive import results_of
 from ..games.settings_reader import read_game, settings_of
 from ..games.unicycle_settings import UnicycleSettings
-from ..theory.unicycle.adaptive_simulation import simulate
 from ..theory.unicycle.certificate import certify
+from ..theory.unicycle.simulation import simulate
 from ..theory.unicycle.unicycle_game import RelativeStart, make_game
 from .person_encounters import Encounter, play_encounter
 from .push_limit import PushTrial, play_push

@@ -19,8 +19,8 @@ from ..planning import (
     ManeuverPlanner,
 )
 from ..planning.path import UnicycleTrajectory
-from ..theory.unicycle.adaptive_simulation import PlayedGame, simulate
-from ..theory.unicycle.circle_fit import fit_circle, measure, settling_time
+from ..theory.unicycle.circles import fit_circle, settling_time
+from ..theory.unicycle.simulation import PlayedGame, measure, simulate
 from ..theory.unicycle.unicycle_game import (
     Game,
     RelativeStart,

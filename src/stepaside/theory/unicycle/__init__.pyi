@@ -1,11 +1,11 @@
-from .adaptive_simulation import PlayedGame as PlayedGame
-from .adaptive_simulation import simulate as simulate
-from .batch import Outcomes as Outcomes
-from .batch import play_games as play_games
 from .circles import Circle as Circle
 from .circles import circle_of as circle_of
 from .circles import circles_of as circles_of
 from .circles import find_circle as find_circle
+from .simulation import Outcomes as Outcomes
+from .simulation import PlayedGame as PlayedGame
+from .simulation import play_games as play_games
+from .simulation import simulate as simulate
 from .unicycle_game import MOVE_ASIDE as MOVE_ASIDE
 from .unicycle_game import MOVE_BACK as MOVE_BACK
 from .unicycle_game import Game as Game

@@ -11,23 +11,21 @@ Discontinuities that repel the motion on both sides (the errors at
 :math:`\pm\pi`, the change of side) are not equilibria.
 """
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
-from math import inf, nan, pi
-from typing import Any, NamedTuple
+from itertools import pairwise
+from math import acos, cos, inf, log, nan, pi, sin
+from typing import Any
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
 
-from ...core.poses import wrap_angle
+from ...core.poses import Array, wrap_angle
 from .unicycle_game import Game, make_game
 
-Array = NDArray[np.float64]
-Function = Callable[["GameParameters", Array], Array]
-Found = tuple[NDArray[np.int64], Array, Array, NDArray[np.bool_]]
 _PIECES = 96  # intervals of the turning rate that are searched for roots
 _HALVINGS = 64  # of a bracket, down to rounding
 _ROUNDING = 1e-12  # speed ratio, rate ratio or error that counts as zero
+PRECISION = 1e-6  # to which a deviation from a circle decays until settled
 
 
 @dataclass(frozen=True, slots=True)
@@ -75,98 +73,6 @@ class Circle:
         return -pi < self.bearing_rad < 0.0
 
 
-class GameParameters(NamedTuple):
-    """Parameters of many games, as arrays of one shape; see :class:`.Game`.
-
-    Speeds in [m/s], gains in [1/s], the evasion angle in [0, pi] in [rad].
-    """
-
-    pursuer_speed: Array
-    evader_speed: Array
-    pursuer_gain: Array
-    evader_gain: Array
-    angle: Array
-
-    @classmethod
-    def of(cls, *values: ArrayLike) -> "GameParameters":
-        """Broadcast values to games of shape (n,)."""
-        arrays = [np.atleast_1d(np.asarray(v, np.float64)) for v in values]
-        return cls(*np.broadcast_arrays(*arrays))
-
-    def pick(self, index: Any) -> "GameParameters":
-        """Return indexed games, or a view with another shape."""
-        return GameParameters(*(values[index] for values in self))
-
-
-@dataclass(frozen=True, slots=True)
-class Equilibria:
-    """Equilibria of many games, unordered; every array has shape (n,).
-
-    They have the index of their game, common turning rate [rad/s], errors
-    in (-pi, pi] [rad], distance [m], and whether the saturated evader
-    slides on zero error.
-    """
-
-    game: NDArray[np.int64]
-    turning_rate: Array
-    pursuer_error: Array
-    evader_error: Array
-    distance: Array
-    sliding: NDArray[np.bool_]
-
-    def eigenvalues(
-        self, games: GameParameters, *, saturated: bool
-    ) -> NDArray[np.complex128]:
-        """Return the eigenvalues of the linearisation, in [1/s]. Shape (n, 3).
-
-        Where the evader slides, they are two of the sliding motion, on which
-        the bearing is constant, and minus infinity: that is reached in finite
-        time.
-        """
-        vp, ve, kp, ke, alpha = games.pick(self.game)
-        psi = self.evader_error - alpha
-        loops = relative_jacobian(
-            vp, ve, self.distance, self.pursuer_error, psi
-        )
-        loops[:, 1, 1] -= kp
-        loops[:, 2, 2] -= 0.0 * ke if saturated else ke
-        found = np.full((len(vp), 3), -inf, dtype=np.complex128)
-        for slides, size in ((False, 3), (True, 2)):
-            some = self.sliding == slides
-            found[some, :size] = np.linalg.eigvals(loops[some, :size, :size])
-        return found
-
-
-def relative_jacobian(vp: Any, ve: Any, r: Any, a: Any, psi: Any) -> Array:
-    """Linearise the relative motion with the turning rates held.
-
-    It is the derivative of the rates of (r, a, psi), for speeds vp and ve,
-    for numbers or arrays of one shape. Shape (..., 3, 3).
-    """
-    rate = (vp * np.sin(a) - ve * np.sin(psi)) / r  # of the line of sight
-    opening = np.array([0.0 * rate, vp * np.sin(a), -ve * np.sin(psi)])
-    sight = np.array([-rate, vp * np.cos(a), -ve * np.cos(psi)]) / r
-    rows = np.stack([opening, sight, sight])
-    found: Array = np.moveaxis(rows, (0, 1), (-2, -1))
-    return found
-
-
-def find_equilibria(games: GameParameters, *, saturated: bool) -> Equilibria:
-    """Find all equilibria of games whose evader keeps its side."""
-    found = _saturated(games) if saturated else _proportional(games)
-    index, rate, b, sliding = found
-    vp, ve, kp, _, alpha = games.pick(index)
-    a = rate / kp
-    across = vp * np.sin(a) - ve * np.sin(b - alpha)
-    distant = np.abs(across) > _ROUNDING * np.maximum(vp, ve)
-    keep = distant & (across * rate > 0.0) & (a > -pi) & (a <= pi)
-    keep &= (b > -pi) & (b <= pi)
-    distance = across[keep] / rate[keep]
-    return Equilibria(
-        index[keep], rate[keep], a[keep], b[keep], distance, sliding[keep]
-    )
-
-
 def circles_of(game: Game) -> tuple[Circle, ...]:
     r"""Find all equilibria of the relative motion allowed by the side rule.
 
@@ -181,40 +87,42 @@ def circles_of(game: Game) -> tuple[Circle, ...]:
         Those that turn in the main sense first, then the reversed ones;
         slowest first in each group.
     """
-    vp, ve = game.pursuer.speed, game.evader.speed
-    games = GameParameters.of(
-        vp, ve, game.pursuer.gain, game.evader.gain, game.angle
-    )
-    found = find_equilibria(games, saturated=game.saturated)
-    modes = found.eigenvalues(games, saturated=game.saturated)
-    circles = []
-    for i in np.lexsort((abs(found.turning_rate), found.turning_rate < 0.0)):
-        a, b = float(found.pursuer_error[i]), float(found.evader_error[i])
-        rate, bearing = float(found.turning_rate[i]), b - game.angle
-        reach = 0.5 * pi + game.hysteresis
-        if not (game.keeps_side or abs(bearing + 0.5 * pi) < reach):
+    vp, ve, kp, ke, alpha = game.numbers
+    found, rests = [], _saturated if game.saturated else _proportional
+    for rate, b, sliding in rests(game):
+        a, psi = rate / kp, b - alpha
+        across = vp * sin(a) - ve * sin(psi)
+        apart = abs(across) > _ROUNDING * max(vp, ve) and across * rate > 0.0
+        reach = inf if game.keeps_side else 0.5 * pi + game.hysteresis
+        if not (apart and -pi < a <= pi and -pi < b <= pi):
             continue
-        motions = game.angle + a - b
-        values = sorted_eigenvalues(modes[i, np.isfinite(modes[i])])
+        if not abs(psi + 0.5 * pi) < reach:
+            continue
+        loops = relative_jacobian(game, across / rate, a, psi)
+        loops[1, 1] -= kp
+        loops[2, 2] -= 0.0 if game.saturated else ke
+        size = 2 if sliding else 3
+        values = sorted_eigenvalues(np.linalg.eigvals(loops[:size, :size]))
         slowest = values[0].real
         circle = Circle(
             exists=True,
             radius_pursuer_m=vp / abs(rate),
             radius_evader_m=ve / abs(rate),
-            distance_m=float(found.distance[i]),
+            distance_m=across / rate,
             turning_rate_rad_s=rate,
-            headings_apart_rad=abs(wrap_angle(motions - pi)),
-            motions_apart_rad=abs(wrap_angle(motions)),
+            headings_apart_rad=abs(wrap_angle(a - psi - pi)),
+            motions_apart_rad=abs(wrap_angle(a - psi)),
             eigenvalues=values,
             stable=slowest < 0.0,
             time_constant_s=-1.0 / slowest if slowest < 0.0 else inf,
             pursuer_error_rad=a,
             evader_error_rad=b,
-            bearing_rad=bearing,
-            sliding=bool(found.sliding[i]),
+            bearing_rad=psi,
+            sliding=sliding,
         )
-        circles.append(circle)
-    return tuple(circles)
+        found.append(circle)
+    found.sort(key=lambda c: (-c.direction, abs(c.turning_rate_rad_s)))
+    return tuple(found)
 
 
 def circle_of(game: Game) -> Circle:
@@ -236,98 +144,101 @@ def find_circle(*values: Any, **named: Any) -> Circle:
     return circle_of(make_game(*values, **named))
 
 
-def sorted_eigenvalues(values: NDArray[Any]) -> tuple[complex, ...]:
+def settling_time(game: Game) -> float:
+    """Return the duration after which the last turn is a circle, in [s]."""
+    gain = min(game.pursuer.gain, game.evader.gain)
+    ends = [
+        -log(PRECISION) * circle.time_constant_s
+        + 2.0 * pi / abs(circle.turning_rate_rad_s)
+        for circle in circles_of(game)
+        if circle.stable
+    ]
+    return 30.0 / gain + max(ends, default=30.0 / gain)
+
+
+def fit_circle(points: Array) -> tuple[Array, float]:
+    """Fit centre (2,) and radius of a circle to points (n, 2), in [m].
+
+    Linear least squares.
+    """
+    origin = points.mean(axis=0)
+    local = points - origin
+    matrix = np.column_stack([2.0 * local, np.ones(len(local))])
+    squares = (local**2).sum(axis=1)
+    (x, y, rest), *_ = np.linalg.lstsq(matrix, squares, rcond=None)
+    return origin + (x, y), float(np.sqrt(rest + x * x + y * y))
+
+
+def relative_jacobian(game: Game, r: float, a: float, psi: float) -> Array:
+    """Linearise the relative motion with the turning rates held.
+
+    It is the derivative of the rates of (r, a, psi). Shape (3, 3).
+    """
+    vp, ve, *_ = game.numbers
+    rate = (vp * sin(a) - ve * sin(psi)) / r  # of the line of sight
+    sight = [-rate / r, vp * cos(a) / r, -ve * cos(psi) / r]
+    return np.array([[0.0, vp * sin(a), -ve * sin(psi)], sight, sight])
+
+
+def sorted_eigenvalues(values: Any) -> tuple[complex, ...]:
     """Return eigenvalues, the slowest (largest real part) first."""
-    return tuple(sorted(values.tolist(), key=lambda s: (-s.real, -s.imag)))
+    found = map(complex, values)
+    return tuple(sorted(found, key=lambda s: (-s.real, -s.imag)))
 
 
-def imbalance(games: GameParameters, rate: Array) -> Array:
-    """Return the rate of the distance at turning rates under (4), in [m/s].
+def _proportional(game: Game) -> Iterator[tuple[float, float, bool]]:
+    """Find turning rates and errors of the evader at rest under (4).
 
-    The form avoids cancellation for equal speeds.
+    The rate of the distance is a sum of two sinusoids of the turning rate,
+    and the range that errors allow holds one period of the faster one. So
+    the intervals are short: between two knots it has one extremum at most.
     """
-    vp, ve, kp, ke, alpha = games
-    a, u = rate / kp, alpha - rate / ke
-    difference = -2.0 * np.sin(0.5 * (u + a)) * np.sin(0.5 * (u - a))
-    found: Array = (ve - vp) * np.cos(a) + ve * difference
-    return found
+    vp, ve, kp, ke, alpha = game.numbers
+
+    def opening(rate: float) -> float:  # without cancellation for vp = ve
+        a, u = rate / kp, alpha - rate / ke
+        both = sin(0.5 * (u + a)) * sin(0.5 * (u - a))
+        return (ve - vp) * cos(a) - 2.0 * ve * both
+
+    def slope(rate: float) -> float:
+        return ve / ke * sin(alpha - rate / ke) + vp / kp * sin(rate / kp)
+
+    top = pi * min(kp, ke)
+    knots: list[float] = np.linspace(-top, top, _PIECES + 1).tolist()
+    for rate in _roots(opening, sorted([*knots, *_roots(slope, knots)])):
+        yield rate, rate / ke, False
 
 
-def _slope(games: GameParameters, rate: Array) -> Array:
-    """Return the derivative of the imbalance by the turning rate, in [m]."""
-    vp, ve, kp, ke, alpha = games
-    found: Array = ve / ke * np.sin(alpha - rate / ke)
-    return found + vp / kp * np.sin(rate / kp)
+def _roots(
+    function: Callable[[float], float], knots: list[float]
+) -> Iterator[float]:
+    """Bisect intervals whose ends differ in sign, down to rounding."""
+    for low, high in pairwise(knots):
+        rising = function(high) > 0.0
+        if rising == (function(low) > 0.0):
+            continue
+        for _ in range(_HALVINGS):
+            middle = 0.5 * (low + high)
+            if (function(middle) > 0.0) == rising:
+                high = middle
+            else:
+                low = middle
+        yield 0.5 * (low + high)
 
 
-def _proportional(games: GameParameters) -> Found:
-    """Find the roots of the imbalance over all rates that errors allow.
+def _saturated(game: Game) -> Iterator[tuple[float, float, bool]]:
+    """Find rests under (6): at full rate in either sense, or sliding.
 
-    The imbalance is a sum of two sinusoids, and the range holds one period
-    of the faster one. So the intervals are short: between two knots it
-    crosses zero at most once, or has one extremum with two or no roots.
+    Where both coincide, it counts as one at full rate.
     """
-    top = pi * np.minimum(games.pursuer_gain, games.evader_gain)
-    knots = np.linspace(-1.0, 1.0, _PIECES + 1)[:, None] * top
-    value = imbalance(games.pick(None), knots)
-    slope = _slope(games.pick(None), knots)
-    above = value > 0.0
-    crosses = above[1:] != above[:-1]
-    towards = (slope[:-1] < 0.0) == above[:-1]
-    returns = ~crosses & towards & ((slope[1:] > 0.0) == above[1:])
-    piece, index = np.nonzero(returns)
-    low, high = knots[piece, index], knots[piece + 1, index]
-    turn = _bisect(_slope, games.pick(index), low, high)
-    beyond = (imbalance(games.pick(index), turn) > 0.0) != above[piece, index]
-    low, high, turn = low[beyond], high[beyond], turn[beyond]
-    piece, single = np.nonzero(crosses)
-    index = np.concatenate([index[beyond], index[beyond], single])
-    low = np.concatenate([low, turn, knots[piece, single]])
-    high = np.concatenate([turn, high, knots[piece + 1, single]])
-    rate = _bisect(imbalance, games.pick(index), low, high)
-    sliding = np.zeros(len(index), dtype=np.bool_)
-    return index, rate, rate / games.evader_gain[index], sliding
-
-
-def _bisect(
-    function: Function, games: GameParameters, low: Array, high: Array
-) -> Array:
-    """Bisect brackets with a sign change down to rounding."""
-    rising = function(games, high) > 0.0
-    for _ in range(_HALVINGS):
-        middle = 0.5 * (low + high)
-        right = (function(games, middle) > 0.0) == rising
-        low, high = np.where(right, low, middle), np.where(right, middle, high)
-    found: Array = 0.5 * (low + high)
-    return found
-
-
-def _saturated(games: GameParameters) -> Found:
-    """Find equilibria under (6): at full rate in either sense, or sliding.
-
-    Where both coincide, the equilibrium counts as one at full rate.
-    """
-    vp, ve, kp, ke, alpha = games
-    count = len(vp)
-    rates, errors, slides = [], [], []
-    with np.errstate(invalid="ignore"):
-        bearing = np.arccos(vp / ve * np.cos(ke / kp))  # NaN if none
-        slid = np.arccos(ve / vp * np.cos(alpha))
+    vp, ve, kp, ke, alpha = game.numbers
+    full, slid = vp / ve * cos(ke / kp), ve / vp * cos(alpha)
     for way in (1.0, -1.0):
-        for sign in (-1.0, 1.0):
-            b = alpha + sign * bearing
-            b = np.where(b > pi, b - 2.0 * pi, b)
-            b = np.where(np.abs(b) < _ROUNDING, 0.0, b)
-            twice = (sign > 0.0) & np.isin(bearing, (0.0, pi))
-            rates.append(way * ke)
-            errors.append(np.where((way * b >= 0.0) & ~twice, b, np.nan))
-            slides.append(np.zeros(count, dtype=np.bool_))
-        slow = (slid > 0.0) & (kp * slid < ke * (1.0 - _ROUNDING))
-        rates.append(np.where(slow, way * kp * slid, 1.0))
-        errors.append(np.where(slow, 0.0, np.nan))
-        slides.append(np.ones(count, dtype=np.bool_))
-    index = np.tile(np.arange(count), len(rates))
-    b = np.concatenate(errors)
-    real = np.isfinite(b)
-    rate, sliding = np.concatenate(rates), np.concatenate(slides)
-    return index[real], rate[real], b[real], sliding[real]
+        if abs(full) <= 1.0:
+            for bearing in sorted({acos(full), -acos(full) % (2.0 * pi)}):
+                b = wrap_angle(alpha - bearing)
+                b = 0.0 if abs(b) < _ROUNDING else b
+                if way * b >= 0.0:
+                    yield way * ke, b, False
+        if abs(slid) < 1.0 and kp * acos(slid) < ke * (1.0 - _ROUNDING):
+            yield way * kp * acos(slid), 0.0, True

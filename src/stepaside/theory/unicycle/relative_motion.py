@@ -1,4 +1,4 @@
-r"""Relative motion of two unicycles, smooth piece by smooth piece.
+r"""Relative motion of two unicycles, smooth piece by smooth piece, compiled.
 
 .. math::
     \dot r = v_e \cos\psi - v_p \cos a, \qquad
@@ -12,7 +12,8 @@ these edges
 .. math:: \dot\psi = f \Omega - c_1 \psi - c_0,
     \qquad \psi \in [\text{low}, \text{high}].
 
-Numba can compile the functions; those of a state also take arrays of states.
+A step of the integration ends at the edge of its piece or at the capture; it
+is short where the distance is.
 """
 
 from math import inf, pi
@@ -20,10 +21,17 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from ...core.compilation import inlined
+from ...core.compilation import (
+    compiled,
+    compiled_parallel,
+    inlined,
+    parallel_range,
+    shared,
+)
 from .. import laws
 from .unicycle_game import Game
 
+prange = parallel_range()
 inlined(laws.wrap_once)  # called by evasion_heading
 evasion_heading = inlined(laws.evasion_heading)
 side_behind = inlined(laws.side_behind)
@@ -32,16 +40,22 @@ side_behind = inlined(laws.side_behind)
 PROPORTIONAL = 2  # eq. (4)
 LEFT, RIGHT = 1, -1  # eq. (6), full rate
 SLIDING = 0  # eq. (6), zero error by Filippov's rule
-_SIXTH = 1.0 / 6.0
 SLACK = 1e-12  # margin below which an edge has been crossed
 NEAR = 0.02  # tolerance of being on a circle: 2 % and 0.02 rad
+TURN_PER_STEP = 0.04  # longest step, in distances per sum of the speeds
+EDGE, CLOSEST, CAPTURE = 0, 1, 2  # events within a step
+# Columns of a game that is played: time, state, mode and number of edges
+# passed, which are recorded; closest approach and its time, the time of
+# capture, -1 for none, the last time off all circles, and the number of the
+# circle that it is on, -1 for none.
+TIME, SIDE, BRANCH, PASSED = 0, 7, 8, 9
+RECORDED = 10
+LEAST, WHEN, CAPTURED, SETTLED, CIRCLE = 10, 11, 12, 13, 14
+COLUMNS = 15
 
 
 class Rules(NamedTuple):
-    """Parameters of a game as plain numbers; see :class:`.Game`.
-
-    The game ends at the capture distance, in [m].
-    """
+    """Parameters of a game as plain numbers; see :class:`.Game`."""
 
     pursuer_speed: float
     evader_speed: float
@@ -51,7 +65,7 @@ class Rules(NamedTuple):
     hysteresis: float
     keeps_side: bool
     saturated: bool
-    capture_distance: float
+    capture_distance: float  # at which the game ends, in [m]
 
 
 class Mode(NamedTuple):
@@ -71,31 +85,25 @@ class SmoothPiece(NamedTuple):
     free: float  # 0 if the evader turns with the line of sight, else 1
 
 
-class RelativeState(NamedTuple):
-    """Relative coordinates; see :class:`.RelativeStart`."""
+class GameState(NamedTuple):
+    """State of a game, or its rates; numbers or arrays.
 
-    r: Any  # [m]
-    a: Any  # [rad]
-    psi: Any  # [rad]
-
-
-class Rates(NamedTuple):
-    """Rates of a state, and of the direction of the line of sight."""
+    Relative coordinates are those of :class:`.RelativeStart`, in [m] and
+    [rad]; the others are in the initial frame of the pursuer.
+    """
 
     r: Any
     a: Any
     psi: Any
-    sight: Any
+    sight: Any  # direction of the line of sight, in [rad]
+    x: Any  # of the pursuer, in [m]
+    y: Any
 
 
 def rules_of(game: Game, capture_distance: float) -> Rules:
     """Return the parameters of a game and its capture distance as numbers."""
     return Rules(
-        float(game.pursuer.speed),
-        float(game.evader.speed),
-        float(game.pursuer.gain),
-        float(game.evader.gain),
-        float(game.angle),
+        *game.numbers,
         float(game.hysteresis),
         game.keeps_side,
         game.saturated,
@@ -104,53 +112,55 @@ def rules_of(game: Game, capture_distance: float) -> Rules:
 
 
 @inlined
-def rates_of(state: RelativeState, piece: SmoothPiece, rules: Rules) -> Rates:
+def sight_rate(state: GameState, rules: Rules) -> Any:
+    """Return the turning rate of the line of sight, in [rad/s]."""
+    vp, ve = rules.pursuer_speed, rules.evader_speed
+    return (vp * np.sin(state.a) - ve * np.sin(state.psi)) / state.r
+
+
+@inlined
+def rates_of(state: GameState, piece: SmoothPiece, rules: Rules) -> GameState:
     """Return the rates of a state on a smooth piece, extended beyond it."""
     vp, ve = rules.pursuer_speed, rules.evader_speed
-    along = ve * np.cos(state.psi) - vp * np.cos(state.a)
-    across = vp * np.sin(state.a) - ve * np.sin(state.psi)
-    sight = across / state.r
-    return Rates(
-        along,
+    sight = sight_rate(state, rules)
+    heading = state.sight - state.a
+    return GameState(
+        ve * np.cos(state.psi) - vp * np.cos(state.a),
         sight - rules.pursuer_gain * state.a,
         piece.free * sight - piece.slope * state.psi - piece.constant,
         sight,
+        vp * np.cos(heading),
+        vp * np.sin(heading),
     )
 
 
 @inlined
-def moved(state: RelativeState, rates: Rates, time: float) -> RelativeState:
+def moved(state: GameState, rates: GameState, time: Any) -> GameState:
     """Return the state after a time in [s] at constant rates."""
-    return RelativeState(
+    return GameState(
         state.r + time * rates.r,
         state.a + time * rates.a,
         state.psi + time * rates.psi,
+        state.sight + time * rates.sight,
+        state.x + time * rates.x,
+        state.y + time * rates.y,
     )
 
 
 @inlined
 def rk4(
-    state: RelativeState,
-    first: Rates,
-    step: float,
-    piece: SmoothPiece,
-    rules: Rules,
-) -> RelativeState:
-    """Advance by one Runge-Kutta step of fourth order, from its first rates.
+    state: GameState, time: Any, piece: SmoothPiece, rules: Rules
+) -> GameState:
+    """Advance by one Runge-Kutta step of fourth order.
 
     The law of the piece is extended beyond its edges.
     """
-    half = 0.5 * step
-    second = rates_of(moved(state, first, half), piece, rules)
-    third = rates_of(moved(state, second, half), piece, rules)
-    fourth = rates_of(moved(state, third, step), piece, rules)
-    mean = Rates(
-        first.r + 2.0 * (second.r + third.r) + fourth.r,
-        first.a + 2.0 * (second.a + third.a) + fourth.a,
-        first.psi + 2.0 * (second.psi + third.psi) + fourth.psi,
-        0.0,
-    )
-    return moved(state, mean, step * _SIXTH)
+    first = rates_of(state, piece, rules)
+    second = rates_of(moved(state, first, 0.5 * time), piece, rules)
+    third = rates_of(moved(state, second, 0.5 * time), piece, rules)
+    fourth = rates_of(moved(state, third, time), piece, rules)
+    outer = moved(moved(state, first, time / 6.0), fourth, time / 6.0)
+    return moved(moved(outer, second, time / 3.0), third, time / 3.0)
 
 
 @inlined
@@ -186,48 +196,20 @@ def branch_at(error: float, sight: float, rules: Rules) -> int:
 
 
 @inlined
-def sight_rate(state: RelativeState, rules: Rules) -> float:
-    """Return the turning rate of the line of sight, in [rad/s]."""
-    piece = SmoothPiece(0.0, 0.0, 0.0, 0.0, 0.0)
-    return float(rates_of(state, piece, rules).sight)
-
-
-@inlined
-def initial_mode(
-    state: RelativeState, side: int, rules: Rules
-) -> tuple[RelativeState, Mode]:
-    """Return state and mode at the start of a game.
-
-    Side 0 stands for the one behind the evader. The bearing that is returned
-    may be a whole turn away from the given one, which is in [-pi, pi].
-    """
-    if side == 0:
-        side = side_behind(state.psi)
-    error = state.psi + side * rules.angle
-    if rules.keeps_side:
-        error = evasion_heading(state.psi, side, rules.angle)
-    branch = branch_at(error, sight_rate(state, rules), rules)
-    psi = error - side * rules.angle
-    return RelativeState(state.r, state.a, psi), Mode(side, branch)
-
-
-@inlined
-def edge_margin(
-    state: RelativeState, rates: Rates, piece: SmoothPiece, rules: Rules
-) -> Any:
+def edge_margin(state: GameState, piece: SmoothPiece, rules: Rules) -> float:
     """Return the margin of a state to the next edge; negative beyond it."""
-    margin = np.minimum(state.psi - piece.low, piece.high - state.psi)
+    margin = min(state.psi - piece.low, piece.high - state.psi)
     if piece.free == 0.0:  # the line of sight may outrun a sliding evader
-        margin = rules.evader_gain - abs(rates.sight)
-    return np.minimum(margin, pi - abs(state.a))
+        margin = rules.evader_gain - abs(sight_rate(state, rules))
+    return float(min(margin, pi - abs(state.a)))
 
 
 @inlined
 def cross(
-    state: RelativeState, mode: Mode, rules: Rules
-) -> tuple[RelativeState, Mode]:
+    state: GameState, mode: Mode, rules: Rules
+) -> tuple[GameState, Mode]:
     """Return state and mode on the other side of the nearest edge."""
-    r, a, psi = state
+    r, a, psi, line, x, y = state
     side, branch = mode.side, mode.branch
     piece = piece_of(mode, rules)
     low, high = psi - piece.low, piece.high - psi
@@ -235,34 +217,178 @@ def cross(
     margin = min(low, high)
     if branch == SLIDING:
         margin = rules.evader_gain - abs(sight)
+    zero = -side * rules.angle
+    turned = psi - (2.0 * pi if high < low else -2.0 * pi)
     if pi - abs(a) < margin:  # the pursuer's error wraps
         a += -2.0 * pi if a > 0.0 else 2.0 * pi
-        return RelativeState(r, a, psi), mode
-    zero = -side * rules.angle
-    if branch == SLIDING:
-        towards = LEFT if sight > 0.0 else RIGHT
-        return RelativeState(r, a, zero), Mode(side, towards)
-    if branch == (LEFT if low < high else RIGHT):  # its error is zero
+    elif branch == SLIDING:
+        psi, branch = zero, LEFT if sight > 0.0 else RIGHT
+    elif branch == (LEFT if low < high else RIGHT):  # its error is zero
         slides = abs(sight) <= rules.evader_gain
-        after = SLIDING if slides else -branch
-        return RelativeState(r, a, zero), Mode(side, after)
-    turned = psi - (2.0 * pi if high < low else -2.0 * pi)
-    if rules.keeps_side:
-        after = branch if branch == PROPORTIONAL else -branch
-        return RelativeState(r, a, turned), Mode(side, after)
-    if (high < low) == (side < 0):
-        psi = turned  # the pursuer passes behind the evader's back
-    after = branch_at(psi - side * rules.angle, sight, rules)
-    return RelativeState(r, a, psi), Mode(-side, after)
+        psi, branch = zero, SLIDING if slides else -branch
+    elif rules.keeps_side:
+        psi = turned
+        branch = branch if branch == PROPORTIONAL else -branch
+    else:
+        if (high < low) == (side < 0):
+            psi = turned  # the pursuer passes behind the evader's back
+        branch = branch_at(psi - side * rules.angle, sight, rules)
+        side = -side
+    return GameState(r, a, psi, line, x, y), Mode(side, branch)
 
 
 @inlined
-def deviation(state: RelativeState, side: Any, circle: RelativeState) -> Any:
-    """Return the largest deviation of a state from a circle, given at side +1.
+def margin_after(
+    time: float,
+    event: int,
+    state: GameState,
+    piece: SmoothPiece,
+    rules: Rules,
+) -> float:
+    """Return the margin to an event after a time; negative beyond it."""
+    then = rk4(state, time, piece, rules)
+    if event == EDGE:
+        return edge_margin(then, piece, rules)
+    if event == CAPTURE:
+        return float(then.r - rules.capture_distance)
+    return float(-rates_of(then, piece, rules).r)
 
-    That of r is relative to the circle's, those of a and psi in [rad].
+
+@shared
+def time_of(
+    event: int,
+    state: GameState,
+    step: float,
+    piece: SmoothPiece,
+    rules: Rules,
+) -> float:
+    """Return the time within a step at which a margin reaches zero, in [s].
+
+    The root is found by the Illinois variant of false position. A game that
+    starts on an edge may first enter the piece and then leave it.
     """
-    angles = np.maximum(
-        abs(side * state.a - circle.a), abs(side * state.psi - circle.psi)
-    )
-    return np.maximum(angles, abs(state.r / circle.r - 1.0))
+    short = 0.0
+    above = margin_after(short, event, state, piece, rules)
+    for halvings in range(1, 49):
+        if above > 0.0:
+            break
+        short = step * 0.5**halvings
+        above = margin_after(short, event, state, piece, rules)
+    if above <= 0.0:
+        return 0.0
+    long, moved_last = step, 0
+    below = margin_after(long, event, state, piece, rules)
+    for _ in range(60):
+        middle = (short * below - long * above) / (below - above)
+        if not short < middle < long:
+            break
+        m = margin_after(middle, event, state, piece, rules)
+        if abs(m) < 1e-15:
+            return middle
+        if m > 0.0:
+            short, above = middle, m
+            below *= 0.5 if moved_last == 1 else 1.0
+            moved_last = 1
+        else:
+            long, below = middle, m
+            above *= 0.5 if moved_last == -1 else 1.0
+            moved_last = -1
+    return long
+
+
+@shared
+def begin(game: Any, start: Any, side: int, rules: Rules) -> None:
+    """Begin a game at r, a, psi; side 0 is the one behind the evader.
+
+    The bearing of its state may be a whole turn away from the given one.
+    """
+    r, a, psi = start[0], start[1], start[2]
+    if side == 0:
+        side = side_behind(psi)
+    error = psi + side * rules.angle
+    if rules.keeps_side:
+        error = evasion_heading(psi, side, rules.angle)
+    state = GameState(r, a, psi, a, 0.0, 0.0)
+    game[BRANCH] = branch_at(error, sight_rate(state, rules), rules)
+    game[SIDE], game[TIME], game[PASSED] = side, 0.0, 0.0
+    game[1], game[2], game[3], game[4] = r, a, error - side * rules.angle, a
+    game[5] = game[6] = 0.0
+    game[LEAST], game[WHEN], game[SETTLED], game[CIRCLE] = r, 0.0, 0.0, -1.0
+    game[CAPTURED] = 0.0 if r <= rules.capture_distance else -1.0
+
+
+@compiled
+def play_on(
+    game: Any,
+    circles: Any,
+    step: float,
+    end: float,
+    rules: Rules,
+    record: Any,
+) -> int:
+    """Play a game to a time, or until a record is full; return its length.
+
+    Each step begins with a row of the record, unless this has no rows.
+    Circles are rows of r [m], a, psi [rad] at side +1. Shape (m, 3).
+    """
+    state = GameState(game[1], game[2], game[3], game[4], game[5], game[6])
+    mode = Mode(int(game[SIDE]), int(game[BRANCH]))
+    speeds = rules.pursuer_speed + rules.evader_speed
+    count, now = 0, game[TIME]
+    while now < end and game[CAPTURED] < 0.0:
+        if len(record):
+            if count == len(record):
+                break
+            for n in range(RECORDED):
+                record[count, n] = game[n]
+            count += 1
+        piece = piece_of(mode, rules)
+        part = min(step, end - now, TURN_PER_STEP * state.r / speeds)
+        then = rk4(state, part, piece, rules)
+        leaves = edge_margin(then, piece, rules) < -SLACK
+        if leaves:
+            part = time_of(EDGE, state, part, piece, rules)
+            then = rk4(state, part, piece, rules)
+        near, when = then.r, part
+        closes = rates_of(state, piece, rules).r < 0.0
+        if closes and rates_of(then, piece, rules).r > 0.0:
+            when = time_of(CLOSEST, state, part, piece, rules)
+            near = rk4(state, when, piece, rules).r
+        if near <= rules.capture_distance:
+            part = when = time_of(CAPTURE, state, when, piece, rules)
+            then = rk4(state, part, piece, rules)
+            near, game[CAPTURED] = then.r, now + part
+        elif leaves:
+            then, mode = cross(then, mode, rules)
+            game[PASSED] += 1
+        if near < game[LEAST]:
+            game[LEAST], game[WHEN] = near, now + when
+        now, state, game[CIRCLE] = now + part, then, -1.0
+        for c in range(len(circles)):
+            off = abs(state.r / circles[c, 0] - 1.0)
+            off = max(off, abs(mode.side * state.a - circles[c, 1]))
+            if max(off, abs(mode.side * state.psi - circles[c, 2])) <= NEAR:
+                game[CIRCLE] = c
+        if game[CIRCLE] < 0.0:
+            game[SETTLED] = now
+        game[TIME], game[SIDE], game[BRANCH] = now, mode.side, mode.branch
+        game[1], game[2], game[3] = state.r, state.a, state.psi
+        game[4], game[5], game[6] = state.sight, state.x, state.y
+    return count
+
+
+@compiled_parallel
+def play_all(
+    games: Any,
+    starts: Any,
+    side: int,
+    circles: Any,
+    step: float,
+    end: float,
+    rules: Rules,
+    record: Any,
+) -> None:
+    """Play games from starts to a time, on all cores. Shape (n, COLUMNS)."""
+    for i in prange(len(games)):
+        begin(games[i], starts[i], side, rules)
+        play_on(games[i], circles, step, end, rules, record)

@@ -5,12 +5,12 @@ circle; they only change the convergence to it.
 """
 
 from collections.abc import Callable
-from math import floor, pi
+from math import floor, inf, pi
 
 import numpy as np
-from numpy.typing import NDArray
 
 from ...core.errors import PlanError
+from ...core.poses import Array
 from .circles import (
     Circle,
     circle_of,
@@ -19,7 +19,6 @@ from .circles import (
 )
 from .unicycle_game import Game
 
-Array = NDArray[np.float64]
 # Longest delay in sample times: each adds two rows to an eigenvalue problem.
 MAX_DEPTH = 200
 NODES = 24  # intervals of a collocation
@@ -50,29 +49,11 @@ def _linearised(game: Game) -> tuple[Array, Array, Array]:
     and by the turning rates of both players (3, 2), and of the turning
     rates that the laws give by the state (2, 3).
     """
-    circle = smooth_circle(game)
-    by_state = relative_jacobian(
-        game.pursuer.speed,
-        game.evader.speed,
-        circle.distance_m,
-        circle.pursuer_error_rad,
-        circle.bearing_rad,
-    )
+    own = smooth_circle(game)
+    place = own.distance_m, own.pursuer_error_rad, own.bearing_rad
     gains = game.pursuer.gain, 0.0 if game.saturated else game.evader.gain
     laws = np.diag([0.0, *gains])[1:]
-    return by_state, -np.eye(3)[:, 1:], laws
-
-
-def _held_transition(
-    state: Array, turning: Array, time: float
-) -> tuple[Array, Array]:
-    """Return the exact transition over a time with held turning rates."""
-    from scipy.linalg import expm
-
-    joint = np.zeros((5, 5))
-    joint[:3, :3], joint[:3, 3:] = state, turning
-    moved = expm(joint * time)
-    return moved[:3, :3], moved[:3, 3:]
+    return relative_jacobian(game, *place), -np.eye(3)[:, 1:], laws
 
 
 def step_map(game: Game, sample_time: float, delay: float = 0.0) -> Array:
@@ -86,6 +67,8 @@ def step_map(game: Game, sample_time: float, delay: float = 0.0) -> Array:
         Map of (r, a, psi, queued turning rates) over one period. Shape
         (n, n) with n = 3, or more with a delay.
     """
+    from scipy.linalg import expm
+
     state, turning, feedback = _linearised(game)
     whole = floor(delay / sample_time + 1e-12)
     if whole > MAX_DEPTH:
@@ -93,22 +76,21 @@ def step_map(game: Game, sample_time: float, delay: float = 0.0) -> Array:
             f"delay must be at most {MAX_DEPTH} sample times, "
             f"{MAX_DEPTH * sample_time:g} [s], got {delay:g} [s]"
         )
+    joint = np.zeros((5, 5))
+    joint[:3] = np.hstack([state, turning])
     late = max(0.0, delay - whole * sample_time)
-    early_state, early_turning = _held_transition(state, turning, late)
-    rest_state, rest_turning = _held_transition(
-        state, turning, sample_time - late
-    )
+    early, rest = expm(joint * late), expm(joint * (sample_time - late))
     depth = whole + 1  # of the queue; the last acts at the begin of a period
     size = 3 + 2 * depth
     full = np.zeros((size, size))
-    full[:3, :3] = rest_state @ early_state
-    full[:3, size - 2 :] = rest_state @ early_turning
+    full[:3, :3] = rest[:3, :3] @ early[:3, :3]
+    full[:3, -2:] = rest[:3, :3] @ early[:3, 3:]
     if whole == 0:
-        full[:3, :3] += rest_turning @ feedback
+        full[:3, :3] += rest[:3, 3:] @ feedback
     else:
-        full[:3, size - 4 : size - 2] += rest_turning
+        full[:3, -4:-2] += rest[:3, 3:]
     full[3:5, :3] = feedback
-    full[5:, 3 : size - 2] = np.eye(size - 5)
+    full[5:, 3:-2] = np.eye(size - 5)
     return full
 
 
@@ -116,10 +98,9 @@ def step_eigenvalues(
     game: Game, sample_time: float, delay: float = 0.0
 ) -> tuple[complex, ...]:
     """Return the eigenvalues of the step map, the largest modulus first."""
-    values = np.linalg.eigvals(step_map(game, sample_time, delay)).tolist()
-    return tuple(
-        sorted((complex(v) for v in values), key=lambda z: (-abs(z), -z.imag))
-    )
+    values = np.linalg.eigvals(step_map(game, sample_time, delay))
+    found = map(complex, values)
+    return tuple(sorted(found, key=lambda z: (-abs(z), -z.imag)))
 
 
 def delayed_eigenvalues(game: Game, delay: float) -> tuple[complex, ...]:
@@ -150,14 +131,14 @@ def largest_stable_sample_time(game: Game, delay: float = 0.0) -> float:
     twentieth of which the search starts.
     """
     gain = max(game.pursuer.gain, game.evader.gain)
-
-    def excess(sample_time: float) -> float:
-        return abs(step_eigenvalues(game, sample_time, delay)[0]) - 1.0
-
     if delay > 0.0 and delay >= largest_stable_delay(game):
         return 0.0
     low = 1e-2 / gain if delay == 0.0 else 0.05 * delay
-    return _first_crossing(excess, low, 0.02 / gain, 4000)
+    return _first_crossing(
+        lambda time: abs(step_eigenvalues(game, time, delay)[0]) - 1.0,
+        low,
+        0.02 / gain,
+    )
 
 
 def largest_stable_delay(game: Game, sample_time: float = 0.0) -> float:
@@ -176,20 +157,20 @@ def largest_stable_delay(game: Game, sample_time: float = 0.0) -> float:
     if sample_time == 0.0 and not smooth_circle(game).stable:
         return 0.0
     low = 0.0 if sample_time > 0.0 else 1e-3 / gain
-    return _first_crossing(excess, low, 0.02 / gain, 4000)
+    return _first_crossing(excess, low, 0.02 / gain)
 
 
 def _first_crossing(
-    excess: Callable[[float], float], low: float, step: float, count: int
+    excess: Callable[[float], float], low: float, step: float
 ) -> float:
     """Return the least argument with a positive excess; inf if none."""
     from scipy.optimize import brentq
 
     if excess(low) >= 0.0:
         return 0.0
-    for _ in range(count):
+    for _ in range(4000):
         if excess(low + step) >= 0.0:
             return float(brentq(excess, low, low + step))
         low += step
         step *= 1.02
-    return float("inf")
+    return inf

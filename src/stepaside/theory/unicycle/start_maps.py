@@ -8,8 +8,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...core.errors import PlanError, check_positive, check_within
-from .batch import Outcomes, play_games
 from .circles import Circle, circles_of
+from .simulation import Outcomes, play_games
 from .unicycle_game import Game, RelativeStart
 
 Array = NDArray[np.float64]
@@ -107,7 +107,7 @@ def map_starts(
         box: Box of initial states.
         duration: Duration of each game, in [s].
         shape: Points along distance, pursuer error and bearing.
-        options: Options of :func:`.batch.play_games`.
+        options: Options of :func:`.play_games`.
     """
     bounds = zip(box.low, box.high, shape, strict=True)
     axes = [np.linspace(low, high, count) for low, high, count in bounds]
@@ -221,7 +221,7 @@ def find_basins(game: Game, starts: Array, **options: Any) -> Basins:
     Args:
         game: Parameters of the game.
         starts: Rows of r [m], a, psi [rad]. Shape (n, 3).
-        options: Further options of :func:`.batch.play_games`.
+        options: Further options of :func:`.play_games`.
     """
     circles = circles_of(game)
     duration, step = duration_and_step(game)

@@ -104,6 +104,13 @@ class Game:
         check_within(self.hysteresis, 0.0, largest, "hysteresis", "rad")
 
     @property
+    def numbers(self) -> tuple[float, float, float, float, float]:
+        """Speeds of pursuer and evader, their gains, and the angle."""
+        own, other = self.pursuer, self.evader
+        speeds = float(own.speed), float(other.speed)
+        return *speeds, float(own.gain), float(other.gain), float(self.angle)
+
+    @property
     def saturated(self) -> bool:
         """Whether the evader turns by (6) rather than by (4)."""
         return self.law is TurningLaw.SATURATED

@@ -7,8 +7,8 @@ import pytest
 
 from stepaside.core.errors import PlanError
 from stepaside.core.poses import Pose
-from stepaside.theory.unicycle.adaptive_simulation import PlayedGame, simulate
 from stepaside.theory.unicycle.circles import circle_of
+from stepaside.theory.unicycle.simulation import PlayedGame, simulate
 from stepaside.theory.unicycle.unicycle_game import (
     Game,
     RelativeStart,
