@@ -10,10 +10,10 @@ import pytest
 
 pytest.importorskip("cyclonedds")
 
-from stepaside.cli.connection_settings import (  # noqa: E402
-    ConnectionSettings,
+from stepaside.cli.robot_connections import (  # noqa: E402
+    open_loop,
+    robot_maker,
 )
-from stepaside.cli.robot_connections import open_loop  # noqa: E402
 from stepaside.core.errors import ConfigurationError  # noqa: E402
 from stepaside.core.poses import Pose  # noqa: E402
 from stepaside.drivers.robot_loader import RobotRequest  # noqa: E402
@@ -174,16 +174,17 @@ def test_a_robot_that_steps_sideways_is_commanded_so(
     """The direction is kept within the limits, as ``play`` has them."""
     file = tmp_path / "sideways.py"
     file.write_text(SIDEWAYS)
-    settings = PlaySettings(role="pursuer", strategy=f"{file}:Sideways")
-    connection = ConnectionSettings(
-        *("ros2:/it", "pursuer"),
+    settings = PlaySettings(
+        role="pursuer",
+        strategy=f"{file}:Sideways",
+        address="ros2:/it",
         sim_time=True,
         max_lateral=0.2,
         max_speed=0.4,
         max_turn=0.8,
         domain=DOMAIN,
     )
-    loop = open_loop(settings, connection, connection.robot_maker(settings))
+    loop = open_loop(settings, robot_maker(settings))
     peer.publish(
         "/it/other",
         "geometry_msgs/msg/PointStamped",

@@ -32,7 +32,7 @@ START = StartSettings(distance=0.7, pursuer_offset=0.1, evader_offset=0.2)
 def log_at(folder: Path, settings: PlaySettings) -> PlayLog:
     """Return a log in a folder with its configuration."""
     beside = {"configuration.toml": dump_configuration(settings)}
-    return PlayLog(folder, {"role": settings.role}, beside)
+    return PlayLog(folder, beside)
 
 
 def look_at(log: PlayLog, walker: RobotPlayer) -> None:

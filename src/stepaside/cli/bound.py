@@ -12,9 +12,8 @@ import click
 
 from ..core.errors import PlanError
 from ..core.progress import show_progress
-from ..core.ranges import Range
+from ..core.ranges import Range, positive
 from ..core.setting import CheckedSettings, setting
-from ..games.unicycle_settings import positive
 from .options import figure_option, json_option, output_file
 from .settings import refuse_settings, takes_settings
 from .tables import plain, print_rows, print_table, result_rows
@@ -147,7 +146,7 @@ class BoundSettings(CheckedSettings):
 
 
 @click.command("bound")
-@takes_settings(NAMED, settings=BoundSettings)
+@takes_settings(NAMED, BoundSettings)
 @click.option(
     "--output",
     type=output_file("--output", ".npz"),

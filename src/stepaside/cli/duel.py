@@ -19,7 +19,7 @@ NAMED = (
 
 
 @click.command("duel")
-@takes_settings(NAMED, settings=make_duel())
+@takes_settings(NAMED, make_duel())
 @folder_option()
 @json_option
 def duel(settings: GameSettings, output: Path | None, as_json: bool) -> None:

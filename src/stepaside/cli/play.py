@@ -5,12 +5,12 @@ import logging
 import sys
 from contextlib import ExitStack
 from dataclasses import replace
+from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import click
 
-from ..games.play_settings import PlaySettings
-from .connection_settings import ROS2, ConnectionSettings, with_feedback
+from ..games.play_settings import ROS2, PlaySettings
 from .options import json_option
 from .settings import refuse_settings, takes_settings
 
@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     from ..drivers.velocity_loop import VelocityLoop
 
 UNUSED_BY_CHECK = (
-    *("record", "duration", "dead_man", "images", "max_speed", "max_turn"),
+    *("duration", "dead_man", "images", "max_speed", "max_turn"),
     *("sim_time", "role", "remap", "opponent", "people", "max_lateral"),
 )
 TIME_IS_UP = "played long enough"
@@ -28,27 +28,32 @@ INTERRUPTED = "interrupted"
 
 NAMED = (
     *("role", "robot", "strategy", "senses", "duration"),
-    *("record", "domain", "dead_man", "dry_run", "check"),
-)
-SECTIONS = (
-    *("role", "robot", "dry_run", "strategy", "evasion", "shield", "gait"),
-    *("legs", "control", "senses", "cameras"),
+    *("domain", "dead_man", "dry_run"),
 )
 
 
 @click.command("play")
 @click.argument("address", default="")
-@takes_settings(
-    NAMED,
-    sections=SECTIONS,
-    settings=PlaySettings,
-    connection=ConnectionSettings,
+@takes_settings(NAMED, PlaySettings)
+@click.option(
+    "--record",
+    type=click.Path(path_type=Path),
+    help="Record all measurements, targets and state changes to a run folder "
+    "for stepaside show.",
+)
+@click.option(
+    "--check",
+    is_flag=True,
+    help="Check a robot in Python instead of playing: rates, latency, units, "
+    "signs and stopping. The robot moves, and must hang in the air if it "
+    "is driven by its joints; the exit status is 1 if a check fails.",
 )
 @json_option
 def play(
     address: str,
     settings: PlaySettings,
-    connection: ConnectionSettings,
+    record: Path | None,
+    check: bool,
     as_json: bool,
 ) -> None:
     """Control a robot in a game over LoLA, NAOqi, ROS 2 or its own SDK.
@@ -69,67 +74,68 @@ def play(
     """  # noqa: D301 (\b is a character for click)
     if not address:
         raise click.UsageError("missing argument ADDRESS of the robot")
-    connection = replace(connection, address=address)
+    settings = replace(settings, address=address)
     logging.basicConfig(
         format="stepaside: %(message)s", level=logging.INFO, stream=sys.stderr
     )
-    if connection.check:
+    if check:
         from .play_check import check_adapter
 
-        refuse_settings(UNUSED_BY_CHECK, "a play without --check")
-        check_adapter(connection, as_json=as_json)
+        needed = "a play without --check"
+        refuse_settings(UNUSED_BY_CHECK, needed)
+        if record is not None:
+            raise click.UsageError(f"record requires {needed}")
+        check_adapter(settings, as_json=as_json)
         return
     if as_json:
         raise click.UsageError("--json requires --check")
     from ..drivers.method_thread import SessionLost
     from ..drivers.play_log import StatusLine
     from ..drivers.robot import JointRobot
-    from .robot_connections import open_loop
+    from .robot_connections import open_loop, robot_maker, with_feedback
 
-    if connection.address.startswith(ROS2):  # before it joins a domain
-        _refuse_unused(settings, connection, joints=False)
-    make = connection.robot_maker(settings)
+    if address.startswith(ROS2):  # before it joins a domain
+        _refuse_unused(settings, joints=False)
+    make = robot_maker(settings)
     robot = make()
     joints = isinstance(robot, JointRobot)
-    _refuse_unused(settings, connection, joints=joints)
-    if joints and robot.paced:
-        refuse_settings(
-            ("sim_time",),
-            "a robot with velocity commands, or a JointRobot with paced = "
-            "False",
-        )
+    _refuse_unused(settings, joints=joints)
+    if joints:
+        control = with_feedback(settings.control)
+        settings = replace(settings, control=control)
+        if robot.paced:
+            refuse_settings(
+                ("sim_time",),
+                "a robot with velocity commands, or a JointRobot with paced "
+                "= False",
+            )
     try:
         with ExitStack() as stack:
             line = StatusLine(sys.stderr)
             stack.callback(line.close)
             observers: list[Any] = [line]
-            record = None
-            if connection.record is not None:
+            kept = None
+            if record is not None:
                 from .play_recording import PlayRecord
 
-                control = settings.control
-                control = with_feedback(control) if joints else control
-                used = replace(settings, control=control)
-                record = PlayRecord(connection.record, used, connection)
-                stack.push(record.leave)
-                observers.append(record)
-            loop = open_loop(settings, connection, make)
+                kept = PlayRecord(record, settings)
+                stack.push(kept.leave)
+                observers.append(kept)
+            loop = open_loop(settings, make)
             stack.callback(loop.close)
-            ended = _run(loop, observers, connection.duration)
-            if record is not None:
-                record.ended = ended
+            ended = _run(loop, observers, settings.duration)
+            if kept is not None:
+                kept.ended = ended
     except SessionLost as error:
         raise click.ClickException(str(error)) from error
 
 
-def _refuse_unused(
-    settings: PlaySettings, connection: ConnectionSettings, *, joints: bool
-) -> None:
+def _refuse_unused(settings: PlaySettings, *, joints: bool) -> None:
     """Refuse options that have no effect with this role and robot."""
-    addresses = connection.address, connection.dead_man
+    addresses = settings.address, settings.dead_man
     on_ros2 = any(ROS2 in str(each) for each in addresses)
-    buttons = joints and connection.on_nao
-    topics = connection.address.startswith(ROS2)
+    buttons = joints and settings.on_nao
+    topics = settings.address.startswith(ROS2)
     sees = settings.senses == "cameras"
     rows = (  # whether they have an effect, the options, and what they need
         (not joints, "max_speed max_turn", "a robot with velocity commands"),

@@ -9,7 +9,7 @@ from .terminal import echo, print_json
 
 if TYPE_CHECKING:
     from ..drivers.robot_check import AdapterFinding
-    from .connection_settings import ConnectionSettings
+    from ..games.play_settings import PlaySettings
 
 SILENCE = 3.0  # of the check before its guardian stops the robot, in [s]
 WALKS = (
@@ -23,12 +23,12 @@ MOVES = (
 PER_JOINT = 1.2  # duration of the check of a joint, in [s]
 
 
-def check_adapter(connection: "ConnectionSettings", *, as_json: bool) -> None:
+def check_adapter(settings: "PlaySettings", *, as_json: bool) -> None:
     """Check a robot; print a verdict per line; exit with 1 if one fails."""
-    if not connection.in_python:
+    if not settings.in_python:
         raise click.UsageError(
             "--check requires the address FILE.py:CLASS, got "
-            f"{connection.address!r}"
+            f"{settings.address!r}"
         )
     from ..drivers.guardian_process import fork_guardian
     from ..drivers.joint_motion import motors_of
@@ -42,10 +42,10 @@ def check_adapter(connection: "ConnectionSettings", *, as_json: bool) -> None:
             text = finding.text
             echo(f"{finding.verdict:<8} {finding.name:<17} {text}")
 
-    make = load_robot_class(connection.address)
-    robot, dry_run, motors = make(), connection.dry_run, None
+    make = load_robot_class(settings.address)
+    robot, dry_run, motors = make(), settings.dry_run, None
     if isinstance(robot, JointRobot):
-        motors = motors_of(robot, load_robot(connection.robot))
+        motors = motors_of(robot, load_robot(settings.robot))
         warning = MOVES.format(round(PER_JOINT * len(motors.names)))
     else:
         refuse_settings(("robot",), "a robot that is driven by its joints")
@@ -63,7 +63,7 @@ def check_adapter(connection: "ConnectionSettings", *, as_json: bool) -> None:
             guardian.dismiss()
     if as_json:
         found = [each._asdict() for each in check.findings]
-        summary = {"robot": connection.address, "passes": check.passes}
+        summary = {"robot": settings.address, "passes": check.passes}
         print_json(summary | {"findings": found})
     if not check.passes:
         raise SystemExit(1)

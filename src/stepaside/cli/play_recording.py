@@ -1,10 +1,8 @@
 """Recording of ``stepaside play``."""
 
 import logging
-from dataclasses import asdict, replace
 from pathlib import Path
 from types import TracebackType
-from typing import TYPE_CHECKING
 
 from ..core.atomic_output import reason_of
 from ..core.errors import OutputError, StepAsideError
@@ -12,10 +10,7 @@ from ..drivers.play_log import PlayLog, PlayTick
 from ..games.outcome import Outcome
 from ..games.play_settings import PlaySettings
 from ..games.run_archive import CONFIGURATION, complete_play
-from ..games.settings_reader import dump_configuration, settings_entries
-
-if TYPE_CHECKING:
-    from .connection_settings import ConnectionSettings
+from ..games.settings_reader import dump_configuration
 
 
 class PlayRecord:
@@ -24,20 +19,11 @@ class PlayRecord:
     If the record cannot be written any more, the robot continues.
     """
 
-    def __init__(
-        self,
-        folder: Path,
-        settings: PlaySettings,
-        connection: "ConnectionSettings",
-    ) -> None:
+    def __init__(self, folder: Path, settings: PlaySettings) -> None:
         """Check the folder, which must not exist or must be empty."""
-        self._settings = replace(settings, language=connection.language)
-        spelled = settings_entries(self._settings)
-        about = asdict(replace(connection, record=None)) | {
-            name: spelled[name] for name in ("gait", "control")
-        }
-        text = dump_configuration(self._settings)
-        self._log = PlayLog(folder, about, {CONFIGURATION: text})
+        self._settings = settings
+        text = dump_configuration(settings)
+        self._log = PlayLog(folder, {CONFIGURATION: text})
         self.ended = ""  # why the last session ended
         self._failed: OutputError | None = None
 

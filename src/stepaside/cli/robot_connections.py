@@ -1,14 +1,22 @@
 """Connections of ``stepaside play`` to its robot and its camera."""
 
 import sys
-from dataclasses import replace
 from math import inf
 from typing import TYPE_CHECKING, Any
 
 import click
 
-from ..games.floor_games import strategy_of
-from .connection_settings import ConnectionSettings, with_feedback
+from ..core.errors import ConfigurationError
+from ..games.play_settings import LOLA, NAOQI, RCSS, ROS2, PlaySettings
+from ..locomotion.control_settings import (
+    OPEN_LOOP,
+    STABILISED,
+    ControlSettings,
+)
+from ..strategies import Strategy, load_strategy
+from ..strategies.shield import shielded
+from .settings import CONTROL, GIVEN
+from .terminal import echo
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -18,15 +26,70 @@ if TYPE_CHECKING:
     from ..drivers.robot import JointRobot
     from ..drivers.robot_camera import RobotCamera
     from ..drivers.robot_session import RobotSession
+    from ..drivers.ros2_dds import DdsParticipant
     from ..drivers.velocity_loop import VelocityLoop
-    from ..games.play_settings import PlaySettings
 
 V4L2 = "v4l2:"
 
 
+def join_domain(domain: int | None, *, network: bool) -> "DdsParticipant":
+    """Join a ROS 2 domain; print what other programs need to discover it."""
+    from ..drivers.ros2_dds import LOCAL, DdsParticipant
+
+    dds = DdsParticipant(domain, beyond=network)
+    if not network:
+        echo(f"stepaside: {LOCAL}", err=True)
+    return dds
+
+
+def with_feedback(control: ControlSettings) -> ControlSettings:
+    """Return control with feedback unless options or settings choose it."""
+    given = click.get_current_context().meta[GIVEN]
+    chosen = any(path.endswith(CONTROL) for path in given)
+    return control if chosen or control != OPEN_LOOP else STABILISED
+
+
+def robot_maker(settings: PlaySettings) -> "Callable[[], Any]":
+    """Return a function that makes the robot, without connecting."""
+    if settings.in_python:
+        from ..drivers.robot_loader import load_robot_class
+
+        return load_robot_class(settings.address)
+    from ..drivers.robot_loader import RobotRequest, find_robot
+
+    name, _, address = settings.address.partition(":")
+    if settings.address.startswith(ROS2) and not settings.network:
+        from ..drivers.ros2_dds import LOCAL
+
+        echo(f"stepaside: {LOCAL}", err=True)
+    colour = settings.cameras.colour
+    make = find_robot(
+        name,
+        RobotRequest(
+            address,
+            settings.role,
+            settings.robot,
+            dry_run=settings.dry_run,
+            camera=colour.model(),
+            latency=colour.latency + settings.cameras.added_latency,
+            lateral=settings.max_lateral or 0.0,
+            domain=settings.domain,
+            network=settings.network,
+            remap=settings.remap,
+            opponent=settings.opponent,
+            people=settings.people,
+        ),
+    )
+    if make is None:
+        raise ConfigurationError(
+            f"the address must begin with {LOLA}, {NAOQI}, {ROS2} or "
+            f"{RCSS}, or be FILE.py:CLASS, got {settings.address!r}"
+        )
+    return make
+
+
 def open_loop(
-    settings: "PlaySettings",
-    connection: ConnectionSettings,
+    settings: PlaySettings,
     make: "Callable[[], Any]",
 ) -> "JointLoop | VelocityLoop":
     """Connect to the robot that a function makes; return its control loop."""
@@ -34,15 +97,19 @@ def open_loop(
 
     robot = make()
     if settings.senses == "cameras":
-        _check_camera(robot, connection)
+        _check_camera(robot, settings)
     if isinstance(robot, JointRobot):
-        return _open_joints(settings, connection, make, robot)
-    return _open_velocity(settings, connection, make, robot)
+        return _open_joints(settings, make, robot)
+    return _open_velocity(settings, make, robot)
+
+
+def _strategy_of(settings: PlaySettings) -> Strategy:
+    strategy = load_strategy(settings.strategy, settings.evasion)
+    return shielded(strategy, settings.shield)
 
 
 def _open_joints(
-    settings: "PlaySettings",
-    connection: ConnectionSettings,
+    settings: PlaySettings,
     make: "Callable[[], JointRobot]",
     robot: "JointRobot",
 ) -> "JointLoop":
@@ -52,7 +119,7 @@ def _open_joints(
     from ..locomotion.policy.policy_legs import load_policy
     from ..robots.description import load_robot
 
-    description = load_robot(connection.robot)
+    description = load_robot(settings.robot)
     legs, gains = settings.legs, None
     sees = settings.senses == "cameras"
     motors = motors_of(robot, description)
@@ -60,37 +127,33 @@ def _open_joints(
         if not robot.takes_gains:
             raise click.UsageError(
                 "legs requires a robot that takes gains, got "
-                f"{connection.address!r}"
+                f"{settings.address!r}"
             )
         contract, _ = load_policy(legs, description)
         gains = policy_gains(contract, motors)
-    else:
-        control = with_feedback(settings.control)
-        settings = replace(settings, control=control)
     return JointLoop(
-        lambda: _open_session(connection, make, robot),
+        lambda: _open_session(settings, make, robot),
         motors,
-        strategy_of(settings.player(settings.role)),
+        _strategy_of(settings),
         scheme_factory(
             description,
             settings.gait,
             legs if legs.walks else settings.control,
             tick=robot.tick,
-            delay_ticks=connection.delay_ticks,
-            sees_as=connection.role if sees else None,
+            delay_ticks=settings.delay_ticks,
+            sees_as=settings.role if sees else None,
         ),
         gains=gains,
-        open_eyes=(lambda opened: _open_camera(settings, opened, connection))
+        open_eyes=(lambda opened: _open_camera(settings, opened))
         if sees
         else None,
         needs_forces=not legs.walks,
-        dry_run=connection.dry_run,
+        dry_run=settings.dry_run,
     )
 
 
 def _open_velocity(
-    settings: "PlaySettings",
-    connection: ConnectionSettings,
+    settings: PlaySettings,
     make: "Callable[[], Any]",
     robot: Any,
 ) -> "VelocityLoop":
@@ -103,13 +166,13 @@ def _open_velocity(
         VelocityLoop,
     )
 
-    strategy = strategy_of(settings.player(settings.role))
-    dry_run = connection.dry_run
+    strategy = _strategy_of(settings)
+    dry_run = settings.dry_run
     limits = robot.limits.within(
-        connection.max_speed or inf, connection.max_turn or inf
+        settings.max_speed or inf, settings.max_turn or inf
     )
-    paced = robot.paced and not connection.sim_time
-    session = _open_session(connection, make, robot, paced=paced)
+    paced = robot.paced and not settings.sim_time
+    session = _open_session(settings, make, robot, paced=paced)
     try:
         if not dry_run:
             session.run("prepare", PREPARE_TIMEOUT)
@@ -117,11 +180,11 @@ def _open_velocity(
         if settings.senses == "cameras":
             eyes = PosedSight(
                 session,
-                _open_camera(settings, robot, connection, needs_mount=True),
-                posed_perception(connection.role, robot.head, PERIOD),
+                _open_camera(settings, robot, needs_mount=True),
+                posed_perception(settings.role, robot.head, PERIOD),
                 turns_head=robot.head is not None and not dry_run,
             )
-        in_python = connection.in_python
+        in_python = settings.in_python
         return VelocityLoop(
             session,
             lambda: TemplateController(
@@ -138,7 +201,7 @@ def _open_velocity(
 
 
 def _open_session(
-    connection: ConnectionSettings,
+    settings: PlaySettings,
     make: "Callable[[], Any]",
     robot: Any,
     *,
@@ -154,21 +217,21 @@ def _open_session(
 
     shares = robot.shares_connection
     if shares:
-        open_with_retries(lambda: opened_here(robot), connection.wait)
+        open_with_retries(lambda: opened_here(robot), settings.wait)
     guardian = None
-    if not connection.dry_run and robot.paced and paced:
+    if not settings.dry_run and robot.paced and paced:
         guardian = fork_guardian(make, robot)
     try:
-        switch = _open_switch(connection)
+        switch = _open_switch(settings)
         return open_with_retries(
             lambda: RobotSession(
                 robot if shares else make(),
                 opened=shares,
                 guardian=guardian,
                 switch=switch,
-                dry_run=connection.dry_run,
+                dry_run=settings.dry_run,
             ),
-            connection.wait,
+            settings.wait,
         )
     except BaseException:
         if guardian is not None:
@@ -176,10 +239,10 @@ def _open_session(
         raise
 
 
-def _open_switch(connection: ConnectionSettings) -> "DeadManSwitch | None":
+def _open_switch(settings: PlaySettings) -> "DeadManSwitch | None":
     from ..drivers.dead_man_switch import GAMEPAD, GamepadButton, HeldKey
 
-    name = connection.dead_man
+    name = settings.dead_man
     if name is None:
         return None
     kind, _, device = name.partition(":")
@@ -190,31 +253,33 @@ def _open_switch(connection: ConnectionSettings) -> "DeadManSwitch | None":
     from ..drivers.ros2 import TopicSwitch
     from ..drivers.ros2_dds import parse_namespace
 
-    return TopicSwitch(connection.join_domain(), parse_namespace(name))
+    return TopicSwitch(
+        join_domain(settings.domain, network=settings.network),
+        parse_namespace(name),
+    )
 
 
-def _check_camera(robot: Any, connection: ConnectionSettings) -> None:
+def _check_camera(robot: Any, settings: PlaySettings) -> None:
     """Check that a robot has what its source of images needs."""
     from ..drivers.robot import JointRobot, Robot
 
     kind, joints = type(robot), isinstance(robot, JointRobot)
-    if connection.images is not None and not joints:
+    if settings.images is not None and not joints:
         raise click.UsageError("images requires joint control")
-    if connection.images is not None or kind.image is not Robot.image:
+    if settings.images is not None or kind.image is not Robot.image:
         return
-    if connection.in_python:
+    if settings.in_python:
         needed = f"the method image() of {kind.__name__}"
         needed += ", or images" if joints else ""
     else:
         needed = "images" if joints else "a robot with a camera"
-        needed += f", got {connection.address!r}, which brings no images"
+        needed += f", got {settings.address!r}, which brings no images"
     raise click.UsageError(f"sensing by cameras requires {needed}")
 
 
 def _open_camera(
-    settings: "PlaySettings",
+    settings: PlaySettings,
     robot: Any,
-    connection: ConnectionSettings,
     *,
     needs_mount: bool = False,
 ) -> "RobotCamera":
@@ -224,7 +289,7 @@ def _open_camera(
     """
     from ..drivers.robot_camera import RobotCamera, VideoCamera
 
-    name = connection.images
+    name = settings.images
     if name is None:
         return RobotCamera(robot, needs_mount=needs_mount)
     if not name.startswith(V4L2):

@@ -110,7 +110,7 @@ NAMED_OF_WALK = ("seed", "duration", "robot", "gait", "body", "pushes")
 
 
 @click.command("walk")
-@takes_settings(NAMED_OF_WALK, settings=make_walk())
+@takes_settings(NAMED_OF_WALK, make_walk())
 @click.option(
     "--bearing",
     metavar="ANGLE",
@@ -157,7 +157,7 @@ COMPARED = (
 
 
 @click.command("unicycles")
-@takes_settings(NAMED_OF_UNICYCLES, settings=UnicycleSettings)
+@takes_settings(NAMED_OF_UNICYCLES, UnicycleSettings)
 @figure_option()
 @json_option
 def unicycles(
@@ -311,7 +311,7 @@ NAMED_OF_ROOM = ("width", "depth", "discs", "boxes", "polygons", "doors")
 @click.command("room")
 @file_argument("file", required=False)
 @seed_option()
-@takes_settings(NAMED_OF_ROOM, settings=RoomRecipe)
+@takes_settings(NAMED_OF_ROOM, RoomRecipe)
 @click.option(
     "--output",
     type=output_file("--output", ".toml", ".json"),

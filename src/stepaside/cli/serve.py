@@ -10,8 +10,8 @@ import click
 from ..games.game_settings import GameSettings
 from ..games.game_settings import duel as make_duel
 from ..games.player_settings import PLAYERS
-from .connection_settings import join_domain, with_feedback
 from .options import folder_option, json_option
+from .robot_connections import join_domain, with_feedback
 from .run_output import finish_run, print_run, run_folder
 from .settings import takes_settings
 from .tables import print_table
@@ -20,7 +20,7 @@ NAMED = ("seed", "duration", "robot", "start.distance")
 
 
 @click.command("serve")
-@takes_settings(NAMED, settings=make_duel())
+@takes_settings(NAMED, make_duel())
 @click.option(
     "--ros2",
     multiple=True,

@@ -83,31 +83,17 @@ GIVEN = "stepaside.given"  # of a context: given settings, and --config
 
 
 def takes_settings(
-    named: Sequence[str],
-    *,
-    sections: tuple[str, ...] = (),
-    aside: Collection[str] = (),
-    **kinds: Any,
+    named: Sequence[str], kind: Any, *, aside: Collection[str] = ()
 ) -> Decorator:
     """Add options of settings, ``--set``, ``--config`` and ``--settings``.
 
     Args:
         named: Paths of settings with an option of their own.
-        sections: Sections of the first class that the command uses; all if
-            empty.
+        kind: Class of the argument ``settings``, or the game that they change.
         aside: Entries of a file that belong to other commands.
-        kinds: Class of the settings that each argument receives, or the game
-            that they change.
     """
-    entries = dict[str, Entry]()
-    for kind in kinds.values():
-        if isinstance(kind, GameSettings):
-            found = entries_of_game(kind)
-        else:
-            found = entries_of(kind)
-        if sections and not entries:
-            found = {k: v for k, v in found.items() if _head(k) in sections}
-        entries |= found
+    is_game = isinstance(kind, GameSettings)
+    entries = entries_of_game(kind) if is_game else entries_of(kind)
 
     def decorate(function: Callable[..., Any]) -> Callable[..., Any]:
         @wraps(function)
@@ -122,15 +108,11 @@ def takes_settings(
             config = values.pop("config")
             given = {*changes, *(["--config"] if config else [])}
             click.get_current_context().meta[GIVEN] = given
-            made = _read(kinds, changes, config, aside)
-            _refuse_unused(changes, entries, made)
+            settings = _read(kind, changes, config, aside)
+            _refuse_unused(changes, entries, settings)
             if values.pop("lists"):
-                first, *others = made.values()
-                write_result(commented(first, sections))
-                for settings in others:
-                    write_result(commented(settings))
-                return None
-            return function(**made, **values)
+                return write_result(commented(settings))
+            return function(settings=settings, **values)
 
         result: Callable[..., Any] = command
         for option in (lists_option, config_option, set_option):
@@ -262,35 +244,25 @@ def _value(text: str, entry: Entry) -> Any:
 
 
 def _read(
-    kinds: Mapping[str, Any],
+    kind: Any,
     changes: Mapping[str, Any],
     config: Path | None,
     aside: Collection[str],
-) -> dict[str, Any]:
-    """Return the settings of each class from options and file."""
+) -> Any:
+    """Return the settings of a command from options and file."""
     file = {} if config is None else load_settings(config)
     left_open = {e for path in changes for e in IMPLY.get(path, ())}
     file, given = _without(file, left_open), nested(changes)
     source = "" if config is None else str(config)
-    made, known = dict[str, Any](), set[str]()
-    for kind in kinds.values():
-        known |= {field.name for field in fields(kind)}
-    for name, kind in kinds.items():
-        if isinstance(kind, GameSettings):
-            game = read_game(file, source, base=kind)
-            made[name] = read_game(given, base=game).resolved()
-            continue
-        entries = nested(given, file)
-        own = {field.name for field in fields(kind)}
-        if not made:  # the first refuses what no class knows
-            own |= entries.keys() - known - {*aside}
-        chosen = {k: v for k, v in entries.items() if k in own}
-        source = source if not changes else ""
-        settings = settings_of(kind, chosen, source)
-        if hasattr(settings, "resolved"):
-            settings = settings.resolved()
-        made[name] = settings
-    return made
+    if isinstance(kind, GameSettings):
+        game = read_game(file, source, base=kind)
+        return read_game(given, base=game).resolved()
+    ignored = {*aside} - {field.name for field in fields(kind)}
+    entries = {
+        k: v for k, v in nested(given, file).items() if k not in ignored
+    }
+    settings = settings_of(kind, entries, source if not changes else "")
+    return settings.resolved() if hasattr(kind, "resolved") else settings
 
 
 def _without(
@@ -324,30 +296,25 @@ def _needs(
 
 
 def _refuse_unused(
-    given: Collection[str],
-    entries: Mapping[str, Entry],
-    made: Mapping[str, Any],
+    given: Collection[str], entries: Mapping[str, Entry], settings: Any
 ) -> None:
     """Refuse settings that have no effect with the others."""
-    for settings in made.values():
-        players = getattr(settings, "players", ())
-        for own in given:
-            for path, needed in _needs(own, entries):
-                holders = [p for p in players if p.name == _head(own)]
-                owners = [
-                    each
-                    for each in holders or players or (settings,)
-                    if hasattr(each, _head(path))
-                ]
-                owners = owners or [settings]
-                if not hasattr(owners[0], _head(path)):
-                    continue  # these are settings of something else
-                values = list(map(attrgetter(path), owners))
-                met = [
-                    value == needed if needed else value not in (None, False)
-                    for value in values
-                ]
-                if not any(met) and own not in (path, f"{_head(own)}.{path}"):
+    players = getattr(settings, "players", ())
+    for own in given:
+        holders = [p for p in players if p.name == _head(own)] or players
+        for path, needed in _needs(own, entries):
+            owners = [
+                each
+                for each in (settings, *holders)
+                if hasattr(each, _head(path))
+            ]
+            values = [attrgetter(path)(each) for each in owners]
+            met = [
+                value == needed if needed else value not in (None, False)
+                for value in values
+            ]
+            if values and not any(met):
+                if own not in (path, f"{_head(own)}.{path}"):
                     raise click.UsageError(
                         f"{own} requires {path} {needed}".rstrip()
                         + (f", got {values[-1]}" if needed else "")

@@ -81,7 +81,7 @@ OF_WALKS = ("speed_m_s", "speed_ratio", "yaw_ratio", "tilt_max_deg")
     help="Play the game again for what a run folder does not hold: efforts, "
     "IMU, foot forces, plans, strategy, images (.mcap, .csv, .parquet).",
 )
-@takes_settings(NAMED, film=FilmSettings)
+@takes_settings(NAMED, FilmSettings)
 @browser_option
 @json_option
 def show(
@@ -89,7 +89,7 @@ def show(
     outputs: tuple[Path, ...],
     frames: tuple[str, ...],
     repeat: bool,
-    film: FilmSettings,
+    settings: FilmSettings,
     opens: bool,
     as_json: bool,
 ) -> None:
@@ -130,7 +130,7 @@ def show(
         for path in outputs:
             try:
                 written[str(path)] = _write(
-                    path, runs, loaded, film, repeat=repeat
+                    path, runs, loaded, settings, repeat=repeat
                 )
             except OutputError as error:
                 failed.append(error)

@@ -10,10 +10,10 @@ import click
 from ..core.entries import to_entries
 from ..core.errors import PlanError
 from ..core.progress import show_progress
-from ..core.ranges import SEEDS, Range
+from ..core.ranges import SEEDS, Range, positive
 from ..core.setting import CheckedSettings, setting
 from ..games.game_settings import OF_ALL, GameSettings
-from ..games.unicycle_settings import UnicycleGameSettings, positive
+from ..games.unicycle_settings import UnicycleGameSettings
 from ..planning import PRESETS, Direction, Foot, GaitSettings
 from ..report.result_labels import CIRCLES
 from ..theory.unicycle.unicycle_game import Game
@@ -81,7 +81,7 @@ class CircleSettings(UnicycleGameSettings):
 
 
 @click.command("circle")
-@takes_settings(NAMED_OF_CIRCLE, settings=CircleSettings)
+@takes_settings(NAMED_OF_CIRCLE, CircleSettings)
 @figure_option(help="Write a figure of the circle over angle and ratios.")
 @json_option
 def circle(
@@ -269,7 +269,7 @@ class StartMapSettings(UnicycleGameSettings):
 
 
 @click.command("map")
-@takes_settings(NAMED_OF_MAP, settings=StartMapSettings)
+@takes_settings(NAMED_OF_MAP, StartMapSettings)
 @figure_option()
 @json_option
 def map(  # noqa: A001 (the command's name)
@@ -422,7 +422,7 @@ NAMED_OF_PLAN = ("role", "bearing", "steps", "first_foot", "saturated", "gait")
 
 
 @click.command("plan")
-@takes_settings(NAMED_OF_PLAN, aside=ENTRIES_OF_GAMES, settings=PlanSettings)
+@takes_settings(NAMED_OF_PLAN, PlanSettings, aside=ENTRIES_OF_GAMES)
 @figure_option()
 @json_option
 def plan(settings: PlanSettings, figure: Path | None, as_json: bool) -> None:

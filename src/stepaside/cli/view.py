@@ -21,7 +21,7 @@ NAMED = tuple(name for name in NAMED_OF_DUEL if name != "duration")
 
 @click.command("view")
 @file_argument("file", required=False)
-@takes_settings(NAMED, settings=make_duel())
+@takes_settings(NAMED, make_duel())
 @click.option(
     "--port",
     type=click.IntRange(1, 65535),

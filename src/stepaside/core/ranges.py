@@ -61,3 +61,9 @@ SEEDS = Range(
     0, 2**128 - 1, "1", "random generators take seeds of 128 bits", whole=True
 )
 RUNTIME = Range(1e-3, 86400.0, "s", "from a physics step to a day")
+
+
+def positive(unit: str, *also: float | None) -> Range:
+    """Return the common range of positive numbers."""
+    why = "outside this range squares and ratios overflow a double"
+    return Range(1e-9, 1e9, unit, why, also=also)

@@ -54,16 +54,13 @@ class PlayLog:
     its time and reason.
     """
 
-    def __init__(
-        self,
-        folder: Path,
-        about: Mapping[str, object],
-        beside: Mapping[str, str] | None = None,
-    ) -> None:
-        """Check the folder, which is created with the first tick."""
+    def __init__(self, folder: Path, beside: Mapping[str, str]) -> None:
+        """Check the folder, which is created with the first tick.
+
+        With the texts of other files in it, by name.
+        """
         check_folder(folder, "record", new=True)
-        self.folder, self._about = folder, dict(about)
-        self._beside = dict(beside or {})
+        self.folder, self._beside = folder, beside
         self._changes: list[dict[str, object]] = []
         self._state: Enum | None = None
         self._columns: dict[str, int] = {}
@@ -125,7 +122,7 @@ class PlayLog:
 
     def _write_metadata(self) -> None:
         assert self._state is not None  # there was a tick
-        metadata = self._about | {
+        metadata = {
             "columns": self._columns,
             "states": [state.value for state in type(self._state)],
             "phases": [phase.value for phase in PHASES],

@@ -3,6 +3,7 @@
 import re
 from dataclasses import dataclass, replace
 from math import pi
+from typing import Self
 
 from ..core.errors import ConfigurationError
 from ..core.player_identity import PlayerIdentity, Role
@@ -51,23 +52,10 @@ USED_BY = {  # settings of a player that its kind of body uses
 }
 
 
-@dataclass(frozen=True, slots=True)
-class PlayerSettings:
-    """Settings of one player."""
+@dataclass(frozen=True, slots=True, kw_only=True)
+class RobotSettings:
+    """Settings of a robot that plays: its gait, control and strategy."""
 
-    name: str = setting(
-        REQUIRED, "Name of the player: lower case, digits and hyphens"
-    )
-    role: str = setting(
-        "bystander", "Role of the player", names=tuple(r.value for r in Role)
-    )
-    team: str = setting("", "Team of the player; that of its role if empty")
-    body: str = setting(
-        "robot",
-        "Body of the player: a robot; its template unicycle; a person; or "
-        "the recorded motion of a player of a run",
-        names=BODY_KINDS,
-    )
     robot: str = setting(
         "nao", "Name of a robot, or folder of its description"
     )
@@ -96,6 +84,65 @@ class PlayerSettings:
     )
     shield: ShieldSettings = setting(
         ShieldSettings(), "Shield of the player", needs=("shield.enabled", "")
+    )
+
+    def resolved_as(
+        self,
+        role: str,
+        body: BodySettings = IDEAL,
+        *,
+        person: bool = False,
+        walks: bool = True,
+    ) -> Self:
+        """Return the robot with strategy, trigger and control.
+
+        A person may be an opponent; learned legs do not walk without physics.
+        """
+        strategy, evasion = self.strategy, self.evasion
+        if not strategy and role == EVADER:
+            # Learned legs step to every side.
+            aside = person and walks and self.legs.walks
+            strategy = STEP_ASIDE if aside else EVASION
+        elif not strategy:
+            strategy = PURSUIT if role == PURSUER else "stand"
+        elif strategy.startswith(f"{EVASION}("):
+            made = load_strategy(strategy, evasion)
+            assert isinstance(made, Evasion)
+            strategy, evasion = EVASION, made
+        if strategy in OF_EVASION and evasion.trigger is None:
+            # People walk at any speed, and a distance suits only one: a robot
+            # that is fast enough evades them by time to contact.
+            soon = person and self.gait.is_fast
+            evasion = replace(evasion, trigger="time" if soon else "distance")
+        feedback, method = self.control.feedback, self.control.method
+        fast = self.gait.is_fast
+        if feedback is None:  # plans from the measured state need it, too
+            planned = method in (None, "closed-form")
+            feedback = fast or body != IDEAL or not planned
+        if method is None:
+            method = "measured" if feedback and not fast else "closed-form"
+        control = replace(self.control, method=method, feedback=feedback)
+        return replace(
+            self, strategy=strategy, evasion=evasion, control=control
+        )
+
+
+@dataclass(frozen=True, slots=True)
+class PlayerSettings(RobotSettings):
+    """Settings of one player."""
+
+    name: str = setting(
+        REQUIRED, "Name of the player: lower case, digits and hyphens"
+    )
+    role: str = setting(
+        "bystander", "Role of the player", names=tuple(r.value for r in Role)
+    )
+    team: str = setting("", "Team of the player; that of its role if empty")
+    body: str = setting(
+        "robot",
+        "Body of the player: a robot; its template unicycle; a person; or "
+        "the recorded motion of a player of a run",
+        names=BODY_KINDS,
     )
     target: str = setting(
         "",
@@ -207,39 +254,11 @@ class PlayerSettings:
         *,
         person: bool = False,
         walks: bool = True,
-    ) -> "PlayerSettings":
-        """Return the player with strategy, trigger and control.
-
-        A person may be an opponent; learned legs do not walk without physics.
-        """
+    ) -> Self:
+        """Return the player with nothing left open; see the base."""
         if not self.decides:
             return self
-        strategy, evasion = self.strategy, self.evasion
-        if not strategy and (self.goal or self.draws_goal):
-            strategy = "goal"
-        elif not strategy and self.role == EVADER:
-            # Learned legs step to every side.
-            aside = person and walks and self.legs.walks
-            strategy = STEP_ASIDE if aside else EVASION
-        elif not strategy:
-            strategy = PURSUIT if self.role == PURSUER else "stand"
-        elif strategy.startswith(f"{EVASION}("):
-            made = load_strategy(strategy, evasion)
-            assert isinstance(made, Evasion)
-            strategy, evasion = EVASION, made
-        if strategy in OF_EVASION and evasion.trigger is None:
-            # People walk at any speed, and a distance suits only one: a robot
-            # that is fast enough evades them by time to contact.
-            soon = person and self.gait.is_fast
-            evasion = replace(evasion, trigger="time" if soon else "distance")
-        feedback, method = self.control.feedback, self.control.method
-        fast = self.gait.is_fast
-        if feedback is None:  # plans from the measured state need it, too
-            planned = method in (None, "closed-form")
-            feedback = fast or body != IDEAL or not planned
-        if method is None:
-            method = "measured" if feedback and not fast else "closed-form"
-        control = replace(self.control, method=method, feedback=feedback)
-        return replace(
-            self, strategy=strategy, evasion=evasion, control=control
-        )
+        own = self
+        if not self.strategy and (self.goal or self.draws_goal):
+            own = replace(self, strategy="goal")
+        return own.resolved_as(self.role, body, person=person, walks=walks)

@@ -3,7 +3,7 @@
 from dataclasses import dataclass
 from math import pi
 
-from ..core.ranges import Range
+from ..core.ranges import Range, positive
 from ..core.setting import CheckedSettings, setting
 from ..theory.unicycle.circles import settling_time
 from ..theory.unicycle.unicycle_game import (
@@ -16,12 +16,6 @@ from ..theory.unicycle.unicycle_game import (
 
 PAPER = ("pursuit", "evasion")  # strategies of pursuer and evader
 SHORT = 0.01  # decision period without sampling, in [s]
-WHY = "outside this range squares and ratios overflow a double"
-
-
-def positive(unit: str, *also: float | None) -> Range:
-    """Return the common range of positive numbers."""
-    return Range(1e-9, 1e9, unit, WHY, also=also)
 
 
 @dataclass(frozen=True, slots=True)

@@ -7,7 +7,6 @@ from typing import Any, NamedTuple
 
 from stepaside.cli import duel, run
 from stepaside.cli.bound import BoundSettings
-from stepaside.cli.connection_settings import ConnectionSettings
 from stepaside.cli.settings import flag_of
 from stepaside.cli.theory import (
     CircleSettings,
@@ -17,6 +16,7 @@ from stepaside.cli.theory import (
 from stepaside.core.setting import Setting as Description
 from stepaside.core.setting import settings_of
 from stepaside.games.game_settings import duel as make_duel
+from stepaside.games.play_settings import PlaySettings
 from stepaside.games.player_settings import PlayerSettings
 from stepaside.games.unicycle_settings import UnicycleSettings
 from stepaside.report.film_settings import FilmSettings
@@ -31,7 +31,7 @@ CONFIGURATIONS = (
     PlanSettings(),
 )
 COMMANDS = {
-    "play": ConnectionSettings(),
+    "play": PlaySettings(),
     "run unicycles": UnicycleSettings(),
     "theory circle": CircleSettings(),
     "theory map": StartMapSettings(),
@@ -96,6 +96,7 @@ def settings_of_commands(_: Any) -> str:
         f"{command}: {setting.path}": setting
         for command, values in COMMANDS.items()
         for setting in _in(values, "")
+        if "." not in setting.path  # sections are those of configurations
     }
     return _table(found)
 
