@@ -143,7 +143,7 @@ def test_servos_with_load_feedforward_reach_their_targets() -> None:
     reference = standing()
     kinematics, loads = loads_of(reference)
     feedforward = LoadFeedforward(kinematics, zmp_forward=AHEAD, tick=TICK)
-    servos = np.array(kinematics.legs.tree.servos)
+    servos = np.array(kinematics.tree.servos)
     stiffness, damping = servos.T
     legs = np.array([name in NAO.legs for name in kinematics.joint_names])
     np.testing.assert_array_equal(servos[legs], [(200.0, 10.0)] * legs.sum())

@@ -7,11 +7,8 @@ import numpy as np
 import pytest
 
 from stepaside.core.poses import Array
-from stepaside.robots.description import (
-    RobotDescription,
-    SensorNames,
-    load_robot,
-)
+from stepaside.robots.description import RobotDescription, load_robot
+from stepaside.robots.description_types import SensorNames
 from stepaside.robots.urdf_writer import BASE, urdf_of
 
 # Anchors off the origin, two hinges on one body, a zero that is not 0, a

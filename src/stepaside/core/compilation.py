@@ -84,15 +84,18 @@ def parallel_range() -> Any:
     return load_numba().prange
 
 
-def bound(function: Callable[..., R], *arguments: Any) -> Callable[[], R]:
+def bound(
+    function: Callable[..., R], *arguments: Any, more: tuple[Any, ...] = ()
+) -> Callable[..., R]:
     """Return a compiled function of fixed arguments, compiled at once.
 
-    Arrays among these must stay where they are in memory.
+    Arrays among these must stay where they are in memory. At a call it takes
+    the rest, of the very types of ``more``.
     """
     if not isinstance(function, _Compiled):
         return partial(function, *arguments)
     typeof = load_numba().typeof
-    types = tuple(map(typeof, arguments))
+    types = tuple(map(typeof, (*arguments, *more)))
     # Not the dispatcher, which looks at the types at every call.
     return partial(function.dispatcher.compile(types), *arguments)
 

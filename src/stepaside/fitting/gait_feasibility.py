@@ -149,7 +149,7 @@ def speed_ratio(description: RobotDescription, gait: GaitSettings) -> float:
     greatest = 0.0
     for direction in Direction:
         scheme = _scheme(description, gait, direction)
-        motors = scheme.walk.kinematics.legs.tree.motors
+        motors = scheme.walk.kinematics.joint_names
         limits = [description.speed_limits[name] for name in motors]
         path = np.array([scheme.joint_targets, *_walk(scheme, gait)])
         speeds = np.abs(np.diff(path, axis=0)) / TICK
@@ -187,7 +187,7 @@ def step_loads(
         )
         if left != right:
             by_swing_foot[left].append(required)
-    names = legs.legs.tree.motors
+    names = legs.joint_names
     limits = np.array([torques.get(name, inf) for name in names])
     usual, most = (
         np.max([np.quantile(f, q, axis=0) for f in by_swing_foot.values()], 0)

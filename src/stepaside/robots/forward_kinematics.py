@@ -46,13 +46,7 @@ class ForwardKinematics:
         self._feet = frames = [tree.sites[name] for name in feet]
         if head is not None:
             frames = [*frames, tree.bodies[head]]
-        columns = {name: i for i, name in enumerate(tree.motors)}
-        fixed = {k: float(v) for k, v in description.standing.items()}
-        for follower, leader in tree.followers.items():
-            if leader in columns:
-                columns[follower] = columns[leader]
-            else:
-                fixed[follower] = fixed.get(leader, 0.0)
+        columns, fixed = tree.moved_by(tree.motors, description.standing)
         self.angles = np.zeros(len(tree.motors))
         self.com = np.empty(3)
         self.places = np.empty((len(frames), 3))

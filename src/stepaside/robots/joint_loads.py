@@ -22,10 +22,10 @@ LIFTED = 1e-6  # height above which a foot carries no load, in [m]
 def load_rows(
     tree: JointTree,
     motors: NDArray[np.int64],
+    rate: float,
     states: Array,
     contacts: Array,
     points: Array,
-    rate: float,
     calls: int,
     torques: Array,
 ) -> None:
@@ -106,19 +106,16 @@ class LegLoads:
         self, kinematics: LegKinematics, *, zmp_forward: float, tick: float
     ) -> None:
         """Prepare loads of feet anchored at ``zmp_forward`` in their frame."""
-        self._kinematics = kinematics
-        self._zmp_forward = zmp_forward
-        self._rate = 1.0 / (tick * tick)
-        legs = kinematics.legs
-        motors = [legs.tree.motors.index(name) for name in legs.free]
-        columns = legs.links.columns
-        self._motors = np.where(columns < 0, -1, np.array(motors)[columns])
-        self._number_of_motors = len(legs.tree.motors)
+        self._kinematics, self._zmp_forward = kinematics, zmp_forward
+        names, links = kinematics.joint_names, kinematics.links
+        motors = np.array([names.index(name) for name in kinematics.free])
+        motors = np.where(links.columns < 0, -1, motors[links.columns])
         # Mass positions two ticks ago and one tick ago, then of the last rows.
-        self._points = np.zeros((2, len(columns), 3))
-        bound(
-            *(load_rows, legs.links, self._motors, *2 * (self._points[0],)),
-            *(self._points, self._rate, 0, self._points[0]),
+        self._points = np.zeros((2, len(motors), 3))
+        rows = self._points[0]
+        self._load = bound(
+            *(load_rows, links, motors, 1.0 / (tick * tick)),
+            more=(rows, rows, self._points, 0, rows),
         )
         self._calls = 0
 
@@ -147,11 +144,8 @@ class LegLoads:
         points = np.empty((ticks + 2, *self._points.shape[1:]))
         points[:2] = self._points[-2:]
         contacts = self._ground_contacts(references, zmp)
-        torques = np.zeros((ticks, self._number_of_motors))
-        load_rows(
-            *(self._kinematics.legs.links, self._motors, states, contacts),
-            *(points, self._rate, self._calls, torques),
-        )
+        torques = np.zeros((ticks, len(self._kinematics.joint_names)))
+        self._load(states, contacts, points, self._calls, torques)
         self._points = points
         self._calls += ticks
         return torques

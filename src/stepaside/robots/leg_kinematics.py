@@ -1,18 +1,16 @@
 """Joint motion generation by Newton's method (paper, Sec. III-A)."""
 
-from dataclasses import dataclass
 from math import remainder, tau
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
 from ..core.compilation import bound
 from ..core.errors import ModelError, ReachError
 from ..core.poses import Array
 from ..core.rotations import quaternion_of
 from .description import RobotDescription
-from .joint_tree import JointTree, joint_tree, place_frames
+from .joint_tree import joint_tree, place_frames
 from .newton_step import (
     BASE,
     FIXED_ROWS,
@@ -22,77 +20,7 @@ from .newton_step import (
     linearise,
     newton_steps,
 )
-from .robot_tree import RobotTree
 from .tree_cache import load_tree
-
-
-@dataclass(frozen=True, slots=True, eq=False)
-class LegJoints:
-    """Leg joints of one robot."""
-
-    tree: RobotTree
-    free: tuple[str, ...]  # independent leg joints: the unknowns
-    links: JointTree  # links that they move, with the frames of both soles
-    # index of the free joint that moves each joint; -1 for those that are
-    # fixed to the torso, (joints,)
-    columns: NDArray[np.int64]
-    # angles of all joints with the free ones at 0 [rad], (joints,)
-    fixed: Array
-    standing: Array  # standing angles of the free joints [rad], (free,)
-    # lower and upper limit [rad] and speed limit [rad/s] of the free joints,
-    # (free, 3)
-    limits: Array
-    # whether the torso heading is a row: legs with independent hip yaws have
-    # one more unknown than the other rows
-    holds_heading: bool
-    lean: float  # of the torso, see `RobotDescription` [rad]
-
-    @classmethod
-    def of(cls, description: RobotDescription, tree: RobotTree) -> "LegJoints":
-        """Look up the leg joints of a robot in its tree."""
-        free = tuple(
-            name for name in description.legs if name not in tree.followers
-        )
-        for name in free:
-            if name not in description.speed_limits:
-                raise ModelError(
-                    f"legs of {description.name}: joint {name!r} has neither "
-                    "a motor with a speed limit nor a joint to follow"
-                )
-        columns, fixed = {}, {}
-        for name in tree.joints:
-            leader = tree.followers.get(name, name)
-            if leader in free:
-                columns[name] = free.index(leader)
-            else:
-                fixed[name] = float(description.standing.get(leader, 0.0))
-        limits = []
-        for name in free:
-            link = tree.links[tree.link_of(name)]
-            low, high = description.working_limits.get(
-                name, (link.low, link.high)
-            )
-            limits.append((low, high, description.speed_limits[name]))
-        soles = [
-            tree.sites[name]
-            for name in (description.left_foot, description.right_foot)
-        ]
-        return cls(
-            tree,
-            free,
-            joint_tree(tree, columns, fixed, soles),
-            np.array([columns.get(name, -1) for name in tree.joints]),
-            np.array([fixed.get(name, 0.0) for name in tree.joints]),
-            np.array([description.standing.get(n, 0.0) for n in free], float),
-            np.array(limits, dtype=np.float64),
-            len(free) + BASE > FIXED_ROWS,
-            description.lean,
-        )
-
-    def angles(self, free: Array) -> Array:
-        """Return the angles of all joints from the free ones, in [rad]."""
-        return np.where(self.columns < 0, self.fixed, free[self.columns])
-
 
 __all__ = ["ROWS", "BodyReference", "LegKinematics"]
 
@@ -136,27 +64,49 @@ class LegKinematics:
 
     def __init__(self, description: RobotDescription, *, tick: float) -> None:
         self.description = description
-        tree = load_tree(description)
-        self.joint_names = tree.motors
-        self.legs = legs = LegJoints.of(description, tree)
-        motors = [tree.joints.index(name) for name in tree.motors]
-        self._fixed, self._columns = legs.fixed[motors], legs.columns[motors]
-        speeds = legs.limits[:, 2:]
-        self._limits = np.hstack([legs.limits, speeds * tick])
-        self._stand_limits = self._limits.copy()
+        self.tree = tree = load_tree(description)
+        self.joint_names = motors = tree.motors
+        # Independent leg joints: the unknowns.
+        self.free = free = tuple(
+            name for name in description.legs if name not in tree.followers
+        )
+        speeds, standing = description.speed_limits, description.standing
+        for name in free:
+            if name not in speeds:
+                raise ModelError(
+                    f"legs of {description.name}: joint {name!r} has neither "
+                    "a motor with a speed limit nor a joint to follow"
+                )
+        columns, fixed = tree.moved_by(free, standing)
+        feet = description.left_foot, description.right_foot
+        soles = [tree.sites[name] for name in feet]
+        # Links that the legs move, with the frames of both soles.
+        self.links = joint_tree(tree, columns, fixed, soles)
+        self._columns = np.array([columns.get(x, -1) for x in tree.joints])
+        self._fixed = np.array([fixed.get(x, 0.0) for x in tree.joints])
+        self._motors = np.array([tree.joints.index(x) for x in motors])
+        self._standing = np.array([standing.get(x, 0.0) for x in free], float)
+        limits = []
+        for name in free:
+            link, own = tree.links[tree.link_of(name)], speeds[name]
+            range_ = description.working_limits.get(
+                name, (link.low, link.high)
+            )
+            limits.append((*range_, own, own * tick))
+        self._stand_limits = np.array(limits, dtype=np.float64)
         self._stand_limits[:, 3] = STAND_STEP
-        self.state = np.zeros(len(legs.free) + STATE)
-        self.state[: len(legs.free)] = legs.standing
-        self.error = np.zeros(FIXED_ROWS + legs.holds_heading)
+        n = len(free)
+        self.state = np.zeros(n + STATE)
+        self.state[:n] = self._standing
+        # Legs with independent hip yaws have one more unknown than the other
+        # rows: the torso heading is a row then.
+        self.error = np.zeros(FIXED_ROWS + (n + BASE > FIXED_ROWS))
         self._check_rank()
         self._states: LegStates
-        # Arrays of one tick: its reference, and the states around it.
-        self._reference_row = np.zeros((1, 15))
-        self._state_rows = np.zeros((2, self.state.size))
-        self._track_row = bound(
-            *(newton_steps, legs.links, self._limits, legs.lean, True),
-            *(GREATEST_ERROR, self._reference_row),
-            *(self._state_rows, self.error),
+        self._steps = bound(
+            *(newton_steps, self.links, np.array(limits, dtype=np.float64)),
+            *(description.lean, True, GREATEST_ERROR),
+            more=(np.zeros((1, 15)), np.zeros((2, n + STATE)), self.error),
         )
 
     def _check_rank(self) -> None:
@@ -164,8 +114,7 @@ class LegKinematics:
         state, rows = self.state, self.error.size
         jacobian = np.empty((rows, state.size - STATE + BASE))
         linearise(
-            *(self.legs.links, np.zeros(15), state, 0.0),
-            *(np.empty(rows), jacobian),
+            self.links, np.zeros(15), state, 0.0, np.empty(rows), jacobian
         )
         least = min(jacobian.shape)
         if np.linalg.matrix_rank(jacobian, tol=SINGULAR) < least:
@@ -178,19 +127,20 @@ class LegKinematics:
     @property
     def joint_targets(self) -> Array:
         """Angles of the actuated joints, in [rad]. Shape (joints,)."""
-        return self._targets(self.state)
+        targets: Array = self._angles(self.state)[self._motors]
+        return targets
 
-    def _targets(self, states: Array) -> Array:
-        """Return the joint targets of states. Shape (..., joints)."""
+    def _angles(self, states: Array) -> Array:
+        """Return the angles of all joints in states. Shape (..., joints)."""
         moved = states[..., self._columns]
         return np.where(self._columns < 0, self._fixed, moved)
 
     @property
     def posture(self) -> Array:
         """Position and quaternion of the torso, then all joints."""
-        n = len(self.legs.free)
+        n = len(self.free)
         turned = quaternion_of(self.state[n + 5], 0.0, self.state[n + 3])
-        joints = self.legs.angles(self.state[:n])
+        joints = self._angles(self.state)
         return np.array([*self.state[n : n + 3], *turned, *joints])
 
     @property
@@ -234,7 +184,7 @@ class LegKinematics:
 
         # Height of the CoM over the soles at the standing angles.
         com, soles, axes = np.empty(3), np.empty((2, 3)), np.empty((2, 3, 3))
-        place_frames(self.legs.links, self.legs.standing, com, soles, axes)
+        place_frames(self.links, self._standing, com, soles, axes)
         natural = float(com[2] - soles[:, 2].max())
         begin = natural
         while not reaches(begin):
@@ -259,19 +209,17 @@ class LegKinematics:
         self, reference: BodyReference
     ) -> tuple[Array | None, Array]:
         """Return state, None if out of reach, and residuals of a posture."""
-        legs, n = self.legs, len(self.legs.free)
+        n, lean = len(self.free), self.description.lean
         states, errors = np.zeros((2, n + STATE)), np.empty_like(self.error)
-        states[1, :n] = legs.standing
-        states[1, n : n + 3], states[1, n + 3] = (
-            reference.com,
-            reference.heading,
-        )
+        states[1, :n] = self._standing
+        states[1, n : n + BASE] = *reference.com, reference.heading
         row = np.array([reference.row()], dtype=np.float64)
         for _ in range(ITERATIONS):
             states[0] = states[1]
             newton_steps(
-                *(legs.links, self._stand_limits, legs.lean, False),
-                *(np.inf, row, states, errors),
+                *(self.links, self._stand_limits, lean),
+                *(False, np.inf),
+                *(row, states, errors),
             )
             if float(np.abs(errors).max()) < TOLERANCE:
                 return states[1], errors
@@ -286,35 +234,26 @@ class LegKinematics:
         Raises:
             ReachError: If a residual is too large; names the worst row.
         """
-        self._reference_row[0] = reference.row()
-        self._state_rows[0] = self.state
-        if self._track_row() == 0:
-            self._refuse()
-        self.state = self._state_rows[1].copy()
-        return self.joint_targets
+        rows = np.array([reference.row()], dtype=np.float64)
+        targets: Array = self.track_rows(rows).targets[0]
+        return targets
 
     def track_rows(self, references: Array) -> LegStates:
         """Track rows (ticks, 15) up to one out of reach; see :meth:`track`."""
         rows = np.empty((len(references) + 1, self.state.size))
         rows[0] = self.state
-        count = newton_steps(
-            *(self.legs.links, self._limits, self.legs.lean, True),
-            *(GREATEST_ERROR, references, rows, self.error),
-        )
+        count = self._steps(references, rows, self.error)
         if count == 0:
-            self._refuse()
-        targets = self._targets(rows[1 : count + 1])
+            worst = int(np.argmax(np.abs(self.error)))
+            raise ReachError(
+                f"{self.description.name} cannot follow: {ROWS[worst]} is "
+                f"off by {self.error[worst]:.3f}, more than "
+                f"{GREATEST_ERROR:g} [m, rad]"
+            )
+        targets = self._angles(rows[1 : count + 1])[:, self._motors]
         self._states = LegStates(rows[: count + 1], targets)
         self.rewind(count)
         return self._states
-
-    def _refuse(self) -> None:
-        worst = int(np.argmax(np.abs(self.error)))
-        raise ReachError(
-            f"{self.description.name} cannot follow: {ROWS[worst]} is "
-            f"off by {self.error[worst]:.3f}, more than {GREATEST_ERROR:g} "
-            "[m, rad]"
-        )
 
     def rewind(self, ticks: int) -> None:
         """Return to the posture after the first ``ticks`` of the last rows."""

@@ -5,6 +5,7 @@ posture all link frames are parallel to the torso frame. Bodies that are
 welded together are one link.
 """
 
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import NamedTuple
 
@@ -97,6 +98,22 @@ class RobotTree:
     def motor_of(self, joint: str) -> int:
         """Return the index of the motor that moves a joint."""
         return self.motors.index(self.followers.get(joint, joint))
+
+    def moved_by(
+        self, names: Sequence[str], standing: Mapping[str, float]
+    ) -> tuple[dict[str, int], dict[str, float]]:
+        """Return which of the named joints moves each joint, by its index.
+
+        The others stay at their standing angles, which follow, in [rad].
+        """
+        columns, fixed = {}, {}
+        for joint in self.joints:
+            leader = self.followers.get(joint, joint)
+            if leader in names:
+                columns[joint] = names.index(leader)
+            else:
+                fixed[joint] = float(standing.get(leader, 0.0))
+        return columns, fixed
 
     def link_of(self, joint: str) -> int:
         """Return the index of the link that a joint moves."""

@@ -158,7 +158,7 @@ class LoadFeedforward:
     ) -> None:
         """Prepare the feedforward of a robot; see :class:`LegLoads`."""
         self.loads = LegLoads(kinematics, zmp_forward=zmp_forward, tick=tick)
-        servos = np.array(kinematics.legs.tree.servos, dtype=np.float64)
+        servos = np.array(kinematics.tree.servos, dtype=np.float64)
         stiffness, damping = servos.reshape(-1, 2).T
         stiff = stiffness > 0.0
         self.compliance = np.where(
