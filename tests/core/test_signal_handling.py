@@ -1,6 +1,7 @@
 """Test Ctrl-C, SIGTERM and SIGHUP: handled alike, deferred within a tick."""
 
 import signal
+from typing import Any
 
 import pytest
 
@@ -10,7 +11,7 @@ from stepaside.core.signal_handling import (
 )
 from stepaside.games.game_settings import walk
 from stepaside.games.outcome import Outcome
-from stepaside.games.player import MotionLog
+from stepaside.games.player import Player
 from stepaside.games.recorded_game import run_game
 
 SIGNALS = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
@@ -71,16 +72,16 @@ def test_an_interrupted_record_has_complete_samples(
     times: int, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """Ctrl-C arrives once or twice within a sample."""
-    add = MotionLog.add
+    sample = Player.sample
     count = iter(range(100))
 
-    def add_and_interrupt(log: MotionLog) -> None:
-        add(log)
+    def sample_and_interrupt(player: Player, *, closely: bool) -> Any:
         if next(count) == 5:
             for _ in range(times):
                 signal.raise_signal(signal.SIGINT)
+        return sample(player, closely=closely)
 
-    monkeypatch.setattr(MotionLog, "add", add_and_interrupt)
+    monkeypatch.setattr(Player, "sample", sample_and_interrupt)
     run = run_game(walk(duration=0.5))
     assert run.outcome is Outcome.INTERRUPTED and 3 < len(run.times) < 9
     lengths = {

@@ -105,7 +105,7 @@ def test_velocities_of_a_turned_robot_are_those_of_the_world(
     late = times > 1.0
     for place, velocity, parts in (
         ("base_link", "torso_velocity", "xyz"),
-        ("com", "com_velocity", "xy"),
+        ("com", "velocity", "xy"),
     ):
         way = table.of(f"{player}/{place}", *(f"{p}_m" for p in parts))[late]
         rate = table.of(f"{player}/{velocity}", *(f"{p}_m_s" for p in parts))
@@ -121,7 +121,7 @@ def test_the_dcm_is_ahead_of_the_com_by_its_velocity(
     player: str, table: Table
 ) -> None:
     com = table.of(f"{player}/com", "x_m", "y_m")
-    velocity = table.of(f"{player}/com_velocity", "x_m_s", "y_m_s")
+    velocity = table.of(f"{player}/velocity", "x_m_s", "y_m_s")
     dcm = table.of(f"{player}/dcm", "x_m", "y_m")
     eta = sa.GaitSettings().eta
     np.testing.assert_allclose(dcm, com + velocity / eta, atol=1e-6)

@@ -10,7 +10,7 @@ import pytest
 
 from stepaside.core.errors import ReachError, StrategyError
 from stepaside.core.player_identity import PlayerIdentity, Role
-from stepaside.core.poses import Array, Pose
+from stepaside.core.poses import Pose
 from stepaside.games.game import GameInPlay, GameObserver, GameRules, play
 from stepaside.games.outcome import Outcome
 from stepaside.games.recorder import Recorder
@@ -18,41 +18,20 @@ from stepaside.games.recorder import Recorder
 TICK = 0.004
 
 
-class FakeLog:
-    """Samples of what a player was told to be seen as."""
-
-    def __init__(self, player: "FakePlayer") -> None:
-        self._player = player
-        self._seen: list[float] = []
-
-    def add(self) -> None:
-        """Take a sample."""
-        self._seen.append(self._player.x)
-
-    def truncate(self, count: int) -> None:
-        """Keep the first samples."""
-        del self._seen[count:]
-
-    def arrays(self) -> dict[str, Array]:
-        """Return what every player has."""
-        poses = np.array([(x, 0.0, 0.0) for x in self._seen]).reshape(-1, 3)
-        com = poses + (0.0, 0.0, 0.3)
-        return {"com": com, "place": poses, "torso": poses.copy()}
-
-
 class FakePlayer:
     """Stands where it is told, and does what it is told at a tick."""
 
-    begun = frame = None
+    begun = frame = maneuvers = None
     pushes = ()
 
     def __init__(self, world: "FakeWorld", name: str, x: float) -> None:
         self.world, self.name, self.x = world, name, x
         self.does: dict[int, Callable[[], None]] = {}
 
-    def motion_log(self, *, closely: bool) -> FakeLog:
-        """Return an empty log."""
-        return FakeLog(self)
+    def sample(self, *, closely: bool) -> dict[str, Any]:
+        """Return what every player has."""
+        pose = (self.x, 0.0, 0.0)
+        return {"com": (self.x, 0.0, 0.3), "place": pose, "torso": pose}
 
 
 class FakeWorld:

@@ -10,7 +10,7 @@ import pytest
 from stepaside.core.poses import Array
 from stepaside.games.evaluation import express_in_support_foot, measured
 from stepaside.games.game_settings import walk
-from stepaside.games.trajectory import WIDTHS, Trajectory
+from stepaside.games.trajectory import COLUMNS, Trajectory
 
 SETTINGS = walk(seed=4)
 CYCLE = 2.0 * SETTINGS.gait.step_duration
@@ -28,7 +28,9 @@ TIMES = 2.0 + STEP * TIMES
 
 def record(times: Array = TIMES) -> dict[str, Array]:
     """Return a robot that stands as planned, on one foot."""
-    rows = {name: np.zeros((len(times), WIDTHS[name])) for name in RECORDED}
+    rows: dict[str, Any] = {
+        name: np.zeros((len(times), len(COLUMNS[name]))) for name in RECORDED
+    }
     arrays = express_in_support_foot(times, Trajectory(**rows))
     return {name: values.copy() for name, values in arrays.items()}
 

@@ -186,7 +186,6 @@ class SightEvaluator:
             false_detections=self.colour.false + self.depth.false,
             misled_s=float(misled.sum() * period),
             lost_s=float(rows[:, 5].sum() * period),
-            depth_detection_rate=self.depth.rate,
         )
 
     def _camera(self, mount: Mount) -> tuple[Array, Array]:

@@ -43,7 +43,6 @@ if TYPE_CHECKING:
     from ..locomotion.zmp.mpc import MpcResult
     from .camera_senses import SightObserver
 
-MOVED = 0.02  # distance from the start that counts as motion, in [m]
 MIN_TURN = 0.5  # of a path to which a circle can be fitted, in [rad]
 INTRUSIONS = (0.45, 1.2)  # of crowd navigation: intimate and personal, [m]
 
@@ -99,7 +98,6 @@ def _pair(
 
 def _player(run: Run, name: str, late: NDArray[np.bool_]) -> PlayerSummary:
     poses, times, radius = run.tracks[name].unicycle, run.times, None
-    moved = np.flatnonzero(np.hypot(*(poses[:, :2] - poses[0, :2]).T) > MOVED)
     path = [poses[:, 0], poses[:, 1]]
     if run.tracks[name].qpos is not None or run.game == "play":
         path = [cycle_mean(way, times, run.settings.cycle) for way in path]
@@ -108,7 +106,6 @@ def _player(run: Run, name: str, late: NDArray[np.bool_]) -> PlayerSummary:
     return PlayerSummary(
         path_m=float(np.hypot(*np.diff(path, axis=1)).sum()),
         radius_m=radius if radius is not None and isfinite(radius) else None,
-        moved_at_s=float(times[moved[0]]) if len(moved) else None,
     )
 
 
@@ -326,7 +323,6 @@ def _solver(answers: "Sequence[MpcResult]") -> SolverSummary | None:
         infeasible=sum(not a.feasible for a in answers),
         median_us=float(np.median(times)),
         p99_us=float(np.quantile(times, 0.99)),
-        greatest_excess_m=max(float(np.hypot(*a.excess)) for a in answers),
     )
 
 

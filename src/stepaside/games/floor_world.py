@@ -499,12 +499,8 @@ class FloorRecorder(GameObserver):
 
     def tracks(self) -> dict[str, Trajectory]:
         """Return the trajectories, with each CoM on the floor, by name."""
-        return {name: _track(rows) for name, rows in self.poses().items()}
-
-
-def _track(poses: Array) -> Trajectory:
-    """Return the trajectory of a template."""
-    poses = poses.copy()
-    poses[:, 2] = np.unwrap(poses[:, 2])
-    com = np.column_stack([poses[:, :2], np.zeros(len(poses))])
-    return Trajectory(com=com, torso=poses.copy(), place=poses)
+        tracks = {}
+        for name, poses in self.poses().items():
+            poses[:, 2] = np.unwrap(poses[:, 2])
+            tracks[name] = Trajectory(poses * (1.0, 1.0, 0.0), poses, poses)
+        return tracks

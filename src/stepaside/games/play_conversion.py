@@ -31,7 +31,7 @@ from .play_settings import PlaySettings
 from .player_settings import PLAYERS
 from .run import Run
 from .summary import PlanningSummary, PlaySummary, StateChange, Summary
-from .trajectory import Trajectory, check_record, read_bytes
+from .trajectory import Trajectory, check_record
 
 PERIOD = 0.02  # approximate smallest period of the samples of a run, in [s]
 MAX_GAP = 10.0  # between ticks of one clock, in [s]
@@ -107,7 +107,7 @@ def read_played(folder: Path) -> PlayedRows:
     name = folder.resolve().name
     notes = load_entries(folder / METADATA)
     columns = _columns_of(notes, name)
-    found = columns_in(read_bytes(folder / ROWS), columns)
+    found = columns_in((folder / ROWS).read_bytes(), columns)
     if not len(found["times_s"]):
         raise ConfigurationError(f"{ROWS} of {name} has no rows")
     source = f"{METADATA} of {name}"
@@ -224,7 +224,6 @@ def _summary(rows: PlayedRows, run: Run) -> Summary:
     walked = float(passed[walking].sum())
     sightings = rows.columns["sighting"]
     seen = ~np.isnan(sightings[:, 0])
-    share = float(passed[walking & seen].sum() / walked) if walked else None
     planning = None
     if rows.moves_joints:
         begun = rows.columns["begun"]
@@ -238,7 +237,7 @@ def _summary(rows: PlayedRows, run: Run) -> Summary:
         measure(run, _last_third(walking)[rows.sampled]),
         min_distance_m=float(sightings[seen, 2].min()) if seen.any() else None,
         planning=planning,
-        play=PlaySummary(walked, share, _changes(rows)),
+        play=PlaySummary(walked, _changes(rows)),
     )
 
 
@@ -375,13 +374,17 @@ class OdometryPath:
                 values[name] = frame.transform_points(columns[name][row])
             for name, value in values.items():
                 rows.setdefault(name, []).append(value)
-        arrays = {name: np.array(values) for name, values in rows.items()}
+        arrays: dict[str, Any] = {
+            name: np.array(values) for name, values in rows.items()
+        }
         for name in references:
             if np.isnan(arrays[name]).all():  # learned legs have none
                 del arrays[name]
         for name in ("place", "torso"):
             arrays[name][:, 2] = np.unwrap(arrays[name][:, 2])
         arrays["qpos"] = arrays["qpos"].astype(np.float32)
+        for name in ("gyro", "accelerometer", "foot_forces"):
+            arrays[name] = columns[name][self._rows.sampled]
         return Trajectory(
             **arrays, landings=self._landings(frames), sight=sight
         )

@@ -4,17 +4,14 @@ A body on the floor shows the player and gives its true state. Its motion is
 that of a game without bodies (:mod:`.floor_world`).
 """
 
-from collections.abc import Callable, Iterable, Mapping, Sequence
-from typing import TYPE_CHECKING
-
-import numpy as np
+from collections.abc import Callable, Sequence
+from typing import TYPE_CHECKING, Any
 
 from ..core.errors import ConfigurationError
-from ..core.poses import Array, Pose
-from ..core.row_table import RowTable
+from ..core.poses import Pose
 from ..locomotion.locomotion import StepStarted
 from ..locomotion.maneuver_walk import ManeuverWalk
-from ..sim.ground_truth import FloorTruth, GroundTruth, RobotLog
+from ..sim.ground_truth import FloorTruth, GroundTruth
 from ..sim.person_body import PersonBody, pose_template
 from ..sim.push import Push, ScheduledPush
 from ..sim.world import World
@@ -25,44 +22,6 @@ if TYPE_CHECKING:
 
 MARKER_HEIGHT = 0.27  # that stands for the CoM of a marker, in [m]
 MARKER_REACH = 0.1  # of a marker, which touches nothing, in [m]
-
-
-class MotionLog:
-    """Samples of the motion of a player, by their name in a trajectory."""
-
-    def __init__(
-        self,
-        columns: Mapping[str, int],
-        row: Callable[[], Iterable[float]],
-        states: RobotLog | None = None,
-    ) -> None:
-        """Sample rows of columns, besides the states of a simulated robot."""
-        self._names, self._row, self._states = tuple(columns), row, states
-        self._ends = np.cumsum(list(columns.values()))
-        self._table = RowTable(int(self._ends[-1]))
-
-    def add(self) -> None:
-        """Sample the present state."""
-        if self._states is not None:
-            self._states.add()
-        self._table.append()[:] = [*self._row()]
-
-    def truncate(self, count: int) -> None:
-        """Keep only the first samples."""
-        if self._states is not None:
-            self._states.truncate(count)
-        self._table.truncate(count)
-
-    def arrays(self) -> dict[str, Array]:
-        """Return the samples by name; one that is always NaN is left out."""
-        parts = np.split(self._table.rows.copy(), self._ends[:-1], axis=1)
-        own = dict(zip(self._names, parts, strict=True))
-        states = {} if self._states is None else self._states.arrays()
-        return states | {
-            name: rows
-            for name, rows in own.items()
-            if not np.isnan(rows).all()
-        }
 
 
 class Player:
@@ -140,16 +99,16 @@ class Player:
             StrategyError: If its strategy gives no intent.
         """
 
-    def motion_log(self, *, closely: bool) -> MotionLog | RobotLog:
-        """Return an empty log of its motion, closely with foot states."""
-        return MotionLog(
-            {"com": 3, "place": 3, "torso": 3},
-            lambda: (
-                *self.truth.position_com_in_world,
-                *self.place_in_world,
-                *self.torso_in_world,
-            ),
-        )
+    def sample(self, *, closely: bool) -> dict[str, Any]:
+        """Return its present motion, by name in a trajectory.
+
+        Closely with all that is measured of it.
+        """
+        return {
+            "com": self.truth.position_com_in_world,
+            "place": self.place_in_world,
+            "torso": self.torso_in_world,
+        }
 
     def push(self, *pushes: Push) -> None:
         """Schedule pushes of the torso, now or later.

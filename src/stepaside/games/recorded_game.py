@@ -6,7 +6,8 @@ from math import inf
 from types import MappingProxyType
 from typing import TYPE_CHECKING
 
-from ..locomotion.zmp.mpc import MpcResult
+import numpy as np
+
 from ..robots.description import RobotDescription
 from ..strategies import Strategy
 from ..strategies.registry import describe_strategy
@@ -37,7 +38,6 @@ class RecordedGame(GameInPlay):
         settings: Its settings, with nothing left open.
         recorder: Recorder of the trajectories.
         sight_observer: Evaluation of the perception, if sensing is by cameras.
-        solved: Results of the MPC of a walk, if it has one.
     """
 
     def __init__(
@@ -47,6 +47,7 @@ class RecordedGame(GameInPlay):
         *,
         strategies: Mapping[str, Strategy] = MappingProxyType({}),
         recorded: bool = True,
+        closely: bool = False,
         rendered: bool = False,
         endless: bool = False,
         remote: Mapping[str, bool] = MappingProxyType({}),
@@ -61,6 +62,7 @@ class RecordedGame(GameInPlay):
                 of those that the settings name. The settings record their
                 classes.
             recorded: Whether to record; the record grows with time.
+            closely: Whether to record all signals, as of a walk.
             rendered: Whether to render the world; cameras do so anyway.
             endless: Whether the duration does not end it.
             remote: Whether the true line of sight is measured, by name of
@@ -79,7 +81,6 @@ class RecordedGame(GameInPlay):
         settings = with_starts(settings.with_players(described))
         self.settings = settings
         self.sight_observer: SightObserver | None = None
-        self.solved: list[MpcResult] = []
         self.recorder: Recorder | FloorRecorder
         world: PhysicsWorld | FloorWorld
         if settings.level == "physics":
@@ -90,7 +91,7 @@ class RecordedGame(GameInPlay):
                 strategies=strategies,
                 descriptions={WALKER: description} if description else {},
             )
-            closely = settings.game == "walk"
+            closely = closely or settings.game == "walk"
             self.recorder = Recorder(world, closely=closely)
             if recorded:
                 self.sight_observer = world.sight_observer(
@@ -101,8 +102,6 @@ class RecordedGame(GameInPlay):
             world = floor_of(settings, strategies)
             self.recorder = FloorRecorder(world, PERIOD)
         kept: list[GameObserver | None] = [self.recorder, self.sight_observer]
-        if settings.game == "walk":
-            kept.append(SolverRecorder(self.solved))
         rules = rules_of(settings)
         super().__init__(
             world,
@@ -131,9 +130,9 @@ class RecordedGame(GameInPlay):
             times=self.recorder.times,
             tracks=tracks,
         )
-        planning = None
+        planning, solved = None, []
         if isinstance(self.recorder, Recorder):
-            planning = self.recorder.planning()
+            planning, solved = self.recorder.planning(), self.recorder.solved
         run = replace(run, summary=summarise(run, self, planning, eyes))
         if run.game == "duel":
             moves = self.in_physics.first_moves
@@ -143,7 +142,7 @@ class RecordedGame(GameInPlay):
             assert isinstance(walker, RobotPlayer)
             pusher = walker.robot.pusher
             walking = replace(
-                summarise_walk(run, self.solved),
+                summarise_walk(run, solved),
                 adapted_steps=walker.scheme.walk.balance.adapted,
                 push_impulse_n_s=(
                     (0.0, 0.0) if pusher is None else pusher.impulse
@@ -151,23 +150,6 @@ class RecordedGame(GameInPlay):
             )
             return replace(run, summary=replace(run.summary, walking=walking))
         return run
-
-
-class SolverRecorder(GameObserver):
-    """Observer of a walk that collects the results of its MPC."""
-
-    def __init__(self, solved: list[MpcResult]) -> None:
-        """Append to a list."""
-        self._solved = solved
-
-    def acted(self, game: GameInPlay) -> None:
-        """Collect the result of this tick, if there is one."""
-        assert isinstance(game.world, PhysicsWorld)
-        (walker,) = game.world.players
-        assert isinstance(walker, RobotPlayer)
-        solved = walker.scheme.walk.balance.solved
-        if solved is not None:
-            self._solved.append(solved)
 
 
 def run_game(
@@ -194,3 +176,35 @@ def run_game(
     game = RecordedGame(settings, strategies=strategies)
     play(game, report=report)
     return game.run()
+
+
+def repeat_game(run: Run, report: Report | None = None) -> tuple[Run, str]:
+    """Play a game again for the signals that its run folder lacks.
+
+    Returns:
+        The run with all signals; or as it is, and the reason, if the game
+        differed from its run or cannot be repeated.
+
+    Raises:
+        StepAsideError: If the settings cannot be met on this computer, for
+            example for want of a renderer.
+        KeyboardInterrupt: If it was interrupted.
+    """
+    if not isinstance(run.settings, GameSettings) or not run.robots:
+        return run, f"a {run.game} cannot be repeated"
+    game = RecordedGame(run.settings, closely=True)
+    game.rules = replace(game.rules, duration=run.duration)
+    play(game, report=report)
+    again = game.run().uninterrupted()
+    for name in run.robots:
+        then, now = run.tracks[name].qpos, again.tracks[name].qpos
+        if then is None or now is None:
+            return run, f"{name} has no recorded joint angles"
+        if not np.array_equal(again.times, run.times) or not np.array_equal(
+            then, now
+        ):
+            return run, (
+                f"played again, {name} moved differently: its commands came "
+                "from elsewhere, or this computer calculates differently"
+            )
+    return replace(run, tracks=again.tracks), ""

@@ -1,45 +1,101 @@
-"""Recorder of a match: one trajectory per player."""
+"""Recorder of a game in physics: one trajectory per player."""
+
+from collections.abc import Iterator
+from dataclasses import fields, is_dataclass
+from typing import Any
 
 import numpy as np
 
 from ..core.poses import Array, Pose
 from ..locomotion.locomotion import StepStarted
+from ..locomotion.zmp.mpc import MpcResult
+from ..perception.images import ColourImage, DepthImage
 from ..planning import Foot
-from ..sim.world import World
+from .floor_world import PERIOD
 from .game import GameInPlay, GameObserver
 from .physics_world import PhysicsWorld
 from .player import Player
+from .robot_player import RobotPlayer
 from .summary import PlanningSummary
 from .trajectory import Trajectory
 
-PERIOD = 0.02  # between samples, in [s]
-
-
-def samples_every(world: World) -> int:
-    """Return the number of control ticks between samples."""
-    return max(1, round(PERIOD / world.physics.tick))
-
 
 class PlayerRecord:
-    """Samples and steps of one player."""
+    """Samples, steps and images of one player."""
 
     def __init__(self, player: Player, *, closely: bool) -> None:
         """Begin an empty record; see :class:`Recorder`."""
-        self._player = player
-        self.log = player.motion_log(closely=closely)
+        self._player, self._closely = player, closely
+        self._widths: dict[str, int] = {}
+        self._rows: list[Array] = []
+        self._numbers: list[dict[str, float]] = []
+        self._plans: list[tuple[float, ...]] = []
+        self._images: list[ColourImage | DepthImage] = []
         self.begun: list[StepStarted] = []
+        self.solved: list[MpcResult] = []
 
-    def track(self) -> Trajectory:
-        """Return the recorded trajectory."""
-        arrays = self.log.arrays()
+    def sample(self) -> None:
+        """Sample the present state."""
+        player = self._player
+        found = player.sample(closely=self._closely)
+        if not self._rows:
+            self._widths = {name: np.size(own) for name, own in found.items()}
+        self._rows.append(np.hstack([*found.values()]))
+        if self._closely and isinstance(player, RobotPlayer):
+            self._numbers.append(dict(strategy_numbers(player)))
+
+    def act(self, now: float) -> None:
+        """Record the step that begins at this tick, and its images."""
+        player, walk = self._player, self._player.maneuvers
+        if player.begun is not None:
+            self.begun.append(player.begun)
+        if not self._closely or not isinstance(player, RobotPlayer):
+            return
+        if walk is not None and walk.balance.solved is not None:
+            self.solved.append(walk.balance.solved)
+        if walk is not None and player.begun is not None:
+            frame = player.frame.compose(walk.plan_frame)
+            self._plans += [
+                (
+                    player.begun.started,
+                    float(number),
+                    float(step.foot.value),
+                    *frame.compose(Pose(step.x, step.y, step.theta)),
+                )
+                for number, step in enumerate(player.begun.plan.footsteps)
+            ]
+        for percept in player.robot.eyes.exposed if player.robot.eyes else ():
+            if isinstance(percept, ColourImage | DepthImage):
+                if percept.time >= now - 1e-9:
+                    self._images.append(percept)
+
+    def track(self, count: int) -> Trajectory:
+        """Return the trajectory of the first samples."""
+        ends = np.cumsum([*self._widths.values()])
+        rows = np.array(self._rows[:count])
+        parts = np.split(rows, ends[:-1], axis=1)
+        arrays = dict(zip(self._widths, parts, strict=True))
         for name in ("place", "torso"):
             arrays[name][:, 2] = np.unwrap(arrays[name][:, 2])
-        player = self._player
+        if "qpos" in arrays:
+            arrays["qpos"] = arrays["qpos"].astype(np.float32)
+        if "estimate" in arrays and np.isnan(arrays["estimate"]).all():
+            del arrays["estimate"]
+        player, numbers = self._player, self._numbers[:count]
         if player.frame is not None:
             arrays["landings"] = self._landings(player.frame)
         if player.pushes:
             arrays["pushes"] = np.array(player.pushes)
-        return Trajectory(**arrays)
+        if self._plans:
+            arrays["plans"] = np.array(self._plans)
+        keys = dict.fromkeys(key for row in numbers for key in row)
+        strategy = {
+            key: np.array([row.get(key, np.nan) for row in numbers])
+            for key in keys
+        }
+        return Trajectory(
+            **arrays, strategy=strategy, images=tuple(self._images)
+        )
 
     def _landings(self, frame: Pose) -> Array:
         rows = [
@@ -57,9 +113,10 @@ class Recorder(GameObserver):
     """Observer of a game in physics that samples all players."""
 
     def __init__(self, world: PhysicsWorld, *, closely: bool = False) -> None:
-        """Record the players of a world, closely with foot states."""
+        """Record the players of a world, closely with all their signals."""
         self._world = world
-        self.every = samples_every(world)  # control ticks between samples
+        # Control ticks between samples.
+        self.every = max(1, round(PERIOD / world.physics.tick))
         self._times: list[float] = []
         self._records = {
             player.name: PlayerRecord(player, closely=closely)
@@ -78,45 +135,45 @@ class Recorder(GameObserver):
 
     def acted(self, game: GameInPlay) -> None:
         """Record the steps that begin at this tick."""
-        for player in self._world.players:
-            if player.begun is not None:
-                self._records[player.name].begun.append(player.begun)
+        for record in self._records.values():
+            record.act(self._world.time)
 
     def ended(self, game: GameInPlay) -> None:
         """Take the last sample, unless one of this instant exists."""
-        for record in self._records.values():
-            # An interrupt may have cut the last sample short.
-            record.log.truncate(len(self._times))
         if not self._times or self._times[-1] < self._world.time:
             self._sample()
 
     def _sample(self) -> None:
         for record in self._records.values():
-            record.log.add()
+            record.sample()
         self._times.append(self._world.time)
 
     def tracks(self) -> dict[str, Trajectory]:
         """Return the trajectories recorded so far, by name of the player."""
-        return {name: rec.track() for name, rec in self._records.items()}
+        count = len(self._times)
+        return {name: own.track(count) for name, own in self._records.items()}
+
+    @property
+    def solved(self) -> list[MpcResult]:
+        """Results of the MPC of all players that are recorded closely."""
+        return [each for own in self._records.values() for each in own.solved]
 
     def planning(self) -> PlanningSummary:
         """Return what is known of the plans of all players."""
         begun = [step for rec in self._records.values() for step in rec.begun]
         plans = [step.plan for step in begun]
-        times = [s.planning_time for s in begun if s.planning_time is not None]
-        median, late = None, None
-        if times:
-            # np.median and np.quantile would import numpy.ma for it.
-            at = np.array([0.5, 0.99]) * (len(times) - 1)
-            sorted_times = 1e6 * np.sort(times)
-            ranks = np.arange(len(times))
-            median, late = np.interp(at, ranks, sorted_times).tolist()
+        times = sorted(
+            1e6 * step.planning_time
+            for step in begun
+            if step.planning_time is not None
+        )
+        median, late = (
+            times[int(share * (len(times) - 1))] if times else None
+            for share in (0.5, 0.99)
+        )
         return PlanningSummary(
             steps=len(begun),
             replans=len(times),
-            max_com_velocity_jump_m_s=max(
-                (step.velocity_jump for step in begun), default=0.0
-            ),
             min_zmp_margin_m=min(
                 (p.margin(p.schedule.first_step_duration) for p in plans),
                 default=None,
@@ -124,3 +181,25 @@ class Recorder(GameObserver):
             median_us=median,
             p99_us=late,
         )
+
+
+def strategy_numbers(player: RobotPlayer) -> Iterator[tuple[str, float]]:
+    """Yield name and value of the numbers of a player's strategy."""
+    scheme, walk = player.scheme, player.maneuvers
+    sighting, memory = scheme.sighting, scheme.decisions.memory
+    if sighting is not None:
+        yield "sighting_bearing_rad", sighting.bearing
+        yield "sighting_distance_m", sighting.distance
+    if walk is not None and walk.plan is not None:
+        yield "desired_heading_rad", walk.plan.bearing
+    yield "pace", scheme.decisions.pace
+    entries: dict[str, Any] = {}
+    if hasattr(memory, "_asdict"):
+        entries = memory._asdict()
+    elif is_dataclass(memory):
+        entries = {
+            own.name: getattr(memory, own.name) for own in fields(memory)
+        }
+    for name, value in entries.items():
+        if isinstance(value, bool | int | float):
+            yield f"memory_{name}", float(value)

@@ -2,8 +2,7 @@
 
 import logging
 from collections.abc import Sequence
-from functools import partial
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -18,11 +17,11 @@ from ..perception.measurement import RobotState, Sighting
 from ..planning import Foot
 from ..robots.description import RobotDescription
 from ..robots.forward_kinematics import ForwardKinematics, torso_pose_on_foot
-from ..sim.ground_truth import RobotLog
+from ..sim.ground_truth import TrueStance
 from ..sim.push import Push, ScheduledPush
 from ..sim.simulated_robot import SimulatedRobot
 from ..strategies.velocity_set import BodyVelocity
-from .player import MotionLog, Player
+from .player import Player
 
 if TYPE_CHECKING:
     from ..drivers.ros2_server import BodyPlace
@@ -31,16 +30,6 @@ if TYPE_CHECKING:
 log = logging.getLogger(__name__)
 
 AT_ONCE = 1.0  # a fall until then is one of the policy, in [s]
-# Columns of a robot that plans its steps, by their name in a trajectory.
-REFERENCES = {"com_reference": 2, "zmp_reference": 2}
-CLOSELY = {
-    "velocity": 2,
-    "tilt": 2,
-    "sole": 3,
-    "support": 5,
-    "heading_reference": 1,
-    "estimate": 8,
-}
 
 
 class RobotPlayer(Player):
@@ -137,32 +126,35 @@ class RobotPlayer(Player):
             "stand: the contract does not fit the network"
         )
 
-    def motion_log(self, *, closely: bool) -> MotionLog | RobotLog:
-        """Return an empty log of its motion, closely with foot states."""
-        states, walk = self.robot.state_log(), self.maneuvers
-        if walk is None:
-            return states
-        columns, row = REFERENCES, partial(self._planned, walk)
-        if closely:
-            columns, row = REFERENCES | CLOSELY, partial(self._close_row, walk)
-        return MotionLog(columns, row, states)
-
-    def _planned(self, walk: ManeuverWalk) -> tuple[float, ...]:
-        """Return the references of CoM and ZMP in the world."""
-        x, y, u, v = walk.planned_centers
-        return *self._in_world(x, y), *self._in_world(u, v)
+    def sample(self, *, closely: bool) -> dict[str, Any]:
+        """Return its present motion, closely with all its signals."""
+        robot, walk = self.robot, self.maneuvers
+        found = super().sample(closely=closely)
+        found |= {"zmp": robot.measured_zmp(), "qpos": robot.posture}
+        if walk is not None:
+            x, y, u, v = walk.planned_centers
+            found["com_reference"] = self._in_world(x, y)
+            found["zmp_reference"] = self._in_world(u, v)
+        if not closely:
+            return found
+        stance = robot.stance
+        found |= robot.signals(self.scheme.joint_targets) | {
+            "velocity": stance.velocity,
+            "tilt": stance.tilt,
+            "phase": list(Phase).index(self.scheme.phase),
+        }
+        return found if walk is None else found | self._walk(walk, stance)
 
     def _in_world(self, x: float, y: float) -> tuple[float, float]:
         """Return a point of odometry in the world, in [m]."""
         return self.frame.compose(Pose(x, y, 0.0))[:2]
 
-    def _close_row(self, walk: ManeuverWalk) -> tuple[float, ...]:
-        """Return references, foot states and estimates in the world."""
-        stance, frame = self.robot.stance, self.frame
+    def _walk(self, walk: ManeuverWalk, stance: TrueStance) -> dict[str, Any]:
+        """Return foot states, references and estimates in the world."""
+        frame, state = self.frame, walk.balance.state
         step = walk.step(self.robot.world.time)
-        foot, state = step.swing.other, walk.balance.state
-        sole = stance.left_sole if foot is Foot.LEFT else stance.right_sole
-        estimate = (np.nan,) * CLOSELY["estimate"]
+        foot = step.swing.other
+        estimate: tuple[float, ...] = (np.nan,) * 8
         if state is not None:
             turned = Pose(0.0, 0.0, frame.theta)
             estimate = (
@@ -171,17 +163,18 @@ class RobotPlayer(Player):
                 *self._in_world(*state.zmp),
                 *state.tilt,
             )
-        return (
-            *self._planned(walk),
-            *stance.velocity,
-            *stance.tilt,
-            *sole,
-            foot.value,
-            float(step.walking and step.remaining > 0.0),
-            *frame.compose(step.support),
-            walk.balance.planned_heading + frame.theta,
-            *estimate,
-        )
+        (x, y, _), (u, v) = self.truth.position_com_in_world, stance.velocity
+        eta = walk.gait.eta
+        single = step.walking and step.remaining > 0.0
+        return {
+            "sole": stance.left_sole
+            if foot is Foot.LEFT
+            else stance.right_sole,
+            "support": (foot.value, single, *frame.compose(step.support)),
+            "heading_reference": walk.balance.planned_heading + frame.theta,
+            "estimate": estimate,
+            "dcm": (x + u / eta, y + v / eta),
+        }
 
     def push(self, *pushes: Push) -> None:
         """Schedule pushes of the torso, now or later."""

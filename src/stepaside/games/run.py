@@ -258,7 +258,7 @@ class Run:
         """Return all arrays by name: ``times_s``, ``pursuer_com``, ..."""
         found = {"times_s": self.times}
         for name, track in self.tracks.items():
-            found |= track.arrays(name)
+            found |= track.arrays(f"{name}_")
         return found
 
 

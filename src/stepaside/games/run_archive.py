@@ -1,8 +1,6 @@
 """Run folders: a recorded game on disk."""
 
 import json
-import re
-from collections.abc import Collection
 from dataclasses import asdict, dataclass
 from hashlib import sha256
 from importlib import import_module
@@ -31,13 +29,7 @@ from .settings_reader import (
     settings_entries,
 )
 from .summary import Summary
-from .trajectory import (
-    FIELDS,
-    check_record,
-    read_arrays,
-    read_bytes,
-    tracks_in,
-)
+from .trajectory import COLUMNS, Trajectory, check_record
 
 if TYPE_CHECKING:
     from .play_settings import PlaySettings
@@ -47,7 +39,6 @@ CONFIGURATION = "configuration.toml"
 SUMMARY = "summary.json"
 TRAJECTORIES = "trajectories.npz"
 CHECKSUMS = "checksums.txt"
-CHECKSUM_LINE = re.compile(r"([0-9a-f]{64})  ([\w.-]+)")
 READ_ERRORS = (  # raised for damaged files
     ValueError,
     OSError,
@@ -134,7 +125,7 @@ def complete_play(
 ) -> Run:
     """Complete the run folder of a player that has ended.
 
-    Summary, trajectories and checksums are added. No figure is drawn, as the
+    Summary and trajectories are added. No figure is drawn, as the
     computer of a robot need not have matplotlib.
     """
     from .play_conversion import run_of_play
@@ -196,7 +187,7 @@ def _load_complete_run(folder: Path) -> Run:
                 f"run must be a folder with {CONFIGURATION}, {SUMMARY} and "
                 f"{TRAJECTORIES}; {folder} has no {name}"
             )
-    check_checksums(folder, files)
+    check_checksums(folder)
     plain = load_entries(folder / SUMMARY)
     for key, known in (("format", [FORMAT]), ("game", [*KINDS])):
         value = plain.get(key)
@@ -205,7 +196,8 @@ def _load_complete_run(folder: Path) -> Run:
                 f"{key} of run {folder} must be "
                 f"{' or '.join(map(str, known))}, got {value!r:.40}"
             )
-    arrays = read_arrays(folder / TRAJECTORIES)
+    with np.load(folder / TRAJECTORIES, allow_pickle=False) as archive:
+        arrays = {name: archive[name] for name in archive.files}
     entries = load_settings(folder / CONFIGURATION)
     source = str(folder / CONFIGURATION)
     settings = _read_settings(plain["game"], entries, source)
@@ -231,20 +223,24 @@ def read_record(
             f"players of run {name} must be 1 to {MOST_PLAYERS} names in "
             f"lower case, got {[*players]!r:.80}"
         )
-    known_arrays = {f"{n}_{key}" for n in players for key in FIELDS}
-    unknown = arrays.keys() - known_arrays - {"times_s"}
-    if unknown:
-        raise ConfigurationError(
-            f"{TRAJECTORIES} of run {name} holds an unknown array "
-            f"{min(unknown)!r:.40}"
-        )
-    try:
-        times, tracks = arrays["times_s"], tracks_in(arrays, players)
-    except KeyError as error:
-        raise ConfigurationError(
-            f"{TRAJECTORIES} of run {name} has no array {error}; arrays are "
-            f"times_s and, of each player, {', '.join(FIELDS)}"
-        ) from error
+    required = {f"{n}_{key}" for n in players for key in ("com", "torso")}
+    missing = (required | {"times_s"}) - arrays.keys()
+    known = {f"{n}_{key}": (n, key) for n in players for key in COLUMNS}
+    unknown = arrays.keys() - known.keys() - {"times_s"}
+    for names, what in ((missing, "has no"), (unknown, "holds an unknown")):
+        if names:
+            raise ConfigurationError(
+                f"{TRAJECTORIES} of run {name} {what} array "
+                f"{min(names)!r:.40}; arrays are times_s and, of each "
+                f"player, {', '.join(COLUMNS)}"
+            )
+    rows: dict[str, dict[str, Any]] = {player: {} for player in players}
+    for array, values in arrays.items():
+        if array in known:
+            player, key = known[array]
+            rows[player][key] = values
+    times = arrays["times_s"]
+    tracks = {player: Trajectory(**own) for player, own in rows.items()}
     check_record(times, tracks, name)
     return Run(
         name=name,
@@ -259,35 +255,26 @@ def read_record(
 
 
 def write_checksums(folder: Path) -> None:
-    """Write the SHA-256 checksums of the files of a folder.
-
-    The file has the format of ``sha256sum --check``.
-    """
-    lines = [
-        f"{sha256(file.read_bytes()).hexdigest()}  {file.name}\n"
-        for file in sorted(folder.iterdir())
-        if file.is_file() and file.name != CHECKSUMS
-    ]
+    """Write the SHA-256 checksums of files, as ``sha256sum`` does."""
+    files = [file for file in sorted(folder.iterdir()) if file.is_file()]
+    lines = [f"{_checksum(file)}  {file.name}\n" for file in files]
     (folder / CHECKSUMS).write_text("".join(lines), encoding="utf-8")
 
 
-def check_checksums(folder: Path, names: Collection[str]) -> None:
-    """Check the files of a run folder against its checksums.
-
-    A folder without checksums was edited by hand and is not checked.
-    """
+def check_checksums(folder: Path) -> None:
+    """Check files against their checksums; one edited by hand has none."""
     if not (folder / CHECKSUMS).exists():
         return
-    found = dict.fromkeys(names, "")
-    for line in read_bytes(folder / CHECKSUMS).decode().splitlines():
-        entry = CHECKSUM_LINE.fullmatch(line)
-        if entry is not None and entry[2] in found:
-            found[entry[2]] = entry[1]
-    for name, recorded in found.items():
-        content = read_bytes(folder / name)
-        if sha256(content).hexdigest() != recorded:
+    for line in (folder / CHECKSUMS).read_text("utf-8").splitlines():
+        recorded, _, name = line.partition("  ")
+        file = folder / name
+        if file.is_file() and _checksum(file) != recorded:
             raise ConfigurationError(
                 f"{name} of run {folder} was modified: its checksum differs "
                 f"from that in {CHECKSUMS}; delete {CHECKSUMS} to read the "
                 "folder unchecked"
             )
+
+
+def _checksum(file: Path) -> str:
+    return sha256(file.read_bytes()).hexdigest()

@@ -25,7 +25,6 @@ class SightSummary:
     bearing_error_deg: ErrorSpread
     distance_error_m: ErrorSpread
     detection_rate: float | None  # of colour images
-    depth_detection_rate: float | None
     false_detections: int  # that match no object
     misled_s: float  # with a bearing error above 20 deg
     lost_s: float  # without a sighting of the opponent
@@ -64,7 +63,6 @@ class PlayerSummary:
 
     path_m: float  # without the sway of a gait cycle
     radius_m: float | None  # of its circle in the last third, if it turns
-    moved_at_s: float | None = None  # by 2 cm
     goal_at_s: float | None = None
     sight: SightSummary | None = None
     crowd: CrowdSummary | None = None
@@ -105,7 +103,6 @@ class PlanningSummary:
 
     steps: int  # begun
     replans: int  # maneuvers planned
-    max_com_velocity_jump_m_s: float | None = None  # of a CoM reference
     min_zmp_margin_m: float | None = None  # from the edge of the support
     median_us: float | None = None  # processor time of planning a maneuver
     p99_us: float | None = None
@@ -128,7 +125,6 @@ class SolverSummary:
     infeasible: int
     median_us: float  # processor time
     p99_us: float
-    greatest_excess_m: float  # over a bound of the ZMP
 
 
 @dataclass(frozen=True, slots=True)
@@ -166,7 +162,6 @@ class PlaySummary:
     """Play at a robot."""
 
     walking_s: float  # in the walking state
-    sighted_share: float | None  # of it with a valid sighting
     changes: tuple[StateChange, ...]
 
 

@@ -1,9 +1,8 @@
-"""Recorded motion of one player, and reading of files of arrays."""
+"""Recorded motion and signals of one player."""
 
 from collections.abc import Mapping
-from dataclasses import dataclass, fields
-from io import BytesIO
-from pathlib import Path
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -11,8 +10,63 @@ from ..core.brief_repr import brief_repr
 from ..core.errors import ConfigurationError
 from ..core.poses import Array
 
-MAX_BYTES = 2**30  # of a file, and of all its arrays; a game of a day has less
-MAX_HEADER_BYTES = 512  # of one array
+if TYPE_CHECKING:
+    from ..perception.images import ColourImage, DepthImage
+
+POSE = ("x_m", "y_m", "heading_rad")
+POINT = ("x_m", "y_m")
+COLUMNS: Mapping[str, tuple[str, ...]] = {
+    "com": ("x_m", "y_m", "z_m"),
+    "torso": POSE,
+    "place": POSE,
+    "com_reference": POINT,
+    "zmp_reference": POINT,
+    "zmp": POINT,
+    "qpos": (),
+    "landings": ("time_s", "side", *POSE),
+    "sight": (
+        *("time_s", "bearing_rad", "distance_m"),
+        *("true_bearing_rad", "true_distance_m", "is_lost"),
+    ),
+    "pushes": (
+        *("time_s", "duration_s", "x_m", "y_m"),
+        *("impulse_x_n_s", "impulse_y_n_s"),
+    ),
+    "command": (
+        *("template_forward_m_s", "template_turn_rad_s"),
+        *("template_lateral_m_s", "forward_m_s", "turn_rad_s"),
+        "lateral_m_s",
+    ),
+    "velocity": ("x_m_s", "y_m_s"),
+    "tilt": ("roll_rad", "pitch_rad"),
+    "sole": POSE,
+    "support": ("side", "single", *POSE),
+    "heading_reference": ("heading_rad",),
+    "estimate": (
+        *("com_x_m", "com_y_m", "velocity_x_m_s", "velocity_y_m_s"),
+        *("zmp_x_m", "zmp_y_m", "roll_rad", "pitch_rad"),
+    ),
+    "dcm": POINT,
+    "plans": ("time_s", "number", "side", *POSE),
+    "phase": ("phase",),
+    "torso_velocity": (
+        *("x_m_s", "y_m_s", "z_m_s"),
+        *("about_x_rad_s", "about_y_rad_s", "about_z_rad_s"),
+    ),
+    "joint_velocity": (),
+    "joint_effort": (),
+    "joint_targets": (),
+    "gyro": ("x_rad_s", "y_rad_s", "z_rad_s"),
+    "accelerometer": ("x_m_s2", "y_m_s2", "z_m_s2"),
+    "foot_forces": tuple(
+        f"{side}_{place}_n"
+        for side in ("left", "right")
+        for place in ("front_left", "front_right", "rear_left", "rear_right")
+    ),
+}
+"""Columns of each array, with units; none of those with a column per joint."""
+OF_EVENTS = ("landings", "sight", "pushes", "plans")  # not of samples
+MAY_LACK = ("zmp", "sight", "estimate", "joint_targets")  # may be NaN
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -20,47 +74,58 @@ class Trajectory:
     """Recorded motion of one player, one row per sample unless noted.
 
     Positions are in the world, in [m], angles in [rad]; headings are
-    unwrapped. Arrays that a player lacks are None; the last seven but
-    ``command`` are recorded in walks only.
+    unwrapped. ``COLUMNS`` names the columns. Arrays that a player lacks are
+    None; those from ``velocity`` on are recorded in walks, and when a game is
+    repeated. Then they are true, without sensor errors; those of a play are
+    measurements.
     """
 
     __repr__ = brief_repr
 
-    com: Array  # CoM (x, y, z)
-    torso: Array  # origin and heading of the torso (x, y, heading)
-    place: Array | None = None  # reference point and heading (x, y, heading)
-    com_reference: Array | None = None  # planned CoM (x, y)
-    zmp_reference: Array | None = None  # planned ZMP (x, y)
-    zmp: Array | None = None  # center of the foot forces (x, y); or NaN
+    com: Array
+    torso: Array  # origin and heading
+    place: Array | None = None  # reference point and heading
+    com_reference: Array | None = None  # planned
+    zmp_reference: Array | None = None  # planned
+    zmp: Array | None = None  # center of the foot forces; or NaN
     qpos: Array | None = None
     """Position and quaternion of the torso, and joint angles, as float32."""
-    landings: Array | None = None
-    """Of each footstep: time [s], side (1 left, -1 right), x, y, heading."""
-    sight: Array | None = None
-    """Of each sighting: time [s], estimated bearing and distance, true bearing
-    and distance, 1 while the opponent is lost."""
-    pushes: Array | None = None
-    """Of each push: time and duration [s], position of the torso (x, y) [m],
-    impulse (x, y) [N s]."""
-    velocity: Array | None = None  # of the CoM (x, y), in [m/s]
-    tilt: Array | None = None  # roll and pitch of the torso
-    sole: Array | None = None  # pose of the support sole (x, y, heading)
-    support: Array | None = None
-    """Support foot (1 left, -1 right), 1 in single support, planned pose of
-    the sole (x, y, heading)."""
-    heading_reference: Array | None = None  # of the torso, one column
-    estimate: Array | None = None
-    """Estimated CoM, its velocity and ZMP (x, y each), roll, pitch; or NaN."""
+    landings: Array | None = None  # of each footstep; side 1 left, -1 right
+    sight: Array | None = None  # of each sighting
+    pushes: Array | None = None  # of each push, at the torso
     command: Array | None = None
     """Velocities of a robot with its own walk: of the template and as
-    commanded, forward [m/s], turn [rad/s] and lateral [m/s] each."""
+    commanded."""
+    velocity: Array | None = None  # of the CoM
+    tilt: Array | None = None  # of the torso
+    sole: Array | None = None  # support sole
+    support: Array | None = None
+    """Support foot (1 left, -1 right), 1 in single support, planned pose of
+    the sole."""
+    heading_reference: Array | None = None  # of the torso
+    estimate: Array | None = None  # or NaN
+    dcm: Array | None = None  # of a walk by maneuvers
+    plans: Array | None = None
+    """Of each footstep of a maneuver: time at which its first step begins,
+    number in the maneuver, side and pose."""
+    phase: Array | None = None  # index in ``Phase``
+    torso_velocity: Array | None = None  # angular in the torso
+    joint_velocity: Array | None = None  # of joints in the order of qpos
+    joint_effort: Array | None = None  # of motors at the joints [N m]
+    joint_targets: Array | None = None  # in force; NaN without a motor
+    gyro: Array | None = None  # in the torso
+    accelerometer: Array | None = None  # specific force, in the torso
+    foot_forces: Array | None = None
+    strategy: Mapping[str, Array] = field(default_factory=dict)
+    """Numbers of the strategy by name, NaN where there is none: sighting,
+    desired heading, entries of its memory. Not in a run folder."""
+    images: "tuple[ColourImage | DepthImage, ...]" = ()
+    """Images of the cameras. Not in a run folder."""
 
     def __post_init__(self) -> None:
         """Make the arrays read-only."""
-        for field in fields(self):
-            value = getattr(self, field.name)
-            if value is not None:
-                value.setflags(write=False)
+        for values in self.arrays().values():
+            values.setflags(write=False)
 
     @property
     def unicycle(self) -> Array:
@@ -70,48 +135,13 @@ class Trajectory:
         """
         return self.torso if self.place is None else self.place
 
-    def arrays(self, name: str) -> dict[str, Array]:
-        """Return all arrays by name, with the player's name as prefix."""
-        found = {}
-        for field in fields(self):
-            value = getattr(self, field.name)
-            if value is not None:
-                found[f"{name}_{field.name}"] = value
-        return found
-
-
-FIELDS = tuple(field.name for field in fields(Trajectory))
-
-
-WIDTHS: Mapping[str, int] = {
-    **dict.fromkeys(("com", "torso", "place", "sole"), 3),
-    **dict.fromkeys(("com_reference", "zmp_reference", "zmp"), 2),
-    **dict.fromkeys(("velocity", "tilt"), 2),
-    **dict.fromkeys(("landings", "support"), 5),
-    **dict.fromkeys(("sight", "pushes", "command"), 6),
-    **{"heading_reference": 1, "estimate": 8},
-}
-"""Columns of each array of a trajectory; qpos has at least seven."""
-OF_EVENTS = ("landings", "sight", "pushes")  # not of samples
-MAY_LACK = ("zmp", "sight", "estimate")  # values may be NaN
-MAX_VALUE = 1e6  # of any number in a run, in [m], [rad] or [s]
-
-
-def tracks_in(
-    arrays: dict[str, Array], names: tuple[str, ...]
-) -> dict[str, Trajectory]:
-    """Return the trajectories of players; KeyError if an array is missing."""
-    required = ("com", "torso")
-    return {
-        name: Trajectory(
-            **{
-                key: np.asarray(arrays[f"{name}_{key}"])
-                for key in FIELDS
-                if key in required or f"{name}_{key}" in arrays
-            }
-        )
-        for name in names
-    }
+    def arrays(self, prefix: str = "") -> dict[str, Array]:
+        """Return all arrays by name, with a prefix."""
+        return {
+            prefix + name: values
+            for name in COLUMNS
+            if (values := getattr(self, name)) is not None
+        }
 
 
 def check_record(
@@ -121,7 +151,7 @@ def check_record(
 
     Raises:
         ConfigurationError: If times do not increase, an array has another
-            shape, or a value is not finite or too large.
+            shape, or a value is not finite.
     """
     if times.ndim != 1 or len(times) == 0:
         raise ConfigurationError(
@@ -134,13 +164,11 @@ def check_record(
             f"times_s of run {run} must be >= 0 and increase [s]"
         )
     for player, track in tracks.items():
-        for key in FIELDS:
-            array = getattr(track, key)
-            if array is None:
-                continue
+        for key, array in track.arrays().items():
             shape = array.shape if array.ndim == 2 else (-1, 0)
             rows = shape[0] if key in OF_EVENTS else len(times)
-            width = WIDTHS.get(key, max(7, shape[1]))
+            least = 7 if key == "qpos" else 0
+            width = len(COLUMNS[key]) or max(least, shape[1])
             if shape != (rows, width):
                 raise ConfigurationError(
                     f"{player}_{key} of run {run} must have shape "
@@ -152,41 +180,8 @@ def check_record(
 def _check_values(
     array: Array, name: str, run: str, may_lack: bool = False
 ) -> None:
-    valid = np.abs(array) <= MAX_VALUE
+    valid = np.isfinite(array)
     if may_lack:
         valid |= np.isnan(array)
     if not valid.all():
-        raise ConfigurationError(
-            f"{name} of run {run} must hold finite numbers of at most "
-            f"{MAX_VALUE:g}"
-        )
-
-
-def read_bytes(file: Path) -> bytes:
-    """Read a regular file that is not too large; ValueError for others."""
-    if not file.is_file() or file.stat().st_size > MAX_BYTES:
-        raise ValueError(f"{file.name} must be a file of <= {MAX_BYTES} bytes")
-    return file.read_bytes()
-
-
-def read_arrays(file: Path) -> dict[str, Array]:
-    """Read the arrays of an ``npz`` file by name; all hold real numbers.
-
-    Damaged files raise what numpy and zipfile raise, or ValueError.
-    """
-    with np.load(
-        BytesIO(read_bytes(file)),
-        allow_pickle=False,
-        max_header_size=MAX_HEADER_BYTES,
-    ) as archive:
-        size = sum(member.file_size for member in archive.zip.infolist())
-        if size > MAX_BYTES:
-            raise ValueError(
-                f"arrays of {file.name} must have at most {MAX_BYTES} "
-                f"bytes, got {size}"
-            )
-        arrays = {name: np.asarray(archive[name]) for name in archive.files}
-    for name, array in arrays.items():
-        if array.dtype not in (np.float32, np.float64) or array.ndim > 2:
-            raise ValueError(f"{name} must be a table of real numbers")
-    return arrays
+        raise ConfigurationError(f"{name} of run {run} must be finite numbers")

@@ -1,7 +1,7 @@
-"""True state of players, ideal sensors of it, and records."""
+"""True state of players, and ideal sensors of it."""
 
 from collections import deque
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Sequence
 from math import atan2, cos, hypot, radians, sin
 from typing import NamedTuple
 
@@ -10,7 +10,6 @@ import numpy as np
 
 from ..core.player_identity import PlayerIdentity
 from ..core.poses import Array, Pose, wrap_angle
-from ..core.row_table import RowTable
 from ..perception.measurement import Sighting
 from ..robots.description_types import ReferencePoint
 from .physics_settings import SightSettings
@@ -96,20 +95,6 @@ class TrueRobotState:
     def has_fallen(self) -> bool:
         """Whether the torso leans by more than 45 degrees."""
         return self.axes_torso_in_world.item(8) < FALLEN
-
-    def poses_at(
-        self, com: Array, origin: Array, axes: Array
-    ) -> tuple[Array, Array]:
-        """Return rows (x, y, theta) of reference point and torso."""
-        forward = axes[:, [0, 3]]
-        heading = np.arctan2(forward[:, 1], forward[:, 0])
-        turned = np.column_stack([np.cos(heading), np.sin(heading)])
-        reference = com[:, :2] - self._com_forward * turned
-        torso = origin[:, :2] + self._hips_forward * forward
-        return (
-            np.column_stack([reference, heading]),
-            np.column_stack([torso, heading]),
-        )
 
 
 GroundTruth = FloorTruth | TrueRobotState
@@ -214,50 +199,3 @@ def hides(body: GroundTruth, eye: GroundTruth, seen: GroundTruth) -> bool:
         return False
     own, other = body.position_com_in_world, seen.position_com_in_world
     return bool(own[2] >= TALL_ENOUGH * other[2])
-
-
-Columns = dict[str, Array]
-
-
-class RobotLog:
-    """Samples of arrays of the simulation, views of shape (n,).
-
-    ``convert`` makes what the log gives of all samples, shapes (samples, n);
-    ``prepare`` is called before each.
-    """
-
-    def __init__(
-        self,
-        sources: Mapping[str, Array],
-        convert: Callable[[Columns], Columns],
-        prepare: Callable[[], None] = lambda: None,
-    ) -> None:
-        self._names, self._sources = tuple(sources), tuple(sources.values())
-        self._prepare, self._convert = prepare, convert
-        widths = [source.size for source in self._sources]
-        self._ends = np.cumsum(widths)[:-1]
-        self._table = RowTable(sum(widths))
-
-    def add(self) -> None:
-        """Sample the present state."""
-        self._prepare()
-        np.concatenate(self._sources, out=self._table.append())
-
-    def truncate(self, count: int) -> None:
-        """Keep only the first samples."""
-        self._table.truncate(count)
-
-    def arrays(self) -> Columns:
-        """Return the samples by name."""
-        parts = np.split(self._table.rows, self._ends, axis=1)
-        return self._convert(dict(zip(self._names, parts, strict=True)))
-
-
-def centers_of_pressure(forces: Array, corners: Array) -> Array:
-    """Return centres (n, 2) [m] of forces (n, corners) in the world."""
-    totals = forces.sum(axis=1)
-    moments = (forces[:, None, :] @ corners)[:, 0, :2]
-    centers = np.full((len(forces), 2), np.nan)
-    pressed = totals > 0.0
-    centers[pressed] = moments[pressed] / totals[pressed, None]
-    return centers

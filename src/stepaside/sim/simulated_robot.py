@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from math import atan2
+from math import atan2, nan
 from typing import TYPE_CHECKING
 
 import mujoco
@@ -22,14 +22,7 @@ from .body_errors import (
     set_joint_gains,
 )
 from .body_settings import BodySettings
-from .ground_truth import (
-    Columns,
-    IdealLineOfSight,
-    RobotLog,
-    TrueRobotState,
-    TrueStance,
-    centers_of_pressure,
-)
+from .ground_truth import IdealLineOfSight, TrueRobotState, TrueStance
 from .push import Push, PushApplier, ScheduledPush
 from .world import World, transform_free_joint
 
@@ -124,7 +117,6 @@ class SimulatedRobot:
         self._accelerometer = self._sensor(sensors.accelerometer)
         pressing = [self._sensor(foot).start for foot in sensors.feet]
         self._force_addresses = np.array(pressing)
-        self._force_range = slice(min(pressing), max(pressing) + 1)
         sites = [model.site(f"{self.name}/{f}").id for f in sensors.feet]
         self._corner_sites = np.array(sites)
         feet = description.left_foot, description.right_foot
@@ -254,74 +246,32 @@ class SimulatedRobot:
     def measured_zmp(self) -> tuple[float, float]:
         """Return the centre of pressure in the world, [m]; NaN in flight."""
         forces = self.world.data.sensordata[self._force_addresses]
+        total = forces.sum()
+        if not total > 0.0:
+            return nan, nan
         corners = self.world.data.site_xpos[self._corner_sites]
-        x, y = centers_of_pressure(forces[None], corners[None])[0].tolist()
+        x, y, _ = (forces @ corners / total).tolist()
         return x, y
 
-    def state_log(self) -> RobotLog:
-        """Return an empty log of CoM, poses, ZMP and posture."""
-        truth, data, sites = self.truth, self.world.data, self._corner_sites
-        # One contiguous range that contains all is copied faster.
-        first, after = int(sites.min()), int(sites.max()) + 1
+    def signals(self, joint_targets: Array) -> dict[str, Array]:
+        """Return exact sensors and efforts, by name in a record.
 
-        def convert(found: Columns) -> Columns:
-            place, torso = truth.poses_at(
-                found["com"], found["origin"], found["axes"]
-            )
-            points = found["sites"].reshape(-1, after - first, 3)
-            zmp = centers_of_pressure(
-                self._of_feet(found["forces"]), points[:, sites - first]
-            )
-            return {
-                "com": found["com"].copy(),
-                "place": place,
-                "torso": torso,
-                "zmp": zmp,
-                "qpos": found["qpos"].astype(np.float32),
-            }
-
-        sources: Columns = {
-            "com": truth.position_com_in_world,
-            "origin": truth.origin_torso_in_world,
-            "axes": truth.axes_torso_in_world,
-            "forces": data.sensordata[self._force_range],
-            "sites": data.site_xpos[first:after].reshape(-1),
-            "qpos": data.qpos[self.qpos_slice],
-        }
-        return RobotLog(sources, convert)
-
-    def _of_feet(self, values: Array) -> Array:
-        """Return the foot forces of logged ranges. Shape (samples, 8)."""
-        forces: Array = values[
-            :, self._force_addresses - self._force_range.start
-        ]
-        return forces
-
-    def sensor_log(self) -> RobotLog:
-        """Return an empty log of exact sensors and joint efforts."""
-        model, data, dofs = self.world.model, self.world.data, self._dof_slice
-
-        def convert(found: Columns) -> Columns:
-            velocity, effort = found.pop("velocity"), found.pop("effort")
-            found["foot_forces"] = self._of_feet(found["foot_forces"])
-            return {
-                "torso_velocity": velocity[:, :6].copy(),
-                "joint_velocity": velocity[:, 6:].copy(),
-                "joint_effort": effort[:, 6:].copy(),
-                **{name: values.copy() for name, values in found.items()},
-            }
-
-        sources: Columns = {
-            "velocity": data.qvel[dofs],
-            "effort": data.qfrc_actuator[dofs],
+        Joint targets are put in the order of qpos.
+        """
+        data, dofs = self.world.data, self._dof_slice
+        start, end = self.qpos_slice.start + 7, self.qpos_slice.stop
+        targets = np.full(end - start, nan)
+        targets[self._qpos - start] = joint_targets
+        velocity, effort = data.qvel[dofs], data.qfrc_actuator[dofs]
+        return {
+            "torso_velocity": velocity[:6],
+            "joint_velocity": velocity[6:],
+            "joint_effort": effort[6:],
+            "joint_targets": targets,
             "gyro": data.sensordata[self._gyro],
             "accelerometer": data.sensordata[self._accelerometer],
-            "foot_forces": data.sensordata[self._force_range],
-            "com_velocity": data.subtree_linvel[self._torso, :2],
+            "foot_forces": data.sensordata[self._force_addresses],
         }
-        return RobotLog(
-            sources, convert, lambda: mujoco.mj_subtreeVel(model, data)
-        )
 
     def close(self) -> None:
         """Release the graphics of the cameras."""

@@ -15,8 +15,8 @@ import numpy as np
 from scipy.spatial.transform import Rotation
 
 from ...core.poses import Array
-from ...games.replayed_signals import RobotSignals
 from ...games.run import Run
+from ...locomotion.locomotion import Phase
 from ...perception.images import ColourImage
 from ...robots.head import depth_camera_name
 from ...robots.urdf_writer import IMU, OPTICAL
@@ -35,7 +35,7 @@ TOPICS = {
     "safety radius": "safety_radius",
     "theoretical circle": "theoretical_circle",
 }
-POINTS = ("com", "com_reference", "zmp", "zmp_reference")
+POINTS = ("com", "com_reference", "zmp", "zmp_reference", "dcm")
 
 
 class TopicMessage(NamedTuple):
@@ -228,8 +228,7 @@ class PlayerTopics:
         """Prepare the arrays of a player."""
         run = recording.run
         self._name, self._factory = name, factory
-        self._first, self._track = float(run.times[0]), run.tracks[name]
-        self._signals = recording.signals.get(name, RobotSignals())
+        self._times, self._track = run.times, run.tracks[name]
         self._model = recording.models.get(name)
         places = self._track.unicycle
         upright = Rotation.from_euler("z", places[:, 2:])
@@ -238,7 +237,6 @@ class PlayerTopics:
         self._points: dict[str, Array | None] = {
             name: getattr(self._track, name) for name in POINTS
         }
-        self._points["dcm"] = self._signals.dcm
         self._place = on_floor, quaternions
         odometry, foot = f"{name}/odom", f"{name}/base_footprint"
         self.static: list[tuple[Any, ...]] = [
@@ -297,7 +295,7 @@ class PlayerTopics:
             if rows is not None and np.isfinite(rows[index]).all():
                 point = rows[index].tolist()
                 yield self._message(time, name, make.pose(header, point))
-        for name, values in self._signals.strategy.items():
+        for name, values in self._track.strategy.items():
             if np.isfinite(values[index]):
                 number = make.number(values[index])
                 yield self._message(time, f"strategy/{name}", number)
@@ -307,26 +305,26 @@ class PlayerTopics:
     def _robot_sample(
         self, model: RobotModel, index: int, time: float
     ) -> Iterator[TopicMessage]:
-        make, signals, qpos = self._factory, self._signals, self._track.qpos
-        assert qpos is not None
+        make, track = self._factory, self._track
+        assert track.qpos is not None
         rates, efforts = (
             None if rows is None else rows[index]
-            for rows in (signals.joint_velocity, signals.joint_effort)
+            for rows in (track.joint_velocity, track.joint_effort)
         )
         joints = make.joint_state(
             make.header(time, ""),
             model.joints,
-            qpos[index, 7:],
+            track.qpos[index, 7:],
             rates,
             efforts,
         )
         yield self._message(time, "joint_states", joints)
-        if signals.gyro is not None and signals.accelerometer is not None:
+        if track.gyro is not None and track.accelerometer is not None:
             header = make.header(time, f"{self._name}/{IMU}")
-            measured = signals.gyro[index], signals.accelerometer[index]
+            measured = track.gyro[index], track.accelerometer[index]
             yield self._message(time, "imu", make.imu(header, *measured))
-        if signals.foot_forces is not None:
-            forces = signals.foot_forces[index]
+        if track.foot_forces is not None:
+            forces = track.foot_forces[index]
             for side, frame in enumerate(("l_sole", "r_sole")):
                 corners = slice(4 * side, 4 * side + 4)
                 x, y, _ = model.foot_sites[corners].T
@@ -338,19 +336,16 @@ class PlayerTopics:
 
     def events(self) -> Iterator[TopicMessage]:
         """Yield the messages that are not at samples."""
-        make, signals, name = self._factory, self._signals, self._name
+        make, track, name = self._factory, self._track, self._name
         if self._model is not None:
             text = make.text(_with_prefix(self._model.urdf, name))
-            own = self._message(self._first, "robot_description", text)
+            own = self._message(
+                float(self._times[0]), "robot_description", text
+            )
             yield own._replace(stays=True)
-            for plan in signals.plans:
-                outlines = dotted(soles(plan.footsteps, self._sole))
-                cloud = make.points(make.header(plan.time, MAP), outlines)
-                yield self._message(plan.time, "footsteps/planned", cloud)
-        for time, phase in signals.phases:
-            own = self._message(time, "phase", make.text(phase))
-            yield own._replace(stays=True)
-        for image in signals.images:
+            yield from self._plans()
+        yield from self._phases()
+        for image in track.images:
             camera, topic = "camera", "image_raw/compressed"
             if not isinstance(image, ColourImage):
                 camera, topic = depth_camera_name(image.number), "image_raw"
@@ -363,6 +358,27 @@ class PlayerTopics:
             yield self._message(image.time, f"{camera}/{topic}", message)
             info = make.camera_info(header, image.camera)
             yield self._message(image.time, f"{camera}/camera_info", info)
+
+    def _plans(self) -> Iterator[TopicMessage]:
+        """Yield each plan as the outlines of its soles."""
+        make, plans = self._factory, self._track.plans
+        if plans is None:
+            return
+        for time in np.unique(plans[:, 0]).tolist():
+            steps = plans[plans[:, 0] == time, 2:]
+            outlines = dotted(soles(steps, self._sole))
+            cloud = make.points(make.header(time, MAP), outlines)
+            yield self._message(time, "footsteps/planned", cloud)
+
+    def _phases(self) -> Iterator[TopicMessage]:
+        """Yield the changes of the phase of motion."""
+        phase, phases = self._track.phase, list(Phase)
+        if phase is None:
+            return
+        for index in np.flatnonzero(np.diff(phase[:, 0], prepend=-1.0)):
+            text = self._factory.text(phases[int(phase[index, 0])].value)
+            own = self._message(float(self._times[index]), "phase", text)
+            yield own._replace(stays=True)
 
 
 def _with_prefix(urdf: str, name: str) -> str:

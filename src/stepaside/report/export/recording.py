@@ -7,13 +7,11 @@ from pathlib import Path
 import mujoco
 import numpy as np
 
-from ...core.errors import ConfigurationError
 from ...core.player_colours import Colour
 from ...core.poses import Array
 from ...games.game import Progress
 from ...games.game_furnishing import colours_of_players
-from ...games.play_conversion import read_played
-from ...games.replayed_signals import RobotSignals, repeat_game
+from ...games.recorded_game import repeat_game
 from ...games.run import Run
 from ...games.run_archive import load_run
 from ...robots.description import RobotDescription, load_robot
@@ -56,7 +54,6 @@ class Recording:
 
     run: Run
     models: Mapping[str, RobotModel]  # of robots with joints, by player
-    signals: Mapping[str, RobotSignals]  # beyond trajectories, by player
     absent: tuple[str, ...]  # missing signals and reasons, as sentences
 
     def write_urdf(self, folder: Path) -> None:
@@ -87,43 +84,14 @@ def load_recording(
         for name in run.players
         if name not in models
     ]
-    signals: Mapping[str, RobotSignals] = {}
     if run.game == "play":
-        signals = _signals_of_play(folder, run, models)
         absent.append("joint velocities and efforts: a play does not record")
     elif not repeats:
         absent.append(f"{BEYOND}: the game was not played again (--repeat)")
     elif models:
-        repeated = repeat_game(run, report)
-        signals = repeated.robots
-        if repeated.reason:
-            absent.append(f"{BEYOND}: {repeated.reason}")
-    return Recording(run, models, signals, tuple(absent))
-
-
-def _signals_of_play(
-    folder: Path, run: Run, models: Mapping[str, RobotModel]
-) -> dict[str, RobotSignals]:
-    """Return the measurements of a play, at the samples of its run.
-
-    Raises:
-        ConfigurationError: If the rows cannot be read.
-    """
-    try:
-        rows = read_played(folder)
-    except (OSError, ValueError) as error:
-        raise ConfigurationError(
-            f"rows of run {folder} could not be read: {error}"
-        ) from error
-    if not rows.moves_joints:
-        return {}
-    sampled = rows.sampled
-    signals = RobotSignals(
-        gyro=rows.columns["gyro"][sampled],
-        accelerometer=rows.columns["accelerometer"][sampled],
-        foot_forces=rows.columns["foot_forces"][sampled],
-    )
-    return dict.fromkeys(models, signals)
+        run, reason = repeat_game(run, report)
+        absent += [f"{BEYOND}: {reason}"] if reason else []
+    return Recording(run, models, tuple(absent))
 
 
 def _foot_sites(description: RobotDescription, model: mujoco.MjModel) -> Array:
