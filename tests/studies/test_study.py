@@ -13,13 +13,12 @@ import pytest
 
 from stepaside.core.errors import CampaignError, ConfigurationError
 from stepaside.studies import study as studies
-from stepaside.studies.executors import open_executor
 from stepaside.studies.study import (
     MOST_CASES,
     Study,
-    StudyProgress,
     StudyRun,
     merge_results,
+    open_executor,
     run_study,
 )
 from stepaside.studies.tabulation import Record
@@ -48,9 +47,13 @@ def table(file: Path) -> list[Any]:
 
 
 def test_cases_are_measured_once(tmp_path: Path) -> None:
-    told: list[StudyProgress] = []
+    told: list[Any] = []
     first = run_study(study_of(range(5)), tmp_path / FILE)
-    run = run_study(study_of(), tmp_path / FILE, report=told.append)
+    run = run_study(
+        study_of(),
+        tmp_path / FILE,
+        report=lambda r: told.append((r.finished, r.reused, r.total)),
+    )
     assert squares(run) == EXPECTED and run.completed
     assert first.reused == 0 and run.reused == 5
     assert told[0] == (5, 5, 12) and told[-1] == (12, 5, 12)

@@ -263,7 +263,7 @@ def _search(
 ) -> "SearchResult":
     """Search with a progress bar on standard error."""
     from ..fitting.gait_search import search_gait
-    from ..studies.executors import open_executor
+    from ..studies.study import open_executor
 
     with (
         open_executor(executor, workers) as opened,

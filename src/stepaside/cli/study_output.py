@@ -5,27 +5,22 @@ from typing import TYPE_CHECKING, TypeVar
 
 import click
 
-from ..studies.executors import PROCESSES, SPECIFICATIONS, check_executor
-from .options import TextType
 from .terminal import exit_interrupted, resume_message
 
 if TYPE_CHECKING:
     from ..studies.study import Study, StudyRun
 
 C = TypeVar("C")
-
-
-def _executor(text: str) -> str:
-    check_executor(text)
-    return text
+PROCESSES = "processes"
 
 
 executor_option = click.option(
     "--executor",
-    type=TextType("EXECUTOR", _executor),
     default=PROCESSES,
     show_default=True,
-    help=f"Where cases run: {SPECIFICATIONS}; see docs/campaigns.md.",
+    metavar="EXECUTOR",
+    help="Where cases run: processes, dask, dask:tcp://HOST:PORT or "
+    "MODULE:FACTORY; see docs/campaigns.md.",
 )
 
 

@@ -7,17 +7,21 @@ from array import array
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from concurrent.futures import (
     FIRST_COMPLETED,
+    BrokenExecutor,
+    CancelledError,
     Executor,
     Future,
     wait,
 )
 from contextlib import ExitStack, closing, contextmanager
 from dataclasses import dataclass
+from importlib import import_module
 from math import ceil
 from pathlib import Path
 from time import perf_counter
 from typing import Any, Generic, NamedTuple, TypeVar
 
+from ..core import worker_pool as pools
 from ..core.errors import (
     AnyPath,
     CampaignError,
@@ -26,8 +30,6 @@ from ..core.errors import (
     as_path,
 )
 from ..core.progress import show_progress
-from ..core.worker_pool import cancel_pending
-from .executors import is_loss, open_executor, workers_of
 from .results_version import RESULTS, library_versions
 from .tabulation import Record, tabulate, to_frame
 
@@ -44,33 +46,46 @@ CREATE TABLE IF NOT EXISTS records (
     PRIMARY KEY (key, results)
 )
 """
+PROCESSES, DASK = "processes", "dask"
+EXECUTORS = f"{PROCESSES}, {DASK}, {DASK}:tcp://HOST:PORT or MODULE:FACTORY"
+CONNECTION_TIME = 10.0  # in which a scheduler must answer, in [s]
+UNKNOWN_WORKERS = 64  # assumed where an executor does not tell
+DASK_LOSSES = ("KilledWorker", "FutureCancelledError")
 
 
 @dataclass(frozen=True)
 class Study(Generic[C]):
-    """Cases, and the function that measures one of them."""
+    """Cases, and the function that measures one of them.
 
-    name: str  # name of the study, one word
-    # cases in the order of the results. Each is a value that can be pickled. A
-    # long list need not be in memory: a ``range`` computes its items
+    Attributes:
+        name: Name of the study, one word.
+        cases: Cases in the order of the results, values that can be pickled;
+            the sequence may compute them.
+        measure: Function from a case to its record, a flat dictionary of
+            values for JSON. Workers must be able to import it.
+        key_of: Function from a case to a text that tells apart all cases
+            with different results. Not called where nothing is stored.
+        by: Values that tell the rows of the table apart.
+        values: Values of the table.
+    """
+
+    name: str
     cases: Sequence[C]
-    # function from a case to its record, a flat dictionary of values for JSON.
-    # It must be importable in a worker process, and depend neither on other
-    # cases nor on the executor
     measure: Callable[[C], Record]
-    # returns the key of a case: a text that tells apart all cases with
-    # different results. Not called where nothing is stored
     key_of: Callable[[C], str]
-    by: tuple[str, ...] = ()  # values that tell the rows of the table apart
-    values: tuple[str, ...] = ()  # values of the table
+    by: tuple[str, ...] = ()
+    values: tuple[str, ...] = ()
 
 
-class StudyProgress(NamedTuple):
-    """Progress of a study."""
+class _BlockResult(NamedTuple):
+    """Answer of a worker: records up to the first case that failed."""
 
-    finished: int  # number of cases with a record
-    reused: int  # number of those that were recorded before it began
-    total: int  # number of cases
+    results: str
+    libraries: str
+    elapsed: float
+    columns: list[str]
+    records: list[str]
+    error: BaseException | None = None
 
 
 class StudyRun(Generic[C]):
@@ -81,6 +96,7 @@ class StudyRun(Generic[C]):
         file: SQLite file of the records; None if they are temporary. Its
             table ``results`` has a row for each record of the study.
         total: Number of cases; of a shard, those of the shard.
+        missing: Numbers of those that had no record.
         finished: Number of those with a record.
         reused: Number of those that were recorded before.
         interrupted: Whether Ctrl-C ended the study.
@@ -104,10 +120,8 @@ class StudyRun(Generic[C]):
                 f"a study must have at most {MOST_CASES} cases, got "
                 f"{len(study.cases)}"
             )
-        self.study, self.file = (
-            study,
-            None if file is None else Path(as_path(file, "file")),
-        )
+        self.study = study
+        self.file = None if file is None else Path(as_path(file, "file"))
         self.interrupted = False
         self.failure: OutputError | None = None
         self._base = _opened(self.file)
@@ -115,47 +129,34 @@ class StudyRun(Generic[C]):
         weakref.finalize(self, self._base.close)
         done = self._find()
         own = range(number - 1, len(study.cases), of)
-        self._missing = array("q", (n for n in own if not done[n]))
-        self._next = 0
+        self.missing = array("q", (n for n in own if not done[n]))
         self.total = len(own)
-        self.finished = self.reused = self.total - len(self._missing)
+        self.finished = self.reused = self.total - len(self.missing)
 
     def _find(self) -> bytearray:
         """Return whether each case has a record; number the records."""
         cases, key_of = self.study.cases, self.study.key_of
         done = bytearray(len(cases))
-        if self.file is None:
-            return done
-        found = dict(
-            self._base.execute(
-                "SELECT key, number FROM records WHERE results = ?", [RESULTS]
-            )
-        )
-        if not found:
-            return done
-        changed: list[tuple[int | None, str, str]] = []
-        for number, case in enumerate(cases):
-            key = key_of(case)
-            if key in found:
-                done[number] = 1
-                if found.pop(key) != number:
-                    changed.append((number, key, RESULTS))
-        for key, old in found.items():
-            if old is not None:
-                changed.append((None, key, RESULTS))
+        query = "SELECT key, number FROM records WHERE results = ?"
+        found = dict(self._base.execute(query, [RESULTS]))
+        numbers = dict[str, int | None].fromkeys(found)
+        if found:
+            for number, case in enumerate(cases):
+                if (key := key_of(case)) in found:
+                    numbers[key], done[number] = number, 1
+        changed = [
+            (number, key, RESULTS)
+            for key, number in numbers.items()
+            if found[key] != number
+        ]
         if changed:
-            with _writing(self.file), self._base:
+            with _using(self.file), self._base:
                 self._base.executemany(
                     "UPDATE records SET number = ? WHERE key = ? "
                     "AND results = ?",
                     changed,
                 )
         return done
-
-    @property
-    def progress(self) -> "StudyProgress":
-        """Number of cases with a record, of those reused, and of all."""
-        return StudyProgress(self.finished, self.reused, self.total)
 
     @property
     def completed(self) -> bool:
@@ -197,19 +198,14 @@ class StudyRun(Generic[C]):
         path = as_path(file, "file")
         draw_study(self.table(values=[value]), self.study.by, path)
 
-    def take(self, most: int) -> list[int]:
-        """Return the numbers of the next cases without a record."""
-        numbers = self._missing[self._next : self._next + most].tolist()
-        self._next += len(numbers)
-        return numbers
-
-    @property
-    def left(self) -> int:
-        """Number of cases without a record that were not taken yet."""
-        return len(self._missing) - self._next
-
-    def add(self, numbers: Iterable[int], block: "_BlockResult") -> None:
+    def add(self, numbers: Iterable[int], block: _BlockResult) -> None:
         """Store the records of a block: all, or none if it raises."""
+        if block.results != RESULTS:
+            raise CampaignError(
+                "workers must have the results version of this process, got "
+                f"{block.results} there and {RESULTS} here; their records "
+                "are not used"
+            )
         cases, key_of = self.study.cases, self.study.key_of
         stored = self.file is not None
         rows = [
@@ -220,7 +216,7 @@ class StudyRun(Generic[C]):
             for number, text in zip(numbers, block.records, strict=False)
         ]
         names = [c for c in block.columns if c not in self._columns]
-        with _writing(self.file), self._base:
+        with _using(self.file), self._base:
             self._base.executemany(
                 "INSERT OR REPLACE INTO records VALUES (?, ?, ?, ?, ?)", rows
             )
@@ -240,47 +236,33 @@ def merge_results(parts: Iterable[AnyPath], file: AnyPath) -> int:
         OutputError: If the file cannot be written.
     """
     whole = Path(as_path(file, "file"))
-    files = [Path(as_path(part, "parts")) for part in parts]
-    if not sum(map(count_records, files)):
-        raise ConfigurationError("parts must have a record, got none")
-    base = _opened(whole)
-    try:
+    with closing(_opened(whole)) as base:
         columns = dict.fromkeys(_columns_of(base))
-        for part in files:
-            with _reading(part):
-                base.execute("ATTACH ? AS part", [str(part)])
+        for part in (Path(as_path(part, "parts")) for part in parts):
+            with _using(part):
+                base.execute("ATTACH ? AS part", [f"{part}"])
                 columns |= dict.fromkeys(_columns_of(base, "part"))
-                with _writing(whole), base:
+                with _using(whole), base:
                     base.execute(
                         "INSERT OR IGNORE INTO records SELECT * FROM "
                         "part.records"
                     )
                 base.execute("DETACH part")
-        with _writing(whole), base:
+        with _using(whole), base:
             _make_table(base, columns)
         (number,) = base.execute("SELECT COUNT(*) FROM records").fetchone()
-    finally:
-        base.close()
-    return int(number)
-
-
-def count_records(file: Path) -> int:
-    """Return the number of records in a file; 0 if it does not exist."""
-    if not file.is_file():
-        return 0
-    with _reading(file), closing(sqlite3.connect(file, BUSY)) as base:
-        (number,) = base.execute("SELECT COUNT(*) FROM records").fetchone()
+    if not number:
+        raise ConfigurationError("parts must have a record, got none")
     return int(number)
 
 
 def _opened(file: Path | None) -> sqlite3.Connection:
     """Open a file of records, or a temporary one."""
-    with _reading(file):
+    with _using(file):
         if file is not None:
-            with _writing(file):
-                file.parent.mkdir(parents=True, exist_ok=True)
+            file.parent.mkdir(parents=True, exist_ok=True)
         base = sqlite3.connect(file or "", BUSY, check_same_thread=False)
-        with _writing(file), base:
+        with base:
             base.execute(SCHEMA)
         return base
 
@@ -305,36 +287,18 @@ def _make_table(base: sqlite3.Connection, columns: Iterable[str]) -> None:
 
 
 @contextmanager
-def _writing(file: Path | None) -> Iterator[None]:
-    """Raise errors on writing a file as :class:`OutputError`."""
+def _using(file: Path | None) -> Iterator[None]:
+    """Raise errors of a file of records as those of this package."""
     try:
         yield
     except (sqlite3.OperationalError, OSError) as error:
         raise OutputError(
             f"{file or 'a temporary file'} could not be written: {error}"
         ) from error
-
-
-@contextmanager
-def _reading(file: Path | None) -> Iterator[None]:
-    """Raise errors of a foreign file as :class:`ConfigurationError`."""
-    try:
-        yield
     except sqlite3.DatabaseError as error:
         raise ConfigurationError(
             f"{file} must be a SQLite file with records of a study: {error}"
         ) from error
-
-
-class _BlockResult(NamedTuple):
-    """Answer of a worker: records up to the first case that failed."""
-
-    results: str
-    libraries: str
-    elapsed: float
-    columns: list[str]
-    records: list[str]
-    error: BaseException | None = None
 
 
 def measure_block(
@@ -365,7 +329,7 @@ def run_study(
     executor: Executor | str | None = None,
     workers: int | None = None,
     shard: tuple[int, int] = (1, 1),
-    report: Callable[[StudyProgress], None] | None = None,
+    report: Callable[[StudyRun[C]], None] | None = None,
 ) -> StudyRun[C]:
     """Measure the cases of a study that have no record in a file yet.
 
@@ -377,10 +341,9 @@ def run_study(
         study: Study.
         file: SQLite file of the records, extended after each block of cases;
             None for a temporary one.
-        executor: Name of an executor, see
-            :func:`~stepaside.studies.executors.open_executor`, or any
-            executor of ``concurrent.futures``. By default cases are measured
-            in this process, or in processes if ``workers`` is given.
+        executor: Executor of ``concurrent.futures``, or the name of one; see
+            :func:`open_executor`. By default cases are measured in this
+            process, or in processes if ``workers`` is given.
         workers: Number of processes; all cores by default.
         shard: Number of the shard, from 1, and number of shards.
         report: Called after each block, instead of showing the progress on
@@ -396,16 +359,18 @@ def run_study(
         CampaignError: If a worker is lost, or has another results version.
     """
     if executor is None and workers is not None:
-        executor = "processes"
+        executor = PROCESSES
     run = StudyRun(study, file, shard)
     with ExitStack() as stack:
         if report is None:
-            report = _shown(
-                stack.enter_context(
-                    show_progress(study.name, run.total, "cases")
-                )
-            )
-        report(run.progress)
+            shown = show_progress(study.name, run.total, "cases")
+            bar = stack.enter_context(shown)
+
+            def report(run: StudyRun[C]) -> None:
+                bar.initial, bar.n = run.reused, run.finished
+                bar.refresh()
+
+        report(run)
         if run.completed:
             return run
         try:
@@ -416,7 +381,10 @@ def run_study(
         except OutputError as error:
             run.failure = error
         except Exception as error:
-            if not is_loss(error):
+            if not (
+                isinstance(error, BrokenExecutor | CancelledError)
+                or type(error).__name__ in DASK_LOSSES
+            ):
                 raise
             raise CampaignError(
                 f"a worker was lost while measuring {study.name} "
@@ -426,31 +394,25 @@ def run_study(
     return run
 
 
-def _shown(bar: Any) -> Callable[[StudyProgress], None]:
-    """Return a function that shows the progress on a bar."""
-
-    def show(progress: StudyProgress) -> None:
-        bar.initial, bar.n = progress.reused, progress.finished
-        bar.refresh()
-
-    return show
-
-
 def _measure(
-    run: StudyRun[C],
-    executor: Executor,
-    report: Callable[[StudyProgress], None],
+    run: StudyRun[C], executor: Executor, report: Callable[[StudyRun[C]], None]
 ) -> None:
     """Measure the missing cases in blocks, a few at a time."""
-    study, workers, size = run.study, workers_of(executor), 1
+    study, missing, size, taken = run.study, run.missing, 1, 0
+    workers = 0
+    if not isinstance(executor, InlineExecutor):
+        workers = getattr(executor, "_max_workers", UNKNOWN_WORKERS)
     flying: dict[Future[_BlockResult], list[int]] = {}
     try:
         while True:
             while len(flying) < max(1, WINDOW * workers):
-                share = ceil(run.left / (2 * max(workers, 1)))
-                numbers = run.take(max(1, min(size, share)))
+                left = len(missing) - taken
+                share = ceil(left / (2 * max(workers, 1)))
+                most = max(1, min(size, share))
+                numbers = missing[taken : taken + most].tolist()
                 if not numbers:
                     break
+                taken += len(numbers)
                 cases = [study.cases[number] for number in numbers]
                 future = executor.submit(measure_block, study.measure, cases)
                 flying[future] = numbers
@@ -458,31 +420,88 @@ def _measure(
                 return
             for future in wait(flying, return_when=FIRST_COMPLETED).done:
                 result = future.result()
-                _store(run, flying.pop(future), result)
+                run.add(flying.pop(future), result)
                 if result.error is not None:
                     raise result.error
                 mean = max(result.elapsed, 1e-6) / len(result.records)
                 size = round(
                     min(BLOCK_TIME / mean, GROWTH * size, LARGEST_BLOCK)
                 )
-            report(run.progress)
+            report(run)
     except BaseException as error:
-        cancel_pending(executor, flying)
+        pools.cancel_pending(executor, flying)
         if not isinstance(error, OutputError | CampaignError):
             for future, numbers in flying.items():
                 if future.done() and not (
                     future.cancelled() or future.exception()
                 ):
-                    _store(run, numbers, future.result())
+                    run.add(numbers, future.result())
         raise
 
 
-def _store(run: StudyRun[C], numbers: list[int], result: _BlockResult) -> None:
-    """Store the answer of a worker."""
-    if result.results != RESULTS:
-        raise CampaignError(
-            "workers must have the results version of this process, got "
-            f"{result.results} there and {RESULTS} here; their records are "
-            "not used"
+class InlineExecutor(Executor):
+    """Executor that runs each task at once, in this process."""
+
+    def submit(
+        self, fn: Callable[..., Any], /, *args: Any, **kwargs: Any
+    ) -> Future[Any]:
+        """Run a task; its errors are in the future, Ctrl-C is raised."""
+        future: Future[Any] = Future()
+        try:
+            future.set_result(fn(*args, **kwargs))
+        except Exception as error:
+            future.set_exception(error)
+        return future
+
+
+@contextmanager
+def open_executor(
+    executor: Executor | str | None, workers: int | None = None
+) -> Iterator[Executor]:
+    """Start the workers of a study; end them with the ``with`` block.
+
+    An executor is ``processes`` of this machine; ``dask`` for a local Dask
+    cluster, ``dask:ADDRESS`` for a running one; MODULE:FACTORY, a function
+    that takes the number of workers and returns an executor of
+    ``concurrent.futures``; None for this process. An executor is returned as
+    it is, and stays open. By default there is a process for each core.
+
+    Raises:
+        ConfigurationError: If there is no such executor.
+        CampaignError: If it cannot be reached.
+    """
+    if not isinstance(executor, str):
+        yield executor or InlineExecutor()
+        return
+    name, _, rest = executor.partition(":")
+    if executor == PROCESSES:
+        with pools.worker_pool(workers) as pool:
+            yield pool
+    elif name == DASK:
+        with _open_dask(rest, workers) as client:
+            yield client.get_executor(pure=False)
+    else:
+        try:
+            factory = getattr(import_module(name), rest)
+        except (ImportError, AttributeError, ValueError) as error:
+            raise ConfigurationError(
+                f"executor must be {EXECUTORS}, got {executor!r:.80}: {error}"
+            ) from error
+        with factory(workers) as made:
+            yield made
+
+
+def _open_dask(address: str, workers: int | None) -> Any:
+    """Connect to a Dask scheduler, or start a local one."""
+    from distributed import Client
+
+    if not address:
+        return Client(
+            n_workers=workers, threads_per_worker=1, dashboard_address=":0"
         )
-    run.add(numbers, result)
+    try:
+        return Client(address, timeout=CONNECTION_TIME)
+    except (OSError, ValueError) as error:
+        raise CampaignError(
+            f"no Dask scheduler answers at {address}: {error}"
+        ) from error

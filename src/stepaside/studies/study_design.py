@@ -25,6 +25,7 @@ PRESETS = Path(__file__).with_name("presets")
 SEED = "seed"
 SECTIONS = ("game", "settings", "grid", "variants", "cases", "by", "values")
 COMMA = re.compile(r",(?![^(\[{]*[)\]}])")  # not one within brackets
+OWN = re.compile(r'"([^"]+\.(?:py:[^"]+|onnx))"')  # file of a strategy
 SPACING = {"first", "last", "number"}  # of evenly spaced values
 RANGE = re.compile(r"(\d+):(\d+)")  # of seeds, without its end
 SEEDS_OF_A_GAME = "0:20"  # of a game file
@@ -79,13 +80,10 @@ class _Design(NamedTuple):
 
     def fingerprint(self, axes: Sequence[tuple[str, Sequence[Any]]]) -> str:
         """Return a hash of what all share and of the strategy files."""
+        varied = [each for _, each in axes if not isinstance(each, range)]
         found = [_json(self)]
-        varied = [
-            values for _, values in axes if not isinstance(values, range)
-        ]
-        for word in dict.fromkeys(_texts([*self, *varied])):
-            own = ".py:" in word or word.endswith(".onnx")
-            file = file_of(word) if own else None
+        for word in dict.fromkeys(OWN.findall(_json([self, varied]))):
+            file = file_of(word)
             if file is not None and file.is_file():
                 found.append(file.read_bytes().hex())
         return sha256(" ".join(found).encode()).hexdigest()[:12]
@@ -323,21 +321,9 @@ def _call(
 def _json(value: Any) -> str:
     """Return a value of a record, or of its key, as JSON."""
     try:
-        return json.dumps(value, sort_keys=True)
+        return json.dumps(value, sort_keys=True, ensure_ascii=False)
     except TypeError as error:
         raise ConfigurationError(
             "values that vary or are stored must be numbers, texts or "
             f"arrays, such as the name of a strategy: {error}"
         ) from error
-
-
-def _texts(value: Any) -> Iterator[str]:
-    """Yield all texts in nested values."""
-    if isinstance(value, str):
-        yield value
-    elif isinstance(value, Mapping):
-        for each in value.values():
-            yield from _texts(each)
-    elif isinstance(value, list | tuple):
-        for each in value:
-            yield from _texts(each)

@@ -9,7 +9,6 @@ import numpy as np
 from scipy.special import stdtrit
 
 from ..core.errors import ConfigurationError
-from ..core.poses import Array
 
 Record = dict[str, Any]
 """Measured values of one case by name, as values for JSON."""
@@ -21,18 +20,12 @@ def tabulate(
     by: Sequence[str],
     values: Sequence[str],
 ) -> list[Record]:
-    """Tabulate values over groups of records.
-
-    Args:
-        records: Records of a study.
-        by: Names of the values that tell groups apart.
-        values: Names of the values to tabulate. A text or a truth value
-            becomes shares; a number its mean.
+    """Tabulate values over groups of records that agree in ``by``.
 
     Returns:
         One row for each group, in the order of its first record: the values
         of ``by``; ``number``, that of its records; and for each value a
-        dictionary. Of a mean: ``number`` of records that have the value,
+        dictionary. Of a number: ``number`` of records that have the value,
         ``mean``, ``half``, half of its 95 % interval by Student's t, least
         ``min``, ``median`` and greatest ``max``. Of a truth value: ``count``,
         ``share`` and its 95 % interval ``low`` to ``high`` after Wilson. Of
@@ -51,14 +44,12 @@ def tabulate(
             raise ConfigurationError(
                 f"value must be one of {', '.join(names)}, got {name!r:.40}"
             )
-    rows = []
-    for group in groups.values():
-        row: Record = {name: group[0].get(name) for name in by}
-        row["number"] = len(group)
-        for name in values:
-            row[name] = _statistics([record.get(name) for record in group])
-        rows.append(row)
-    return rows
+    return [
+        {name: group[0].get(name) for name in by}
+        | {"number": len(group)}
+        | {name: _statistics([r.get(name) for r in group]) for name in values}
+        for group in groups.values()
+    ]
 
 
 def _statistics(found: list[Any]) -> Any:
@@ -84,12 +75,17 @@ def share_of(count: int, number: int) -> Record:
 
 
 def mean_of(values: Sequence[float]) -> Record:
-    """Return the mean of values, with half of its 95 % interval."""
-    each = np.asarray(values, dtype=np.float64)
+    """Return the mean of values, with half of its 95 % interval.
+
+    It is by Student's t, and 0 for a single value.
+    """
+    each, n, half = np.asarray(values, dtype=np.float64), len(values), 0.0
+    if n > 1:
+        half = float(stdtrit(n - 1, 0.975) * each.std(ddof=1) / sqrt(n))
     return {
-        "number": len(each),
+        "number": n,
         "mean": float(each.mean()),
-        "half": half_interval(each),
+        "half": half,
         "min": float(each.min()),
         "median": float(np.median(each)),
         "max": float(each.max()),
@@ -108,17 +104,6 @@ def wilson_interval(count: int, number: int) -> tuple[float, float]:
     return max(0.0, middle - half), min(1.0, middle + half)
 
 
-def half_interval(values: Array) -> float:
-    """Return half of the 95 % interval of a mean, by Student's t.
-
-    It is 0 for a single value.
-    """
-    n = len(values)
-    if n < 2:
-        return 0.0
-    return float(stdtrit(n - 1, 0.975) * values.std(ddof=1) / sqrt(n))
-
-
 def flat(record: Mapping[str, Any]) -> Record:
     """Return a record without nested dictionaries; names get dots."""
     found: Record = {}
@@ -134,16 +119,12 @@ def flat(record: Mapping[str, Any]) -> Record:
 def to_frame(
     records: Iterable[Mapping[str, Any]], library: str = "polars"
 ) -> Any:
-    """Return records as a data frame, one row each.
+    """Return records as a data frame of polars or pandas, one row each.
 
     Lists become JSON text; a value that a record lacks is null.
 
-    Args:
-        records: Records.
-        library: "polars" or "pandas", which must be installed.
-
     Raises:
-        ConfigurationError: If it is neither.
+        ConfigurationError: If the library is neither.
     """
     rows = [
         {
