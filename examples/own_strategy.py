@@ -9,7 +9,7 @@ from math import pi
 
 import stepaside as sa
 from stepaside import strategies as st
-from stepaside.games import play_strategies
+from stepaside.games import StepGame, play_strategies
 
 
 @dataclass(frozen=True)
@@ -35,7 +35,7 @@ class BackAndAside:
 def main(duration: float) -> None:
     """Compare it with moving aside, with unicycles and with humanoids."""
     # In path time: a step lasts 0.4 s of it, and 0.547 s.
-    rules = st.StepGame(duration=0.4 / 0.547 * duration)
+    rules = StepGame(duration=0.4 / 0.547 * duration)
     at = sa.RelativeStart(0.9, 0.3, -0.2).poses()
     start = sa.StartSettings(0.9, -0.3, 0.2)
     settings = sa.duel(duration=duration, start=start)

@@ -20,7 +20,8 @@ from train_evader import (
 )
 
 from stepaside.envs import VectorDuel
-from stepaside.strategies import StepGame, Strategy, load_strategy
+from stepaside.games import StepGame
+from stepaside.strategies import Strategy, load_strategy
 
 FIRST = {"evader": "pursuit", "pursuer": "evasion"}  # opponents
 

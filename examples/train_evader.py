@@ -25,7 +25,7 @@ from numpy.typing import NDArray
 
 from stepaside.arena import RoomRecipe
 from stepaside.envs import VectorDuel
-from stepaside.strategies import StepGame
+from stepaside.games import StepGame
 from stepaside.strategies.learned import LearnedStrategy, dense_network
 from stepaside.studies import load_study, run_study
 

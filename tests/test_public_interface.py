@@ -27,7 +27,6 @@ from stepaside import (
 from stepaside.arena import Box, MovingBox, Room, load_room
 from stepaside.core.errors import StepAsideError
 from stepaside.core.poses import Pose
-from stepaside.strategies import StepGame
 from stepaside.strategies.learned import (
     LearnedStrategy,
     StrategyContract,
@@ -236,7 +235,6 @@ ANGLES: dict[str, Callable[[Any], Any]] = {
     ),
     "Evasion angle": stepaside.Evasion,
     "Evasion side_hysteresis": lambda a: stepaside.Evasion(side_hysteresis=a),
-    "StepGame largest_turn": lambda a: StepGame(largest_turn=a),
     "RelativeStart pursuer_error": lambda a: RelativeStart(1.0, a),
     "RelativeStart bearing": lambda a: RelativeStart(1.0, 0.0, a),
     "StartSettings pursuer_offset": lambda a: stepaside.StartSettings(1.0, a),

@@ -36,10 +36,9 @@ class BackAndAside(Evasion):
 
 # %%
 from stepaside import Pursuit, RelativeStart
-from stepaside import strategies as st
-from stepaside.games import play_strategies
+from stepaside.games import StepGame, play_strategies
 
-rules = st.StepGame(duration=60.0)
+rules = StepGame(duration=60.0)
 start = RelativeStart(0.7, 0.3, -0.2).poses()
 games = {
     "paper": play_strategies(Pursuit(), Evasion(), start, game=rules),

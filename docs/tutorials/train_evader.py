@@ -35,11 +35,11 @@ print(f"walked straight back: closest approach {info['closest_m']:.3f} m")
 
 # %%
 from stepaside.envs import VectorDuel
+from stepaside.games import StepGame
 from train_evader import (
     OptimisationSettings,
     PolicyOptimiser,
 )
-from stepaside.strategies import StepGame
 
 UPDATES = 40
 games = VectorDuel(

@@ -14,8 +14,8 @@ from train_evader import (
 )
 
 from stepaside.envs import VectorDuel
+from stepaside.games import StepGame
 from stepaside.planning import Direction
-from stepaside.strategies import StepGame
 from stepaside.strategies.learned import observe
 from stepaside.strategies.registry import trial_knowledge
 

@@ -8,10 +8,10 @@ import numpy as np
 import pytest
 
 from stepaside.arena import Room, RoomRecipe, generate_room
-from stepaside.games import Outcome, StrategyTrack, play_strategies
+from stepaside.games import Outcome, StepGame, StrategyTrack, play_strategies
 from stepaside.games.recorded_game import run_game
 from stepaside.games.settings_reader import read_game
-from stepaside.strategies import Evasion, Pursuit, StepGame, Strategy
+from stepaside.strategies import Evasion, Pursuit, Strategy
 from stepaside.theory.unicycle import RelativeStart
 
 START = RelativeStart(1.0, 0.3, -0.2).poses()

@@ -2,19 +2,16 @@
 
 from functools import cache
 from math import pi
-from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
 
-from stepaside.core.errors import ConfigurationError
 from stepaside.games.game_settings import GameSettings
 from stepaside.games.outcome import Outcome
 from stepaside.games.recorded_game import run_game
 from stepaside.games.run import Run
 from stepaside.games.settings_reader import read_game
-from stepaside.report.run_folder import write_run
 
 
 def game(*players: dict[str, Any], **entries: Any) -> GameSettings:
@@ -65,28 +62,6 @@ def test_robots_people_and_unicycles_play_in_one_world() -> None:
     assert ghost.path_m == pytest.approx(
         speed * (2.0 - gait.start_support), abs=0.01
     )
-
-
-def test_a_recorded_player_repeats_its_motion(tmp_path: Path) -> None:
-    run = played()
-    write_run(tmp_path / "run", run, drawn=False)
-    ghost = {
-        "name": "echo",
-        "role": "pursuer",
-        "body": "run",
-        "run": str(tmp_path / "run"),
-        "run_player": "red",
-    }
-    again = run_game(game(ghost, THREE[2], duration=1.0, level="steps"))
-    poses = run.tracks["red"].unicycle
-    expected = [
-        np.interp(again.times, run.times, column) for column in poses.T
-    ]
-    np.testing.assert_allclose(
-        again.tracks["echo"].unicycle[:, :2], np.array(expected).T[:, :2]
-    )
-    with pytest.raises(ConfigurationError, match="run_player must be one of"):
-        run_game(game(ghost | {"run_player": "nobody"}, THREE[2]))
 
 
 @pytest.mark.parametrize("level", ["steps", "unicycle"])

@@ -7,8 +7,8 @@ import pytest
 
 from stepaside.arena import NO_OBSTACLES, Room
 from stepaside.core.poses import Pose
-from stepaside.games import play_strategies
-from stepaside.strategies import Pursuit, StepGame, Strategy
+from stepaside.games import StepGame, play_strategies
+from stepaside.strategies import Pursuit, Strategy
 from stepaside.strategies.robust_evasion import actions_of
 from stepaside.strategies.search.beam_search import (
     BeamRules,

@@ -6,11 +6,12 @@ from math import asin, atan2, cos, inf, pi, radians, sin, sqrt
 import numpy as np
 import pytest
 
-from stepaside.core.poses import ALL_AROUND, Pose, Sector
-from stepaside.games import StrategyTrack
-from stepaside.games.floor_games import play_template
+from stepaside.core.poses import ALL_AROUND, Sector
+from stepaside.games import StrategyTrack, duel
+from stepaside.games.floor_games import floor_of, play_floor
+from stepaside.games.game import GameRules
+from stepaside.games.strategy_games import track_of
 from stepaside.planning import GaitSettings
-from stepaside.sim.person_motion import PersonMotion, Place
 from stepaside.sim.person_settings import PersonSettings
 from stepaside.strategies import (
     DashEvasion,
@@ -40,24 +41,15 @@ def play(
     duration: float = 7.0,
 ) -> StrategyTrack:
     """Play a person who comes from a bearing, in [rad]."""
-
-    def motion(start: Pose, evader: Place) -> PersonMotion:
-        return PersonMotion(person, start, evader)
-
-    start = Pose(
-        distance * cos(bearing), distance * sin(bearing), bearing + pi
-    )
-    evader = Pose(0.0, 0.0, 0.0)
-    return play_template(
-        motion,
-        start,
-        evader,
-        strategy,
-        GAIT,
-        velocities=legs,
+    x, y = distance * cos(bearing), distance * sin(bearing)
+    game = duel(
         duration=duration,
-        step=0.02,
+        person=person,
+        pursuer={"body": "person", "start": (x, y, bearing + pi)},
+        evader={"gait": GAIT, "start": (0.0, 0.0, 0.0)},
     )
+    world = floor_of(game, {"evader": strategy}, 0.02, legs)
+    return track_of(*play_floor(world, GameRules(duration), 0.02))
 
 
 @lru_cache(maxsize=8)

@@ -10,14 +10,13 @@ import pytest
 from stepaside.arena import Disc, ObstacleSet, Room, RoomRecipe, generate_room
 from stepaside.core.compilation import cache_folder
 from stepaside.core.poses import Pose
-from stepaside.games import Outcome, play_strategies
+from stepaside.games import Outcome, StepGame, play_strategies
 from stepaside.strategies import (
     Evasion,
     Knowledge,
     Limits,
     LookAhead,
     Pursuit,
-    StepGame,
     Strategy,
 )
 from stepaside.strategies import (

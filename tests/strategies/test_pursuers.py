@@ -8,13 +8,12 @@ import numpy as np
 import pytest
 
 from stepaside.core.poses import Pose, wrap_angle
-from stepaside.games import play_strategies
+from stepaside.games import StepGame, play_strategies
 from stepaside.strategies import (
     Evasion,
     Knowledge,
     Limits,
     Pursuit,
-    StepGame,
 )
 
 NAO = Limits(0.1, 0.2, 0.04, 0.4)

@@ -9,13 +9,12 @@ import pytest
 
 from stepaside.arena import Disc, Room
 from stepaside.core.poses import Pose, wrap_angle
-from stepaside.games import play_strategies
+from stepaside.games import StepGame, play_strategies
 from stepaside.strategies import (
     Knowledge,
     Limits,
     Pursuit,
     RobustEvasion,
-    StepGame,
     Strategy,
 )
 from stepaside.strategies.robust_evasion import (

@@ -10,9 +10,9 @@ from hypothesis import strategies as st
 
 from stepaside.arena import Box, Disc, Obstacle, ObstacleSet, Polygon, Room
 from stepaside.core.poses import Pose, wrap_angle
-from stepaside.games import play_strategies
-from stepaside.games.floor_games import PAIR
+from stepaside.games import StepGame, play_strategies
 from stepaside.games.floor_world import FloorAgent
+from stepaside.games.strategy_games import PAIR
 from stepaside.strategies import (
     Evasion,
     Intent,
@@ -21,7 +21,6 @@ from stepaside.strategies import (
     LookAhead,
     Pursuit,
 )
-from stepaside.strategies.strategy_game import StepGame
 
 LIMITS = Limits(0.1, 0.2, 0.04, 0.7)
 STEP = LIMITS.step_duration

@@ -8,12 +8,11 @@ import pytest
 
 from sampled_unicycles import play_sampled
 from stepaside.core.poses import wrap_angle
-from stepaside.games import StrategyTrack, play_strategies
+from stepaside.games import StepGame, StrategyTrack, play_strategies
 from stepaside.strategies import (
     Evasion,
     Pursuit,
     StandStill,
-    StepGame,
 )
 from stepaside.theory.unicycle import (
     RelativeStart,

@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 
 from stepaside.core.poses import Array
-from stepaside.games.floor_games import play_unicycles
+from stepaside.games.strategy_games import play_unicycles
 from stepaside.planning import (
     Direction,
     ManeuverPlan,

@@ -26,7 +26,17 @@ from resumable_jobs import Row, finished, gather
 
 from stepaside.core.poses import Pose, wrap_angle
 from stepaside.core.random_streams import named_generator
-from stepaside.games.floor_games import play_template
+from stepaside.games.floor_games import play_floor
+from stepaside.games.floor_world import (
+    FloorAgent,
+    FloorMotion,
+    FloorPerson,
+    FloorPoint,
+    FloorWalk,
+    FloorWorld,
+)
+from stepaside.games.game import GameRules
+from stepaside.games.strategy_games import PAIR
 from stepaside.locomotion.control_settings import LegsSettings
 from stepaside.locomotion.policy.policy_legs import load_legs
 from stepaside.planning import Direction, GaitSettings
@@ -229,15 +239,21 @@ def play(robot: MappedRobot, kind: str, start: Pose, seed: int) -> float:
     straight = robot.step * ceil(robot.model.window / robot.step - 1e-9)
     inner = RandomWalk(robot.legs is not None, seed, straight)
     strategy = ShieldedStrategy(inner, robot.shield)
-
-    def motion(pose: Pose, evader: tuple[float, float]) -> Any:
-        return Chaser(kind, robot.shield, pose, seed, straight)
-
     person = Pose(-robot.shield.speed * straight, 0.0, 0.0)
-    return play_template(
-        motion, person, start, strategy, robot.gait,
-        duration=robot.duration, velocities=robot.legs, step=robot.step,
-    ).closest_distance  # fmt: skip
+    chaser = Chaser(kind, robot.shield, person, seed, straight)
+    limits = limits_of(robot.gait, robot.legs)
+    agent = FloorAgent(strategy, limits, PAIR["evader"], list(PAIR.values()))
+    own: FloorMotion
+    if robot.legs is not None:
+        own = FloorPoint(agent, start, robot.gait, robot.step)
+    else:
+        late = robot.gait.start_support
+        own = FloorWalk(agent, start, delay=late, alert=robot.step)
+    other = FloorPerson(chaser, lambda seen: seen["evader"][:2], robot.step)
+    world = FloorWorld({"pursuer": other, "evader": own})
+    rules = GameRules(robot.duration, identities=PAIR)
+    game, _ = play_floor(world, rules)
+    return game.closest["evader", "pursuer"]
 
 
 def describe(robot: MappedRobot) -> Row:

@@ -253,7 +253,7 @@ def _play_named(
     import numpy as np
 
     from ..core.poses import wrap_angle
-    from ..games.floor_games import play_unicycles
+    from ..games.strategy_games import play_unicycles
     from ..strategies.registry import OF_EVASION
     from ..theory.unicycle.circles import fit_circle
 

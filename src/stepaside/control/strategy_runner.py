@@ -131,6 +131,7 @@ class StrategyRunner(DecisionMaker):
             sight = atan2(y - template.y, x - template.x)
             distance = hypot(y - template.y, x - template.x)
             sighting = sighting._replace(distance=distance)
+        several = self._in_sight if len(self._in_sight) > 1 else ()
         return self.observe(
             now,
             template,
@@ -139,14 +140,8 @@ class StrategyRunner(DecisionMaker):
             moving=moving,
             obstacles=self._surroundings.solids,
             map_error=self._surroundings.map_error,
+            others=tuple(self._other(now, template, each) for each in several),
         )
-
-    def _others(self, now: float, pose: Pose) -> tuple[OtherPlayer, ...]:
-        """Return all players in sight, if there are several."""
-        seen = self._in_sight
-        if len(seen) < 2:
-            return ()
-        return tuple(self._other(now, pose, each) for each in seen)
 
     def _other(
         self, now: float, template: Pose, sighting: Sighting

@@ -15,7 +15,6 @@ from ..core.errors import (
     check_choice,
     shown,
 )
-from ..games.floor_games import floor_of_two, rules_of_two
 from ..games.game import GameInPlay
 from ..games.player_settings import PLAYERS
 from ..games.recorded_game import RecordedGame
@@ -92,8 +91,8 @@ class DuelParallelEnv(ParallelGames):
             index = int(arenas.indices(seed, number))
             room, rules = arenas.rooms[index], settings.step_game
             pair = played["pursuer"], played["evader"]
-            world = floor_of_two(rules, pair, arenas.starts[index], room)
-            return Episode(GameInPlay(world, rules_of_two(rules)), held, room)
+            world = rules.world(pair, arenas.starts[index], room)
+            return Episode(GameInPlay(world, rules.rules), held, room)
         duel = replace(
             settings.duel,
             seed=(settings.first_arena + seed + STRIDE * number) % SEEDS,

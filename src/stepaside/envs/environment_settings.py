@@ -29,6 +29,7 @@ from ..games.floor_world import PARTS
 from ..games.game_settings import GameSettings
 from ..games.game_settings import duel as make_duel
 from ..games.player_settings import PLAYERS
+from ..games.strategy_games import StepGame
 from ..planning import Direction
 from ..strategies.knowledge import STAND, Intent
 from ..strategies.learned import (
@@ -39,7 +40,6 @@ from ..strategies.learned import (
     StrategyContract,
     discrete_headings,
 )
-from ..strategies.strategy_game import StepGame
 
 LEVELS = ("unicycle", "steps", "physics")
 ALL_TERMS: dict[str, ObservedTerm] = SENSED_TERMS | FULL_STATE_TERMS

@@ -1,4 +1,4 @@
-"""Many games of :class:`~stepaside.strategies.StepGame` in compiled loops.
+"""Many games of :class:`~stepaside.games.StepGame` in compiled loops.
 
 A player follows the paper's law, stands, or is given its intents from
 outside, as in learning.

@@ -2,7 +2,7 @@
 
 from collections.abc import Sequence
 from dataclasses import replace
-from math import ceil, floor
+from math import ceil, floor, pi
 from typing import Any, ClassVar
 
 import numpy as np
@@ -19,11 +19,11 @@ from ..core.errors import (
 )
 from ..core.poses import Array
 from ..games.player_settings import PLAYERS
+from ..games.strategy_games import StepGame
 from ..strategies.evasion import Evasion
 from ..strategies.learned import LearnedStrategy
 from ..strategies.pursuit import Pursuit
 from ..strategies.strategy import StandStill, Strategy
-from ..strategies.strategy_game import StepGame
 from .duel_v0 import load_opponent
 from .environment_settings import (
     ALL_TERMS,
@@ -54,16 +54,17 @@ Integers = NDArray[np.int64]
 
 def rules_of(game: StepGame) -> BatchRules:
     """Return the rules of a game as numbers."""
-    parts = game.decisions
-    if game.turn / parts > LARGEST_TURN:
+    parts, share = game.decisions, game.gain * game.period
+    if pi * share / parts > LARGEST_TURN:
         raise ConfigurationError(
-            f"game.largest_turn must be at most {LARGEST_TURN * parts:g} "
-            f"[rad] for many games, got {game.turn:g}"
+            "turns of game.gain must be at most "
+            f"{LARGEST_TURN * parts:g} [rad] for many games, got "
+            f"{pi * share:g}"
         )
     return BatchRules(
         game.stride / parts,
-        game.share,
-        game.turn,
+        share,
+        pi * share,
         float(parts),
         game.period / parts,
         game.speed / game.gain,

@@ -1,5 +1,3 @@
-from .floor_games import StrategyTrack as StrategyTrack
-from .floor_games import play_strategies as play_strategies
 from .game_settings import GameSettings as GameSettings
 from .game_settings import duel as duel
 from .game_settings import walk as walk
@@ -8,6 +6,9 @@ from .player_settings import PlayerSettings as PlayerSettings
 from .recorded_game import RecordedGame as RecordedGame
 from .recorded_game import run_game as run_game
 from .run import Run as Run
+from .strategy_games import StepGame as StepGame
+from .strategy_games import StrategyTrack as StrategyTrack
+from .strategy_games import play_strategies as play_strategies
 
 __all__ = [
     "GameSettings",
@@ -15,6 +16,7 @@ __all__ = [
     "PlayerSettings",
     "RecordedGame",
     "Run",
+    "StepGame",
     "StrategyTrack",
     "duel",
     "play_strategies",

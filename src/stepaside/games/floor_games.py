@@ -1,31 +1,24 @@
-"""Games on the floor: of two strategies, and of the settings of a game."""
+"""Worlds and rules of games on the floor, from the settings of a game."""
 
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from dataclasses import replace
 from math import pi
 from types import MappingProxyType
-from typing import NamedTuple
 
-import numpy as np
-
-from ..arena import NO_OBSTACLES, OPEN_FLOOR, ObstacleSet, Room
+from ..arena import NO_OBSTACLES, OPEN_FLOOR, ObstacleSet
 from ..core.constants import CAPTURE_DISTANCE
 from ..core.errors import ConfigurationError, StrategyError
-from ..core.player_identity import PlayerIdentity, Role
-from ..core.poses import Array, Pose, wrap_angles
-from ..planning import GaitSettings
-from ..sim.crowd_motion import RADIUS, CrowdMotion
-from ..sim.person_motion import PersonMotion, Place
-from ..strategies.evasion import Evasion
+from ..core.player_identity import Role
+from ..core.poses import Pose
+from ..sim.crowd_motion import RADIUS, CrowdMotion, Neighbour
+from ..sim.person_motion import PersonMotion
 from ..strategies.goal_walk import GoalWalk
-from ..strategies.knowledge import Limits, limits_of
+from ..strategies.knowledge import limits_of
 from ..strategies.pursuit import Pursuit
 from ..strategies.registry import load_strategy
 from ..strategies.shield import shielded
 from ..strategies.strategy import Strategy
-from ..strategies.strategy_game import StepGame
 from ..strategies.velocity_set import VelocitySet
-from ..theory.unicycle.unicycle_game import Game, RelativeStart
 from .floor_world import (
     PARTS,
     PERIOD,
@@ -34,244 +27,55 @@ from .floor_world import (
     FloorPerson,
     FloorPoint,
     FloorRecorder,
-    FloorReplay,
     FloorWalk,
     FloorWorld,
+    Seen,
 )
 from .game import GameInPlay, GameRules, play
 from .game_settings import GameSettings
 from .outcome import Outcome
 from .player_settings import PlayerSettings
 
-UNBOUNDED = 1e9  # safety radius of a game without safety area, in [m]
 MARGIN = 0.06  # of bodies and of their sway, in [m]
 ORIGIN = Pose(0.0, 0.0, 0.0)
 COMFORT = 0.35  # beyond contact, that a walk to a goal keeps free, in [m]
-PAIR = {
-    name: PlayerIdentity(name, Role(name), name)
-    for name in ("pursuer", "evader")
-}
-"""Identities of pursuer and evader."""
 
 
-class StrategyTrack(NamedTuple):
-    """Recorded game of two strategies.
+def play_floor(
+    world: FloorWorld, rules: GameRules, period: float = 0.0
+) -> tuple[GameInPlay, FloorRecorder]:
+    """Play a game on the floor to its end, sampled in each period, in [s].
 
-    Attributes:
-        outcome: Outcome of the game.
-        times: Times of the poses, in [s]. Shape (n,).
-        pursuer: Poses (x [m], y [m], theta [rad]), from the start on.
-            Shape (n, 3).
-        evader: Poses of the evader, likewise.
-        clearances: Clearances of the evader's centre, in [m]. Shape (n,).
-        decision: Mean processor time of a decision of the evader, without
-            the first one, which loads code, in [s].
-        longest_decision: Longest time of a decision, likewise.
+    By default each decision is sampled. What breaks it off is raised.
     """
-
-    outcome: Outcome
-    times: Array
-    pursuer: Array
-    evader: Array
-    clearances: Array
-    decision: float
-    longest_decision: float
-
-    @property
-    def captured(self) -> bool:
-        """Whether the distance fell to the capture distance."""
-        return self.outcome is Outcome.CAPTURED
-
-    @property
-    def bearings(self) -> Array:
-        """Bearings of the pursuer from the evader, in [rad]. Shape (n,)."""
-        dx, dy, _ = (self.pursuer - self.evader).T
-        return wrap_angles(np.arctan2(dy, dx) - self.evader[:, 2])
-
-    @property
-    def distances(self) -> Array:
-        """Distance between the two, in [m]. Shape (n,)."""
-        apart = self.evader - self.pursuer
-        found: Array = np.hypot(apart[:, 0], apart[:, 1])
-        return found
-
-    @property
-    def closest_distance(self) -> float:
-        """Least recorded distance, in [m]."""
-        return float(self.distances.min())
-
-
-def play_strategies(
-    pursuer: Strategy,
-    evader: Strategy,
-    starts: tuple[Pose, Pose],
-    *,
-    room: Room = OPEN_FLOOR,
-    game: StepGame | None = None,
-) -> StrategyTrack:
-    """Play a game of two strategies without physics.
-
-    Args:
-        pursuer: Strategy of the pursuer.
-        evader: Strategy of the evader.
-        starts: Initial poses of pursuer and evader in the room.
-        room: Room; the evader knows all obstacles, and so does a pursuer
-            that they stop.
-        game: Rules; by default those of :class:`StepGame`.
-
-    Raises:
-        StrategyError: If a strategy fails.
-    """
-    game = game or StepGame()
-    world = floor_of_two(game, (pursuer, evader), starts, room)
-    recorder = FloorRecorder(world)
-    played = GameInPlay(world, rules_of_two(game), (recorder,))
-    play(played)
-    return track_of(played, recorder, room)
-
-
-def play_unicycles(
-    game: Game,
-    start: RelativeStart,
-    names: tuple[str, str],
-    times: tuple[float, float],
-    capture: float,
-) -> StrategyTrack:
-    """Play a game of unicycles with named strategies.
-
-    The paper's evader evades from the begin. ``times`` are duration and
-    decision period, in [s]; the capture distance, in [m], ends the game.
-    """
-    evasion = Evasion(
-        game.angle,
-        game.saturated,
-        safety_radius=UNBOUNDED,
-        side_hysteresis=game.hysteresis,
-    )
-    pursuer, evader = (load_strategy(name, evasion) for name in names)
-    rules = StepGame.of_unicycles(
-        game.pursuer, game.evader, times[1], times[0], capture
-    )
-    return play_strategies(pursuer, evader, start.poses(), game=rules)
-
-
-def track_of(
-    game: GameInPlay, recorder: FloorRecorder, room: Room = OPEN_FLOOR
-) -> StrategyTrack:
-    """Return the record of a finished game, or raise what broke it off."""
-    assert game.ended is not None
-    if game.ended.outcome is Outcome.INTERRUPTED:
-        raise KeyboardInterrupt
-    if game.ended.outcome is Outcome.FAILED:
-        raise StrategyError(game.message)
-    poses, evades = recorder.poses(), recorder.world.motions["evader"]
-    times = evades.decision_times if isinstance(evades, FloorWalk) else []
-    return StrategyTrack(
-        game.ended.outcome,
-        recorder.times,
-        poses["pursuer"],
-        poses["evader"],
-        room.clearance(poses["evader"][:, :2]),
-        float(np.mean(times[1:] or times or [0.0])),
-        max(times[1:], default=0.0),
-    )
-
-
-def floor_of_two(
-    game: StepGame,
-    strategies: tuple[Strategy, Strategy],
-    starts: tuple[Pose, Pose],
-    room: Room = OPEN_FLOOR,
-) -> FloorWorld:
-    """Return the world of a game of pursuer and evader."""
-    solids = room.solid_set
-    # A pursuer that obstacles do not stop plans no detours.
-    stops = solids if game.solid_pursuer else NO_OBSTACLES
-    motions = {
-        name: FloorWalk(
-            FloorAgent(
-                strategy, limits, own, list(PAIR.values()), obstacles=known
-            ),
-            start,
-            parts=game.decisions,
-            largest_turn=game.largest_turn,
-            walls=stops if name == "pursuer" else NO_OBSTACLES,
-            radius=game.body_radius,
-        )
-        for (name, own), strategy, limits, start, known in zip(
-            PAIR.items(),
-            strategies,
-            game.limits,
-            starts,
-            (stops, solids),
-            strict=True,
-        )
-    }
-    return FloorWorld(motions, solids, ["evader"])
-
-
-def rules_of_two(game: StepGame) -> GameRules:
-    """Return what ends a game of pursuer and evader."""
-    return GameRules(game.whole_duration, game.capture, PAIR)
-
-
-def play_template(
-    motion: Callable[[Pose, Place], PersonMotion],
-    start: Pose,
-    evader: Pose,
-    strategy: Strategy,
-    gait: GaitSettings,
-    *,
-    duration: float,
-    velocities: VelocitySet | None = None,
-    step: float = 0.01,
-) -> StrategyTrack:
-    """Play the template of an evader against a prescribed motion.
-
-    The evader decides once per footstep; while it stands it decides at any
-    time, and moves after its first double support. One on learned legs is
-    the point that stands for them.
-
-    Args:
-        motion: Returns the motion of the pursuer from its initial pose and
-            the evader's position.
-        start: Initial pose of the pursuer in the world.
-        evader: That of the evader.
-        strategy: Strategy of the evader.
-        gait: Its gait.
-        duration: Duration of the game, in [s].
-        velocities: Velocities of learned legs; None for a unicycle.
-        step: Step of the integration, in [s].
-    """
-    limits, everyone = limits_of(gait, velocities), list(PAIR.values())
-    agent = FloorAgent(strategy, limits, PAIR["evader"], everyone)
-    own: FloorMotion
-    if velocities is not None:
-        own = FloorPoint(agent, evader, gait, step)
-    else:
-        own = FloorWalk(agent, evader, delay=gait.start_support, alert=step)
-    walk = motion(start, (evader.x, evader.y))
-    person = FloorPerson("pursuer", walk, {}, "evader", step)
-    world = FloorWorld({"pursuer": person, "evader": own})
-    recorder = FloorRecorder(world, step)
-    game = GameInPlay(world, GameRules(duration), (recorder,))
+    recorder = FloorRecorder(world, period)
+    game = GameInPlay(world, rules, (recorder,))
     play(game)
-    return track_of(game, recorder)
+    if game.outcome is Outcome.INTERRUPTED:
+        raise KeyboardInterrupt
+    if game.outcome is Outcome.FAILED:
+        raise StrategyError(game.message)
+    return game, recorder
 
 
 def floor_of(
     settings: GameSettings,
     strategies: Mapping[str, Strategy] = MappingProxyType({}),
+    period: float = PERIOD,
+    velocities: VelocitySet | None = None,
 ) -> FloorWorld:
-    """Return the world of a game at level "unicycle" or "steps".
+    """Return the world of a game without bodies.
 
-    Strategies as objects replace those of the settings, by name of the
-    player. Obstacles stop pursuers; any other robot that touches one ends
-    the game.
+    At level "physics" it is that of the templates. Strategies as objects
+    replace those of the settings, by name of the player. Obstacles stop
+    pursuers; any other robot that touches one ends the game. For the others
+    see :func:`motion_of`.
     """
     return FloorWorld(
         {
-            own.name: motion_of(settings, own, given=strategies.get(own.name))
+            own.name: motion_of(
+                *(settings, own, period, strategies.get(own.name), velocities)
+            )
             for own in settings.players
         },
         _solids(settings),
@@ -298,36 +102,50 @@ def motion_of(
     own: PlayerSettings,
     period: float = PERIOD,
     given: Strategy | None = None,
+    velocities: VelocitySet | None = None,
 ) -> FloorMotion:
     """Return the motion of a player that physics does not move.
 
-    A person on a path decides after each period, in [s]; a strategy that is
-    given replaces that of the settings.
+    A person on a path decides after each period, in [s]; so does a template
+    that stands in a game in physics. A strategy that is given replaces that
+    of the settings. With the velocities of learned legs, a robot is the point
+    that stands for them.
     """
     pose, solids = own.pose, _solids(settings)
     physics = settings.level == "physics"
     assert pose is not None
     if own.decides:
+        agent = _agent_of(settings, own, given, velocities)
+        if velocities is not None and own.body == "robot":
+            return FloorPoint(agent, pose, own.gait, period)
         return FloorWalk(
-            agent_of(settings, own, given),
+            agent,
             pose,
             parts=PARTS.get(settings.level, 1),
             delay=own.gait.start_support if physics else 0.0,
+            alert=period if physics else None,
             walls=solids if own.role == Role.PURSUER else NO_OBSTACLES,
             radius=own.radius + MARGIN,
         )
-    if own.body == "run":
-        return FloorReplay(own.run, own.run_player)
     if not own.goal:
-        walk, target = walk_on_path(settings, own), _target_of(settings, own)
-        return FloorPerson(own.name, walk, {}, target, period)
+        target = _target_of(settings, own)
+        walk = walk_on_path(settings, own)
+        return FloorPerson(walk, lambda seen: seen[target][:2], period)
     people = settings.people_around(own)
     bodies = {
         p.name: (p.name in people, p.radius, people.get(p.name, False))
         for p in settings.players
+        if p is not own
     }
+
+    def neighbours(seen: Seen) -> list[Neighbour]:
+        return [
+            Neighbour(seen[name].x, seen[name].y, *body)
+            for name, body in bodies.items()
+        ]
+
     crowd = CrowdMotion(own.crowd, pose, (own.goal[0], own.goal[1]), solids)
-    return FloorPerson(own.name, crowd, bodies)
+    return FloorPerson(crowd, neighbours)
 
 
 def strategy_of(
@@ -354,20 +172,20 @@ def strategy_of(
     return shielded(strategy, player.shield)
 
 
-def agent_of(
+def _agent_of(
     settings: GameSettings,
     own: PlayerSettings,
-    given: Strategy | None = None,
+    given: Strategy | None,
+    velocities: VelocitySet | None,
 ) -> FloorAgent:
     """Return the strategy of a template, which knows the room."""
-    gait, knows = own.gait, settings.knows_room
     return FloorAgent(
         strategy_of(own, given=given),
-        Limits(gait.speed, gait.gain, gait.stride, gait.step_duration),
+        limits_of(own.gait, velocities),
         own.identity,
         list(settings.identities.values()),
         target=own.target,
-        obstacles=_solids(settings) if knows else NO_OBSTACLES,
+        obstacles=_solids(settings) if settings.knows_room else NO_OBSTACLES,
     )
 
 

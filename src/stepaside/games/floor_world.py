@@ -4,29 +4,30 @@ A robot is its template unicycle, which decides at steps or eight times in a
 step, and follows the exact arc of each decision. Times are gait times.
 """
 
-from collections.abc import Mapping, Sequence
-from math import atan2, cos, hypot, inf, pi, sin
+from collections.abc import Callable, Mapping, Sequence
+from math import atan2, hypot, inf, pi
 from time import thread_time
+from typing import Any, Protocol
 
 import numpy as np
 
 from ..arena import NO_OBSTACLES, ObstacleSet
 from ..arena.obstacles import clearance_at
-from ..core.errors import ConfigurationError
 from ..core.player_identity import PlayerIdentity
 from ..core.poses import Array, Pose, wrap_angle
 from ..locomotion.locomotion import MotionRequest, template_velocity
 from ..perception.measurement import Sighting
 from ..planning import Direction, GaitSettings
-from ..sim.crowd_motion import CrowdMotion, Neighbour
-from ..sim.person_motion import PersonMotion
-from ..strategies.decision_maker import DecisionMaker, choose_opponent
+from ..strategies.decision_maker import (
+    DecisionMaker,
+    choose_opponent,
+    turned,
+)
 from ..strategies.knowledge import Knowledge, Limits, OtherPlayer
 from ..strategies.strategy import Strategy
 from ..strategies.velocity_set import STILL, respond
 from .game import GameInPlay, GameObserver
 from .outcome import Outcome
-from .run_archive import load_run
 from .trajectory import Trajectory
 
 PERIOD = 0.02  # of records, and of the decisions of people, in [s]
@@ -82,30 +83,26 @@ class FloorAgent(DecisionMaker):
         self._ids = tuple(each for each in others if each != identity)
         self._target, self._present = target, ""
         self._before: tuple[float, Seen] = (0.0, {})
-        self._known: tuple[OtherPlayer, ...] = ()
 
     def look(
         self, now: float, seen: Seen, *, moving: bool
     ) -> Knowledge | None:
         """Return the knowledge at a time, in [s]; None without others."""
         own = seen[self.identity.name]
-        known = [self._other(each, now, own, seen) for each in self._ids]
+        known = {who: self._other(who, now, own, seen) for who in self._ids}
         if not known:
             return None
         self._before = now, seen
-        self._known = tuple(known)
-        opponent = known[0]
-        if len(known) > 1:
-            present = choose_opponent(
-                self.identity,
-                {each.identity: each.distance for each in known},
-                target=self._target,
-                present=self._present,
-            )
-            if present != self._present:
-                self._present = present
-                self.reset_rates()
-            opponent = next(o for o in known if o.identity.name == present)
+        present = choose_opponent(
+            self.identity,
+            {who: other.distance for who, other in known.items()},
+            target=self._target,
+            present=self._present,
+        )
+        if present != self._present:
+            self._present = present
+            self.reset_rates()
+        opponent = next(o for who, o in known.items() if who.name == present)
         return self.observe(
             now,
             own,
@@ -113,11 +110,8 @@ class FloorAgent(DecisionMaker):
             moving=moving,
             obstacles=self.obstacles,
             velocity=opponent.velocity,
+            others=tuple(known.values()),
         )
-
-    def _others(self, now: float, pose: Pose) -> tuple[OtherPlayer, ...]:
-        """Return all other players."""
-        return self._known
 
     def _other(
         self, who: PlayerIdentity, now: float, own: Pose, seen: Seen
@@ -129,9 +123,8 @@ class FloorAgent(DecisionMaker):
         velocity = None
         if before and now > then:
             was = before[who.name]
-            u, v = (x - was.x) / (now - then), (y - was.y) / (now - then)
-            c, s = cos(own.theta), sin(own.theta)
-            velocity = u * c + v * s, v * c - u * s
+            rates = (x - was.x) / (now - then), (y - was.y) / (now - then)
+            velocity = turned(rates, -own.theta)
         bearing = wrap_angle(atan2(dy, dx) - own.theta)
         return OtherPlayer(who, bearing, hypot(dx, dy), velocity)
 
@@ -152,7 +145,6 @@ class FloorWalk(FloorMotion):
         *,
         parts: int = 1,
         delay: float = 0.0,
-        largest_turn: float | None = None,
         alert: float | None = None,
         walls: ObstacleSet = NO_OBSTACLES,
         radius: float = 0.0,
@@ -164,7 +156,6 @@ class FloorWalk(FloorMotion):
             pose: Initial pose.
             parts: Decisions per step.
             delay: Time from the decision to start to the motion, in [s].
-            largest_turn: Of a step, in [rad]; by default that of eq. (2).
             alert: Time between decisions while it stands, in [s]; by default
                 that of walking.
             walls: Obstacles that stop it.
@@ -173,11 +164,8 @@ class FloorWalk(FloorMotion):
         self.agent, self.pose = agent, pose
         self.is_walking = False
         self.decision_times: list[float] = []
-        limits = agent.limits
         self._parts, self._delay = parts, delay
-        self._share = limits.share
-        self._largest = largest_turn or pi * self._share
-        self._alert = alert or limits.step_duration / parts
+        self._alert = alert or agent.limits.step_duration / parts
         self._walls, self._radius = walls, radius
         self._known: tuple[float, Knowledge | None] = (-inf, None)
         self._since = 0.0  # time of the pose, or of the begin of its motion
@@ -206,9 +194,9 @@ class FloorWalk(FloorMotion):
             self._since += self._delay / intent.pace
         self.is_walking, self.due = True, self._since + duration
         strategy = self.agent.strategy
-        turn, most = self._share * intent.heading, self._largest
+        turn, most = limits.share * intent.heading, pi * limits.share
         if strategy.saturated:  # rate of (6), up to the bearing
-            turn, most = intent.heading, min(self._share, most)
+            turn, most = intent.heading, limits.share
         turn = min(max(turn, -most), most)
         way = intent.speed_factor
         if limits.outer_stride is not None:
@@ -292,40 +280,32 @@ class FloorPoint(FloorMotion):
         return self.pose.compose(Pose(*(left * rate for rate in self._actual)))
 
 
+class MovingPerson(Protocol):
+    """Motion of a person, integrated step by step."""
+
+    pose: Pose  # present
+
+    def advance(self, time: float, duration: float, others: Any) -> None:
+        """Walk on up to a time, in [s], as others are seen."""
+
+
 class FloorPerson(FloorMotion):
-    """Person who walks to a goal among others, or relative to a player."""
+    """Person who walks among others, whom a function finds in what is seen."""
 
     def __init__(
         self,
-        name: str,
-        motion: CrowdMotion | PersonMotion,
-        bodies: Mapping[str, tuple[bool, float, bool]],
-        target: str = "",
+        motion: MovingPerson,
+        others: Callable[[Seen], Any],
         period: float = PERIOD,
     ) -> None:
-        """Begin a walk that decides in each period, in [s].
-
-        To a goal it is among bodies: whether each player is a person, its
-        radius, in [m], and whether it is a companion; else relative to the
-        target.
-        """
+        """Begin a walk that decides in each period, in [s]."""
         self.motion, self.pose = motion, motion.pose
-        self._name, self._bodies, self._target = name, bodies, target
-        self._period, self._now = period, 0.0
+        self._others, self._period, self._now = others, period, 0.0
 
     def decide(self, now: float, seen: Seen) -> None:
         """Walk on for one period."""
         self._now, self.due = now, now + self._period
-        if isinstance(self.motion, CrowdMotion):
-            others = [
-                Neighbour(pose.x, pose.y, *self._bodies[name])
-                for name, pose in seen.items()
-                if name != self._name
-            ]
-            self.motion.advance(self.due, self._period, others)
-            return
-        x, y, _ = seen[self._target]
-        self.motion.advance(self.due, self._period, (x, y))
+        self.motion.advance(self.due, self._period, self._others(seen))
 
     def pose_at(self, time: float) -> Pose:
         """Return the pose at a time before the next decision, in [s]."""
@@ -341,43 +321,6 @@ class FloorPerson(FloorMotion):
         """Move to a time, in [s]."""
         super().advance(until)
         self._now = until
-
-
-class FloorReplay(FloorMotion):
-    """Player of a recorded run, in the world of that run.
-
-    It rests at the end of the recording.
-    """
-
-    def __init__(self, folder: str, player: str) -> None:
-        """Read a run folder; the player's name may be empty if it is alone.
-
-        Raises:
-            ConfigurationError: If there is no such run or player.
-        """
-        run = load_run(folder)
-        name = player
-        if not player and len(run.players) == 1:
-            (name,) = run.players
-        if name not in run.tracks:
-            raise ConfigurationError(
-                f"run_player must be one of {', '.join(run.players)}, got "
-                f"{name!r}"
-            )
-        self._times, self._poses = run.times, run.tracks[name].unicycle
-        self.pose = self.pose_at(0.0)
-
-    def decide(self, now: float, seen: Seen) -> None:
-        """Go on for one period."""
-        self.due = now + PERIOD
-
-    def pose_at(self, time: float) -> Pose:
-        """Return the pose at a time, in [s]."""
-        x, y, theta = (
-            float(np.interp(time, self._times, column))
-            for column in self._poses.T
-        )
-        return Pose(x, y, theta)
 
 
 class FloorWorld:

@@ -3,28 +3,27 @@
 from collections import deque
 from collections.abc import Mapping
 from dataclasses import replace
-from math import degrees, hypot, pi
+from math import degrees, hypot
 
 from ..core.poses import Pose
 from ..robots.description import load_robot
-from ..sim.person_motion import PersonMotion, Place, template_approach
-from ..sim.person_settings import PersonSettings
 from ..strategies.registry import OBJECT
-from ..theory.unicycle.unicycle_game import Unicycle
 from .duel_circle import (
     circle_of_theory,
     convergence_time,
+    distance_between,
     missing_circle_reason,
-    time_scale,
 )
-from .floor_games import play_template, strategy_of
+from .floor_games import floor_of, play_floor
+from .game import GameRules
 from .game_settings import GameSettings
 from .player_settings import EVADER, PURSUER
 from .run import Run
 from .summary import Summary, TheorySummary
 
 MAX_DURATION = 600.0  # of a game of templates, in [s]
-STEP = 0.05  # of its integration, in [s]
+STEP = 0.05  # between its samples, in [s]
+SHORT = 0.01  # between decisions of a person, in [s]
 CIRCLE, LATER, CONTACT, NO_CIRCLE = "circle", "later", "contact", "no circle"
 
 _latest: deque[tuple[GameSettings, TheorySummary]] = deque(maxlen=1)
@@ -34,11 +33,10 @@ def forecast(settings: GameSettings) -> TheorySummary:
     """Return the theory of a duel, with the initial poses filled in.
 
     Of two robots with the strategies of the paper the game of their unicycle
-    templates is played: the evader decides step by step, as the robot does,
-    with all settings of its strategy; the pursuer steers towards it at all
-    times. Contact is expected if the templates come closer than
-    ``start.least``, the distance at which bodies cannot overlap: below it,
-    contact depends on their headings.
+    templates is played: they decide step by step, as the robots do. Contact
+    is expected if the templates come closer than ``start.least``, the
+    distance at which bodies cannot overlap: below it, contact depends on
+    their headings.
     """
     # A duel needs its forecast twice: before it and in its summary.
     if not _latest or _latest[-1][0] != settings:
@@ -67,29 +65,13 @@ def _forecast(settings: GameSettings) -> TheorySummary:
 def _played(settings: GameSettings, found: TheorySummary) -> TheorySummary:
     """Play the templates of a duel of two robots."""
     least = settings.start.least
-    chasing = settings.pursuer.gait
-    pace = time_scale(chasing)
-    steering = PersonSettings(
-        "steer", chasing.speed * pace, chasing.gain * pace
-    )
-
-    def motion(pose: Pose, evader: Place) -> PersonMotion:
-        return PersonMotion(steering, pose, evader)
-
     duration = min(settings.duration, MAX_DURATION)
-    pursuer, evader = (Pose(*own.start) for own in settings.players)
-    played = play_template(
-        motion,
-        pursuer,
-        evader,
-        settings.evader.evasion,
-        settings.evader.gait,
-        duration=duration,
-        step=STEP,
-    )
-    paths = played.times, played.pursuer, played.evader
+    world = floor_of(settings, period=STEP)
+    _, recorder = play_floor(world, GameRules(duration), STEP)
+    poses = recorder.poses()
+    paths = recorder.times, poses[PURSUER], poses[EVADER]
     since = convergence_time(*paths, settings, circle_of_theory(settings))
-    closest = played.closest_distance
+    closest = float(distance_between(*paths[1:]).min())
     if closest < least:
         expected, words = (
             CONTACT,
@@ -117,40 +99,20 @@ def _approach_of_person(settings: GameSettings) -> float | None:
 
     None where the template is no model of the game.
     """
-    start, own = settings.start, settings.evader
-    gait, legs, strategy = own.gait, own.legs, own.evasion
-    person = settings.pursuer.person
-    if start.distance is None or own.strategy.startswith(OBJECT):
+    own, velocities = settings.evader, None
+    if own.strategy.startswith(OBJECT):
         return None
-    if not (settings.is_of_the_paper or legs.walks):
-        return None
-    initial = (
-        lambda pose, evader: PersonMotion(person, pose, evader),
-        Pose(0.0, 0.0, start.pursuer_offset or 0.0),
-        Pose(start.distance, 0.0, pi + (start.evader_offset or 0.0)),
-    )
-    if not legs.walks and strategy.trigger != "time":
-        pace = time_scale(gait)
-        return template_approach(
-            *initial,
-            unicycle=Unicycle(gait.speed * pace, gait.gain * pace),
-            angle=strategy.angle,
-            safety_radius=strategy.safety_radius,
-            duration=settings.duration,
-        )
-    velocities = None
-    if legs.walks:
+    if own.legs.walks:
         from ..locomotion.policy.policy_legs import load_legs
 
         robot, tick = load_robot(own.robot), settings.physics.tick
-        velocities = load_legs(legs, robot, tick=tick).velocities
-    return play_template(
-        *initial,
-        strategy_of(own),
-        gait,
-        duration=settings.duration,
-        velocities=velocities,
-    ).closest_distance
+        velocities = load_legs(own.legs, robot, tick=tick).velocities
+    elif not settings.is_of_the_paper:
+        return None
+    world = floor_of(settings, period=SHORT, velocities=velocities)
+    rules = GameRules(settings.duration, identities=settings.identities)
+    game, _ = play_floor(world, rules)
+    return game.closest[EVADER, PURSUER]
 
 
 def evaluate_duel(

@@ -16,7 +16,6 @@ from ..sim.crowd_motion import RADIUS
 from ..sim.person_motion import PersonMotion
 from ..sim.person_settings import PATHS
 from .floor_games import walk_on_path
-from .floor_world import FloorReplay
 from .game_settings import GameSettings, StartSettings
 from .player_settings import PLAYERS, PlayerSettings
 
@@ -139,8 +138,6 @@ def _start_in_room(
 
 def _given_pose(player: PlayerSettings) -> Pose | None:
     """Return the initial pose that is not drawn; None if it is."""
-    if player.body == "run":
-        return FloorReplay(player.run, player.run_player).pose
     own, walks = player.person, not (player.goal or player.draws_goal)
     if player.body == "person" and walks and own.path not in PATHS:
         return PersonMotion(own, Pose(0.0, 0.0, 0.0), (0.0, 0.0)).pose

@@ -30,7 +30,7 @@ PLAYER_NAME = re.compile(r"[a-z][a-z0-9-]{0,31}")
 PLAYERS = PURSUER, EVADER = ("pursuer", "evader")  # of a duel
 WALKER = "walker"  # player of a walk
 PURSUIT, EVASION, STEP_ASIDE = "pursuit", "evasion", "step-aside"
-BODY_KINDS = ("robot", "unicycle", "person", "run")
+BODY_KINDS = ("robot", "unicycle", "person")
 SENSING = ("ideal", "cameras", "lidar")
 IDEAL = BodySettings()
 NAO_RADIUS = 0.14  # within which its body stands and sways, in [m]
@@ -48,7 +48,6 @@ USED_BY = {  # settings of a player that its kind of body uses
     "robot": ALWAYS | OF_TEMPLATE | {"control", "legs", "senses", "sight"},
     "unicycle": ALWAYS | OF_TEMPLATE,
     "person": ALWAYS | {"goal", "draws_goal", "person", "crowd"},
-    "run": ALWAYS | {"run", "run_player"},
 }
 
 
@@ -140,8 +139,7 @@ class PlayerSettings(RobotSettings):
     team: str = setting("", "Team of the player; that of its role if empty")
     body: str = setting(
         "robot",
-        "Body of the player: a robot; its template unicycle; a person; or "
-        "the recorded motion of a player of a run",
+        "Body of the player: a robot, its template unicycle, or a person",
         names=BODY_KINDS,
     )
     target: str = setting(
@@ -182,12 +180,6 @@ class PlayerSettings(RobotSettings):
         "Motion of a person with a goal",
         needs=("body", "person"),
     )
-    run: str = setting(
-        "", "Run folder of a replayed player", needs=("body", "run")
-    )
-    run_player: str = setting(
-        "", "Name of the player in that run", needs=("body", "run")
-    )
 
     def __post_init__(self) -> None:
         """Validate ranges, name and combinations of settings."""
@@ -215,11 +207,6 @@ class PlayerSettings(RobotSettings):
                 values, (POSITION, POSITION, TURN), strict=False
             ):
                 allowed.check(value, f"{prefix}{name}")
-        if (self.body == "run") != bool(self.run):
-            raise ConfigurationError(
-                f"{prefix}run must be a run folder with body 'run' only, got "
-                f"{self.run!r} with body {self.body!r}"
-            )
 
     @property
     def identity(self) -> PlayerIdentity:

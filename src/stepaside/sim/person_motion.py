@@ -1,6 +1,5 @@
 """Walks of a person: steering, straight or recorded."""
 
-from collections.abc import Callable
 from math import atan2, copysign, cos, hypot, inf, pi, sin
 from pathlib import Path
 
@@ -10,7 +9,6 @@ from ..arena import NO_OBSTACLES, ObstacleSet
 from ..core.errors import ConfigurationError
 from ..core.poses import Array, Pose, wrap_angle
 from ..theory import laws
-from ..theory.unicycle.unicycle_game import Unicycle
 from .crowd_motion import RADIUS, CrowdMotion, CrowdSettings, Neighbour
 from .person_settings import PATHS, PersonSettings
 
@@ -163,40 +161,3 @@ def read_path(file: Path) -> Array:
             f"must increase [s, m, m], those in {file} are not or do not"
         )
     return table
-
-
-def template_approach(
-    motion: Callable[[Pose, Place], PersonMotion],
-    start: Pose,
-    evader: Pose,
-    *,
-    unicycle: Unicycle,
-    angle: float,
-    safety_radius: float,
-    duration: float,
-    step: float = 0.01,
-) -> float:
-    """Return the closest approach [m] of a person to the evader's template.
-
-    The evader is a unicycle: it stands until the person is within the safety
-    radius, and then walks backward across the line of sight.
-    """
-    x, y, theta = evader
-    walk = motion(start, (x, y))
-    side = 0
-    closest = float(np.hypot(walk.pose.x - x, walk.pose.y - y))
-    for i in range(round(duration / step)):
-        walk.advance((i + 1) * step, step, (x, y))
-        px, py, _ = walk.pose
-        distance = float(np.hypot(px - x, py - y))
-        closest = min(closest, distance)
-        if not laws.is_evading(side != 0, distance, safety_radius, inf):
-            continue
-        bearing = wrap_angle(atan2(py - y, px - x) - theta)
-        side = side or laws.side_behind(bearing)
-        aim = laws.evasion_heading(bearing, side, angle)
-        theta += laws.proportional_rate(aim, unicycle.gain) * step
-        x -= step * unicycle.speed * cos(theta)
-        y -= step * unicycle.speed * sin(theta)
-        theta = wrap_angle(theta) if abs(theta) > pi else theta
-    return closest

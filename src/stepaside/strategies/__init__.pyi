@@ -15,7 +15,6 @@ from .robust_evasion import RobustEvasion as RobustEvasion
 from .strategy import StandStill as StandStill
 from .strategy import Strategy as Strategy
 from .strategy import Walk as Walk
-from .strategy_game import StepGame as StepGame
 from .team_strategies import AssignedPursuit as AssignedPursuit
 from .team_strategies import CyclicPursuit as CyclicPursuit
 from .team_strategies import Pincer as Pincer
@@ -39,7 +38,6 @@ __all__ = [
     "STAND",
     "STRATEGIES",
     "StandStill",
-    "StepGame",
     "Strategy",
     "TeamEvasion",
     "Walk",

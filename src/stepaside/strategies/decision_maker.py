@@ -55,11 +55,13 @@ class DecisionMaker:
         obstacles: ObstacleSet = NO_OBSTACLES,
         map_error: float = 0.0,
         velocity: tuple[float, float] | None = None,
+        others: tuple[OtherPlayer, ...] = (),
     ) -> Knowledge:
         """Add a sighting and return the knowledge for a decision.
 
         The pose of the template is that at the sighting, whose bearing is from
-        there. A velocity in its axes [m/s] is given if it is known exactly.
+        there. A velocity in its axes [m/s] is given if it is known exactly,
+        and others if several are known.
         """
         time, bearing, distance = sighting[:3]
         bearing, age = wrap_angle(bearing), max(0.0, now - time)
@@ -73,7 +75,6 @@ class DecisionMaker:
         bearing_rate, closing_speed = track.sight_rates
         if velocity is None:
             velocity = turned(track.velocity, -pose.theta)
-        others = self._others(now, pose)
         if not others and sighting.identity is not None:
             others = (
                 OtherPlayer(
@@ -98,10 +99,6 @@ class DecisionMaker:
             identity=self.identity,
             others=others,
         )
-
-    def _others(self, now: float, pose: Pose) -> tuple[OtherPlayer, ...]:
-        """Return the other players that were seen, if several are known."""
-        return ()
 
     def preview(self, knowledge: Knowledge) -> tuple[Intent, Any]:
         """Return the decision and its memory, without storing the memory."""

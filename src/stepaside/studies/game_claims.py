@@ -17,7 +17,6 @@ from ..games.duel_circle import (
     distance_between,
     last_third,
 )
-from ..games.floor_games import StrategyTrack
 from ..games.game import GameInPlay, GameObserver, play
 from ..games.game_settings import GameSettings, StartSettings, duel
 from ..games.outcome import Outcome
@@ -27,9 +26,9 @@ from ..games.recorded_game import RecordedGame, run_game
 from ..games.robot_player import RobotPlayer
 from ..games.run import Run
 from ..games.settings_reader import read_game
+from ..games.strategy_games import StepGame, StrategyTrack
 from ..planning import PRESETS, GaitSettings
 from ..robots.description import load_robot
-from ..strategies.strategy_game import StepGame
 from ..theory.unicycle.circles import fit_circle
 from .theory_claims import most_deviating
 from .tournament import (

@@ -10,13 +10,13 @@ import numpy as np
 from ..core.errors import PlanError
 from ..core.player_identity import Role
 from ..core.poses import Pose
-from ..games.floor_games import play_unicycles
 from ..games.game_settings import GameSettings, duel, walk
 from ..games.outcome import Outcome
 from ..games.recorded_game import run_game
 from ..games.run import Run
 from ..games.run_archive import results_of
 from ..games.settings_reader import read_game, settings_of
+from ..games.strategy_games import play_unicycles
 from ..games.unicycle_settings import UnicycleSettings
 from ..theory.unicycle.certificate import certify
 from ..theory.unicycle.simulation import simulate

@@ -8,7 +8,7 @@ from time import process_time
 import numpy as np
 
 from ..core.poses import Array, wrap_angle, wrap_angles
-from ..games.floor_games import play_unicycles
+from ..games.strategy_games import play_unicycles
 from ..games.unicycle_settings import PAPER
 from ..planning import (
     CenterState,

@@ -16,15 +16,14 @@ from ..arena import (
 from ..core.convex import grown_hull_area
 from ..core.poses import Array, Pose, rotate, wrap_angles
 from ..core.setting import check_settings, setting
-from ..games.floor_games import StrategyTrack, play_strategies
 from ..games.floor_world import PARTS
 from ..games.outcome import Outcome
 from ..games.player_settings import PLAYERS
 from ..games.run import Run
+from ..games.strategy_games import StepGame, StrategyTrack, play_strategies
 from ..robots.description import load_robot
 from ..sim.outline_measurement import measure_outline
 from ..strategies import Pursuit, load_strategy
-from ..strategies.strategy_game import StepGame
 from ..strategies.table_cache import pursuit_bound
 from ..theory.unicycle.circles import find_circle
 from .tabulation import Record

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from stepaside.core.errors import ConfigurationError, PolicyError
-from stepaside.games import play_strategies
+from stepaside.games import StepGame, play_strategies
 from stepaside.planning import Direction
 from stepaside.strategies import (
     STAND,
@@ -17,7 +17,6 @@ from stepaside.strategies import (
     Knowledge,
     Limits,
     Pursuit,
-    StepGame,
     load_strategy,
 )
 from stepaside.strategies.learned import (
