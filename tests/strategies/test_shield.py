@@ -8,14 +8,15 @@ import pytest
 
 from stepaside.core.poses import Pose, wrap_angle
 from stepaside.planning import Direction
-from stepaside.strategies import StandStill
-from stepaside.strategies.knowledge import Intent, Knowledge, Limits
-from stepaside.strategies.shield import (
+from stepaside.strategies import (
+    Intent,
+    Knowledge,
+    Limits,
     ShieldedStrategy,
-    TemplatePoint,
-    shielded,
+    ShieldSettings,
+    StandStill,
 )
-from stepaside.strategies.shield_settings import ShieldSettings
+from stepaside.strategies.shield import TemplatePoint
 
 LIMITS = Limits(0.1, 0.2, 0.04, 0.5)  # 0.08 m/s of gait time
 PERSON = ShieldSettings(True, 0.1, 8.0, 0.3)
@@ -24,7 +25,7 @@ SPEED = PERSON.speed
 
 @pytest.fixture(autouse=True)
 def coarse(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("stepaside.strategies.shield_model.CELLS", 5)
+    monkeypatch.setattr("stepaside.strategies.shield.CELLS", 5)
 
 
 def known(time: float, distance: float, **changes: object) -> Knowledge:
@@ -43,11 +44,6 @@ def approach(strategy: ShieldedStrategy, distance: float) -> list[Intent]:
         )
         intents.append(intent)
     return intents
-
-
-def test_disabled_shield_is_no_shield() -> None:
-    strategy = StandStill()
-    assert shielded(strategy, ShieldSettings()) is strategy
 
 
 def test_robot_stands_while_that_is_safe() -> None:

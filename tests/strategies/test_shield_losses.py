@@ -34,7 +34,7 @@ HALT = STEP + 1.0  # until a walking robot stands and decides again, in [s]
 
 @pytest.fixture(autouse=True)
 def coarse(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("stepaside.strategies.shield_model.CELLS", 5)
+    monkeypatch.setattr("stepaside.strategies.shield.CELLS", 5)
 
 
 def heading_error(person: ShieldSettings, window: float) -> float:

@@ -42,10 +42,9 @@ from stepaside.locomotion.policy.policy_legs import load_legs
 from stepaside.planning import Direction, GaitSettings
 from stepaside.planning.gait_settings import PRESETS
 from stepaside.robots.description import load_robot
+from stepaside.strategies import ShieldedStrategy, ShieldSettings
 from stepaside.strategies.knowledge import Intent, Knowledge, limits_of
-from stepaside.strategies.shield import ShieldedStrategy
-from stepaside.strategies.shield_model import ShieldModel
-from stepaside.strategies.shield_settings import ShieldSettings
+from stepaside.strategies.shield import ShieldModel, shield_model
 from stepaside.strategies.velocity_set import BodyVelocity, VelocitySet
 
 MODULES = ("theory/value", "strategies/shield", "games/floor_games")
@@ -163,7 +162,7 @@ class MappedRobot:
     def model(self) -> ShieldModel:
         """Model of the shield."""
         limits = limits_of(self.gait, self.legs)
-        return ShieldModel(limits, self.shield, Direction.BACKWARD, False)
+        return shield_model(limits, self.shield)
 
 
 def paper_robots() -> dict[str, MappedRobot]:

@@ -5,6 +5,7 @@ from dataclasses import replace
 from math import pi
 from types import MappingProxyType
 
+from .. import strategies
 from ..arena import NO_OBSTACLES, OPEN_FLOOR, ObstacleSet
 from ..core.constants import CAPTURE_DISTANCE
 from ..core.errors import ConfigurationError, StrategyError
@@ -12,11 +13,8 @@ from ..core.player_identity import Role
 from ..core.poses import Pose
 from ..sim.crowd_motion import RADIUS, CrowdMotion, Neighbour
 from ..sim.person_motion import PersonMotion
-from ..strategies.goal_walk import GoalWalk
 from ..strategies.knowledge import limits_of
-from ..strategies.pursuit import Pursuit
 from ..strategies.registry import load_strategy
-from ..strategies.shield import shielded
 from ..strategies.strategy import Strategy
 from ..strategies.velocity_set import VelocitySet
 from .floor_world import (
@@ -158,7 +156,7 @@ def strategy_of(
     It knows places in a map, whose pose in the world is given.
     """
     strategy = load_strategy(given or player.strategy, player.evasion)
-    if isinstance(strategy, GoalWalk) and player.goal:
+    if player.goal and isinstance(strategy, strategies.GoalWalk):
         x, y = player.goal
         goal = map_in_world.inverse().compose(Pose(x, y, 0.0))
         contact = player.radius + RADIUS + MARGIN
@@ -167,9 +165,11 @@ def strategy_of(
             goal=(goal.x, goal.y),
             contact=contact,
             clearance=contact + COMFORT,
-            pursuit=Pursuit(body_radius=player.radius + MARGIN),
+            body_radius=player.radius + MARGIN,
         )
-    return shielded(strategy, player.shield)
+    if player.shield.enabled:
+        return strategies.ShieldedStrategy(strategy, player.shield)
+    return strategy
 
 
 def _agent_of(

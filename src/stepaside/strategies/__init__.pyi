@@ -12,6 +12,8 @@ from .pursuit import Pursuit as Pursuit
 from .registry import STRATEGIES as STRATEGIES
 from .registry import load_strategy as load_strategy
 from .robust_evasion import RobustEvasion as RobustEvasion
+from .shield import ShieldedStrategy as ShieldedStrategy
+from .shield_settings import ShieldSettings as ShieldSettings
 from .strategy import StandStill as StandStill
 from .strategy import Strategy as Strategy
 from .strategy import Walk as Walk
@@ -37,6 +39,8 @@ __all__ = [
     "RobustEvasion",
     "STAND",
     "STRATEGIES",
+    "ShieldSettings",
+    "ShieldedStrategy",
     "StandStill",
     "Strategy",
     "TeamEvasion",

@@ -2,15 +2,14 @@
 
 from dataclasses import dataclass
 from math import cos, hypot, pi, sin
-from typing import Any
 
 import numpy as np
 
 from ..core.poses import Array, Pose, wrap_angle
 from ..core.ranges import Range
-from ..core.setting import CheckedSettings, setting
+from ..core.setting import setting
 from .knowledge import STAND, Intent, Knowledge
-from .pursuit import PursuitVariant
+from .pursuit import Pursuit, PursuitMemory
 from .velocity_set import BodyVelocity, VelocitySet, greatest_velocity
 
 ARRIVED = 0.2  # distance from the goal at which it halts, in [m]
@@ -26,7 +25,7 @@ SOON = 2.5  # time to a predicted contact at which it halts, in [s]
 
 
 @dataclass(frozen=True, slots=True)
-class GoalWalk(PursuitVariant, CheckedSettings):
+class GoalWalk(Pursuit):
     """Walk to a goal, giving way to others.
 
     Among headings to both sides of the way to the goal it takes the one that
@@ -50,7 +49,9 @@ class GoalWalk(PursuitVariant, CheckedSettings):
         Range(0.0, 10.0, "m", "the bodies have a width"),
     )
 
-    def decide(self, knowledge: Knowledge, memory: Any) -> tuple[Intent, Any]:
+    def decide(
+        self, knowledge: Knowledge, memory: PursuitMemory
+    ) -> tuple[Intent, PursuitMemory]:
         """Head for the goal, beside others, and halt there."""
         if not self.goal:
             return STAND, memory
@@ -59,11 +60,11 @@ class GoalWalk(PursuitVariant, CheckedSettings):
         if hypot(there.x, there.y) < ARRIVED:
             return STAND, memory
         aimed = knowledge.towards(there.x, there.y)
-        intent, memory = self.pursuit.decide(aimed, memory)
+        intent, memory = Pursuit.decide(self, aimed, memory)
         velocities, bearing = knowledge.limits.velocities, aimed.bearing
         if velocities is not None:
             if knowledge.obstacles_in_map:
-                bearing = self.pursuit.path_bearing(aimed)
+                bearing = self.path_bearing(aimed)
             return self._clear_velocity(knowledge, bearing, velocities), memory
         if knowledge.others:
             intent = self._clear_heading(knowledge, intent.heading)
@@ -110,7 +111,7 @@ class GoalWalk(PursuitVariant, CheckedSettings):
 
     def _wall_cost(self, knowledge: Knowledge, own: Array) -> Array:
         """Return the cost of own velocities, (2, n), towards obstacles."""
-        solids, radius = knowledge.obstacles_in_map, self.pursuit.body_radius
+        solids, radius = knowledge.obstacles_in_map, self.body_radius
         if not solids:
             return np.zeros(own.shape[1])
         times = np.arange(1, LOOKS + 1) * (SOON / LOOKS)

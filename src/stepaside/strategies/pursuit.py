@@ -1,8 +1,8 @@
 """Pursuit: head for the evader (paper, Sec. II-A), and variations of it."""
 
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, replace
 from math import atan2, cos, hypot, inf, pi, sin
-from typing import Any, ClassVar, NamedTuple
+from typing import ClassVar, NamedTuple
 
 import numpy as np
 
@@ -178,24 +178,3 @@ class Pursuit(CheckedSettings):
             side,
         )
         return wrap_angle(atan2(v - y, u - x) - theta)
-
-
-@dataclass(frozen=True, slots=True)
-class PursuitVariant:
-    """Base of strategies that choose a point and head for it by a pursuit."""
-
-    pursuit: Pursuit = field(default_factory=Pursuit)  # pursuit of that point
-
-    @property
-    def direction(self) -> Direction:
-        """Forward, eq. (1)."""
-        return self.pursuit.direction
-
-    @property
-    def saturated(self) -> bool:
-        """Whether it turns by (6) instead of (8)."""
-        return self.pursuit.saturated
-
-    def begin(self) -> Any:
-        """Return the memory of the pursuit."""
-        return self.pursuit.begin()

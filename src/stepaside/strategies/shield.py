@@ -1,28 +1,225 @@
-"""Shield: a least-restrictive filter around the strategy of a robot."""
+"""Shield: a least-restrictive filter around the strategy of a robot.
 
+What is required of each state, and the proof, are in docs/shield.md.
+"""
+
+import logging
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from math import asin, atan2, ceil, hypot, inf, pi
+from functools import lru_cache
+from math import asin, atan2, ceil, cos, hypot, inf, pi, sin, tau
 from typing import Any, NamedTuple
 
 import numpy as np
 
-from ..core.errors import StrategyError
 from ..core.poses import Array, Pose, rotate, wrap_angle
 from ..planning import Direction
-from .knowledge import STAND, Intent, Knowledge
+from ..theory.value import (
+    PersonModel,
+    ShieldGame,
+    ShieldTable,
+    solve_shield,
+    sub_poses,
+)
+from .knowledge import ON_THE_SPOT, STAND, Intent, Knowledge, Limits
 from .opponent_track import OpponentTrack, SeenOpponent
-from .shield_model import LEGS_LOSS, LEGS_PERIOD, ShieldModel
 from .shield_settings import ShieldSettings
-from .strategy import Strategy, unicycle_intent
-from .velocity_set import BodyVelocity, response_share
+from .strategy import Strategy, evaluate_strategy
+from .table_cache import cached
+from .velocity_set import BodyVelocity, greatest_velocity, response_share
 
+LOG = logging.getLogger(__name__)
+
+CELLS = 10  # of the grid of the table in the required distance
+CELLS_PER_PERIOD = 6  # passed by the opponent while a motion is held
+TURNS = (-1.0, -0.5, 0.0, 0.5, 1.0)  # of a unicycle's step, of the largest
+WALK_LOSS = 0.01  # of the paper's walk per step, in [m]; see docs/shield.md
+SETTLING = 1.0  # of the paper's walk after its last step, in [s]
+SWAY = 0.03  # of a body on the paper's legs, in [m]
+LEGS_PERIOD = 0.48  # of the motions of legs: several cells of the grid, [s]
+# Per period, in [m]; with it a G1 with 29 joints has a tube of 0.28 m.
+LEGS_LOSS = 0.08
+LEGS_INTERVAL = 0.08  # between decisions on a body velocity, in [s]
+LEGS_DIRECTIONS = 16
+UNMEASURED = 0.2  # tube of legs beyond their lag, if not measured, in [m]
+SIGHTING_INTERVAL = 0.02  # by which a chord may be longer than a window, [s]
 TRACE = 4.0  # windows for which positions of the opponent are kept
 KEEPING = 0.005  # value of the last choice before others, in [m]
 LEAST_MOTION = 0.002  # between two sightings that show a heading, in [m]
 SPACING = 0.25  # of the headings of an opponent who stands, in [rad]
 
 Vector = tuple[float, float]
+
+
+class ShieldModel(NamedTuple):
+    """Robot and person of a shield."""
+
+    limits: Limits
+    settings: ShieldSettings
+    direction: Direction  # in which a unicycle drives
+    saturated: bool  # whether it turns by (6)
+    window: float  # between decisions, over which headings are measured [s]
+    period: float  # for which a substituted motion is held [s]
+    lag: float  # by which the body follows its commands [s]
+    response: float  # from the decision to start until the robot moves [s]
+    halting: float  # in which a robot that halts takes no decision [s]
+    heading_error: float  # greatest error of the opponent's heading [rad]
+    # departure of robot and observed person per period [m]
+    displacement: float
+    required: float  # least distance of the observed states [m]
+
+    def twist(self, intent: Intent) -> tuple[BodyVelocity, float]:
+        """Return velocity and duration that an intent at pace 1 commits to."""
+        limits, sign = self.limits, float(self.direction.value)
+        legs, duration = limits.velocities, limits.step_duration
+        if legs is not None:
+            if intent.velocity is not None:
+                return legs.nearest(intent.velocity), LEGS_INTERVAL
+            ahead = sign * intent.speed_factor * limits.speed
+            twist = BodyVelocity(ahead, 0.0, limits.gain * intent.heading)
+            return legs.nearest(twist), duration
+        most = largest_turn(limits, saturated=self.saturated)
+        turn = intent.heading * (1.0 if self.saturated else limits.share)
+        turn = min(max(turn, -most), most)
+        share = min(intent.speed_factor, limits.stride_share(turn))
+        ahead = sign * share * limits.stride
+        return BodyVelocity(ahead / duration, 0.0, turn / duration), duration
+
+    def choices(self) -> Array:
+        """Return the velocities among which the shield chooses.
+
+        Components ahead and to the left, in the frame at the begin, in
+        [m/s], and turning rate [rad/s]. Shape (n, 3).
+        """
+        limits, legs = self.limits, self.limits.velocities
+        if legs is None:
+            most = largest_turn(limits, saturated=self.saturated)
+            way = self.direction.value * limits.stride
+            steps = [
+                (way * min(share, limits.stride_share(turn)), 0.0, turn)
+                for share in (1.0, ON_THE_SPOT)
+                for turn in most * np.array(TURNS)
+            ]
+            return np.array(steps) / limits.step_duration
+        rate = min(-legs.turn[0], legs.turn[1])
+        side = min(-legs.lateral[0], legs.lateral[1])
+        symmetric = legs.forward, (-side, side)
+        found = [(0.0, 0.0, sign * rate) for sign in (0.0, -1.0, 1.0)]
+        for turn in (0.0, -rate, rate):
+            turned = turn * self.period * np.array([0.0, 0.5, 1.0])
+            for angle in tau / LEGS_DIRECTIONS * np.arange(LEGS_DIRECTIONS):
+                speed = min(
+                    hypot(*greatest_velocity(angle - part, symmetric))
+                    for part in turned
+                )
+                found.append((speed * cos(angle), speed * sin(angle), turn))
+        return np.array(found)
+
+    def game(self) -> ShieldGame:
+        """Return the game, with losses per decision.
+
+        Legs hold a velocity over the floor while they turn.
+        """
+        settings, choices = self.settings, self.choices()
+        motions = sub_poses(choices, self.period)
+        if self.limits.velocities is not None:
+            straight = sub_poses(choices * [1.0, 1.0, 0.0], self.period)
+            motions[:, :, :2] = straight[:, :, :2]
+        return ShieldGame(
+            PersonModel(settings.speed, settings.turning_radius),
+            motions,
+            self.period,
+            loss=self.displacement,
+            jump=2.0 * settings.sighting_error,
+        )
+
+    def table(self) -> ShieldTable:
+        """Return the table of the game, solved once and kept."""
+        return _table(self)
+
+    def certifies(self, table: ShieldTable) -> bool:
+        """Return whether any state is certified by a table of the model."""
+        return table.outside >= self.required
+
+
+def largest_turn(limits: Limits, *, saturated: bool) -> float:
+    """Return the largest turn of a step of a unicycle, in [rad]."""
+    return limits.share if saturated else pi * limits.share
+
+
+def shield_model(
+    limits: Limits,
+    settings: ShieldSettings,
+    direction: Direction = Direction.BACKWARD,
+    *,
+    saturated: bool = False,
+) -> ShieldModel:
+    """Return the model of a robot, with what docs/shield.md charges."""
+    legs, step, speed = limits.velocities, limits.step_duration, settings.speed
+    if legs is None:
+        longest = min(
+            CELLS_PER_PERIOD * settings.contact / CELLS / speed,
+            0.5 * settings.turning_radius / speed,
+            step / largest_turn(limits, saturated=saturated),  # by a radian
+        )
+        steps = max(1, round(longest / step))
+        window, period, lag = step, steps * step, 0.0
+        response, halting = 2.0 * step, step + SETTLING
+        loss = WALK_LOSS * steps
+        # It is half a stride behind the begin of its next step.
+        tube = SWAY + 0.5 * limits.stride
+    else:
+        window, period = LEGS_INTERVAL, LEGS_PERIOD
+        lag = max(0.0, *legs.lags[:2])
+        response, halting, loss = 0.0, 0.0, LEGS_LOSS
+        fastest = max(*map(abs, legs.forward))
+        tube = legs.tube or UNMEASURED + lag * fastest
+    if settings.loss is not None:
+        loss = settings.loss
+    if settings.response is not None:
+        response = settings.response
+    # Within a window the opponent turns, and both ends of a chord are
+    # displaced; a chord of half the greatest length is reckoned with.
+    turned = speed / settings.turning_radius * (window + SIGHTING_INTERVAL)
+    hidden = min(1.0, 2.0 * settings.sighting_error / (0.5 * speed * window))
+    heading_error = min(turned + asin(hidden), pi)
+    displacement = loss + speed * period * heading_error
+    required = settings.contact + settings.sighting_error + displacement
+    required += tube + speed * settings.sighting_delay
+    return ShieldModel(
+        *(limits, settings, direction, saturated, window, period, lag),
+        *(response, halting, heading_error, displacement, required),
+    )
+
+
+@lru_cache(maxsize=8)
+def _table(model: ShieldModel) -> ShieldTable:
+    """Load or solve the table of a model; warn if it certifies nothing."""
+    game, person = model.game(), model.settings
+    key = (
+        CELLS, game.person, game.period, game.loss, game.jump,
+        model.required, model.response, game.motions.tobytes(),
+    )  # fmt: skip
+    arrays = cached(
+        "shield",
+        key,
+        lambda: solve_shield(
+            game,
+            model.required,
+            response=model.response,
+            wait=LEGS_INTERVAL,
+            cells=CELLS,
+        ).arrays(),
+    )
+    table = ShieldTable.from_arrays(game, arrays)
+    if not model.certifies(table):
+        LOG.warning(
+            "shield: no state is certified against a person at %g m/s with a "
+            "turning radius of %g m, contact at %g m; the shield changes "
+            "nothing",
+            person.speed, person.turning_radius, person.contact,
+        )  # fmt: skip
+    return table
 
 
 class Course(NamedTuple):
@@ -63,9 +260,7 @@ def observed_course(
     """
     turn, sighting_error = person
     last = seen[-1]
-    turned = (
-        0.0 if before is None else turn * max(0.0, last.time - before.time)
-    )
+    turned = turn * max(0.0, last.time - before.time) if before else 0.0
     before_it = last.time - window + 1e-6
     earlier = [row for row in seen if row.time <= before_it]
     if not earlier:
@@ -81,13 +276,11 @@ def observed_course(
         error = min(pi, turn * (last.time - time) + asin(hidden / chord))
     error = max(error, known)
     direction = atan2(last.y - y, last.x - x)
-    if before is None:
+    if before is None or error < before.error:
         return Course(last.time, direction, error)
     if error > before.error + turned:  # the chord shows less than is known
         return Course(last.time, before.heading, before.error + turned)
     off = wrap_angle(direction - before.heading)
-    if error < before.error:
-        return Course(last.time, direction, error)
     heading = before.heading + min(max(off, -turned), turned)
     return Course(last.time, heading, error)
 
@@ -137,11 +330,10 @@ class ShieldMemory(NamedTuple):
     inner: Any  # memory of the strategy
     track: OpponentTrack | None = None  # positions of the opponent
     course: Course | None = None  # None until a window has passed
-    held: HeldMotion | None = None  # None for none
-    time: float = 0.0  # time of the last decision [s]
-    template: TemplatePoint | None = None  # of legs; None before
-    command: tuple[float, float] = (0.0, 0.0)  # over the floor [m/s]
-    replaced: int = 0  # number of decisions that were replaced
+    held: HeldMotion | None = None
+    time: float = 0.0  # of the last decision [s]
+    template: TemplatePoint | None = None  # of legs
+    command: Vector = (0.0, 0.0)  # over the floor [m/s]
     guarded: bool = False  # whether contact was excluded at the last decision
 
 
@@ -157,8 +349,8 @@ class ShieldedStrategy:
     docs/shield.md.
     """
 
-    strategy: Strategy  # the strategy
-    shield: ShieldSettings  # settings of the shield
+    strategy: Strategy
+    shield: ShieldSettings
 
     @property
     def direction(self) -> Direction:
@@ -178,59 +370,61 @@ class ShieldedStrategy:
         self, knowledge: Knowledge, memory: ShieldMemory
     ) -> tuple[Intent, ShieldMemory]:
         """Decide as the strategy does, where that is safe."""
-        decided = self.strategy.decide(knowledge, memory.inner)
-        if not (isinstance(decided, tuple) and isinstance(decided[0], Intent)):
-            raise StrategyError(f"decide must return an Intent, got {decided}")
-        intent, inner = decided
+        intent, inner = evaluate_strategy(
+            self.strategy, knowledge, memory.inner
+        )
         intent = replace(intent, pace=1.0)  # walkers change theirs slowly
-        model = self.model_for(knowledge)
+        model, person, now = (
+            self.model_for(knowledge),
+            self.shield,
+            knowledge.time,
+        )
         own = knowledge.step_start_in_map or knowledge.pose_in_map
-        theta, body = own.theta, knowledge.pose_in_map[:2]
-        template = memory.template
+        body, template = knowledge.pose_in_map[:2], memory.template
         if template is None:
             template = TemplatePoint(body)
         else:
-            passed = max(0.0, knowledge.time - memory.time)
+            passed = max(0.0, now - memory.time)
             template = template.advance(
                 memory.command, body, model.lag, passed
             )
-        if model.velocities is not None:
-            own = Pose(*template.position, theta)
+        if model.limits.velocities is not None:
+            own = Pose(*template.position, own.theta)
         # No decision is taken while the robot halts.
         span = TRACE + model.halting / model.window
         track = memory.track or OpponentTrack(model.window, span, 0.0)
-        track = track.note(
-            knowledge.time - knowledge.age, knowledge.position_in_map
+        track = track.note(now - knowledge.age, knowledge.position_in_map)
+        course = observed_course(
+            memory.course,
+            track.rows,
+            model.window,
+            (person.speed / person.turning_radius, person.sighting_error),
+            model.heading_error,
         )
-        person = self.shield
         memory = memory._replace(
             inner=inner,
             track=track,
-            course=observed_course(
-                memory.course,
-                track.rows,
-                model.window,
-                (person.speed / person.turning_radius, person.sighting_error),
-                model.heading_error,
-            ),
+            course=course,
             template=template,
-            time=knowledge.time,
+            time=now,
         )
-        if intent.walks and intent.velocity and not model.velocities:
-            # The nearest intent of a unicycle is what it will walk.
-            intent = unicycle_intent(intent, knowledge.limits, self.direction)
-        intent, memory = self._filter(intent, model, own, knowledge, memory)
+        intent, memory = self._filter(
+            intent, model, own, memory, moving=knowledge.moving
+        )
         command = (0.0, 0.0)
         if intent.walks:
-            twist, _ = model.twist(intent)
-            u, v = rotate(twist.forward, twist.lateral, theta).tolist()
+            (ahead, left, _), _ = model.twist(intent)
+            u, v = rotate(ahead, left, own.theta).tolist()
             command = u, v
         return intent, memory._replace(command=command)
 
     def model_for(self, knowledge: Knowledge) -> ShieldModel:
         """Return the model of the robot that decides."""
-        return ShieldModel(
-            knowledge.limits, self.shield, self.direction, self.saturated
+        return shield_model(
+            knowledge.limits,
+            self.shield,
+            self.direction,
+            saturated=self.saturated,
         )
 
     def _filter(
@@ -238,21 +432,22 @@ class ShieldedStrategy:
         intent: Intent,
         model: ShieldModel,
         own: Pose,
-        knowledge: Knowledge,
         memory: ShieldMemory,
+        *,
+        moving: bool,
     ) -> tuple[Intent, ShieldMemory]:
         """Return the intent, or that of a motion in its place."""
-        table, required = model.table(), model.required
+        table, required, now = model.table(), model.required, memory.time
         course, track = memory.course, memory.track
         if course is None or track is None or not model.certifies(table):
             # Unknown as yet; or contact can be forced from everywhere.
             return intent, memory._replace(held=None, guarded=False)
         poses = relative_poses(own, track.rows[-1], course, model)
-        moving = knowledge.moving
         if intent.walks:
             follow = table.outcomes if moving else table.start_outcomes
-            motion, duration = model.motion_of(intent)
-            value = float(follow(poses, motion[None], duration)[0])
+            twist, duration = model.twist(intent)
+            motion = sub_poses([twist], duration)
+            value = float(follow(poses, motion, duration)[0])
         elif moving:
             # While it halts it takes no decision, and the opponent may turn.
             turn = self.shield.speed / self.shield.turning_radius
@@ -268,8 +463,7 @@ class ShieldedStrategy:
             value = float(table.standing_value(poses).min())
         if value >= required:
             return intent, memory._replace(held=None, guarded=True)
-        held, now = memory.held, knowledge.time
-        guarded = memory.guarded
+        held, guarded = memory.held, memory.guarded
         if held is not None and held.until == inf:
             # The first step has begun when it was decided, or later; or the
             # robot has not started.
@@ -288,26 +482,16 @@ class ShieldedStrategy:
             if found[best] <= value and not waits:
                 return intent, memory._replace(held=None, guarded=False)
             until = now + model.period
-            if not moving and model.velocities is None:
+            if not moving and model.limits.velocities is None:
                 until = inf
             held = HeldMotion(best, own.theta, until)
         return _intent_of(held, model, own), memory._replace(
-            held=held, replaced=memory.replaced + 1, guarded=guarded
+            held=held, guarded=guarded
         )
 
 
-def shielded(strategy: Strategy, settings: ShieldSettings) -> Strategy:
-    """Return a strategy, within a shield if the settings enable one."""
-    if not settings.enabled:
-        return strategy
-    return ShieldedStrategy(strategy, settings)
-
-
 def relative_poses(
-    own: Pose,
-    seen: SeenOpponent,
-    course: Course,
-    model: ShieldModel,
+    own: Pose, seen: SeenOpponent, course: Course, model: ShieldModel
 ) -> Array:
     """Return the poses of the robot in the frame of the opponent. (n, 3).
 
@@ -324,12 +508,12 @@ def relative_poses(
 def _intent_of(held: HeldMotion, model: ShieldModel, own: Pose) -> Intent:
     """Return the intent that carries on with a motion."""
     ahead, left, rate = model.choices()[held.number].tolist()
-    if model.velocities is not None:
+    limits = model.limits
+    if limits.velocities is not None:
         if (ahead, left, rate) == (0.0, 0.0, 0.0):
             return STAND
         u, v = rotate(ahead, left, held.heading - own.theta).tolist()
         return Intent(velocity=BodyVelocity(u, v, rate))
-    limits = model.limits
     turn = rate * limits.step_duration
     heading = turn if model.saturated else turn / limits.share
     speed = abs(ahead) * limits.step_duration / limits.stride

@@ -10,11 +10,11 @@ import numpy as np
 from ..core.compilation import compiled
 from ..core.poses import Array, wrap_angle
 from ..core.ranges import Range
-from ..core.setting import CheckedSettings, check_settings, setting
+from ..core.setting import check_settings, setting
 from ..theory import laws
 from .evasion import check_release
 from .knowledge import STAND, Intent, Knowledge
-from .pursuit import PursuitVariant
+from .pursuit import Pursuit, PursuitMemory
 from .search.step_motion import (
     PAPERS,
     StepRules,
@@ -31,14 +31,16 @@ Point = tuple[float, float]
 
 
 @dataclass(frozen=True, slots=True)
-class CyclicPursuit(PursuitVariant):
+class CyclicPursuit(Pursuit):
     """Pursuer of the next player of its own team, in the order of names.
 
     With all players of a team in cyclic pursuit they end on a regular
     polygon. Without a team it pursues the opponent.
     """
 
-    def decide(self, knowledge: Knowledge, memory: Any) -> tuple[Intent, Any]:
+    def decide(
+        self, knowledge: Knowledge, memory: PursuitMemory
+    ) -> tuple[Intent, PursuitMemory]:
         """Head for the next player by eq. (2)."""
         own = knowledge.identity
         if own is not None:
@@ -48,18 +50,20 @@ class CyclicPursuit(PursuitVariant):
             names = sorted([own.name, *team])
             following = names[(names.index(own.name) + 1) % len(names)]
             knowledge = knowledge.about(team[following])
-        return self.pursuit.decide(knowledge, memory)
+        return Pursuit.decide(self, knowledge, memory)
 
 
 @dataclass(frozen=True, slots=True)
-class AssignedPursuit(PursuitVariant):
+class AssignedPursuit(Pursuit):
     """Pursuer of the evader that its team assigns to it.
 
     Every pursuer computes the assignment with the least total distance from
     its knowledge; with equal knowledge all compute the same.
     """
 
-    def decide(self, knowledge: Knowledge, memory: Any) -> tuple[Intent, Any]:
+    def decide(
+        self, knowledge: Knowledge, memory: PursuitMemory
+    ) -> tuple[Intent, PursuitMemory]:
         """Head for the assigned evader by eq. (2)."""
         evaders = sorted(
             knowledge.opponents, key=lambda other: other.identity.name
@@ -75,12 +79,12 @@ class AssignedPursuit(PursuitVariant):
             )
             row = list(hunters).index(own.name)
             knowledge = knowledge.about(evaders[assign(costs)[row]])
-        intent, memory = self.pursuit.decide(knowledge, memory)
+        intent, memory = Pursuit.decide(self, knowledge, memory)
         return keep_apart(knowledge, intent), memory
 
 
 @dataclass(frozen=True, slots=True)
-class Pincer(PursuitVariant, CheckedSettings):
+class Pincer(Pursuit):
     """Pursuer that approaches from one side while teammates take others.
 
     It aims beside the evader, by an angle seen from there, and straight at
@@ -99,7 +103,9 @@ class Pincer(PursuitVariant, CheckedSettings):
         Range(0.0, 100.0, "m", "beyond, they never meet"),
     )
 
-    def decide(self, knowledge: Knowledge, memory: Any) -> tuple[Intent, Any]:
+    def decide(
+        self, knowledge: Knowledge, memory: PursuitMemory
+    ) -> tuple[Intent, PursuitMemory]:
         """Head for a point beside the evader, or for the evader itself."""
         hunters = fellows_of(knowledge)
         if len(hunters) > 1 and knowledge.distance > self.near:
@@ -118,7 +124,7 @@ class Pincer(PursuitVariant, CheckedSettings):
             knowledge = knowledge.towards(
                 u + out * cos(angle), v + out * sin(angle)
             )
-        intent, memory = self.pursuit.decide(knowledge, memory)
+        intent, memory = Pursuit.decide(self, knowledge, memory)
         return keep_apart(knowledge, intent), memory
 
 
