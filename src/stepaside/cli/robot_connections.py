@@ -14,7 +14,7 @@ from ..locomotion.control_settings import (
     ControlSettings,
 )
 from ..strategies import Strategy, load_strategy
-from ..strategies.shield import shielded
+from ..strategies.registry import shielded
 from .settings import CONTROL, GIVEN
 from .terminal import echo
 

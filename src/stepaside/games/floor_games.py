@@ -14,7 +14,7 @@ from ..core.poses import Pose
 from ..sim.crowd_motion import RADIUS, CrowdMotion, Neighbour
 from ..sim.person_motion import PersonMotion
 from ..strategies.knowledge import limits_of
-from ..strategies.registry import load_strategy
+from ..strategies.registry import load_strategy, shielded
 from ..strategies.strategy import Strategy
 from ..strategies.velocity_set import VelocitySet
 from .floor_world import (
@@ -167,9 +167,7 @@ def strategy_of(
             clearance=contact + COMFORT,
             body_radius=player.radius + MARGIN,
         )
-    if player.shield.enabled:
-        return strategies.ShieldedStrategy(strategy, player.shield)
-    return strategy
+    return shielded(strategy, player.shield)
 
 
 def _agent_of(

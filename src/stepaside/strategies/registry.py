@@ -21,6 +21,7 @@ from ..core.user_file import FAILURES, load_user_file
 from ..planning import Direction
 from .evasion import Evasion
 from .knowledge import Intent, Knowledge, Limits
+from .shield_settings import ShieldSettings
 from .strategy import Strategy
 
 STRATEGIES: Mapping[str, tuple[str, Mapping[str, Any]]] = {
@@ -145,6 +146,13 @@ def load_strategy(
     validate_strategy(made, name)
     strategy: Strategy = made
     return strategy
+
+
+def shielded(strategy: Strategy, settings: ShieldSettings) -> Strategy:
+    """Return a strategy, within a shield if the settings enable one."""
+    if not settings.enabled:
+        return strategy
+    return strategies.ShieldedStrategy(strategy, settings)
 
 
 def file_of(name: str) -> Path | None:
