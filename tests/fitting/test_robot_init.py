@@ -188,7 +188,8 @@ def test_equal_shapes_walk_alike() -> None:
     assert other["gain"] == pytest.approx(0.5 * one["gain"], rel=0.01)
     near, far = game_of_size(small, one), game_of_size(large, other)
     for name in ("safety_radius", "start_near", "start_far", "start_least"):
-        assert far[name] == pytest.approx(times * near[name], rel=0.01)
+        expected = times * getattr(near, name)
+        assert getattr(far, name) == pytest.approx(expected, rel=0.01)
 
 
 def test_a_robot_of_other_size_plays_by_its_own_distances(

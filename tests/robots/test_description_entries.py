@@ -26,7 +26,7 @@ working_limits = {{ knee = [-0.1, 2] }}
 gait = {{ stride = 0.05 }}
 sole = {{ back = -0.05, front = 0.1 }}
 control = {{ method = "mpc" }}
-game = {{ distance = 2.0 }}
+game = {{ push_unit = 2.0 }}
 sensors = {{ gyro = "g", accelerometer = "a", feet = {FEET} }}
 place = {{ forward = -0.02, reach = 0.9 }}
 [overlay]

@@ -2,7 +2,7 @@
 
 import os
 from collections.abc import Mapping
-from dataclasses import dataclass, replace
+from dataclasses import asdict, dataclass, replace
 from pathlib import Path
 from typing import Any
 
@@ -406,7 +406,7 @@ def report_of(derived: DerivedDescription) -> dict[str, Any]:
         "zmp_share": derived.zmp_offset,
         "lean_rad": own.lean,
         "torque_share": round(derived.loads.usual, 3),
-        "game": dict(own.game),
+        "game": asdict(own.game),
         "coupled": sorted(followers_of(analysis.model)),
         "head": head_of(analysis),
         "omitted_meshes": len(analysis.missing),

@@ -58,7 +58,7 @@ def _entries(derived: DerivedDescription) -> dict[str, Any]:
         "gait": own.gait,
         "sole": own.sole,
         "control": own.control,
-        "game": own.game,
+        "game": asdict(own.game),
         "place": asdict(own.place),
         "body": own.body,
         "overlay": overlay,

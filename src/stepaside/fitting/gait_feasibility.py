@@ -18,6 +18,7 @@ from ..locomotion.control_settings import OPEN_LOOP
 from ..perception.measurement import RobotState, Sighting
 from ..planning import Direction, GaitSettings
 from ..robots.description import RobotDescription
+from ..robots.description_types import RobotGames
 from ..robots.joint_loads import LegLoads
 from ..robots.leg_kinematics import LegKinematics
 from ..strategies import Walk
@@ -113,19 +114,19 @@ def stabiliser_of(size: RobotSize) -> dict[str, float]:
     }
 
 
-def game_of_size(size: RobotSize, gait: dict[str, float]) -> dict[str, float]:
-    """Return the game entries, by the circle of two equal robots."""
+def game_of_size(size: RobotSize, gait: dict[str, float]) -> RobotGames:
+    """Return distances, by the circle of two equal robots, and scales."""
     circle = 4.0 * sqrt(0.5) * gait["speed"] / (pi / 2 * gait["gain"])
     least = max(START_LEAST * circle, 2.0 * size.reach)
-    return {
-        "safety_radius": _round(max(SAFETY_RADIUS * circle, 1.2 * least)),
-        "start_least": _round(least),
-        "start_near": _round(max(START_NEAR * circle, 1.1 * least)),
-        "start_far": _round(max(START_FAR * circle, 1.7 * least)),
-        "push_unit": _round(PUSH * size.mass * size.speed),
-        "force_unit": _round(INVERSE_NAO_MASS * size.mass),
-        "length_unit": _round(INVERSE_NAO_HEIGHT * size.com_height),
-    }
+    return RobotGames(
+        safety_radius=_round(max(SAFETY_RADIUS * circle, 1.2 * least)),
+        start_least=_round(least),
+        start_near=_round(max(START_NEAR * circle, 1.1 * least)),
+        start_far=_round(max(START_FAR * circle, 1.7 * least)),
+        push_unit=_round(PUSH * size.mass * size.speed),
+        force_unit=_round(INVERSE_NAO_MASS * size.mass),
+        length_unit=_round(INVERSE_NAO_HEIGHT * size.com_height),
+    )
 
 
 def _round(value: float, digits: int = 3) -> float:

@@ -18,6 +18,7 @@ from typing import Any, NamedTuple
 
 from ..games.robot_settings import settings_from_description
 from ..robots.description import LEAN_LIMIT, RobotDescription
+from ..robots.description_types import RobotGames
 from ..robots.tree_cache import digest_of
 from ..studies.study import Study, run_study
 from ..studies.tabulation import Record
@@ -264,7 +265,7 @@ def _unsteadiness(walks: Sequence[dict[str, Any]]) -> float:
 def _digest_of(description: RobotDescription) -> str:
     """Return a digest of all that the walks of a robot depend on."""
     # Folder and name of a robot do not influence its walks.
-    plain = replace(description, folder=Path(), name="", game={})
+    plain = replace(description, folder=Path(), name="", game=RobotGames())
     # In full: the text of a description is abridged.
     inputs = digest_of(description), asdict(plain)
     return sha256(repr(inputs).encode()).hexdigest()[:16]

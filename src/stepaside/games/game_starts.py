@@ -24,7 +24,6 @@ WALL_MARGIN = 0.3  # clearance of a start from walls and obstacles, in [m]
 SLOW_SPEED = 0.15  # up to which a person begins a duel nearby, in [m/s]
 LEAD_TIME = 5.0  # extra distance of a faster person over its speed, in [s]
 SAME = 1e-6  # tolerance within which starts are equal, in [m] and [rad]
-ROBOT = 0.4  # least distance of two robots without one of their own, in [m]
 
 
 def with_starts(settings: GameSettings) -> GameSettings:
@@ -213,8 +212,7 @@ def _radius(player: PlayerSettings) -> float:
         return RADIUS
     if player.body != "robot":
         return 0.0
-    least = load_robot(player.robot).game.get("start_least", ROBOT)
-    return 0.5 * float(least)
+    return 0.5 * load_robot(player.robot).game.start_least
 
 
 def _check_apart(settings: GameSettings, poses: dict[str, Pose]) -> None:

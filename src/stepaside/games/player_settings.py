@@ -228,7 +228,7 @@ class PlayerSettings(RobotSettings):
         """
         if self.body == "person":
             return RADIUS
-        return NAO_RADIUS * load_robot(self.robot).game.get("length_unit", 1.0)
+        return NAO_RADIUS * load_robot(self.robot).game.length_unit
 
     @property
     def decides(self) -> bool:

@@ -5,8 +5,8 @@ are read first; all other entries change these.
 """
 
 from collections.abc import Callable, Mapping
-from dataclasses import fields, replace
-from typing import Any
+from dataclasses import replace
+from typing import Any, TypeVar
 
 import tomli_w
 
@@ -17,6 +17,7 @@ from ..core.errors import AnyPath, ConfigurationError, as_path, shown
 from ..core.ranges import Range
 from ..core.setting import NONE, Entry, entries_of
 from ..planning import PRESETS
+from ..robots.description import load_robot
 from ..sim.body_settings import BODIES
 from .game_settings import (
     NOT_PLAYERS,
@@ -25,14 +26,20 @@ from .game_settings import (
     duel,
     walk,
 )
-from .player_settings import EVADER, MOST_PLAYERS, USED_BY, PlayerSettings
+from .player_settings import (
+    EVADER,
+    MOST_PLAYERS,
+    USED_BY,
+    PlayerSettings,
+    RobotSettings,
+)
 from .robot_settings import (
     LEGS_GAIT,
     body_of_robot,
-    game_of_robot,
-    settings_of_robot,
+    settings_from_description,
 )
 
+R = TypeVar("R", bound=RobotSettings)
 PRESET = ""  # name of a preset among the entries that change it
 STARTED_FROM = {"duel": duel, "walk": walk}  # what a file changes
 ROBOTS = "robots"  # folder of descriptions and networks in a run folder
@@ -72,30 +79,40 @@ def settings_of(
     ``robot`` and ``legs.network`` bring gait and control of the robot, and
     ``gait`` may be the name of a preset.
     """
-    left, names = dict(entries), {each.name for each in fields(kind)}
+    left = dict(entries)
     base = kind() if base is None else base
-    if isinstance(left.get("robot"), str):
-        own = settings_of_robot(left["robot"])
-        if "evasion" in own and "evasion" in names:
-            radius = own["evasion"].safety_radius
-            own["evasion"] = replace(base.evasion, safety_radius=radius)
-        base = replace(base, **{k: v for k, v in own.items() if k in names})
-    legs = left.get("legs", {})
-    if isinstance(legs, Mapping) and legs.get("network") and "legs" in names:
-        base = replace(base, gait=replace(base.gait, **LEGS_GAIT))
-    if "gait" in names:
-        own_gait = PRESETS["nao"]
-        if "robot" in names:
-            own_gait = settings_of_robot(base.robot)["gait"]
-        preset = _preset(left, "gait", PRESETS)
-        if preset and own_gait != PRESETS["nao"]:
+    if isinstance(base, RobotSettings):
+        if isinstance(left.get("robot"), str):
+            base = _with_robot(base, left["robot"])
+        legs = left.get("legs", {})
+        if isinstance(legs, Mapping) and legs.get("network"):
+            base = replace(base, gait=replace(base.gait, **LEGS_GAIT))
+    if hasattr(base, "gait") and (preset := _preset(left, "gait", PRESETS)):
+        robot = getattr(base, "robot", "nao")
+        brought = settings_from_description(load_robot(robot)).gait
+        if brought != PRESETS["nao"]:
             raise ConfigurationError(
                 f"gait {preset} requires a robot with NAO's gait: its lengths "
-                f"and times are NAO's, but {base.robot} has its own"
+                f"and times are NAO's, but {robot} has its own"
             )
-        if preset:
-            base = replace(base, gait=PRESETS[preset])
+        base = replace(base, gait=PRESETS[preset])
     return read_entries(kind, left, source, base=base)
+
+
+def _with_robot(base: R, robot: str) -> R:
+    """Return settings with gait, control, legs and radius of a robot."""
+    own = settings_from_description(load_robot(robot))
+    control, radius = own.control, own.evasion.safety_radius
+    if not control.feedback:  # the robot needs none, but a body may
+        control = replace(control, method=None, feedback=None)
+    return replace(
+        base,
+        robot=robot,
+        gait=own.gait,
+        control=control,
+        legs=own.legs,
+        evasion=replace(base.evasion, safety_radius=radius),
+    )
 
 
 def _preset(
@@ -211,12 +228,11 @@ def _with_distances(base: GameSettings, changes: list[Any]) -> GameSettings:
     }
     if base.game != "duel" or not robots:
         return base
-    named = [
-        p.robot for p in base.changed(**robots).players if p.body == "robot"
+    games = [
+        load_robot(p.robot).game
+        for p in base.changed(**robots).players
+        if p.body == "robot"
     ]
-    games = [each for each in map(game_of_robot, named) if each is not None]
-    if not games:
-        return base
     radius = max(game.safety_radius for game in games)
     for at, (where, player, entries, mine) in enumerate(changes):
         if player.name == EVADER:

@@ -15,7 +15,13 @@ from ..core.errors import AnyPath, ModelError, as_path
 from ..core.player_colours import Colour
 from ..core.ranges import Range
 from ..core.setting import REQUIRED, check_settings, setting
-from .description_types import NO_OVERLAY, Overlay, ReferencePoint, SensorNames
+from .description_types import (
+    NO_OVERLAY,
+    Overlay,
+    ReferencePoint,
+    RobotGames,
+    SensorNames,
+)
 
 if TYPE_CHECKING:
     import mujoco
@@ -75,10 +81,8 @@ class RobotDescription:
     control: dict[str, Any] = setting(
         dict[str, Any](), "Walking control, likewise"
     )
-    game: dict[str, float] = setting(
-        dict[str, float](),
-        "Distances of games, and units of pushes; see "
-        ":class:`stepaside.games.robot_settings.RobotGameSettings`",
+    game: RobotGames = setting(
+        RobotGames(), "Distances of games, and units of pushes"
     )
     sensors: SensorNames = setting(
         SensorNames(), "Names of the sensors in the model"

@@ -63,6 +63,33 @@ class ReferencePoint(CheckedSettings, error=ModelError, prefix="place."):
 
 
 @dataclass(frozen=True, slots=True)
+class RobotGames(CheckedSettings, error=ModelError, prefix="game."):
+    """Distances of a robot's games, and its scales relative to NAO."""
+
+    safety_radius: float = setting(
+        0.8, "Safety radius of the robot as evader", _above_zero("m")
+    )
+    start_least: float = setting(
+        0.4, "Smallest distance at which it may begin", _above_zero("m")
+    )
+    start_near: float = setting(
+        0.6, "Smallest distance that is drawn", _above_zero("m")
+    )
+    start_far: float = setting(
+        1.5, "Greatest distance that is drawn", _above_zero("m")
+    )
+    push_unit: float = setting(
+        1.0, "Impulse like 1 N s on NAO", _above_zero("N s")
+    )
+    force_unit: float = setting(
+        1.0, "Force like 1 N on NAO, by weight", _above_zero("N")
+    )
+    length_unit: float = setting(
+        1.0, "Length like 1 m for NAO, by CoM height", _above_zero("m")
+    )
+
+
+@dataclass(frozen=True, slots=True)
 class ServoGains(CheckedSettings, error=ModelError):
     """Position servo of one joint."""
 

@@ -89,7 +89,7 @@ class SimulatedRobot:
         self._find_sensors(description)
         self._errors: SensorErrors | None = None
         if generator is not None and body.has_sensor_errors:
-            unit = description.game.get("force_unit", 1.0)
+            unit = description.game.force_unit
             self._errors = SensorErrors(body, generator, force_unit=unit)
         root = model.body(f"{name}/{description.torso}")
         posture, free = kinematics.posture, int(root.jntadr[0])

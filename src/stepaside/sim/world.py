@@ -71,10 +71,9 @@ def build_model(
                 geom.friction[0] = physics.friction
         if body is not None and body.mass_error + body.com_error > 0.0:
             generator = named_generator(seed, f"masses/{name}")
-            unit = description.game.get("length_unit", 1.0)
             perturb_masses(
                 *(part.bodies, body, description.torso, generator),
-                length_unit=unit,
+                length_unit=description.game.length_unit,
             )
         # Otherwise MuJoCo warns that the options differ.
         part.option = spec.option

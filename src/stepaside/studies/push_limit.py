@@ -10,7 +10,6 @@ from ..games.game_settings import GameSettings
 from ..games.outcome import Outcome
 from ..games.player_settings import WALKER
 from ..games.recorded_game import run_game
-from ..games.robot_settings import game_of_robot
 from ..planning import Foot, ManeuverPlanner
 from ..planning.maneuver import steady_plan
 from ..planning.push_bound import FootReach, push_bound
@@ -24,8 +23,7 @@ DIRECTIONS = {"left": 90.0, "right": -90.0, "forward": 0.0, "backward": 180.0}
 BEFORE = 6  # steps before a push
 AFTER = 4.0  # time after a push, in [s]
 LASTS = 0.1  # duration of a push, in [s]
-REFERENCE = "nao"  # robot to which strengths of pushes refer
-FINENESS = 10  # of a limit, per 1 N s for NAO; see :func:`push_scale`
+FINENESS = 10  # of a limit, per push unit of the robot
 STRIDE, LARGEST = 4, 80  # of pushes, in steps of this fineness
 
 
@@ -50,7 +48,7 @@ class PushTrial(CheckedSettings):
         begins = own.gait.start_support + float(bool(own.control.feedback))
         time = begins + (BEFORE + 2.0 * self.phase) * walk.gait.step_duration
         push = Push(
-            strength * push_scale(own.robot),
+            strength * load_robot(own.robot).game.push_unit,
             time,
             radians(DIRECTIONS[self.direction]),
         )
@@ -72,7 +70,8 @@ def play_push(trial: PushTrial) -> Record:
             low = middle
         else:
             high = middle
-    limit = low / FINENESS * push_scale(trial.game.player(WALKER).robot)
+    robot = load_robot(trial.game.player(WALKER).robot)
+    limit = low / FINENESS * robot.game.push_unit
     bound = bound_of_push(trial)
     return {
         "limit_n_s": limit,
@@ -86,18 +85,6 @@ def play_push(trial: PushTrial) -> Record:
 def mass_of(robot: str) -> float:
     """Return the mass of a robot, in [kg]."""
     return float(ForwardKinematics(load_robot(robot)).mass)
-
-
-def push_scale(robot: str) -> float:
-    """Return the factor on pushes of NAO for the same effect on a robot.
-
-    It is the ratio of the push units of their descriptions, which scale with
-    mass and pendulum speed; without them, the ratio of the masses.
-    """
-    own, nao = map(game_of_robot, (robot, REFERENCE))
-    if own is None or nao is None:
-        return mass_of(robot) / mass_of(REFERENCE)
-    return own.push_unit / nao.push_unit
 
 
 def bound_of_push(trial: PushTrial) -> float:
