@@ -2,6 +2,7 @@
 
 import warnings
 from collections.abc import Iterator
+from dataclasses import replace
 from math import pi
 from typing import Any
 
@@ -13,9 +14,17 @@ from pettingzoo.test import parallel_api_test, parallel_seed_test
 
 from stepaside.arena import RoomRecipe
 from stepaside.core.errors import ConfigurationError, PlanError
-from stepaside.envs import IDS, DuelEnv, VectorDuel, duel_v0
+from stepaside.envs import IDS, DuelEnv, ParallelDuel, VectorDuel
+from stepaside.envs.environment_settings import EnvironmentSettings
 from stepaside.games import duel as make_duel
-from stepaside.strategies import LookAhead
+from stepaside.strategies import (
+    Evasion,
+    LearnedStrategy,
+    LookAhead,
+    Pursuit,
+    StandStill,
+)
+from stepaside.strategies.learned import dense_network
 from stepaside.theory.unicycle import RelativeStart
 
 ROOM = {"room": RoomRecipe(discs=2), "arenas": 8}
@@ -46,50 +55,80 @@ def test_gymnasium_finds_no_fault(name: str, settings: dict[str, Any]) -> None:
 
 @pytest.mark.parametrize("settings", VARIANTS)
 def test_pettingzoo_finds_no_fault(settings: dict[str, Any]) -> None:
-    parallel_api_test(duel_v0.parallel_env(**settings), num_cycles=60)
-    parallel_seed_test(lambda: duel_v0.parallel_env(**settings), num_cycles=20)
+    parallel_api_test(ParallelDuel(**settings), num_cycles=60)
+    parallel_seed_test(lambda: ParallelDuel(**settings), num_cycles=20)
 
 
-@pytest.mark.parametrize("settings", VARIANTS)
-def test_vector_games_are_those_of_single_environments(
-    settings: dict[str, Any],
-) -> None:
-    """Over several episodes, for the observations of both roles."""
-    if settings["level"] == "unicycle":
-        pytest.skip("its rates are differences of sightings that are thinned")
-    for role in ("evader", "pursuer"):
-        games = VectorDuel(3, role=role, **settings)
-        singles = [DuelEnv(role, **settings) for _ in range(3)]
-        found, _ = games.reset(seed=5)
+def learned() -> LearnedStrategy:
+    """Return a network of random weights that walks backward in a room."""
+    random = np.random.default_rng(2)
+    layers = [
+        (random.normal(size=(23, 16)), random.normal(size=16)),
+        (random.normal(size=(16, 8)), random.normal(size=8)),
+    ]
+    return LearnedStrategy(
+        dense_network(layers),
+        EnvironmentSettings(
+            action="discrete", headings=7, room=RoomRecipe()
+        ).contract("evader"),
+    )
+
+
+STEPS: dict[str, Any] = {"level": "steps", **SHORT}
+GAMES: dict[str, tuple[str, Any, dict[str, Any]]] = {
+    "evader": ("evader", None, {**STEPS, "full_state": True}),
+    "pursuer": ("pursuer", None, {**STEPS, "full_state": True}),
+    "discrete": ("evader", None, VARIANTS[1]),
+    "triggered": (
+        "pursuer",
+        Evasion(0.6, safety_radius=0.7, release_distance=0.9),
+        {**STEPS, **ROOM},
+    ),
+    "saturated": (
+        "pursuer",
+        Evasion(saturated=True, safety_radius=1e6),
+        STEPS,
+    ),
+    "sharp": ("evader", Pursuit(gain=np.inf), {**STEPS, **ROOM}),
+    "turning by (6)": ("evader", Pursuit(saturated=True), STEPS),
+    "standing": ("pursuer", StandStill(), STEPS),
+    "learned": ("pursuer", learned(), {**STEPS, **ROOM}),
+}
+
+
+@pytest.mark.parametrize("name", GAMES)
+def test_vector_games_are_those_of_single_environments(name: str) -> None:
+    """Over several episodes."""
+    role, opponent, settings = GAMES[name]
+    games = VectorDuel(3, role=role, opponent=opponent, **settings)
+    singles = [DuelEnv(role, opponent=opponent, **settings) for _ in range(3)]
+    found, _ = games.reset(seed=5)
+    for i, single in enumerate(singles):
+        first, _ = single.reset(seed=5 + i)
+        np.testing.assert_allclose(found[i], first, atol=1e-6)
+    games.action_space.seed(1)
+    ends = 0
+    for _ in range(50):
+        actions = games.action_space.sample()
+        found, rewards, ended, late, info = games.step(actions)
         for i, single in enumerate(singles):
-            first, _ = single.reset(seed=5 + i)
-            np.testing.assert_allclose(found[i], first, atol=1e-6)
-        games.action_space.seed(1)
-        ends = 0
-        for _ in range(50):
-            actions = games.action_space.sample()
-            found, rewards, ended, late, info = games.step(actions)
-            for i, single in enumerate(singles):
-                seen, reward, over, truncated, _ = single.step(actions[i])
-                assert (ended[i], late[i]) == (over, truncated)
-                assert rewards[i] == pytest.approx(reward, abs=1e-9)
-                if over or truncated:
-                    ends += 1
-                    last = info["final_obs"][i]
-                    np.testing.assert_allclose(last, seen, atol=1e-5)
-                    seen, _ = single.reset()
-                np.testing.assert_allclose(found[i], seen, atol=1e-5)
-        assert ends >= 6
+            seen, reward, over, truncated, _ = single.step(actions[i])
+            assert (ended[i], late[i]) == (over, truncated)
+            assert rewards[i] == pytest.approx(reward, abs=1e-9)
+            if over or truncated:
+                ends += 1
+                last = info["final_obs"][i]
+                np.testing.assert_allclose(last, seen, atol=1e-5)
+                seen, _ = single.reset()
+            np.testing.assert_allclose(found[i], seen, atol=1e-5)
+    assert ends >= 6
 
 
-def test_a_mask_resets_some_games() -> None:
-    games = VectorDuel(3, role="evader", **SHORT)
-    games.reset(seed=1)
-    moved, *_ = games.step(np.tile(BACK, (3, 1)))
-    mask = np.array([True, False, True])
-    found, _ = games.reset(options={"reset_mask": mask})
-    np.testing.assert_array_equal(found[1], moved[1])
-    assert (found[mask, 5] == 0.0).all() and found[1, 5] == 1.0
+def test_a_law_that_the_kernel_does_not_know_is_refused() -> None:
+    for opponent in (LookAhead(), replace(Evasion(), trigger="time")):
+        word = f"got a {type(opponent).__name__}; others"
+        with pytest.raises(ConfigurationError, match=word):
+            VectorDuel(role="pursuer", opponent=opponent)
 
 
 def test_contact_with_an_obstacle_counts_as_no_distance() -> None:
@@ -123,7 +162,7 @@ def test_any_heading_draws_starts_of_all_headings() -> None:
 
 def env_starts(env: DuelEnv, seed: int) -> Any:
     env.reset(seed=seed)
-    return env.settings.draw_arenas().starts[seed]
+    return env.settings.draw_arenas()[1][seed]
 
 
 def test_images_show_the_game() -> None:
@@ -143,7 +182,7 @@ def test_steps_need_an_episode() -> None:
     games.reset(seed=0)
     with pytest.raises(PlanError, match="there must be 2 actions, got 3"):
         games.step(np.tile(BACK, (3, 1)))
-    env = duel_v0.parallel_env(**SHORT)
+    env = ParallelDuel(**SHORT)
     with pytest.raises(PlanError, match="reset the environment first"):
         env.step({})
     env.reset(seed=0)
@@ -155,7 +194,7 @@ PHYSICS: dict[str, Any] = {"level": "physics", "duration": 2.0}
 
 
 def test_physics_is_an_environment() -> None:
-    env = duel_v0.parallel_env(**PHYSICS)
+    env = ParallelDuel(**PHYSICS)
     runs = []
     for _ in range(2):
         found, _ = env.reset(seed=3)

@@ -20,7 +20,7 @@ import stepaside as sa
 from expected.asking import GAME, answer, command, own_evader
 from legs_robot import nao_on_legs
 from stepaside.cli.run_output import print_run
-from stepaside.envs import game_v0  # registers the environments, too
+from stepaside.envs import ParallelGame  # registers the environments, too
 from stepaside.games.game import play
 from stepaside.games.recorded_game import RecordedGame
 from stepaside.games.served_duel import serve_duel
@@ -190,7 +190,7 @@ def test_any_seed_begins_an_episode(file: Path, seed: int) -> None:
     np.testing.assert_array_equal(both, [first, second])
     again, _ = several.reset(seed=[seed, seed + 1])
     np.testing.assert_array_equal(both, again)
-    found, _ = game_v0.parallel_env(file).reset(seed=seed)
+    found, _ = ParallelGame(file).reset(seed=seed)
     assert set(found) == {"red", "blue"}
 
 
@@ -207,25 +207,9 @@ def test_a_vector_environment_can_be_pickled() -> None:
     )
 
 
-def test_the_first_reset_begins_all_games() -> None:
-    pair = [
-        gymnasium.make_vec(
-            "stepaside/Evade-v0",
-            num_envs=3,
-            vectorization_mode="vector_entry_point",
-            **OPEN,
-        )
-        for _ in range(2)
-    ]
-    mask = np.array([True, False, False])
-    found, _ = pair[0].reset(seed=3, options={"reset_mask": mask})
-    whole, _ = pair[1].reset(seed=3)
-    np.testing.assert_array_equal(found, whole)
-
-
 def test_learners_must_differ(file: Path) -> None:
     with pytest.raises(sa.StepAsideError, match="learners must differ"):
-        game_v0.parallel_env(file, learners=["blue", "blue"])
+        ParallelGame(file, learners=["blue", "blue"])
 
 
 @pytest.mark.parametrize("number", [2, 15, 16])

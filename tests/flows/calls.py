@@ -333,19 +333,19 @@ def vector_environment(role: str, number: int, **settings: Any) -> Any:
 
 def duel_environment(**settings: Any) -> Any:
     """Return the PettingZoo environment of both players."""
-    from stepaside.envs import duel_v0
+    from stepaside.envs import ParallelDuel
 
-    return duel_v0.parallel_env(**settings)
+    return ParallelDuel(**settings)
 
 
 def game_environment(file: Path, level: str) -> Any:
     """Return the PettingZoo environment of a game file, by 0.4 s a step."""
     from dataclasses import replace
 
-    from stepaside.envs import game_v0
+    from stepaside.envs import ParallelGame
 
-    game = game_v0.parallel_env(file).game
-    return game_v0.parallel_env(replace(game, level=level), period=0.4)
+    game = ParallelGame(file).settings
+    return ParallelGame(replace(game, level=level), period=0.4)
 
 
 # Robots, legs, drivers and safety.

@@ -1,4 +1,4 @@
-"""Time learning environments against the bare kernel, and against MPE2.
+"""Time learning environments, and an environment of MPE2.
 
 A step is one decision of one environment, with reward and observation. All
 are timed in one process on one core, in turns; the best of three counts for
@@ -6,10 +6,8 @@ each::
 
     NUMBA_NUM_THREADS=1 python tools/benchmarks/environments.py
 
-The bare kernel moves the same games by the same compiled functions, and
-decides for the opponent, without observations and rewards. ``--mpe2`` also
-times ``simple_tag_v3`` of MPE2 (``pip install mpe2``) with one pursuer, one
-evader and no obstacles, through its PettingZoo interface.
+``--mpe2`` also times ``simple_tag_v3`` of MPE2 (``pip install mpe2``) with one
+pursuer, one evader and no obstacles, through its PettingZoo interface.
 """
 
 import os
@@ -24,9 +22,7 @@ import numpy as np
 from benchmark_options import ask, machine
 from result_files import header, write_result
 
-from stepaside.envs import VectorDuel, duel_v0
-from stepaside.envs.vector_duel import BatchedDuel
-from stepaside.strategies import Pursuit
+from stepaside.envs import ParallelDuel, VectorDuel
 
 ROUNDS = 3
 SETTINGS: dict[str, Any] = {"level": "steps", "duration": 60.0}
@@ -42,23 +38,6 @@ def vector_steps(games: int, steps: int) -> Callable[[], int]:
     def play() -> int:
         for _ in range(steps):
             envs.step(actions)
-        return games * steps
-
-    return play
-
-
-def kernel_steps(games: int, steps: int) -> Callable[[], int]:
-    """Return a function that plays the same games without observations."""
-    envs = VectorDuel(games, role="evader", **SETTINGS)
-    bare = BatchedDuel(envs.settings, games, (Pursuit(), None))
-    rows = np.tile(BACK.astype(np.float64), (games, 1))
-    everyone = np.arange(games)
-
-    def play() -> int:
-        for n in range(steps):
-            if n % bare.rules.limit == 0:
-                bare.start(everyone, everyone % len(bare.arenas.starts))
-            bare.step((None, rows))
         return games * steps
 
     return play
@@ -83,10 +62,7 @@ def measure(games: int, steps: int, *, mpe2: bool) -> dict[str, float]:
     both = {"pursuer": BACK, "evader": BACK}
     players: dict[str, Callable[[], int]] = {
         "vector": vector_steps(games, steps),
-        "kernel": kernel_steps(games, steps),
-        "parallel": parallel_steps(
-            duel_v0.parallel_env(**SETTINGS), 10 * steps, both
-        ),
+        "parallel": parallel_steps(ParallelDuel(**SETTINGS), 10 * steps, both),
     }
     if mpe2:
         from mpe2 import simple_tag_v3
@@ -106,7 +82,6 @@ def measure(games: int, steps: int, *, mpe2: bool) -> dict[str, float]:
             rate = count / (time.process_time() - begin)
             best[name] = max(best[name], rate)
     figures = {f"{name}_steps_per_s": rate for name, rate in best.items()}
-    figures["vector_over_kernel"] = best["vector"] / best["kernel"]
     if mpe2:
         figures["vector_over_mpe2"] = best["vector"] / best["mpe2"]
         figures["parallel_over_mpe2"] = best["parallel"] / best["mpe2"]

@@ -1,8 +1,8 @@
 """Learning environments; importing the package registers the Gymnasium ids.
 
 ``stepaside/Evade-v0`` and ``stepaside/Pursue-v0`` are environments of one
-player; :func:`.duel_v0.parallel_env` is that of both, and
-:func:`.game_v0.parallel_env` that of any number.
+player; :class:`ParallelDuel` is that of both, and :class:`ParallelGame` that
+of any number.
 """
 
 from ..core.extras import install_hint
@@ -14,9 +14,9 @@ except ModuleNotFoundError as error:
     hint = install_hint(error)
     raise ModuleNotFoundError(hint, name=error.name) from error
 
-from . import duel_v0, game_v0
-from .duel_v0 import DuelEnv
+from .duel_env import DuelEnv
 from .environment_settings import EnvironmentSettings
+from .parallel_games import ParallelDuel, ParallelGame
 from .vector_duel import VectorDuel
 
 IDS = {"stepaside/Evade-v0": "evader", "stepaside/Pursue-v0": "pursuer"}
@@ -31,7 +31,7 @@ for _id, _role in IDS.items():
 __all__ = [
     "DuelEnv",
     "EnvironmentSettings",
+    "ParallelDuel",
+    "ParallelGame",
     "VectorDuel",
-    "duel_v0",
-    "game_v0",
 ]

@@ -1,13 +1,13 @@
-"""Settings, arenas and actions of learning environments."""
+"""Settings, arenas, observations and actions of learning environments."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
 from math import pi
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 from gymnasium.spaces import Box, Discrete, Space
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from ..arena import (
     OPEN_FLOOR,
@@ -31,7 +31,6 @@ from ..games.game_settings import duel as make_duel
 from ..games.player_settings import PLAYERS
 from ..games.strategy_games import StepGame
 from ..planning import Direction
-from ..strategies.knowledge import STAND, Intent
 from ..strategies.learned import (
     FULL_STATE_TERMS,
     HEADINGS,
@@ -41,77 +40,42 @@ from ..strategies.learned import (
     discrete_headings,
 )
 
-LEVELS = ("unicycle", "steps", "physics")
 ALL_TERMS: dict[str, ObservedTerm] = SENSED_TERMS | FULL_STATE_TERMS
 SEEDS = 2**31
 # Arenas between one episode and the next of the same seed: a prime that
 # divides no usual number of arenas, so that all of them come.
 STRIDE = 7919
-FLOAT = np.float32
-
-
-class Arenas(NamedTuple):
-    """Arenas, drawn once; an episode takes one of them.
-
-    Arena i is that of seed i in a tournament, in the same room.
-    """
-
-    rooms: tuple[Room, ...]
-    starts: tuple[tuple[Pose, Pose], ...]  # of pursuer and evader
-
-    def indices(
-        self, seeds: ArrayLike, episodes: ArrayLike
-    ) -> NDArray[np.int64]:
-        """Return the arena of each episode, by its number since seeding."""
-        first, number = np.asarray(seeds), np.asarray(episodes)
-        found: NDArray[np.int64] = (first + STRIDE * number) % len(self.rooms)
-        return found
+LOW, HIGH = (-pi, 0.0), (pi, 1.0)  # of a continuous action
 
 
 @dataclass(frozen=True)
 class EnvironmentSettings:
-    """Game, observation, action and reward of an environment.
+    """Game, observation, action and reward of an environment."""
 
-    Attributes:
-        level: "unicycle", with eight decisions per step, "steps", or
-            "physics", two simulated humanoids.
-        room: A room, a recipe for random rooms, or None for an open floor.
-            In physics set ``duel.room`` instead.
-        arenas: Number of different rooms and starts; every episode takes one
-            of them. Not used in physics, where each episode has a seed of
-            its own.
-        first_arena: Seed of the first arena.
-        any_heading: Whether players begin with any headings, on an open
-            floor without physics; otherwise the pursuer within 90 degrees,
-            the evader within 30 degrees of facing the other.
-        duration: Duration of an episode, in [s]: path time, in physics
-            simulated time.
-        full_state: Whether observations also contain what no sense gives;
-            see :data:`.strategies.learned.FULL_STATE_TERMS`.
-        action: "continuous" (heading and speed factor) or "discrete".
-        headings: Number of headings of discrete actions; one more action
-            stands.
-        game: Rules at levels "unicycle" and "steps"; its duration and its
-            decisions are set by the level.
-        duel: Settings of the duel in physics: robots, bodies, sensing,
-            people, learned legs.
-    """
-
+    # "unicycle", with eight decisions per step, "steps", or "physics", two
+    # simulated humanoids
     level: str = "unicycle"
+    # None for an open floor; in physics `duel.room` instead
     room: Room | RoomRecipe | None = None
+    # Different rooms and starts, of which an episode takes one, and seed of
+    # the first; in physics each episode has a seed of its own.
     arenas: int = 256
     first_arena: int = 0
+    # Begin with any headings, on an open floor without physics; otherwise
+    # the pursuer within 90, the evader within 30 degrees of facing the other.
     any_heading: bool = False
-    duration: float = 60.0
-    full_state: bool = False
-    action: str = "continuous"
-    headings: int = HEADINGS
+    duration: float = 60.0  # path time of an episode, in physics its time [s]
+    full_state: bool = False  # also observe FULL_STATE_TERMS
+    action: str = "continuous"  # heading and speed factor; or "discrete"
+    headings: int = HEADINGS  # of discrete actions; one more stands
+    # Rules without physics; the level sets its decisions.
     game: StepGame = field(default_factory=StepGame)
+    # Robots, bodies, sensing, people and learned legs in physics.
     duel: GameSettings = field(default_factory=make_duel)
 
     def __post_init__(self) -> None:
         """Validate names, ranges and combinations."""
-        check_choice(self.level, LEVELS, "level")
+        check_choice(self.level, (*PARTS, "physics"), "level")
         check_choice(self.action, ("continuous", "discrete"), "action")
         error = ConfigurationError
         check_within(self.duration, 0.01, 3600.0, "duration", "s", error)
@@ -137,31 +101,33 @@ class EnvironmentSettings:
                 "environments pass through obstacles"
             )
 
-    def draw_arenas(self) -> Arenas:
-        """Draw the arenas, at levels "unicycle" and "steps".
+    def draw_arenas(self) -> tuple[list[Room], list[tuple[Pose, Pose]]]:
+        """Draw rooms, and starts of pursuer and evader, without physics.
+
+        Arena i is that of seed i in a tournament.
 
         Raises:
             ConfigurationError: If a room has no space, or moving boxes.
         """
         first, room = int(self.first_arena), self.room
         seeds = range(first, first + int(self.arenas))
-        rooms = tuple(
+        rooms = [
             generate_room(room, seed)
             if isinstance(room, RoomRecipe)
             else room or OPEN_FLOOR
             for seed in seeds
-        )
+        ]
         if any(each.moving for each in rooms):
             raise ConfigurationError(
                 "room must have no moving boxes at this level"
             )
-        starts = (
+        starts = [
             draw_any_start(seed)
             if self.any_heading
             else one.starts or draw_initial_poses(one, seed)
             for one, seed in zip(rooms, seeds, strict=True)
-        )
-        return Arenas(rooms, tuple(starts))
+        ]
+        return rooms, starts
 
     @property
     def step_game(self) -> StepGame:
@@ -173,10 +139,12 @@ class EnvironmentSettings:
     @property
     def sensed_terms(self) -> tuple[str, ...]:
         """Terms of the observation that a strategy can have, too."""
-        physics = self.level == "physics"
-        room = self.duel.room if physics else self.room
-        names = (n for n in SENSED_TERMS if n != "clearances")
-        return (*names, *(() if room is None else ("clearances",)))
+        room = self.duel.room if self.level == "physics" else self.room
+        return tuple(
+            name
+            for name in SENSED_TERMS
+            if name != "clearances" or room is not None
+        )
 
     @property
     def terms(self) -> tuple[str, ...]:
@@ -208,20 +176,13 @@ class IntentActions:
     """
 
     def __init__(self, settings: EnvironmentSettings) -> None:
-        """Build the space of actions."""
         headings = settings.action_headings
-        low, high = np.array([-pi, 0.0], FLOAT), np.array([pi, 1.0], FLOAT)
-        self.space: Space[Any] = Box(low, high, dtype=FLOAT)
+        self.space: Space[Any] = box(LOW, HIGH)
         if headings:
             self.space = Discrete(len(headings))
         self._rows = np.array(
             [(h or 0.0, h is not None) for h in headings], np.float64
         )
-
-    def intent(self, action: Any) -> Intent:
-        """Return the intent that an action means."""
-        heading, speed = self.rows([action])[0].tolist()
-        return Intent(heading, speed) if speed > 0.0 else STAND
 
     def rows(self, actions: Any) -> Array:
         """Return headings [rad] and speed factors of actions. Shape (n, 2).
@@ -231,21 +192,20 @@ class IntentActions:
         """
         values, count = np.array(actions), len(self._rows)
         if count:
-            codes = values.reshape(len(values), -1)
-            right = codes.shape[1] == 1 and codes.dtype.kind in "iu"
-            if not right or ((codes < 0) | (codes >= count)).any():
-                raise PlanError(
-                    f"an action must be an integer in [0, {count - 1}], got "
-                    f"{shown(values.tolist())}"
-                )
-            found: Array = self._rows[codes[:, 0]]
-            return found
-        if values.shape[1:] != (2,) or np.isnan(values).any():
+            right = values.ndim == 1 and values.dtype.kind in "iu"
+            right = right and bool(((values >= 0) & (values < count)).all())
+            wanted = f"an integer in [0, {count - 1}]"
+        else:
+            right = values.shape[1:] == (2,) and not np.isnan(values).any()
+            wanted = "a heading [rad] and a speed factor [1], finite"
+        if not right:
             raise PlanError(
-                "an action must be a heading [rad] and a speed factor [1], "
-                f"finite, shape (2,), got {shown(values.tolist())}"
+                f"an action must be {wanted}, got {shown(values.tolist())}"
             )
-        return np.clip(values.astype(np.float64), (-pi, 0.0), (pi, 1.0))
+        if count:
+            found: Array = self._rows[values]
+            return found
+        return np.clip(values.astype(np.float64), LOW, HIGH)
 
 
 def direction_of(role: str) -> Direction:
@@ -257,6 +217,12 @@ def direction_of(role: str) -> Direction:
 def observation_space(terms: Sequence[str]) -> Box:
     """Return the space of observations with some terms, in order."""
     ranges = [ALL_TERMS[name] for name in terms]
-    low = [t.low for t in ranges for _ in range(t.width)]
-    high = [t.high for t in ranges for _ in range(t.width)]
-    return Box(np.array(low, FLOAT), np.array(high, FLOAT), dtype=FLOAT)
+    return box(
+        [t.low for t in ranges for _ in range(t.width)],
+        [t.high for t in ranges for _ in range(t.width)],
+    )
+
+
+def box(low: ArrayLike, high: ArrayLike) -> Box:
+    """Return a space of single precision between two rows."""
+    return Box(np.array(low, np.float32), np.array(high, np.float32))

@@ -1,7 +1,8 @@
-"""PettingZoo environment of the games of the package, and their episodes."""
+"""PettingZoo environments: of a duel, and of any number of players."""
 
 from abc import abstractmethod
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
+from dataclasses import replace
 from math import cos, inf, sin
 from typing import Any, ClassVar
 
@@ -11,43 +12,63 @@ from numpy.typing import NDArray
 from pettingzoo import ParallelEnv
 
 from ..arena import Room
-from ..core.errors import PlanError, check_choice
-from ..core.poses import Pose
+from ..core.constants import CAPTURE_DISTANCE
+from ..core.errors import (
+    AnyPath,
+    ConfigurationError,
+    PlanError,
+    StrategyError,
+    check_choice,
+    check_within,
+)
 from ..games.floor_world import FloorWorld
 from ..games.game import GameInPlay
+from ..games.game_settings import GameSettings
 from ..games.outcome import Outcome
-from ..planning import Direction
-from ..report.palette import colours_in
-from ..strategies.knowledge import STAND, Intent, Knowledge
-from .environment_settings import SEEDS, EnvironmentSettings, IntentActions
+from ..games.player_settings import PLAYERS
+from ..games.recorded_game import RecordedGame
+from ..games.settings_reader import load_game
+from ..strategies.knowledge import STAND, Intent, Knowledge, OtherPlayer
+from ..strategies.learned import (
+    FARTHEST,
+    FASTEST,
+    HEADINGS,
+    length_unit,
+    observe,
+)
+from ..strategies.strategy import Strategy
+from .environment_settings import (
+    SEEDS,
+    STRIDE,
+    EnvironmentSettings,
+    IntentActions,
+    box,
+    direction_of,
+    observation_space,
+)
 
+Row = NDArray[np.float32]
 REACH = 2.0  # least half width of an image, in [m]
-BODY = 0.2  # radius of a player in an image, in [m]
-Observations = dict[str, NDArray[np.float32]]
-Infos = dict[str, dict[str, Any]]
+BODY = 0.4  # length of a player in an image, in [m]
+# Values that describe one other player: 1 if there is one, cosine and sine of
+# its bearing, distance [v/k], its velocity ahead and to the left [v], 1 if it
+# is an opponent, 1 if it is a teammate.
+OTHER_LOW = (0.0, -1.0, -1.0, 0.0, -FASTEST, -FASTEST, 0.0, 0.0)
+OTHER_HIGH = (1.0, 1.0, 1.0, FARTHEST, FASTEST, FASTEST, 1.0, 1.0)
 
 
 class HeldIntent:
     """Strategy that returns the intent that it holds.
 
     It is not pure: the intent is replaced from outside, between decisions.
-
-    Attributes:
-        intent: The intent.
-        known: Knowledge at the last decision; None before.
     """
 
     saturated = False
 
-    def __init__(self, direction: Direction) -> None:
-        """Hold the intent to stand."""
-        self.direction = direction
-        self.reset()
-
-    def reset(self) -> None:
-        """Forget all decisions."""
+    def __init__(self, role: str) -> None:
+        self.direction = direction_of(role)
         self.intent = STAND
-        self.known: Knowledge | None = None
+        self.known: Knowledge | None = None  # at the last decision
 
     def begin(self) -> None:
         """Return no memory."""
@@ -60,115 +81,11 @@ class HeldIntent:
         return self.intent, None
 
 
-class Episode:
-    """Game of one episode, in which some players hold given intents.
+class ParallelGames(ParallelEnv[str, Row, Any]):
+    """Players of a game act at the same time; a step lasts a period.
 
-    A step lasts a period, or one decision on the floor. A robot in physics
-    decides when a foot has landed, by the intent that it holds then; its
-    knowledge is that of its last decision.
-    """
-
-    def __init__(
-        self,
-        game: GameInPlay,
-        held: Mapping[str, HeldIntent],
-        room: Room,
-        *,
-        period: float | None = None,
-        patience: float = 0.0,
-    ) -> None:
-        """Begin; in physics, stand until all controlled players see others.
-
-        Their longest patience is in [s], and so is the period of a step, one
-        decision by default.
-        """
-        self.game, self.room, self._held = game, room, held
-        self.identities, self._period = game.rules.identities, period
-        for own in held.values():
-            own.reset()  # decisions of its validation
-        if not isinstance(game.world, FloorWorld):
-            while not (self.sees or self.over or self.time > patience):
-                game.tick()
-        self._until = self.time  # end of the present step
-
-    @property
-    def sees(self) -> bool:
-        """Whether all controlled players have seen others."""
-        return all(own.known is not None for own in self._held.values())
-
-    def knowledge(self, name: str) -> Knowledge | None:
-        """Return what a controlled player knows; None before it sees."""
-        if isinstance(self.game.world, FloorWorld):
-            return self.game.world.knowledge(name)
-        return self._held[name].known
-
-    def step(self, intents: Mapping[str, Intent]) -> None:
-        """Play one step, with the intent of each controlled player."""
-        for name, intent in intents.items():
-            self._held[name].intent = intent
-        if self._period is not None:
-            self._until += self._period
-            while not self.over and self.time < self._until - 1e-9:
-                self.game.tick(self._until)
-        else:
-            self.game.tick()
-
-    @property
-    def time(self) -> float:
-        """Time, in [s]."""
-        return self.game.world.time
-
-    @property
-    def poses(self) -> Mapping[str, Pose]:
-        """Pose of each player in the room, by name."""
-        return self.game.world.states()
-
-    @property
-    def over(self) -> bool:
-        """Whether the episode is over."""
-        return self.game.ended is not None
-
-    @property
-    def truncated(self) -> bool:
-        """Whether the time is up."""
-        late = self.time >= self.game.rules.duration - 1e-9
-        return late and self.game.outcome is Outcome.COMPLETED
-
-    @property
-    def ended(self) -> str:
-        """Outcome in one word; empty while it goes on, or if truncated."""
-        return "" if self.truncated else str(self.game.outcome or "")
-
-    @property
-    def closest(self) -> dict[str, float]:
-        """Closest approach of each evader so far, in [m], by name.
-
-        It is 0 after a fall, or contact with anything but an opponent.
-        """
-        game, ids = self.game, self.identities
-        found = self._nearest(lambda *pair: game.closest[pair])
-        touched = ids.keys() & set(game.touched)
-        for name in found.keys() & (touched | set(game.fallen)):
-            met = any(ids[name].opposes(ids[other]) for other in touched)
-            if name in game.fallen or not met:
-                found[name] = 0.0
-        return found
-
-    @property
-    def distances(self) -> dict[str, float]:
-        """Distance of each evader from the nearest opponent, in [m]."""
-        return self._nearest(self.game.world.apart)
-
-    def _nearest(self, apart: Callable[[str, str], float]) -> dict[str, float]:
-        found: dict[str, float] = {}
-        for evader, other in self.game.closest:
-            apart_now = apart(evader, other)
-            found[evader] = min(found.get(evader, inf), apart_now)
-        return found
-
-
-class ParallelGames(ParallelEnv[str, NDArray[np.float32], Any]):
-    """Players of a game act at the same time; a step is one decision.
+    A robot in physics decides when a foot has landed, by the action that it
+    was given last; its observation is that of its last decision.
 
     The reward of an evader is the change of its closest approach so far, in
     units of v/k, zero or negative; contact with an obstacle counts as a
@@ -181,7 +98,6 @@ class ParallelGames(ParallelEnv[str, NDArray[np.float32], Any]):
         possible_agents: Names of the players that learn.
         agents: The same during an episode, else empty.
         render_mode: "rgb_array" or None.
-        episode: The episode; None before the first.
     """
 
     metadata: ClassVar[dict[str, Any]] = {
@@ -190,43 +106,41 @@ class ParallelGames(ParallelEnv[str, NDArray[np.float32], Any]):
         "render_fps": 10,
         "is_parallelizable": True,
     }
+    period: float  # of a step [s]
+    patience: float  # for the first decisions in physics [s]
 
     def __init__(
         self,
-        names: Sequence[str],
+        roles: Mapping[str, str],
+        units: Mapping[str, float],
         choice: EnvironmentSettings,
         space: Box,
         render_mode: str | None,
     ) -> None:
-        """Build the spaces of the players that learn, by name."""
+        """Take role and unit of length, v/k [m], of each learning player."""
         if render_mode is not None:
             modes = tuple(self.metadata["render_modes"])
             check_choice(render_mode, modes, "render_mode")
         self.render_mode = render_mode
-        self.possible_agents = list(names)
-        self.agents: list[str] = []
-        self._actions = {n: IntentActions(choice) for n in names}
-        self._observed = {n: Box(space.low, space.high) for n in names}
-        self._random = np.random.default_rng()
+        self.possible_agents, self.agents = list(roles), list[str]()
+        self._roles, self._units = roles, units
+        self._actions = {name: IntentActions(choice) for name in roles}
+        self._observed = {name: box(space.low, space.high) for name in roles}
         self._seed: int | None = None
-        self._number = 0
-        self.episode: Episode | None = None
-        self._paths: dict[str, list[Any]] = {}
+        self._game: GameInPlay | None = None
 
     @abstractmethod
-    def begin(self, seed: int, number: int) -> Episode:
-        """Begin an episode of a seed, by its number since seeding."""
+    def begin(
+        self, seed: int, held: Mapping[str, HeldIntent]
+    ) -> tuple[GameInPlay, Room | None]:
+        """Return the game of an episode, and its room."""
 
     @abstractmethod
-    def observe(self, episode: Episode, name: str) -> NDArray[np.float32]:
+    def observe(self, name: str) -> Row:
         """Return the observation of a player."""
 
     @abstractmethod
-    def unit(self, episode: Episode, name: str) -> float:
-        """Return the unit of length of a player, v/k, in [m]."""
-
-    @abstractmethod
-    def info(self, episode: Episode) -> dict[str, Any]:
+    def info(self) -> dict[str, Any]:
         """Return what an environment says besides the observation."""
 
     def observation_space(self, agent: str) -> Space[Any]:
@@ -239,130 +153,395 @@ class ParallelGames(ParallelEnv[str, NDArray[np.float32], Any]):
 
     def reset(
         self, seed: int | None = None, options: dict[str, Any] | None = None
-    ) -> tuple[Observations, Infos]:
+    ) -> tuple[dict[str, Row], dict[str, dict[str, Any]]]:
         """Begin the next episode of a seed.
 
         Args:
             seed: Seed, 0 or above; None continues with the next episode.
             options: Not used.
         """
-        if seed is not None or self._seed is None:
-            drawn = int(self._random.integers(SEEDS))
-            self._seed = (drawn if seed is None else seed) % SEEDS
-            self._number = 0
+        if seed is not None:
+            self._seed = seed % SEEDS
+        elif self._seed is None:
+            self._seed = int(np.random.default_rng().integers(SEEDS))
         else:
-            self._number += 1
+            self._seed += STRIDE
         self.close()
-        self.episode = self.begin(self._seed, self._number)
+        self._held = {n: HeldIntent(role) for n, role in self._roles.items()}
+        self._game, self._room = self.begin(self._seed, self._held)
+        game = self.game
+        for own in self._held.values():
+            own.known = None  # decisions of its validation
+        if not isinstance(game.world, FloorWorld):
+            while not (
+                game.ended
+                or game.world.time > self.patience
+                or all(own.known for own in self._held.values())
+            ):
+                game.tick()
+        self._until = game.world.time  # end of the present step
         self.agents = list(self.possible_agents)
-        self._paths = {name: [] for name in self.episode.poses}
-        return self._look(self.episode)
+        return self._look()
+
+    @property
+    def game(self) -> GameInPlay:
+        """Game of the episode."""
+        if self._game is None:
+            raise PlanError("reset the environment first: no episode is on")
+        return self._game
+
+    def known(self, name: str) -> Knowledge | None:
+        """Return what a controlled player knows; None before it sees."""
+        world = self.game.world
+        if isinstance(world, FloorWorld):
+            return world.knowledge(name)
+        return self._held[name].known
 
     def step(
         self, actions: Mapping[str, Any]
     ) -> tuple[
-        Observations,
+        dict[str, Row],
         dict[str, float],
         dict[str, bool],
         dict[str, bool],
-        Infos,
+        dict[str, dict[str, Any]],
     ]:
-        """Play one decision of all players, by the action of each agent.
+        """Play one period, by the action of each agent.
 
         Raises:
             PlanError: If an action is missing or invalid, or the episode is
                 over.
         """
-        episode, names = self.episode, self.possible_agents
-        if episode is None or not self.agents:
+        game, names = self.game, self.possible_agents
+        if not self.agents:
             raise PlanError("reset the environment first: no episode is on")
-        missing = [name for name in names if name not in actions]
-        if missing:
-            raise PlanError(
-                f"actions must have one of the {missing[0]}, got those of "
-                f"{', '.join(actions) or 'no agent'}"
+        for name in names:
+            if name not in actions:
+                raise PlanError(
+                    f"actions must have one of the {name}, got those of "
+                    f"{', '.join(actions) or 'no agent'}"
+                )
+            row = self._actions[name].rows([actions[name]])[0]
+            heading, speed = row.tolist()
+            self._held[name].intent = (
+                Intent(heading, speed) if speed > 0.0 else STAND
             )
-        intents = {n: self._actions[n].intent(actions[n]) for n in names}
-        before = episode.closest
-        episode.step(intents)
-        gains = {n: now - before[n] for n, now in episode.closest.items()}
+        before = self.closest()
+        self._until += self.period
+        while not game.ended and game.world.time < self._until - 1e-9:
+            game.tick(self._until)
+        gains = {n: now - before[n] for n, now in self.closest().items()}
         taken = -sum(gains.values()) / len(gains)  # by each pursuer
-        observations, infos = self._look(episode)
-        if episode.over:
+        if game.ended:
             self.agents = []
+        observations, infos = self._look()
         return (
             observations,
-            {n: gains.get(n, taken) / self.unit(episode, n) for n in names},
-            dict.fromkeys(names, bool(episode.ended)),
-            dict.fromkeys(names, episode.truncated),
+            {n: gains.get(n, taken) / self._units[n] for n in names},
+            dict.fromkeys(names, bool(self.outcome)),
+            dict.fromkeys(names, self._is_late),
             infos,
         )
 
-    def _look(self, episode: Episode) -> tuple[Observations, Infos]:
-        """Return observations and infos, and note the paths for images."""
-        if self.render_mode is not None:
-            for name, pose in episode.poses.items():
-                self._paths[name].append(pose[:2])
+    def _look(self) -> tuple[dict[str, Row], dict[str, dict[str, Any]]]:
         names = self.possible_agents
-        observations = {n: self.observe(episode, n) for n in names}
-        return observations, {n: self.info(episode) for n in names}
+        observations = {name: self.observe(name) for name in names}
+        return observations, {name: self.info() for name in names}
 
-    def state(self) -> NDArray[np.float32]:
+    @property
+    def _is_late(self) -> bool:
+        """Whether the time is up."""
+        late = self.game.world.time >= self.game.rules.duration - 1e-9
+        return late and self.game.outcome is Outcome.COMPLETED
+
+    @property
+    def outcome(self) -> str:
+        """Outcome in one word; empty while it goes on, or if truncated."""
+        return "" if self._is_late else str(self.game.outcome or "")
+
+    def closest(self) -> dict[str, float]:
+        """Return the closest approach of each evader so far, in [m], by name.
+
+        It is 0 after a fall, or contact with anything but an opponent.
+        """
+        game, ids = self.game, self.game.rules.identities
+        found: dict[str, float] = {}
+        for (name, _), apart in game.closest.items():
+            found[name] = min(found.get(name, inf), apart)
+        touched = set(game.touched) & ids.keys()
+        for name in found:
+            met = any(ids[name].opposes(ids[other]) for other in touched)
+            if name in game.fallen or (name in touched and not met):
+                found[name] = 0.0
+        return found
+
+    def state(self) -> Row:
         """Return the poses (x [m], y [m], heading [rad]) of all players."""
-        if self.episode is None:
-            raise PlanError("reset the environment first: there is no state")
-        return np.array([*self.episode.poses.values()], np.float32).ravel()
+        poses = self.game.world.states()
+        return np.array([*poses.values()], np.float32).ravel()
 
     def render(self) -> Any:
         """Return an image from above, shape (400, 400, 3), or None."""
         if self.render_mode is None:
             return None
-        if self.episode is None:
-            raise PlanError("reset the environment first: nothing to render")
-        return _seen_from_above(self.episode, self._paths)
+        from matplotlib.backends.backend_agg import FigureCanvasAgg
+        from matplotlib.figure import Figure
+
+        from ..report.palette import colours_in
+        from ..report.plan_view import draw_heading, draw_solids
+
+        game, poses = self.game, self.game.world.states()
+        figure = Figure(figsize=(4.0, 4.0), dpi=100)
+        canvas: Any = FigureCanvasAgg(figure)
+        axes = figure.add_axes((0.0, 0.0, 1.0, 1.0), aspect="equal")
+        axes.set_axis_off()
+        draw_solids(axes, self._room)
+        colours = colours_in("light", poses, game.rules.identities)
+        for name, pose in poses.items():
+            draw_heading(axes, np.array(pose), colours[name], BODY)
+        middle = np.mean([pose[:2] for pose in poses.values()], axis=0)
+        axes.update_datalim([middle - REACH, middle + REACH])
+        axes.autoscale_view()
+        canvas.draw()
+        image: NDArray[np.uint8] = np.asarray(canvas.buffer_rgba())
+        return image[..., :3].copy()
 
     def close(self) -> None:
         """End the episode and release its resources."""
-        if self.episode is not None:
-            self.episode.game.world.close()
-            self.episode = None
+        if self._game is not None:
+            self._game.world.close()
+            self._game = None
 
 
-def _seen_from_above(
-    episode: Episode, paths: Mapping[str, Any]
-) -> NDArray[np.uint8]:
-    """Return an image of the players, their paths and the room."""
-    from matplotlib.backends.backend_agg import FigureCanvasAgg
-    from matplotlib.figure import Figure
-    from matplotlib.patches import Circle
-    from matplotlib.patches import Polygon as Outline
+class ParallelDuel(ParallelGames):
+    """Both players of a duel.
 
-    room, poses = episode.room, episode.poses
-    colours = colours_in("light", poses, episode.identities)
-    figure = Figure(figsize=(4.0, 4.0), dpi=100)
-    canvas: Any = FigureCanvasAgg(figure)
-    axes = figure.add_axes((0.0, 0.0, 1.0, 1.0))
-    axes.set_axis_off()
-    for solid in room.solids:
-        if solid.rounding > 0.0:
-            shape: Any = Circle(solid.centre, solid.rounding)
+    The observation of a player holds the terms of ``settings.terms``; the
+    game is zero-sum. Capture and contact with an obstacle, in physics falls
+    and contacts, terminate an episode; the time limit truncates it. ``info``
+    holds "closest_m", "distance_m", "time_s" and "outcome", in one word.
+
+    Attributes:
+        settings: Settings of the environment.
+    """
+
+    metadata = ParallelGames.metadata | {"name": "stepaside_duel_v0"}
+    patience = 30.0
+
+    def __init__(
+        self,
+        *,
+        render_mode: str | None = None,
+        opponents: Mapping[str, Strategy] | None = None,
+        **settings: Any,
+    ) -> None:
+        """Build the environment.
+
+        Args:
+            render_mode: "rgb_array" for images from above, or None.
+            opponents: Strategy of a player that does not learn, by role.
+            settings: Fields of :class:`.EnvironmentSettings`.
+
+        Raises:
+            ConfigurationError: If a value is invalid.
+        """
+        self.settings = given = EnvironmentSettings(**settings)
+        self._strategies = dict(opponents or {})
+        roles = {n: n for n in PLAYERS if n not in self._strategies}
+        if given.level == "physics":
+            body = given.duel.pursuer.body
+            if body != "robot" and "pursuer" in roles:
+                raise ConfigurationError(
+                    "duel.pursuer.body must be robot if the pursuer learns, "
+                    f"got {body!r}"
+                )
+            gait = given.duel.player(next(iter(roles), "evader")).gait
+            self.period = given.duel.evader.gait.step_duration
+            unit = gait.speed / gait.gain
         else:
-            shape = Outline(solid.outline, closed=True)
-        shape.set_facecolor("0.7")
-        axes.add_patch(shape)
-    for name, (x, y, theta) in poses.items():
-        colour = colours[name]
-        axes.plot(*np.array(paths[name]).T, color=colour, lw=1.0)
-        axes.add_patch(Circle((x, y), BODY, color=colour, alpha=0.5))
-        nose = x + BODY * cos(theta), y + BODY * sin(theta)
-        axes.plot([x, nose[0]], [y, nose[1]], color="k", lw=2.0)
-    places = np.array([pose[:2] for pose in poses.values()])
-    middle, apart = places.mean(axis=0), np.ptp(places, axis=0).max()
-    reach = max(REACH, 0.5 * apart + 2.0 * BODY)
-    if room.width is not None and room.depth is not None:
-        middle, reach = np.zeros(2), 0.55 * max(room.width, room.depth)
-    axes.set_xlim(middle[0] - reach, middle[0] + reach)
-    axes.set_ylim(middle[1] - reach, middle[1] + reach)
-    canvas.draw()
-    image: NDArray[np.uint8] = np.asarray(canvas.buffer_rgba())
-    return image[..., :3].copy()
+            rules = given.step_game
+            self.period = rules.period / rules.decisions
+            unit = rules.speed / rules.gain
+            self._rooms, self._starts = given.draw_arenas()
+        units, space = dict.fromkeys(roles, unit), observation_space
+        super().__init__(roles, units, given, space(given.terms), render_mode)
+
+    def begin(
+        self, seed: int, held: Mapping[str, HeldIntent]
+    ) -> tuple[GameInPlay, Room | None]:
+        """Return the game of an episode, and its room."""
+        given, played = self.settings, {**self._strategies, **held}
+        if given.level != "physics":
+            index, rules = seed % len(self._rooms), given.step_game
+            pair, room = (played["pursuer"], played["evader"]), self._rooms
+            world = rules.world(pair, self._starts[index], room[index])
+            return GameInPlay(world, rules.rules), room[index]
+        seed = (given.first_arena + seed) % SEEDS
+        duel = replace(given.duel, seed=seed, duration=given.duration)
+        robots = {n: s for n, s in played.items() if n in duel.robots}
+        game = RecordedGame(duel, strategies=robots, recorded=False)
+        return game, duel.room
+
+    def observe(self, name: str) -> Row:
+        """Return the observation of a player."""
+        known, given = self.known(name), self.settings
+        if known is None:
+            raise StrategyError(
+                f"a player must see its opponent within {self.patience:g} s, "
+                f"got {self.outcome or 'no sighting'}"
+            )
+        values = observe(known, given.sensed_terms)
+        if not given.full_state:
+            return values
+        other = self.known(PLAYERS[name == "pursuer"])
+        assert other is not None
+        time, unit = self.game.world.time, length_unit(known.limits)
+        full = (
+            *(cos(other.bearing), sin(other.bearing)),
+            min(self.closest()["evader"] / unit, FARTHEST),
+            max(0.0, 1.0 - time / self.game.rules.duration),
+        )
+        return np.concatenate([values, np.array(full, np.float32)])
+
+    def info(self) -> dict[str, Any]:
+        """Return closest approach, distance [m], time [s] and outcome."""
+        return {
+            "closest_m": self.closest()["evader"],
+            "distance_m": self.game.world.apart("evader", "pursuer"),
+            "time_s": self.game.world.time,
+            "outcome": self.outcome,
+        }
+
+
+class ParallelGame(ParallelGames):
+    """Several players of one game, by its settings or its file.
+
+    Capture of one evader ends the episode, in physics also a fall or a
+    contact; the time limit truncates it. Players that do not learn follow
+    their own strategies.
+
+    Attributes:
+        settings: Settings of the game.
+        period: Duration of a step, in [s].
+    """
+
+    patience = 1.0
+
+    def __init__(
+        self,
+        game: GameSettings | AnyPath,
+        *,
+        learners: Sequence[str] | None = None,
+        period: float | None = None,
+        action: str = "continuous",
+        headings: int = HEADINGS,
+        render_mode: str | None = None,
+    ) -> None:
+        """Build the environment.
+
+        Args:
+            game: Settings of a game, or a game file.
+            learners: Names of the players that learn; by default all robots
+                and unicycles that are pursuers or evaders.
+            period: Duration of a step, in [s]; by default the step duration
+                of the slowest gait.
+            action: "continuous" (heading and speed factor) or "discrete".
+            headings: Number of headings of discrete actions.
+            render_mode: "rgb_array" for images from above, or None.
+
+        Raises:
+            StepAsideError: If a value is invalid.
+        """
+        self.settings = given = (
+            game if isinstance(game, GameSettings) else load_game(game)
+        )
+        self.period = given.gait.step_duration if period is None else period
+        check_within(
+            self.period, 0.02, 60.0, "period", "s", ConfigurationError
+        )
+        choice = EnvironmentSettings(action=action, headings=headings)
+        self._terms: tuple[str, ...] = ("moving",)
+        if given.room is not None:
+            self._terms += ("clearances",)
+        own, others = observation_space(self._terms), len(given.players) - 1
+        space = box(
+            [*own.low, *OTHER_LOW * others], [*own.high, *OTHER_HIGH * others]
+        )
+        players = {n: given.player(n) for n in learning(given, learners)}
+        roles = {name: player.role for name, player in players.items()}
+        units = {n: p.gait.speed / p.gait.gain for n, p in players.items()}
+        super().__init__(roles, units, choice, space, render_mode)
+
+    def begin(
+        self, seed: int, held: Mapping[str, HeldIntent]
+    ) -> tuple[GameInPlay, Room | None]:
+        """Return the game of an episode, and its room."""
+        settings = replace(self.settings, seed=seed % SEEDS)
+        game = RecordedGame(settings, strategies=held, recorded=False)
+        game.rules = replace(game.rules, capture=CAPTURE_DISTANCE)
+        return game, settings.room
+
+    def observe(self, name: str) -> Row:
+        """Return own terms, then those of the others, the nearest first.
+
+        Values of players that it has not seen are zero.
+        """
+        known = self.known(name)
+        found = np.zeros(self._observed[name].shape, np.float32)
+        if known is not None:
+            seen = sorted(known.others, key=lambda other: other.distance)
+            values = [*observe(known, self._terms)]
+            for other in seen:
+                values += _describe(known, other)
+            found[: len(values)] = values
+        return found
+
+    def info(self) -> dict[str, Any]:
+        """Return closest approaches [m] by evader, time [s] and outcome."""
+        return {
+            "closest_m": self.closest(),
+            "time_s": self.game.world.time,
+            "outcome": self.outcome,
+        }
+
+
+def learning(
+    game: GameSettings, learners: Sequence[str] | None
+) -> tuple[str, ...]:
+    """Return the names of the players that learn: by default all that can."""
+    able = [p.name for p in game.players if p.decides and p.role in PLAYERS]
+    chosen = able if learners is None else list(learners)
+    wrong = [name for name in chosen if name not in able]
+    if wrong or not chosen:
+        raise ConfigurationError(
+            "learners must be robots or unicycles that are pursuers or "
+            f"evaders ({', '.join(able) or 'there are none'}), got "
+            f"{wrong[0] if wrong else 'none'}"
+        )
+    if len(set(chosen)) < len(chosen):
+        raise ConfigurationError(
+            f"learners must differ, got {', '.join(chosen)}"
+        )
+    if not {"pursuer", "evader"} <= {p.role for p in game.players}:
+        raise ConfigurationError(
+            "game must have an evader and a pursuer, got roles "
+            f"{', '.join(sorted({p.role for p in game.players}))}"
+        )
+    return tuple(chosen)
+
+
+def _describe(known: Knowledge, other: OtherPlayer) -> list[float]:
+    """Return the values of one other player."""
+    limits, own = known.limits, known.identity
+    assert own is not None
+    # Velocities are sensed in gait time; the speed is that of path time.
+    pace = limits.step_duration * limits.speed / limits.stride
+    ahead, left = other.velocity or (0.0, 0.0)
+    return [
+        *(1.0, cos(other.bearing), sin(other.bearing)),
+        min(other.distance / length_unit(limits), FARTHEST),
+        min(max(ahead * pace / limits.speed, -FASTEST), FASTEST),
+        min(max(left * pace / limits.speed, -FASTEST), FASTEST),
+        float(own.opposes(other.identity)),
+        float(own.is_with(other.identity)),
+    ]

@@ -53,6 +53,7 @@ class BatchState(NamedTuple):
     walking: NDArray[np.bool_]  # by the last intent. Shape (n, 2).
     closest: Array  # so far [m]; 0 after contact with an obstacle. (n,).
     rooms: NDArray[np.int64]  # index of the room. Shape (n,).
+    outcomes: NDArray[np.int64]  # codes. Shape (n,).
 
 
 class BatchRules(NamedTuple):
@@ -60,10 +61,8 @@ class BatchRules(NamedTuple):
 
     stride: float  # between two decisions [m]
     share: float  # turn of a step per desired heading, kappa
-    turn: float  # largest turn of a step [rad]
     parts: float  # decisions per step
     period: float  # between two decisions [s]
-    unit: float  # v/k [m]
     speed: float  # of the template [m/s]
     gain: float  # of the steering [1/s]
     capture: float  # distance [m]
@@ -125,7 +124,7 @@ def start_games(state: BatchState, games: Any, starts: Any) -> None:
             copy_values(starts[n, p], state.poses[i, p])
             state.sides[i, p] = 0
             state.walking[i, p] = False
-        state.decisions[i] = 0
+        state.decisions[i], state.outcomes[i] = 0, RUNNING
         state.closest[i] = record_sight(state, i)
 
 
@@ -162,22 +161,6 @@ def decide_by_law(
         out[i, 0] = evasion_heading(bearing, side, law.angle)
 
 
-@inlined
-def walk(
-    pose: Any, heading: float, speed: float, saturated: bool, r: BatchRules
-) -> None:
-    """Move one player to its next decision; a negative speed is backward."""
-    if saturated:
-        turn, most = heading, min(r.share, r.turn)
-    else:
-        turn, most = r.share * heading, r.turn
-    turn = min(max(turn, -most), most) / r.parts
-    way = r.stride * speed
-    pose[0], pose[1], pose[2], pose[3] = walk_arc(
-        pose[0], pose[1], pose[2], pose[3], way, turn
-    )
-
-
 @compiled
 def advance_games(
     state: BatchState,
@@ -185,41 +168,37 @@ def advance_games(
     saturated: Any,
     rooms: RoomBatch,
     rules: BatchRules,
-    outcomes: Any,
 ) -> None:
     """Move the players of all games to the next decision, and judge.
 
     ``intents`` are heading [rad] and speed factor of pursuer and evader,
-    shape (n, 2, 2), ``saturated`` tells who turns by (6), shape (2,), and
-    ``outcomes`` receive the codes, shape (n,).
+    shape (n, 2, 2); ``saturated`` tells who turns by (6), shape (2,).
     """
-    for i in range(len(outcomes)):
+    radius = rules.body_radius
+    for i in range(len(intents)):
         for p in range(2):
-            speed = intents[i, p, 1]
+            heading, speed = intents[i, p, 0], intents[i, p, 1]
             state.walking[i, p] = speed > 0.0
-            if speed > 0.0:
-                walk(
-                    state.poses[i, p],
-                    intents[i, p, 0],
-                    speed if p == 0 else -speed,
-                    saturated[p],
-                    rules,
-                )
+            if speed <= 0.0:
+                continue
+            if saturated[p]:
+                turn = min(max(heading, -rules.share), rules.share)
+            else:
+                turn = rules.share * heading
+            way = rules.stride * (speed if p == 0 else -speed)
+            pose = state.poses[i, p]
+            pose[0], pose[1], pose[2], pose[3] = walk_arc(
+                pose[0], pose[1], pose[2], pose[3], way, turn / rules.parts
+            )
         state.decisions[i] += 1
-        distance = record_sight(state, i)
-        outcomes[i] = RUNNING
-        evader = state.poses[i, 1]
-        radius = rules.body_radius
-        if (
-            room_clearance(rooms, state.rooms[i], evader[0], evader[1], radius)
-            < radius
-        ):
-            outcomes[i] = TOUCHED
-            state.closest[i] = 0.0
+        distance, room = record_sight(state, i), state.rooms[i]
+        x, y = state.poses[i, 1, 0], state.poses[i, 1, 1]
+        if room_clearance(rooms, room, x, y, radius) < radius:
+            state.outcomes[i], state.closest[i] = TOUCHED, 0.0
             continue
         state.closest[i] = min(state.closest[i], distance)
         if distance <= rules.capture:
-            outcomes[i] = CAPTURED
+            state.outcomes[i] = CAPTURED
 
 
 @inlined
@@ -258,7 +237,7 @@ def clearances_around(
     pose: Any, rooms: RoomBatch, room: int, rules: BatchRules, out: Any
 ) -> None:
     """Fill in the term "clearances" of a player at a pose."""
-    unit = rules.unit
+    unit = rules.speed / rules.gain
     for k in range(len(RING_POINTS)):
         u, v = unit * RING_POINTS[k, 0], unit * RING_POINTS[k, 1]
         x = pose[0] + pose[2] * u - pose[3] * v
@@ -280,7 +259,7 @@ def observe_games(
 
     Player 0 is the pursuer, which knows no obstacles; ``terms`` are codes.
     """
-    unit = rules.unit
+    unit = rules.speed / rules.gain
     toward = 1.0 if player == 0 else -1.0
     for i in range(len(out)):
         pose = state.poses[i]

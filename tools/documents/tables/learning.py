@@ -32,8 +32,7 @@ def environments(result: Result) -> str:
     """List steps per second of each environment."""
     names = {
         "vector_steps_per_s": "vector environment, 4096 games",
-        "kernel_steps_per_s": "the bare kernel on the same games",
-        "parallel_steps_per_s": "`duel_v0.parallel_env`, one game",
+        "parallel_steps_per_s": "`ParallelDuel`, one game",
         "mpe2_steps_per_s": "`simple_tag_v3` of MPE2, one game",
     }
     rows = [
