@@ -27,6 +27,7 @@ from stepaside import (
 from stepaside.arena import Box, MovingBox, Room, load_room
 from stepaside.core.errors import StepAsideError
 from stepaside.core.poses import Pose
+from stepaside.envs import ParallelGame
 from stepaside.strategies.learned import (
     LearnedStrategy,
     StrategyContract,
@@ -143,6 +144,7 @@ def kept(tmp_path_factory: pytest.TempPathFactory) -> Path:
 READERS: dict[str, tuple[str, Callable[[Any], Any]]] = {
     "load_run": ("run", lambda p: stepaside.load_run(p).summary),
     "load_game": ("duel.toml", stepaside.load_game),
+    "ParallelGame": ("duel.toml", lambda p: ParallelGame(p).settings),
     "load_robot": ("robot", lambda p: stepaside.load_robot(p).torso),
     "load_table": ("bound.npz", lambda p: load_table(p).grid),
     "load_room": ("room.toml", load_room),
