@@ -77,8 +77,8 @@ def test_trim_of_another_height_gives_the_right_distance(
         ),
         *("--set", "start.pursuer_offset=0", "--set", "start.evader_offset=0"),
     ).json
-    errors = summary["players"]["pursuer"]["sight"]["distance_error_m"]
-    assert errors["median"] < 0.1
+    errors = summary["players"]["pursuer"]["sight"]
+    assert errors["distance_error_median_m"] < 0.1
 
 
 def mapped(robot: Path, away: float, heights: tuple[float, float]) -> bool:

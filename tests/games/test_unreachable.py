@@ -10,8 +10,9 @@ from stepaside.games.game_settings import GameSettings, StartSettings, duel
 from stepaside.games.outcome import Outcome
 from stepaside.games.player_settings import PLAYERS
 from stepaside.games.recorded_game import run_game
-from stepaside.games.run import Run, describe_state
+from stepaside.games.run import Run
 from stepaside.planning import GaitSettings
+from stepaside.report.film_captions import describe_state
 from stepaside.robots import leg_kinematics as kinematics
 from stepaside.strategies import Evasion
 

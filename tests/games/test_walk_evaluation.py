@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from stepaside.core.poses import Array
-from stepaside.games.evaluation import express_in_support_foot, measured
+from stepaside.games.evaluation import WARM_UP, walking_of
 from stepaside.games.game_settings import walk
 from stepaside.games.trajectory import COLUMNS, Trajectory
 
@@ -28,34 +28,29 @@ TIMES = 2.0 + STEP * TIMES
 
 def record(times: Array = TIMES) -> dict[str, Array]:
     """Return a robot that stands as planned, on one foot."""
-    rows: dict[str, Any] = {
+    return {
         name: np.zeros((len(times), len(COLUMNS[name]))) for name in RECORDED
     }
-    arrays = express_in_support_foot(times, Trajectory(**rows))
-    return {name: values.copy() for name, values in arrays.items()}
 
 
-def figures(arrays: dict[str, Array]) -> dict[str, Any]:
-    return asdict(measured(arrays, CYCLE))
+def figures(rows: dict[str, Any], times: Array = TIMES) -> dict[str, Any]:
+    late = times >= WARM_UP
+    track = Trajectory(**{name: each[late] for name, each in rows.items()})
+    return asdict(walking_of(times[late], track, CYCLE))
 
 
 def walked(ratio: float = 1.0, turned: float = 1.0) -> dict[str, Array]:
     """Return a circle of 1 m at 0.05 m/s, with sway in each cycle."""
-    arrays = record()
+    rows = record()
     angle = 0.05 * TIMES
     sway = 0.02 * np.sin(2.0 * pi * (TIMES - 3.0) / PERIOD)
     size = ratio + sway
-    arrays["com_in_world_x"], arrays["com_in_world_y"] = (
-        size * np.cos(angle),
-        size * np.sin(angle),
-    )
-    arrays["com_reference_in_world_x"], arrays["com_reference_in_world_y"] = (
-        np.sin(angle),
-        np.cos(angle),
-    )
-    arrays["heading_reference"] = np.remainder(6.0 + angle, 2.0 * pi)
-    arrays["heading"] = np.remainder(6.1 + turned * angle, 2.0 * pi)
-    return arrays
+    rows["com"][:, :2] = (size * [np.cos(angle), np.sin(angle)]).T
+    rows["com_reference"][:] = np.column_stack([np.sin(angle), np.cos(angle)])
+    reference = np.remainder(6.0 + angle, 2.0 * pi)
+    rows["heading_reference"][:, 0] = reference
+    rows["torso"][:, 2] = np.remainder(6.1 + turned * angle, 2.0 * pi)
+    return rows
 
 
 def test_speed_and_turning_are_over_whole_cycles() -> None:
@@ -68,7 +63,7 @@ def test_speed_and_turning_are_over_whole_cycles() -> None:
     rate = degrees(0.9 * 0.05)
     assert found["yaw_rate_deg_s"] == pytest.approx(rate, rel=1e-6)
     right = walked(1.0, 1.0)
-    for name in ("heading", "heading_reference"):
+    for name in ("torso", "heading_reference"):
         right[name] = -right[name]
     found = figures(right)
     assert found["yaw_ratio"] == pytest.approx(1.0)
@@ -94,9 +89,9 @@ def supports(slips: list[float], length: int, land: float) -> Array:
 def test_slip_is_the_displacement_of_the_support_foot() -> None:
     single, x = supports([0.003, 0.001, 0.002], 20, 0.05)
     times: Array = 2.5 + STEP * np.arange(len(x), dtype=float)
-    arrays = record(times)
-    arrays["single"] = single
-    arrays["foot_in_world_x"], arrays["foot_in_world_y"] = 0.6 * x, -0.8 * x
-    slip = figures(arrays)["slip_per_step_m"]
+    rows = record(times)
+    rows["support"][:, 1] = single
+    rows["sole"][:, :2] = np.column_stack([0.6 * x, -0.8 * x])
+    slip = figures(rows, times)["slip_per_step_m"]
     # The first sample and the last are left out.
     assert slip == pytest.approx(0.002, rel=1e-9)

@@ -12,7 +12,7 @@ from stepaside.core.errors import ConfigurationError, OutputError
 from stepaside.games.game_settings import StartSettings, duel
 from stepaside.games.recorded_game import run_game
 from stepaside.games.run import Run
-from stepaside.games.run_archive import FORMAT, load_run, results_of
+from stepaside.games.run_archive import FORMAT, load_run
 from stepaside.report import run_figure
 from stepaside.report.run_folder import check_output, write_run
 from stepaside.report.scene import RunScene
@@ -40,7 +40,7 @@ def test_an_empty_folder_is_taken(tmp_path: Path, result: Run) -> None:
     write_run(folder, result)
     text = (folder / "summary.json").read_text(encoding="utf-8")
     told = {"format": FORMAT, "game": "duel"}
-    told |= results_of(result)
+    told |= result.results()
     assert text == json.dumps(told, indent=2) + "\n"
 
 

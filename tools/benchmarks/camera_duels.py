@@ -14,7 +14,6 @@ from result_files import header, write_result
 from resumable_jobs import Row, finished, gather, spread
 
 from stepaside.games import duel, run_game
-from stepaside.games.run_archive import results_of
 from stepaside.sim.camera_settings import (
     CLUTTER,
     CameraSettings,
@@ -51,16 +50,17 @@ def play(seen: Seen) -> Row:
             scene=SceneSettings(things=list(CLUTTER)),
         )
     run = run_game(settings)
-    found = results_of(run)
+    found = run.results()
     row = {key: found[key] for key in PLAIN} | {
         key: found["sight"][key] for key in RATES
     }
     for name in ("pursuer", "evader"):
         row[f"{name}_misled_s"] = found["players"][name]["sight"]["misled_s"]
         for which in ("median", "p95"):
-            error = found["players"][name]["sight"]["bearing_error_deg"][which]
+            key = f"bearing_error_{which}_deg"
+            error = found["players"][name]["sight"][key]
             row[f"{name}_bearing_error_{which}_deg"] = error
-    away = found["players"]["evader"]["sight"]["distance_error_m"]["median"]
+    away = found["players"]["evader"]["sight"]["distance_error_median_m"]
     row["evader_distance_error_median_m"] = away
     begun = run.settings.start.distance
     at = found["triggered_at_distance_m"]

@@ -13,7 +13,6 @@ from resumable_jobs import Row, finished, gather
 
 from stepaside.games.game_settings import GameSettings, walk
 from stepaside.games.recorded_game import run_game
-from stepaside.games.run_archive import results_of
 from stepaside.locomotion.control_settings import ControlSettings
 from stepaside.planning import PRESETS
 from stepaside.sim.body_settings import BODIES
@@ -34,7 +33,7 @@ BEARINGS = (-90, -45, 0, 45, 90)  # in [deg]
 
 def play(settings: GameSettings) -> Row:
     """Return the values of one walk."""
-    found: Row = results_of(run_game(settings))
+    found: Row = run_game(settings).results()
     found |= found["planning"] | found["walking"]
     return found
 

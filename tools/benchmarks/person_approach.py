@@ -17,7 +17,6 @@ from result_files import header, write_result
 from resumable_jobs import Row, finished, gather, spread
 
 from stepaside.games import duel, run_game
-from stepaside.games.run_archive import results_of
 from stepaside.sim.camera_settings import CameraSettings, ColourSettings
 from stepaside.sim.person_settings import PersonSettings
 
@@ -50,7 +49,7 @@ def play(walk: Walk) -> Row:
         senses=walk.sensing,
         cameras=CAMERAS,
     )
-    found = results_of(run_game(settings))
+    found = run_game(settings).results()
     return {
         "walk": walk.name,
         "seed": walk.seed,

@@ -20,7 +20,6 @@ from stepaside.fitting.derivation import derive, report_of
 from stepaside.fitting.description_writer import write_description
 from stepaside.games.game_settings import duel
 from stepaside.games.recorded_game import run_game
-from stepaside.games.run_archive import results_of
 from stepaside.games.settings_reader import read_game
 from stepaside.robots.description import FILE
 
@@ -218,7 +217,7 @@ def measure(humanoid: Humanoid, model: Path) -> dict[str, Any]:
             {"robot": made}, base=duel(seed=SEED, duration=DURATION)
         )
         run = run_game(settings)
-    facts, told = report_of(derived), results_of(run)
+    facts, told = report_of(derived), run.results()
     asked = facts["missing_values"]
     return {
         **humanoid._asdict(),

@@ -19,7 +19,6 @@ from resumable_jobs import Row, finished, gather, spread
 from stepaside.arena import RoomRecipe, generate_room
 from stepaside.core.constants import CAPTURE_DISTANCE
 from stepaside.games import duel, run_game
-from stepaside.games.run_archive import results_of
 from stepaside.locomotion.control_settings import MAPS, MapSettings
 from stepaside.studies.tournament import clearance
 
@@ -48,7 +47,7 @@ def play(played: Played) -> Row:
         map=MapSettings(source=played.map),
     )
     run = run_game(settings)
-    summary = results_of(run)
+    summary = run.results()
     return {
         "strategy": played.strategy,
         "map": played.map,

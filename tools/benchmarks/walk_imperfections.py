@@ -17,7 +17,6 @@ from resumable_jobs import Row, finished, gather, spread
 from stepaside.games.game_settings import GameSettings
 from stepaside.games.game_settings import walk as make_walk
 from stepaside.games.recorded_game import run_game
-from stepaside.games.run_archive import results_of
 from stepaside.locomotion.control_settings import (
     STABILISED,
     StabiliserSettings,
@@ -51,13 +50,12 @@ PACE = ("speed_ratio", "yaw_ratio", "slip_per_step_m")
 
 def walk(settings: GameSettings) -> Row:
     """Return the values of one walk."""
-    summary = results_of(run_game(settings))
+    summary = run_game(settings).results()
     walking = summary["walking"]
-    errors = walking["estimation"]
     return {
         "outcome": summary["outcome"],
         **{key: walking[key] for key in PACE},
-        "estimation": {key: errors[key]["rms"] for key in errors},
+        "estimation": walking["estimation"],
     }
 
 

@@ -66,9 +66,7 @@ def print_run(run: "Run") -> None:
 
     Of many pairs only those of players that decide; JSON has all.
     """
-    from ..games.run_archive import results_of
-
-    found = results_of(run)
+    found = run.results()
     theory = found.pop("theory") or {}
     rows = [("outcome", f"{run.outcome.value}: {run.message}")]
     for name in ("outcome", "message", "seed", "duration_s"):
@@ -173,7 +171,6 @@ def finish_run(
         OutputError: If the run could not be written to the folder.
     """
     from ..games.outcome import Outcome
-    from ..games.run_archive import results_of
     from ..report.run_folder import figure_name, save_run
 
     failed = None
@@ -188,7 +185,7 @@ def finish_run(
             )
     if as_json:
         saved = {} if folder is None else {"run_folder": str(folder)}
-        print_json((results or results_of(run)) | saved)
+        print_json((results or run.results()) | saved)
     else:
         (show or partial(print_run, run))()
         if folder is not None:

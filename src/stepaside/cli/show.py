@@ -100,7 +100,7 @@ def show(
     ROS 2 bag (a folder with metadata.yaml, a .mcap or a .db3 file), players
     whose motion was recorded elsewhere are measured, as --frame names them.
     """
-    from ..games.run_archive import load_run, results_of
+    from ..games.run_archive import load_run
 
     if not any(path.suffix in FILMS for path in outputs):
         refuse_settings(("",), "-o NAME.mp4 or NAME.gif")
@@ -111,7 +111,7 @@ def show(
     bag: dict[str, Any] = {}
     if is_bag:
         loaded: list[Run] = [_measure(runs, frames)]
-        bag = results_of(loaded[0])
+        bag = loaded[0].results()
     else:
         loaded = [load_run(folder) for folder in runs]
     kinds = sorted({run.game for run in loaded})
@@ -143,7 +143,7 @@ def show(
         webbrowser.open(outputs[0].absolute().as_uri())
     if as_json:
         results = {
-            str(path): results_of(run)
+            str(path): run.results()
             for path, run in zip(runs, loaded, strict=True)
         }
         print_json(bag | {"files": written, "runs": results})

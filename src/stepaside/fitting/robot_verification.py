@@ -148,7 +148,7 @@ def walk_trial(trial: WalkTrial) -> WalkTrialResult:
     walking = run.summary.walking
     assert walking is not None
     tracked = (walking.tracking[f"com_{axis}_m"] for axis in "xy")
-    errors = [axis.rms for axis in tracked if axis]
+    errors = [rms for rms in tracked if rms is not None]
     return WalkTrialResult(
         path.name,
         feedback,

@@ -1,7 +1,6 @@
 """Cameras, perception and its evaluation in a game with camera sensing."""
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
 from math import atan2, radians
 
 import numpy as np
@@ -44,25 +43,11 @@ from ..sim.world import World
 from .game import GameInPlay, GameObserver
 from .game_settings import GameSettings
 from .player_settings import PlayerSettings
-from .summary import ErrorSpread, PerceptionSummary, SightSummary
+from .summary import PerceptionSummary, SightSummary
 
 MATCH_ANGLE = radians(10.0)  # within which a detection matches the truth
 MISLED_ANGLE = radians(20.0)  # bearing error from which a robot is misled
 NEAR_MARGIN = 0.15  # beyond the near limit at which a body is in range, [m]
-
-
-@dataclass(slots=True)
-class FrameCounts:
-    """Counts of the frames of one kind of camera."""
-
-    in_view: int = 0  # frames with the opponent in the field of view
-    detected: int = 0  # among them, with a detection of it
-    false: int = 0  # detections that match no object
-
-    @property
-    def rate(self) -> float | None:
-        """Detection rate; None if the opponent was never in view."""
-        return self.detected / self.in_view if self.in_view else None
 
 
 class SightEvaluator:
@@ -87,7 +72,9 @@ class SightEvaluator:
         self._perception, self._head = perception, head
         self._things = things
         self._true: dict[Percept, tuple[float, bool, list[float]]] = {}
-        self.colour, self.depth = FrameCounts(), FrameCounts()
+        # Images with the opponent in view, those of them that detected it,
+        # and detections that match no object.
+        self.in_view = self.detected = self.false = 0
         self._sighting: Sighting | None = None
         self._true_sighting = (np.nan, np.nan)
         self._rows: list[tuple[float, ...]] = []
@@ -133,22 +120,20 @@ class SightEvaluator:
         if truth is None:
             return
         azimuth, in_view, others = truth
-        kind = "colour" if isinstance(report.image, ColourImage) else "depth"
-        counts = self.colour if kind == "colour" else self.depth
         matches = [
             abs(wrap_angle(a - azimuth)) < MATCH_ANGLE for a in report.azimuths
         ]
         if in_view:
-            counts.in_view += 1
-            counts.detected += any(matches)
+            self.in_view += 1
+            self.detected += any(matches)
         # The depth camera also detects objects, which are not false.
-        allowed = others if kind == "depth" else []
+        allowed = [] if isinstance(report.image, ColourImage) else others
         for angle, fits in zip(report.azimuths, matches, strict=True):
             if not fits and not any(
                 abs(wrap_angle(angle - thing)) < 2.0 * MATCH_ANGLE
                 for thing in allowed
             ):
-                counts.false += 1
+                self.false += 1
 
     def sample(self, now: float) -> None:
         """Record the latest sighting and the truth at its time."""
@@ -172,18 +157,22 @@ class SightEvaluator:
         return np.array(self._rows, dtype=np.float64).reshape(-1, 6)
 
     def summary(self) -> SightSummary:
-        """Return errors and detection rates."""
+        """Return the errors of the sightings."""
         rows = self.array()
         bearing_error = np.abs(wrap_angles(rows[:, 1] - rows[:, 3]))
         distance_error = np.abs(rows[:, 2] - rows[:, 4])
         period = float(np.diff(rows[:2, 0])[0]) if len(rows) > 1 else 0.0
         known = np.isfinite(bearing_error)
+        median, late, away = None, None, None
+        if known.any():
+            errors = np.degrees(bearing_error[known])
+            median, late = np.quantile(errors, (0.5, 0.95)).tolist()
+            away = float(np.median(distance_error[known]))
         misled = bearing_error[known] > MISLED_ANGLE
         return SightSummary(
-            bearing_error_deg=_spread(np.degrees(bearing_error[known])),
-            distance_error_m=_spread(distance_error[known]),
-            detection_rate=self.colour.rate,
-            false_detections=self.colour.false + self.depth.false,
+            bearing_error_median_deg=median,
+            bearing_error_p95_deg=late,
+            distance_error_median_m=away,
             misled_s=float(misled.sum() * period),
             lost_s=float(rows[:, 5].sum() * period),
         )
@@ -198,14 +187,6 @@ class SightEvaluator:
 
 def _azimuth(point: Array) -> float:
     return atan2(float(point[1]), float(point[0]))
-
-
-def _spread(errors: Array) -> ErrorSpread:
-    if not errors.size:
-        return ErrorSpread(None, None)
-    return ErrorSpread(
-        float(np.median(errors)), float(np.quantile(errors, 0.95))
-    )
 
 
 class CameraSenses:
@@ -358,19 +339,16 @@ class SightObserver(GameObserver):
         return {name: own.array() for name, own in self.evaluators.items()}
 
     def report(self) -> tuple[PerceptionSummary, dict[str, SightSummary]]:
-        """Return errors and detection rates of all robots and of each."""
-        tallies = [
-            tally
-            for evaluator in self.evaluators.values()
-            for tally in (evaluator.colour, evaluator.depth)
-        ]
-        in_view = sum(t.in_view for t in tallies)
-        by_robot = {name: e.summary() for name, e in self.evaluators.items()}
-        detected = sum(t.detected for t in tallies)
+        """Return the detections of all robots, and the errors of each."""
+        own = self.evaluators.values()
+        in_view, detected, false = (
+            sum(getattr(each, name) for each in own)
+            for name in ("in_view", "detected", "false")
+        )
         together = PerceptionSummary(
             camera=self._renderer,
             detection_rate=detected / in_view if in_view else None,
-            false_detections=sum(t.false for t in tallies),
-            lost_s=sum(own.lost_s for own in by_robot.values()),
+            false_detections=false,
         )
+        by_robot = {name: e.summary() for name, e in self.evaluators.items()}
         return together, by_robot

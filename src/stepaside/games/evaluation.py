@@ -25,11 +25,9 @@ from .duel_circle import (
 )
 from .game import GameInPlay
 from .outcome import Outcome
-from .player_settings import WALKER
 from .run import Run
 from .summary import (
     CrowdSummary,
-    ErrorStatistics,
     PairSummary,
     PlanningSummary,
     PlayerSummary,
@@ -37,7 +35,7 @@ from .summary import (
     Summary,
     WalkingSummary,
 )
-from .trajectory import Trajectory
+from .trajectory import OF_EVENTS, Trajectory
 
 if TYPE_CHECKING:
     from ..locomotion.zmp.mpc import MpcResult
@@ -182,80 +180,46 @@ def _crowd(
 
 
 WARM_UP = 3.0  # left out of the evaluation, in [s]
-TRACKED = ("com_x", "com_y", "zmp_x", "zmp_y")  # in [m]
-ESTIMATED = {
-    **dict.fromkeys(("com_x", "com_y", "zmp_x", "zmp_y"), "m"),
-    **dict.fromkeys(("velocity_x", "velocity_y"), "m_s"),
-    **dict.fromkeys(("roll", "pitch"), "rad"),
-}
 
 
-def express_in_support_foot(
-    times: Array, track: Trajectory
-) -> dict[str, Array]:
+def express_in_support_foot(track: Trajectory) -> dict[str, Array]:
     """Express a walk in the frame of the support foot.
 
     True quantities are in the frame of the true sole, references and
-    estimates in that of the planned sole, unless their names say otherwise.
-    References in the world are those of odometry, placed there at its start.
-
-    Args:
-        times: Times of the samples, in [s]. Shape (n,).
-        track: Trajectory with foot states and estimates.
+    estimates in that of the planned sole.
 
     Returns:
-        Columns by name: ``time``, ``support``, ``single``, angles, and x and
-        y of each other quantity, like ``com_x``. Shape (n,) each.
+        Columns x and y of ``com``, ``zmp`` and ``velocity``, of the
+        references ``com_reference`` and ``zmp_reference``, and of the
+        estimates, like ``estimated_com``. Shape (n, 2) each.
 
     Raises:
-        ValueError: If the trajectory has no foot states.
+        KeyError: If the trajectory has no foot states.
     """
-    sole, support, tilt = track.sole, track.support, track.tilt
-    if sole is None or support is None or tilt is None:
-        raise ValueError("the trajectory must have sole, support and tilt")
-    com, planned = track.com[:, :2], support[:, 2:]
-    estimate = track.estimate
-    if estimate is None:
-        estimate = np.full((len(times), 8), np.nan)
-    pairs = {
-        "com": _point(sole, com),
-        "velocity": _vector(sole, track.velocity),
-        "com_reference": _point(planned, track.com_reference),
-        "zmp": _point(sole, track.zmp),
-        "zmp_reference": _point(planned, track.zmp_reference),
-        "estimated_com": _point(planned, estimate[:, 0:2]),
-        "estimated_velocity": _vector(planned, estimate[:, 2:4]),
-        "estimated_zmp": _point(planned, estimate[:, 4:6]),
-        "com_in_world": com,
-        "com_reference_in_world": track.com_reference,
-        "foot_in_world": sole[:, :2],
+    rows = track.arrays()
+    sole, planned = rows["sole"], rows["support"][:, 2:]
+    estimate = rows.get("estimate", np.full((len(sole), 8), np.nan))
+    points = {
+        "com": (sole, rows["com"]),
+        "zmp": (sole, rows["zmp"]),
+        "com_reference": (planned, rows["com_reference"]),
+        "zmp_reference": (planned, rows["zmp_reference"]),
+        "estimated_com": (planned, estimate[:, :2]),
+        "estimated_zmp": (planned, estimate[:, 4:6]),
     }
-    found = {"time": times, "support": support[:, 0], "single": support[:, 1]}
-    for name, points in pairs.items():
-        assert points is not None
-        found |= {f"{name}_x": points[:, 0], f"{name}_y": points[:, 1]}
-    assert track.heading_reference is not None
-    return found | {
-        "roll": tilt[:, 0],
-        "pitch": tilt[:, 1],
-        "estimated_roll": estimate[:, 6],
-        "estimated_pitch": estimate[:, 7],
-        "heading": track.torso[:, 2],
-        "heading_reference": track.heading_reference[:, 0],
+    return {
+        "velocity": _turned(sole, rows["velocity"]),
+        "estimated_velocity": _turned(planned, estimate[:, 2:4]),
+    } | {
+        name: _turned(frames, places[:, :2] - frames[:, :2])
+        for name, (frames, places) in points.items()
     }
 
 
-def _point(frames: Array, points: Array | None) -> Array:
-    """Transform points from the world to frames. Shape (n, 2)."""
-    assert points is not None
-    return _vector(frames, points - frames[:, :2])
-
-
-def _vector(frames: Array, vectors: Array | None) -> Array:
+def _turned(frames: Array, vectors: Array) -> Array:
     """Rotate vectors from the world to frames. Shape (n, 2)."""
-    assert vectors is not None
     c, s = np.cos(frames[:, 2]), np.sin(frames[:, 2])
-    x, y = vectors[:, 0], vectors[:, 1]
+    x, y = vectors.T
     return np.column_stack([c * x + s * y, c * y - s * x])
 
 
@@ -278,104 +242,107 @@ def upright_samples(
 
 def summarise_walk(run: Run, solved: "Sequence[MpcResult]") -> WalkingSummary:
     """Compute the summary of a walk; with the results of its MPC, if any."""
-    mask = upright_samples(run.times, run.outcome)
-    in_foot = express_in_support_foot(run.times, run.tracks[WALKER])
-    columns = {name: values[mask] for name, values in in_foot.items()}
-    walking = measured(columns, run.settings.cycle)
-    return replace(walking, solver=_solver(solved))
+    solver = None
+    if solved:
+        spent = 1e6 * np.array([answer.time for answer in solved])
+        solver = SolverSummary(
+            solves=len(solved),
+            infeasible=sum(not answer.feasible for answer in solved),
+            median_us=float(np.median(spent)),
+            p99_us=float(np.quantile(spent, 0.99)),
+        )
+    mask = upright_samples(run.times, run.outcome) & (run.times >= WARM_UP)
+    rows: dict[str, Any] = {
+        name: rows[mask]
+        for name, rows in run.walker.arrays().items()
+        if name not in OF_EVENTS
+    }
+    walking = walking_of(
+        run.times[mask], Trajectory(**rows), run.settings.cycle
+    )
+    return replace(walking, solver=solver)
 
 
-def measured(columns: dict[str, Array], cycle: float) -> WalkingSummary:
-    """Return what columns of a walk give.
+def walking_of(
+    times: Array, track: Trajectory, cycle: float
+) -> WalkingSummary:
+    """Measure a walk, at evenly spaced samples with foot states.
 
-    Args:
-        columns: Evenly spaced samples; see :func:`express_in_support_foot`.
-        cycle: Duration of a gait cycle, in [s].
+    A gait cycle has a duration, in [s].
     """
-    steady = columns["time"] >= WARM_UP
-    a = {name: values[steady] for name, values in columns.items()}
-    tilt = np.hypot(a["roll"], a["pitch"])
-    speed, speed_ratio, yaw_rate, yaw_ratio = _pace(a, cycle)
+    rows, seen = track.arrays(), express_in_support_foot(track)
+    lean = rows["tilt"]
+    tilt = np.hypot(*lean.T)
+    estimated = rows.get("estimate", np.full((len(times), 8), np.nan))[:, 6:]
+    speed, speed_ratio, yaw_rate, yaw_ratio = _pace(times, rows, cycle)
     return WalkingSummary(
         speed_m_s=speed,
         speed_ratio=speed_ratio,
         yaw_rate_deg_s=yaw_rate,
         yaw_ratio=yaw_ratio,
-        slip_per_step_m=_slip(a),
+        slip_per_step_m=_slip(rows["support"][:, 1], rows["sole"]),
         tilt_max_deg=degrees(float(tilt.max())) if len(tilt) else None,
         tracking={
-            f"{name}_m": _error(a[name], a[f"{name[:3]}_reference{name[3:]}"])
-            for name in TRACKED
+            f"{name}_{axis}_m": rms
+            for name in ("com", "zmp")
+            for axis, rms in _errors(seen[name] - seen[f"{name}_reference"])
         },
         estimation={
-            f"{name}_{unit}": _error(a[f"estimated_{name}"], a[name])
-            for name, unit in ESTIMATED.items()
+            f"{name}_{axis}_{unit}": rms
+            for name, unit in (("com", "m"), ("zmp", "m"), ("velocity", "m_s"))
+            for axis, rms in _errors(seen[f"estimated_{name}"] - seen[name])
+        }
+        | {
+            f"{name}_rad": rms
+            for name, (_, rms) in zip(
+                ("roll", "pitch"), _errors(estimated - lean), strict=True
+            )
         },
     )
 
 
-def _solver(answers: "Sequence[MpcResult]") -> SolverSummary | None:
-    if not answers:
-        return None
-    times = 1e6 * np.array([a.time for a in answers])
-    return SolverSummary(
-        solves=len(answers),
-        infeasible=sum(not a.feasible for a in answers),
-        median_us=float(np.median(times)),
-        p99_us=float(np.quantile(times, 0.99)),
-    )
+def _errors(errors: Array) -> list[tuple[str, float | None]]:
+    """Return the RMS of two columns of errors, without NaN."""
+    known = [column[np.isfinite(column)] for column in errors.T]
+    return [
+        (axis, float(np.sqrt(np.mean(own**2))) if len(own) else None)
+        for axis, own in zip("xy", known, strict=True)
+    ]
 
 
-def _pace(a: dict[str, Array], cycle: float) -> list[float | None]:
+def _pace(
+    times: Array, rows: dict[str, Array], cycle: float
+) -> list[float | None]:
     """Return speed [m/s] and yaw rate [deg/s], each with its ratio.
 
     They are over whole gait cycles; None where too short to measure.
     """
-    time = a["time"]
-    if len(time) < 3 or time[-1] - time[0] < 2.0 * cycle:
+    if len(times) < 3 or times[-1] - times[0] < 2.0 * cycle:
         return [None] * 4
-    samples_per_cycle = round(cycle / float(time[1] - time[0]))
-    cycles = (len(time) - 1) // samples_per_cycle
-    rows = np.arange(cycles + 1) * samples_per_cycle
-    elapsed = float(time[rows[-1]] - time[rows[0]])
-
-    def length(name: str) -> float:
-        steps = (np.diff(a[f"{name}_in_world_{axis}"][rows]) for axis in "xy")
-        return float(np.hypot(*steps).sum())
-
-    way, planned_way = length("com"), length("com_reference")
-    heading, planned = (
-        float(np.subtract(*np.unwrap(a[name])[rows[[-1, 0]]]))
-        for name in ("heading", "heading_reference")
+    at = slice(None, None, round(cycle / float(times[1] - times[0])))
+    elapsed = float(np.ptp(times[at]))
+    way, planned_way = (
+        float(np.hypot(*np.diff(rows[name][at, :2], axis=0).T).sum())
+        for name in ("com", "com_reference")
+    )
+    turn, planned = (
+        float(np.diff(np.unwrap(values)[at]).sum())
+        for values in (rows["torso"][:, 2], rows["heading_reference"][:, 0])
     )
     return [
         way / elapsed,
         way / planned_way if planned_way > 0.01 else None,
-        degrees(heading) / elapsed,
-        heading / planned if abs(planned) > 0.05 else None,
+        degrees(turn) / elapsed,
+        turn / planned if abs(planned) > 0.05 else None,
     ]
 
 
-def _slip(a: dict[str, Array]) -> float | None:
+def _slip(single: Array, soles: Array) -> float | None:
     """Return the mean slip of the support foot in single support, in [m]."""
-    single = a["single"] > 0.5
-    edges = np.flatnonzero(np.diff(single.astype(int)))
-    x, y = a["foot_in_world_x"], a["foot_in_world_y"]
+    edges = np.flatnonzero(np.diff((single > 0.5).astype(int)))
     slips = [
-        np.hypot(x[end - 1] - x[start + 2], y[end - 1] - y[start + 2])
+        np.hypot(*(soles[end - 1, :2] - soles[start + 2, :2]))
         for start, end in zip(edges[:-1], edges[1:], strict=True)
-        if single[start + 1] and end - start > 6
+        if single[start + 1] > 0.5 and end - start > 6
     ]
     return float(np.mean(slips)) if slips else None
-
-
-def _error(values: Array, references: Array) -> ErrorStatistics | None:
-    errors = values - references
-    errors = errors[np.isfinite(errors)]
-    if errors.size == 0:
-        return None
-    return ErrorStatistics(
-        rms=float(np.sqrt(np.mean(errors**2))),
-        mean=float(np.mean(errors)),
-        max=float(np.abs(errors).max()),
-    )

@@ -1,7 +1,7 @@
 """Run folders: a recorded game on disk."""
 
 import json
-from dataclasses import asdict, dataclass
+from dataclasses import dataclass
 from hashlib import sha256
 from importlib import import_module
 from pathlib import Path
@@ -67,18 +67,6 @@ class RunHeader:
     duration_s: float
 
 
-def results_of(run: Run) -> dict[str, Any]:
-    """Return outcome and summary as ``--json`` prints them."""
-    seed = getattr(run.settings, "seed", None)
-    return {
-        "outcome": run.outcome.value,
-        "message": run.message,
-        "seed": seed,
-        "duration_s": run.duration,
-        **asdict(run.summary),
-    }
-
-
 def write_run_files(folder: Path, run: Run) -> None:
     """Write configuration, summary and trajectories into a folder.
 
@@ -88,7 +76,7 @@ def write_run_files(folder: Path, run: Run) -> None:
     entries = settings_entries(run.settings)
     _keep_robots(entries, folder)
     header = {"format": FORMAT, "game": run.game}
-    summary = json.dumps(header | results_of(run), indent=2, allow_nan=False)
+    summary = json.dumps(header | run.results(), indent=2, allow_nan=False)
     for name, text in (
         (CONFIGURATION, tomli_w.dumps(entries)),
         (SUMMARY, summary + "\n"),

@@ -11,7 +11,6 @@ from .game_settings import GameSettings
 from .recorded_game import RecordedGame
 from .robot_player import VelocityWalker
 from .run import Run
-from .run_archive import results_of
 
 if TYPE_CHECKING:
     from ..drivers.ros2_dds import DdsParticipant
@@ -125,7 +124,7 @@ class ServedDuel(NamedTuple):
 
     def to_json(self) -> dict[str, Any]:
         """Return the summary of the duel and the timing, as plain values."""
-        return results_of(self.run) | {
+        return self.run.results() | {
             "late_ticks": self.late_ticks,
             "unanswered_frames": self.unanswered,
         }

@@ -7,37 +7,23 @@ from dataclasses import dataclass, field
 
 
 @dataclass(frozen=True, slots=True)
-class ErrorSpread:
-    """Median and 95 % quantile of absolute errors."""
-
-    median: float | None
-    p95: float | None
-
-
-@dataclass(frozen=True, slots=True)
 class SightSummary:
-    """Errors and detection rates of one robot with cameras.
+    """Errors of the sightings of one robot with cameras."""
 
-    A detection rate is the fraction of images with the opponent in view in
-    which it was detected.
-    """
-
-    bearing_error_deg: ErrorSpread
-    distance_error_m: ErrorSpread
-    detection_rate: float | None  # of colour images
-    false_detections: int  # that match no object
+    bearing_error_median_deg: float | None
+    bearing_error_p95_deg: float | None
+    distance_error_median_m: float | None
     misled_s: float  # with a bearing error above 20 deg
     lost_s: float  # without a sighting of the opponent
 
 
 @dataclass(frozen=True, slots=True)
 class PerceptionSummary:
-    """Detections of all robots together; see :class:`SightSummary`."""
+    """Detections of all robots together."""
 
     camera: str  # name of the renderer of the colour images
-    detection_rate: float | None
-    false_detections: int
-    lost_s: float
+    detection_rate: float | None  # of the images with the opponent in view
+    false_detections: int  # that match no object
 
 
 @dataclass(frozen=True, slots=True)
@@ -109,15 +95,6 @@ class PlanningSummary:
 
 
 @dataclass(frozen=True, slots=True)
-class ErrorStatistics:
-    """Statistics of the difference of two quantities, in their unit."""
-
-    rms: float
-    mean: float
-    max: float
-
-
-@dataclass(frozen=True, slots=True)
 class SolverSummary:
     """Performance of the solver of the MPC."""
 
@@ -141,8 +118,8 @@ class WalkingSummary:
     yaw_ratio: float | None  # turn over the planned one
     slip_per_step_m: float | None  # of the support foot, mean
     tilt_max_deg: float | None  # of the torso
-    tracking: dict[str, ErrorStatistics | None]  # of CoM and ZMP
-    estimation: dict[str, ErrorStatistics | None]  # of the estimates
+    tracking: dict[str, float | None]  # RMS errors of CoM and ZMP
+    estimation: dict[str, float | None]  # RMS errors of the estimates
     adapted_steps: int = 0  # by feedback, in the whole walk
     push_impulse_n_s: tuple[float, float] = (0.0, 0.0)  # all, in the world
     solver: SolverSummary | None = None

@@ -1,4 +1,4 @@
-"""Text in films: labels, time, distance and state."""
+"""Text in films and pages: labels, time, distance and state."""
 
 from collections.abc import Callable, Iterable
 from functools import cache
@@ -8,7 +8,8 @@ from typing import Any
 import numpy as np
 
 from ..core.poses import Array
-from ..games.run import Run, describe_state
+from ..games.outcome import Outcome
+from ..games.run import Run
 from ..perception.images import Pixels
 from .palette import PALETTES
 from .text_escaping import visible
@@ -89,3 +90,45 @@ def draw_label(
     box = (x - half, y - 1.35 * size, x + half, y)
     pen.rounded_rectangle(box, 0.6 * size, (251, 251, 249, 225))
     pen.text((x, y - 0.68 * size), text, colour, small, "mm")
+
+
+def describe_state(run: Run, index: int) -> str:
+    """Describe the state of a game at a sample."""
+    time, summary = float(run.times[index]), run.summary
+    complete = run.outcome in (Outcome.COMPLETED, Outcome.INTERRUPTED)
+    if index >= len(run.times) - 1 and not complete:
+        return run.message
+    if summary.play is not None:
+        past = [c for c in summary.play.changes if c.time_s <= time + 1e-9]
+        words = [f"{c.state} ({c.reason})" for c in past[-1:]]
+        return "".join(words) or "no state recorded yet"
+    pushed = [
+        name
+        for name, track in run.tracks.items()
+        if track.pushes is not None
+        and any(0.0 <= time - begun < 1.0 for begun in track.pushes[:, 0])
+    ]
+    if pushed:
+        return f"push of {' and '.join(pushed)}"
+    if run.game == "walk":
+        landings = run.walker.landings
+        single = run.settings.gait.single_support
+        walks = landings is not None and any(landings[:1, 0] - single <= time)
+        return "the robot walks" if walks else "the robot stands"
+    if run.game == "duel":
+        triggered, converged = summary.triggered_at_s, summary.converged_at_s
+        if triggered is None or time < triggered:
+            return "the evader stands"
+        if time < triggered + 1.0:
+            return "the evader is triggered"
+        if converged is None or time < converged:
+            return "the evader is evading"
+        return f"{' and '.join(run.players)} are on the circle"
+    if not run.opponents:
+        return f"{' and '.join(run.players)} in motion"
+    at = {
+        name: track.unicycle[index, :2] for name, track in run.tracks.items()
+    }
+    apart = [(np.hypot(*(at[a] - at[b])), a, b) for a, b in run.opponents]
+    least, one, other = min(apart)
+    return f"nearest: {one} and {other}, {least:.2f} m"

@@ -12,7 +12,6 @@ from ..core.errors import AnyPath
 from ..core.player_colours import markers_of
 from ..core.poses import Array
 from ..games.duel_circle import cycle_mean, distance_between, whole_cycles
-from ..games.evaluation import express_in_support_foot
 from ..games.run import Run
 from .figure_style import (
     LEFT,
@@ -100,7 +99,7 @@ def _layout_of(run: Run) -> tuple[list[str], list[float], dict[str, Draw]]:
     if len(run.players) == 1:
         rows, heights, drawn = ["pppp"], [2.0], dict[str, Draw]()
         (track,) = run.tracks.values()
-        if track.sole is not None:
+        if track.tilt is not None:
             rows, heights = [*rows, "tttt"], [*heights, 1.1]
             drawn = {"t": partial(_draw_tilt, run)}
     elif len(run.players) == 2:
@@ -211,12 +210,13 @@ def _draw_balance(run: Run, name: str, axes: Any) -> None:
 
 
 def _draw_tilt(run: Run, axes: Any) -> None:
-    """Draw the tilt of the torso of a walk, in the support foot."""
+    """Draw the tilt of the torso of a walk."""
     (track,) = run.tracks.values()
-    seen = express_in_support_foot(run.times, track)
-    for lean, colour in (("roll", LEFT), ("pitch", RIGHT)):
-        values = np.degrees(seen[lean])
-        axes.plot(run.times, values, color=colour, lw=1.0, label=lean)
+    assert track.tilt is not None
+    leans = zip(("roll", "pitch"), (LEFT, RIGHT), track.tilt.T, strict=True)
+    for lean, colour, values in leans:
+        look: dict[str, Any] = {"color": colour, "lw": 1.0, "label": lean}
+        axes.plot(run.times, np.degrees(values), **look)
     _mark_pushes(axes, run)
     axes.set(xlabel="time [s]", ylabel="tilt [deg]")
     axes.margins(x=0.0)
@@ -395,9 +395,8 @@ def _walk_measures(run: Run) -> tuple[Array, Array]:
     """Return tilt [deg], and speed over the gait cycle around, in [m/s]."""
     (track,) = run.tracks.values()
     tilt, speed = np.full((2, len(run.times)), np.nan)
-    if track.sole is not None:
-        seen = express_in_support_foot(run.times, track)
-        tilt = np.degrees(np.hypot(seen["roll"], seen["pitch"]))
+    if track.tilt is not None:
+        tilt = np.degrees(np.hypot(*track.tilt.T))
     half = max(1, int(np.searchsorted(run.times, 0.5 * run.settings.cycle)))
     if len(run.times) > 2 * half:
         way = track.unicycle[2 * half :, :2] - track.unicycle[: -2 * half, :2]

@@ -14,7 +14,6 @@ from ..games.game_settings import GameSettings, duel, walk
 from ..games.outcome import Outcome
 from ..games.recorded_game import run_game
 from ..games.run import Run
-from ..games.run_archive import results_of
 from ..games.settings_reader import read_game, settings_of
 from ..games.strategy_games import play_unicycles
 from ..games.unicycle_settings import UnicycleSettings
@@ -34,7 +33,7 @@ def play_duel(settings: GameSettings) -> Record:
     run = run_game(settings).uninterrupted()
     since, (closest, certified) = run.summary.converged_at_s, _evasion(run)
     both = closest is not None and certified is not None
-    return flat(results_of(run)) | {
+    return flat(run.results()) | {
         "on_circle": since is not None,
         "on_circle_in_time": since is not None
         and since < BEFORE * run.settings.duration,
@@ -136,7 +135,7 @@ class StudyGame(NamedTuple):
 def _play_walk(settings: GameSettings) -> Record:
     run = run_game(settings).uninterrupted()
     survived = run.outcome is Outcome.COMPLETED
-    return flat(results_of(run)) | {"survived": survived}
+    return flat(run.results()) | {"survived": survived}
 
 
 def _play_unicycles(settings: UnicycleSettings) -> Record:
