@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 from stepaside.core.poses import Array
-from stepaside.planning.swing import (
-    SwingProfile,
+from stepaside.planning.gait_settings import SwingProfile
+from stepaside.planning.schedule import (
     swing_acceleration,
     swing_height,
     swing_progress,

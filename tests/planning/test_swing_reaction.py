@@ -15,8 +15,8 @@ from stepaside.planning import (
     ManeuverPlanner,
     TemplateDrive,
 )
+from stepaside.planning.gait_settings import SwingProfile
 from stepaside.planning.maneuver import steady_plan
-from stepaside.planning.swing import SwingProfile
 
 FAST = PRESETS["fast"]
 TINY = 1e-4  # between samples of a derivative, in [s]

@@ -14,7 +14,7 @@ from stepaside.planning import (
     ManeuverPlanner,
 )
 from stepaside.planning.maneuver import steady_plan
-from stepaside.planning.template_path import (
+from stepaside.planning.path import (
     path_samples,
     poses_on_path,
     progress_by_time,

@@ -8,7 +8,7 @@ from ..core.poses import ALL_AROUND, Pose, Sector
 from ..locomotion.locomotion import Surroundings
 from ..perception.measurement import Sighting
 from ..planning import Foot, GaitSettings
-from ..planning.template_path import pose_beside_foot
+from ..planning.path import pose_beside_foot
 from ..strategies.decision_maker import DecisionMaker, turned
 from ..strategies.knowledge import (
     ON_THE_SPOT,

@@ -52,11 +52,9 @@ def evaluate(coefficients: Array, local_times: Array) -> Array:
 
 
 def least_values(coefficients: Array, duration: float) -> Array:
-    """Return the least values of cubic polynomials over [0, duration].
+    """Return the least values of cubics (4, n) over [0, duration].
 
     They are at an end or where the derivative vanishes.
-
-    ``coefficients``: Of the powers 0 to 3. Shape (4, n).
     """
     c0, c1, c2, c3 = coefficients
     # Roots of c1 + 2 c2 s + 3 c3 s^2 without cancellation, also if any is 0.
@@ -78,23 +76,16 @@ class BoundedCom:
 
     zmp: PiecewisePolynomial
     eta: float  # rate of the pendulum [1/s]
-    # polynomial part of the DCM, in the frame of the ZMP and laid out like it
-    dcm_polynomial: Array
-    # polynomial part of the CoM, in the frame of the ZMP
-    com_polynomial: Array
-    # DCM less its polynomial at the end of each piece [m]. Shape (n, ...)
-    growth: Array
-    # coefficient of exp(-eta s) in the CoM of each piece [m]. Shape (n, ...)
-    decay: Array
+    dcm_polynomial: Array  # polynomial part of the DCM, laid out as the ZMP
+    com_polynomial: Array  # polynomial part of the CoM
+    growth: Array  # DCM less its polynomial at the end of each piece. (n, ...)
+    decay: Array  # coefficient of exp(-eta s) in the CoM. (n, ...)
 
     @classmethod
     def solve(
         cls, zmp: PiecewisePolynomial, eta: float, com_start: ArrayLike
     ) -> "BoundedCom":
-        """Solve (15)-(17); the velocity at the start follows from (16).
-
-        ``com_start``: CoM at the start, in [m]. Shape (...), as the ZMP.
-        """
+        """Solve (15)-(17); the velocity at the start follows from (16)."""
         p = zmp.coefficients
         durations = zmp.durations
         dcm = _particular(p, 1.0 / eta)
@@ -116,12 +107,9 @@ class BoundedCom:
         return cls(zmp, eta, dcm, com, growth, decay)
 
     def sample(self, times: ArrayLike) -> tuple[Array, Array, Array]:
-        """Evaluate ZMP, DCM and CoM, in [m]. Shape (m, ...) each.
+        """Evaluate ZMP, DCM and CoM at any times (m,), in [m]. (m, ...) each.
 
         The CoM velocity is ``eta * (dcm - com)``.
-
-        ``times``: Times since the start, in [s]; any, also after the end of
-        the ZMP's last piece. Shape (m,).
         """
         index, s = self.zmp.locate(times)
         beyond = np.maximum(s - self.zmp.durations[index], 0.0)

@@ -2,16 +2,17 @@
 
 from dataclasses import dataclass, replace
 from math import sqrt
+from typing import Literal
 
 from ..core.constants import GRAVITY
 from ..core.errors import PlanError, check_within
 from ..core.ranges import Range
 from ..core.setting import CheckedSettings, check_settings, setting
-from .swing import SwingProfile
 
 # From about a thousandth to a hundred times the values of humanoids.
 SMALL = "size of a foot"
 WIDE = "beyond, exponentials of the gait overflow a double"
+SwingProfile = Literal["minimum-jerk", "even"]
 FAST_STEP = 0.4  # between those of the gaits "fast" and "nao", in [s]
 
 
@@ -166,16 +167,14 @@ class GaitSettings:
     def is_fast(self) -> bool:
         """Whether steps are too short to walk without feedback.
 
-        They are also too short for the measured state to settle, so that
-        plans begin at the planned state.
+        Plans then begin at the planned state: the measured one never settles.
         """
         return self.step_duration < FAST_STEP
 
     def at_pace(self, pace: float) -> "GaitSettings":
         """Return the gait at a fraction of its step rate, in (0, 1].
 
-        The step height decreases with it, linearly to half the height at pace
-        0.
+        The step height falls with it, to half the height at pace 0.
         """
         if pace == 1.0:
             return self
@@ -188,7 +187,7 @@ class GaitSettings:
         )
 
     def stride_share(self, turn: float) -> float:
-        """Return the share of the stride for a turn of a step, in [rad]."""
+        """Return the share of the stride for the turn of a step, [rad]."""
         return stride_share(
             turn, self.stride, self.outer_stride, self.foot_spacing
         )

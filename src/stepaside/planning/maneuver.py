@@ -49,7 +49,6 @@ class ManeuverPlanner:
     """Maneuver planner for one gait, for pursuer and evader alike."""
 
     def __init__(self, settings: GaitSettings) -> None:
-        """Prepare a planner; the maps of each schedule are computed once."""
         self.settings = settings
         self._schedules: dict[tuple[int, bool, float], Schedule] = {}
 
@@ -81,7 +80,7 @@ class ManeuverPlanner:
         drive: TemplateDrive = FULL_SPEED,
         count: int | None = None,
     ) -> ManeuverPlan:
-        r"""Plan one maneuver (Fig. 4, red box).
+        r"""Plan one maneuver (Fig. 4, red box), from the present CoM state.
 
         Args:
             bearing: Desired heading :math:`\theta^*` in the frame of the
@@ -92,13 +91,9 @@ class ManeuverPlanner:
                 between the feet.
             swing_start: Pose of the first swing foot in the frame of the
                 support foot; abreast of it by default.
-            standing: Whether the robot starts from standing: then the plan
-                begins with a double support, else with a single support.
+            standing: Whether the plan begins with a double support.
             drive: Speed and steering law of the template.
             count: Number of footsteps; by default the horizon of the gait.
-
-        Returns:
-            The plan, which starts with the given CoM position and velocity.
 
         Raises:
             PlanError: If the bearing is not finite or beyond one turn, the
@@ -152,10 +147,7 @@ class ManeuverPlanner:
         swing_start: Pose,
         pace: float = 1.0,
     ) -> ManeuverPlan:
-        """Plan a halt: one last step that brings the feet abreast.
-
-        Arguments are as in :meth:`plan`.
-        """
+        """Plan a halt: one last step that brings the feet abreast."""
         schedule = self.schedule(1, standing=False, pace=pace)
         spacing = self.settings.foot_spacing * first_foot.value
         placements = np.array(
@@ -201,9 +193,6 @@ def _pair(values: Array) -> tuple[float, float]:
     return x, y
 
 
-STATE_SIZE = 4  # position and velocity
-
-
 def landing_state(plan: ManeuverPlan) -> CenterState:
     """Return the CoM state at the first landing, in that foot's frame."""
     samples = plan.sample(plan.schedule.first_step_sampler)
@@ -231,26 +220,22 @@ def steady_plan(
     def plan_from(
         state: np.ndarray, foot: Foot, swing_start: Pose | None = None
     ) -> ManeuverPlan:
-        x, y, vx, vy = state.tolist()
         return planner.plan(
             bearing,
             direction,
             first_foot=foot,
-            state=CenterState((x, y), (vx, vy)),
+            state=CenterState(_pair(state[:2]), _pair(state[2:])),
             swing_start=swing_start,
         )
 
     def recur(state: np.ndarray) -> np.ndarray:
         for foot in (first_foot, first_foot.other):
-            position, velocity = landing_state(plan_from(state, foot))
-            state = np.array([*position, *velocity])
+            state = np.ravel(landing_state(plan_from(state, foot)))
         return state
 
-    origin = recur(np.zeros(STATE_SIZE))
-    columns = [recur(unit) - origin for unit in np.eye(STATE_SIZE)]
-    state = np.linalg.solve(
-        np.eye(STATE_SIZE) - np.column_stack(columns), origin
-    )
+    origin, unit = recur(np.zeros(4)), np.eye(4)
+    columns = [recur(each) - origin for each in unit]
+    state = np.linalg.solve(unit - np.column_stack(columns), origin)
     before = plan_from(state, first_foot.other)
     left_behind = Pose(*before.placements[2].tolist()).inverse()
     return plan_from(state, first_foot, left_behind)

@@ -35,40 +35,6 @@ class SupportPhase(NamedTuple):
         return len(self.rows) == 1
 
 
-def support_phases(
-    schedule: Schedule,
-    placements: Array,
-    first_foot: Foot,
-    duration: float = inf,
-) -> tuple[SupportPhase, ...]:
-    """Return the support phases of a plan in order, without gaps.
-
-    Between two of them both apply: the foot that lands or lifts off is on the
-    floor, but the ZMP is already under the foot of single support.
-    """
-    sole = schedule.settings.sole
-    sides = (first_foot, first_foot.other)
-    starts = schedule.starts.tolist()
-    bearing: list[tuple[int, ...]] = [(0, 1)] if schedule.standing else []
-    for row in range(1, schedule.count + 1):  # of the foot that stands
-        bearing += [(row,), (row, row + 1)]
-    phases = []
-    for i, rows in enumerate(bearing):
-        if starts[i] >= duration - 1e-9:
-            break
-        corners = convex_hull(
-            np.concatenate(
-                [sole_corners(placements[r], sides[r % 2], sole) for r in rows]
-            )
-        )
-        end = inf if i == len(bearing) - 1 else starts[i + 1]
-        phase = SupportPhase(
-            starts[i], end, rows, corners, *half_planes(corners)
-        )
-        phases.append(phase)
-    return tuple(phases)
-
-
 def sole_corners(pose: Array, foot: Foot, sole: SoleRectangle) -> Array:
     """Return the corners of a sole in the frame of its pose. Shape (4, 2)."""
     left = np.array(
@@ -106,27 +72,19 @@ class ManeuverPlan:
     """Planned maneuver: an immutable value.
 
     The plan frame is the frame of the support foot of the first step.
-
-    Attributes:
-        schedule: Timing, with its constant maps.
-        bearing: Desired heading of the plan, in [rad].
-        direction: Whether the robot walks forward or backward.
-        first_foot: Foot that lands first.
-        placements: Rows (x [m], y [m], theta [rad]): the first swing foot
-            and the support foot at the start, then the footsteps.
-            Shape (count + 2, 3).
-        inputs: Anchors, ZMP at the start, correction, CoM at the start, in
-            [m]; see :class:`~stepaside.planning.schedule.Schedule`.
-            Shape (count + 4, 2), one more with a swing reaction.
     """
 
     __repr__ = brief_repr
 
-    schedule: Schedule
-    bearing: float
+    schedule: Schedule  # timing, with its constant maps
+    bearing: float  # desired heading [rad]
     direction: Direction
-    first_foot: Foot
+    first_foot: Foot  # that lands first
+    # rows (x [m], y [m], theta [rad]): the first swing foot and the support
+    # foot at the start, then the footsteps. (count + 2, 3)
     placements: Array
+    # anchors, ZMP at the start, correction, CoM at the start [m]; see
+    # :class:`Schedule`. (count + 4, 2), one more with a swing reaction
     inputs: Array
 
     @property
@@ -168,23 +126,40 @@ class ManeuverPlan:
         return coefficients
 
     def support(self, duration: float = inf) -> tuple[SupportPhase, ...]:
-        """Return the support phases that begin before a time, in [s]."""
-        return support_phases(
-            self.schedule, self.placements, self.first_foot, duration
-        )
+        """Return the support phases that begin before a time, without gaps.
+
+        Between two of them both apply: the foot that lands or lifts off is on
+        the floor, but the ZMP is already under the foot of single support.
+        """
+        schedule, placements = self.schedule, self.placements
+        sides = (self.first_foot, self.first_foot.other)
+        starts = schedule.starts.tolist()
+        bearing: list[tuple[int, ...]] = [(0, 1)] * schedule.standing
+        for row in range(1, schedule.count + 1):  # of the foot that stands
+            bearing += [(row,), (row, row + 1)]
+        phases = []
+        for i, rows in enumerate(bearing):
+            if starts[i] >= duration - 1e-9:
+                break
+            soles = [
+                sole_corners(placements[r], sides[r % 2], self.gait.sole)
+                for r in rows
+            ]
+            corners = convex_hull(np.concatenate(soles))
+            end = inf if i == len(bearing) - 1 else starts[i + 1]
+            phases.append(
+                SupportPhase(
+                    starts[i], end, rows, corners, *half_planes(corners)
+                )
+            )
+        return tuple(phases)
 
     def margin(self, duration: float = inf) -> float:
-        """Return the least distance of the ZMP from the polygon's edge.
+        """Return the least distance of the ZMP from the polygon's edge, [m].
 
-        The distance from each edge is a polynomial in each phase, so its
-        minimum is exact.
-
-        Args:
-            duration: Duration from the start that is checked, in [s]; all
-                of the plan by default.
-
-        Returns:
-            Margin, in [m], negative if the ZMP leaves the polygon.
+        Until a duration, in [s]; negative if the ZMP leaves the polygon. The
+        distance from each edge is a polynomial in each phase, so its minimum
+        is exact.
         """
         coefficients = self.zmp_coefficients
         until = min(duration, self.schedule.duration)
@@ -197,11 +172,9 @@ class ManeuverPlan:
         return least
 
     def sample(self, times: ArrayLike | Sampler) -> PlanSamples:
-        """Evaluate the plan.
+        """Evaluate the plan at times since it began, in [s]. Shape (m,).
 
-        Args:
-            times: Times since the plan began, in [s], shape (m,); or a
-                sampler of this plan's schedule, which is faster.
+        A sampler of its schedule is faster than times.
 
         Raises:
             PlanError: If the times are not numbers from 0 to a day.

@@ -10,15 +10,12 @@ so the DCMs that ZMPs in a convex set P can bring into a convex set X are
 
 A footstep f in a convex set F places a sole B + f beside the stance sole A.
 The DCMs that the two feet can then hold indefinitely are their hull, and
-the union of these hulls over all f is convex, too: it is the hull of A and
-:math:`F \oplus B`, since a mean of a in A and b + f in B + f is one of a and
-a point of :math:`F \oplus B`.
+the union of these hulls over all f is the hull of A and :math:`F \oplus B`.
 
-The bound holds for a pendulum: a point mass at constant height, with flat
-feet of the sole's size, a ZMP anywhere in the support polygon and of any
-speed, and footsteps that land as planned in time, parallel to the stance
-foot. Angular momentum about the CoM, vertical motion and changed step times
-are outside of this model.
+The bound holds for a point mass at constant height, a ZMP anywhere in the
+support polygon and of any speed, and footsteps that land as planned in time,
+parallel to the stance foot. Angular momentum about the CoM, vertical motion
+and changed step times are outside of this model.
 """
 
 from math import cos, exp, expm1, sin
@@ -53,18 +50,15 @@ def push_bound(
     *,
     lasts: float = 0.0,
 ) -> float:
-    r"""Return the largest push such that it and all smaller ones are held.
+    r"""Return the largest impulse J [N s] such that all up to it are held.
 
     A push is held by the feet on the floor, or by one reachable footstep that
     lands at the planned time, in place of the next planned one. The push
     begins at a time since the plan began, within its first step, in [s], in a
-    direction relative to the support foot's heading, in [rad].
-
-    A push of finite duration is a constant force, with the ZMP free from
-    its start: with :math:`h = \eta T` it shifts the DCM by the factor
+    direction relative to the support foot's heading, in [rad]. If it lasts,
+    in [s], it is a constant force, with the ZMP free from its start: with
+    :math:`h = \eta T` it shifts the DCM by the factor
     :math:`(1 - e^{-h}) / h` less than an impulse at its start.
-
-    Impulse at the CoM, in [N s]; 0 if the DCM cannot be held at all.
     """
     check_within(time, 0.0, plan.schedule.first_step_duration, "time", "s")
     dcm = plan.sample([time]).dcm[0]

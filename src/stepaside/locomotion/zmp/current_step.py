@@ -5,7 +5,7 @@ from typing import NamedTuple
 
 from ...core.poses import Pose
 from ...planning import Foot, GaitSettings, ManeuverPlan
-from ...planning.swing import swing_progress
+from ...planning.schedule import swing_progress
 from ...robots.leg_kinematics import BodyReference
 from ..control_settings import StabiliserSettings
 

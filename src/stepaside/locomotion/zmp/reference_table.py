@@ -8,12 +8,12 @@ import numpy as np
 
 from ...core.poses import Array, Pose, wrap_angle
 from ...planning import GaitSettings, ManeuverPlan
-from ...planning.schedule import Sampler, Schedule
-from ...planning.template_path import (
+from ...planning.path import (
     path_samples,
     poses_on_path,
     progress_by_time,
 )
+from ...planning.schedule import Sampler, Schedule
 from ...robots.leg_kinematics import BodyReference
 
 ZERO = (0.0, 0.0)

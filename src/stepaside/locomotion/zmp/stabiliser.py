@@ -24,7 +24,7 @@ from ...core.compilation import bound, compiled
 from ...core.poses import Array, Pose, wrap_angle
 from ...perception.measurement import RobotState
 from ...planning import CenterState, Foot, GaitSettings, ManeuverPlan
-from ...planning.swing import swing_progress
+from ...planning.schedule import swing_progress
 from ...robots.description import RobotDescription
 from ...robots.forward_kinematics import ForwardKinematics, MeasuredPosture
 from ...robots.leg_kinematics import BodyReference, LegKinematics
