@@ -82,9 +82,9 @@ class LegKinematics:
         soles = [tree.sites[name] for name in feet]
         # Links that the legs move, with the frames of both soles.
         self.links = joint_tree(tree, columns, fixed, soles)
-        self._columns = np.array([columns.get(x, -1) for x in tree.joints])
-        self._fixed = np.array([fixed.get(x, 0.0) for x in tree.joints])
-        self._motors = np.array([tree.joints.index(x) for x in motors])
+        self._moved, self._still = columns, fixed
+        self._columns = np.array([columns.get(x, -1) for x in motors])
+        self._fixed = np.array([fixed.get(x, 0.0) for x in motors])
         self._standing = np.array([standing.get(x, 0.0) for x in free], float)
         limits = []
         for name in free:
@@ -127,11 +127,10 @@ class LegKinematics:
     @property
     def joint_targets(self) -> Array:
         """Angles of the actuated joints, in [rad]. Shape (joints,)."""
-        targets: Array = self._angles(self.state)[self._motors]
-        return targets
+        return self._targets(self.state)
 
-    def _angles(self, states: Array) -> Array:
-        """Return the angles of all joints in states. Shape (..., joints)."""
+    def _targets(self, states: Array) -> Array:
+        """Return the joint targets of states. Shape (..., joints)."""
         moved = states[..., self._columns]
         return np.where(self._columns < 0, self._fixed, moved)
 
@@ -140,8 +139,10 @@ class LegKinematics:
         """Position and quaternion of the torso, then all joints."""
         n = len(self.free)
         turned = quaternion_of(self.state[n + 5], 0.0, self.state[n + 3])
-        joints = self._angles(self.state)
-        return np.array([*self.state[n : n + 3], *turned, *joints])
+        angles, moved = self.state.tolist(), self._moved
+        angles_of = self._still | {x: angles[i] for x, i in moved.items()}
+        joints = (angles_of[name] for name in self.tree.joints)
+        return np.array([*angles[n : n + 3], *turned, *joints])
 
     @property
     def torso_heading(self) -> float:
@@ -250,7 +251,7 @@ class LegKinematics:
                 f"off by {self.error[worst]:.3f}, more than "
                 f"{GREATEST_ERROR:g} [m, rad]"
             )
-        targets = self._angles(rows[1 : count + 1])[:, self._motors]
+        targets = self._targets(rows[1 : count + 1])
         self._states = LegStates(rows[: count + 1], targets)
         self.rewind(count)
         return self._states
