@@ -22,7 +22,6 @@ from typing import Any
 
 from PIL import Image
 from playwright.sync_api import sync_playwright
-from tqdm import tqdm
 
 from stepaside.games.game_settings import GameSettings, duel
 from stepaside.games.recorded_game import run_game
@@ -88,7 +87,7 @@ def film(browser: Any) -> None:
     times = [begin + k * EACH for k in range(round((end - begin) / EACH))]
     frames = []
     with live(browser, duel(seed=7)) as (served, page):
-        for time in tqdm(times, "page.gif", disable=None):
+        for time in times:
             show(served, page, time)
             if abs(time - PUSHED) < 0.5 * EACH:
                 served.session.push("pursuer", 0.6, 0.5 * pi)

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from ..core.errors import PlanError
-from ..core.progress import show_progress
+from ..core.progress import ProgressLine
 from ..core.ranges import Range, positive
 from ..core.setting import CheckedSettings, setting
 from .options import figure_option, json_option, output_file
@@ -259,8 +259,7 @@ def _solve(
     """
     counts = [settings.grid // 2**n for n in range(settings.refine, -1, -1)]
     work, found = sum(count**axes for count in counts), {}
-    look = "{l_bar}{bar}| {elapsed}<{remaining}"
-    with show_progress("bound", 1.0, bar_format=look, quiet=quiet) as bar:
+    with ProgressLine("bound", 1.0, quiet=quiet) as bar:
         for count in counts:
             share = count**axes / work
 

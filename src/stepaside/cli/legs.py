@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from ..core.atomic_output import atomic_draft
-from ..core.progress import counter, show_progress
+from ..core.progress import ProgressLine
 from .main import LazyGroup
 from .options import (
     figure_option,
@@ -224,14 +224,14 @@ def measure(
         walked = replace(walked, delay_cycles=delay_cycles)
     with (
         worker_pool(workers) as executor,
-        show_progress("measure", unit="walks") as bar,
+        ProgressLine("measure", unit="walks") as bar,
     ):
         result = measure_legs(
             description,
             LegsSettings(network, legs_contract),
             walked,
             executor,
-            counter(bar),
+            bar.show,
             seed=seed,
             random_walks=random_walks,
         )

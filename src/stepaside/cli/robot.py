@@ -7,7 +7,7 @@ import click
 
 from ..core.atomic_output import atomic_draft, check_file, check_folder
 from ..core.errors import StepAsideError
-from ..core.progress import counter, show_progress
+from ..core.progress import ProgressLine
 from .main import LazyGroup
 from .options import (
     figure_option,
@@ -175,9 +175,9 @@ def check(
     description = load_robot(folder)
     with (
         worker_pool(workers) as executor,
-        show_progress("check", unit="walks") as bar,
+        ProgressLine("check", unit="walks") as bar,
     ):
-        report = check_robot(description, executor, counter(bar))
+        report = check_robot(description, executor, bar.show)
     if as_json:
         print_json({"robot": description.name} | report.to_json())
     else:
@@ -267,12 +267,11 @@ def _search(
 
     with (
         open_executor(executor, workers) as opened,
-        show_progress("tune", unit="gaits") as bar,
+        ProgressLine("tune", unit="gaits") as bar,
     ):
 
         def report(tried: int, of: int, least: float) -> None:
-            bar.n, bar.total = tried, of
-            bar.set_postfix_str(f"unsteadiness {least:.2f}")
+            bar.show(tried, of, f"unsteadiness {least:.2f}")
 
         try:
             return search_gait(description, opened, records, report)

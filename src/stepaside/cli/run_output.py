@@ -5,7 +5,7 @@ from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from ..core.progress import show_progress
+from ..core.progress import ProgressLine
 from ..report.result_labels import label_of, unit_of
 from .tables import format_value, print_table
 from .terminal import NOTHING_SAVED, echo, exit_interrupted, print_json
@@ -42,22 +42,17 @@ def play_with_bar(
     settings: Any, play: Callable[[Any, "Callable[[Progress], None]"], "Run"]
 ) -> "Run":
     """Play a game with a progress bar on standard error."""
-    look = "{desc} {bar} {n:.0f}/{total:.0f} s simulated{postfix}"
     total = settings.duration
-    with show_progress(
-        settings.game, total, "s simulated", bar_format=look
-    ) as bar:
+    with ProgressLine(settings.game, total, "s simulated") as bar:
 
         def report(progress: "Progress") -> None:
-            bar.n = progress.time
             text = f"{progress.real_time_factor:.1f}x real time"
             if progress.distance is not None:
                 text = f"distance {progress.distance:.2f} m, {text}"
-            bar.set_postfix_str(text)
+            bar.show(progress.time, text=text)
 
         run = play(settings, report)
-        bar.n = min(run.duration, total)
-        bar.refresh()
+        bar.show(min(run.duration, total))
     return run
 
 

@@ -16,7 +16,7 @@ from ..core.atomic_output import (
     folder_draft,
 )
 from ..core.errors import ConfigurationError, OutputError
-from ..core.progress import counter, show_progress
+from ..core.progress import ProgressLine
 from ..report.film_settings import FilmSettings
 from ..report.result_labels import label_of
 from ..report.text_escaping import visible
@@ -236,8 +236,8 @@ def _render(run: Path, file: Path, film: FilmSettings) -> int:
     # H.264 halves the colour's sides.
     width, height = (side - side % 2 for side in (film.width, film.height))
     film = replace(film, width=width, height=height)
-    with show_progress("film", unit="frames") as bar:
-        return write_film(run, file, film, counter(bar))
+    with ProgressLine("film", unit="frames") as bar:
+        return write_film(run, file, film, bar.show)
 
 
 def _export(run: Path, folder: Path, *, repeat: bool) -> list[str]:
@@ -250,12 +250,12 @@ def _export(run: Path, folder: Path, *, repeat: bool) -> list[str]:
     absent = recording.absent
     with (
         folder_draft(folder) as draft,
-        show_progress("export", unit="samples") as bar,
+        ProgressLine("export", unit="samples") as bar,
     ):
         if kind == "mcap":
             from ..report.export.bag_recording import write_bag
 
-            write_bag(draft, recording, counter(bar))
+            write_bag(draft, recording, bar.show)
         elif has_signals:
             from ..report.export.signal_tables import write_tables
 
@@ -278,12 +278,10 @@ def _recording(run: Path, *, repeats: bool) -> "Recording":
     """Read a run, and play its game again with a progress bar."""
     from ..report.export.recording import load_recording
 
-    look = "{desc} {bar} {n:.0f} s simulated"
-    with show_progress("repeat", None, "s simulated", bar_format=look) as bar:
+    with ProgressLine("repeat", unit="s simulated") as bar:
 
         def report(progress: "Progress") -> None:
-            bar.n = progress.time
-            bar.refresh()
+            bar.show(progress.time)
 
         return load_recording(run, repeats=repeats, report=report)
 

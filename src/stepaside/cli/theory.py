@@ -9,7 +9,7 @@ import click
 
 from ..core.entries import to_entries
 from ..core.errors import PlanError
-from ..core.progress import show_progress
+from ..core.progress import ProgressLine
 from ..core.ranges import SEEDS, Range, positive
 from ..core.setting import CheckedSettings, setting
 from ..games.game_settings import OF_ALL, GameSettings
@@ -90,7 +90,7 @@ def circle(
     """Find the circles of a game, their stability and basins of attraction."""
     game = settings.game
     result = describe_circle(game, settings.sample_time, settings.delay)
-    with show_progress("circle", settings.starts, "games", quiet=as_json) as b:
+    with ProgressLine("circle", settings.starts, "games", quiet=as_json) as b:
         result |= _find_circles(settings, b.update)
     print_json(result) if as_json else print_circles(result)
     if figure is not None:
@@ -303,7 +303,7 @@ def map(  # noqa: A001 (the command's name)
         "capture_distance": settings.capture,
     }
     duration: Any = settings.duration
-    with show_progress("map", prod(shape), "games", quiet=as_json) as bar:
+    with ProgressLine("map", prod(shape), "games", quiet=as_json) as bar:
         found = map_starts(
             game, box, duration, shape=shape, progress=bar.update, **rules
         )

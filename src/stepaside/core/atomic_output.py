@@ -3,9 +3,10 @@
 import os
 import tempfile
 from collections.abc import Iterator, Sequence
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from pathlib import Path
-from stat import S_IMODE, S_ISREG
+from stat import S_IMODE
+from typing import NoReturn
 
 from .errors import ConfigurationError, OutputError
 
@@ -24,32 +25,24 @@ def check_file(
 
     The name is that of the option, for messages; without suffixes any may be.
     """
-    there, rule = _existing(file, name), ""
     if suffixes and file.suffix.lower() not in suffixes:
-        rule = f"end in {', '.join(suffixes)}"
-    elif file.name in ("", ".", ".."):
-        rule = "be a file"
-    elif there is not None and not S_ISREG(there.st_mode):
-        rule = "be a regular file"
-    if rule:
-        raise ConfigurationError(f"{name} must {rule}, got {str(file)!r}")
-    if there is not None and not overwrite:
-        raise ConfigurationError(
-            f"{name} must be a file that does not exist yet, got "
-            f"{str(file)!r}; --overwrite replaces it"
-        )
-    _check_writable(Path(os.path.realpath(file)).parent, file, name)
+        _refuse(file, name, f"end in {', '.join(suffixes)}")
+    if file.name in ("", ".", ".."):
+        _refuse(file, name, "be a file")
+    with _writable(file, name) as exists:
+        if exists and not file.is_file():
+            _refuse(file, name, "be a regular file")
+        if exists and not overwrite:
+            _refuse(file, name, "not exist: only --overwrite replaces it")
 
 
 def check_folder(folder: Path, name: str = "output", *, new: bool) -> None:
     """Check that a folder can be written, and if ``new`` is new or empty."""
-    place = folder
-    if _existing(folder, name) is None:
-        place = folder.absolute().parent
-    elif not folder.is_dir() or (new and any(folder.iterdir())):
-        kind = "a new or an empty folder" if new else "a folder"
-        raise ConfigurationError(f"{name} must be {kind}, got {folder}")
-    _check_writable(place, folder, name)
+    with _writable(folder, name) as exists:
+        taken = exists and not folder.is_dir()
+        if taken or (exists and new and any(folder.iterdir())):
+            kind = "a new or an empty folder" if new else "a folder"
+            _refuse(folder, name, f"be {kind}")
 
 
 @contextmanager
@@ -101,35 +94,29 @@ def reason_of(error: BaseException) -> str:
     return (text or type(error).__name__).lower()
 
 
-def _existing(path: Path, name: str) -> os.stat_result | None:
-    """Return the status of a path, following links; None if missing."""
+@contextmanager
+def _writable(path: Path, name: str) -> Iterator[bool]:
+    """Yield whether a path exists; then write a temporary file beside it.
+
+    Only this shows a read-only mount.
+    """
     try:
-        return path.stat()
-    except (OSError, ValueError) as error:
-        missing = isinstance(error, FileNotFoundError)
-        if missing and not os.path.lexists(path):
-            return None
-        reason = "it is a dangling link" if missing else reason_of(error)
-        raise ConfigurationError(
-            f"{name} must be a path that can be written, got {_short(path)}: "
-            f"{reason}"
-        ) from error
-
-
-def _short(path: Path) -> str:
-    text = repr(str(path))
-    return text if len(text) < 120 else f"{text[:100]}...'"
-
-
-def _check_writable(folder: Path, output: Path, name: str) -> None:
-    """Write a temporary file: only then a read-only mount shows."""
-    while not os.path.lexists(folder):
-        folder = folder.parent
-    try:
+        with suppress(FileNotFoundError):
+            path.lstat()
+        yield os.path.lexists(path)
+        folder = Path(os.path.realpath(path))
+        while not folder.is_dir():
+            folder = folder.parent
         with tempfile.TemporaryFile(prefix=DRAFT, dir=folder):
             pass
-    except OSError as error:
-        raise ConfigurationError(
-            f"{name} must lie in a folder that can be written, got "
-            f"{_short(output)}: {reason_of(error)}"
-        ) from error
+    except ConfigurationError:
+        raise
+    except (OSError, ValueError) as error:
+        _refuse(path, name, "be a path that can be written", reason_of(error))
+
+
+def _refuse(path: Path, name: str, rule: str, reason: str = "") -> NoReturn:
+    text = repr(str(path))
+    text = text if len(text) < 120 else f"{text[:100]}...'"
+    more = f": {reason}" if reason else ""
+    raise ConfigurationError(f"{name} must {rule}, got {text}{more}")

@@ -8,9 +8,6 @@ from contextlib import contextmanager
 from types import FrameType
 from typing import Any
 
-# Longest delay of a deferred interrupt, in [s]: far above a tick of a game
-# (a few ms), and short enough that Ctrl-C still seems to act at once.
-LONGEST_DELAY = 0.5
 SIGNALS = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
 DEFAULT_HANDLERS = (signal.default_int_handler, signal.SIG_DFL)
 
@@ -51,15 +48,14 @@ def interrupted_status() -> int:
 class DeferredInterrupt:
     """Context that defers interrupts to points where all data is complete.
 
-    A deferred signal reaches its handler at the next :meth:`let_through`,
-    when a second signal arrives, or after ``LONGEST_DELAY``.
+    A deferred signal reaches its handler at the next :meth:`let_through`, or
+    when a second signal arrives.
     """
 
     def __init__(self) -> None:
         """Start without a pending signal."""
         self._before: dict[int, Any] = {}
         self._pending: int | None = None
-        self._timer: threading.Timer | None = None
 
     def __enter__(self) -> "DeferredInterrupt":
         """Install the deferring handler for signals that have a handler."""
@@ -76,34 +72,19 @@ class DeferredInterrupt:
             signal.signal(number, handler)
         if error[0] is None:
             self.let_through()
-        else:
-            self._take_pending()
 
     def let_through(self) -> None:
         """Call the handler of a pending signal, if there is one."""
-        number = self._take_pending()
+        number, self._pending = self._pending, None
         if number is not None:
             self._before[number](number, sys._getframe())
 
     def _defer(self, number: int, frame: FrameType | None) -> None:
-        if self._pending is not None:
-            self._take_pending()
+        if self._pending is None:
+            self._pending = number
+        else:
+            self._pending = None
             self._before[number](number, frame)
-            return
-        self._pending = number
-        main = threading.main_thread().ident or 0
-        self._timer = threading.Timer(
-            LONGEST_DELAY, signal.pthread_kill, (main, number)
-        )
-        self._timer.daemon = True
-        self._timer.start()
-
-    def _take_pending(self) -> int | None:
-        """Return the pending signal and clear it."""
-        if self._timer is not None:
-            self._timer.cancel()
-        number, self._pending, self._timer = self._pending, None, None
-        return number
 
 
 def interrupt(number: int, frame: FrameType | None) -> None:

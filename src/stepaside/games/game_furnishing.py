@@ -6,8 +6,7 @@ from typing import NamedTuple
 
 import mujoco
 
-from ..core.player_colours import Colour, Rgb, shades_of
-from ..core.player_identity import Role
+from ..core.player_identity import Colour, Rgb, Role, shades_of
 from ..robots.description import load_robot
 from ..robots.head import load_head
 from ..sim.camera_settings import SceneSettings

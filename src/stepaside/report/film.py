@@ -12,7 +12,6 @@ import numpy as np
 
 from ..core.atomic_output import atomic_draft, reason_of
 from ..core.errors import ConfigurationError, OutputError
-from ..core.player_colours import from_hex
 from ..core.poses import Array
 from ..core.worker_pool import worker_pool
 from ..games.run import Run
@@ -29,7 +28,7 @@ from .film_camera import HEIGHT, FilmCamera
 from .film_captions import caption
 from .film_settings import FilmSettings
 from .overlays import SceneLines, overlays_of
-from .palette import colours_in
+from .palette import colours_in, fractions
 from .scene import RunScene
 
 HALF_WIDTH = 0.0025  # of a line, in [m]
@@ -309,7 +308,7 @@ def _add_bar(
 
 @cache
 def _rgba(colour: str) -> Array:
-    return np.array([*from_hex(colour), 1.0], dtype=np.float32)
+    return np.array([*fractions(colour), 1.0], dtype=np.float32)
 
 
 def aim_light(scene: mujoco.MjvScene, target: Array) -> None:

@@ -4,8 +4,7 @@ from collections.abc import Iterable, Mapping
 from itertools import cycle
 from typing import NamedTuple
 
-from ..core.player_colours import from_hex, shades_of, to_hex
-from ..core.player_identity import PlayerIdentity, Role
+from ..core.player_identity import PlayerIdentity, Rgb, Role, shades_of
 
 
 class Palette(NamedTuple):
@@ -73,6 +72,17 @@ def rgb(colour: str) -> tuple[int, int, int]:
     return red, green, blue
 
 
+def fractions(colour: str) -> Rgb:
+    """Return red, green and blue, 0 to 1, of a colour ``#rrggbb``."""
+    red, green, blue = (part / 255.0 for part in rgb(colour))
+    return red, green, blue
+
+
+def markers_of(names: Iterable[str]) -> dict[str, str]:
+    """Return a marker of Matplotlib for each player, by name."""
+    return dict(zip(names, cycle("os^DvPX*<>"), strict=False))
+
+
 def colours_in(
     theme: str,
     players: Iterable[str],
@@ -84,15 +94,15 @@ def colours_in(
     """
     palette = PALETTES[theme]
     base = {
-        Role.PURSUER: from_hex(palette.pursuer),
-        Role.EVADER: from_hex(palette.evader),
-        Role.BYSTANDER: from_hex(palette.soft),
+        Role.PURSUER: fractions(palette.pursuer),
+        Role.EVADER: fractions(palette.evader),
+        Role.BYSTANDER: fractions(palette.soft),
     }
     shades = shades_of(identities, base)
     roles = {"pursuer": palette.pursuer, "evader": palette.evader}
     others = cycle(palette.others)
     return {
-        name: to_hex(shades[name])
+        name: "#" + bytes(round(255.0 * x) for x in shades[name]).hex()
         if name in shades
         else roles.get(name) or next(others)
         for name in players
@@ -101,9 +111,8 @@ def colours_in(
 
 def luminance(colour: str) -> float:
     """Return the relative luminance, 0 to 1, as WCAG 2.2 defines it."""
-    parts = [part / 255.0 for part in bytes.fromhex(colour[1:])]
     red, green, blue = (
         c / 12.92 if c <= 0.04045 else ((c + 0.055) / 1.055) ** 2.4
-        for c in parts
+        for c in fractions(colour)
     )
     return 0.2126 * red + 0.7152 * green + 0.0722 * blue

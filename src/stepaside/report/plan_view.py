@@ -11,7 +11,6 @@ from matplotlib.patches import Polygon as Outline
 
 from ..arena import BODY_RADIUS, Obstacle, Room
 from ..core.errors import AnyPath
-from ..core.player_colours import markers_of
 from ..core.poses import Array
 from ..games.run import Run
 from ..planning import ManeuverPlan
@@ -27,6 +26,7 @@ from .figure_style import (
     save,
 )
 from .overlays import overlays_of, soles
+from .palette import markers_of
 
 SOLID, MOVING = "#8a8f98", "#99704a"
 MARKED = 12  # markers along a path, at most

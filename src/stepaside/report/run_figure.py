@@ -9,7 +9,6 @@ import numpy as np
 
 from ..arena import BODY_RADIUS, Room
 from ..core.errors import AnyPath
-from ..core.player_colours import markers_of
 from ..core.poses import Array
 from ..games.duel_circle import cycle_mean, distance_between, whole_cycles
 from ..games.run import Run
@@ -29,6 +28,7 @@ from .figure_style import (
     panels,
     save,
 )
+from .palette import markers_of
 from .plan_view import MARKED, draw_paths, draw_pushes, draw_snapshots
 from .text_escaping import for_figure
 

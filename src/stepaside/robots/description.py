@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any
 from ..core.brief_repr import brief_repr
 from ..core.entries import load_entries, read_entries
 from ..core.errors import AnyPath, ModelError, as_path
-from ..core.player_colours import Colour
+from ..core.player_identity import Colour
 from ..core.ranges import Range
 from ..core.setting import REQUIRED, check_settings, setting
 from .description_types import (

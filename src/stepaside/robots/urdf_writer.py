@@ -13,7 +13,7 @@ import mujoco
 import numpy as np
 
 from ..core.errors import ModelError
-from ..core.player_colours import Colour
+from ..core.player_identity import Colour
 from ..core.poses import Array
 from ..core.rotations import angles_of, rotation_about, rotation_of
 from .description import RobotDescription

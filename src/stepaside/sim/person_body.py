@@ -4,7 +4,7 @@ from math import cos, hypot, pi, sin
 
 import mujoco
 
-from ..core.player_colours import Colour
+from ..core.player_identity import Colour
 from ..core.poses import Pose
 from ..core.rotations import quaternion_of
 from .floor import FLOOR_BIT, add_geom

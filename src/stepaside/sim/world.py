@@ -8,7 +8,7 @@ import mujoco
 import numpy as np
 from numpy.typing import NDArray
 
-from ..core.player_colours import Colour
+from ..core.player_identity import Colour
 from ..core.poses import Pose
 from ..core.random_streams import named_generator
 from ..robots.description import RobotDescription

@@ -29,7 +29,7 @@ from ..core.errors import (
     OutputError,
     as_path,
 )
-from ..core.progress import show_progress
+from ..core.progress import ProgressLine
 from .results_version import RESULTS, library_versions
 from .tabulation import Record, tabulate, to_frame
 
@@ -363,12 +363,11 @@ def run_study(
     run = StudyRun(study, file, shard)
     with ExitStack() as stack:
         if report is None:
-            shown = show_progress(study.name, run.total, "cases")
+            shown = ProgressLine(study.name, run.total, "cases")
             bar = stack.enter_context(shown)
 
             def report(run: StudyRun[C]) -> None:
-                bar.initial, bar.n = run.reused, run.finished
-                bar.refresh()
+                bar.show(run.finished, reused=run.reused)
 
         report(run)
         if run.completed:

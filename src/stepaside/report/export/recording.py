@@ -7,7 +7,7 @@ from pathlib import Path
 import mujoco
 import numpy as np
 
-from ...core.player_colours import Colour
+from ...core.player_identity import Colour
 from ...core.poses import Array
 from ...games.game import Progress
 from ...games.game_furnishing import colours_of_players
