@@ -95,7 +95,7 @@ def test_segment_intersects_a_shape_that_contains_one_of_its_points(
         ]
     )
     clear = np.abs(nearest) > 0.01  # decidable by samples
-    found = ObstacleSet((shape,)).segments_intersect(starts, ends)[:, 0]
+    found = ~ObstacleSet((shape,)).segments_keep_clear(0.0, starts, ends)
     assert 50 < found[clear].sum() < 250
     np.testing.assert_array_equal(found[clear], nearest[clear] < 0.0)
 
@@ -150,13 +150,13 @@ def test_set_agrees_with_each_of_its_shapes() -> None:
     np.testing.assert_allclose(known.clearances(points), each, atol=1e-12)
     np.testing.assert_allclose(known.clearance(points), each.min(axis=1))
     np.testing.assert_array_equal(
-        known.segments_intersect(starts, ends),
-        np.concatenate(
-            [s.segments_intersect(starts, ends) for s in alone], axis=1
+        known.segments_keep_clear(0.0, starts, ends),
+        np.all(
+            [s.segments_keep_clear(0.0, starts, ends) for s in alone], axis=0
         ),
     )
     assert NO_OBSTACLES.clearance(points).min() == np.inf
-    assert not NO_OBSTACLES.segments_intersect(starts, ends).any()
+    assert NO_OBSTACLES.segments_keep_clear(0.0, starts, ends).all()
 
 
 @pytest.mark.parametrize("radius", [0.0, 0.2])
@@ -171,8 +171,6 @@ def test_segment_keeps_clear_if_all_its_points_do(radius: float) -> None:
         [known.clearance(start + fraction * (e - start)).min() for e in ends]
     )
     decided = np.abs(least - radius) > 0.01
-    found = known.segments_keep_clear(
-        np.full(len(SHAPES), radius), start[None], ends
-    )
+    found = known.segments_keep_clear(radius, start[None], ends)
     assert 20 < found[decided].sum() < decided.sum() - 20
     np.testing.assert_array_equal(found[decided], least[decided] > radius)

@@ -8,14 +8,13 @@ from .room import Door as Door
 from .room import Room as Room
 from .room import RoomRecipe as RoomRecipe
 from .room import load_room as load_room
-from .room import room_to_toml as room_to_toml
 from .room_generation import check_initial_poses as check_initial_poses
 from .room_generation import draw_any_start as draw_any_start
 from .room_generation import draw_initial_poses as draw_initial_poses
 from .room_generation import generate_room as generate_room
-from .room_generation import path_exists as path_exists
 from .shapes import Box as Box
 from .shapes import Disc as Disc
 from .shapes import MovingBox as MovingBox
 from .shapes import Polygon as Polygon
 from .shapes import hull as hull
+from .shortest_path import first_waypoint as first_waypoint

@@ -302,30 +302,19 @@ class ObstacleSet:
         directions: Array = vectors / np.maximum(lengths, 0.1 * NUDGE)
         return directions
 
-    def segments_intersect(self, starts: ArrayLike, ends: ArrayLike) -> Flags:
-        """Return whether line segments touch each, (n, obstacles).
-
-        Starts (n, 2) may be one for all, (1, 2).
-        """
-        hit: Flags = self._from_segments(starts, ends, self.radii * 0.0) <= 0.0
-        return hit
-
     def segments_keep_clear(
-        self, allowed: Array, starts: ArrayLike, ends: ArrayLike
+        self, allowed: ArrayLike, starts: ArrayLike, ends: ArrayLike
     ) -> Flags:
-        """Return whether segments keep a distance [m] from every obstacle."""
-        clear: Flags = self._from_segments(starts, ends, allowed) >= allowed
-        return np.asarray(clear.all(axis=1))
+        """Return whether segments keep a distance [m] from every obstacle.
 
-    def _from_segments(
-        self, starts: ArrayLike, ends: ArrayLike, enough: Array
-    ) -> Array:
-        """Return clearances of segments, exact up to ``enough``, in [m]."""
+        The distance may be one for each obstacle; starts (n, 2) one for all.
+        """
         last = _rows(ends)
         first = _rows(np.broadcast_to(starts, last.shape))
+        enough = np.full(len(self), allowed, dtype=np.float64)
         found = np.empty((len(last), len(self)))
         measure_segments(self.packed, first, last, enough, found)
-        return found
+        return np.asarray((found >= enough).all(axis=1))
 
     def swept_clearances(self, corners: Array) -> Array:
         """Return lower bounds [m] of the clearance of a moving outline.

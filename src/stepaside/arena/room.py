@@ -4,10 +4,9 @@ from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
-import tomli_w
 from numpy.typing import ArrayLike, NDArray
 
-from ..core.entries import load_entries, read_entries, to_entries
+from ..core.entries import load_entries, read_entries
 from ..core.errors import AnyPath, ConfigurationError, as_path, check_within
 from ..core.poses import Array, Pose
 from ..core.ranges import Range
@@ -166,25 +165,9 @@ class Room:
     def clearance(self, points: ArrayLike) -> Array:
         """Return signed distances [m] of points (n, 2) to the nearest solid.
 
-        They are negative beyond the walls of a closed room, and may be inf.
+        They are inf on an open floor.
         """
-        queries = np.asarray(points, dtype=np.float64)
-        shapes = self._obstacle_set if self.is_closed else self.solid_set
-        least = shapes.clearance(queries)
-        if self.is_closed:
-            half = 0.5 * np.array([self.width, self.depth])
-            np.minimum(least, (half - np.abs(queries)).min(axis=1), out=least)
-        return least
-
-    def sees(self, starts: ArrayLike, ends: ArrayLike) -> NDArray[np.bool_]:
-        """Return whether lines of sight touch no solid. Shape (n,)."""
-        free: NDArray[np.bool_]
-        free = ~self.solid_set.segments_intersect(starts, ends)
-        return np.asarray(free.all(axis=1))
-
-    @cached_property
-    def _obstacle_set(self) -> ObstacleSet:
-        return ObstacleSet(self.obstacles)
+        return self.solid_set.clearance(points)
 
     @cached_property
     def solid_set(self) -> ObstacleSet:
@@ -204,11 +187,6 @@ def load_room(file: AnyPath) -> Room:
         return read_entries(Room, entries)
     except ConfigurationError as error:
         raise ConfigurationError(f"room {file}: {error}") from error
-
-
-def room_to_toml(room: Room) -> str:
-    """Return the room as the text of a TOML file."""
-    return tomli_w.dumps(to_entries(room))
 
 
 NUMBER = Range(0, MAX_COUNT, "1", "more take too long", whole=True)

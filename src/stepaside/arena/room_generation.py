@@ -1,7 +1,7 @@
 """Random rooms and initial poses, and the free space between."""
 
 from itertools import combinations
-from math import ceil, pi, radians, tau
+from math import pi, radians, tau
 from typing import Any
 
 import numpy as np
@@ -13,55 +13,9 @@ from ..core.random_streams import named_generator
 from .obstacles import Obstacle, clearance_between
 from .room import BODY_RADIUS, FARTHEST, NEAREST, SIDES, Door, Room, RoomRecipe
 from .shapes import Box, Disc, Polygon
+from .shortest_path import first_waypoint
 
 PLAYERS = ("pursuer", "evader")
-CELL = 0.02  # of the grid for paths and areas, in [m]
-MOST_CELLS = 4_000_000
-
-
-def path_exists(
-    room: Room,
-    start: tuple[float, float],
-    end: tuple[float, float],
-    radius: float,
-) -> bool:
-    """Return whether a disc can move from one point to another, in [m].
-
-    A path through a gap that is at most 2 cm wider than it may be missed.
-    """
-    ends, solids = np.array([start, end]), room.solid_set
-    keep = np.full(len(solids), radius)
-    if solids.segments_keep_clear(keep, ends[:1], ends[1:])[0]:
-        return True
-    from scipy.ndimage import label
-
-    low, high = _extent(room, ends, radius)
-    cell = max(CELL, float(np.sqrt(np.prod(high - low) / MOST_CELLS)))
-    counts = [ceil(side / cell) + 1 for side in (high - low).tolist()]
-    x = low[0] + cell * np.arange(counts[0])
-    y = low[1] + cell * np.arange(counts[1])
-    grid = np.stack(np.meshgrid(x, y, indexing="ij"), axis=-1)
-    free = room.clearance(grid.reshape(-1, 2)) >= radius - 1e-9
-    free = free.reshape(counts)
-    first, last = (
-        tuple(np.rint((np.array(point) - low) / cell).astype(int).tolist())
-        for point in (start, end)
-    )
-    free[first] = free[last] = True
-    areas, _ = label(free)
-    return bool(areas[first] == areas[last])
-
-
-def _extent(room: Room, points: Array, radius: float) -> tuple[Array, Array]:
-    """Return corners of an area that contains a path if there is any."""
-    if room.is_closed:
-        half = 0.5 * np.array([room.width, room.depth], dtype=np.float64)
-        return -half, half
-    for solid in room.solids:
-        corners, reach = solid.points, solid.rounding
-        points = np.concatenate([points, corners - reach, corners + reach])
-    margin = 2.0 * radius + CELL  # room to pass around all obstacles
-    return points.min(axis=0) - margin, points.max(axis=0) + margin
 
 
 def check_initial_poses(room: Room, starts: tuple[Pose, Pose]) -> None:
@@ -89,7 +43,8 @@ def check_initial_poses(room: Room, starts: tuple[Pose, Pose]) -> None:
             f"the players must start at least {2 * radius:g} [m] apart, "
             f"got {distance:.3g}"
         )
-    if not path_exists(room, starts[0][:2], starts[1][:2], radius):
+    ends = starts[0][:2], starts[1][:2]
+    if first_waypoint(room.solid_set, *ends, radius) is None:
         raise ConfigurationError(
             f"a path at least {2 * radius:g} [m] wide must connect the "
             "initial poses of pursuer and evader, got a room without one"
@@ -157,7 +112,7 @@ def draw_initial_poses(
     the evader, the evader within 30 degrees of facing the pursuer, with a
     free line of sight, a path, and clearance for the tightest turn by (2).
     """
-    random = named_generator(seed, "room starts")
+    random, solids = named_generator(seed, "room starts"), room.solid_set
     half = 0.5 * np.array([room.width or 0.0, room.depth or 0.0])
     for _ in range(MAX_DRAWS):
         place = half * random.uniform(-1.0, 1.0, 2)
@@ -170,7 +125,7 @@ def draw_initial_poses(
         if (
             room.clearance(both).min() < radius + TURN_CLEARANCE
             or not room.is_inside(both).all()
-            or not room.sees(both[:1], both[1:])[0]
+            or not solids.segments_keep_clear(0.0, both[:1], both[1:])[0]
         ):
             continue
         heading = sight + pi + evader_turn
@@ -180,7 +135,8 @@ def draw_initial_poses(
             Pose(float(place[0]), float(place[1]), sight + pursuer_turn),
             Pose(float(other[0]), float(other[1]), heading),
         )
-        if path_exists(room, starts[0][:2], starts[1][:2], radius):
+        ends = starts[0][:2], starts[1][:2]
+        if first_waypoint(solids, *ends, radius) is not None:
             return starts
     raise ConfigurationError(
         f"a room must have space for two players of radius {radius:g} [m], "

@@ -20,14 +20,14 @@ def first_waypoint(
     end: Point,
     radius: float,
     side: int = 0,
-) -> Point:
+) -> Point | None:
     """Return the first waypoint of the shortest path of a disc to a point.
 
     Edges between corners pass each solid at the radius plus 1 cm, or nearer if
     start or end is. Corners form a visibility graph, searched by A*; only
     edges that could shorten the path are tested. Of both ways around, the side
     (left 1, right -1) is taken unless the other is 0.4 m shorter. The result
-    is the goal if the straight line is free, or if there is no path.
+    is the end if the straight line is free, and None if there is no path.
     """
     ends = np.array([start, end])
     clear = solids.clearances(ends).min(axis=0)
@@ -44,12 +44,11 @@ def first_waypoint(
         for point in ends
     )
     if np.isinf(to_end).all():
-        return end
+        return None
     (x, y), (u, v) = start, end
     left = (u - x) * (corners[:, 1] - y) - (v - y) * (corners[:, 0] - x)
     best = from_start + np.where(side * left < 0.0, SIDE_PREFERENCE, 0.0)
     rest = np.hypot(*(corners - ends[1]).T)  # at least, in [m]
-    required = np.full(len(solids), radius)
     first = np.arange(len(corners))
     visited = np.zeros(len(corners), dtype=np.bool_)
     for _ in range(len(corners)):
@@ -64,12 +63,12 @@ def first_waypoint(
         shorter = (through < best - 1e-12) & (through + rest < total)
         (after,) = np.nonzero(shorter & ~visited)
         after = after[
-            solids.segments_keep_clear(required, corner[None], corners[after])
+            solids.segments_keep_clear(radius, corner[None], corners[after])
         ]
         first[after], best[after] = first[number], through[after]
     total = best + to_end
     if np.isinf(total).all():
-        return end
+        return None
     x, y = corners[first[int(total.argmin())]].tolist()
     return x, y
 
@@ -95,5 +94,4 @@ def path_corners(solids: ObstacleSet, radius: float) -> Array:
     out = (away / np.cos(half))[edge]
     around = np.stack([np.cos(angles), np.sin(angles)], axis=-1)
     corners: Array = solids.points[edge] + out[:, None] * around
-    required = np.full(len(solids), radius)
-    return corners[solids.segments_keep_clear(required, corners, corners)]
+    return corners[solids.segments_keep_clear(radius, corners, corners)]

@@ -353,12 +353,14 @@ def room(
 
 def _write_room(made: Room, file: Path) -> None:
     """Write a room in the format of the file suffix."""
-    from ..arena import room_to_toml
+    import tomli_w
+
     from ..core.atomic_output import atomic_draft
     from ..core.entries import to_entries
 
-    text = room_to_toml(made)
+    entries = to_entries(made)
+    text = tomli_w.dumps(entries)
     if file.suffix.lower() == ".json":
-        text = json.dumps(to_entries(made), allow_nan=False) + "\n"
+        text = json.dumps(entries, allow_nan=False) + "\n"
     with atomic_draft(file) as draft:
         draft.write_text(text, encoding="utf-8")

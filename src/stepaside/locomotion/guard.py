@@ -322,7 +322,7 @@ class VelocityGuard:
         chords = paths[admissible]
         admissible[admissible] = (
             solids.segments_keep_clear(
-                np.full(len(solids), least),
+                least,
                 chords[:, :-1].reshape(-1, 2),
                 chords[:, 1:].reshape(-1, 2),
             )

@@ -6,8 +6,8 @@ from typing import ClassVar, NamedTuple
 
 import numpy as np
 
+from .. import arena
 from ..arena import BODY_RADIUS
-from ..arena.shortest_path import first_waypoint
 from ..core.poses import wrap_angle
 from ..core.random_streams import named_generator
 from ..core.ranges import SEEDS, Range
@@ -170,11 +170,8 @@ class Pursuit(CheckedSettings):
     def path_bearing(self, knowledge: Knowledge, side: int = 0) -> float:
         """Return the bearing of the first vertex of the path, in [rad]."""
         x, y, theta = knowledge.pose_in_map
-        u, v = first_waypoint(
-            knowledge.obstacles_in_map,
-            (x, y),
-            knowledge.position_in_map,
-            self.body_radius,
-            side,
-        )
+        place, solids = knowledge.position_in_map, knowledge.obstacles_in_map
+        radius = self.body_radius
+        first = arena.first_waypoint(solids, (x, y), place, radius, side)
+        u, v = first or place
         return wrap_angle(atan2(v - y, u - x) - theta)
