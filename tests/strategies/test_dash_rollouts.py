@@ -32,7 +32,7 @@ def test_someone_who_passes_is_unseen_while_behind() -> None:
     """Passes a standing robot at 1 m: in view for half of the way."""
     standing = make_dashes(4, HERE.theta, AT_ONCE, inf)
     paths = np.broadcast_to([HERE.x, HERE.y], (41, 9, 2))
-    _, headings = roll_out(HERE, STILL, standing, AT_ONCE, STEP)
+    _, headings = roll_out(HERE, STILL, standing, AT_ONCE, 1)
     start = HERE.compose(Pose(2.0, 1.0, pi))
     passer = Opponent(start.x, start.y, start.theta, 1.0)
     ahead, behind = (Sector(middle, 0.5 * pi - 1e-6) for middle in (0.0, pi))
@@ -76,7 +76,7 @@ def test_mirrored_games_mirror_the_values() -> None:
     count = 12
     pose = Pose(0.0, 0.0, 0.0)
     dashes = make_dashes(count, pose.theta, WITH_LAG, 0.6)
-    paths, _ = roll_out(pose, STILL, dashes, WITH_LAG, 4.0)
+    paths, _ = roll_out(pose, STILL, dashes, WITH_LAG, 40)
     left = Opponent(-3.0, 0.3, 0.1, 1.4)
     right = left._replace(y=-left.y, course=-left.course)
     one, other = (

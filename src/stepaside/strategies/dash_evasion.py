@@ -37,13 +37,11 @@ FEINT_STEPS = 6  # for which a chaser may turn away first
 
 
 class Dashes(NamedTuple):
-    """Straight dashes, and standing."""
+    """Straight dashes, and standing: n of them."""
 
-    angles: Array  # direction of each in the map [rad]. (n,)
-    headings: Array  # heading to which the body turns [rad]. (n,)
-    # time at which each begins [s]; until then the robot stands. Infinite for
-    # standing. (n,)
-    begins: Array
+    angles: Array  # direction in the map [rad]
+    headings: Array  # to which the body turns [rad]
+    begins: Array  # [s]; until then the robot stands, for ever if infinite
 
 
 class Opponent(NamedTuple):
@@ -65,8 +63,7 @@ def make_dashes(
 ) -> Dashes:
     """Return standing, dashes that begin now, and those that begin later.
 
-    The body, at a heading in the map, turns the nearer end of its faster axis
-    along the dash; both ends are tried if asked.
+    The nearer end of the body's faster axis leads, or each if asked.
     """
     angles = theta + 2.0 * pi / count * np.arange(count)
     ahead, aside = (max(high, -low) for low, high in velocities[:2])
@@ -84,65 +81,43 @@ def make_dashes(
     )
 
 
+@compiled
 def roll_out(
-    pose: Pose,
-    velocity: BodyVelocity,
-    dashes: Dashes,
-    velocities: VelocitySet,
-    horizon: float,
-) -> tuple[Array, Array]:
-    """Roll out dashes of legs with a lag until a horizon, in [s].
+    pose: Any, velocity: Any, dashes: Dashes, legs: VelocitySet, steps: int
+) -> tuple[Any, Any]:
+    """Roll out dashes of legs with a lag, in steps of 0.1 s.
 
     Each component of the velocity approaches that of the command with the
     time constant of its axis; the body turns at its greatest rate. Returns
     positions in the map, the present one included, in [m], and headings, in
-    [rad], in steps of 0.1 s. Shapes (steps + 1, n, 2), (steps, n).
+    [rad]. Shapes (steps + 1, n, 2), (steps, n).
     """
-    steps, count = round(horizon / STEP), len(dashes.angles)
+    count = len(dashes.angles)
     paths, headings = np.empty((steps + 1, count, 2)), np.empty((steps, count))
-    shares = [response_share(STEP, lag) for lag in velocities.lags[:2]]
-    fill_paths(
-        np.array(pose),
-        np.array([*velocity[:2], *shares], dtype=np.float64),
-        dashes,
-        np.array(velocities[:3], dtype=np.float64),
-        paths,
-        headings,
-    )
-    return paths, headings
-
-
-@compiled
-def fill_paths(
-    pose: Any, start: Any, dashes: Dashes, bounds: Any, paths: Any, out: Any
-) -> None:
-    """Write positions and headings of :func:`roll_out`.
-
-    Start: velocity ahead and to the left, in [m/s], and share of a command
-    that each reaches in a step. Bounds: ahead, to the left, and of turning,
-    (3, 2).
-    """
-    for j in range(len(dashes.angles)):
-        x, y, u, v = pose[0], pose[1], start[0], start[1]
+    follows = response_share(STEP, legs.lags[0])
+    follows_aside = response_share(STEP, legs.lags[1])
+    for j in range(count):
+        x, y, u, v = pose[0], pose[1], velocity[0], velocity[1]
         turn = dashes.headings[j] - pose[2]
-        rate = bounds[2, 1] if turn > 0.0 else -bounds[2, 0]
+        rate = legs.turn[1] if turn > 0.0 else -legs.turn[0]
         side = 1.0 if turn > 0.0 else -1.0
         paths[0, j, 0], paths[0, j, 1] = x, y
-        for i in range(len(out)):
+        for i in range(steps):
             since, heading = STEP * i - dashes.begins[j], pose[2]
             ahead = left = 0.0
             if since >= -1e-9:
                 heading += side * min(abs(turn), rate * since)
                 ahead, left = greatest_velocity(
-                    dashes.angles[j] - heading, bounds
+                    dashes.angles[j] - heading, legs
                 )
-            u += start[2] * (ahead - u)
-            v += start[3] * (left - v)
+            u += follows * (ahead - u)
+            v += follows_aside * (left - v)
             c, s = cos(heading), sin(heading)
             x += STEP * (c * u - s * v)
             y += STEP * (s * u + c * v)
-            out[i, j] = heading
+            headings[i, j] = heading
             paths[i + 1, j, 0], paths[i + 1, j, 1] = x, y
+    return paths, headings
 
 
 def unseen_shares(
@@ -151,10 +126,10 @@ def unseen_shares(
     opponent: Opponent,
     views: Sequence[Sector],
 ) -> Array:
-    """Return the share of time for which an opponent is out of view.
+    """Return the share of time for which an opponent is out of view. (n,).
 
-    The opponent keeps its course. Positions of the robot (m, n, 2), in [m],
-    headings (m, n); the result has shape (n,).
+    The opponent keeps its course; positions (m, n, 2) and headings (m, n) are
+    those of the robot.
     """
     way = STEP * opponent.speed * np.arange(len(paths))[:, None]
     x = opponent.x + way * cos(opponent.course) - paths[..., 0]
@@ -170,10 +145,9 @@ def closest_approaches(
 ) -> Any:
     """Return the worst closest approach of some paths, in [m]. Shape (n,).
 
-    The opponent steers at the robot, limited by its turning radius (infinite
-    for one who walks straight), after turning fully to a side for a while: 1
-    left, -1 right, 0 none; the worst of these feints counts. Paths have shape
-    (steps + 1, n, 2).
+    The opponent steers at the robot, limited by its turning radius, after one
+    of several feints: turning fully to a side for a while, 1 left, -1 right,
+    0 none.
     """
     most = opponent.speed / turning_radius  # turning rate, [rad/s]
     way, sharp = STEP * opponent.speed, STEP * most
@@ -208,7 +182,7 @@ def closest_approaches(
 
 
 DIRECTIONS = 24  # of dashes
-HORIZON = 6.0  # of a rollout, in [s]
+STEPS = 60  # of a rollout
 INTERVAL = 0.08  # between comparisons of a standing robot, in [s]
 # Positions of the last 0.6 s at most every 0.03 s, which show a velocity
 # once they span 0.3 s.
@@ -230,8 +204,8 @@ FEINTS = np.array([0.0, 1.0, -1.0])
 class DashMemory(NamedTuple):
     """Memory of an evader that dashes."""
 
-    track: OpponentTrack = TRACK  # last positions of the opponent
-    time: float = 0.0  # time of the last decision [s]
+    track: OpponentTrack = TRACK
+    time: float = 0.0  # of the last decision [s]
     velocity: BodyVelocity = STILL  # own, then, by the response of the legs
     command: BodyVelocity = STILL  # velocity that was desired since then
     angle: float | None = None  # of the dash in the map [rad]; None: stands
@@ -242,20 +216,16 @@ class DashMemory(NamedTuple):
 class DashEvasion(BackwardStrategy, CheckedSettings):
     """Evader that takes the straight dash with the largest clearance.
 
-    At each decision it rolls out standing, dashes in all directions, and the
-    same dashes begun a little later, by velocity set and lag of its legs, and
-    compares the closest approach of the opponent. The body turns its faster
-    axis along the dash while it walks. Where the robot does not see all
-    around, the other end of that axis may lead, so that the opponent stays in
-    view.
+    It compares standing and dashes in all directions, begun now or a little
+    later, by the closest approach of the opponent. The body turns its faster
+    axis along the dash; where the robot does not see all around, either end
+    of that axis may lead, so that the opponent stays in view.
 
     An opponent with infinite turning radius keeps its course. Another one
     steers at the robot, at once or after turning fully to either side, and
-    the worst of these counts. With a doubt a dash is worth the closest
-    approach of an opponent who keeps its course, and a share of that of one
-    who steers: so the robot leaves the path to the side on which it also has
-    room if the person turns. With an alertness it begins to compare dashes
-    when the person could be near soon, even one who would pass.
+    the worst of these counts. With a doubt, that is worth only a share beside
+    an opponent who keeps its course: so the robot leaves the path to the side
+    on which it also has room if the person turns.
     """
 
     turning_radius: float = setting(
@@ -303,7 +273,7 @@ class DashEvasion(BackwardStrategy, CheckedSettings):
         # Compiles the rollouts now instead of at the first decision.
         still = VelocitySet((0.0, 1.0), (0.0, 1.0), (-1.0, 1.0))
         dashes = make_dashes(DIRECTIONS, 0.0, still, LATER)
-        paths, _ = roll_out(Pose(0.0, 0.0, 0.0), STILL, dashes, still, 0.1)
+        paths, _ = roll_out(Pose(0.0, 0.0, 0.0), STILL, dashes, still, 1)
         self._worth(paths, Opponent(1.0, 0.0, 0.0, 0.0), inf)
         return DashMemory()
 
@@ -334,9 +304,12 @@ class DashEvasion(BackwardStrategy, CheckedSettings):
         dashes = make_dashes(
             DIRECTIONS, pose.theta, velocities, LATER, both_ends=looks
         )
-        paths, headings = roll_out(pose, velocity, dashes, velocities, HORIZON)
-        value = self._values(paths, opponent)
-        value = value + self._bonus(dashes, memory.angle)
+        paths, headings = roll_out(pose, velocity, dashes, velocities, STEPS)
+        value = self._worth(paths, opponent, self.turning_radius)
+        if self.doubt < inf and self.turning_radius < inf:
+            straight = self._worth(paths, opponent, inf)
+            value = (straight + self.doubt * value) / (1.0 + self.doubt)
+        value += self._bonus(dashes, memory.angle)
         if looks:
             soon = min(ceil(self.contact_time / STEP), len(headings))
             value -= UNSEEN * unseen_shares(
@@ -359,10 +332,7 @@ class DashEvasion(BackwardStrategy, CheckedSettings):
         )
 
     def _is_near(self, pose: Pose, opponent: Opponent) -> bool:
-        """Return whether a standing robot has to compare dashes.
-
-        A first test, cheap enough for every tick of a standing robot.
-        """
+        """Return whether a standing robot has to compare dashes."""
         x, y = opponent.x - pose.x, opponent.y - pose.y
         distance, speed = hypot(x, y), opponent.speed
         alert = self.alertness * speed
@@ -390,16 +360,6 @@ class DashEvasion(BackwardStrategy, CheckedSettings):
         changes = self.change * (np.cos(dashes.angles - present) - 1.0)
         waits = np.where(begins > 0.0, EFFORT, 0.0)
         return np.where(np.isinf(begins), bonus, changes - waits)
-
-    def _values(self, paths: Array, opponent: Opponent) -> Array:
-        """Return the value of each dash along its path, in [m]. Shape (n,)."""
-        radius = self.turning_radius
-        steering = self._worth(paths, opponent, radius)
-        if self.doubt == inf or radius == inf:
-            return steering
-        straight = self._worth(paths, opponent, inf)
-        found: Array = (straight + self.doubt * steering) / (1.0 + self.doubt)
-        return found
 
     def _worth(self, paths: Array, opponent: Opponent, radius: float) -> Array:
         """Return the value of each dash against one turning radius [m]."""

@@ -72,6 +72,7 @@ class VelocitySet(NamedTuple):
         return BodyVelocity(*(share * value for value in kept))
 
 
+@inlined
 def response_share(duration: float, lag: float) -> float:
     """Return the share of a change that a duration brings with a lag [s]."""
     return -expm1(-duration / lag) if lag > 0.0 else 1.0
