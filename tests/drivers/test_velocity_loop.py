@@ -21,7 +21,7 @@ from stepaside.drivers.velocity_loop import (
 )
 from stepaside.perception.measurement import RobotState, Sighting
 from stepaside.planning import Direction, GaitSettings
-from stepaside.strategies import Evasion, Intent, Pursuit, Strategy
+from stepaside.strategies import Evasion, Pursuit, Strategy
 from stepaside.strategies.velocity_set import BodyVelocity
 
 from velocity_fakes import PERIOD, FakeWalker, report  # isort: skip
@@ -104,20 +104,6 @@ def test_an_old_sighting_is_of_where_the_robot_was_then(
     assert told.forward == pytest.approx(-GAIT.speed)
     turn = GAIT.gain * (1.0 if saturated else 0.4)
     assert told.turn == pytest.approx(turn)
-
-
-class SlowStrategy(FakeStrategy):
-    """Strategy that walks at half the pace."""
-
-    def decide(self, knowledge: Any, memory: Any) -> Any:
-        """Want a heading at half the pace."""
-        return Intent(0.4, pace=0.5), None
-
-
-def test_the_pace_slows_speed_and_turn_alike() -> None:
-    mind = TemplateController(SlowStrategy(), GAIT)
-    told = mind.decide(REPORTS[0])
-    assert told == pytest.approx((0.5 * GAIT.speed, 0, 0.5 * GAIT.gain * 0.4))
 
 
 def test_the_robot_is_led_to_the_template_by_the_ramp() -> None:

@@ -65,12 +65,11 @@ def test_the_closest_approach_is_invariant_to_the_frame(
 
 
 class Leaving:
-    """Strategy that walks straight backward at a time scale."""
+    """Strategy that walks straight backward."""
 
     direction, saturated = Direction.BACKWARD, False
 
-    def __init__(self, pace: float) -> None:
-        self.pace = pace
+    def __init__(self) -> None:
         self.told: list[Knowledge] = []
 
     def begin(self) -> None:
@@ -79,20 +78,19 @@ class Leaving:
     def decide(self, known: Knowledge, memory: None) -> tuple[Intent, None]:
         """Walk on."""
         self.told.append(known)
-        return Intent(0.0, pace=self.pace), None
+        return Intent(0.0), None
 
 
-@pytest.mark.parametrize("pace", [1.0, 0.5])
-def test_a_template_walks_in_path_time(pace: float) -> None:
-    """After the first support, one stride per step, at its time scale."""
-    walker = Leaving(pace)
+def test_a_template_walks_in_path_time() -> None:
+    """After the first support, one stride per step."""
+    walker = Leaving()
     met(PersonSettings("straight", 0.3), strategy=walker)
     told = [known for known in walker.told if known.limits.speed == FAST.speed]
     first, second, *rest = told  # without those of its validation
     assert not first.moving and all(known.moving for known in rest)
     begun = second.time - first.time
-    period = FAST.step_duration / pace
-    wanted = FAST.start_support / pace + period
+    period = FAST.step_duration
+    wanted = FAST.start_support + period
     assert begun == pytest.approx(wanted, abs=0.011)
     times = [known.time for known in rest]
     assert times[1] - times[0] == pytest.approx(period, abs=0.011)

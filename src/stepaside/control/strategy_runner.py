@@ -22,21 +22,8 @@ from ..strategies.strategy import Strategy
 from ..strategies.velocity_set import VelocitySet
 from .sight_sources import PlayersInSight
 
-MAX_PACE_CHANGE = 0.25  # from step to step
 MEMORY = 2.0  # how long past states are stored, in [s]
 RECENT = 1.0  # age up to which the own pose at a sighting is known, in [s]
-
-
-def next_pace(before: float, wanted: float, *, standing: bool) -> float:
-    """Return the pace of the next step, with a bounded change while walking.
-
-    Shorter steps need less lateral sway of the CoM. The mismatch with the
-    state that the last step prepared is absorbed by the correction of the
-    next plan, a ZMP shift that has to stay well inside the sole.
-    """
-    if standing:
-        return wanted
-    return min(max(wanted, before - MAX_PACE_CHANGE), before + MAX_PACE_CHANGE)
 
 
 class StrategyRunner(DecisionMaker):
@@ -52,7 +39,6 @@ class StrategyRunner(DecisionMaker):
     ) -> None:
         super().__init__(strategy, limits_of(gait, velocities, views))
         self._surroundings = surroundings or Surroundings()
-        self.pace = 1.0
         self.headings: History[float] = History(MEMORY)  # [rad]
         self.templates: History[Pose] = History(MEMORY)
         self._spacing = gait.foot_spacing
@@ -105,11 +91,7 @@ class StrategyRunner(DecisionMaker):
             begins = pose_beside_foot(*stands, self._spacing)
             begins = self._surroundings.pose_odometry_in_map.compose(begins)
             known = replace(known, step_start_in_map=begins)
-        intent = self.evaluate(known)
-        self.pace = next_pace(self.pace, intent.pace, standing=not moving)
-        if intent.pace != self.pace:
-            intent = replace(intent, pace=self.pace)
-        return intent
+        return self.evaluate(known)
 
     def _knowledge(
         self, now: float, sighting: Sighting, *, moving: bool

@@ -189,9 +189,8 @@ class FloorWalk(FloorMotion):
         if intent is None or not intent.walks:
             self.is_walking, self.due = False, now + self._alert
             return
-        duration /= intent.pace
         if not self.is_walking:
-            self._since += self._delay / intent.pace
+            self._since += self._delay
         self.is_walking, self.due = True, self._since + duration
         strategy = self.agent.strategy
         turn, most = limits.share * intent.heading, pi * limits.share

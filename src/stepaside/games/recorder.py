@@ -192,7 +192,6 @@ def strategy_numbers(player: RobotPlayer) -> Iterator[tuple[str, float]]:
         yield "sighting_distance_m", sighting.distance
     if walk is not None and walk.plan is not None:
         yield "desired_heading_rad", walk.plan.bearing
-    yield "pace", scheme.decisions.pace
     entries: dict[str, Any] = {}
     if hasattr(memory, "_asdict"):
         entries = memory._asdict()

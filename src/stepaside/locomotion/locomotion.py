@@ -56,9 +56,7 @@ def template_velocity(
         return intent.velocity
     speed = request.direction.value * gait.speed * intent.speed_factor
     law = laws.saturated_rate if request.saturated else laws.proportional_rate
-    return BodyVelocity(
-        speed * intent.pace, 0.0, law(intent.heading, gait.gain) * intent.pace
-    )
+    return BodyVelocity(speed, 0.0, law(intent.heading, gait.gain))
 
 
 class GuardDecision(NamedTuple):

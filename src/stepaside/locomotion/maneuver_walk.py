@@ -71,7 +71,7 @@ class ManeuverWalk:
         self.right_foot = Pose(0.0, -half, 0.0)
         self.begun: StepStarted | None = None
         self.pose_delay = delay + tick  # [s]
-        self._delay, self._pace = delay, 1.0
+        self._delay = delay
         self.planner, self.guard = ManeuverPlanner(gait), guard
         self._relaxed = False
         self._first_foot = first_foot
@@ -234,7 +234,6 @@ class ManeuverWalk:
         if request is None:
             self._halt(started, support, state)
             return
-        self._pace = request.intent.pace
         feet = support, self._support(foot.other)
         selected = None
         if request.intent.walks:
@@ -295,9 +294,7 @@ class ManeuverWalk:
                 state=state,
                 swing_start=swing_start,
                 standing=standing,
-                drive=TemplateDrive(
-                    request.saturated, chosen.speed_factor, chosen.pace
-                ),
+                drive=TemplateDrive(request.saturated, chosen.speed_factor),
             )
             if self.guard is None:
                 return plan
@@ -332,7 +329,6 @@ class ManeuverWalk:
             first_foot=foot,
             state=state,
             swing_start=support.inverse().compose(self._support(foot.other)),
-            pace=self._pace,
         )
         self.phase = Phase.HALTING
         duration = plan.schedule.duration + SETTLING

@@ -1,6 +1,6 @@
 """Settings of a gait and of its maneuvers (paper, Sec. IV)."""
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from math import sqrt
 from typing import Literal
 
@@ -170,21 +170,6 @@ class GaitSettings:
         Plans then begin at the planned state: the measured one never settles.
         """
         return self.step_duration < FAST_STEP
-
-    def at_pace(self, pace: float) -> "GaitSettings":
-        """Return the gait at a fraction of its step rate, in (0, 1].
-
-        The step height falls with it, to half the height at pace 0.
-        """
-        if pace == 1.0:
-            return self
-        return replace(
-            self,
-            single_support=self.single_support / pace,
-            double_support=self.double_support / pace,
-            start_support=self.start_support / pace,
-            step_height=self.step_height * 0.5 * (1.0 + pace),
-        )
 
     def stride_share(self, turn: float) -> float:
         """Return the share of the stride for the turn of a step, [rad]."""

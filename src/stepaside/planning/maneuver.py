@@ -19,9 +19,6 @@ from .path import Direction, Foot, UnicycleTrajectory, place_footsteps
 from .plan import ManeuverPlan
 from .schedule import Schedule
 
-PACES = 8  # the pace is rounded to multiples of 1 / PACES
-MIN_PACE = 0.5
-
 
 class CenterState(NamedTuple):
     """Present state of the CoM in the frame of the next support foot."""
@@ -33,13 +30,12 @@ class CenterState(NamedTuple):
 class TemplateDrive(NamedTuple):
     """Speed and steering law of the template over one maneuver.
 
-    A speed factor leaves step durations and turns as they are, a pace the
-    footsteps. A sharp turn reduces the speed further.
+    A speed factor leaves step durations and turns as they are. A sharp turn
+    reduces the speed further.
     """
 
     saturated: bool = False  # turns by (6) instead of (8)
     speed_factor: float = 1.0  # of the gait's speed and stride, in (0, 1]
-    pace: float = 1.0  # of the gait's step rate
 
 
 FULL_SPEED = TemplateDrive()
@@ -50,21 +46,14 @@ class ManeuverPlanner:
 
     def __init__(self, settings: GaitSettings) -> None:
         self.settings = settings
-        self._schedules: dict[tuple[int, bool, float], Schedule] = {}
+        self._schedules: dict[tuple[int, bool], Schedule] = {}
 
-    def schedule(
-        self, count: int, *, standing: bool, pace: float = 1.0
-    ) -> Schedule:
-        """Return the schedule of ``count`` footsteps, built at first use.
-
-        The pace is rounded to eighths, so that few schedules suffice.
-        """
-        check_within(pace, LEAST, 1.0, "pace", "1")
-        pace = max(MIN_PACE, round(PACES * pace) / PACES)
-        key = (count, standing, pace)
+    def schedule(self, count: int, *, standing: bool) -> Schedule:
+        """Return the schedule of ``count`` footsteps, built at first use."""
+        key = (count, standing)
         if key not in self._schedules:
             self._schedules[key] = Schedule(
-                self.settings.at_pace(pace), count, standing=standing
+                self.settings, count, standing=standing
             )
         return self._schedules[key]
 
@@ -97,17 +86,15 @@ class ManeuverPlanner:
 
         Raises:
             PlanError: If the bearing is not finite or beyond one turn, the
-                state is not finite or missing, or the speed factor or pace
-                is out of range.
+                state is not finite or missing, or the speed factor is out
+                of range.
         """
         check_bearing(bearing, "bearing")
-        saturated, speed_factor, pace = drive
+        saturated, speed_factor = drive
         check_within(speed_factor, LEAST, 1.0, "speed_factor", "1")
         gait = self.settings
         schedule = self.schedule(
-            gait.horizon if count is None else count,
-            standing=standing,
-            pace=pace,
+            gait.horizon if count is None else count, standing=standing
         )
         turning = laws.saturated_rate if saturated else laws.proportional_rate
         turn = turning(bearing, gait.gain) * gait.path_interval
@@ -145,10 +132,9 @@ class ManeuverPlanner:
         first_foot: Foot,
         state: CenterState,
         swing_start: Pose,
-        pace: float = 1.0,
     ) -> ManeuverPlan:
         """Plan a halt: one last step that brings the feet abreast."""
-        schedule = self.schedule(1, standing=False, pace=pace)
+        schedule = self.schedule(1, standing=False)
         spacing = self.settings.foot_spacing * first_foot.value
         placements = np.array(
             [swing_start, (0.0, 0.0, 0.0), (0.0, spacing, 0.0)]

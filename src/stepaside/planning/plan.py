@@ -89,7 +89,7 @@ class ManeuverPlan:
 
     @property
     def gait(self) -> GaitSettings:
-        """Gait at the pace of the plan."""
+        """Gait of the plan."""
         return self.schedule.settings
 
     @property

@@ -1,6 +1,6 @@
 """Evasion: walk backward across the line of sight (paper, Sec. II-B)."""
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from math import inf, pi, radians
 from typing import ClassVar, Literal, NamedTuple, get_args
 
@@ -13,7 +13,6 @@ from .approach import Approach, correcting_heading, predict_clearance
 from .knowledge import STAND, Intent, Knowledge
 
 Trigger = Literal["distance", "time"]
-PACE_STEP = 0.125  # between the paces that are tried
 RELEASE_RATIO = 1.25  # release clearance over trigger clearance
 
 
@@ -106,13 +105,6 @@ class Evasion:
         Range(0.1, 10.0, "m", "the bodies have a width"),
         needs=("evasion.trigger", "time"),
     )
-    calmest: float = setting(
-        1.0,
-        "Minimum step rate, as a fraction of the gait's {unit}, with the "
-        "trigger time: the slowest that leaves enough clearance is chosen",
-        Range(0.5, 1.0, "1", "steps at a lower pace take too long"),
-        needs=("evasion.trigger", "time"),
-    )
 
     def __post_init__(self) -> None:
         """Validate the settings."""
@@ -167,26 +159,7 @@ class Evasion:
         side = memory.side or self._clearer_side(knowledge, approach)
         error = laws.evasion_heading(approach.origin, side, self.angle)
         heading = correcting_heading(error, knowledge.limits)
-        pace = self._pace(knowledge, approach, error)
-        return Intent(heading, pace=pace), EvasionMemory(True, side, safe)
-
-    def _pace(
-        self, knowledge: Knowledge, approach: Approach, error: float
-    ) -> float:
-        """Return the lowest pace that keeps the release clearance."""
-        limits = knowledge.limits
-        required = RELEASE_RATIO * self.clearance
-        pace = self.calmest
-        while pace < 1.0:
-            slower = replace(limits, step_duration=limits.step_duration / pace)
-            stands = not knowledge.moving
-            if (
-                predict_clearance(approach, slower, error, stands=stands)
-                > required
-            ):
-                return pace
-            pace += PACE_STEP
-        return 1.0
+        return Intent(heading), EvasionMemory(True, side, safe)
 
     def _clearer_side(self, knowledge: Knowledge, approach: Approach) -> int:
         """Return the side with the larger predicted clearance."""

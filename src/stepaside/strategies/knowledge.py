@@ -9,7 +9,6 @@ from ..arena import NO_OBSTACLES, ObstacleSet
 from ..core.errors import (
     PlanError,
     check_bearing,
-    check_positive,
     check_within,
     shown,
 )
@@ -193,9 +192,6 @@ class Intent:
     heading: float = 0.0
     speed_factor: float = 1.0  # fraction of the gait's speed [0, 1]; 0 stops
     moving: bool = True  # whether to move at all
-    # fraction of the gait's step rate, in (0, 1]: the same steps and turns in
-    # more time. Walkers go no slower than 0.5
-    pace: float = 1.0
     # desired velocity of the body in its present frame, in place of heading
     # and speed. Legs with a velocity set walk at the nearest velocity in it,
     # unicycles follow :func:`~stepaside.strategies.strategy.unicycle_intent`
@@ -211,8 +207,6 @@ class Intent:
                 f"moving must be true or false, got {shown(self.moving)}"
             )
         check_within(self.speed_factor, 0.0, 1.0, "speed_factor", "1")
-        check_positive(self.pace, "pace", "1")
-        check_within(self.pace, 0.0, 1.0, "pace", "1")
         if self.velocity is not None:
             for name, value in self.velocity._asdict().items():
                 unit = "rad/s" if name == "turn" else "m/s"

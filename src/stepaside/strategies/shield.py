@@ -5,7 +5,7 @@ What is required of each state, and the proof, are in docs/shield.md.
 
 import logging
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import lru_cache
 from math import asin, atan2, ceil, cos, hypot, inf, pi, sin, tau
 from typing import Any, NamedTuple
@@ -69,7 +69,7 @@ class ShieldModel(NamedTuple):
     required: float  # least distance of the observed states [m]
 
     def twist(self, intent: Intent) -> tuple[BodyVelocity, float]:
-        """Return velocity and duration that an intent at pace 1 commits to."""
+        """Return velocity and duration that an intent commits to."""
         limits, sign = self.limits, float(self.direction.value)
         legs, duration = limits.velocities, limits.step_duration
         if legs is not None:
@@ -373,7 +373,6 @@ class ShieldedStrategy:
         intent, inner = evaluate_strategy(
             self.strategy, knowledge, memory.inner
         )
-        intent = replace(intent, pace=1.0)  # walkers change theirs slowly
         model, person, now = (
             self.model_for(knowledge),
             self.shield,

@@ -55,11 +55,10 @@ class Walk:
     direction: Direction = Direction.FORWARD
     saturated: bool = False  # whether it turns by (6) instead of (8)
     speed_factor: float = 1.0  # fraction of the gait's speed [0, 1]; 0 stands
-    pace: float = 1.0  # fraction of the gait's step rate, in (0, 1]
 
     def __post_init__(self) -> None:
         """Validate the settings."""
-        Intent(self.bearing, self.speed_factor, pace=self.pace)
+        Intent(self.bearing, self.speed_factor)
 
     def begin(self) -> None:
         """Return no memory."""
@@ -69,7 +68,7 @@ class Walk:
     ) -> tuple[Intent, None]:
         """Return the constant intent."""
         moving = self.speed_factor != 0.0
-        return Intent(self.bearing, self.speed_factor, moving, self.pace), None
+        return Intent(self.bearing, self.speed_factor, moving), None
 
 
 @dataclass(frozen=True, slots=True)

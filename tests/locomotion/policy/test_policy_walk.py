@@ -22,13 +22,13 @@ GAIT = GaitSettings(speed=0.5, gain=0.4, stride=0.2)
 def test_a_request_becomes_the_velocity_of_the_template(
     direction: Direction,
 ) -> None:
-    """Equations (7) and (8), both slowed down by the pace."""
+    """Equations (7) and (8)."""
     request = MotionRequest(Intent(heading=0.5), direction, False)
     velocity = template_velocity(request, GAIT)
     assert velocity == pytest.approx((0.5 * direction.value, 0.0, 0.2))
-    slow = MotionRequest(Intent(0.5, 0.5, pace=0.5), direction, False)
+    slow = MotionRequest(Intent(0.5, 0.5), direction, False)
     assert template_velocity(slow, GAIT) == pytest.approx(
-        (0.125 * direction.value, 0.0, 0.1)
+        (0.25 * direction.value, 0.0, 0.2)
     )
 
 
