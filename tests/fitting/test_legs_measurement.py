@@ -76,7 +76,7 @@ def measured(
         FormulaExecutor(falls),
         lambda count, of: done.append((count, of)),
     )
-    assert done[-1] == (30, 30)
+    assert done[-1] == (28, 28)
     return result
 
 
@@ -84,7 +84,6 @@ def test_linear_legs_are_measured_exactly(robot: RobotDescription) -> None:
     result = measured(robot)
     np.testing.assert_allclose(result.gains(), GAINS, atol=1e-12)
     assert result.response.odometry_ratio == pytest.approx((1.05, 1.1))
-    assert result.combined_error == pytest.approx((0.0, 0.0), abs=1e-12)
     wanted, command = np.array([0.4, 0.1, -0.3]), np.zeros(3)
     result.response.inverse(wanted, command)()
     found = result.response.deliver(BodyVelocity(*command))
@@ -100,7 +99,7 @@ def test_commands_that_led_to_a_fall_are_left_out(
 ) -> None:
     """And those beyond them, on that side of the axis."""
     result = measured(robot, lambda command: command.forward == 0.5)
-    assert result.falls == 2  # alone, and with a lateral command
+    assert result.falls == 1
     assert result.response.axes[0].commands == (
         -1.0,
         -0.75,
@@ -123,7 +122,7 @@ def test_a_robot_that_holds_a_posture_delivers_nothing(
     robot: RobotDescription,
 ) -> None:
     legs = settings_from_description(robot).legs
-    trial = LegsTrial(robot, legs, BodySettings(), BodyVelocity(0.5), 1)
+    trial = LegsTrial(robot, legs, BodySettings(), 1, BodyVelocity(0.5))
     result = run_trial(trial)
     assert result.fell_at is None
     assert result.delivered == pytest.approx((0.0, 0.0, 0.0), abs=2e-3)
@@ -133,7 +132,7 @@ def test_a_robot_that_holds_a_posture_delivers_nothing(
 def test_a_fall_ends_a_trial(tmp_path: Path) -> None:
     robot = load_robot(nao_on_legs(tmp_path / "nao", gain=1.0))
     legs = settings_from_description(robot).legs
-    trial = LegsTrial(robot, legs, BodySettings(), BodyVelocity(0.9), 1)
+    trial = LegsTrial(robot, legs, BodySettings(), 1, BodyVelocity(0.9))
     result = run_trial(trial)
     assert result.fell_at is not None and 1.5 < result.fell_at < 4.0
     assert np.isnan(result.delivered).all()

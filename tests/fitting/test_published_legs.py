@@ -98,8 +98,8 @@ def test_a_published_network_walks_a_published_robot(g1: Path) -> None:
         load_robot(g1),
         LegsSettings(str(network)),
         BodySettings(),
-        BodyVelocity(0.5, 0.0, 0.0),
         1,
+        BodyVelocity(0.5, 0.0, 0.0),
     )
     result = run_trial(trial)
     assert result.fell_at is None

@@ -168,13 +168,6 @@ def _text(name: str, value: Any) -> str:
     help="Delay from command to motion, in control cycles of the body; that "
     "of the body by default.",
 )
-@click.option(
-    "--random-walks",
-    type=click.IntRange(0, 1000),
-    default=0,
-    help="Also walk so many times for 60 s at random commands, and count "
-    "falls.  [default: 0]",
-)
 @seed_option(help="Seed of sensor errors.")
 @workers_option
 @figure_option(help="Write a figure of commands and delivered velocities.")
@@ -185,7 +178,6 @@ def measure(
     legs_contract: str,
     body: str,
     delay_cycles: int | None,
-    random_walks: int,
     seed: int,
     workers: int | None,
     figure: Path | None,
@@ -233,7 +225,6 @@ def measure(
             executor,
             bar.show,
             seed=seed,
-            random_walks=random_walks,
         )
     with atomic_draft(file) as draft:
         entries = response_entries(result.response, Path(network))
@@ -274,14 +265,6 @@ def measurement_facts(result: "LegsMeasurement") -> dict[str, Any]:
             "lag_s": [axis.lag for axis in response.axes],
             "halting": [axis.halting for axis in response.axes],
             "odometry_ratio": response.odometry_ratio,
-            "random_walks": {
-                "walks": len(result.random_walks),
-                "falls_at_s": [
-                    t for t in result.random_walks if t is not None
-                ],
-            },
-            "combined_error_m_s": result.combined_error[0],
-            "combined_error_rad_s": result.combined_error[1],
             "trials": [
                 {
                     "command": trial.command,

@@ -1,8 +1,8 @@
 """Measurement of learned legs: what velocities commands lead to."""
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from concurrent.futures import Executor
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from math import hypot, isfinite, nan
 from typing import NamedTuple
 
@@ -31,20 +31,11 @@ from ..strategies.velocity_set import STILL, BodyVelocity
 STANDING = 1.5  # before the command, in [s]: the gyro is calibrated in 1 s
 SETTLING = 3.0  # from the command to a steady walk, in [s]
 STEADY = 6.0  # over which the velocity is averaged, in [s]
-RANDOM_WALK = 60.0  # of random commands, in [s]
-HOLDS = 1.0, 4.0  # shortest and longest time of a random command, in [s]
+HALTING = 2.0  # from the end of the command to the end of a trial, in [s]
 TRACKING_WALK = 40.0  # of random velocities, in [s]
 TRACKING_WALKS = 3
-HALTING = 2.0  # from the end of the command to the end of a trial, in [s]
-SHARES = (-1.0, -0.75, -0.5, -0.25, 0.0, 0.25, 0.5, 0.75, 1.0)
-# Combined commands, as shares of the range, that check the sum of the axes.
-COMBINED = (
-    (0.7, 0.0, 0.4),
-    (0.7, 0.0, -0.4),
-    (-0.7, 0.0, 0.4),
-    (-0.7, 0.0, -0.4),
-    (0.5, 0.5, 0.0),
-)
+HOLDS = 1.0, 4.0  # shortest and longest time of a random velocity, in [s]
+SHARES = (-1.0, -0.75, -0.5, -0.25, 0.25, 0.5, 0.75, 1.0)
 
 
 class LegsTrial(NamedTuple):
@@ -53,9 +44,9 @@ class LegsTrial(NamedTuple):
     description: RobotDescription
     legs: LegsSettings  # walking policy
     body: BodySettings  # deviations of the body from an ideal one
-    command: BodyVelocity  # command of the policy, where it is constant
-    seed: int  # seed of sensor errors and of random commands
-    # response by which velocities are commanded; None for commands as they are
+    seed: int  # of sensor errors and of random velocities
+    command: BodyVelocity = STILL  # of the policy, where it is constant
+    # by which velocities are commanded; None for commands as they are
     response: VelocityResponse | None = None
 
 
@@ -79,6 +70,24 @@ class LegsMotion(NamedTuple):
     wanted: list[BodyVelocity]
     tick: float  # [s]
     fell_at: float | None  # [s]
+
+
+class LegsMeasurement(NamedTuple):
+    """Measured response of a robot's learned legs."""
+
+    trials: list[LegsTrialResult]  # walks at constant commands
+    response: VelocityResponse
+    falls: int  # of these walks, and of those at random velocities
+
+    def gains(self) -> Array:
+        """Return the slopes of delivered velocities by commands. (3, 3)."""
+        columns = []
+        for axis in self.response.axes:
+            commands = np.array(axis.commands)
+            rows = np.array(axis.delivered)
+            rows = rows - rows[axis.commands.index(0.0)]
+            columns.append(commands @ rows / (commands @ commands))
+        return np.stack(columns, axis=1)
 
 
 def _walk(
@@ -139,36 +148,6 @@ def run_trial(trial: LegsTrial) -> LegsTrialResult:
     return result._replace(odometry=estimated.delivered[:2])
 
 
-def _drawn(
-    generator: np.random.Generator,
-    ranges: Sequence[tuple[float, float]],
-    nearest: Callable[[BodyVelocity], BodyVelocity],
-) -> Callable[[float], BodyVelocity]:
-    """Return velocities drawn from ranges by time, held for 1 to 4 s."""
-    low, high = np.array(ranges).T
-    wanted, until = STILL, STANDING
-
-    def wanted_at(now: float) -> BodyVelocity:
-        nonlocal wanted, until
-        if now + 1e-9 >= until:
-            drawn = BodyVelocity(*generator.uniform(low, high).tolist())
-            wanted, until = nearest(drawn), until + generator.uniform(*HOLDS)
-        return wanted
-
-    return wanted_at
-
-
-def run_random_walk(trial: LegsTrial) -> float | None:
-    """Walk for a minute at random commands of the contract.
-
-    Time of a fall, in [s]; None without one.
-    """
-    ranges = load_policy(trial.legs, trial.description)[0].command_ranges
-    generator = named_generator(trial.seed, "random walk")
-    commands = _drawn(generator, ranges, lambda drawn: drawn)
-    return _walk(trial, commands, RANDOM_WALK).fell_at
-
-
 def run_tracking_walk(trial: LegsTrial) -> float:
     """Walk at random velocities; return the tube of the body.
 
@@ -177,9 +156,21 @@ def run_tracking_walk(trial: LegsTrial) -> float:
     """
     assert trial.response is not None
     legs = trial.response.velocities
+    low, high = np.array(legs[:3]).T
     generator = named_generator(trial.seed, "tracking walk")
-    velocities = _drawn(generator, legs[:3], legs.nearest)
-    motion = _walk(trial, velocities, TRACKING_WALK)
+    present, until = STILL, STANDING
+
+    def wanted_at(now: float) -> BodyVelocity:
+        nonlocal present, until
+        if now + 1e-9 >= until:
+            drawn = BodyVelocity(*generator.uniform(low, high).tolist())
+            present, until = (
+                legs.nearest(drawn),
+                until + generator.uniform(*HOLDS),
+            )
+        return present
+
+    motion = _walk(trial, wanted_at, TRACKING_WALK)
     if motion.fell_at is not None:
         return nan
     lag, tube = max(legs.lags[:2]), 0.0
@@ -219,49 +210,15 @@ def _evaluate(
 
 
 def trial_commands(ranges: CommandRanges) -> list[BodyVelocity]:
-    """Return the commands of a measurement: each axis, then combinations."""
-    singles = [
-        tuple(share if axis == i else 0.0 for i in range(3))
-        for axis in range(3)
-        for share in SHARES
-    ]
+    """Return the commands of a measurement: none, then along each axis."""
     commands = [STILL]
-    for shares in (*singles, *COMBINED):
-        command = BodyVelocity(
-            *(
-                share * (high if share > 0 else -low)
-                for share, (low, high) in zip(shares, ranges, strict=True)
-            )
-        )
-        if any(command):
-            commands.append(command)
+    for axis, (low, high) in enumerate(ranges):
+        for share in SHARES:
+            value = share * (high if share > 0.0 else -low)
+            if value:
+                row = [value if i == axis else 0.0 for i in range(3)]
+                commands.append(BodyVelocity(*row))
     return commands
-
-
-@dataclass(frozen=True, slots=True)
-class LegsMeasurement:
-    """Measured response of a robot's learned legs."""
-
-    trials: tuple[LegsTrialResult, ...]  # results of all walks
-    response: VelocityResponse
-    combined_error: tuple[float, float]  # [m/s] [rad/s]
-    # time of the fall in each walk at random commands [s]; None without one
-    random_walks: tuple[float | None, ...] = ()
-
-    @property
-    def falls(self) -> int:
-        """Number of walks that ended in a fall."""
-        return sum(trial.fell_at is not None for trial in self.trials)
-
-    def gains(self) -> Array:
-        """Return the slopes of delivered velocities by commands. (3, 3)."""
-        columns = []
-        for axis in self.response.axes:
-            commands = np.array(axis.commands)
-            rows = np.array(axis.delivered)
-            rows = rows - rows[axis.commands.index(0.0)]
-            columns.append(commands @ rows / (commands @ commands))
-        return np.stack(columns, axis=1)
 
 
 def measure_legs(
@@ -272,14 +229,13 @@ def measure_legs(
     report: Callable[[int, int], None],
     *,
     seed: int = 1,
-    random_walks: int = 0,
 ) -> LegsMeasurement:
     """Walk a grid of commands, and tabulate the velocities that result."""
     contract, _ = load_policy(legs, description)
-    base = LegsTrial(description, legs, body, STILL, seed)
+    base = LegsTrial(description, legs, body, seed)
     commands = trial_commands(contract.command_ranges)
-    walks = len(commands) + random_walks
-    results = []
+    walks = len(commands) + TRACKING_WALKS
+    results: list[LegsTrialResult] = []
     for result in executor.map(
         run_trial, [base._replace(command=command) for command in commands]
     ):
@@ -290,29 +246,25 @@ def measure_legs(
             f"legs: the robot fell at {results[0].fell_at:.2f} s while it "
             "was to stand: the contract does not fit the network"
         )
-    singles, combined = results[: -len(COMBINED)], results[-len(COMBINED) :]
     response = VelocityResponse(
-        _axis(0, singles),
-        _axis(1, singles),
-        _axis(2, singles),
+        *(_axis(axis, results) for axis in range(3)),
         odometry_ratio=_odometry_ratio(results),
     )
     tracking = base._replace(response=response)
-    tubes = executor.map(
+    tubes: list[float] = []
+    for tube in executor.map(
         run_tracking_walk,
         [tracking._replace(seed=seed + i) for i in range(TRACKING_WALKS)],
-    )
-    tube = max((each for each in tubes if isfinite(each)), default=0.0)
-    response = replace(response, tube=tube)
-    falls = []
-    for fall in executor.map(
-        run_random_walk,
-        [base._replace(seed=seed + i) for i in range(random_walks)],
     ):
-        falls.append(fall)
-        report(len(results) + len(falls), walks)
-    error = _combined_error(response, combined)
-    return LegsMeasurement(tuple(results), response, error, tuple(falls))
+        tubes.append(tube)
+        report(len(results) + len(tubes), walks)
+    upright = [tube for tube in tubes if isfinite(tube)]
+    falls = sum(result.fell_at is not None for result in results)
+    return LegsMeasurement(
+        results,
+        replace(response, tube=max(upright, default=0.0)),
+        falls + len(tubes) - len(upright),
+    )
 
 
 def _axis(axis: int, results: list[LegsTrialResult]) -> AxisResponse:
@@ -349,17 +301,3 @@ def _odometry_ratio(results: list[LegsTrialResult]) -> tuple[float, float]:
         products, squares, out=np.ones(2), where=squares > 0.0
     ).tolist()
     return ahead, side
-
-
-def _combined_error(
-    response: VelocityResponse, results: list[LegsTrialResult]
-) -> tuple[float, float]:
-    """Compare combined commands with the sum of their axes."""
-    horizontal, turning = [0.0], [0.0]
-    for result in results:
-        if result.fell_at is None:
-            expected = response.deliver(result.command)
-            errors = np.subtract(result.delivered, expected)
-            horizontal.append(hypot(*errors[:2].tolist()))
-            turning.append(abs(float(errors[2])))
-    return max(horizontal), max(turning)
