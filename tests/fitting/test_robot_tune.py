@@ -17,7 +17,7 @@ from stepaside.fitting.description_writer import (
 from stepaside.fitting.gait_search import Candidate, search_gait
 from stepaside.fitting.robot_verification import (
     PATHS,
-    WalkTrial,
+    TrialPath,
     WalkTrialResult,
 )
 from stepaside.games.robot_settings import settings_from_description
@@ -41,19 +41,19 @@ def own(tmp_path_factory: pytest.TempPathFactory) -> RobotDescription:
 
 
 def walked(
-    trial: WalkTrial, off: float, *, falls: bool = False
+    path: TrialPath, off: float, *, falls: bool = False
 ) -> WalkTrialResult:
     """A walk that strays by a part of what a steady one may."""
     return WalkTrialResult(
-        trial.path.name,
-        bool(trial.control.feedback),
+        path.name,
+        False,
         "fell" if falls else "walked",
         not falls,
         0.3 if falls else 1.0,
         8.0 * off,
         0.0,
         1.0,
-        1.0 if trial.path.bearing else None,
+        1.0 if path.bearing else None,
     )
 
 
@@ -65,16 +65,17 @@ def search(
     """Search where smaller steps and stiffer joints are steadier."""
     walks = []
 
-    def walk(trial: WalkTrial) -> WalkTrialResult:
-        walks.append(trial)
-        gait = trial.gait
-        stiff = trial.description.overlay.servos["near_bend"].stiffness
+    def walk(
+        robot: RobotDescription, path: TrialPath, feedback: bool
+    ) -> WalkTrialResult:
+        walks.append(path)
+        stiff = robot.overlay.servos["near_bend"].stiffness
         off = 0.9
-        if gait.stride < 0.9 * float(own.gait["stride"]):
+        if float(robot.gait["stride"]) < 0.9 * float(own.gait["stride"]):
             off -= 0.4
         if stiff > 1.5 * own.overlay.servos["near_bend"].stiffness:
             off -= 0.4
-        return walked(trial, off, falls=bool(trial.control.feedback))
+        return walked(path, off, falls=feedback)
 
     monkeypatch.setattr(tuning, "walk_trial", walk)
     return search_gait(own, None, kept), len(walks)
@@ -97,12 +98,15 @@ def test_a_search_escapes_from_falls(
     gait = settings_from_description(own).gait
     walks = []
 
-    def walk(trial: WalkTrial) -> WalkTrialResult:
-        walks.append(trial)
-        quick = trial.gait.single_support < 0.9 * gait.single_support
-        ahead = trial.gait.zmp_forward < gait.zmp_forward
-        falls = not quick or (not ahead and trial.path in PATHS[:2])
-        return walked(trial, 0.1, falls=falls)
+    def walk(
+        robot: RobotDescription, path: TrialPath, feedback: bool
+    ) -> WalkTrialResult:
+        walks.append(path)
+        found = settings_from_description(robot).gait
+        quick = found.single_support < 0.9 * gait.single_support
+        ahead = found.zmp_forward < gait.zmp_forward
+        falls = not quick or (not ahead and path in PATHS[:2])
+        return walked(path, 0.1, falls=falls)
 
     monkeypatch.setattr(tuning, "walk_trial", walk)
     found = search_gait(own, None, None)
@@ -122,7 +126,9 @@ def test_the_command_does_not_change_a_steady_robot(
         "stepaside.core.worker_pool.worker_pool",
         lambda workers: InlineExecutor(),
     )
-    monkeypatch.setattr(tuning, "walk_trial", lambda t: walked(t, 0.1))
+    monkeypatch.setattr(
+        tuning, "walk_trial", lambda _, path, __: walked(path, 0.1)
+    )
     result = CliRunner().invoke(main, ["robot", "tune", str(folder)])
     assert result.exit_code == 0, result.output
     assert "description is unchanged" in result.stdout

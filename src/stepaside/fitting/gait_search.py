@@ -26,7 +26,6 @@ from .derivation import LEAST_SPACING
 from .robot_verification import (
     FALLEN,
     PATHS,
-    WalkTrial,
     control_with,
     walk_trial,
 )
@@ -240,10 +239,8 @@ def _walk_all(
     changed = candidate.applied(own)
     if changed is None:
         return {"walks": walks}
-    settings = settings_from_description(changed)
     for path in reversed(PATHS):
-        trial = WalkTrial(changed, settings.gait, settings.control, path)
-        result = walk_trial(trial)
+        result = walk_trial(changed, path, bool(candidate.feedback))
         walks.append(result.to_json())
         score = result.unsteadiness + candidate.cost
         if not result.completed or score > bound:

@@ -246,10 +246,9 @@ def measure_legs(
             f"legs: the robot fell at {results[0].fell_at:.2f} s while it "
             "was to stand: the contract does not fit the network"
         )
-    response = VelocityResponse(
-        *(_axis(axis, results) for axis in range(3)),
-        odometry_ratio=_odometry_ratio(results),
-    )
+    forward, lateral, turn = (_axis(axis, results) for axis in range(3))
+    ratio = _odometry_ratio(results)
+    response = VelocityResponse(forward, lateral, turn, odometry_ratio=ratio)
     tracking = base._replace(response=response)
     tubes: list[float] = []
     for tube in executor.map(

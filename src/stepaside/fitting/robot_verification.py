@@ -1,7 +1,7 @@
 """Verification of a robot: static requirements and walk trials."""
 
 import re
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from concurrent.futures import Executor
 from dataclasses import replace
 from math import degrees, radians
@@ -14,12 +14,10 @@ from ..core.errors import StepAsideError
 from ..games.game import play
 from ..games.game_settings import walk
 from ..games.outcome import Outcome
-from ..games.player_settings import WALKER
 from ..games.recorded_game import RecordedGame
 from ..games.robot_settings import settings_from_description
 from ..locomotion.control_settings import ControlSettings
 from ..locomotion.zmp.reference_table import initial_stance
-from ..planning import GaitSettings
 from ..robots.description import FILE, REMEDY, RobotDescription
 from ..robots.forward_kinematics import ForwardKinematics
 from ..robots.leg_kinematics import LegKinematics
@@ -32,6 +30,13 @@ GREATEST_TILT = 8.0  # of the torso in a steady walk, in [deg]
 GREATEST_COM_ERROR = 0.06  # rms in a steady walk, by the CoM height
 GREATEST_DEVIATION = 0.15  # relative, of speed and turning from the plan
 FALLEN = 10.0  # unsteadiness of a walk that ends in a fall
+GREATEST_FOOT_DIFFERENCE = 0.05  # from mirroring each other, by the CoM height
+GREATEST_COM_OFFSET = 0.05  # lateral, by the CoM height
+LEAST_REACH_MARGIN = 0.01  # of the CoM height, by the greatest in reach
+GREATEST_STEP_LOAD = 0.95  # of a torque limit in a step
+# Unsteadiness up to which the circle is within 5 % of theory.
+ACCURATE = 0.35
+TUNE = "`stepaside robot tune` searches for a"
 
 
 class TrialPath(NamedTuple):
@@ -49,15 +54,6 @@ PATHS = (
     TrialPath("backward, sharply left", True, radians(90.0)),
     TrialPath("backward, sharply right", True, radians(-90.0)),
 )
-
-
-class WalkTrial(NamedTuple):
-    """Walk of a robot along a path, with its own or other settings."""
-
-    description: RobotDescription
-    gait: GaitSettings
-    control: ControlSettings
-    path: TrialPath
 
 
 class WalkTrialResult(NamedTuple):
@@ -113,20 +109,12 @@ def control_with(control: ControlSettings, feedback: bool) -> ControlSettings:
     return replace(control, method=method, feedback=feedback)
 
 
-def trials_of(
-    description: RobotDescription, *, feedback: bool
-) -> tuple[WalkTrial, ...]:
-    """Return the walk trials of a robot along all paths."""
+def walk_trial(
+    description: RobotDescription, path: TrialPath, feedback: bool
+) -> WalkTrialResult:
+    """Walk a robot along a path; if it cannot begin, the result says why."""
     own = settings_from_description(description)
-    control = control_with(own.control, feedback)
-    return tuple(
-        WalkTrial(description, own.gait, control, path) for path in PATHS
-    )
-
-
-def walk_trial(trial: WalkTrial) -> WalkTrialResult:
-    """Run a walk trial; an invalid one has an error message as its result."""
-    gait, path = trial.gait, trial.path
+    gait = own.gait
     duration = (
         START_TIME + gait.start_support + 2 * CYCLES * gait.step_duration
     )
@@ -134,13 +122,12 @@ def walk_trial(trial: WalkTrial) -> WalkTrialResult:
         path.bearing,
         backward=path.backward,
         duration=duration,
-        robot=str(trial.description.folder),
+        robot=str(description.folder),
         gait=gait,
-        control=trial.control,
+        control=control_with(own.control, feedback),
     ).resolved()
-    feedback = bool(settings.player(WALKER).control.feedback)
     try:
-        game = RecordedGame(settings, description=trial.description)
+        game = RecordedGame(settings, description=description)
     except StepAsideError as error:
         return WalkTrialResult(path.name, feedback, str(error))
     play(game)
@@ -159,17 +146,8 @@ def walk_trial(trial: WalkTrial) -> WalkTrialResult:
         max(errors) / gait.com_height if len(errors) == 2 else None,
         walking.speed_ratio,
         walking.yaw_ratio if path.bearing else None,
-        degrees(trial.description.lean),
+        degrees(description.lean),
     )
-
-
-GREATEST_FOOT_DIFFERENCE = 0.05  # from mirroring each other, by the CoM height
-GREATEST_COM_OFFSET = 0.05  # lateral, by the CoM height
-LEAST_REACH_MARGIN = 0.01  # of the CoM height, by the greatest in reach
-GREATEST_STEP_LOAD = 0.95  # of a torque limit in a step
-# Unsteadiness up to which the circle is within 5 % of theory.
-ACCURATE = 0.35
-TUNE = "`stepaside robot tune` searches for a"
 
 
 class RequirementCheck(NamedTuple):
@@ -184,20 +162,15 @@ class RequirementCheck(NamedTuple):
 class VerificationReport(NamedTuple):
     """Result of a verification."""
 
-    findings: tuple[RequirementCheck, ...]  # results of the checks
+    findings: list[RequirementCheck]
     # walk trials, open loop and with feedback; empty if the robot cannot stand
-    walks: tuple[WalkTrialResult, ...]
+    walks: list[WalkTrialResult]
     feedback: bool  # whether the description uses feedback
 
     @property
     def passes(self) -> bool:
-        """Whether no check failed and the described walks are steady."""
-        own = [w for w in self.walks if w.feedback == self.feedback]
-        return (
-            all(f.verdict != "fail" for f in self.findings)
-            and bool(own)
-            and all(walk.is_steady for walk in own)
-        )
+        """Whether no check failed, those of the described walks included."""
+        return all(f.verdict != "fail" for f in self.findings)
 
     def to_json(self) -> dict[str, Any]:
         """Return the report as values for JSON."""
@@ -212,24 +185,24 @@ class VerificationReport(NamedTuple):
 def check_robot(
     description: RobotDescription,
     executor: Executor,
-    report: Callable[[int, int], None] | None = None,
+    report: Callable[[int, int], None],
 ) -> VerificationReport:
-    """Check the requirements of a robot and run its walk trials."""
+    """Check the requirements of a robot, and walk it along all paths."""
     found = check_requirements(description)
-    if any(finding.verdict == "fail" for finding in found):
-        return VerificationReport(tuple(found), (), False)
-    own = trials_of(description, feedback=False)
-    trials = (*own, *trials_of(description, feedback=True))
-    walks: list[WalkTrialResult] = []
-    for result in executor.map(walk_trial, trials):
-        walks.append(result)
-        if report is not None:
-            report(len(walks), len(trials))
     feedback = bool(description.control.get("feedback", False))
-    described = [each for each in walks if each.feedback == feedback]
-    others = [each for each in walks if each.feedback != feedback]
-    found += [_steadiness(described), _steadiness(others, described=False)]
-    return VerificationReport(tuple(found), tuple(walks), feedback)
+    walks: list[WalkTrialResult] = []
+    if any(finding.verdict == "fail" for finding in found):
+        return VerificationReport(found, walks, feedback)
+    paths = [(path, fed) for fed in (False, True) for path in PATHS]
+    same = [description] * len(paths)
+    for result in executor.map(walk_trial, same, *zip(*paths, strict=True)):
+        walks.append(result)
+        report(len(walks), len(paths))
+    for described in (True, False):
+        fed = feedback is described
+        own = [each for each in walks if each.feedback is fed]
+        found.append(_steadiness(own, described=described))
+    return VerificationReport(found, walks, feedback)
 
 
 def check_requirements(
@@ -241,45 +214,35 @@ def check_requirements(
     reason.
     """
     results: list[RequirementCheck] = []
-    for name, (check, hint) in CHECKS.items():
+    for name, (check, verdict, hint) in CHECKS.items():
         try:
-            results += check(description)
+            value, passes = check(description)
         except StepAsideError as error:
             results.append(RequirementCheck(name, "fail", str(error), hint))
             break
+        told = ("pass", value) if passes else (verdict, value, hint)
+        results.append(RequirementCheck(name, *told))
     return results
 
 
-def _judge(
-    name: str, value: str, verdict: str | None = None, hint: str = ""
-) -> RequirementCheck:
-    """Return a check that passes if there is no other verdict."""
-    if verdict is None:
-        return RequirementCheck(name, "pass", value)
-    return RequirementCheck(name, verdict, value, hint)
+Finding = tuple[str, bool]  # measured value as text, and whether it passes
 
 
-def _kinematics(description: RobotDescription) -> Iterator[RequirementCheck]:
+def _kinematics(description: RobotDescription) -> Finding:
     tree = compile_tree(description)
     description.check(tree.bodies, tree.sites, tree.joints, tree.motors)
-    yield _judge("free joint", f"at {description.torso}")
     legs = len(description.legs)
-    yield _judge("joints", f"{len(tree.joints)}, of which {legs} in the legs")
+    return f"{len(tree.joints)} joints, of which {legs} in the legs", True
 
 
-def _estimates(description: RobotDescription) -> Iterator[RequirementCheck]:
+def _estimates(description: RobotDescription) -> Finding:
     """Name the tables that ``robot init`` marked as estimates."""
     text = (description.folder / FILE).read_text(encoding="utf-8-sig")
     tables = re.findall(r"ASK:.*?\n\[([\w.]+)\]", text, re.DOTALL)
-    yield _judge(
-        "estimates",
-        ", ".join(tables) or "none",
-        "warn" if tables else None,
-        "replace values marked by ASK by measured ones",
-    )
+    return ", ".join(tables) or "none", not tables
 
 
-def _masses(description: RobotDescription) -> Iterator[RequirementCheck]:
+def _masses(description: RobotDescription) -> Finding:
     model = description.compile()
     empty = [
         model.body(b).name
@@ -287,12 +250,10 @@ def _masses(description: RobotDescription) -> Iterator[RequirementCheck]:
         if model.body_jntnum[b] and model.body_subtreemass[b] <= 0.0
     ]
     total = f"{float(model.body_mass.sum()):.2f} kg"
-    yield _judge(
-        "masses",
-        total + (f", none for {empty[0]}" if empty else ""),
-        "fail" if empty else None,
-        "give links an inertial",
-    )
+    return total + (f", none for {empty[0]}" if empty else ""), not empty
+
+
+def _symmetry(description: RobotDescription) -> Finding:
     forward = ForwardKinematics(description)
     standing = description.standing
     posture = forward.posture(
@@ -302,138 +263,120 @@ def _masses(description: RobotDescription) -> Iterator[RequirementCheck]:
     offset = posture.position_com_in_torso - feet.mean(axis=0)
     aside, high = abs(float(offset[1])), float(offset[2])
     apart = float(np.abs(left * (1.0, -1.0, 1.0) - right).max())
-    mirrored = (
-        aside < GREATEST_COM_OFFSET * high
-        and apart < GREATEST_FOOT_DIFFERENCE * high
-    )
-    yield _judge(
-        "mirror symmetry",
+    return (
         f"CoM {1e3 * aside:.1f} mm off the middle of the feet, which are "
         f"{1e3 * apart:.1f} mm from mirroring each other",
-        None if mirrored else "warn",
-        "see standing: angles of both sides must mirror",
+        aside < GREATEST_COM_OFFSET * high
+        and apart < GREATEST_FOOT_DIFFERENCE * high,
     )
 
 
-def _sensors(description: RobotDescription) -> Iterator[RequirementCheck]:
+def _sensors(description: RobotDescription) -> Finding:
     model = description.compile()
     names = {model.sensor(i).name for i in range(model.nsensor)}
     own = description.sensors
     required = (own.gyro, own.accelerometer, *own.feet)
     missing = [name for name in required if name not in names]
-    yield _judge(
-        "sensors",
+    return (
         f"no {', '.join(missing)}" if missing else "IMU, 4 under each foot",
-        "fail" if missing else None,
-        f"name them in [sensors]; {REMEDY}",
+        not missing,
     )
 
 
-def _actuators(description: RobotDescription) -> Iterator[RequirementCheck]:
+def _actuators(description: RobotDescription) -> Finding:
     model = description.compile()
     limits = _torque_limits(model)
     kinds = dict(zip(limits, model.actuator_biastype, strict=True))
+    moved = [n for n in description.legs if n in description.speed_limits]
     affine = mujoco.mjtBias.mjBIAS_AFFINE
     faults = {
-        "no actuator for": [
-            name
-            for name in description.legs
-            if name in description.speed_limits and name not in limits
-        ],
+        "no actuator for": [n for n in moved if n not in limits],
         "no force range for": [n for n, high in limits.items() if high <= 0.0],
         "no position servo for": [n for n, k in kinds.items() if k != affine],
     }
-    messages = [
-        f"{text} {names[0]}" for text, names in faults.items() if names
-    ]
-    yield _judge(
-        "actuators",
-        "; ".join(messages) or f"{model.nu} servos with a force range",
-        "fail" if messages else None,
-        REMEDY,
-    )
+    said = [f"{text} {names[0]}" for text, names in faults.items() if names]
+    return "; ".join(said) or f"{model.nu} servos with a force range", not said
 
 
 def _torque_limits(model: mujoco.MjModel) -> dict[str, float]:
     """Return the torque limit of each actuated joint, in [N m]."""
+    joints, ranges = model.actuator_trnid[:, 0], model.actuator_forcerange
     return {
         model.joint(joint).name: float(high)
-        for joint, high in zip(
-            model.actuator_trnid[:, 0],
-            model.actuator_forcerange[:, 1],
-            strict=True,
-        )
+        for joint, (_, high) in zip(joints, ranges, strict=True)
     }
 
 
-def _reach(description: RobotDescription) -> Iterator[RequirementCheck]:
+def _reach(description: RobotDescription) -> Finding:
     gait = settings_from_description(description).gait
     stance = initial_stance(gait)
     legs = LegKinematics(description, tick=TICK)
     legs.stand(stance)
     _, highest = legs.com_heights(stance)
-    near = highest - gait.com_height < LEAST_REACH_MARGIN * highest
-    yield _judge(
-        "reach",
-        f"CoM at {gait.com_height:.3f} of {highest:.3f} m",
-        "warn" if near else None,
-        "lower gait.com_height: the knees get straight",
-    )
+    far = highest - gait.com_height >= LEAST_REACH_MARGIN * highest
+    return f"CoM at {gait.com_height:.3f} of {highest:.3f} m", far
 
 
-def _strength(description: RobotDescription) -> Iterator[RequirementCheck]:
+def _strength(description: RobotDescription) -> Finding:
     gait = settings_from_description(description).gait
     torques = _torque_limits(description.compile())
     loads = step_loads(description, gait, torques)
-    yield _judge(
-        "torque of a step",
+    return (
         f"{100.0 * loads.usual:.0f} % of the limit of {loads.joint}",
-        "warn" if loads.usual > GREATEST_STEP_LOAD else None,
-        f"see the torque limit of {loads.joint}: a step leaves no margin for "
-        "feedback",
+        loads.usual <= GREATEST_STEP_LOAD,
     )
 
 
-CHECKS: dict[
-    str, tuple[Callable[[RobotDescription], Iterator[RequirementCheck]], str]
-] = {
-    "kinematics": (_kinematics, REMEDY),
-    "estimates": (_estimates, ""),
-    "masses": (_masses, "give links an inertial"),
-    "sensors": (_sensors, REMEDY),
-    "actuators": (_actuators, REMEDY),
-    "reach": (
-        _reach,
-        "change gait.com_height, foot_spacing or the standing angles",
+Check = Callable[[RobotDescription], Finding]
+CHECKS: dict[str, tuple[Check, str, str]] = {
+    "kinematics": (_kinematics, "fail", REMEDY),
+    "estimates": (
+        *(_estimates, "warn"),
+        "replace values marked by ASK by measured ones",
     ),
-    "torque": (_strength, "see [overlay.servos]"),
+    "masses": (_masses, "fail", "give links an inertial"),
+    "mirror symmetry": (
+        *(_symmetry, "warn"),
+        "see standing: angles of both sides must mirror",
+    ),
+    "sensors": (_sensors, "fail", f"name them in [sensors]; {REMEDY}"),
+    "actuators": (_actuators, "fail", REMEDY),
+    "reach": (
+        *(_reach, "warn"),
+        "change gait.com_height, foot_spacing or the standing angles: near "
+        "the greatest height the knees get straight",
+    ),
+    "torque of a step": (
+        *(_strength, "warn"),
+        "see the torque limit in [overlay.servos]: a step leaves no margin "
+        "for feedback",
+    ),
 }
-"""Checks without walking, with remedies for what they cannot compute."""
+"""Checks without walking, with the verdict and the remedy if they find a
+fault; one that cannot compute fails."""
 
 
 def _steadiness(
-    walks: list[WalkTrialResult], *, described: bool = True
+    walks: list[WalkTrialResult], *, described: bool
 ) -> RequirementCheck:
     """Check the walks with or without feedback."""
     name = "walks with feedback" if walks[0].feedback else "walks open loop"
     failed = [walk for walk in walks if not walk.is_steady]
     worst = max(failed or walks, key=lambda walk: walk.unsteadiness)
     if not failed:
-        inaccurate = described and worst.unsteadiness > ACCURATE
-        return _judge(
-            name,
-            f"all steady, at worst {worst.unsteadiness:.2f} of 1",
-            "warn" if inaccurate else None,
-            f"{TUNE} more accurate gait",
-        )
+        value = f"all steady, at worst {worst.unsteadiness:.2f} of 1"
+        if described and worst.unsteadiness > ACCURATE:
+            hint = f"{TUNE} more accurate gait"
+            return RequirementCheck(name, "warn", value, hint)
+        return RequirementCheck(name, "pass", value)
     reason = worst.message
     if worst.completed:
         reason = f"{worst.unsteadiness:.2f} of 1"
-    return _judge(
-        name,
-        f"{len(failed)} of {len(walks)} unsteady, worst {worst.way}: {reason}",
-        "fail" if described else "warn",
-        f"{TUNE} gait that walks"
-        if described
-        else "the description does not use it",
+    value = (
+        f"{len(failed)} of {len(walks)} unsteady, worst {worst.way}: {reason}"
+    )
+    if described:
+        return RequirementCheck(name, "fail", value, f"{TUNE} gait that walks")
+    return RequirementCheck(
+        name, "warn", value, "the description does not use it"
     )
