@@ -8,12 +8,12 @@ import numpy as np
 import pytest
 
 from stepaside.core.poses import Array
-from stepaside.games.duel_circle import (
+from stepaside.games.forecast import (
     circle_of_theory,
     convergence_time,
-    cycle_mean,
 )
 from stepaside.games.game_settings import GameSettings, StartSettings, duel
+from stepaside.games.trajectory import cycle_mean
 from stepaside.sim.person_settings import PersonSettings
 from stepaside.strategies import Evasion
 
@@ -96,7 +96,7 @@ def test_a_person_walks_the_same_circle_at_the_real_time_scale() -> None:
     assert circle.radius_evader_m == pytest.approx(THEORY.radius_evader_m)
     assert circle.distance_m == pytest.approx(THEORY.distance_m)
     assert circle.turning_rate_rad_s == pytest.approx(
-        pace * THEORY.turning_rate_rad_s
+        THEORY.turning_rate_rad_s
     )
     slower = replace(person, speed=0.9 * person.speed)
     other = circle_of_theory(

@@ -7,11 +7,11 @@ from typing import Any
 import pytest
 
 from stepaside.core.poses import wrap_angle
-from stepaside.games.duel_circle import (
+from stepaside.games.forecast import (
     circle_of_theory,
+    forecast,
     time_scale,
 )
-from stepaside.games.forecast import forecast
 from stepaside.games.game_settings import GameSettings, StartSettings, duel
 from stepaside.games.game_starts import with_starts
 from stepaside.games.summary import TheorySummary

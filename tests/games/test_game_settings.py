@@ -13,7 +13,7 @@ from click.testing import CliRunner
 from stepaside.cli.main import main
 from stepaside.core.entries import read_entries
 from stepaside.core.errors import ConfigurationError
-from stepaside.games.duel_circle import circle_of_theory, time_scale
+from stepaside.games.forecast import circle_of_theory, time_scale
 from stepaside.games.game_settings import (
     GameSettings,
     StartSettings,

@@ -12,11 +12,10 @@ import numpy as np
 import pytest
 
 from stepaside.core.poses import Array
-from stepaside.games.duel_circle import whole_cycles
 from stepaside.games.game_settings import StartSettings, duel
 from stepaside.games.recorded_game import run_game
 from stepaside.games.run import Run
-from stepaside.games.trajectory import Trajectory
+from stepaside.games.trajectory import Trajectory, whole_cycles
 from stepaside.report.film_captions import describe_state
 from stepaside.report.overlays import overlays_of
 from stepaside.report.replay_page import write_page

@@ -39,9 +39,9 @@ def duel(settings: GameSettings, output: Path | None, as_json: bool) -> None:
 
 def _warn_of_expected_end(settings: GameSettings) -> None:
     """Print a warning if two robots are not expected to reach a circle."""
-    from ..games.forecast import CONTACT, NO_CIRCLE, forecast
+    from ..games.forecast import forecast
     from ..games.game_starts import with_starts
 
     end = forecast(with_starts(settings))
-    if end.expected in (CONTACT, NO_CIRCLE):
+    if end.expected in ("contact", "no circle"):
         echo(f"stepaside: expected outcome: {end.words}", err=True)

@@ -17,12 +17,6 @@ from ..core.constants import CAPTURE_DISTANCE
 from ..core.poses import Array
 from ..sim.crowd_motion import RADIUS
 from ..theory.unicycle.circles import fit_circle
-from .duel_circle import (
-    angle_between,
-    cycle_mean,
-    distance_between,
-    last_third,
-)
 from .game import GameInPlay
 from .outcome import Outcome
 from .run import Run
@@ -35,7 +29,14 @@ from .summary import (
     Summary,
     WalkingSummary,
 )
-from .trajectory import OF_EVENTS, Trajectory
+from .trajectory import (
+    OF_EVENTS,
+    Trajectory,
+    angle_between,
+    cycle_mean,
+    distance_between,
+    last_third,
+)
 
 if TYPE_CHECKING:
     from ..locomotion.zmp.mpc import MpcResult

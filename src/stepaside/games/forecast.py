@@ -1,32 +1,124 @@
-"""Theory of a duel: the game of its templates, and its circle."""
+"""Theory of a duel: its circle, the game of its templates, convergence."""
 
-from collections import deque
-from collections.abc import Mapping
 from dataclasses import replace
-from math import degrees, hypot
+from math import degrees, isfinite
 
-from ..core.poses import Pose
+import numpy as np
+
+from ..core.poses import Array
+from ..planning import GaitSettings
 from ..robots.description import load_robot
 from ..strategies.registry import OBJECT
-from .duel_circle import (
-    circle_of_theory,
-    convergence_time,
-    distance_between,
-    missing_circle_reason,
-)
+from ..theory.unicycle.circles import Circle, find_circle
 from .floor_games import floor_of, play_floor
 from .game import GameRules
 from .game_settings import GameSettings
 from .player_settings import EVADER, PURSUER
 from .run import Run
 from .summary import Summary, TheorySummary
+from .trajectory import angle_between, distance_between, whole_cycles
 
 MAX_DURATION = 600.0  # of a game of templates, in [s]
 STEP = 0.05  # between its samples, in [s]
 SHORT = 0.01  # between decisions of a person, in [s]
-CIRCLE, LATER, CONTACT, NO_CIRCLE = "circle", "later", "contact", "no circle"
+DISTANCE_BAND = 0.05  # relative to the distance on the circle
+ORIENTATION_BAND = 5.0  # around the orientation on the circle, in [deg]
+LEAST_TIME = 5.0  # on the circle at the end, in [s]
 
-_latest: deque[tuple[GameSettings, TheorySummary]] = deque(maxlen=1)
+
+def circle_of_theory(settings: GameSettings) -> Circle:
+    """Compute the circle that the unicycles of a duel converge to.
+
+    It does not exist where the game differs from that of the paper; see
+    :func:`missing_circle_reason`. Its rates are in real time.
+    """
+    if missing_circle_reason(settings):
+        return Circle(exists=False)
+    return _circle_of(settings.resolved())
+
+
+def missing_circle_reason(settings: GameSettings) -> str:
+    """Return why the unicycles of a duel reach no circle; empty if they do."""
+    settings = settings.resolved()
+    strategy, circle = settings.evader.evasion, _circle_of(settings)
+    ends, person = strategy.release_distance, settings.pursuer.person
+    steers = person.path == "steer" and not isfinite(person.halt_after)
+    walks = settings.pursuer.body == "person"
+    reasons = {
+        "the paper has no rooms": settings.room is not None,
+        "the strategies are not the paper's": not settings.is_of_the_paper,
+        "evasion begins and ends by the time to contact": (
+            strategy.trigger == "time"
+        ),
+        "the person does not keep steering at the evader": (
+            walks and not steers
+        ),
+        "the person feints": walks and person.feint_at > 0.0,
+        "the turning radius of the person is limited": (
+            walks and person.turning_radius > 0.0
+        ),
+        "the person walks backward": walks and person.backward,
+        "unicycles of these speeds and gains have none": not circle.exists,
+        f"evasion ends at {ends:g} m, and the circle would be "
+        f"{circle.distance_m:.3f} m wide": not circle.distance_m < ends,
+    }
+    found = (f"no circle: {why}" for why, holds in reasons.items() if holds)
+    return next(found, "")
+
+
+def _circle_of(settings: GameSettings) -> Circle:
+    """Compute the circle of two unicycles that play without end."""
+    strategy, gait = settings.evader.evasion, settings.evader.gait
+    pace, person = time_scale(gait), settings.pursuer.person
+    chasing = settings.pursuer.gait
+    # A person's speed is in real time, that of a gait in path time.
+    scale = time_scale(chasing)
+    chase = scale * chasing.speed, scale * chasing.gain
+    if settings.pursuer.body == "person":
+        chase = person.speed, person.gain
+    return find_circle(
+        *(chase[0], pace * gait.speed, chase[1], pace * gait.gain),
+        strategy.angle,
+        "saturated" if strategy.saturated else "proportional",
+    )
+
+
+def time_scale(gait: GaitSettings) -> float:
+    """Return the path time that a gait walks per unit of real time."""
+    return gait.path_interval / gait.step_duration
+
+
+def convergence_time(
+    times: Array,
+    pursuer: Array,
+    evader: Array,
+    settings: GameSettings,
+    theory: Circle,
+) -> float | None:
+    """Find the time from which the robots stay on the circle.
+
+    The robots are on the circle if, averaged over a gait cycle, their
+    distance is within 5 % and the angle between their headings within 5
+    degrees of the values on the circle, from then to the end, and for at
+    least the last 5 s.
+
+    Returns:
+        Time, in [s]; None if the robots do not converge to the circle.
+    """
+    if not theory.exists:
+        return None
+    distance, angle = (
+        whole_cycles(values, times, settings.cycle)
+        for values in (
+            distance_between(pursuer, evader),
+            np.degrees(angle_between(pursuer, evader)),
+        )
+    )
+    off = np.abs(distance / theory.distance_m - 1.0) > DISTANCE_BAND
+    wanted = degrees(theory.headings_apart_rad)
+    off |= np.abs(angle - wanted) > ORIENTATION_BAND
+    on = times[np.append(np.flatnonzero(off)[-1:] + 1, 0)[0] :]
+    return float(on[0]) if len(on) and np.ptp(on) >= LEAST_TIME else None
 
 
 def forecast(settings: GameSettings) -> TheorySummary:
@@ -38,14 +130,8 @@ def forecast(settings: GameSettings) -> TheorySummary:
     distance at which bodies cannot overlap: below it, contact depends on
     their headings.
     """
-    # A duel needs its forecast twice: before it and in its summary.
-    if not _latest or _latest[-1][0] != settings:
-        _latest.append((settings, _forecast(settings)))
-    return _latest[-1][1]
-
-
-def _forecast(settings: GameSettings) -> TheorySummary:
-    circle, found = circle_of_theory(settings), TheorySummary()
+    circle = circle_of_theory(settings)
+    found = TheorySummary(words=missing_circle_reason(settings))
     if circle.exists:
         found = TheorySummary(
             radius_m=circle.radius_evader_m,
@@ -53,38 +139,30 @@ def _forecast(settings: GameSettings) -> TheorySummary:
             distance_m=circle.distance_m,
             relative_orientation_deg=degrees(circle.headings_apart_rad),
         )
-    else:
-        found = TheorySummary(words=missing_circle_reason(settings))
-    if settings.pursuer.body == "robot":
-        if not settings.is_of_the_paper or settings.evader.pose is None:
-            return found
-        return _played(settings, found)
-    return replace(found, min_distance_m=_approach_of_person(settings))
-
-
-def _played(settings: GameSettings, found: TheorySummary) -> TheorySummary:
-    """Play the templates of a duel of two robots."""
+    if settings.pursuer.body != "robot":
+        return replace(found, min_distance_m=_approach_of_person(settings))
+    if not settings.is_of_the_paper or settings.evader.pose is None:
+        return found
     least = settings.start.least
     duration = min(settings.duration, MAX_DURATION)
     world = floor_of(settings, period=STEP)
     _, recorder = play_floor(world, GameRules(duration), STEP)
     poses = recorder.poses()
     paths = recorder.times, poses[PURSUER], poses[EVADER]
-    since = convergence_time(*paths, settings, circle_of_theory(settings))
+    since = convergence_time(*paths, settings, circle)
     closest = float(distance_between(*paths[1:]).min())
+    expected, words = "circle", f"the circle, from {since or 0.0:.1f} s on"
     if closest < least:
         expected, words = (
-            CONTACT,
+            "contact",
             f"contact likely: closest approach of the templates "
             f"{closest:.2f} m, bodies are clear of each other from "
             f"{least:.2f} m on",
         )
-    elif found.radius_m is None:
-        expected, words = NO_CIRCLE, found.words or ""
+    elif not circle.exists:
+        expected, words = "no circle", found.words or ""
     elif since is None:
-        expected, words = LATER, f"the circle, after {duration:.0f} s"
-    else:
-        expected, words = CIRCLE, f"the circle, from {since:.1f} s on"
+        expected, words = "later", f"the circle, after {duration:.0f} s"
     return replace(
         found,
         expected=expected,
@@ -115,28 +193,23 @@ def _approach_of_person(settings: GameSettings) -> float | None:
     return game.closest[EVADER, PURSUER]
 
 
-def evaluate_duel(
-    run: Run, moves: Mapping[str, tuple[float, Mapping[str, Pose]]]
-) -> Summary:
+def evaluate_duel(run: Run, triggered: float | None) -> Summary:
     """Return the summary of a duel with trigger, convergence and theory.
 
-    Of each player the time and the poses of all are given at which it first
-    moved.
+    The evader first moved at a time, in [s].
     """
     settings, theory = run.settings, forecast(run.settings)
     paths = run.pursuer.unicycle, run.evader.unicycle
     circle = circle_of_theory(settings)
     converged = convergence_time(run.times, *paths, settings, circle)
-    if theory.expected == CONTACT and converged is None:
-        theory = TheorySummary(
-            *(theory.expected, theory.words),
-            *(theory.circle_since_s, theory.min_distance_m),
+    if theory.expected == "contact" and converged is None:
+        unknown = ("radius_m", "pursuer_radius_m", "distance_m")
+        theory = replace(
+            theory, relative_orientation_deg=None, **dict.fromkeys(unknown)
         )
-    triggered, apart = None, None
-    if EVADER in moves:
-        triggered, poses = moves[EVADER]
-        (x, y, _), (u, v, _) = poses[PURSUER], poses[EVADER]
-        apart = hypot(u - x, v - y)
+    apart = None
+    if triggered is not None:
+        apart = float(np.interp(triggered, run.times, run.distance))
     return replace(
         run.summary,
         triggered_at_s=triggered,

@@ -54,8 +54,7 @@ class PhysicsWorld(World):
         started_at: Time at which the game began, in [s]: all players were
             ready, for example had scanned the room; None before.
         first_moves: Time at which a player first moved in the game, in [s],
-            and the poses of all then, by name. Motion before ``started_at``
-            does not count.
+            by name. Motion before ``started_at`` does not count.
     """
 
     contact = Outcome.CONTACT
@@ -144,7 +143,7 @@ class PhysicsWorld(World):
         ]
         self.acting = ""
         self.started_at: float | None = None
-        self.first_moves: dict[str, tuple[float, dict[str, Pose]]] = {}
+        self.first_moves: dict[str, float] = {}
 
     def player(self, name: str) -> Player:
         """Return the player with a name.
@@ -184,7 +183,7 @@ class PhysicsWorld(World):
             return
         for player in self.players:
             if player.name not in self.first_moves and player.is_moving:
-                self.first_moves[player.name] = self.time, self.states()
+                self.first_moves[player.name] = self.time
 
     def fallen(self) -> tuple[str, ...]:
         """Return the names of the players that have fallen."""

@@ -20,7 +20,7 @@ from .game_settings import GameSettings
 from .game_starts import with_starts
 from .outcome import Outcome
 from .physics_world import PhysicsWorld
-from .player_settings import WALKER
+from .player_settings import EVADER, WALKER
 from .recorder import Recorder
 from .robot_player import RobotPlayer
 from .run import Run
@@ -135,8 +135,8 @@ class RecordedGame(GameInPlay):
             planning, solved = self.recorder.planning(), self.recorder.solved
         run = replace(run, summary=summarise(run, self, planning, eyes))
         if run.game == "duel":
-            moves = self.in_physics.first_moves
-            return replace(run, summary=evaluate_duel(run, moves))
+            triggered = self.in_physics.first_moves.get(EVADER)
+            return replace(run, summary=evaluate_duel(run, triggered))
         if run.game == "walk":
             walker = self.in_physics.player(WALKER)
             assert isinstance(walker, RobotPlayer)

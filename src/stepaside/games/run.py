@@ -12,11 +12,10 @@ import numpy as np
 from ..arena import Room
 from ..core.player_identity import PlayerIdentity, Role
 from ..core.poses import Array
-from .duel_circle import angle_between, distance_between
 from .outcome import Outcome
 from .player_settings import EVADER, PURSUER, WALKER
 from .summary import Summary
-from .trajectory import Trajectory
+from .trajectory import Trajectory, angle_between, distance_between
 
 
 @dataclass(frozen=True, eq=False, repr=False)

@@ -5,10 +5,11 @@ from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
 import numpy as np
+from numpy.typing import NDArray
 
 from ..core.brief_repr import brief_repr
 from ..core.errors import ConfigurationError
-from ..core.poses import Array
+from ..core.poses import Array, wrap_angles
 
 if TYPE_CHECKING:
     from ..perception.images import ColourImage, DepthImage
@@ -185,3 +186,47 @@ def _check_values(
         valid |= np.isnan(array)
     if not valid.all():
         raise ConfigurationError(f"{name} of run {run} must be finite numbers")
+
+
+def last_third(times: Array) -> NDArray[np.bool_]:
+    """Return the mask of the samples in the last third. Shape (n,)."""
+    tail: NDArray[np.bool_] = times >= times[-1] * 2.0 / 3.0
+    return tail
+
+
+def distance_between(first: Array, second: Array) -> Array:
+    """Return the distances, in [m], between poses. Shapes (n, 3), (n,)."""
+    distance: Array = np.hypot(*(second - first)[:, :2].T)
+    return distance
+
+
+def angle_between(first: Array, second: Array) -> Array:
+    """Return the angles between headings of poses (n, 3), in [0, pi]."""
+    angle: Array = np.abs(wrap_angles(second[:, 2] - first[:, 2]))
+    return angle
+
+
+def cycle_mean(values: Array, times: Array, period: float) -> Array:
+    """Average over a sliding gait cycle, which removes the sway.
+
+    The times are evenly spaced; the period is that of two steps, in [s].
+    """
+    if len(times) < 3:
+        return values
+    width = max(1, round(period / float(times[1] - times[0])))
+    if width >= len(values):
+        return np.full_like(values, values.mean())
+    kernel = np.ones(width)
+    weight = np.convolve(np.ones_like(values), kernel, mode="same")
+    mean: Array = np.convolve(values, kernel, mode="same") / weight
+    return mean
+
+
+def whole_cycles(values: Array, times: Array, period: float) -> Array:
+    """Return :func:`cycle_mean`, with NaN where the cycle is not whole."""
+    mean = cycle_mean(values, times, period).astype(float)
+    if len(times) < 3:
+        return np.full(len(times), np.nan)
+    half = round(period / float(times[1] - times[0])) // 2
+    mean[:half] = mean[max(len(mean) - half, 0) :] = np.nan
+    return mean

@@ -14,8 +14,8 @@ from numpy.typing import NDArray
 from ..core.atomic_output import atomic_draft
 from ..core.errors import AnyPath, ConfigurationError, as_path
 from ..core.poses import Array
-from ..games.duel_circle import whole_cycles
 from ..games.run import Run
+from ..games.trajectory import whole_cycles
 from .film_captions import describe_state
 from .overlays import LAYERS, overlays_of
 from .palette import PALETTES, colours_in

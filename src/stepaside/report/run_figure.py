@@ -10,8 +10,8 @@ import numpy as np
 from ..arena import BODY_RADIUS, Room
 from ..core.errors import AnyPath
 from ..core.poses import Array
-from ..games.duel_circle import cycle_mean, distance_between, whole_cycles
 from ..games.run import Run
+from ..games.trajectory import distance_between, whole_cycles
 from .figure_style import (
     LEFT,
     LIGHT,
@@ -261,7 +261,7 @@ def _draw_distances(run: Run, axes: Any) -> None:
     for number, (label, name, other, values) in enumerate(_curves_of(run)):
         axes.plot(
             run.times,
-            cycle_mean(values, run.times, run.settings.cycle),
+            whole_cycles(values, run.times, run.settings.cycle),
             color=colours[name],
             ls=LINES[number % len(LINES)],
             marker=markers[other or name],

@@ -10,13 +10,7 @@ import numpy as np
 from ..arena import RoomRecipe, generate_room
 from ..core.errors import ConfigurationError
 from ..core.poses import Array
-from ..games.duel_circle import (
-    angle_between,
-    circle_of_theory,
-    convergence_time,
-    distance_between,
-    last_third,
-)
+from ..games.forecast import circle_of_theory, convergence_time
 from ..games.game import GameInPlay, GameObserver, play
 from ..games.game_settings import GameSettings, StartSettings, duel
 from ..games.outcome import Outcome
@@ -27,6 +21,7 @@ from ..games.robot_player import RobotPlayer
 from ..games.run import Run
 from ..games.settings_reader import read_game
 from ..games.strategy_games import StepGame, StrategyTrack
+from ..games.trajectory import angle_between, distance_between, last_third
 from ..planning import PRESETS, GaitSettings
 from ..robots.description import load_robot
 from ..theory.unicycle.circles import fit_circle

@@ -6,13 +6,13 @@ from math import degrees, inf, nan
 import numpy as np
 
 from ...core.poses import Array, Pose
-from ...games.duel_circle import angle_between
 from ...games.game import GameInPlay, GameObserver
 from ...games.physics_world import PhysicsWorld
 from ...games.player import Player
 from ...games.player_settings import PLAYERS
 from ...games.recorded_game import RecordedGame
 from ...games.robot_player import RobotPlayer
+from ...games.trajectory import angle_between
 from ...perception.pipeline import FrameReport
 from ...planning import Foot
 

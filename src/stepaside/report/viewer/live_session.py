@@ -10,7 +10,7 @@ from time import perf_counter, sleep
 
 from ...core.errors import ConfigurationError, StepAsideError
 from ...core.player_identity import Role
-from ...games.duel_circle import circle_of_theory
+from ...games.forecast import circle_of_theory
 from ...games.game_settings import GameSettings
 from ...games.game_starts import with_starts
 from ...games.outcome import Outcome
