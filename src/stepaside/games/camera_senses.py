@@ -1,6 +1,6 @@
 """Cameras, perception and its evaluation in a game with camera sensing."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from math import atan2, radians
 
 import numpy as np
@@ -30,7 +30,6 @@ from ..perception.pipeline import FrameReport, Perception, build_perception
 from ..planning import Direction
 from ..robots.description import RobotDescription
 from ..robots.head import HeadDescription, Mount, load_head
-from ..sim.camera_settings import RoomObject
 from ..sim.ground_truth import GroundTruth, torsos_apart
 from ..sim.offscreen_rendering import (
     RAYCAST,
@@ -43,14 +42,14 @@ from ..sim.world import World
 from .game import GameInPlay, GameObserver
 from .game_settings import GameSettings
 from .player_settings import PlayerSettings
-from .summary import PerceptionSummary, SightSummary
+from .summary import SightSummary
 
 MATCH_ANGLE = radians(10.0)  # within which a detection matches the truth
 MISLED_ANGLE = radians(20.0)  # bearing error from which a robot is misled
 NEAR_MARGIN = 0.15  # beyond the near limit at which a body is in range, [m]
 
 
-class SightEvaluator:
+class SightEvaluator(GameObserver):
     """Comparison of a robot's detections and sightings with the truth."""
 
     def __init__(
@@ -61,13 +60,15 @@ class SightEvaluator:
         head: HeadDescription,
         things: list[tuple[float, float]],
         *,
-        wears_trim: bool = True,
+        wears_trim: bool,
+        every: int,
     ) -> None:
         """Evaluate one robot, with positions (x, y) of other things, in [m].
 
         Colour frames cannot detect an opponent without the trim of a robot.
+        Sightings are sampled after a number of control ticks.
         """
-        self._wears_trim = wears_trim
+        self._wears_trim, self._every = wears_trim, every
         self._robot, self._other = robot, other
         self._perception, self._head = perception, head
         self._things = things
@@ -79,7 +80,18 @@ class SightEvaluator:
         self._true_sighting = (np.nan, np.nan)
         self._rows: list[tuple[float, ...]] = []
 
-    def evaluate_tick(self) -> None:
+    def before(self, game: GameInPlay) -> None:
+        """Record the latest sighting, if due, and the truth at its time."""
+        if self._robot.world.ticks % self._every:
+            return
+        sighting, estimated = self._sighting, (np.nan, np.nan)
+        true = self._truth() if sighting is None else self._true_sighting
+        if sighting is not None:
+            estimated = (sighting.bearing, sighting.distance)
+        lost = float(sighting is None or self._perception.searching)
+        self._rows.append((game.world.time, *estimated, *true, lost))
+
+    def acted(self, game: GameInPlay) -> None:
         """Evaluate a tick, after perception and before physics."""
         eyes = self._robot.eyes
         for percept in () if eyes is None else eyes.exposed:
@@ -134,15 +146,6 @@ class SightEvaluator:
                 for thing in allowed
             ):
                 self.false += 1
-
-    def sample(self, now: float) -> None:
-        """Record the latest sighting and the truth at its time."""
-        sighting, estimated = self._sighting, (np.nan, np.nan)
-        true = self._truth() if sighting is None else self._true_sighting
-        if sighting is not None:
-            estimated = (sighting.bearing, sighting.distance)
-        lost = float(sighting is None or self._perception.searching)
-        self._rows.append((now, *estimated, *true, lost))
 
     def _truth(self) -> tuple[float, float]:
         """Return the present bearing, in [rad], and distance, in [m]."""
@@ -287,68 +290,23 @@ class CameraSenses:
     def evaluator_of(
         self,
         robot: SimulatedRobot,
-        other: GroundTruth,
-        things: Sequence[RoomObject] = (),
-        *,
-        wears_trim: bool,
-    ) -> SightEvaluator:
+        own: PlayerSettings,
+        truths: Mapping[str, GroundTruth],
+        every: int,
+    ) -> "SightEvaluator | None":
         """Return the evaluation of a robot's sightings of its opponent.
 
-        Things are other objects in view; the opponent may wear the colour
-        that is known of its role.
+        Of several opponents a sighting does not say whom it shows.
         """
+        others = self._settings.sensed_opponents(own)
+        if own.name not in self.perceptions or len(others) != 1:
+            return None
         return SightEvaluator(
             robot,
-            other,
-            self.perceptions[robot.name],
+            truths[others[0].name],
+            self.perceptions[own.name],
             self._head,
-            [(thing.x, thing.y) for thing in things],
-            wears_trim=wears_trim,
+            [(thing.x, thing.y) for thing in self._settings.scene.things],
+            wears_trim=others[0].body == "robot",
+            every=every,
         )
-
-
-class SightObserver(GameObserver):
-    """Observer that evaluates the perception of each robot, by name."""
-
-    def __init__(
-        self,
-        evaluators: Mapping[str, SightEvaluator],
-        renderer: str,
-        *,
-        every: int,
-    ) -> None:
-        """Compare sightings with the truth in some ticks."""
-        self.evaluators = dict(evaluators)
-        self._renderer, self._every = renderer, every
-        self._ticks = 0
-
-    def before(self, game: GameInPlay) -> None:
-        """Compare sightings with the true state, when a sample is due."""
-        if self._ticks % self._every == 0:
-            for evaluator in self.evaluators.values():
-                evaluator.sample(game.world.time)
-        self._ticks += 1
-
-    def acted(self, game: GameInPlay) -> None:
-        """Evaluate the detections of this tick."""
-        for evaluator in self.evaluators.values():
-            evaluator.evaluate_tick()
-
-    def sight(self) -> dict[str, Array]:
-        """Return estimated and true sightings, by name of the robot."""
-        return {name: own.array() for name, own in self.evaluators.items()}
-
-    def report(self) -> tuple[PerceptionSummary, dict[str, SightSummary]]:
-        """Return the detections of all robots, and the errors of each."""
-        own = self.evaluators.values()
-        in_view, detected, false = (
-            sum(getattr(each, name) for each in own)
-            for name in ("in_view", "detected", "false")
-        )
-        together = PerceptionSummary(
-            camera=self._renderer,
-            detection_rate=detected / in_view if in_view else None,
-            false_detections=false,
-        )
-        by_robot = {name: e.summary() for name, e in self.evaluators.items()}
-        return together, by_robot

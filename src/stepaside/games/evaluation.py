@@ -23,7 +23,6 @@ from .run import Run
 from .summary import (
     CrowdSummary,
     PairSummary,
-    PlanningSummary,
     PlayerSummary,
     SolverSummary,
     Summary,
@@ -40,7 +39,6 @@ from .trajectory import (
 
 if TYPE_CHECKING:
     from ..locomotion.zmp.mpc import MpcResult
-    from .camera_senses import SightObserver
 
 MIN_TURN = 0.5  # of a path to which a circle can be fitted, in [rad]
 INTRUSIONS = (0.45, 1.2)  # of crowd navigation: intimate and personal, [m]
@@ -108,51 +106,11 @@ def _player(run: Run, name: str, late: NDArray[np.bool_]) -> PlayerSummary:
     )
 
 
-def summarise(
-    run: Run,
-    game: GameInPlay,
-    planning: PlanningSummary | None,
-    sight: "SightObserver | None",
-) -> Summary:
-    """Compute the summary of a game that was played.
-
-    Args:
-        run: The run; its summary is not used.
-        game: The game.
-        planning: Plans of all robots in physics.
-        sight: Evaluation of perception.
-    """
-    summary = measure(run)
-    players = {
-        name: replace(own, goal_at_s=game.goals_at.get(name))
-        for name, own in summary.players.items()
-    }
-    if run.game == "game":
-        people = [p for p in run.settings.players if p.body == "person"]
-        for own in run.settings.players:
-            if own.decides and people:
-                crowd = _crowd(run, game, own, [p.name for p in people])
-                players[own.name] = replace(players[own.name], crowd=crowd)
-    together = None
-    if sight is not None:
-        together, by_robot = sight.report()
-        for name, seen in by_robot.items():
-            players[name] = replace(players[name], sight=seen)
-    return replace(
-        summary,
-        real_time_factor=game.real_time_factor,
-        touched=list(game.touched),
-        fallen=list(game.fallen),
-        players=players,
-        planning=planning,
-        sight=together,
-    )
-
-
-def _crowd(
-    run: Run, game: GameInPlay, own: Any, people: list[str]
-) -> CrowdSummary:
-    """Measure the encounter of a robot with people."""
+def crowd_of(run: Run, game: GameInPlay, own: Any) -> CrowdSummary | None:
+    """Measure the encounter of a robot with people; None without any."""
+    people = [p.name for p in run.settings.players if p.body == "person"]
+    if run.game != "game" or not own.decides or not people:
+        return None
     poses, times = run.tracks[own.name].unicycle, run.times
     apart = np.array(
         [distance_between(poses, run.tracks[p].unicycle) for p in people]

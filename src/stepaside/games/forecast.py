@@ -2,6 +2,7 @@
 
 from dataclasses import replace
 from math import degrees, isfinite
+from typing import Any
 
 import numpy as np
 
@@ -15,7 +16,7 @@ from .game import GameRules
 from .game_settings import GameSettings
 from .player_settings import EVADER, PURSUER
 from .run import Run
-from .summary import Summary, TheorySummary
+from .summary import TheorySummary
 from .trajectory import angle_between, distance_between, whole_cycles
 
 MAX_DURATION = 600.0  # of a game of templates, in [s]
@@ -193,8 +194,8 @@ def _approach_of_person(settings: GameSettings) -> float | None:
     return game.closest[EVADER, PURSUER]
 
 
-def evaluate_duel(run: Run, triggered: float | None) -> Summary:
-    """Return the summary of a duel with trigger, convergence and theory.
+def evaluate_duel(run: Run, triggered: float | None) -> dict[str, Any]:
+    """Return trigger, convergence and theory of a duel, by name.
 
     The evader first moved at a time, in [s].
     """
@@ -210,10 +211,9 @@ def evaluate_duel(run: Run, triggered: float | None) -> Summary:
     apart = None
     if triggered is not None:
         apart = float(np.interp(triggered, run.times, run.distance))
-    return replace(
-        run.summary,
-        triggered_at_s=triggered,
-        triggered_at_distance_m=apart,
-        converged_at_s=converged,
-        theory=theory,
-    )
+    return {
+        "triggered_at_s": triggered,
+        "triggered_at_distance_m": apart,
+        "converged_at_s": converged,
+        "theory": theory,
+    }

@@ -1,6 +1,6 @@
 """World of a game in physics, with its players."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from itertools import combinations
 from math import inf
 from types import MappingProxyType
@@ -20,7 +20,6 @@ from ..core.random_streams import named_generator
 from ..perception.measurement import Sighting
 from ..robots.description import RobotDescription, load_robot
 from ..sim.body_settings import at_tick, with_control_period
-from ..sim.camera_settings import RoomObject
 from ..sim.ground_truth import GroundTruth, IdealLineOfSight, torsos_apart
 from ..sim.person_body import PersonBody
 from ..sim.physics_settings import PhysicsSettings
@@ -43,7 +42,7 @@ from .robot_placing import (
 from .robot_player import RobotPlayer
 
 if TYPE_CHECKING:
-    from .camera_senses import CameraSenses, SightObserver
+    from .camera_senses import CameraSenses, SightEvaluator
 
 
 class PhysicsWorld(World):
@@ -331,30 +330,25 @@ class PhysicsWorld(World):
             if other.name != own.name
         )
 
-    def sight_observer(
-        self, things: Sequence[RoomObject] = (), *, every: int
-    ) -> "SightObserver | None":
-        """Return the evaluation of perception, if robots sense by cameras."""
-        if self._senses is None:
-            return None
-        from .camera_senses import SightObserver
+    def sights(self, every: int) -> "dict[str, SightEvaluator]":
+        """Return the evaluation of the sightings of robots with cameras.
 
-        evaluators = {}
-        for own in self.players:
-            if own.name not in self._senses.perceptions:
-                continue
-            assert isinstance(own, RobotPlayer)
-            settings = self._settings.player(own.name)
-            others = self._settings.sensed_opponents(settings)
-            if len(others) != 1:
-                continue  # a sighting does not say whom it shows
-            evaluators[own.name] = self._senses.evaluator_of(
-                own.robot,
-                self._truths[others[0].name],
-                things,
-                wears_trim=others[0].body == "robot",
-            )
-        return SightObserver(evaluators, self._senses.renderer, every=every)
+        They are sampled after a number of control ticks.
+        """
+        found = {}
+        for own in self.players if self._senses else ():
+            assert self._senses is not None
+            if isinstance(own, RobotPlayer):
+                settings = self._settings.player(own.name)
+                found[own.name] = self._senses.evaluator_of(
+                    own.robot, settings, self._truths, every
+                )
+        return {name: own for name, own in found.items() if own is not None}
+
+    @property
+    def renderer(self) -> str:
+        """Name of the renderer of colour images; empty without cameras."""
+        return "" if self._senses is None else self._senses.renderer
 
 
 def _setups_of(

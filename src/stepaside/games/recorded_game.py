@@ -4,14 +4,14 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 from math import inf
 from types import MappingProxyType
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from ..robots.description import RobotDescription
 from ..strategies import Strategy
 from ..strategies.registry import describe_strategy
-from .evaluation import summarise, summarise_walk
+from .evaluation import crowd_of, measure, summarise_walk
 from .floor_games import floor_of, rules_of
 from .floor_world import PERIOD, FloorRecorder, FloorWorld
 from .forecast import evaluate_duel
@@ -24,9 +24,10 @@ from .player_settings import EVADER, WALKER
 from .recorder import Recorder
 from .robot_player import RobotPlayer
 from .run import Run
+from .summary import PerceptionSummary
 
 if TYPE_CHECKING:
-    from .camera_senses import SightObserver
+    from .camera_senses import SightEvaluator
 
 Report = Callable[[Progress], None]
 
@@ -37,7 +38,7 @@ class RecordedGame(GameInPlay):
     Attributes:
         settings: Its settings, with nothing left open.
         recorder: Recorder of the trajectories.
-        sight_observer: Evaluation of the perception, if sensing is by cameras.
+        sights: Evaluation of the sightings of robots with cameras, by name.
     """
 
     def __init__(
@@ -80,7 +81,7 @@ class RecordedGame(GameInPlay):
         }
         settings = with_starts(settings.with_players(described))
         self.settings = settings
-        self.sight_observer: SightObserver | None = None
+        self.sights: Mapping[str, SightEvaluator] = {}
         self.recorder: Recorder | FloorRecorder
         world: PhysicsWorld | FloorWorld
         if settings.level == "physics":
@@ -93,20 +94,16 @@ class RecordedGame(GameInPlay):
             )
             closely = closely or settings.game == "walk"
             self.recorder = Recorder(world, closely=closely)
-            if recorded:
-                self.sight_observer = world.sight_observer(
-                    settings.scene.things if settings.game == "duel" else (),
-                    every=self.recorder.every,
-                )
+            self.sights = world.sights(self.recorder.every) if recorded else {}
         else:
             world = floor_of(settings, strategies)
             self.recorder = FloorRecorder(world, PERIOD)
-        kept: list[GameObserver | None] = [self.recorder, self.sight_observer]
+        kept = (self.recorder, *self.sights.values()) if recorded else ()
         rules = rules_of(settings)
         super().__init__(
             world,
             replace(rules, duration=inf) if endless else rules,
-            [*(o for o in kept if recorded and o is not None), *observers],
+            (*kept, *observers),
         )
 
     @property
@@ -118,9 +115,8 @@ class RecordedGame(GameInPlay):
     def run(self) -> Run:
         """Return the game as a value; one that goes on is interrupted."""
         settings, tracks = self.settings, self.recorder.tracks()
-        eyes = self.sight_observer if settings.game == "duel" else None
-        for name, rows in {} if eyes is None else eyes.sight().items():
-            tracks[name] = replace(tracks[name], sight=rows)
+        for name, seen in self.sights.items():
+            tracks[name] = replace(tracks[name], sight=seen.array())
         run = Run(
             name=f"{settings.game}-seed{settings.seed}",
             settings=settings,
@@ -130,26 +126,52 @@ class RecordedGame(GameInPlay):
             times=self.recorder.times,
             tracks=tracks,
         )
-        planning, solved = None, []
-        if isinstance(self.recorder, Recorder):
-            planning, solved = self.recorder.planning(), self.recorder.solved
-        run = replace(run, summary=summarise(run, self, planning, eyes))
+        summary = measure(run)
+        players = {
+            own.name: replace(
+                summary.players[own.name],
+                goal_at_s=self.goals_at.get(own.name),
+                sight=self.sights[own.name].summary()
+                if own.name in self.sights
+                else None,
+                crowd=crowd_of(run, self, own),
+            )
+            for own in settings.players
+        }
+        summary = replace(
+            summary,
+            real_time_factor=self.real_time_factor,
+            touched=list(self.touched),
+            fallen=list(self.fallen),
+            players=players,
+            **(self._in_physics(run) if settings.level == "physics" else {}),
+        )
+        return replace(run, summary=summary)
+
+    def _in_physics(self, run: Run) -> dict[str, Any]:
+        """Return what the summary of a game in physics has beside others."""
+        world, recorder = self.in_physics, self.recorder
+        assert isinstance(recorder, Recorder)
+        found: dict[str, Any] = {"planning": recorder.planning()}
+        if self.sights:
+            in_view, detected, false = (
+                sum(getattr(own, name) for own in self.sights.values())
+                for name in ("in_view", "detected", "false")
+            )
+            rate = detected / in_view if in_view else None
+            found["sight"] = PerceptionSummary(world.renderer, rate, false)
         if run.game == "duel":
-            triggered = self.in_physics.first_moves.get(EVADER)
-            return replace(run, summary=evaluate_duel(run, triggered))
+            found |= evaluate_duel(run, world.first_moves.get(EVADER))
         if run.game == "walk":
-            walker = self.in_physics.player(WALKER)
+            walker = world.player(WALKER)
             assert isinstance(walker, RobotPlayer)
             pusher = walker.robot.pusher
-            walking = replace(
-                summarise_walk(run, solved),
+            found["walking"] = replace(
+                summarise_walk(run, recorder.solved),
                 adapted_steps=walker.scheme.walk.balance.adapted,
-                push_impulse_n_s=(
-                    (0.0, 0.0) if pusher is None else pusher.impulse
-                ),
+                push_impulse_n_s=pusher.impulse if pusher else (0.0, 0.0),
             )
-            return replace(run, summary=replace(run.summary, walking=walking))
-        return run
+        return found
 
 
 def run_game(
