@@ -22,8 +22,8 @@ TICK = 0.004
 WITH_MUJOCO = [
     f"stepaside.robots.{name}"
     for name in (
-        *("geom_points", "tree_compiler", "model_repair"),
-        *("model_overlay", "model_reader", "urdf_writer"),
+        *("geom_points", "tree_compiler", "model_overlay"),
+        *("model_reader", "urdf_writer"),
     )
 ]
 

@@ -138,7 +138,6 @@ def test_code_on_board_imports_no_simulator(package: str) -> None:
         "geom_points",
         "tree_compiler",
         "description",
-        "model_repair",
         "model_overlay",
         "model_reader",
         "urdf_writer",

@@ -4,7 +4,7 @@ import mujoco
 import numpy as np
 import pytest
 
-from stepaside.robots.model_repair import repair_inertias
+from stepaside.robots.model_overlay import repair_inertias
 
 LINK = (
     '<mujoco><worldbody><body name="link"><joint name="turn"/>'
@@ -25,7 +25,7 @@ def test_an_invalid_inertia_compiles_after_repair(full: str) -> None:
     spec = spec_of(0.3, full)
     with pytest.raises(ValueError, match="eigenvalue|inertia"):
         spec_of(0.3, full).compile()
-    assert repair_inertias(spec) == ["link"]
+    repair_inertias(spec)
     model = spec.compile()
     moments = np.sort(model.body_inertia[1])
     assert moments[0] > 0.0 and moments[0] + moments[1] >= moments[2] * 0.999
@@ -53,9 +53,9 @@ def test_inertias_in_wrong_units_are_replaced_by_typical_ones(
         )
 
     spec = model(400.0)
-    assert repair_inertias(spec) == ["torso", "thigh"]
+    repair_inertias(spec)
     moments = spec.compile().body_inertia[1:, 0]
     np.testing.assert_allclose(moments, [0.0016, 0.0064, 1e-4])
     spec = model(0.3)  # large for such a robot, but who knows
-    assert repair_inertias(spec) == []
+    repair_inertias(spec)
     np.testing.assert_allclose(spec.compile().body_inertia[2], 0.1)
