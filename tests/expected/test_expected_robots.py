@@ -90,7 +90,7 @@ def mapped(robot: Path, away: float, heights: tuple[float, float]) -> bool:
         heights: Lowest and highest point, in [m].
     """
     pytest.importorskip("cv2")
-    from stepaside.perception.camera_model import camera_pose
+    from stepaside.perception.body_pose import camera_pose
     from stepaside.perception.floor_map import FloorMap
     from stepaside.perception.images import DepthImage
     from synthetic_cameras import CAMERA, TICK, Eyes

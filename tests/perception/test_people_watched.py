@@ -8,7 +8,8 @@ import numpy as np
 import pytest
 
 from stepaside.core.poses import Pose, wrap_angle
-from stepaside.perception.camera_model import CameraModel, camera_pose
+from stepaside.perception.body_pose import camera_pose
+from stepaside.perception.camera_model import CameraModel
 from stepaside.perception.colour_detector import RED, ColourDetector
 from stepaside.perception.images import Percept
 from stepaside.perception.measurement import RobotState, Sighting

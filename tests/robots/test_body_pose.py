@@ -8,12 +8,10 @@ import pytest
 
 from stepaside.core.poses import Array, Pose
 from stepaside.core.rotations import rotation
+from stepaside.perception.body_pose import BodyKinematics
 from stepaside.robots.description import load_robot
 from stepaside.robots.description_types import FOOT_FORCES
-from stepaside.robots.forward_kinematics import (
-    BodyKinematics,
-    ForwardKinematics,
-)
+from stepaside.robots.forward_kinematics import ForwardKinematics
 from stepaside.robots.head import load_head
 
 NAO = load_robot("nao")

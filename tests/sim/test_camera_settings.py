@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 
 from stepaside.core.errors import ConfigurationError
+from stepaside.perception.camera_model import CameraModel
 from stepaside.sim.camera_settings import (
     CameraSettings,
     ColourSettings,
@@ -39,7 +40,7 @@ def test_values_out_of_range_are_refused(
 
 
 def field_of_view(kind: ColourSettings | DepthSettings) -> tuple[float, ...]:
-    model = kind.model()
+    model = CameraModel.of_field_of_view(kind.width, kind.height, *kind.view)
     assert (model.width, model.height) == (kind.width, kind.height)
     return (
         degrees(2.0 * np.arctan(0.5 * model.width / model.focal_x)),

@@ -13,6 +13,8 @@ from ..locomotion.control_settings import (
     STABILISED,
     ControlSettings,
 )
+from ..perception.camera_model import CameraModel
+from ..sim.camera_settings import ColourSettings
 from ..strategies import Strategy, load_strategy
 from ..strategies.registry import shielded
 from .settings import CONTROL, GIVEN
@@ -40,6 +42,10 @@ def join_domain(domain: int | None, *, network: bool) -> "DdsParticipant":
     if not network:
         echo(f"stepaside: {LOCAL}", err=True)
     return dds
+
+
+def _model_of(own: ColourSettings) -> CameraModel:
+    return CameraModel.of_field_of_view(own.width, own.height, *own.view)
 
 
 def with_feedback(control: ControlSettings) -> ControlSettings:
@@ -70,7 +76,7 @@ def robot_maker(settings: PlaySettings) -> "Callable[[], Any]":
             settings.role,
             settings.robot,
             dry_run=settings.dry_run,
-            camera=colour.model(),
+            camera=_model_of(colour),
             latency=colour.latency + settings.cameras.added_latency,
             lateral=settings.max_lateral or 0.0,
             domain=settings.domain,
@@ -298,5 +304,5 @@ def _open_camera(
     latency = colour.latency + settings.cameras.added_latency
     path = name.removeprefix(V4L2)
     return RobotCamera(
-        VideoCamera(path, colour.model(), latency=latency), apart=True
+        VideoCamera(path, _model_of(colour), latency=latency), apart=True
     )

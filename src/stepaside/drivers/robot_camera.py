@@ -14,10 +14,10 @@ from ..core.history import History
 from ..core.poses import Pose, wrap_angle
 from ..core.rotations import rotation
 from ..core.user_file import FAILURES
+from ..perception.body_pose import BodyPose
 from ..perception.camera_model import CameraModel
 from ..perception.images import ColourImage
 from ..perception.measurement import RobotState
-from ..robots.forward_kinematics import BodyPose
 from .method_thread import MethodThread, SessionLost
 from .robot import CameraImage, CameraMount
 

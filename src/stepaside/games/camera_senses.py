@@ -261,7 +261,7 @@ class CameraSenses:
         for mount in self._head.depth_mounts(rear=cameras.rear_camera):
             if mount.on_torso:
                 x, y, _ = mount.axes_in_body[:, 0].tolist()
-                half = 0.5 * cameras.depth_of(mount).across
+                half = 0.5 * cameras.rear.across
                 found.append(Sector(atan2(y, x), half))
         return tuple(found)
 
@@ -281,9 +281,9 @@ class CameraSenses:
     def _shared_screen(self, world: World) -> OffscreenRenderer | None:
         """Return the renderer of all robots; None for ray casting."""
         if self.renderer != RAYCAST and self._screen is None:
-            camera = self._settings.cameras.colour.model()
+            size = self._settings.cameras.colour
             self._screen = OffscreenRenderer(
-                world.model, camera.width, camera.height, self.renderer
+                world.model, size.width, size.height, self.renderer
             )
         return self._screen
 

@@ -1,4 +1,4 @@
-"""Pinhole camera model, and poses of cameras in odometry."""
+"""Pinhole camera model, and the pose of a camera in odometry."""
 
 from dataclasses import dataclass
 from functools import lru_cache
@@ -10,8 +10,6 @@ from numpy.typing import ArrayLike
 
 from ..core.errors import ConfigurationError, check_within
 from ..core.poses import Array
-from ..robots.forward_kinematics import BodyPose
-from ..robots.head import Mount
 
 
 @dataclass(frozen=True, slots=True)
@@ -130,16 +128,3 @@ class CameraPose(NamedTuple):
             points_in_odometry[..., 0] - x, points_in_odometry[..., 1] - y
         )
         return found
-
-
-def camera_pose(body: BodyPose, mount: Mount) -> CameraPose:
-    """Return the pose of a camera in odometry."""
-    position, axes = body.position_head_in_odometry, body.axes_head_in_odometry
-    if mount.on_torso:
-        position = body.position_torso_in_odometry
-        axes = body.axes_torso_in_odometry
-    return CameraPose(
-        position + axes @ mount.position_in_body,
-        axes @ mount.axes_in_body,
-        body.pose_torso_in_odometry[:2],
-    )

@@ -1,12 +1,15 @@
 """Images and lidar scans with their times."""
 
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ..core.poses import Array
-from .camera_model import CameraModel
+
+if TYPE_CHECKING:
+    from .camera_model import CameraModel
 
 Pixels = NDArray[np.uint8]
 Depths = NDArray[np.float32]
@@ -17,7 +20,7 @@ class ColourImage:
     """Colour image."""
 
     time: float  # middle of its exposure [s]
-    camera: CameraModel  # camera that took it
+    camera: "CameraModel"  # camera that took it
     pixels: Pixels  # red, green and blue, (height, width, 3)
 
 
@@ -26,7 +29,7 @@ class DepthImage:
     """Depth image."""
 
     time: float  # middle of its exposure [s]
-    camera: CameraModel  # camera that took it
+    camera: "CameraModel"  # camera that took it
     # depth along the camera axis [m]; 0 without return, (height, width)
     depths: Depths
     near: float  # lower limit of the range [m]

@@ -13,10 +13,10 @@ from functools import cache
 from ..core.history import History
 from ..core.poses import Array, Pose, Sector, wrap_angle
 from ..robots.description import RobotDescription
-from ..robots.forward_kinematics import BodyKinematics, BodyPose
 from ..robots.head import HeadDescription, Mount
 from ..robots.robot_tree import NAO_SIZE, BodySize
-from .camera_model import CameraPose, camera_pose
+from .body_pose import BodyKinematics, BodyPose, camera_pose
+from .camera_model import CameraPose
 from .colour_detector import ColourDetection, ColourDetector
 from .depth_detector import DepthScene, detect_obstacles
 from .floor_map import FloorMap

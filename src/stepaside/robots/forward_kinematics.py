@@ -1,6 +1,5 @@
-"""Poses of torso, CoM, feet and head from measured angles and tilt."""
+"""Poses of CoM, feet, head and torso from measured angles and tilt."""
 
-from dataclasses import dataclass
 from math import atan2
 from typing import NamedTuple
 
@@ -11,7 +10,6 @@ from ..core.errors import ModelError
 from ..core.poses import Array, Pose
 from ..core.rotations import rotation
 from .description import REMEDY, RobotDescription
-from .head import HeadDescription
 from .joint_tree import joint_tree, place_frames
 from .tree_cache import load_tree
 
@@ -91,20 +89,6 @@ class ForwardKinematics:
         return np.array(corners)
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class BodyPose:
-    """Torso and head of a body in odometry: positions [m], axes as columns."""
-
-    time: float  # time of the measurement [s]
-    pose_torso_in_odometry: Pose
-    position_torso_in_odometry: Array
-    axes_torso_in_odometry: Array
-    position_head_in_odometry: Array
-    axes_head_in_odometry: Array
-    yaw: float  # measured yaw of the head [rad]
-    pitch: float  # measured pitch of the head [rad]
-
-
 class SpatialTorsoPose(NamedTuple):
     """Spatial pose of a torso in odometry."""
 
@@ -129,39 +113,3 @@ def torso_pose_on_foot(
     place[0] += support.x
     place[1] += support.y
     return SpatialTorsoPose(place, axes, heading)
-
-
-class BodyKinematics:
-    """Forward kinematics from the stance foot to the head."""
-
-    def __init__(
-        self,
-        description: RobotDescription,
-        head: HeadDescription,
-    ) -> None:
-        self.forward = ForwardKinematics(description, head.body)
-        names = self.forward.tree.motors
-        self.yaw, self.pitch = names.index(head.yaw), names.index(head.pitch)
-
-    def pose(
-        self,
-        time: float,
-        joints: Array,
-        support: Pose,
-        left_supports: bool,
-        tilt: tuple[float, float],
-    ) -> BodyPose:
-        """Return the body pose by encoder angles and pose of the stance."""
-        posture = self.forward.posture(joints)
-        foot = 0 if left_supports else 1
-        place, axes, heading = torso_pose_on_foot(posture, foot, support, tilt)
-        return BodyPose(
-            time,
-            Pose(float(place[0]), float(place[1]), heading),
-            place,
-            axes,
-            place + axes @ posture.position_head_in_torso,
-            axes @ posture.axes_head_in_torso,
-            float(joints[self.yaw]),
-            float(joints[self.pitch]),
-        )

@@ -6,8 +6,6 @@ from math import radians
 from ..core.errors import ConfigurationError, check_within
 from ..core.ranges import Range
 from ..core.setting import REQUIRED, CheckedSettings, check_settings, setting
-from ..perception.camera_model import CameraModel
-from ..robots.head import Mount
 
 PIXELS = Range(
     8,
@@ -61,11 +59,11 @@ class ColourSettings(CheckedSettings):
         names=RENDERERS,
     )
 
-    def model(self) -> CameraModel:
-        """Return the camera model with these optics."""
-        across, down = (radians(a) for a in OPTICS[self.optics])
-        size = self.width, self.height
-        return CameraModel.of_field_of_view(*size, across, down)
+    @property
+    def view(self) -> tuple[float, float]:
+        """Horizontal and vertical field of view, in [rad]."""
+        across, down = OPTICS[self.optics]
+        return radians(across), radians(down)
 
 
 @dataclass(frozen=True, slots=True)
@@ -112,11 +110,10 @@ class DepthSettings:
         check_settings(self)
         check_within(self.far, self.near, 20.0, "far", "m", ConfigurationError)
 
-    def model(self) -> CameraModel:
-        """Return the camera model with these optics."""
-        return CameraModel.of_field_of_view(
-            self.width, self.height, self.across, self.down
-        )
+    @property
+    def view(self) -> tuple[float, float]:
+        """Horizontal and vertical field of view, in [rad]."""
+        return self.across, self.down
 
 
 # Depth cameras, by name. Rate, latency and noise of the second are as of the
@@ -194,10 +191,6 @@ class CameraSettings(CheckedSettings):
         "Latency in addition to that of the camera",
         Range(0.0, 0.5, "s", "in addition to a camera's latency"),
     )
-
-    def depth_of(self, mount: Mount) -> DepthSettings:
-        """Return the settings of the depth camera on a mount."""
-        return self.rear if mount.on_torso else self.depth
 
 
 @dataclass(frozen=True, slots=True)

@@ -58,7 +58,8 @@ class SensorSuite(StreamedSensors[Percept]):
         self._settings, self._seed = settings, seed
         self._head = load_head(description)
         self._renderer = renderer
-        camera = settings.colour.model()
+        own = settings.colour
+        camera = CameraModel.of_field_of_view(own.width, own.height, *own.view)
         self.camera = _reduced(camera) if renderer is None else camera
         streams = [self._colour()]
         if with_depth:
@@ -119,8 +120,11 @@ class SensorSuite(StreamedSensors[Percept]):
         return lambda: screen.draw(data, number)
 
     def _depth(self, number: int, mount: Mount) -> SensorStream[Percept]:
-        own = self._settings.depth_of(mount)
-        camera, name = own.model(), f"depth {number}".removesuffix(" 0")
+        own = self._settings.depth
+        if mount.on_torso:
+            own = self._settings.rear
+        camera = CameraModel.of_field_of_view(own.width, own.height, *own.view)
+        name = f"depth {number}".removesuffix(" 0")
         caster = self._caster(mount, camera.rays())
         generator = self._generator(name)
 
