@@ -135,5 +135,5 @@ def test_a_truncated_record_is_replayed_to_its_end(
     assert run.outcome is Outcome.FAILED
     assert run.times[-1] == pytest.approx(2.0, abs=0.05)
     (cut / "play.json").write_text('{"columns": {"times_s": 1}}')
-    with pytest.raises(ConfigurationError, match="must hold the columns"):
+    with pytest.raises(ConfigurationError, match="cannot be read"):
         load_run(cut)

@@ -182,15 +182,10 @@ def joint_row(
 
 def columns_in(data: bytes, columns: Mapping[str, int]) -> dict[str, Array]:
     """Split row data into columns; an incomplete last row is dropped."""
-    width = sum(columns.values())
-    whole = len(data) // (8 * width) * 8 * width
-    rows = np.frombuffer(data[:whole], "<f8").reshape(-1, width)
-    found, at = {}, 0
-    for name, size in columns.items():
-        part: Array = rows[:, at : at + size]
-        found[name] = part[:, 0] if size == 1 else part
-        at += size
-    return found
+    shapes = {name: (size,) * (size > 1) for name, size in columns.items()}
+    kind = np.dtype([(name, "<f8", shape) for name, shape in shapes.items()])
+    rows = np.frombuffer(data, kind, count=len(data) // kind.itemsize)
+    return {name: rows[name] for name in columns}
 
 
 def status_text(tick: PlayTick) -> str:

@@ -4,12 +4,12 @@ from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from math import cos, sin
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from ..core.entries import load_entries, read_entries
+from ..core.entries import load_entries
 from ..core.errors import ConfigurationError
 from ..core.poses import Array, Pose
 from ..core.rotations import quaternion_of, rotation
@@ -36,36 +36,11 @@ from .trajectory import Trajectory, check_record
 PERIOD = 0.02  # approximate smallest period of the samples of a run, in [s]
 MAX_GAP = 10.0  # between ticks of one clock, in [s]
 DEFAULT_TICK = 0.012  # of rows whose times do not advance, in [s]
-# Width of each column: of all plays, and of those by joints or velocities.
-COMMON = {"times_s": 1, "sighting": 3, "state": 1}
-BY_JOINTS = {
-    "gyro": 3,
-    "accelerometer": 3,
-    "foot_forces": 8,
-    "phase": 1,
-    "mind": 1,
-    "support": 4,
-    "com_reference": 2,
-    "zmp_reference": 2,
-    "begun": 6,
-}
-JOINTS = ("joint_positions", "targets")  # one column per joint
-BY_VELOCITY = {"pose": 3, "wanted": 3, "velocity": 3}
-
-
-class LoggedChange(NamedTuple):
-    """Change of a player's state, at the row with an index."""
-
-    tick: int
-    state: str
-    reason: str
-
-
-@dataclass(frozen=True, slots=True)
-class PlayStateLog:
-    """Changes of state in ``play.json``."""
-
-    changes: tuple[LoggedChange, ...]
+MAX_CHANGES = 2000  # of state, in a summary
+SAME = 1e-6  # tolerance within which times are of one sighting, in [s]
+ACCELEROMETER_GAIN = 0.5  # of the attitude filter, in [1/s]
+MIN_FOOT_FORCE = 1.0  # below which the ZMP is unknown, in [N]
+CUT_OFF = "the record was cut off"
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -74,7 +49,7 @@ class PlayedRows:
 
     columns: Mapping[str, Array]  # by name: (rows,) or (rows, width)
     times: Array  # since the record began, in [s]
-    changes: tuple[LoggedChange, ...]
+    changes: tuple[StateChange, ...] = ()
 
     @property
     def moves_joints(self) -> bool:
@@ -99,20 +74,18 @@ class PlayedRows:
 
 
 def read_played(folder: Path) -> PlayedRows:
-    """Read the rows of a player, which may still be running.
-
-    Raises:
-        ConfigurationError: If there are no valid rows.
-    """
-    name = folder.resolve().name
+    """Read the rows of a player, which may still be running."""
     notes = load_entries(folder / METADATA)
-    columns = _columns_of(notes, name)
-    found = columns_in((folder / ROWS).read_bytes(), columns)
+    found = columns_in((folder / ROWS).read_bytes(), notes["columns"])
     if not len(found["times_s"]):
-        raise ConfigurationError(f"{ROWS} of {name} has no rows")
-    source = f"{METADATA} of {name}"
-    changes = read_entries(PlayStateLog, notes, source, ignoring=True).changes
-    return PlayedRows(found, monotonic_times(found["times_s"]), changes)
+        raise ValueError(f"{ROWS} has no rows")
+    times = monotonic_times(found["times_s"])
+    changes = [
+        StateChange(float(times[each["tick"]]), each["state"], each["reason"])
+        for each in notes["changes"][:MAX_CHANGES]
+        if each["tick"] < len(times)  # the last rows may be lost
+    ]
+    return PlayedRows(found, times, tuple(changes))
 
 
 def monotonic_times(times: Array) -> Array:
@@ -131,34 +104,6 @@ def monotonic_times(times: Array) -> Array:
     return elapsed
 
 
-def _columns_of(notes: Mapping[str, Any], name: str) -> dict[str, int]:
-    columns: Any = notes.get("columns")
-    columns = columns if isinstance(columns, dict) else {}
-    moves_joints = "joint_positions" in columns
-    expected = COMMON | (BY_JOINTS if moves_joints else BY_VELOCITY)
-    joints = JOINTS if moves_joints else ()
-    sizes = {columns.get(key) for key in joints}
-    valid = set(columns) == {*expected, *joints}
-    valid = valid and all(columns[key] == n for key, n in expected.items())
-    if moves_joints:
-        valid = valid and len(sizes) == 1
-        valid = valid and all(type(n) is int and 0 < n < 256 for n in sizes)
-    if not valid:
-        raise ConfigurationError(
-            f"{METADATA} of {name} must hold the columns of a player: "
-            f"{', '.join([*expected, *joints])}"
-        )
-    found: dict[str, int] = columns
-    return found
-
-
-MAX_CHANGES = 2000  # of state, in a summary
-SAME = 1e-6  # tolerance within which times are of one sighting, in [s]
-ACCELEROMETER_GAIN = 0.5  # of the attitude filter, in [1/s]
-MIN_FOOT_FORCE = 1.0  # below which the ZMP is unknown, in [N]
-CUT_OFF = "the record was cut off"
-
-
 def has_play_rows(folder: Path) -> bool:
     """Return whether a folder holds rows of a player, finished or not."""
     return all((folder / name).is_file() for name in (ROWS, METADATA))
@@ -170,15 +115,8 @@ def run_of_play(
     outcome: Outcome = Outcome.FAILED,
     message: str = CUT_OFF,
 ) -> Run:
-    """Convert the rows of a player into a run.
-
-    Raises:
-        ConfigurationError: If there are no valid rows.
-        ValueError: If a file is too long, or not a regular file.
-        OSError: If a file cannot be read.
-    """
-    name = folder.resolve().name
-    rows = read_played(folder)
+    """Convert the rows of a player into a run."""
+    name, rows = folder.resolve().name, read_played(folder)
     times, found = rows.times[rows.sampled], sightings_in(rows)
     own = _own(rows, settings, sight_table(found))
     other = opponent_trajectory(found, times, own.unicycle)
@@ -237,7 +175,7 @@ def _summary(rows: PlayedRows, run: Run) -> Summary:
         measure(run, _last_third(walking)[rows.sampled]),
         min_distance_m=float(sightings[seen, 2].min()) if seen.any() else None,
         planning=planning,
-        play=PlaySummary(walked, _changes(rows)),
+        play=PlaySummary(walked, rows.changes),
     )
 
 
@@ -247,15 +185,6 @@ def _last_third(walking: Array) -> NDArray[np.bool_]:
     late = np.zeros(len(walking), dtype=bool)
     late[at[2 * len(at) // 3 :]] = True
     return late
-
-
-def _changes(rows: PlayedRows) -> tuple[StateChange, ...]:
-    times, changes = rows.times, rows.changes[:MAX_CHANGES]
-    return tuple(
-        StateChange(float(times[change.tick]), change.state, change.reason)
-        for change in changes
-        if 0 <= change.tick < len(times)
-    )
 
 
 def sightings_in(rows: PlayedRows) -> Array:
