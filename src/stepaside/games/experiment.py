@@ -1,6 +1,6 @@
 """Experiments: a ROS 2 bag of players, recorded elsewhere, as a run."""
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, replace
 from itertools import chain
 from math import atan2
@@ -30,6 +30,7 @@ POSE_FIELDS = {
     "geometry_msgs/msg/PoseStamped": ("pose",),
     "geometry_msgs/msg/PoseWithCovarianceStamped": ("pose", "pose"),
 }
+Link = tuple[str, Array]  # frame in which a pose is, and the pose, (4, 4)
 
 
 @dataclass(frozen=True, slots=True)
@@ -45,17 +46,6 @@ class ExperimentSettings(CheckedSettings):
         (), "Players, as NAME=FRAME or NAME=/TOPIC"
     )
     world: str = setting("", "Frame in which all poses are")
-
-
-@dataclass(frozen=True, slots=True, eq=False)
-class PoseSeries:
-    """Poses of one player over time."""
-
-    world: str  # frame in which they are
-    times: Array  # increasing [s]
-    positions: Array  # (x, y, z) [m]
-    headings: Array  # unwrapped [rad]
-    invalid: int  # number left out: not finite, or with a zero rotation
 
 
 def _parse_sources(words: tuple[str, ...]) -> dict[str, str]:
@@ -94,71 +84,59 @@ def import_experiment(bag: Path, words: tuple[str, ...]) -> Run:
             not in one frame, or not at common times.
         ModuleNotFoundError: If rosbags is not installed.
     """
-    sources = _parse_sources(words)
-    series = _read_poses(bag, sources)
-    worlds = {player: one.world for player, one in series.items()}
-    if len(set(worlds.values())) > 1:
+    worlds, tables = _read_bag(bag, _parse_sources(words))
+    if len({*worlds.values()}) > 1:
         found = ", ".join(f"{p} in {w}" for p, w in worlds.items())
         raise ConfigurationError(
             f"poses of all players must be in one frame, got {found}"
         )
-    first = next(iter(series.values()))
-    begin = max(one.times[0] for one in series.values())
-    end = min(one.times[-1] for one in series.values())
-    inside = (first.times >= begin) & (first.times <= end)
-    times = first.times[inside]
+    first = next(iter(tables.values()))[:, 0]
+    begin = max(table[0, 0] for table in tables.values())
+    end = min(table[-1, 0] for table in tables.values())
+    times = first[(first >= begin) & (first <= end)]
     if len(times) < 2:
         raise ConfigurationError(
             f"players of {bag.name} must have poses at common times, got "
             + ", ".join(
-                f"{p} from {one.times[0]:.1f} to {one.times[-1]:.1f} s"
-                for p, one in series.items()
+                f"{p} from {table[0, 0]:.1f} to {table[-1, 0]:.1f} s"
+                for p, table in tables.items()
             )
         )
-    tracks = {p: _sampled(one, times) for p, one in series.items()}
-    elapsed = times - times[0]
+    tracks, notes = {}, []
+    for player, table in tables.items():
+        x, y, z, heading = (
+            np.interp(times, table[:, 0], column) for column in table.T[1:]
+        )
+        tracks[player] = Trajectory(
+            com=np.column_stack([x, y, z]),
+            torso=np.column_stack([x, y, heading]),
+        )
+        ends = [begin], np.clip(table[:, 0], begin, end), [end]
+        gap = float(np.diff(np.concatenate(ends)).max())
+        if gap > NOTED_GAP:
+            notes.append(f"{player} has no pose for {gap:.2f} s; interpolated")
+    elapsed, world = times - times[0], next(iter(worlds.values()))
     check_record(elapsed, tracks, bag.name)
     run = Run(
         name=bag.stem or bag.name,
-        settings=ExperimentSettings(
-            source=bag.name, frames=words, world=first.world
-        ),
+        settings=ExperimentSettings(bag.name, words, world),
         outcome=Outcome.COMPLETED,
-        message=f"recorded {elapsed[-1]:.2f} s in {first.world}",
+        message=f"recorded {elapsed[-1]:.2f} s in {world}",
         duration=round(float(elapsed[-1]), 9),
         times=elapsed,
         tracks=tracks,
     )
-    notes = []
-    for player, one in series.items():
-        ends = [begin], np.clip(one.times, begin, end), [end]
-        gap = float(np.diff(np.concatenate(ends)).max())
-        if gap > NOTED_GAP:
-            notes.append(f"{player} has no pose for {gap:.2f} s; interpolated")
-        if one.invalid:
-            notes.append(f"{player} has {one.invalid} invalid poses; left out")
     return replace(run, summary=replace(measure(run), notes=notes))
 
 
-def _sampled(series: PoseSeries, times: Array) -> Trajectory:
-    """Return the poses at times, linearly interpolated."""
-    x, y, z, heading = (
-        np.interp(times, series.times, column)
-        for column in (*series.positions.T, series.headings)
-    )
-    return Trajectory(
-        com=np.column_stack([x, y, z]),
-        torso=np.column_stack([x, y, heading]),
-    )
-
-
-def _read_poses(
+def _read_bag(
     bag: Path, sources: Mapping[str, str]
-) -> dict[str, PoseSeries]:
-    """Read the poses of players from a bag.
+) -> tuple[dict[str, str], dict[str, Array]]:
+    """Return the frame of each player's poses, and the poses.
 
-    Sources are frames, or topics that begin with a slash. Times are those of
-    the headers; where no header of a player has one, those of recording.
+    Sources are frames, or topics that begin with a slash. Columns are time
+    [s], x, y, z [m] and heading [rad]. Times are those of the headers; where
+    no header of a player has one, those of recording.
     """
     from rosbags.highlevel import AnyReader
     from rosbags.typesys import Stores, get_typestore
@@ -166,7 +144,7 @@ def _read_poses(
     store = get_typestore(Stores.ROS2_HUMBLE)
     try:
         with AnyReader([bag], default_typestore=store) as reader:
-            return _read(reader, sources, bag.name)
+            worlds, rows = _read(reader, sources, bag.name)
     except ConfigurationError:
         raise
     except Exception as error:  # of damaged files, of many kinds
@@ -174,11 +152,20 @@ def _read_poses(
             f"{bag} must be a ROS 2 bag: a folder with metadata.yaml, or a "
             f".mcap or .db3 file, got: {error}"
         ) from error
+    for player, found in worlds.items():
+        if len(found) > 1:
+            raise ConfigurationError(
+                f"poses of {player} must all be in one frame, got "
+                f"{_listed(sorted(found))}"
+            )
+    tables = {player: _table(player, found) for player, found in rows.items()}
+    return {player: found.pop() for player, found in worlds.items()}, tables
 
 
 def _read(
     reader: Any, sources: Mapping[str, str], name: str
-) -> dict[str, PoseSeries]:
+) -> tuple[dict[str, set[str]], dict[str, list[tuple[float, ...]]]]:
+    """Return the frames and the poses of each player, with both times."""
     kinds = {c.topic: c.msgtype for c in reader.connections}
     for player, source in sources.items():
         kind = kinds.get(source)
@@ -188,61 +175,57 @@ def _read(
                 f"{', '.join(POSE_FIELDS)}, got {kind} in {name}: "
                 f"{_listed(kinds)}"
             )
-    frames = {p: s for p, s in sources.items() if not s.startswith("/")}
-    above: dict[str, tuple[str, Array]] = {}  # parent and pose in it
+    above: dict[str, Link] = {}  # by frame or topic
     rows: dict[str, list[tuple[float, ...]]] = {p: [] for p in sources}
     worlds: dict[str, set[str]] = {p: set() for p in sources}
+    in_frames = any(not s.startswith("/") for s in sources.values())
     # Static transforms hold from the beginning.
-    static = {STATIC} if frames else set()
-    moving = {*sources.values(), *((MOVING,) if frames else ())}
+    static = {STATIC} if in_frames else set()
+    moving = {*sources.values(), *((MOVING,) if in_frames else ())}
     for topic, kind, time, message in chain(
         _messages(reader, static), _messages(reader, moving)
     ):
-        if topic in (STATIC, MOVING):
-            changed = _place(message, above)
-            for player, frame in frames.items():
-                links, root, pose = _pose_of(frame, above)
-                stamps = [changed[link] for link in links if link in changed]
-                if stamps and topic == MOVING:
-                    worlds[player].add(root)
-                    rows[player].append(_row(max(stamps), time, pose))
-            continue
+        stamps = {}
+        for child, link, stamp in _links(topic, kind, message):
+            above[child], stamps[child] = link, stamp
         for player, source in sources.items():
-            if source == topic:
-                own = message
-                for field in POSE_FIELDS[kind]:
-                    own = getattr(own, field)
-                worlds[player].add(message.header.frame_id)
-                pose = _matrix(own.position, own.orientation)
-                rows[player].append(_row(_stamp(message), time, pose))
-    known = dict.fromkeys(n for c, (p, _) in above.items() for n in (p, c))
+            chained, root, pose = _pose_of(source, above)
+            changed = [stamps[link] for link in chained if link in stamps]
+            if changed and topic != STATIC:
+                x, y, z = pose[:3, 3].tolist()
+                heading = atan2(pose[1, 0], pose[0, 0])
+                rows[player].append((max(changed), time, x, y, z, heading))
+                worlds[player].add(root)
     for player, source in sources.items():
         if not rows[player]:
+            known = [n for child, (p, _) in above.items() for n in (p, child)]
             raise ConfigurationError(
                 f"{player}={source} must be a frame of {name}: "
-                f"{_listed(known)}"
+                f"{_listed(dict.fromkeys(known))}"
             )
-    return {
-        player: _series(player, worlds[player], found)
-        for player, found in rows.items()
-    }
+    return worlds, rows
 
 
-def _place(
-    message: Any, above: dict[str, tuple[str, Array]]
-) -> dict[str, float]:
-    """Take transforms; return each child with its time, in [s]."""
-    placed = {}
+def _links(
+    topic: str, kind: str, message: Any
+) -> Iterator[tuple[str, Link, float]]:
+    """Yield each frame or topic with its pose in another, and the time."""
+    if topic not in (STATIC, MOVING):
+        own = message
+        for field in POSE_FIELDS[kind]:
+            own = getattr(own, field)
+        pose = _matrix(own.position, own.orientation)
+        yield topic, (message.header.frame_id, pose), _stamp(message)
+        return
     for each in message.transforms:
         child = each.child_frame_id.removeprefix("/")
-        step = _matrix(each.transform.translation, each.transform.rotation)
-        above[child] = each.header.frame_id.removeprefix("/"), step
-        placed[child] = _stamp(each)
-    return placed
+        parent = each.header.frame_id.removeprefix("/")
+        pose = _matrix(each.transform.translation, each.transform.rotation)
+        yield child, (parent, pose), _stamp(each)
 
 
 def _pose_of(
-    frame: str, above: Mapping[str, tuple[str, Array]]
+    frame: str, above: Mapping[str, Link]
 ) -> tuple[list[str], str, Array]:
     """Return the frames up to the root, the root, and the pose in it."""
     links: list[str] = []
@@ -282,48 +265,32 @@ def _matrix(position: Any, rotation: Any) -> Array:
     return matrix
 
 
-def _row(stamp: float, time: float, pose: Array) -> tuple[float, ...]:
-    """Return both times, position and heading of a pose."""
-    x, y, z = pose[:3, 3].tolist()
-    return stamp, time, x, y, z, atan2(pose[1, 0], pose[0, 0])
-
-
-def _series(
-    player: str, worlds: set[str], rows: list[tuple[float, ...]]
-) -> PoseSeries:
-    """Return the poses of one player, in the order of their times."""
-    if len(worlds) > 1:
-        raise ConfigurationError(
-            f"poses of {player} must all be in one frame, got "
-            f"{_listed(dict.fromkeys(sorted(worlds)))}"
-        )
+def _table(player: str, rows: list[tuple[float, ...]]) -> Array:
+    """Return the valid poses of one player, in the order of their times."""
     table = np.array(rows)
-    valid = np.isfinite(table).all(axis=1)
-    table = table[valid]
+    table = table[np.isfinite(table).all(axis=1)]
     # Without stamps, the times of recording must do.
-    times = table[:, 0] if table[:, 0].any() else table[:, 1]
-    back = np.maximum.accumulate(times) - times
+    table = np.delete(table, 1 if table[:, 0].any() else 0, axis=1)
+    back = np.maximum.accumulate(table[:, 0]) - table[:, 0]
     if (back > SHUFFLED).any():
         at = int(back.argmax())
         raise ConfigurationError(
             f"stamps of {player} must not go back, got {back[at]:.2f} s back "
-            f"at {times[at]:.2f} s: cut the bag where its clock was reset"
+            f"at {table[at, 0]:.2f} s: cut the bag where its clock was reset"
         )
-    times, kept = np.unique(times, return_index=True)
-    table = table[kept]
+    table = table[np.unique(table[:, 0], return_index=True)[1]]
     if len(table) < 2:
         raise ConfigurationError(
             f"poses of {player} must be finite with a rotation that is not "
             f"zero at 2 times at least, got {len(table)} of {len(rows)}"
         )
-    headings = np.unwrap(table[:, 5])
-    (world,) = worlds
-    invalid = int((~valid).sum())
-    return PoseSeries(world, times, table[:, 2:5], headings, invalid)
+    table[:, 4] = np.unwrap(table[:, 4])
+    return table
 
 
-def _listed(names: Mapping[str, Any]) -> str:
+def _listed(names: Iterable[str]) -> str:
     """Return the first names as text."""
-    shown = list(names)[:MOST_LISTED]
-    more = len(names) - len(shown)
-    return ", ".join(shown) + (f" and {more} more" if more > 0 else "")
+    shown = [*names]
+    more = len(shown) - MOST_LISTED
+    listed = ", ".join(shown[:MOST_LISTED])
+    return listed + (f" and {more} more" if more > 0 else "")
