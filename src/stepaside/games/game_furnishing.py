@@ -1,8 +1,6 @@
-"""Scenery of a match: everything but robots, and their colours."""
+"""Scenery of a game: everything but robots, and the colours of players."""
 
-from collections.abc import Callable, Collection, Mapping
-from functools import partial
-from typing import NamedTuple
+from collections.abc import Collection, Mapping
 
 import mujoco
 
@@ -11,17 +9,9 @@ from ..robots.description import load_robot
 from ..robots.head import load_head
 from ..sim.camera_settings import SceneSettings
 from ..sim.person_body import SHIRT, add_person, add_template
-from ..sim.room_furnishing import (
-    Furnish,
-    add_solids,
-    furnisher,
-    obstacle_mover,
-)
+from ..sim.room_furnishing import add_scene, add_solids
 from ..sim.world import COLOURS
 from .game_settings import GameSettings
-
-Mover = Callable[[float], None]  # moves bodies to where they are at a time [s]
-MakeMover = Callable[[mujoco.MjModel, mujoco.MjData], Mover]
 
 WALL_MARGIN = 1.0  # smallest distance of a start from the walls, in [m]
 WALL_DISTANCE = 3.5  # from a start to walls moved for it: camera range, [m]
@@ -32,12 +22,14 @@ BASE: dict[Role, Rgb] = {
 }
 
 
-def colours_in_world(settings: GameSettings) -> dict[str, Colour]:
-    """Return the colour of each player in images, red to opacity.
+def colours_of_players(settings: object) -> Mapping[str, Colour]:
+    """Return the colours of players by name, of settings of any game.
 
     In a game with cameras, which know one colour of each role, robots have
     the colour of their role; otherwise players of one role have shades.
     """
+    if not isinstance(settings, GameSettings):
+        return COLOURS
     shades = shades_of(settings.identities, BASE)
     if settings.sensing_by("cameras"):
         roles = {n: own.role for n, own in settings.identities.items()}
@@ -45,80 +37,37 @@ def colours_in_world(settings: GameSettings) -> dict[str, Colour]:
     return {name: (*colour, 1.0) for name, colour in shades.items()}
 
 
-def colours_of_players(settings: object) -> Mapping[str, Colour]:
-    """Return the colours of players by name, of settings of any game."""
-    if isinstance(settings, GameSettings):
-        return colours_in_world(settings)
-    return COLOURS
-
-
-class Scenery(NamedTuple):
-    """Everything but robots in the world of a match.
-
-    Attributes:
-        furnishings: Functions that add it to a model.
-        make_movers: Functions of model and data that return the functions
-            which move obstacles and people.
-        colours: Colours of robots by name; by default those of their roles.
-    """
-
-    furnishings: tuple[Furnish, ...]
-    make_movers: tuple[MakeMover, ...] = ()
-    colours: Mapping[str, Colour] | None = None
-
-    def furnish(self, spec: mujoco.MjSpec) -> None:
-        """Add everything but robots to a model."""
-        for add in self.furnishings:
-            add(spec)
-
-    def movers_in(
-        self, model: mujoco.MjModel, data: mujoco.MjData
-    ) -> list[Mover]:
-        """Return the functions of the time [s] that move bodies of a world."""
-        return [make(model, data) for make in self.make_movers]
-
-
-def scenery_of(
-    settings: GameSettings, *, templates: Collection[str] = ()
-) -> Scenery:
-    """Return obstacles, people, templates and cameras of a game.
+def furnish_game(
+    spec: mujoco.MjSpec,
+    settings: GameSettings,
+    templates: Collection[str] = (),
+) -> None:
+    """Add obstacles, people, templates and cameras of a game to a model.
 
     In a duel people wear their own clothes, and cameras see walls and things.
-
-    Args:
-        settings: Settings of the game, with the initial poses filled in.
-        templates: Names of robots that are shown as templates.
+    The settings have all starts; ``templates`` are robots shown as such.
     """
-    colours = colours_in_world(settings)
-    room, furnishings, movers = settings.room, [], []
-    if room is not None:
-        furnishings.append(lambda spec: add_solids(spec, room))
-        if room.moving:
-            movers.append(partial(obstacle_mover, room=room))
+    colours, is_duel = colours_of_players(settings), settings.game == "duel"
+    if settings.room is not None:
+        add_solids(spec, settings.room)
     seeing = [
         p for p in settings.sensing_by("cameras") if p.name not in templates
     ]
-    duel = settings.game == "duel"
     if seeing:
-        furnishings.append(
-            furnisher(
-                settings.scene if duel else SceneSettings(),
-                load_head(load_robot(seeing[0].robot)),
-                walls=_wall_distance(settings) if duel else 0.0,
-                wearers=[p.name for p in seeing],
-            )
+        add_scene(
+            spec,
+            settings.scene if is_duel else SceneSettings(),
+            load_head(load_robot(seeing[0].robot)),
+            walls=_wall_distance(settings) if is_duel else 0.0,
+            wearers=[p.name for p in seeing],
         )
-
-    def furnish_players(spec: mujoco.MjSpec) -> None:
-        for player in settings.players:
-            if player.body == "person":
-                shirt = SHIRT if duel else colours[player.name]
-                solid = player.person.solid
-                add_person(spec, player.name, shirt=shirt, solid=solid)
-            elif player.body != "robot" or player.name in templates:
-                add_template(spec, player.name, colours[player.name])
-
-    return Scenery((*furnishings, furnish_players), tuple(movers), colours)
+    for player in settings.players:
+        if player.body == "person":
+            shirt = SHIRT if is_duel else colours[player.name]
+            solid = player.person.solid
+            add_person(spec, player.name, shirt=shirt, solid=solid)
+        elif player.body != "robot" or player.name in templates:
+            add_template(spec, player.name, colours[player.name])
 
 
 def _wall_distance(settings: GameSettings) -> float:

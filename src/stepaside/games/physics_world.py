@@ -1,6 +1,7 @@
 """World of a game in physics, with its players."""
 
 from collections.abc import Mapping
+from functools import partial
 from itertools import combinations
 from math import inf
 from types import MappingProxyType
@@ -24,11 +25,12 @@ from ..sim.ground_truth import GroundTruth, IdealLineOfSight, torsos_apart
 from ..sim.person_body import PersonBody
 from ..sim.physics_settings import PhysicsSettings
 from ..sim.push import pushes_by_robot
+from ..sim.room_furnishing import obstacle_mover
 from ..sim.world import World
 from ..strategies import Strategy
 from .floor_games import motion_of, strategy_of
 from .floor_world import Seen
-from .game_furnishing import scenery_of
+from .game_furnishing import colours_of_players, furnish_game
 from .game_settings import GameSettings
 from .outcome import Outcome
 from .player import FloorPlayer, MarkerBody, Player
@@ -88,17 +90,17 @@ class PhysicsWorld(World):
             if own.body == "robot" and own.name not in remote
         }
         self._senses = self._camera_senses(physics.tick)
-        scenery = scenery_of(settings)
         super().__init__(
             {name: own.description for name, own in self._setups.items()},
             physics,
             settings.body,
             settings.seed,
-            scenery.furnish,
+            partial(furnish_game, settings=settings),
             rendered=rendered or self._senses is not None,
-            colours=scenery.colours,
+            colours=colours_of_players(settings),
         )
-        for move in scenery.movers_in(self.model, self.data):
+        if settings.room is not None and settings.room.moving:
+            move = obstacle_mover(self.model, self.data, settings.room)
             move(0.0)
             self.before_step.append(move)
         self._states = {

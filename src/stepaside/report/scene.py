@@ -5,10 +5,10 @@ from functools import partial
 import mujoco
 import numpy as np
 
-from ..arena import Room
+from ..arena import OPEN_FLOOR, Room
 from ..core.errors import ConfigurationError
 from ..core.poses import Array, Pose
-from ..games.game_furnishing import Scenery, scenery_of
+from ..games.game_furnishing import colours_of_players, furnish_game
 from ..games.game_settings import GameSettings
 from ..games.run import Run
 from ..robots.description import load_robot
@@ -19,7 +19,7 @@ from ..sim.person_body import (
     set_person_pose,
 )
 from ..sim.physics_settings import PhysicsSettings
-from ..sim.room_furnishing import hide_walls
+from ..sim.room_furnishing import hide_walls, obstacle_mover
 from ..sim.world import build_model
 
 
@@ -47,17 +47,24 @@ class RunScene:
         physics, seed = PhysicsSettings(), 0
         if run.game not in ("play", "experiment"):
             physics, seed = run.settings.physics, run.settings.seed
-        scenery = self._scenery_of(run)
+        furnish = self._add_templates
+        if isinstance(run.settings, GameSettings):
+            furnish = partial(
+                furnish_game,
+                settings=run.settings,
+                templates=self._templates,
+            )
         self.model = build_model(
             {name: load_robot(robot) for name, robot in names.items()},
             physics,
             seed=seed,
-            furnish=scenery.furnish,
-            colours=scenery.colours,
+            furnish=furnish,
+            colours=colours_of_players(run.settings),
         )
         hide_walls(self.model)
         self.data = mujoco.MjData(self.model)
-        self._movers = scenery.movers_in(self.model, self.data)
+        room = run.plan or OPEN_FLOOR
+        self._move_obstacles = obstacle_mover(self.model, self.data, room)
         self._persons = {
             name: mocap_indices(self.model, name) for name in persons
         }
@@ -67,13 +74,9 @@ class RunScene:
         }
         self._qpos = self._joint_angles_of(run, names)
 
-    def _scenery_of(self, run: Run) -> Scenery:
-        """Return everything but robots."""
-        if isinstance(run.settings, GameSettings):
-            return scenery_of(run.settings, templates=self._templates)
-        return Scenery(
-            tuple(partial(add_template, name=name) for name in self._templates)
-        )
+    def _add_templates(self, spec: mujoco.MjSpec) -> None:
+        for name in self._templates:
+            add_template(spec, name)
 
     def _joint_angles_of(self, run: Run, names: dict[str, str]) -> Array:
         """Return qpos of all robots at all samples. Shape (n, nq)."""
@@ -93,8 +96,7 @@ class RunScene:
     def put(self, index: int) -> None:
         """Pose all bodies as at a sample of the run."""
         self.data.qpos[:] = self._qpos[index]
-        for move in self._movers:
-            move(float(self._times[index]))
+        self._move_obstacles(float(self._times[index]))
         for name, parts in self._persons.items():
             pose = Pose(*self._tracks[name].torso[index].tolist())
             walked = float(self._walked[name][index])

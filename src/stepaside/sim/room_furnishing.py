@@ -105,35 +105,31 @@ FIGURE = (
     ((0.0, 0.05, 0.14), (0.038, 0.038, 0.130)),
     ((0.0, -0.05, 0.14), (0.038, 0.038, 0.130)),
 )
-Furnish = Callable[[mujoco.MjSpec], None]
 
 
-def furnisher(
-    room: SceneSettings,
+def add_scene(
+    spec: mujoco.MjSpec,
+    scene: SceneSettings,
     head: HeadDescription,
     *,
     walls: float,
     wearers: Sequence[str] = (),
-) -> Furnish:
-    """Return the function that adds walls, objects and cameras to a world.
+) -> None:
+    """Add walls, objects and the cameras of robots to a world.
 
     Walls are at a distance [m], 0 for none. The camera is added to the heads
     of the robots that use one, where the model lacks it.
     """
-
-    def furnish(spec: mujoco.MjSpec) -> None:
-        if walls:
-            _add_walls(spec, walls)
-        for index, thing in enumerate(room.things):
-            body = spec.worldbody.add_body(
-                name=f"thing {index}", pos=[thing.x, thing.y, 0.0]
-            )
-            _add_thing(body, thing.kind)
-        for name in wearers:
-            if spec.camera(f"{name}/{head.camera}") is None:
-                _add_camera(spec, name, head)
-
-    return furnish
+    if walls:
+        _add_walls(spec, walls)
+    for index, thing in enumerate(scene.things):
+        body = spec.worldbody.add_body(
+            name=f"thing {index}", pos=[thing.x, thing.y, 0.0]
+        )
+        _add_thing(body, thing.kind)
+    for name in wearers:
+        if spec.camera(f"{name}/{head.camera}") is None:
+            _add_camera(spec, name, head)
 
 
 def _add_camera(
