@@ -25,7 +25,7 @@ SHORT = {
     "run unicycles": ["--duration=1"],
     "theory circle": ["--starts=2"],
     "theory map": ["--grid=2", "--set=distances=1", "--set=duration=1"],
-    "theory bound": ["--grid=16", "--games=0", "--set=horizon=0.05"],
+    "theory bound": ["--grid=16", "--set=horizon=0.05"],
 }
 # They compute in this process as long as the numbers say.
 COMPUTING = {name for name in SHORT if name.startswith("theory")} | {

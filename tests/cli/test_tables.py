@@ -21,8 +21,8 @@ TABLES = [
     "theory circle --speed 0.1 --gain 0.2 --starts 2",
     "theory circle --set evader_gain=0.3 --set sample_time=0.1 --starts 1",
     "theory map --grid 3 --set distances=2 --set duration=5",
-    "theory bound --grid 16 --games 10 --set horizon=0.1",
-    "theory bound --grid 16 --games 0 --set horizon=0.1 --against any",
+    "theory bound --grid 16 --set horizon=0.1",
+    "theory bound --grid 16 --set horizon=0.1 --against any",
     "theory bound --against person --evader-speed 0.6 --grid 16",
     "study tournament --set seed=0:1 --set game.duration=1 "
     "--set evader=evasion --workers 1",

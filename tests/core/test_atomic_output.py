@@ -172,7 +172,7 @@ def test_a_run_that_cannot_be_written_is_saved_in_the_temporary_folder(
 
 OUTPUTS = {  # words of commands that write a file, and its suffix
     "theory plan --role evader --bearing 40deg --figure": ".png",
-    "theory bound --grid 16 --games 0 --output": ".npz",
+    "theory bound --grid 16 --output": ".npz",
     "run room --output": ".toml",
     "robot check nao --workers 1 --figure": ".png",
     "study duels --output": ".sqlite",

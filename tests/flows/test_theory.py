@@ -178,7 +178,7 @@ def test_optimal_evasion_of_a_car_has_merzs_barrier(tmp_path: Path) -> None:
             "--capture",
             1,
         ),
-        *("--grid", 16, "--set", "refine=0", "--games", 0),
+        *("--grid", 16, "--set", "refine=0"),
         *("--set", "horizon=1.6"),
         *("--output", table),
     )

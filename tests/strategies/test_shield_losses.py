@@ -80,8 +80,8 @@ def test_required_distance_of_the_papers_walk(
     game = model.game()
     assert game.loss == pytest.approx(walk_loss(person, game.period))
     assert game.jump == pytest.approx(2.0 * person.sighting_error)
-    assert game.person.speed == person.speed
-    assert game.person.turn == person.speed / person.turning_radius
+    assert game.person_speed == person.speed
+    assert game.person_turn == person.speed / person.turning_radius
     required = walk_required(person, game.period)
     assert model.required == pytest.approx(required)
     assert model.response == pytest.approx(2.0 * STEP)

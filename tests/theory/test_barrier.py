@@ -6,7 +6,8 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from stepaside.theory.value.closed_forms import (
+from stepaside.theory.value.two_cars import (
+    POINTS,
     barrier_slice,
     left_half,
     turn_back,
@@ -14,7 +15,6 @@ from stepaside.theory.value.closed_forms import (
 
 Array = NDArray[np.float64]
 CAPTURES = (0.3, 1.0, 2.5)
-COUNT = 41
 
 
 def drive(state: Array, pursuer: float, evader: float, time: float) -> Array:
@@ -57,9 +57,9 @@ def test_optimal_play_from_the_barrier_grazes_the_capture_circle(
     capture: float, theta: float
 ) -> None:
     """Played forward, each point ends at the distance of capture."""
-    points, pieces = left_half(capture, theta, COUNT)
-    for n in range(0, 3 * COUNT, 8):
-        share = (n % COUNT) / (COUNT - 1)
+    points, pieces = left_half(capture, theta)
+    for n in range(0, 3 * POINTS, 8):
+        share = (n % POINTS) / (POINTS - 1)
         state = np.array([*points[n], theta])
         if pieces[n] == 1:
             a = theta / 2 * (1 - share)
@@ -85,7 +85,7 @@ def test_neither_player_can_cross_the_barrier(
     step = 1e-4
     for theta in np.linspace(0.3, 5.5, 9):
         low, here, high = (
-            left_half(capture, theta + d, COUNT)[0].reshape(3, COUNT, 2)
+            left_half(capture, theta + d)[0].reshape(3, POINTS, 2)
             for d in (-step, 0.0, step)
         )
         row = here[piece - 1]

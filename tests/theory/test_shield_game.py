@@ -10,7 +10,6 @@ import pytest
 from stepaside.core.errors import PlanError
 from stepaside.core.poses import Array
 from stepaside.theory.value import (
-    PersonModel,
     PoseGrid,
     ShieldGame,
     ShieldTable,
@@ -18,7 +17,7 @@ from stepaside.theory.value import (
     solve_shield,
     sub_poses,
 )
-from stepaside.theory.value.closed_forms import guaranteed_distance
+from stepaside.theory.value.chauffeur import guaranteed_distance
 
 SPEED = 0.6  # of the robot, by that of the person
 PERIOD = 0.25  # in turning radii per speed of the person
@@ -30,7 +29,7 @@ def omnidirectional(loss: float = 0.0, speed: float = SPEED) -> ShieldGame:
     angles = tau / 16 * np.arange(16)
     twists = [(speed * np.cos(a), speed * np.sin(a), 0.0) for a in angles]
     motions = sub_poses([*twists, (0.0, 0.0, 0.0)], PERIOD)
-    return ShieldGame(PersonModel(1.0, 1.0), motions, PERIOD, loss)
+    return ShieldGame(1.0, 1.0, motions, PERIOD, loss)
 
 
 @cache
@@ -100,7 +99,7 @@ def lossy() -> ShieldTable:
     angles = tau / 8 * np.arange(8)
     twists = [(1.6 * np.cos(a), 1.6 * np.sin(a), 0.0) for a in angles]
     motions = sub_poses(twists, PERIOD)
-    game = ShieldGame(PersonModel(1.0, 4.0), motions, PERIOD, 0.05, 0.04)
+    game = ShieldGame(1.0, 4.0, motions, PERIOD, 0.05, 0.04)
     return solve_shield(
         game, 0.3, cells=4, headings=12, response=0.2, wait=0.05
     )
@@ -198,9 +197,9 @@ def test_a_value_pays_for_the_losses_of_every_decision() -> None:
 
 def test_a_start_pays_for_every_place_within_its_loss() -> None:
     """A cliff of the values is charged five cells before it, not six."""
-    still, motion = PersonModel(1e-6, 1.0), sub_poses([(0.0, 0.0, 0.0)], 1.0)
-    game = ShieldGame(still, motion, 1.0, loss=0.5)
-    grid = PoseGrid(5.0, 0.1, (41, 11, 8))
+    motion = sub_poses([(0.0, 0.0, 0.0)], 1.0)
+    game = ShieldGame(1e-6, 1.0, motion, 1.0, loss=0.5)
+    grid = PoseGrid(5.0, 0.1, 41, 11, 8)
     values = np.ones(grid.shape)
     values[20:] = 0.0  # from x = 7 m on
     starts = np.zeros((0, *grid.whole().shape))
@@ -209,7 +208,7 @@ def test_a_start_pays_for_every_place_within_its_loss() -> None:
         walking,
         values=values,
         after=values,
-        rules=walking.rules._replace(outside=1.0),
+        grid=grid._replace(outside=1.0),
     )
     table = ShieldTable(game, walking, values, starts, 1.0, 0.0)
     for x, least in ((6.4, 1.0), (6.5, 0.0), (6.9, 0.0)):
@@ -223,10 +222,3 @@ def test_required_distance_that_is_not_positive_is_refused(
 ) -> None:
     with pytest.raises(PlanError, match="least must be finite and > 0"):
         solve_shield(omnidirectional(), least)
-
-
-@pytest.mark.parametrize("name", ["speed", "turning_radius"])
-def test_invalid_person_is_refused(name: str) -> None:
-    values = {"speed": 1.0, "turning_radius": 1.0} | {name: 0.0}
-    with pytest.raises(ValueError, match=name):
-        PersonModel(**values)

@@ -7,7 +7,7 @@ states as the optimal one::
 """
 
 from itertools import pairwise
-from math import pi
+from math import pi, tau
 from typing import Any
 
 import numpy as np
@@ -15,74 +15,77 @@ from benchmark_options import ask, machine
 from numpy.typing import NDArray
 from result_files import header, write_result
 
-from stepaside.core.poses import wrap_angles
+from stepaside.core.poses import arc, rotate
+from stepaside.theory.unicycle import make_game, play_games
 from stepaside.theory.value import (
     CarGame,
     ValueTable,
     solve_cars,
 )
-from stepaside.theory.value.checks import (
-    Evader,
-    barrier_offsets,
-    compare_evaders,
-    differences,
-    driven,
-    fixed_angle_evader,
-)
-from stepaside.theory.value.closed_forms import barrier_poses
-from stepaside.theory.value.two_cars import car_poses
+from stepaside.theory.value.two_cars import barrier_poses, car_poses
 
 Array = NDArray[np.float64]
 LAW = CarGame(1.0, 1.0, pursuer_gain=1.0)
 CARS = CarGame(1.0, 1.0, pursuer_turn=1.0)
 GAMES = 4000
+DURATION = tau
+PARTS = 8  # of a decision of the optimal evader, in which the law decides
 # distance range [v/k], maximum bearings of evader and pursuer
 BOXES = {
     "all starts from 0.3 to 3 v/k": (0.3, 3.0, pi, pi),
     "starts of a duel": (1.2, 3.0, pi / 2, pi / 6),
 }
-ANGLES = {
-    "move back": 0.0,
-    "22.5°": pi / 8,
-    "45°": pi / 4,
-    "move aside": pi / 2,
+EVADERS = {
+    "move back": (0.0, "proportional"),
+    "22.5°": (pi / 8, "proportional"),
+    "45°": (pi / 4, "proportional"),
+    "move aside": (pi / 2, "proportional"),
+    "saturated": (pi / 2, "saturated"),
 }
 
 
-def saturated(poses: Array) -> Array:
-    """Return the evader of eq. (6) with a gain of one."""
-    sight = np.arctan2(poses[:, 1], poses[:, 0])
-    psi = wrap_angles(sight - poses[:, 2])
-    side = np.where(psi < 0.0, 1.0, -1.0)
-    return driven(LAW, np.sign(psi + side * pi / 2))
-
-
 def starts_in(box: tuple[float, float, float, float]) -> Array:
-    """Draw random initial poses from a box of (r, a, psi). Shape (n, 3)."""
+    """Draw random initial r, a, psi from a box. Shape (n, 3)."""
     rng = np.random.default_rng(13)
     near, far, aim, facing = box
     low, high = [near, -aim, -facing], [far, aim, facing]
-    return car_poses(*rng.uniform(low, high, (GAMES, 3)).T)
+    return rng.uniform(low, high, (GAMES, 3))
+
+
+def play_optimal(table: ValueTable, poses: Array) -> Array:
+    """Return closest approaches of the evader of a table."""
+    step = LAW.period(table.grid.spacing) / PARTS
+    least: Array = np.hypot(poses[:, 0], poses[:, 1])
+    for n in range(round(DURATION / step)):
+        if n % PARTS == 0:
+            chosen = LAW.evader_twists[table.best_motion(poses)]
+        aim = np.arctan2(poses[:, 1], poses[:, 0]) * (1.0 - np.exp(-step))
+        own, other = arc(*(step * chosen.T)), arc(step, 0.0 * aim, aim)
+        x, y = rotate(own[:, 0], own[:, 1], poses[:, 2])
+        x, y = poses[:, 0] + x - other[:, 0], poses[:, 1] + y - other[:, 1]
+        turned = poses[:, 2] + own[:, 2] - aim
+        poses = np.column_stack([*rotate(x, y, -aim), turned])
+        least = np.minimum(least, np.hypot(x, y))
+    return least
 
 
 def compare(table: ValueTable, starts: Array) -> list[dict[str, Any]]:
     """Return the mean closest approach of every evader and of the table."""
-    evaders: dict[str, Evader | None] = {"optimal": None}
-    evaders |= {
-        name: fixed_angle_evader(LAW, angle) for name, angle in ANGLES.items()
-    }
-    evaders["saturated"] = saturated
-    rows = compare_evaders(LAW, table, evaders, starts)
+    poses = car_poses(*starts.T)
+    played = {"optimal": play_optimal(table, poses)}
+    for name, (angle, law) in EVADERS.items():
+        game = make_game(1.0, 1.0, 1.0, 1.0, angle, law)
+        played[name] = play_games(game, starts, DURATION).closest_distance
+    bound, best = table.value(poses), played["optimal"].mean()
     return [
         {
-            "evader": row["name"],
-            "closest": row["closest"],
-            "over_bound": row["over_bound"],
-            "best_over_this": rows[0]["closest"] / row["closest"],
-            "most_above": row["above"],
-            "most_off": row["most"],
+            "evader": name,
+            "closest": float(closest.mean()),
+            "over_bound": float(closest.mean() / bound.mean()),
+            "best_over_this": float(best / closest.mean()),
+            "most_above": float(max((closest - bound).max(), 0.0)),
         }
-        for row in rows
+        for name, closest in played.items()
     ]
 
 
@@ -91,8 +94,8 @@ def solved(game: CarGame, far: float, cells: int) -> tuple[ValueTable, Any]:
     tables = [solve_cars(game, far, cells // n) for n in (4, 2, 1)]
     rows = []
     for coarse, fine in pairwise(tables):
-        off = differences(coarse, fine)
-        count = coarse.grid.shape[1] - 1
+        off = fine.differences(coarse)
+        count = coarse.grid.rows - 1
         rows.append(
             {
                 "cells": count,
@@ -127,7 +130,7 @@ def main() -> None:
     for capture in (0.5, 1.0, 2.0, 3.0):
         poses, _ = barrier_poses(capture)
         off = np.abs(cars.value(poses) - capture)
-        apart = np.abs(barrier_offsets(cars, poses, capture))
+        apart = np.abs(cars.offsets(poses, capture))
         barrier.append(
             {
                 "capture": capture,

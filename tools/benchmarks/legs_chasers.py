@@ -32,7 +32,7 @@ from stepaside.sim.camera_settings import (
     CameraSettings,
 )
 from stepaside.sim.person_settings import PersonSettings
-from stepaside.theory.value.closed_forms import guaranteed_distance
+from stepaside.theory.value.chauffeur import guaranteed_distance
 
 RADII = (2.5, 4.0, 8.0)  # of the turns of people, in [m]
 DIRECTIONS = 12

@@ -16,18 +16,17 @@ from ..core.ranges import Range, positive
 from ..core.setting import CheckedSettings, setting
 from .options import figure_option, json_option, output_file
 from .settings import refuse_settings, takes_settings
-from .tables import plain, print_rows, print_table, result_rows
+from .tables import plain, print_table, result_rows
 from .terminal import echo, print_json
 
 if TYPE_CHECKING:
     from ..theory.value import CarGame, ChauffeurGame, ValueTable
 
 AGAINST = ("pursuit", "any", "person")
-OF_CARS = ("pursuer_gain", "evader_turn", "horizon", "games")
-IN_METERS = ("closest", "mean_error", "most", "below", "above")
+OF_CARS = ("pursuer_gain", "evader_turn", "horizon")
 NAMED = (
     *("against", "pursuer_speed", "evader_speed", "pursuer_gain"),
-    *("capture", "grid", "games"),
+    *("capture", "grid"),
 )
 RADIUS = 2.5  # of a person's turns by default, in [m]
 CONTACT = 0.55  # sum of the half widths of a robot and a person, in [m]
@@ -70,20 +69,6 @@ class BoundSettings(CheckedSettings):
         default_text="2.5",
         needs=("against", "person"),
     )
-    evader_forward: float | None = setting(
-        None,
-        "Speed of the evader towards the person",
-        positive("m/s", None),
-        default_text="evader_speed",
-        needs=("against", "person"),
-    )
-    evader_sideways: float | None = setting(
-        None,
-        "Speed of the evader across the line of sight",
-        positive("m/s", None),
-        default_text="evader_speed",
-        needs=("against", "person"),
-    )
     capture: float | None = setting(
         None,
         "Capture distance of the barrier in the output",
@@ -113,11 +98,6 @@ class BoundSettings(CheckedSettings):
         positive("s", None),
         default_text="until nothing changes",
     )
-    games: int = setting(
-        1000,
-        "Number of random games simulated to check the table",
-        Range(0, 1_000_000, "1", "more take hours", whole=True),
-    )
 
     def cars(self) -> "CarGame":
         """Return the game against a pursuer that steers like a car."""
@@ -131,17 +111,12 @@ class BoundSettings(CheckedSettings):
 
     def chauffeur(self) -> "ChauffeurGame":
         """Return the game of a person and an evader of any direction."""
-        from ..theory.value import ChauffeurGame, SpeedEllipse
+        from ..theory.value import ChauffeurGame
 
-        speed = self.evader_speed
         return ChauffeurGame(
             self.pursuer_speed,
+            self.evader_speed,
             self.person_turning_radius or RADIUS,
-            SpeedEllipse(
-                self.evader_forward or speed,
-                speed,
-                self.evader_sideways or speed,
-            ),
         )
 
 
@@ -178,10 +153,6 @@ def bound(
     print_table(result_rows(plain(shown)))
     if result.get("avoidable") is False:
         echo("  no start is safe: the person can always make contact")
-    played = result.get("played")
-    if played:
-        echo()
-        print_rows(played, tuple(played[0]), left=(0,))
 
 
 def _bound_cars(
@@ -193,13 +164,6 @@ def _bound_cars(
 ) -> dict[str, Any]:
     """Solve the game of cars, with its figure; return its values."""
     from ..theory.value import solve_cars
-    from ..theory.value.checks import (
-        compare_evaders,
-        differences,
-        draw_starts,
-        reference_evaders,
-    )
-    from ..theory.value.two_cars import barrier
 
     game, capture, far = settings.cars(), settings.capture, settings.farthest
     if capture is None:
@@ -215,27 +179,18 @@ def _bound_cars(
     solve = partial(solve_cars, game, far, horizon=settings.horizon)
     tables = list(_solve(settings, 3, solve, quiet=quiet).values())
     table = tables[-1]
-    reach = barrier(table, capture)
     result: dict[str, Any] = {
         "game": game,
         "grid": table.grid,
         "seconds_s": table.seconds,
         "falling_m": table.change,
         "capture_m": capture,
-        "barrier_reach_m": float(reach.max()),
-        "barrier_mean_m": float(reach.mean()),
+        "barrier_reach_m": table.reach(capture),
     }
     if game.identical:
         result["closed_form"] = _closed_form(game, table, capture)
     for coarse, fine in list(pairwise(tables))[-1:]:
-        result |= _spread("grid_error", differences(coarse, fine))
-    if settings.games:
-        starts = draw_starts(0.5 * capture, 0.75 * far, settings.games)
-        rows = compare_evaders(game, table, reference_evaders(game), starts)
-        result["played"] = [
-            {f"{k}_m" if k in IN_METERS else k: v for k, v in row.items()}
-            for row in rows
-        ]
+        result |= _spread("grid_error", fine.differences(coarse))
     if output is not None:
         table.save(output)
     if figure is not None:
@@ -290,14 +245,13 @@ def _closed_form(
     """Compare the table with the closed-form barrier."""
     import numpy as np
 
-    from ..theory.value.checks import barrier_offsets
-    from ..theory.value.closed_forms import barrier_poses
+    from ..theory.value.two_cars import barrier_poses
 
     poses, _ = barrier_poses(capture / game.unit)
     poses = poses * [game.unit, game.unit, 1.0]
     poses = poses[np.hypot(poses[:, 0], poses[:, 1]) <= table.grid.edge]
     values = np.abs(table.value(poses) - capture)
-    apart = np.abs(barrier_offsets(table, poses, capture))
+    apart = np.abs(table.offsets(poses, capture))
     return {
         "points": len(values),
         **_spread("value_error", values),
@@ -314,7 +268,7 @@ def _bound_person(
     game, capture = settings.chauffeur(), settings.capture or CONTACT
     solve = partial(solve_chauffeur, game, farthest=settings.farthest)
     tables = list(_solve(settings, 2, solve, quiet=quiet).values())
-    table, found = tables[-1], tables[-1].rules.outside
+    table, found = tables[-1], tables[-1].grid.outside
     result: dict[str, Any] = {
         "game": game,
         "period_s": game.period,
@@ -323,11 +277,11 @@ def _bound_person(
         "closed_form_m": game.guaranteed_distance,
         "capture_m": capture,
         "avoidable": capture < found,
-        "barrier_reach_m": _reach(table, capture),
+        "barrier_reach_m": table.reach(capture) if capture < found else None,
         **_barrier_error(game, table, capture),
     }
     if tables[:-1]:
-        result["grid_error_m"] = abs(found - tables[-2].rules.outside)
+        result["grid_error_m"] = abs(found - tables[-2].grid.outside)
     if figure is not None:
         from ..report.value_figures import draw_chauffeur
 
@@ -342,26 +296,12 @@ def _barrier_error(
     import numpy as np
 
     from ..theory.value.chauffeur import barrier_of
-    from ..theory.value.checks import barrier_offsets
 
-    if not capture < table.rules.outside:
+    if not capture < table.grid.outside:
         return {}
     try:
         poses = barrier_of(game, capture)
     except PlanError:
         return {}
-    off = np.abs(barrier_offsets(table, poses, capture))
+    off = np.abs(table.offsets(poses, capture))
     return _spread("barrier_error", off)
-
-
-def _reach(table: "ValueTable", capture: float) -> float | None:
-    """Return the distance up to which contact threatens, in [m].
-
-    None if it threatens from everywhere.
-    """
-    if capture >= table.rules.outside:
-        return None
-    import numpy as np
-
-    far = table.grid.distances(np.inf)
-    return float(far[table.values < capture].max(initial=capture))

@@ -9,8 +9,8 @@ from matplotlib.lines import Line2D
 from ..core.errors import AnyPath
 from ..core.poses import Array
 from ..theory.value import CarGame, ChauffeurGame, ValueTable
-from ..theory.value.closed_forms import barrier_slice, guaranteed_distance
-from ..theory.value.two_cars import barrier
+from ..theory.value.chauffeur import guaranteed_distance
+from ..theory.value.two_cars import barrier_slice
 from .figure_style import EVADER, PURSUER, THEORY, legend_below, panels, save
 from .overlays import ring
 
@@ -30,7 +30,7 @@ def draw_bound(
     at (x, y), and an arrow shows its direction of motion. The barrier is
     that of a capture distance, in [m].
     """
-    far = min(table.grid.edge, 1.4 * float(barrier(table, capture).max()))
+    far = min(table.grid.edge, 1.4 * table.reach(capture))
     side = np.linspace(-far, far, POINTS)
     figure, axes = panels(
         ["abcd"], 12.6, [2.3], legend=3, gaps=(0.35, 0.8), sharey=True
@@ -106,7 +106,7 @@ def draw_chauffeur(
     figure, axes = panels(["ab"], 9.6, [3.2], legend=1, gaps=(1.4, 0.8))
     _draw_map(axes["a"], table, capture)
     _draw_agility(axes["b"], game.pursuer_speed, capture)
-    own = game.velocities.smallest, game.turning_radius
+    own = game.evader_speed, game.turning_radius
     axes["b"].plot(*own, "o", c=EVADER)
     further = {
         "contact can be forced": Line2D([], [], color="w", lw=2.0),

@@ -15,7 +15,6 @@ import numpy as np
 from ..core.poses import Array, Pose, rotate, wrap_angle
 from ..planning import Direction
 from ..theory.value import (
-    PersonModel,
     ShieldGame,
     ShieldTable,
     solve_shield,
@@ -126,7 +125,8 @@ class ShieldModel(NamedTuple):
             straight = sub_poses(choices * [1.0, 1.0, 0.0], self.period)
             motions[:, :, :2] = straight[:, :, :2]
         return ShieldGame(
-            PersonModel(settings.speed, settings.turning_radius),
+            settings.speed,
+            settings.turning_radius,
             motions,
             self.period,
             loss=self.displacement,
@@ -197,8 +197,8 @@ def _table(model: ShieldModel) -> ShieldTable:
     """Load or solve the table of a model; warn if it certifies nothing."""
     game, person = model.game(), model.settings
     key = (
-        CELLS, game.person, game.period, game.loss, game.jump,
-        model.required, model.response, game.motions.tobytes(),
+        CELLS, person.speed, person.turning_radius, game.period, game.loss,
+        game.jump, model.required, model.response, game.motions.tobytes(),
     )  # fmt: skip
     arrays = cached(
         "shield",

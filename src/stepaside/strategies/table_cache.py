@@ -17,7 +17,7 @@ if TYPE_CHECKING:  # the solver imports Numba
     from ..theory.value import ValueTable
 
 FAR = 4.5  # of the game against eqs. (1)-(2), in v/k
-FORMAT = 7  # of the files
+FORMAT = 8  # of the files
 UNREADABLE = (OSError, ValueError, KeyError, EOFError, BadZipFile)
 
 

@@ -1,21 +1,16 @@
-from .chauffeur import ChauffeurGame, SpeedEllipse, solve_chauffeur
-from .pose_grid import PoseGrid, sub_poses
-from .shield_game import PersonModel, ShieldGame
-from .shield_solver import solve_shield
-from .shield_table import ShieldTable
-from .solver import PursuerLaw, solve_game
-from .table import ValueTable, load_table
+from .chauffeur import ChauffeurGame, solve_chauffeur
+from .outcomes import PoseGrid
+from .shield_game import ShieldGame, ShieldTable, solve_shield
+from .table import PursuerLaw, ValueTable, load_table, solve_game, sub_poses
 from .two_cars import CarGame, solve_cars
 
 __all__ = [
     "CarGame",
     "ChauffeurGame",
-    "PersonModel",
     "PoseGrid",
     "PursuerLaw",
     "ShieldGame",
     "ShieldTable",
-    "SpeedEllipse",
     "ValueTable",
     "load_table",
     "solve_cars",

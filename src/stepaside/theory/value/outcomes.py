@@ -1,7 +1,9 @@
-"""Outcome of motions against answers, in compiled loops."""
+"""Grid of poses, and outcomes of motions on it, in compiled loops."""
 
-from math import atan2, cos, exp, inf, pi, sin, sqrt, tau
+from math import atan2, ceil, cos, exp, inf, pi, sin, sqrt, tau
 from typing import Any, NamedTuple
+
+import numpy as np
 
 from ...core.compilation import (
     compiled,
@@ -9,30 +11,89 @@ from ...core.compilation import (
     inlined,
     parallel_range,
 )
+from ...core.poses import Array
 
 prange = parallel_range()
 
 
-class OutcomeRules(NamedTuple):
-    """How the outcome of a motion is read from the values after it.
+class PoseGrid(NamedTuple):
+    """Grid over the poses of a robot in the frame of its opponent.
 
-    Flat, since Numba takes no nested tuples into parallel loops; the grid is
-    that of :class:`.PoseGrid`. See also :func:`.solve_game`.
+    On a grid of one heading the robot faces along the line of sight, away
+    from its opponent. Also says how outcomes are read from values at its
+    nodes; flat, since Numba takes no nested tuples into parallel loops.
     """
 
     left: float  # x of the first node, in [m]
-    right: float  # y of the first node, in [m]
     spacing: float  # of positions, in [m]
     columns: int  # nodes along x
     rows: int  # nodes along y
     headings: int
-    outside: float  # value, in [m]; infinite: that of the edge plus the way
-    sag: float = 0.0
-    cubic: bool = False
+    # Y of the first node, in [m]; from 0 on the values of the other half are
+    # those of the mirror image.
+    right: float = 0.0
+    # Value outside, in [m]; infinite: that of the edge plus the way there.
+    outside: float = inf
+    sag: float = 0.0  # deviation of the distance from that of chords, in [m]
+    cubic: bool = False  # interpolates by cubics, with one heading only
+    # Answers from one that is tried to the next, a power of two; the best is
+    # then refined by halving.
     coarse: int = 1
     way: float = 0.0  # of a pursuer with a law in a part of a period, in [m]
     rate: float = 0.0  # gain of that law times that time; zero without a law
     tie: float = 0.0  # weight of the value after, where it decides nothing
+
+    @classmethod
+    def covering(
+        cls,
+        spacing: float,
+        ahead: float,
+        behind: float,
+        aside: float,
+        headings: int = 1,
+    ) -> "PoseGrid":
+        """Return the left half, with a node at the opponent.
+
+        Edges lie at distances ahead of the opponent, behind and beside it, in
+        [m].
+        """
+        back = ceil(behind / spacing)
+        columns, rows = back + ceil(ahead / spacing) + 1, ceil(aside / spacing)
+        return cls(-spacing * back, spacing, columns, rows + 1, headings)
+
+    def whole(self) -> "PoseGrid":
+        """Return the grid of both halves."""
+        right = -self.spacing * (self.rows - 1)
+        return self._replace(right=right, rows=2 * self.rows - 1)
+
+    @property
+    def shape(self) -> tuple[int, int, int]:
+        """Nodes along x, y and the heading."""
+        return self.columns, self.rows, self.headings
+
+    def axes(self) -> tuple[Array, Array, Array]:
+        """Return the coordinates of the nodes, in [m], [m] and [rad]."""
+        i, j, k = (np.arange(n, dtype=np.float64) for n in self.shape)
+        x: Array = self.left + self.spacing * i
+        y: Array = self.right + self.spacing * j
+        theta: Array = tau / self.headings * k
+        return x, y, theta
+
+    def distances(self, most: float = inf) -> Array:
+        """Return the distances of the nodes, cut off. Shape ``shape``."""
+        x, y, theta = self.axes()
+        found: Array = np.minimum(np.hypot(x[:, None], y), most)
+        return np.repeat(found[:, :, None], len(theta), axis=2)
+
+    @property
+    def edge(self) -> float:
+        """Distance of the edge to the left of the opponent, in [m]."""
+        return self.right + self.spacing * (self.rows - 1)
+
+    @property
+    def farthest(self) -> float:
+        """Distance of the farthest node, in [m]."""
+        return float(self.distances().max())
 
 
 @inlined
@@ -46,12 +107,12 @@ def cubic_of(a: float, b: float, c: float, d: float, t: float) -> float:
 
 
 @inlined
-def cubic_row(v: Any, i: int, j: int, s: float, rules: OutcomeRules) -> float:
+def cubic_row(v: Any, i: int, j: int, s: float, grid: PoseGrid) -> float:
     """Interpolate by a cubic along x, in a row that may be mirrored."""
-    if j < 0 and rules.right == 0.0:
+    if j < 0 and grid.right == 0.0:
         j = -j
-    j = min(max(j, 0), rules.rows - 1)
-    before, after = max(i - 1, 0), min(i + 2, rules.columns - 1)
+    j = min(max(j, 0), grid.rows - 1)
+    before, after = max(i - 1, 0), min(i + 2, grid.columns - 1)
     return cubic_of(
         v[before, j, 0], v[i, j, 0], v[i + 1, j, 0], v[after, j, 0], s
     )
@@ -59,14 +120,14 @@ def cubic_row(v: Any, i: int, j: int, s: float, rules: OutcomeRules) -> float:
 
 @inlined
 def cubic_cell(
-    v: Any, i: int, j: int, s: float, t: float, rules: OutcomeRules
+    v: Any, i: int, j: int, s: float, t: float, grid: PoseGrid
 ) -> float:
     """Interpolate in a cell by cubics, within the range of its corners."""
     found = cubic_of(
-        cubic_row(v, i, j - 1, s, rules),
-        cubic_row(v, i, j, s, rules),
-        cubic_row(v, i, j + 1, s, rules),
-        cubic_row(v, i, j + 2, s, rules),
+        cubic_row(v, i, j - 1, s, grid),
+        cubic_row(v, i, j, s, grid),
+        cubic_row(v, i, j + 1, s, grid),
+        cubic_row(v, i, j + 2, s, grid),
         t,
     )
     a, b, c, d = v[i, j, 0], v[i, j + 1, 0], v[i + 1, j, 0], v[i + 1, j + 1, 0]
@@ -76,26 +137,24 @@ def cubic_cell(
 
 
 @inlined
-def look_up(
-    v: Any, x: float, y: float, theta: float, rules: OutcomeRules
-) -> float:
+def look_up(v: Any, x: float, y: float, theta: float, grid: PoseGrid) -> float:
     """Interpolate between the nodes of a cell, never beyond them."""
-    if y < 0.0 and rules.right == 0.0:
+    if y < 0.0 and grid.right == 0.0:
         y, theta = -y, -theta
-    u = (x - rules.left) / rules.spacing
-    w = (y - rules.right) / rules.spacing
-    columns, rows, count = rules.columns, rules.rows, rules.headings
+    u = (x - grid.left) / grid.spacing
+    w = (y - grid.right) / grid.spacing
+    columns, rows, count = grid.columns, grid.rows, grid.headings
     beyond = 0.0
     if not (0.0 <= u < columns - 1 and 0.0 <= w < rows - 1):
-        if rules.outside != inf:
-            return rules.outside
+        if grid.outside != inf:
+            return grid.outside
         ux, wx = min(max(u, 0.0), columns - 1.0), min(max(w, 0.0), rows - 1.0)
-        beyond = rules.spacing * sqrt((u - ux) ** 2 + (w - wx) ** 2)
+        beyond = grid.spacing * sqrt((u - ux) ** 2 + (w - wx) ** 2)
         u, w = ux, wx
     i, j = min(int(u), columns - 2), min(int(w), rows - 2)
     s, t = u - i, w - j
-    if rules.cubic:
-        return cubic_cell(v, i, j, s, t, rules) + beyond
+    if grid.cubic:
+        return cubic_cell(v, i, j, s, t, grid) + beyond
     a = (theta / tau * count) % count
     k, r = int(a) % count, a - int(a)
     n = (k + 1) % count
@@ -111,11 +170,11 @@ def look_up(
 
 
 @compiled
-def look_up_all(v: Any, poses: Any, rules: OutcomeRules, out: Any) -> None:
+def look_up_all(v: Any, poses: Any, grid: PoseGrid, out: Any) -> None:
     """Interpolate at many poses. Shape (n, 3)."""
     for n in range(len(poses)):
         x, y = poses[n, 0], poses[n, 1]
-        found = look_up(v, x, y, poses[n, 2], rules)
+        found = look_up(v, x, y, poses[n, 2], grid)
         out[n] = min(found, sqrt(x * x + y * y))
 
 
@@ -131,7 +190,7 @@ def followed(
     pose: tuple[float, float, float],
     before: tuple[float, float],
     after: tuple[float, float],
-    rules: OutcomeRules,
+    grid: PoseGrid,
 ) -> tuple[float, float, float]:
     """Return the pose of a pursuer with a law after a part of a period.
 
@@ -139,15 +198,15 @@ def followed(
     changes evenly meanwhile.
     """
     x, y, theta = pose
-    closed = 1.0 - exp(-rules.rate)
+    closed = 1.0 - exp(-grid.rate)
     aim = bearing_of(before[0] - x, before[1] - y, theta)
     turn, nx, ny = aim * closed, x, y
     for _ in range(2):
-        way = rules.way * (1.0 - turn * turn / 24.0)  # chord of the arc
+        way = grid.way * (1.0 - turn * turn / 24.0)  # chord of the arc
         nx = x + way * cos(theta + 0.5 * turn)
         ny = y + way * sin(theta + 0.5 * turn)
         swing = bearing_of(after[0] - nx, after[1] - ny, theta + aim)
-        turn = aim * closed + swing * (1.0 - closed / rules.rate)
+        turn = aim * closed + swing * (1.0 - closed / grid.rate)
     return nx, ny, theta + turn
 
 
@@ -157,7 +216,7 @@ def outcome_of(
     pose: tuple[float, float, float],
     motion: Any,
     answer: Any,
-    rules: OutcomeRules,
+    grid: PoseGrid,
 ) -> float:
     """Return the smaller of least distance on the way and value after it.
 
@@ -172,9 +231,9 @@ def outcome_of(
     for n in range(parts):
         nx = x + c * motion[n, 0] - s * motion[n, 1]
         ny = y + s * motion[n, 0] + c * motion[n, 1]
-        if rules.rate > 0.0:
+        if grid.rate > 0.0:
             before = (px + other[0], py + other[1])
-            other = followed(other, before, (nx, ny), rules)
+            other = followed(other, before, (nx, ny), grid)
         else:
             other = (answer[n, 0], answer[n, 1], answer[n, 2])
         nx, ny = nx - other[0], ny - other[1]
@@ -190,9 +249,9 @@ def outcome_of(
         c * px + s * py,
         c * py - s * px,
         theta + motion[parts - 1, 2] - other[2],
-        rules,
+        grid,
     )
-    found: float = min(after, sqrt(least) - rules.sag) + rules.tie * after
+    found: float = min(after, sqrt(least) - grid.sag) + grid.tie * after
     return found
 
 
@@ -204,7 +263,7 @@ def worst_answer(
     answers: Any,
     first: int,
     floor: float,
-    rules: OutcomeRules,
+    grid: PoseGrid,
 ) -> tuple[float, int]:
     """Return the worst outcome over the answers, and its number.
 
@@ -212,19 +271,19 @@ def worst_answer(
     ``first`` is tried first.
     """
     worst, at = inf, first
-    for m in range(-1, (len(answers) - 1) // rules.coarse + 1):
-        number = first if m < 0 else m * rules.coarse
-        found = outcome_of(v, pose, motion, answers[number], rules)
+    for m in range(-1, (len(answers) - 1) // grid.coarse + 1):
+        number = first if m < 0 else m * grid.coarse
+        found = outcome_of(v, pose, motion, answers[number], grid)
         if found < worst:
             worst, at = found, number
         if worst <= floor:
             return worst, at
-    step = rules.coarse // 2
+    step = grid.coarse // 2
     while step > 0:
         middle = at
         for side in (-step, step):
             number = min(max(middle + side, 0), len(answers) - 1)
-            found = outcome_of(v, pose, motion, answers[number], rules)
+            found = outcome_of(v, pose, motion, answers[number], grid)
             if found < worst:
                 worst, at = found, number
                 if worst <= floor:
@@ -241,7 +300,7 @@ def best_motion(
     answers: Any,
     guess: tuple[int, int],
     enough: float,
-    rules: OutcomeRules,
+    grid: PoseGrid,
 ) -> tuple[float, int, int]:
     """Return the best outcome over the motions, its number and answer's.
 
@@ -252,7 +311,7 @@ def best_motion(
     for n in range(-1, len(motions)):
         number = guess[0] if n < 0 else n
         found, answer = worst_answer(
-            v, pose, motions[number], answers, answer, best, rules
+            v, pose, motions[number], answers, answer, best, grid
         )
         if found > best:
             best, chosen, worst = found, number, answer
@@ -269,7 +328,7 @@ def relax(
     active: Any,
     motions: Any,
     answers: Any,
-    rules: OutcomeRules,
+    grid: PoseGrid,
     changes: Any,
 ) -> None:
     """Lower the values ``v`` of a period's begin to those ``after`` its end.
@@ -278,19 +337,19 @@ def relax(
     their greatest ``changes`` are written. The ``guesses``, best motion and
     worst answer of the last sweep, are replaced. Shape (*grid.shape, 2).
     """
-    for i in prange(rules.columns):
-        x = rules.left + rules.spacing * i
-        for j in range(rules.rows):
-            y = rules.right + rules.spacing * j
+    for i in prange(grid.columns):
+        x = grid.left + grid.spacing * i
+        for j in range(grid.rows):
+            y = grid.right + grid.spacing * j
             changes[i, j] = 0.0
-            for k in range(rules.headings if active[i, j] else 0):
-                theta = tau / rules.headings * k
-                if rules.headings == 1:
+            for k in range(grid.headings if active[i, j] else 0):
+                theta = tau / grid.headings * k
+                if grid.headings == 1:
                     theta = atan2(y, x)
                 guess = guesses[i, j, k, 0], guesses[i, j, k, 1]
                 now = v[i, j, k]
                 best, chosen, answer = best_motion(
-                    after, (x, y, theta), motions, answers, guess, now, rules
+                    after, (x, y, theta), motions, answers, guess, now, grid
                 )
                 guesses[i, j, k, 0], guesses[i, j, k, 1] = chosen, answer
                 lower = max(best, 0.0)
@@ -305,16 +364,16 @@ def choose_all(
     poses: Any,
     motions: Any,
     answers: Any,
-    rules: OutcomeRules,
+    grid: PoseGrid,
     out: Any,
 ) -> None:
     """Write the numbers of best motions and answers. Shape (n, 2)."""
     for n in range(len(poses)):
         x, y, theta = poses[n, 0], poses[n, 1], poses[n, 2]
-        if rules.headings == 1:
+        if grid.headings == 1:
             theta = atan2(y, x)
         _, out[n, 0], out[n, 1] = best_motion(
-            v, (x, y, theta), motions, answers, (0, 0), inf, rules
+            v, (x, y, theta), motions, answers, (0, 0), inf, grid
         )
 
 
@@ -324,7 +383,7 @@ def evaluate_motions(
     poses: Any,
     motions: Any,
     answers: Any,
-    rules: OutcomeRules,
+    grid: PoseGrid,
     out: Any,
 ) -> None:
     """Lower ``out`` to the worst outcome of each motion from all poses."""
@@ -332,6 +391,6 @@ def evaluate_motions(
         pose = (poses[n, 0], poses[n, 1], poses[n, 2])
         for k in range(len(motions)):
             found, _ = worst_answer(
-                v, pose, motions[k], answers, 0, -1.0, rules
+                v, pose, motions[k], answers, 0, -1.0, grid
             )
             out[k] = min(out[k], found)
