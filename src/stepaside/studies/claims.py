@@ -2,7 +2,7 @@
 
 import tomllib
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import asdict, dataclass
 from functools import cache, partial
 from math import isfinite, nan
 from pathlib import Path
@@ -56,7 +56,7 @@ class Claim:
     tolerance: float = 0.0  # zero for an inequality
     # "=", "<" or ">": how measured values must compare with the expected one
     relation: str = "="
-    printed: str | None = None  # the printed text, where it differs
+    as_printed: str | None = None  # the printed text, where it differs
 
     def holds(self, values: Sequence[float]) -> bool:
         """Return whether the runs confirm the claim.
@@ -84,20 +84,13 @@ class Claim:
         spread = float(np.std(values, ddof=1)) if len(finite) > 1 else 0.0
         return {
             "name": name,
-            "claim": self.claim,
-            "section": self.section,
-            "level": self.level,
-            "expected": self.expected,
-            "relation": self.relation,
-            "tolerance": self.tolerance,
-            "unit": self.unit,
+            **asdict(self),
             "measured": float(np.mean(values)) if whole else None,
             "spread": spread if whole else None,
             "least": min(finite, default=None),
             "greatest": max(finite, default=None),
             "runs": len(values),
             "verdict": "holds" if self.holds(values) else "fails",
-            "as_printed": self.printed,
         }
 
 

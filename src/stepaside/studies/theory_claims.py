@@ -7,7 +7,7 @@ from time import process_time
 
 import numpy as np
 
-from ..core.poses import Array, wrap_angle, wrap_angles
+from ..core.poses import Array, rotate, wrap_angle, wrap_angles
 from ..games.strategy_games import play_unicycles
 from ..games.unicycle_settings import PAPER
 from ..planning import (
@@ -182,50 +182,36 @@ def read_path() -> dict[str, float]:
 
 
 def _footstep_offsets(bearing: float, direction: Direction) -> Array:
-    """Return the footsteps of a plan relative to its path. (COUNT, 3).
+    """Return the footsteps of a plan relative to its path. (3, COUNT).
 
     Arc length up to the nearest point in [m], lateral offset from it in [m],
     positive to the left, and heading less that of the tangent in [rad].
     """
-    path = _path_of(bearing, direction)
-    times = np.linspace(0.0, (COUNT + 4) * GAIT.path_interval, 4001)
-    chords = np.diff(path.poses(times)[:, :2], axis=0)
-    lengths = np.concatenate([[0.0], np.hypot(*chords.T).cumsum()])
+    times = np.linspace(0.0, (COUNT + 4) * GAIT.path_interval, 200_001)
+    places = _path_of(bearing, direction).poses(times)[:, :2]
+    lengths = np.hypot(*np.diff(places, axis=0, prepend=places[:1]).T).cumsum()
+    steps = _plan_of(bearing, direction).placements[2:]
     # The path begins midway between the feet, in the frame of the right one.
-    origin = np.array([0.0, 0.5 * GAIT.foot_spacing])
-    offsets = []
-    for x, y, theta in _plan_of(bearing, direction).placements[2:].tolist():
-        position = np.array([x, y]) - origin
-        time, h = _nearest(path, times, position), 1e-5
-        after, before = path.poses([time + h, time - h])[:, :2]
-        tangent = direction.value * (after - before)
-        tangent /= max(float(np.hypot(*tangent)), 1e-12)
-        aside = position - path.poses([time])[0, :2]
-        heading = float(np.arctan2(tangent[1], tangent[0]))
-        offsets.append(
-            (
-                np.interp(time, times, lengths),
-                tangent[0] * aside[1] - tangent[1] * aside[0],
-                wrap_angle(theta - heading),
-            )
-        )
-    return np.array(offsets, dtype=np.float64)
-
-
-def _nearest(path: UnicycleTrajectory, times: Array, point: Array) -> float:
-    """Return the time at which a path is nearest to a point, in [s]."""
-    for _ in range(3):  # refinements between the neighbouring samples
-        differences = path.poses(times)[:, :2] - point
-        best = int((differences**2).sum(axis=1).argmin())
-        low, high = max(best - 1, 0), min(best + 1, len(times) - 1)
-        times = np.linspace(times[low], times[high], 201)
-    return float(times[100])
+    feet = steps[:, :2] - (0.0, 0.5 * GAIT.foot_spacing)
+    nearest = [((places - f) ** 2).sum(axis=1).argmin() for f in feet]
+    x, y = direction.value * np.gradient(places, axis=0)[nearest].T
+    heading = np.arctan2(y, x)
+    dx, dy = (feet - places[nearest]).T
+    dx, dy = rotate(dx, dy, -heading)
+    # The nearest point lies between two samples.
+    return np.array(
+        [
+            lengths[nearest] + direction.value * dx,
+            dy,
+            wrap_angles(steps[:, 2] - heading),
+        ]
+    )
 
 
 def read_footsteps() -> dict[str, float]:
     """Measure footsteps (Sec. III-C) to both sides and in both directions."""
     found = np.array([_footstep_offsets(*case) for case in CASES])
-    lengths, laterals, headings = np.moveaxis(found, 2, 0)
+    lengths, laterals, headings = np.moveaxis(found, 1, 0)
     strides = np.diff(lengths, axis=1, prepend=0.0)
     sides = np.where(np.arange(COUNT) % 2 == 0, 1.0, -1.0)  # left foot first
     half = 0.5 * GAIT.foot_spacing
