@@ -53,7 +53,7 @@ class Around:
         self.pose_odometry_in_map = frame
         discs = (1.0, 1.0, 0.2), (-0.4, 0.3, 0.1)
         self.solids = ObstacleSet(
-            [Disc(*put(room, (x, y)), radius) for x, y, radius in discs]
+            tuple(Disc(*put(room, (x, y)), radius) for x, y, radius in discs)
         )
 
     def note(self, measurement: RobotState, pose: Pose) -> None:

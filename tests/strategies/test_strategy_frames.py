@@ -68,7 +68,7 @@ def asked(strategy: Any, frame: Pose, solids: Any = ()) -> list[Intent]:
     """Intents in a game whose odometry lies somewhere else."""
     memory, intents = strategy.begin(), []
     own, other = Pose(0.2, -0.1, 0.4), Pose(1.3, 0.3, 2.2)
-    stands = ObstacleSet(moved(solid, frame) for solid in solids)
+    stands = ObstacleSet(tuple(moved(each, frame) for each in solids))
     for i in range(5):
         velocity = Pose(0.0, 0.0, -own.theta).compose(
             Pose(0.06 * cos(other.theta), 0.06 * sin(other.theta), 0.0)

@@ -1,7 +1,7 @@
 """Obstacles on the floor: the base class of shapes, and sets of them."""
 
 from abc import ABC, abstractmethod
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, fields
 from functools import cached_property
 from math import inf, sqrt, tau
@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ..core.compilation import compiled, inlined
+from ..core.convex import half_planes, next_corners
 from ..core.entries import read_entries
 from ..core.errors import ConfigurationError
 from ..core.poses import Array
@@ -207,33 +208,11 @@ class Obstacle(ABC):
         return self.alone.clearance(points)
 
 
+@dataclass(frozen=True)
 class ObstacleSet:
-    """Obstacles in one frame, with vectorised distance queries.
+    """Obstacles in one frame, with vectorised distance queries."""
 
-    Edges are those of all hulls: ``normals @ p <= offsets`` inside, in [m]. A
-    single point has one edge of zero length, whose half plane is empty.
-    """
-
-    def __init__(self, shapes: Iterable[Obstacle] = ()) -> None:
-        self.shapes = tuple(shapes)
-        parts = [shape.points for shape in self.shapes]
-        counts = np.array([len(points) for points in parts], dtype=np.int64)
-        ends = np.cumsum(counts)
-        self.radii: Array = np.array([x.rounding for x in self.shapes])
-        self.firsts = ends - counts
-        self.hull_of_edge = np.repeat(np.arange(len(counts)), counts)
-        self.points: Array = np.concatenate([np.zeros((0, 2)), *parts])
-        after = np.arange(1, len(self.points) + 1)
-        after[ends - 1] = self.firsts
-        self.edges: Array = self.points[after] - self.points
-        lengths = np.hypot(self.edges[:, 0], self.edges[:, 1])
-        with np.errstate(invalid="ignore"):
-            normals = self.edges[:, ::-1] * (1.0, -1.0) / lengths[:, None]
-        single = lengths == 0.0
-        self.normals: Array = np.where(single[:, None], 0.0, normals)
-        self.offsets: Array = np.where(
-            single, -inf, (self.normals * self.points).sum(axis=1)
-        )
+    shapes: tuple[Obstacle, ...] = ()
 
     def __len__(self) -> int:
         return len(self.shapes)
@@ -241,34 +220,26 @@ class ObstacleSet:
     def __iter__(self) -> Iterator[Obstacle]:
         return iter(self.shapes)
 
-    def __eq__(self, other: object) -> bool:
-        return isinstance(other, ObstacleSet) and self.shapes == other.shapes
-
-    def __hash__(self) -> int:
-        return hash(self.shapes)
-
-    def __repr__(self) -> str:
-        return f"ObstacleSet({self.shapes})"
-
     @cached_property
     def packed(self) -> PackedObstacles:
         """The obstacles as arrays for compiled loops."""
-        circles = np.zeros((len(self), 3))
-        if len(self):
-            counts = np.bincount(self.hull_of_edge)[:, None]
-            sums = np.add.reduceat(self.points, self.firsts)
-            circles[:, :2] = sums / counts
-            out = self.points - circles[self.hull_of_edge, :2]
-            reach = np.hypot(out[:, 0], out[:, 1])
-            circles[:, 2] = np.maximum.reduceat(reach, self.firsts)
-            circles[:, 2] += self.radii
-        lengths = np.hypot(self.edges[:, 0], self.edges[:, 1])
-        edges = np.column_stack(
-            [self.normals, self.offsets, self.points, lengths]
+        circles, edges, counts = np.zeros((len(self), 3)), [], [0]
+        for circle, shape in zip(circles, self.shapes, strict=True):
+            points = shape.points
+            circle[:2] = points.mean(axis=0)
+            reach = np.hypot(*(points - circle[:2]).T).max()
+            circle[2] = reach + shape.rounding
+            if len(points) > 1:
+                ways = next_corners(points) - points
+                lengths = np.hypot(ways[:, 0], ways[:, 1])
+                planes = half_planes(points)
+                edges.append(np.column_stack([*planes, points, lengths]))
+            counts.append(len(points) if len(points) > 1 else 0)
+        return PackedObstacles(
+            circles,
+            np.cumsum(counts),
+            np.concatenate([np.zeros((0, 6)), *edges]),
         )
-        sides = lengths > 0.0
-        sizes = np.bincount(self.hull_of_edge[sides], minlength=len(self))
-        return PackedObstacles(circles, np.cumsum([0, *sizes]), edges[sides])
 
     def clearances(self, points: ArrayLike) -> Array:
         """Return signed distances [m] of points from each, (n, obstacles)."""
@@ -340,14 +311,14 @@ class ObstacleSet:
         angles = np.arange(DIRECTION_COUNT) * (tau / DIRECTION_COUNT)
         even = np.stack([np.cos(angles), np.sin(angles)], axis=-1)
         # The distance from a long wall is exact only along its own normals.
-        sides = self.normals[np.isfinite(self.offsets)]
-        around = np.concatenate([even, -sides])
+        around = np.concatenate([even, -self.packed.edges[:, :2]])
         directions: Array = np.unique(np.round(around, 12), axis=0).T
         directions /= np.hypot(*directions)
-        along = self.points @ directions
-        nearest = np.minimum.reduceat(along, self.firsts)
-        nearest -= self.radii[:, None]
-        return directions, nearest
+        nearest = [
+            (shape.points @ directions).min(axis=0) - shape.rounding
+            for shape in self.shapes
+        ]
+        return directions, np.array(nearest)
 
 
 def _rows(points: ArrayLike) -> Array:
@@ -363,15 +334,14 @@ def clearance_between(one: Obstacle, other: Obstacle) -> float:
     # Disjoint convex sets are separated along the normal of an edge, or
     # between two corners, which the distances of the points of each to the
     # other one cover; so do they for discs, which have no edges.
-    a, b = one.alone, other.alone
-    overlap = max(
-        float((p.points @ q.normals.T - q.offsets).min(axis=0).max())
-        for p, q in ((a, b), (b, a))
-    )
-    if overlap <= 0.0:
-        return overlap
-    distance = a.clearance(b.points).min() - b.radii[0]
-    return float(min(distance, b.clearance(a.points).min() - a.radii[0]))
+    overlap, distance = -inf, inf
+    for a, b in ((one, other), (other, one)):
+        edges = b.alone.packed.edges
+        heights = a.points @ edges[:, :2].T - edges[:, 2]
+        apart = heights.min(axis=0).max() if len(edges) else inf
+        overlap = max(overlap, float(apart))
+        distance = min(distance, b.clearance(a.points).min() - a.rounding)
+    return overlap if overlap <= 0.0 else float(distance)
 
 
 NO_OBSTACLES = ObstacleSet()

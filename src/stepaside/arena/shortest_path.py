@@ -1,10 +1,11 @@
 """Shortest path of a disc around obstacles, by a visibility graph."""
 
 from functools import lru_cache
-from math import pi, tau
+from math import ceil, cos, pi, tau
 
 import numpy as np
 
+from ..core.convex import next_corners
 from ..core.poses import Array
 from .obstacles import ObstacleSet
 
@@ -78,20 +79,22 @@ def path_corners(solids: ObstacleSet, radius: float) -> Array:
     """Return the corners (n, 2) of paths of a disc that keep clear of all.
 
     Each corner of a solid is passed along a polygonal chain around the arc
-    from the normal of one edge to that of the next.
+    from the normal of one edge to that of the next, a disc all around.
     """
-    after = np.arctan2(solids.normals[:, 1], solids.normals[:, 0])
-    before = np.arange(len(after)) - 1
-    before[solids.firsts] = np.append(solids.firsts[1:], len(after)) - 1
-    turns = (after - after[before]) % tau
-    turns[np.isinf(solids.offsets)] = tau  # all around a disc
-    counts = np.maximum(1, np.ceil(turns / ARC - 1e-9)).astype(np.int64)
-    half = 0.5 * turns / counts
-    edge = np.repeat(np.arange(len(after)), counts)
-    number = np.arange(len(edge)) - (np.cumsum(counts) - counts)[edge]
-    angles = after[before][edge] + half[edge] * (2.0 * number + 1.0)
-    away = solids.radii[solids.hull_of_edge] + radius + MARGIN
-    out = (away / np.cos(half))[edge]
-    around = np.stack([np.cos(angles), np.sin(angles)], axis=-1)
-    corners: Array = solids.points[edge] + out[:, None] * around
+    chains = [np.zeros((0, 2))]
+    for solid in solids:
+        ways = next_corners(solid.points) - solid.points
+        normals = np.arctan2(-ways[:, 0], ways[:, 1])
+        before = np.roll(normals, 1)
+        turns = (normals - before) % tau if len(ways) > 1 else (tau,)
+        for point, start, turn in zip(
+            solid.points, before, turns, strict=True
+        ):
+            count = max(1, ceil(turn / ARC - 1e-9))
+            half = 0.5 * turn / count
+            out = (solid.rounding + radius + MARGIN) / cos(half)
+            angles = start + half * (2.0 * np.arange(count) + 1.0)
+            chain = np.stack([np.cos(angles), np.sin(angles)], axis=-1)
+            chains.append(point + out * chain)
+    corners: Array = np.concatenate(chains)
     return corners[solids.segments_keep_clear(radius, corners, corners)]

@@ -178,7 +178,7 @@ class VectorDuel(VectorEnv[Batch, Any, Any]):
         self._saturated[self._other] = strategy.saturated
         rooms, starts = given.draw_arenas()
         solids = [room.solid_set.shapes for room in rooms]
-        whole = ObstacleSet(shape for shapes in solids for shape in shapes)
+        whole = ObstacleSet(tuple(s for shapes in solids for s in shapes))
         firsts = np.cumsum([0, *map(len, solids)])
         self._rooms = RoomBatch(whole.packed, firsts)
         x, y, heading = np.moveaxis(np.array(starts, np.float64), -1, 0)
