@@ -8,12 +8,26 @@ that was started anew; :mod:`flows.test_first_steps` starts one anew.
 import os
 import resource
 import sys
-from multiprocessing import get_context
+from multiprocessing import forkserver, get_context
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
+from pytest import MonkeyPatch
+
+IMPORTS = "flows.forking_imports"
 CONTEXT = get_context("forkserver")
-CONTEXT.set_forkserver_preload(["flows.forking_imports"])
+CONTEXT.set_forkserver_preload([IMPORTS])
+
+
+def start_server() -> None:
+    """Start the process that is forked, unless it runs.
+
+    It looks for what it imports on the path of the environment alone, and
+    goes on without what it does not find.
+    """
+    with MonkeyPatch.context() as patch:
+        patch.setenv("PYTHONPATH", os.pathsep.join(filter(None, sys.path)))
+        forkserver.ensure_running()
 
 
 def run_forked(
@@ -32,6 +46,7 @@ def run_forked(
         largest_file: Size at which writing fails, in [bytes].
         timeout: In [s].
     """
+    start_server()
     with TemporaryDirectory() as kept:
         said = Path(kept) / "out", Path(kept) / "err"
         process = CONTEXT.Process(
@@ -52,6 +67,7 @@ def _run(
     environment: dict[str, str],
     largest_file: int | None,
 ) -> None:
+    assert IMPORTS in sys.modules, "the forked process imported nothing"
     from stepaside.__main__ import main
 
     os.environ.clear()

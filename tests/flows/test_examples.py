@@ -26,6 +26,9 @@ SHORT = {  # seconds of simulation, where an example takes them
     "self_play": "2 2",
     "train_evader": "open 2",
 }
+SHORTER = {  # what else takes long
+    "study_own_strategy.py": {"range(5)": "range(1, 2)", "=4)": "=1)"},
+}
 
 
 class Runner:
@@ -41,6 +44,13 @@ class Runner:
     def __call__(self, name: str, *arguments: str) -> str:
         """Return the output of an example."""
         file = str(EXAMPLES / name)
+        if name in SHORTER:
+            text = Path(file).read_text(encoding="utf-8")
+            for long, short in SHORTER[name].items():
+                assert long in text
+                text = text.replace(long, short)
+            file = name
+            Path(file).write_text(text, encoding="utf-8")
         # One hides MuJoCo from itself, one plays in processes.
         if name in ("control_alone.py", "study_own_strategy.py"):
             return check_output([sys.executable, file], text=True)
