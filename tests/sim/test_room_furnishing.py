@@ -6,8 +6,8 @@ import pytest
 
 from stepaside.robots.description import load_robot
 from stepaside.robots.head import load_head
+from stepaside.sim.camera_scene import add_scene
 from stepaside.sim.camera_settings import SceneSettings
-from stepaside.sim.room_furnishing import add_scene
 
 HEAD = load_head(load_robot("nao"))
 
@@ -19,7 +19,7 @@ def furnished(
     spec.worldbody.add_body(name="me/head", pos=[1.0, 2.0, 0.5]).add_geom(
         type=mujoco.mjtGeom.mjGEOM_SPHERE, size=[0.05, 0, 0], mass=0.6
     )
-    add_scene(spec, room, HEAD, walls=room.walls, wearers=wearers)
+    add_scene(spec, room, "nao", walls=room.walls, wearers=wearers)
     model = spec.compile()
     data = mujoco.MjData(model)
     mujoco.mj_kinematics(model, data)

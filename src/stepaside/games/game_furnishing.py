@@ -5,11 +5,9 @@ from collections.abc import Collection, Mapping
 import mujoco
 
 from ..core.player_identity import Colour, Rgb, Role, shades_of
-from ..robots.description import load_robot
-from ..robots.head import load_head
 from ..sim.camera_settings import SceneSettings
 from ..sim.person_body import SHIRT, add_person, add_template
-from ..sim.room_furnishing import add_scene, add_solids
+from ..sim.room_furnishing import add_solids
 from ..sim.world import COLOURS
 from .game_settings import GameSettings
 
@@ -54,10 +52,12 @@ def furnish_game(
         p for p in settings.sensing_by("cameras") if p.name not in templates
     ]
     if seeing:
+        from ..sim.camera_scene import add_scene
+
         add_scene(
             spec,
             settings.scene if is_duel else SceneSettings(),
-            load_head(load_robot(seeing[0].robot)),
+            seeing[0].robot,
             walls=_wall_distance(settings) if is_duel else 0.0,
             wearers=[p.name for p in seeing],
         )

@@ -2,13 +2,12 @@
 
 from collections.abc import Iterator
 from dataclasses import fields, is_dataclass
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from ..core.poses import Array, Pose
 from ..locomotion.locomotion import StepStarted
-from ..locomotion.zmp.mpc import MpcResult
 from ..perception.images import ColourImage, DepthImage
 from ..planning import Foot
 from .floor_world import PERIOD
@@ -18,6 +17,9 @@ from .player import Player
 from .robot_player import RobotPlayer
 from .summary import PlanningSummary
 from .trajectory import Trajectory
+
+if TYPE_CHECKING:
+    from ..locomotion.zmp.mpc import MpcResult
 
 
 class PlayerRecord:
@@ -154,7 +156,7 @@ class Recorder(GameObserver):
         return {name: own.track(count) for name, own in self._records.items()}
 
     @property
-    def solved(self) -> list[MpcResult]:
+    def solved(self) -> "list[MpcResult]":
         """Results of the MPC of all players that are recorded closely."""
         return [each for own in self._records.values() for each in own.solved]
 

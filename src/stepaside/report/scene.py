@@ -12,6 +12,7 @@ from ..games.game_furnishing import colours_of_players, furnish_game
 from ..games.game_settings import GameSettings
 from ..games.run import Run
 from ..robots.description import load_robot
+from ..sim.camera_scene import hide_walls
 from ..sim.person_body import (
     add_template,
     mocap_indices,
@@ -19,7 +20,7 @@ from ..sim.person_body import (
     set_person_pose,
 )
 from ..sim.physics_settings import PhysicsSettings
-from ..sim.room_furnishing import hide_walls, obstacle_mover
+from ..sim.room_furnishing import obstacle_mover
 from ..sim.world import build_model
 
 
