@@ -3,11 +3,12 @@
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from itertools import combinations
-from math import atan2, cos, dist, hypot, pi, radians, sin
+from math import atan2, cos, dist, pi, radians, sin
 
 import numpy as np
 
 from .. import arena
+from ..arena import Room
 from ..core.errors import ConfigurationError
 from ..core.poses import Pose, wrap_angle
 from ..core.random_streams import named_generator
@@ -23,7 +24,7 @@ MOST_DRAWS = 2000  # of one position, before the floor counts as full
 WALL_MARGIN = 0.3  # clearance of a start from walls and obstacles, in [m]
 SLOW_SPEED = 0.15  # up to which a person begins a duel nearby, in [m/s]
 LEAD_TIME = 5.0  # extra distance of a faster person over its speed, in [s]
-SAME = 1e-6  # tolerance within which starts are equal, in [m] and [rad]
+Spot = tuple[tuple[float, ...], float]  # place, and least distance, in [m]
 
 
 def with_starts(settings: GameSettings) -> GameSettings:
@@ -46,8 +47,14 @@ def with_starts(settings: GameSettings) -> GameSettings:
             poses[player.name] = given
     _check_apart(settings, poses)
     drawn = [p for p in settings.players if p.name not in poses]
+    near = settings.start.near
     for player in drawn:
-        x, y = _draw_position(settings, player, poses, generator)
+        keep = [
+            (at[:2], max(near, least_distance(player, settings.player(name))))
+            for name, at in poses.items()
+        ]
+        what = f"start of {player.name}"
+        x, y = _draw_place(settings, keep, generator, what)
         poses[player.name] = Pose(x, y, 0.0)
     goals = _goals_of(settings, poses)
     for player in drawn:
@@ -69,12 +76,12 @@ def with_starts(settings: GameSettings) -> GameSettings:
 
 def _with_start_of_duel(settings: GameSettings) -> GameSettings:
     """Return a duel with its start, and poses by it or by its room."""
-    plan = settings.room
-    if settings.start.distance is None and settings.evader.start:
-        raise ConfigurationError(
-            "evader: start must be omitted in a duel, whose start is start"
-        )
-    if plan is None:
+    room, start = settings.room, settings.start
+    if room is None:
+        if start.distance is None and settings.evader.start:
+            raise ConfigurationError(
+                "evader: start must be omitted in a duel, whose start is start"
+            )
         start = draw_start(settings)
         assert start.distance is not None
         assert start.pursuer_offset is not None
@@ -83,17 +90,23 @@ def _with_start_of_duel(settings: GameSettings) -> GameSettings:
             Pose(0.0, 0.0, start.pursuer_offset),
             Pose(start.distance, 0.0, pi + start.evader_offset),
         )
+        settings = replace(settings, start=start)
     else:
-        poses = plan.starts or arena.draw_initial_poses(plan, settings.seed)
-        arena.check_initial_poses(plan, poses)
-        settings = replace(settings, room=replace(plan, starts=poses))
-        start = _start_in_room(settings.start, poses)
+        for name in ("distance", "pursuer_offset", "evader_offset"):
+            if getattr(start, name) is not None:
+                raise ConfigurationError(
+                    f"start.{name} must be omitted in a room, which gives "
+                    f"the initial poses, got {getattr(start, name):g}"
+                )
+        poses = room.starts or arena.draw_initial_poses(room, settings.seed)
+        arena.check_initial_poses(room, poses)
+        settings = replace(settings, room=replace(room, starts=poses))
     own = settings.pursuer
     if own.body == "person" and own.person.backward:  # it looks away
         x, y, theta = poses[0]
         poses = Pose(x, y, theta - pi), poses[1]
     named = dict(zip(PLAYERS, poses, strict=True))
-    return _placed(replace(settings, start=start), named, {}).resolved()
+    return _placed(settings, named, {}).resolved()
 
 
 def draw_start(settings: GameSettings) -> StartSettings:
@@ -112,27 +125,6 @@ def draw_start(settings: GameSettings) -> StartSettings:
     }
     missing = {k: v for k, v in drawn.items() if getattr(start, k) is None}
     return replace(start, **missing)
-
-
-def _start_in_room(
-    given: StartSettings, poses: tuple[Pose, Pose]
-) -> StartSettings:
-    """Return the start of poses in a room; reject a different one."""
-    (x, y, pursuer), (u, v, evader) = poses
-    sight = atan2(v - y, u - x)
-    found = {
-        "distance": hypot(u - x, v - y),
-        "pursuer_offset": wrap_angle(pursuer - sight),
-        "evader_offset": wrap_angle(evader - sight - pi),
-    }
-    for name, drawn in found.items():
-        value = getattr(given, name)
-        if value is not None and not abs(value - drawn) < SAME:
-            raise ConfigurationError(
-                f"start.{name} must be omitted in a room, which gives "
-                f"the initial poses, got {value:g}"
-            )
-    return replace(given, **found)
 
 
 def _given_pose(player: PlayerSettings) -> Pose | None:
@@ -165,40 +157,21 @@ def _goals_of(
     """Return the goal of each player that has one, drawn where omitted."""
     generator = named_generator(settings.seed, "goals")
     goals = {p.name: p.goal for p in settings.players if p.goal}
-    if settings.room is not None and goals:
-        gaps = settings.room.clearance([*goals.values()])
-        for name, gap in zip(goals, gaps.tolist(), strict=True):
-            _check_free(f"goal of {name}", gap)
+    room, far = settings.room, settings.start.far
+    for name, goal in goals.items():
+        _check_free(room, goal, f"goal of {name}")
+    if room is not None and room.width and room.depth:
+        far = max(room.width, room.depth) / 3.0
     for player in settings.players:
         if player.draws_goal and player.name not in goals:
-            goals[player.name] = _draw_goal(
-                settings, player, poses[player.name], goals, generator
-            )
+            keep: list[Spot] = [
+                (place, least_distance(player, settings.player(name)))
+                for name, place in goals.items()
+            ]
+            keep.append((poses[player.name][:2], far))
+            what = f"goal of {player.name}"
+            goals[player.name] = _draw_place(settings, keep, generator, what)
     return goals
-
-
-def _draw_goal(
-    settings: GameSettings,
-    player: PlayerSettings,
-    start: Pose,
-    goals: Mapping[str, tuple[float, ...]],
-    generator: np.random.Generator,
-) -> tuple[float, float]:
-    """Return a goal away from the start and from other goals, in [m]."""
-    room, least = settings.room, settings.start.far
-    if room is not None and room.width and room.depth:
-        least = max(room.width, room.depth) / 3.0
-    keep = [
-        ((u, v), least_distance(player, settings.player(name)))
-        for name, (u, v) in goals.items()
-    ]
-    found = _draw_place(settings, [*keep, (start[:2], least)], generator)
-    if found is None:
-        raise ConfigurationError(
-            f"goal of {player.name} must be at least {least:g} [m] from its "
-            "start, and there is no such place"
-        )
-    return found
 
 
 def least_distance(one: PlayerSettings, other: PlayerSettings) -> float:
@@ -217,8 +190,7 @@ def _radius(player: PlayerSettings) -> float:
 
 def _check_apart(settings: GameSettings, poses: dict[str, Pose]) -> None:
     """Check that given starts keep clear of each other and of the room."""
-    names = list(poses)
-    for other, name in combinations(names, 2):
+    for other, name in combinations(poses, 2):
         least = least_distance(settings.player(name), settings.player(other))
         away = dist(poses[name][:2], poses[other][:2])
         if away < least - 1e-9:
@@ -226,52 +198,32 @@ def _check_apart(settings: GameSettings, poses: dict[str, Pose]) -> None:
                 f"starts of {other} and {name} must be at least {least:g} [m] "
                 f"apart, or they overlap, got {away:.3g}"
             )
-    room = settings.room
-    if room is None or not names:
+    for name, pose in poses.items():
+        radius = settings.player(name).radius
+        _check_free(settings.room, pose[:2], f"start of {name}", radius)
+
+
+def _check_free(
+    room: Room | None, place: tuple[float, ...], what: str, radius: float = 0.0
+) -> None:
+    """Check that a place, in [m], is free for a body of a radius, in [m]."""
+    if room is None:
         return
-    gaps = room.clearance([poses[name][:2] for name in names])
-    for name, gap in zip(names, gaps.tolist(), strict=True):
-        _check_free(f"start of {name}", gap - settings.player(name).radius)
-
-
-def _check_free(place: str, gap: float) -> None:
-    """Check that a place has a clearance, in [m], from room and obstacles."""
-    if gap < 0.0:
+    gap = float(room.clearance([place])[0]) - radius
+    if gap < 0.0 or not room.is_inside([place])[0]:
         raise ConfigurationError(
-            f"{place} must be on the free floor of the room, got a clearance "
+            f"{what} must be on the free floor of the room, got a clearance "
             f"of {gap:.3g} [m]"
         )
 
 
-def _draw_position(
-    settings: GameSettings,
-    player: PlayerSettings,
-    poses: dict[str, Pose],
-    generator: np.random.Generator,
-) -> tuple[float, float]:
-    near = settings.start.near
-    keep = [
-        (pose[:2], max(near, least_distance(player, settings.player(name))))
-        for name, pose in poses.items()
-    ]
-    found = _draw_place(settings, keep, generator)
-    if found is None:
-        raise ConfigurationError(
-            f"start of {player.name} must be at least {near:g} [m] from all "
-            f"others, and there is no such place among {len(poses)} players"
-        )
-    return found
-
-
 def _draw_place(
     settings: GameSettings,
-    keep: Sequence[tuple[tuple[float, ...], float]],
+    keep: Sequence[Spot],
     generator: np.random.Generator,
-) -> tuple[float, float] | None:
-    """Return a place on the free floor, in [m]; None if there is none.
-
-    It keeps the distance, in [m], of each of some places.
-    """
+    what: str,
+) -> tuple[float, float]:
+    """Return a place on the free floor, in [m], away from others."""
     room = settings.room
     for _ in range(MOST_DRAWS):
         if room is None or room.width is None or room.depth is None:
@@ -285,7 +237,10 @@ def _draw_place(
             continue
         if all(dist((x, y), place) >= least for place, least in keep):
             return float(x), float(y)
-    return None
+    raise ConfigurationError(
+        f"{what} must be at least {max(least for _, least in keep):g} [m] "
+        f"away from {len(keep)} places, and there is no such place"
+    )
 
 
 def _draw_heading(
