@@ -4,7 +4,7 @@ A player follows the paper's law, stands, or is given its intents from
 outside, as in learning.
 """
 
-from math import atan2, inf, pi
+from math import atan2, pi
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -30,10 +30,6 @@ evasion_heading = inlined(laws.evasion_heading)
 update_side = inlined(laws.update_side)
 is_evading = inlined(laws.is_evading)
 
-RUNNING, CAPTURED, TOUCHED = 0, 1, 2
-"""Outcome codes of a game."""
-STANDS, PURSUES, EVADES = 0, 1, 2
-"""Codes of the laws that a player may follow."""
 TERM_CODES = {
     name: code for code, name in enumerate((*SENSED_TERMS, *FULL_STATE_TERMS))
 }
@@ -53,7 +49,7 @@ class BatchState(NamedTuple):
     walking: NDArray[np.bool_]  # by the last intent. Shape (n, 2).
     closest: Array  # so far [m]; 0 after contact with an obstacle. (n,).
     rooms: NDArray[np.int64]  # index of the room. Shape (n,).
-    outcomes: NDArray[np.int64]  # codes. Shape (n,).
+    ended: NDArray[np.bool_]  # by capture or contact. Shape (n,).
 
 
 class BatchRules(NamedTuple):
@@ -75,11 +71,10 @@ class BatchRules(NamedTuple):
 class BatchLaw(NamedTuple):
     """Law of a player, as numbers."""
 
-    code: int = STANDS
-    ratio: float = 1.0  # gain of a pursuer over that of its gait
+    ratio: float = 0.0  # gain of a pursuer over that of its gait; 0 evades
     angle: float = 0.0  # of evasion [rad]
-    safety_radius: float = inf  # where evasion begins [m]
-    release: float = inf  # where it ends [m]
+    safety_radius: float = 0.0  # where evasion begins [m]
+    release: float = 0.0  # where it ends [m]
     hysteresis: float = 0.0  # past which the side changes [rad]
 
 
@@ -124,7 +119,7 @@ def start_games(state: BatchState, games: Any, starts: Any) -> None:
             copy_values(starts[n, p], state.poses[i, p])
             state.sides[i, p] = 0
             state.walking[i, p] = False
-        state.decisions[i], state.outcomes[i] = 0, RUNNING
+        state.decisions[i], state.ended[i] = 0, False
         state.closest[i] = record_sight(state, i)
 
 
@@ -139,15 +134,12 @@ def decide_by_law(
     ratio = min(law.ratio, max(1.0, 1.0 / rules.share))
     for i in range(len(out)):
         out[i, 0], out[i, 1] = 0.0, 1.0
-        if law.code == STANDS:
-            out[i, 1] = 0.0
-            continue
         pose = state.poses[i]
         dx = pose[1 - player, 0] - pose[player, 0]
         dy = pose[1 - player, 1] - pose[player, 1]
         c, s = pose[player, 2], pose[player, 3]
         bearing = atan2(c * dy - s * dx, c * dx + s * dy)
-        if law.code == PURSUES:
+        if law.ratio:
             out[i, 0] = min(max(ratio * bearing, -pi), pi)
             continue
         side = state.sides[i, player]
@@ -194,11 +186,10 @@ def advance_games(
         distance, room = record_sight(state, i), state.rooms[i]
         x, y = state.poses[i, 1, 0], state.poses[i, 1, 1]
         if room_clearance(rooms, room, x, y, radius) < radius:
-            state.outcomes[i], state.closest[i] = TOUCHED, 0.0
+            state.ended[i], state.closest[i] = True, 0.0
             continue
         state.closest[i] = min(state.closest[i], distance)
-        if distance <= rules.capture:
-            state.outcomes[i] = CAPTURED
+        state.ended[i] = distance <= rules.capture
 
 
 @inlined

@@ -33,9 +33,6 @@ from .environment_settings import (
     observation_space,
 )
 from .step_batch import (
-    EVADES,
-    PURSUES,
-    RUNNING,
     TERM_CODES,
     BatchLaw,
     BatchRules,
@@ -87,17 +84,16 @@ def law_of(strategy: Strategy) -> BatchLaw:
             gain=strategy.gain,
         )
         if strategy == plain:
-            return BatchLaw(PURSUES, strategy.gain)
+            return BatchLaw(strategy.gain)
     if type(strategy) is Evasion and strategy.trigger != "time":
         return BatchLaw(
-            EVADES,
             angle=strategy.angle,
             safety_radius=strategy.safety_radius,
             release=strategy.release_distance,
             hysteresis=strategy.side_hysteresis,
         )
     if type(strategy) is StandStill:
-        return BatchLaw()
+        return BatchLaw()  # it evades at no distance
     raise ConfigurationError(
         "opponent of many games must be evasion with the trigger distance, "
         "pursuit of any gain, sharp, stand or FILE.onnx, got a "
@@ -193,7 +189,7 @@ class VectorDuel(VectorEnv[Batch, Any, Any]):
             np.zeros((number, 2), np.bool_),
             np.zeros(number),
             np.zeros(number, np.int64),
-            np.full(number, RUNNING),
+            np.zeros(number, np.bool_),
         )
         self._intents = np.zeros((number, 2, 2))
         self._seeds: Integers | None = None  # of the present episodes
@@ -208,7 +204,7 @@ class VectorDuel(VectorEnv[Batch, Any, Any]):
     def reset(
         self,
         *,
-        seed: int | Sequence[int | None] | None = None,
+        seed: int | Sequence[int] | None = None,
         options: dict[str, Any] | None = None,
     ) -> tuple[Batch, dict[str, Any]]:
         """Begin an episode of all games.
@@ -218,26 +214,20 @@ class VectorDuel(VectorEnv[Batch, Any, Any]):
                 i; None continues with the next episodes.
             options: Not used.
         """
-        every = np.arange(self.num_envs)
+        number = self.num_envs
         if isinstance(seed, int | np.integer):
-            seed = [int(seed) + i for i in range(self.num_envs)]
+            seed = [int(seed) + i for i in range(number)]
         if seed is not None:
-            if len(seed) != self.num_envs:
+            if len(seed) != number:
                 raise PlanError(
-                    f"there must be {self.num_envs} seeds, got {len(seed)}"
+                    f"there must be {number} seeds, got {len(seed)}"
                 )
-            own = self.np_random.integers(SEEDS, size=self.num_envs).tolist()
-            self._seeds = np.array(
-                [
-                    drawn if one is None else one % SEEDS
-                    for drawn, one in zip(own, seed, strict=True)
-                ]
-            )
+            self._seeds = np.array([one % SEEDS for one in seed])
         elif self._seeds is None:
-            self._seeds = self.np_random.integers(SEEDS, size=self.num_envs)
+            self._seeds = self.np_random.integers(SEEDS, size=number)
         else:
             self._seeds += STRIDE
-        self._begin(every)
+        self._begin(np.arange(number))
         return self._observed(), self._info()
 
     def step(
@@ -270,7 +260,7 @@ class VectorDuel(VectorEnv[Batch, Any, Any]):
         advance_games(
             state, self._intents, self._saturated, self._rooms, rules
         )
-        ended = state.outcomes != RUNNING
+        ended = state.ended.copy()
         late = state.decisions >= rules.limit
         sign = 1.0 if self.role == "evader" else -1.0
         rewards = (state.closest - closest) * (sign * rules.gain / rules.speed)
