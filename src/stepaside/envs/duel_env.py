@@ -56,17 +56,10 @@ class DuelEnv(gymnasium.Env[Row, Any]):
         render_mode: str | None = None,
         **settings: Any,
     ) -> None:
-        """Build the environment.
+        """Build the environment, with fields of :class:`.EnvironmentSettings`.
 
-        Args:
-            role: Role of the player, "pursuer" or "evader".
-            opponent: Strategy of the opponent: a name, FILE.py:NAME,
-                FILE.onnx or a strategy; by default that of the paper.
-            render_mode: "rgb_array" for images from above, or None.
-            settings: Fields of :class:`.EnvironmentSettings`.
-
-        Raises:
-            ConfigurationError: If a value is invalid.
+        The opponent is the name of a strategy, FILE.py:NAME, FILE.onnx or a
+        strategy; by default that of the paper.
         """
         opponents = load_opponent(opponent, role)
         self._both = ParallelDuel(

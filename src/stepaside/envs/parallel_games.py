@@ -94,10 +94,8 @@ class ParallelGames(ParallelEnv[str, Row, Any]):
     :mod:`stepaside.theory.value.two_cars` bounds. A pursuer has the negative
     mean of those of all evaders.
 
-    Attributes:
-        possible_agents: Names of the players that learn.
-        agents: The same during an episode, else empty.
-        render_mode: "rgb_array" or None.
+    The agents are the players that learn, by name; ``render_mode`` is
+    "rgb_array", for images from above, or None.
     """
 
     metadata: ClassVar[dict[str, Any]] = {
@@ -154,11 +152,9 @@ class ParallelGames(ParallelEnv[str, Row, Any]):
     def reset(
         self, seed: int | None = None, options: dict[str, Any] | None = None
     ) -> tuple[dict[str, Row], dict[str, dict[str, Any]]]:
-        """Begin the next episode of a seed.
+        """Begin an episode of a seed, 0 or above, or the next one of the last.
 
-        Args:
-            seed: Seed, 0 or above; None continues with the next episode.
-            options: Not used.
+        Options are not used.
         """
         if seed is not None:
             self._seed = seed % SEEDS
@@ -209,8 +205,7 @@ class ParallelGames(ParallelEnv[str, Row, Any]):
         """Play one period, by the action of each agent.
 
         Raises:
-            PlanError: If an action is missing or invalid, or the episode is
-                over.
+            PlanError: If an action is missing or invalid, or no episode on.
         """
         game, names = self.game, self.possible_agents
         if not self.agents:
@@ -335,15 +330,9 @@ class ParallelDuel(ParallelGames):
         opponents: Mapping[str, Strategy] | None = None,
         **settings: Any,
     ) -> None:
-        """Build the environment.
+        """Build the environment, with fields of :class:`.EnvironmentSettings`.
 
-        Args:
-            render_mode: "rgb_array" for images from above, or None.
-            opponents: Strategy of a player that does not learn, by role.
-            settings: Fields of :class:`.EnvironmentSettings`.
-
-        Raises:
-            ConfigurationError: If a value is invalid.
+        Opponents are players that do not learn, by role.
         """
         self.settings = given = EnvironmentSettings(**settings)
         self._strategies = dict(opponents or {})
@@ -437,20 +426,11 @@ class ParallelGame(ParallelGames):
         headings: int = HEADINGS,
         render_mode: str | None = None,
     ) -> None:
-        """Build the environment.
+        """Build the environment of a game or of a game file.
 
-        Args:
-            game: Settings of a game, or a game file.
-            learners: Names of the players that learn; by default all robots
-                and unicycles that are pursuers or evaders.
-            period: Duration of a step, in [s]; by default the step duration
-                of the slowest gait.
-            action: "continuous" (heading and speed factor) or "discrete".
-            headings: Number of headings of discrete actions.
-            render_mode: "rgb_array" for images from above, or None.
-
-        Raises:
-            StepAsideError: If a value is invalid.
+        By default all robots and unicycles that are pursuers or evaders
+        learn, and the period [s] is the step duration of the slowest gait.
+        Actions are those of :class:`.EnvironmentSettings`.
         """
         self.settings = given = (
             game if isinstance(game, GameSettings) else load_game(game)

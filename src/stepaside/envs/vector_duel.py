@@ -1,7 +1,6 @@
 """Vector environment over games in compiled loops."""
 
 from collections.abc import Sequence
-from dataclasses import replace
 from math import ceil, floor, pi
 from typing import Any, ClassVar
 
@@ -77,13 +76,8 @@ def rules_of(game: StepGame) -> BatchRules:
 def law_of(strategy: Strategy) -> BatchLaw:
     """Return the law of a strategy as numbers, if the kernel knows it."""
     if isinstance(strategy, Pursuit):
-        plain = replace(
-            Pursuit(),
-            saturated=strategy.saturated,
-            body_radius=strategy.body_radius,
-            gain=strategy.gain,
-        )
-        if strategy == plain:
+        more = strategy.pull, strategy.lead, strategy.noise, strategy.waiting
+        if not any(more):
             return BatchLaw(strategy.gain)
     if type(strategy) is Evasion and strategy.trigger != "time":
         return BatchLaw(
@@ -134,18 +128,10 @@ class VectorDuel(VectorEnv[Batch, Any, Any]):
         render_mode: str | None = None,
         **settings: Any,
     ) -> None:
-        """Build the environments.
+        """Build so many games, with fields of :class:`.EnvironmentSettings`.
 
-        Args:
-            num_envs: Number of games.
-            role: Role of the player, "pursuer" or "evader".
-            opponent: Strategy of the opponent: evasion, pursuit of any
-                gain, sharp, stand, FILE.onnx, or such a strategy.
-            render_mode: None: many games are not drawn.
-            settings: Fields of :class:`.EnvironmentSettings`.
-
-        Raises:
-            ConfigurationError: If a value is invalid.
+        The opponent is evasion, pursuit of any gain, sharp, stand, FILE.onnx,
+        or such a strategy; many games are not drawn.
         """
         check_choice(role, PLAYERS, "role")
         if render_mode is not None:
@@ -207,12 +193,10 @@ class VectorDuel(VectorEnv[Batch, Any, Any]):
         seed: int | Sequence[int] | None = None,
         options: dict[str, Any] | None = None,
     ) -> tuple[Batch, dict[str, Any]]:
-        """Begin an episode of all games.
+        """Begin an episode of all games; options are not used.
 
-        Args:
-            seed: Seed of each game; an integer gives game i that many plus
-                i; None continues with the next episodes.
-            options: Not used.
+        An integer as seed gives game i that many plus i; None continues with
+        the next episodes.
         """
         number = self.num_envs
         if isinstance(seed, int | np.integer):
