@@ -19,7 +19,7 @@ import pytest
 import stepaside as sa
 from expected.asking import GAME, answer, command, own_evader
 from legs_robot import nao_on_legs
-from stepaside.cli.run_output import print_run
+from stepaside.cli.tables import print_run
 from stepaside.envs import ParallelGame  # registers the environments, too
 from stepaside.games.game import play
 from stepaside.games.recorded_game import RecordedGame

@@ -12,9 +12,8 @@ from ..games.game_settings import duel as make_duel
 from ..games.player_settings import PLAYERS
 from .options import folder_option, json_option
 from .robot_connections import join_domain, with_feedback
-from .run_output import finish_run, print_run, run_folder
+from .run_output import finish_run, run_folder
 from .settings import takes_settings
-from .tables import print_table
 
 NAMED = ("seed", "duration", "robot", "start.distance")
 
@@ -94,12 +93,7 @@ def serve(
             lock_step=lockstep,
             patience=wait,
         )
-
-    def show() -> None:
-        print_run(served.run)
-        print_table([("late ticks", str(served.late_ticks))])
-
-    finish_run(served.run, folder, as_json, show, served.to_json())
+    finish_run(served.run, folder, as_json, served.timing)
 
 
 def _namespaces(texts: Sequence[str]) -> dict[str, str]:

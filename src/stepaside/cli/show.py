@@ -21,9 +21,8 @@ from ..report.film_settings import FilmSettings
 from ..report.result_labels import label_of
 from ..report.text_escaping import visible
 from .options import browser_option, json_option
-from .run_output import print_run
 from .settings import GIVEN, refuse_settings, takes_settings
-from .tables import format_value, print_columns
+from .tables import format_value, print_columns, print_run
 from .terminal import NOTHING_SAVED, echo, exit_interrupted, print_json
 
 if TYPE_CHECKING:

@@ -3,12 +3,18 @@
 from collections.abc import Container, Iterable, Mapping, Sequence
 from dataclasses import fields, is_dataclass
 from math import isfinite
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from ..report.result_labels import in_unit, label_of, unit_of
 from .terminal import echo
 
+if TYPE_CHECKING:
+    from ..games.run import Run
+    from ..games.summary import Summary
+
 Row = Mapping[str, Any]
+MOST_PAIRS = 15  # that are all printed
+ERRORS = ("tracking", "estimation")  # of a walk: only in JSON
 
 
 def plain(value: Any) -> Any:
@@ -131,3 +137,80 @@ def print_table(rows: Sequence[tuple[str, str]]) -> None:
     width = max(len(name) for name, _ in rows)
     for name, value in rows:
         echo(f"  {name:<{width}}  {value}")
+
+
+def print_run(run: "Run", more: dict[str, int] | None = None) -> None:
+    """Print the summary of a run, with values of theory beside those of it.
+
+    Of many pairs only those of players that decide; JSON has all. More
+    numbers follow with their labels.
+    """
+    found = run.results()
+    theory = found.pop("theory") or {}
+    rows = [("outcome", f"{run.outcome.value}: {run.message}")]
+    for name in ("outcome", "message", "seed", "duration_s"):
+        del found[name]
+    if run.game == "duel":
+        since = found.pop("converged_at_s")
+        missing = since is None and _missing_circle(run.summary)
+        rows.append(("on the circle", missing or f"since {since:.1f} s"))
+        begin = 2.0 / 3.0 * run.duration
+        if since is not None and since > begin:
+            rows.append(("means", f"measured from {begin:.1f} s on"))
+        rows.append(("expected", theory["words"] or "-"))
+    radii = {
+        "pursuer": {"radius_m": theory.get("pursuer_radius_m")},
+        "evader": {"radius_m": theory.get("radius_m")},
+    }
+    groups = [
+        (name, _facts(own, radii.get(name)))
+        for name, own in found.pop("players").items()
+    ]
+    pairs, others = found.pop("pairs"), {*run.players} - {*run.deciding}
+    for names, pair in pairs.items() if len(run.players) > 2 else ():
+        if len(pairs) <= MOST_PAIRS or not others.issuperset(
+            names.split(" - ")
+        ):
+            groups.append((names, _facts(pair)))
+    for name, value in found.items():
+        if isinstance(value, Mapping):
+            groups.append((name, _facts(value)))
+        elif isinstance(value, list):
+            rows += [(name, ", ".join(value))] if value else []
+        else:
+            label = label_of(name)
+            facts = _facts({name: value}, theory)
+            rows += [(label, fact[len(label) + 1 :]) for fact in facts]
+    rows += [(name, ", ".join(own)) for name, own in groups]
+    rows += [(label_of(name), f"{n}") for name, n in (more or {}).items()]
+    print_table(rows)
+
+
+def _missing_circle(summary: "Summary") -> str:
+    """Return why a duel did not end on its circle."""
+    theory = summary.theory
+    if theory is None or theory.expected in ("contact", "no circle"):
+        return "not expected"
+    if summary.triggered_at_s is None:
+        return "not reached: the evader was never triggered"
+    if theory.circle_since_s is not None:
+        since = f"{theory.circle_since_s:.0f} s"
+        return f"not reached: the template reaches it at {since}"
+    return "not reached"
+
+
+def _facts(
+    values: Mapping[str, Any], theory: Mapping[str, Any] | None = None
+) -> list[str]:
+    """Return values and groups of them as texts, with those of theory."""
+    facts: list[str] = []
+    for name, value in values.items():
+        if isinstance(value, Mapping) and name not in ERRORS:
+            facts += _facts(value)
+        elif isinstance(value, bool | int | float | str):
+            text = format_value(name, value, 4)
+            expected = (theory or {}).get(name)
+            if expected is not None:
+                text += f" (theory {format_value(name, expected, 4)})"
+            facts.append(f"{label_of(name)} {text}")
+    return facts

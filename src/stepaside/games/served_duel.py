@@ -3,7 +3,7 @@
 from collections.abc import Callable, Mapping, Sequence
 from contextlib import ExitStack
 from time import monotonic, sleep
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 from ..core.errors import ConfigurationError
 from .game import GameInPlay, GameObserver, Progress, play
@@ -119,15 +119,7 @@ class ServedDuel(NamedTuple):
     """Finished served duel."""
 
     run: Run
-    late_ticks: int  # that began more than 6 ms late
-    unanswered: int  # frames that were not answered in their tick
-
-    def to_json(self) -> dict[str, Any]:
-        """Return the summary of the duel and the timing, as plain values."""
-        return self.run.results() | {
-            "late_ticks": self.late_ticks,
-            "unanswered_frames": self.unanswered,
-        }
+    timing: dict[str, int]  # numbers of late ticks and unanswered frames
 
 
 def serve_duel(
@@ -188,4 +180,8 @@ def serve_duel(
         game.observers += (exchange,)
         exchange.gather(patience)
         play(game, report=report)
-    return ServedDuel(game.run(), exchange.late, exchange.unanswered)
+    timing = {
+        "late_ticks": exchange.late,
+        "unanswered_frames": exchange.unanswered,
+    }
+    return ServedDuel(game.run(), timing)
