@@ -1,7 +1,7 @@
 """Input and output of a decision: knowledge and intent of a player."""
 
 from dataclasses import dataclass, replace
-from math import atan2, cos, hypot, sin
+from math import atan2, cos, hypot, pi, sin
 
 import numpy as np
 
@@ -13,12 +13,13 @@ from ..core.errors import (
     shown,
 )
 from ..core.player_identity import PlayerIdentity
-from ..core.poses import ALL_AROUND, Pose, Sector
+from ..core.poses import ALL_AROUND, Pose, Sector, wrap_angle
 from ..planning import GaitSettings
 from ..planning.gait_settings import stride_share
 from .velocity_set import STILL, BodyVelocity, VelocitySet
 
 FASTEST = 100.0  # desired velocity; more is an error, in [m/s] and [rad/s]
+MAX_HEADING = 0.5 * pi  # desired heading of the sharpest turn, in [rad]
 
 
 @dataclass(frozen=True, slots=True)
@@ -38,6 +39,15 @@ class Limits:
     def share(self) -> float:
         """Turn of a step per desired heading, kappa."""
         return self.gain * self.stride / self.speed
+
+    def correcting_heading(self, error: float) -> float:
+        """Return the desired heading that corrects an error fastest, in [rad].
+
+        A step turns by a fraction of its desired heading: a larger one turns
+        by the whole error in one step, up to the sharpest turn.
+        """
+        heading = wrap_angle(error) / self.share
+        return min(max(heading, -MAX_HEADING), MAX_HEADING)
 
     def stride_share(self, turn: float) -> float:
         """Return the fraction of the stride that a turn [rad] allows."""
@@ -150,26 +160,22 @@ class Knowledge:
         return tuple(o for o in self.others if own.is_with(o.identity))
 
     def about(self, other: OtherPlayer) -> "Knowledge":
-        """Return the same knowledge with another player as the opponent.
+        """Return the same knowledge with another player as the opponent."""
+        x, y = other.position
+        return self.towards(x, y, other.velocity, other.age, other.spread)
 
-        Rates of the line of sight are left out, as they are those of the
-        present opponent.
-        """
-        return replace(
-            self,
-            bearing=other.bearing,
-            distance=other.distance,
-            bearing_rate=None,
-            closing_speed=None,
-            age=other.age,
-            velocity=other.velocity,
-            spread=other.spread,
-        )
+    def towards(
+        self,
+        x: float,
+        y: float,
+        velocity: tuple[float, float] | None = (0.0, 0.0),
+        age: float = 0.0,
+        spread: float = 0.0,
+    ) -> "Knowledge":
+        """Return the same knowledge with a point as the opponent.
 
-    def towards(self, x: float, y: float) -> "Knowledge":
-        """Return the same knowledge with a resting point as the opponent.
-
-        The point is given ahead and to the left in the frame, in [m].
+        The point is given ahead and to the left in the frame, in [m]. Rates of
+        the line of sight are those of the present opponent, and left out.
         """
         return replace(
             self,
@@ -177,9 +183,9 @@ class Knowledge:
             distance=hypot(x, y),
             bearing_rate=None,
             closing_speed=None,
-            age=0.0,
-            velocity=(0.0, 0.0),
-            spread=0.0,
+            age=age,
+            velocity=velocity,
+            spread=spread,
         )
 
 

@@ -14,7 +14,6 @@ from ..core.ranges import SEEDS, Range
 from ..core.setting import CheckedSettings, setting
 from ..planning import Direction
 from ..theory import laws
-from .approach import correcting_heading
 from .knowledge import STAND, Intent, Knowledge, Limits
 from .opponent_track import OpponentTrack, track_of_steps
 
@@ -112,7 +111,7 @@ class Pursuit(CheckedSettings):
             memory = memory._replace(side=side)
         if side or self._is_blocked(seen):
             # By (2) it would turn too slowly and walk into the obstacle.
-            return Intent(correcting_heading(bearing, seen.limits)), memory
+            return Intent(seen.limits.correcting_heading(bearing)), memory
         return Intent(self._heading(bearing, seen.limits)), memory
 
     def _aimed(
