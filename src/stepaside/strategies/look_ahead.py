@@ -11,14 +11,14 @@ tries sequences that begin with a turn on the spot.
 
 from dataclasses import dataclass
 from functools import lru_cache
-from math import atan2, hypot, inf, pi, radians
+from math import atan2, cos, hypot, inf, pi, radians, sin
 from typing import Any, NamedTuple
 
 import numpy as np
 
 from ..arena.obstacles import PackedObstacles, clearance_at
 from ..core.compilation import compiled, copy_values, inlined
-from ..core.poses import Array, Pose
+from ..core.poses import Array
 from ..core.ranges import Range
 from ..core.setting import CheckedSettings, setting
 from .knowledge import ON_THE_SPOT, STAND, Intent, Knowledge
@@ -53,8 +53,7 @@ GAIN = 1e-6  # of a maneuver over the present one to replace it, in [m]
 SIGHTINGS = 3  # a step apart: over two steps the sway cancels
 MIN_MOTION = 0.3  # per step, in strides, that determines a heading
 OPEN_TURNS = 15  # tried by that table
-ROOT: Any = np.int64(0)
-"""Zero steps; a literal zero would compile a version of its own."""
+ROOT: Any = np.int64(0)  # a literal would compile a version of its own
 
 
 class LookAheadMemory(NamedTuple):
@@ -71,13 +70,12 @@ class LookAheadMemory(NamedTuple):
 class LookAhead(BackwardStrategy, CheckedSettings):
     """Predictive evader: execute the first step of the best maneuver.
 
-    A maneuver is a sequence of pieces with a constant turn each, followed by
-    the paper's law. Rolled out against a model of the pursuer, it is good if
-    the pursuer stays far away and within the field of view, and no obstacle
-    is touched. An inaccurate map changes from step to step: with a map error
-    a plan is kept until another is better by that error, and missing
-    clearance costs less. Without obstacles it takes the step after which the
-    value table of the open floor promises the largest distance.
+    Rolled out against the paper's pursuer, a maneuver is good if the pursuer
+    stays far away and within the field of view, and no obstacle is touched.
+    An inaccurate map changes from step to step: with a map error a plan is
+    kept until another is better by that error, and missing clearance costs
+    less. Without obstacles it takes the step after which the value table of
+    the open floor promises the largest distance.
     """
 
     enough: float = setting(
@@ -117,9 +115,7 @@ class LookAhead(BackwardStrategy, CheckedSettings):
             return STAND, LookAheadMemory(False, track)
         limits = knowledge.limits
         rules = step_rules(limits)
-        both = poses_at_sighting(track, rules)
-        if knowledge.step_start_in_map is not None:
-            both = predict_poses(both, knowledge, knowledge.step_start_in_map)
+        both = poses_at_step(track, knowledge, rules)
         if not (self.obstacles and knowledge.obstacles_in_map):
             unit = limits.speed / limits.gain
             turn = open_turn(both, rules, unit, self.cells)
@@ -144,63 +140,46 @@ class LookAhead(BackwardStrategy, CheckedSettings):
         )
         turn = float(best.turns[0])
         heading = turn / rules.share
-        if best.spot:
-            intent = Intent(heading, ON_THE_SPOT)
-        elif self._touches(both, turn, rules, knowledge):
-            # A turn on the spot needs no room; standing would block for good.
-            return Intent(heading, ON_THE_SPOT), LookAheadMemory(True, track)
-        else:
-            intent = Intent(heading)
-        ahead = best.turns[: best.spot + sum(PIECES)]
-        return intent, LookAheadMemory(
-            True, track, tuple(ahead.tolist()), knowledge.time, best.spot
-        )
-
-    def _touches(
-        self,
-        both: PlayerPair,
-        turn: float,
-        rules: StepRules,
-        knowledge: Knowledge,
-    ) -> bool:
-        """Return whether a step touches an obstacle and standing does not."""
         after = step_both(both, turn, 1.0, PAPERS, rules)
         now, then = knowledge.obstacles_in_map.clearance(
             [(both.ex, both.ey), (after.ex, after.ey)]
         )
-        return bool(then < min(self.body_radius, now))
+        if not best.spot and then < min(self.body_radius, now):
+            # A turn on the spot needs no room; standing would block for good.
+            return Intent(heading, ON_THE_SPOT), LookAheadMemory(True, track)
+        ahead = best.turns[: best.spot + sum(PIECES)]
+        return Intent(
+            heading, ON_THE_SPOT if best.spot else 1.0
+        ), LookAheadMemory(
+            True, track, tuple(ahead.tolist()), knowledge.time, best.spot
+        )
 
 
-def poses_at_sighting(track: OpponentTrack, rules: StepRules) -> PlayerPair:
-    """Return the poses of both players at the last sighting, in the map.
+def poses_at_step(
+    track: OpponentTrack, knowledge: Knowledge, rules: StepRules
+) -> PlayerPair:
+    """Return the poses of both players when the decided step begins.
 
     The heading of the pursuer is that of the paper's along the last
-    sightings. One that has not moved is assumed to face the own robot.
+    sightings. One that has not moved is assumed to face the own robot. If a
+    foot has just landed, the body passes it half a step later; the pursuer
+    walks straight on until then.
     """
     rows = track.rows[-SIGHTINGS:]
     first, last = rows[0], rows[-1]
-    own = last.own
-    heading = atan2(own.y - last.y, own.x - last.x)
-    way = hypot(last.x - first.x, last.y - first.y)
+    begins, x, y = last.own, last.x, last.y
+    heading = atan2(begins.y - y, begins.x - x)
+    way = hypot(x - first.x, y - first.y)
     least = MIN_MOTION * (len(rows) - 1) * rules.stride
     if len(rows) > 1 and way >= least:
         path = [(*row.own, row.x, row.y, n) for n, row in enumerate(rows)]
         (_, _, heading), _ = fit_heading(np.array(path), PAPERS, rules)
-    return pair_of(own, (last.x, last.y, heading))
-
-
-def predict_poses(
-    both: PlayerPair, knowledge: Knowledge, begins: Pose
-) -> PlayerPair:
-    """Predict the poses of both players when the decided step begins.
-
-    A body passes the landed foot half a step after its landing; the pursuer
-    walks straight on until then.
-    """
-    limits = knowledge.limits
-    way = limits.stride * (0.5 + knowledge.age / limits.step_duration)
-    x, y = both.px + way * both.pc, both.py + way * both.ps
-    return PlayerPair(*pair_of(begins, (x, y, 0.0))[:6], both.pc, both.ps)
+    if knowledge.step_start_in_map is not None:
+        begins = knowledge.step_start_in_map
+        waits = knowledge.age / knowledge.limits.step_duration
+        way = rules.stride * (0.5 + waits)
+        x, y = x + way * cos(heading), y + way * sin(heading)
+    return pair_of(begins, (x, y, heading))
 
 
 @lru_cache(maxsize=16)
@@ -249,7 +228,7 @@ class BestManeuver(NamedTuple):
 
 @inlined
 def judge(both: PlayerPair, score: float, aims: Aims) -> float:
-    """Return the score after one more step, given the score before it."""
+    """Return the score after one more step."""
     dx, dy = both.px - both.ex, both.py - both.ey
     reward = min((dx * dx + dy * dy) ** 0.5, aims.enough)
     if reward < score:
@@ -286,10 +265,10 @@ def roll_out(
     worst: float,
     aims: Aims,
 ) -> tuple[PlayerPair, float, int]:
-    """Roll out given turns, then the law; return state, score and steps.
+    """Roll out given turns, then the law, which is filled in.
 
-    The turns of the law are filled in. The first steps may turn on the spot;
-    at a score that is no better than the worst the rollout ends.
+    Some first steps turn on the spot. It ends at a score that is no better
+    than the worst. Returns state, score and number of steps.
     """
     rules, side = aims.rules, 0.0
     for n in range(len(turns)):
@@ -321,8 +300,7 @@ def descend(
     """Descend the tree of pieces; return best score and steps rolled out.
 
     The root has a state, a score, and a number of steps before it, whose turns
-    are in the scratch array; turns that are better than the best are written
-    to ``chosen``. Both have shape (HORIZON + SPOTS,).
+    are in ``work``; better turns than the best are written to ``chosen``.
     """
     tried, last, level = aims.turns, len(PIECES) - 1, 0
     index = np.zeros(len(PIECES), dtype=np.int64)
@@ -340,14 +318,9 @@ def descend(
         for n in range(len(piece)):
             piece[n] = tried[index[level]]
         index[level] += 1
+        here, score = pair_in(states[level]), scores[level]
         here, score, more = roll_out(
-            pair_in(states[level]),
-            scores[level],
-            piece,
-            len(piece),
-            0,
-            worst,
-            aims,
+            here, score, piece, len(piece), 0, worst, aims
         )
         made += more
         if score <= worst:
@@ -371,18 +344,13 @@ def descend(
 
 @compiled
 def look_ahead(
-    both: PlayerPair,
-    plan: Any,
-    planned: int,
-    aims: Aims,
+    both: PlayerPair, plan: Any, planned: int, aims: Aims
 ) -> BestManeuver:
     """Find the best maneuver among obstacles.
 
     The law alone is tried first, then the rest of the plan, of which some
-    initial steps turn on the spot, and then every sequence of pieces; a
-    maneuver is chosen only if it improves on those before it, but a tie keeps
-    the plan. If the best score is below ``TIGHT``, sequences behind turns on
-    the spot, by the sharpest turn, are tried, too.
+    steps turn on the spot, and then every sequence of pieces; one is chosen
+    only if it improves on those before it, but a tie keeps the plan.
     """
     chosen, work = np.zeros(HORIZON + SPOTS), np.zeros(HORIZON + SPOTS)
     start, best, spot, made = aims.enough, -inf, 0, 0
