@@ -144,7 +144,7 @@ def sights_of_walkers(
         x = pursuer[0] - side * sin(pursuer[2]) + side * sin(own[2])
         y = pursuer[1] + side * cos(pursuer[2]) - side * cos(own[2])
         x, y = np.array([x, y]) + noise * generator.normal(size=2)
-        fit = fit.observe(0.4 * n, Pose(*own), (x, y), STEPS, 0.4, sways=True)
+        fit = fit.observe(n, Pose(*own), (x, y), STEPS, sways=True)
         yield fit, pursuer
         turn = pursuer_turn(pair_of(own, pursuer), model, STEPS)
         pursuer = Pose(*pursuer).along_arc(0.04, turn)

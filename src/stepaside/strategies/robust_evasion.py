@@ -24,6 +24,8 @@ from .search.step_motion import (
 )
 from .strategy import BackwardStrategy
 
+# The paper's pursuer with other gains, the last of them turning by the whole
+# bearing, and pursuers with another target.
 MODELS = (
     PursuerModel(),
     PursuerModel(1.5),
@@ -34,8 +36,6 @@ MODELS = (
     PursuerModel(1.0, pull=1.0),
     PursuerModel(1.0, lead=0.5),
 )
-"""Models that are compared: the paper's pursuer with other gains, the last
-of them turning by the whole bearing, and pursuers with another target."""
 DANGEROUS = (6, 3, 0, 5, 4)  # models to search until they are ruled out
 SHARPNESS = 5.0  # with which the weight of a model falls with the square of
 # its error
@@ -56,20 +56,19 @@ class FitRules(NamedTuple):
     ruled_out: float  # error over the least of a model that is not so
 
 
+# Without errors the last steps say most: in longer windows the random turns of
+# ``noisy`` add up, and it captures 4 of 12 evaders, not 1.
 EXACT_SIGHT = FitRules(3, 3, 3.0)
-"""Without errors the last steps say most: in longer windows the random turns
-of ``noisy`` add up, and it captures 4 of 12 evaders, not 1."""
+# With 10 positions herding walkers that change their side too early or late
+# rule out their own model. In walks the true model is within 1.2 times the
+# least error in 97 % of the steps; with 1.4 herding walkers are told from pure
+# ones so late that they capture 3 of 10 evaders, not 0.
 SWAYING_SIGHT = FitRules(6, 4, 1.2)
-"""With 10 positions herding walkers that change their side too early or late
-rule out their own model. In walks the true model is within 1.2 times the least
-error in 97 % of the steps; with 1.4 herding walkers are told from pure ones so
-late that they capture 3 of 10 evaders, not 0."""
 
 
 class ModelFit(NamedTuple):
     """Fit of every model to the observed motion."""
 
-    time: float = -1.0  # time of the last observation [s]; negative before it
     seen: Array = np.zeros(6)  # own pose, pursuer [m], time [steps]
     # last observations, a step apart, without sway
     # (:func:`~.search.step_motion.fit_heading`). (n, 6)
@@ -79,7 +78,7 @@ class ModelFit(NamedTuple):
     # [m^2]
     errors: tuple[float, ...] = (0.0,) * len(MODELS)
     speed: float = 1.0  # greatest stride that was seen lately, over the own
-    fitting: FitRules = EXACT_SIGHT  # rules of the fit
+    fitting: FitRules = EXACT_SIGHT
 
     def observe(
         self,
@@ -87,22 +86,22 @@ class ModelFit(NamedTuple):
         own: Pose,
         position: tuple[float, float],
         rules: StepRules,
-        period: float,
+        *,
         sways: bool = False,
     ) -> "ModelFit":
         """Fit every model to the path with one more observation.
 
-        Poses are relative to the centre of the room; a step takes a period
-        [s]. Positions of walking bodies alternate with their sway from step to
-        step: then the path is that of the mean of two, half a step earlier.
+        Poses are relative to the centre of the room, times in steps. Positions
+        of walking bodies alternate with their sway from step to step: then the
+        path is that of the mean of two, half a step earlier.
         """
-        passed = time - self.time
-        if self.time >= 0.0 and passed < 0.75 * period:
+        begun, passed = bool(self.poses), time - self.seen[5]
+        if begun and passed < 0.75:
             return self
-        follows = self.time >= 0.0 and passed <= GAP * period
-        seen = np.array([*own, *position, time / period])
+        follows = begun and passed <= GAP
+        seen = np.array([*own, *position, time])
         fitting = SWAYING_SIGHT if sways else EXACT_SIGHT
-        now = self._replace(time=time, seen=seen, fitting=fitting)
+        now = self._replace(seen=seen, fitting=fitting)
         point = seen
         if sways:
             point = 0.5 * (self.seen + seen)
@@ -116,22 +115,18 @@ class ModelFit(NamedTuple):
             return now._replace(path=path, poses=(pose,) * len(MODELS))
         if hypot(*(point - path[-1])[3:5]) < LEAST_MOTION * rules.stride:
             return now._replace(path=np.array([*path[:-1], point]))
-        kept = path[1 - fitting.window :]
-        return now._fitted(np.array([*kept, point]), rules)
-
-    def _fitted(self, path: Array, rules: StepRules) -> "ModelFit":
-        """Return the fit to a path with a new point."""
+        path = np.array([*path[1 - fitting.window :], point])
         fits = [fit_heading(path, model, rules) for model in MODELS]
-        moved = self._replace(path=path, poses=tuple(pose for pose, _ in fits))
-        if len(path) < self.fitting.settling:
-            return moved
+        now = now._replace(path=path, poses=tuple(pose for pose, _ in fits))
+        if len(path) < fitting.settling:
+            return now
         errors = (
             MEMORY * error + (1.0 - MEMORY) * found
             for error, (_, found) in zip(self.errors, fits, strict=True)
         )
         dx, dy, steps = np.diff(path[:, 3:], axis=0).T
         speed = float(np.hypot(dx, dy).sum() / steps.sum()) / rules.stride
-        return moved._replace(
+        return now._replace(
             errors=tuple(errors),
             speed=max(1.0, FORGETTING * self.speed, min(speed, 2.0)),
         )
@@ -153,13 +148,13 @@ class ModelFit(NamedTuple):
         weights[ratios > self.fitting.ruled_out**2] = 0.0
         return weights
 
-    def plausible(self) -> list[int]:
+    def plausible(self) -> tuple[int, ...]:
         """Return the numbers of the models to search, the best first."""
         weights = self.weights()
         seen = max(self.errors) > 0.0
         best = int(weights.argmax()) if seen else DANGEROUS[0]
         others = [n for n in DANGEROUS if n != best and weights[n] > 0.0]
-        return [best, *others][:ASSUMED]
+        return (best, *others)[:ASSUMED]
 
 
 MARGIN = 0.005  # in addition to the required clearance, in [m]
@@ -186,7 +181,7 @@ SLACK = 1  # steps that a plan may survive less than when it was made
 class RobustMemory(NamedTuple):
     """Memory of a robust evader."""
 
-    fit: ModelFit = ModelFit()  # models of the pursuer, and their errors
+    fit: ModelFit = ModelFit()
     moves: Array = np.empty((0, 2))  # turn [rad], speed factor to come
     assumed: tuple[int, ...] = ()  # models that were searched for the plan
     planned: int = 0  # number of steps of the plan when it was made
@@ -236,22 +231,19 @@ class RobustEvasion(BackwardStrategy, CheckedSettings):
         """Take the first step of the plan that survives longest."""
         limits, own = knowledge.limits, knowledge.pose_in_map
         walks = knowledge.step_start_in_map is not None
-        rules = self._rules(knowledge, walks=walks)
-        sight = own.theta + knowledge.bearing
+        steps, sight = step_rules(limits), own.theta + knowledge.bearing
         if walks:
-            most = rules.step.largest
+            most = steps.largest
             turned = wrap_angle(own.theta - float(memory.fit.seen[2]))
             sight -= TORSO_LAG * min(max(turned, -most), most)
         position = (
             own.x + knowledge.distance * cos(sight),
             own.y + knowledge.distance * sin(sight),
         )
-        time = knowledge.time - knowledge.age
-        fit = memory.fit.observe(
-            time, own, position, rules.step, limits.step_duration, sways=walks
-        )
-        assumed = tuple(fit.plausible())
-        game = planned_game(knowledge, position, fit, assumed, rules)
+        time = (knowledge.time - knowledge.age) / limits.step_duration
+        fit = memory.fit.observe(time, own, position, steps, sways=walks)
+        assumed = fit.plausible()
+        game = self._game(knowledge, position, fit, assumed)
         rest, promised = memory.moves[1:], memory.promised - 1
         if (
             assumed != memory.assumed
@@ -261,23 +253,53 @@ class RobustEvasion(BackwardStrategy, CheckedSettings):
             rest, promised = game.plan(rest)
             memory = memory._replace(assumed=assumed, planned=len(rest))
         memory = memory._replace(fit=fit, moves=rest, promised=promised)
-        largest = rules.step.largest
-        turn, speed = rest[0] if len(rest) else (largest, ON_THE_SPOT)
+        turn, speed = rest[0] if len(rest) else (steps.largest, ON_THE_SPOT)
         return Intent(float(turn) / limits.share, float(speed)), memory
 
-    def _rules(self, knowledge: Knowledge, *, walks: bool) -> BeamRules:
-        """Return the rules of the games, which differ for walkers."""
+    def _game(
+        self,
+        knowledge: Knowledge,
+        position: tuple[float, float],
+        fit: ModelFit,
+        assumed: tuple[int, ...],
+    ) -> "PlannedGame":
+        """Return the game against the plausible models of a pursuer.
+
+        It was seen at a position [m]; the assumed models are searched.
+        """
+        steps, weights = step_rules(knowledge.limits), fit.weights()
+        others = set(np.flatnonzero(weights).tolist()) - set(assumed)
+        numbers = [*assumed, *sorted(others)]
+        models = tuple(MODELS[n]._replace(speed=fit.speed) for n in numbers)
+        weights = weights[numbers] / weights[numbers].sum()
+        begins, kept, caution = knowledge.step_start_in_map, 0, 0.0
         capture, clearance = self.capture + MARGIN, self.body_radius + MARGIN
-        if walks:  # an evader that is too near may leave
+        horizon = self.horizon
+        if begins is None:
+            begins = knowledge.pose_in_map
+            poses = [Pose(*position, fit.poses[n][2]) for n in numbers]
+            horizon = horizon * ASSUMED // len(assumed)
+        else:  # humanoids walk less predictably
+            ahead = AHEAD + knowledge.age / knowledge.limits.step_duration
+            poses = [fit.pose(n, steps, ahead) for n in numbers]
+            poses += [
+                approached(begins, pose, side)
+                for side in (-HEADING_ERROR, HEADING_ERROR)
+                for pose in poses
+            ]
+            kept, caution, models = KEPT_STEPS, CAUTION, models * 3
+            weights = np.tile(weights / 3.0, 3)
+            # An evader that is too near may leave.
             capture = min(capture + SWAY, knowledge.distance - SWAY)
             clearance += WALL_SWAY
-        return BeamRules(
-            step_rules(knowledge.limits),
-            capture,
-            clearance,
-            self.width,
-            self.horizon,
-            CAUTION if walks else 0.0,
+        return PlannedGame(
+            models,
+            [np.array([*begins, *pose]) for pose in poses],
+            weights,
+            len(assumed),
+            kept,
+            knowledge.obstacles_in_map.packed,
+            BeamRules(steps, capture, clearance, self.width, horizon, caution),
         )
 
 
@@ -293,11 +315,7 @@ class PlannedGame(NamedTuple):
     rules: BeamRules  # rules of the games, and size of the search
 
     def outcome(self, moves: Array) -> tuple[float, float]:
-        """Return the steps that moves survive, and their least distance.
-
-        The number of steps is the mean by the weights of the models; the
-        distance is that against any of them, in [m].
-        """
+        """Return the mean steps that moves survive, and the least distance."""
         played = [
             play_moves(start, moves, model, self.packed, self.rules)
             for start, model in zip(self.starts, self.models, strict=True)
@@ -306,11 +324,10 @@ class PlannedGame(NamedTuple):
         return float(self.weights @ steps), float(least.min())
 
     def plan(self, rest: Array) -> tuple[Array, float]:
-        """Search the moves that survive longest against most models.
+        """Return the moves that survive longest in the mean, and how many.
 
-        The rest of the last plan is compared with those found. Returns turn
-        [rad] and speed factor of each step, (n, 2), and the mean number of
-        steps that they survive.
+        The rest of the last plan is compared with those found. Moves are turn
+        [rad] and speed factor of each step, (n, 2).
         """
         rules, candidates = self.rules, []
         actions = actions_of(rules.step.largest)
@@ -328,45 +345,6 @@ class PlannedGame(NamedTuple):
         if (steps + self.kept, least) > found and not ends:
             return rest, steps
         return candidates[outcomes.index(found)], found[0]
-
-
-def planned_game(
-    knowledge: Knowledge,
-    position: tuple[float, float],
-    fit: ModelFit,
-    assumed: tuple[int, ...],
-    rules: BeamRules,
-) -> PlannedGame:
-    """Return the game against the models that are plausible.
-
-    The pursuer was seen at a position [m]; some models are searched.
-    """
-    weights = fit.weights()
-    others = [n for n in range(len(MODELS)) if weights[n] and n not in assumed]
-    numbers = [*assumed, *others]
-    models = tuple(MODELS[n]._replace(speed=fit.speed) for n in numbers)
-    weights = weights[numbers] / weights[numbers].sum()
-    begins, kept = knowledge.step_start_in_map, 0
-    if begins is None:
-        begins = knowledge.pose_in_map
-        poses = [Pose(*position, fit.poses[n][2]) for n in numbers]
-        horizon = rules.horizon * ASSUMED // len(assumed)
-        rules = rules._replace(horizon=horizon)
-    else:  # humanoids walk less predictably
-        ahead = AHEAD + knowledge.age / knowledge.limits.step_duration
-        poses = [fit.pose(n, rules.step, ahead) for n in numbers]
-        poses += [
-            approached(begins, pose, side)
-            for side in (-HEADING_ERROR, HEADING_ERROR)
-            for pose in poses
-        ]
-        kept, models = KEPT_STEPS, models * 3
-        weights = np.tile(weights / 3.0, 3)
-    starts = [np.array([*begins, *pose]) for pose in poses]
-    packed = knowledge.obstacles_in_map.packed
-    return PlannedGame(
-        models, starts, weights, len(assumed), kept, packed, rules
-    )
 
 
 def approached(own: Pose, pursuer: Pose, turn: float) -> Pose:
