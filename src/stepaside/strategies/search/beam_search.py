@@ -57,20 +57,16 @@ class BeamRules(NamedTuple):
 
 
 class Successors(NamedTuple):
-    """Successors of the states of a beam: n rows.
+    """Successors of the states of a beam: n rows."""
 
-    Positions [m] and heading vectors of the evader, with the least distance so
-    far (n, 5); ranks, in [m]; keys, which nearly equal states have in common;
-    number of the state and of the action that they come from (n, 2); and
-    working memory of the sorting.
-    """
-
+    # Positions [m] and heading vectors of the evader, and the least distance
+    # so far [m]. (n, 5)
     poses: Any
-    ranks: Any
-    keys: Any
-    origins: Any
-    order: Any
-    firsts: Any
+    ranks: Any  # [m]
+    keys: Any  # which nearly equal states have in common
+    origins: Any  # numbers of the state and of the action. (n, 2)
+    order: Any  # of falling ranks
+    firsts: Any  # memory of the sorting
 
 
 @inlined
@@ -88,11 +84,7 @@ def arc_cosine(value: float) -> float:
 
 @inlined
 def action_arcs(actions: Any, stride: float) -> Any:
-    """Return way ahead and to the left [m], cosine and sine of each turn.
-
-    Actions are turn [rad] and speed factor, (k, 2), of an evader that walks
-    backward.
-    """
+    """Return way ahead and to the left [m], cosine and sine of each turn."""
     arcs = np.empty((len(actions), 4))
     for k in range(len(actions)):
         turn, way = actions[k, 0], -stride * actions[k, 1]
@@ -120,7 +112,8 @@ def sector_of(c: float, s: float) -> int:
 
 @inlined
 def expand(
-    state: Any,
+    states: Any,
+    b: int,
     arcs: Any,
     model: PursuerModel,
     packed: PackedObstacles,
@@ -130,11 +123,12 @@ def expand(
 ) -> int:
     """Add the successors of a state to those made; return the number of all.
 
-    The state holds both players (:class:`.PlayerPair`) and the least distance
-    so far, in [m]; its pursuer is advanced by one step. The rank of a
-    successor is its worth: far away, beside the pursuer, clear; with caution,
-    never near.
+    States hold both players (:class:`.PlayerPair`) and the least distance so
+    far, in [m]; the pursuer is advanced by one step. The rank of a successor
+    is its worth: far away, beside the pursuer, clear; with caution, never
+    near.
     """
+    state = states[b]
     both = pair_in(state)
     ex, ey, forward, leftward = both.ex, both.ey, both.ec, both.es
     px, py, ahead, left = pursue(both, model, rules.step)
@@ -172,7 +166,7 @@ def expand(
             + CLEAR * min(clear, CLEAR)
             + rules.caution * least
         )
-        new.origins[made, 1] = k
+        new.origins[made, 0], new.origins[made, 1] = b, k
         key = (chased + cell_of(x, 1.0 / EVADER_CELL)) * 8191
         key = (key + cell_of(y, 1.0 / EVADER_CELL)) * HEADINGS
         new.keys[made] = key + sector_of(c, s)
@@ -192,26 +186,22 @@ def expand_beam(
     """Write the successors of all states; return their number."""
     made = 0
     for b in range(len(beam)):
-        more = expand(beam[b], arcs, model, packed, rules, new, made)
-        for m in range(made, more):
-            new.origins[m, 0] = b
-        made = more
+        made = expand(beam, b, arcs, model, packed, rules, new, made)
     return made
 
 
 @inlined
-def sort_ranks(ranks: Any, made: int, order: Any, firsts: Any) -> None:
+def sort_ranks(new: Successors, made: int) -> None:
     """Write the order of falling ranks; equal ranks keep theirs."""
-    for g in range(len(firsts)):
-        firsts[g] = 0
+    new.firsts[:] = 0
     for m in range(made):
-        firsts[GRAINS - int(ranks[m] / GRAIN)] += 1
+        new.firsts[GRAINS - int(new.ranks[m] / GRAIN)] += 1
     for g in range(GRAINS):
-        firsts[g + 1] += firsts[g]
+        new.firsts[g + 1] += new.firsts[g]
     for m in range(made - 1, -1, -1):
-        g = GRAINS - int(ranks[m] / GRAIN)
-        firsts[g] -= 1
-        order[firsts[g]] = m
+        g = GRAINS - int(new.ranks[m] / GRAIN)
+        new.firsts[g] -= 1
+        new.order[new.firsts[g]] = m
 
 
 @inlined
@@ -233,13 +223,11 @@ def select_best(
 ) -> int:
     """Write the best successors, unlike ones first; return their number.
 
-    They come from the old states and go on in the beam, (width, 9); parent and
-    action of each are written to ``chosen``, (width, 2). In a corner few
-    states are unlike, and small differences decide.
+    Parent and action of each are written to ``chosen``, (width, 2). In a
+    corner few states are unlike, and small differences decide.
     """
-    sort_ranks(new.ranks, made, new.order, new.firsts)
-    for place in range(len(table)):
-        table[place] = 0
+    sort_ranks(new, made)
+    table[:] = 0
     count = 0
     for alike in (False, True):
         for n in range(made):
@@ -272,13 +260,6 @@ def successors(number: int) -> Successors:
     )
 
 
-@inlined
-def begin(start: Any, state: Any) -> None:
-    """Write the first state of a game."""
-    store(pair_of(start[:3], start[3:]), state)
-    state[8] = ENOUGH
-
-
 @compiled
 def beam_search(
     start: Any,
@@ -287,12 +268,11 @@ def beam_search(
     packed: PackedObstacles,
     rules: BeamRules,
 ) -> Any:
-    """Return the actions of the game that survives longest.
+    """Return the numbers of the actions of the game that survives longest.
 
-    The start has the poses (x [m], y [m], theta [rad]) of evader and pursuer
-    in a frame whose origin is the centre of the room, (6,); actions are turn
-    [rad] and speed factor, (k, 2). Returns the number of the action of each
-    step, fewer than the horizon if no state of the beam survives it.
+    The start has the poses of evader and pursuer in a frame whose origin is
+    the centre of the room, (6,); actions are turn [rad] and speed factor,
+    (k, 2). They are fewer than the horizon if no state of the beam survives.
     """
     arcs = action_arcs(actions, rules.step.stride)
     width, horizon = rules.width, rules.horizon
@@ -302,7 +282,8 @@ def beam_search(
     while places < 2 * width:
         places *= 2
     table = np.zeros(places, dtype=np.int64)
-    begin(start, beams[0, 0])
+    store(pair_of(start[:3], start[3:]), beams[0, 0])
+    beams[0, 0, 8] = ENOUGH
     count, steps = 1, 0
     while steps < horizon:
         old, beam = beams[steps % 2], beams[(steps + 1) % 2]
@@ -329,15 +310,15 @@ def play_moves(
     """Return the steps that moves survive, and their least distance [m].
 
     Moves are turn [rad] and speed factor of each step, (n, 2); the distance is
-    at most 0.8 m. The start is that of :func:`beam_search`.
+    at most 0.8 m.
     """
     arcs = action_arcs(moves, rules.step.stride)
-    state, new = np.zeros(9), successors(1)
-    begin(start, state)
+    states, new = np.full((1, 9), ENOUGH), successors(1)
+    store(pair_of(start[:3], start[3:]), states[0])
     for n in range(len(moves)):
         arc = arcs[n : n + 1]
-        if not expand(state, arc, model, packed, rules, new, 0):
-            return n, state[8]
-        copy_values(new.poses[0, :4], state)
-        state[8] = new.poses[0, 4]
-    return len(moves), state[8]
+        if not expand(states, 0, arc, model, packed, rules, new, 0):
+            return n, states[0, 8]
+        copy_values(new.poses[0, :4], states[0])
+        states[0, 8] = new.poses[0, 4]
+    return len(moves), states[0, 8]

@@ -35,9 +35,7 @@ class PlayerPair(NamedTuple):
 class PursuerModel(NamedTuple):
     """Model of a pursuer's steps, of the family of :class:`..Pursuit`."""
 
-    gain: float = (
-        1.0  # turn of a step per bearing of its target, by the gait's
-    )
+    gain: float = 1.0  # turn per bearing of its target, by the gait's
     pull: float = 0.0  # weight of the origin in the direction it heads for
     lead: float = 0.0  # of its target ahead of the evader, over the distance
     speed: float = 1.0  # stride over that of the evader
@@ -47,7 +45,7 @@ PAPERS = PursuerModel()
 
 
 class StepRules(NamedTuple):
-    """Rules of a step, alike for both players."""
+    """Rules of a step."""
 
     stride: float  # of the evader [m]
     share: float  # turn of a step per desired heading, kappa
@@ -88,7 +86,7 @@ def walk_arc(
 ) -> tuple[float, float, float, float]:
     """Return position and heading vector after an arc of a way and a turn.
 
-    Half the turn enters by power series, accurate to 1e-9 up to 0.4 rad.
+    By power series, accurate to 1e-9 up to turns of 0.8 rad.
     """
     half = 0.5 * turn
     z = half * half
@@ -149,10 +147,7 @@ def step_both(
     model: PursuerModel,
     rules: StepRules,
 ) -> PlayerPair:
-    """Advance both players by one step.
-
-    The evader turns by a turn [rad] and makes a fraction of its stride.
-    """
+    """Advance both by one step, the evader at a share of its stride."""
     way = -pace * rules.stride  # backward
     x, y, c, s = walk_arc(both.ex, both.ey, both.ec, both.es, way, turn)
     u, v, p, q = pursue(both, model, rules)
@@ -165,8 +160,7 @@ def follow_model(
 ) -> tuple[float, float, float]:
     """Walk along a path as a model turns; return the pose at its end.
 
-    The positions on the path less those of the model, and less their mean, are
-    written to ``off``, in [m]. Shape (n, 2).
+    The distances from the path, less their mean, are written to ``off``.
     """
     x = y = mean_x = mean_y = 0.0
     for k in range(len(path)):
@@ -194,10 +188,10 @@ def fit_heading(
     """Fit initial heading and position of a model to a path.
 
     The turn of each step follows from the model, its length from the path:
-    poses (x [m], y [m], theta [rad]) of the evader, positions of the pursuer
-    [m] and times [steps], in a frame whose origin is the centre of the room,
-    (n, 6) with n > 1. Returns the pose of the pursuer at the end of the path,
-    and the mean squared distance from the path, in [m^2].
+    poses of the evader, positions of the pursuer [m] and times [steps], in a
+    frame whose origin is the centre of the room, (n, 6) with n > 1. Returns
+    the pose of the pursuer at the end, and the mean squared distance from the
+    path, in [m^2].
     """
     n = len(path)
     off, other = np.empty((n, 2)), np.empty((n, 2))
