@@ -1,8 +1,8 @@
 """The robot of a simulated walk."""
 
 from stepaside.games.player_settings import WALKER
+from stepaside.games.players import RobotPlayer
 from stepaside.games.recorded_game import RecordedGame
-from stepaside.games.robot_player import RobotPlayer
 
 
 def walker_of(game: RecordedGame) -> RobotPlayer:

@@ -11,7 +11,7 @@ from stepaside.core.signal_handling import (
 )
 from stepaside.games.game_settings import walk
 from stepaside.games.outcome import Outcome
-from stepaside.games.player import Player
+from stepaside.games.players import Player
 from stepaside.games.recorded_game import run_game
 
 SIGNALS = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)

@@ -10,8 +10,8 @@ import pytest
 from stepaside.games.game_settings import StartSettings
 from stepaside.games.game_settings import duel as make_duel
 from stepaside.games.outcome import Outcome
+from stepaside.games.players import RobotPlayer
 from stepaside.games.recorded_game import RecordedGame, run_game
-from stepaside.games.robot_player import RobotPlayer
 from stepaside.sim.camera_settings import RoomObject, SceneSettings
 from stepaside.sim.ground_truth import torsos_apart
 from stepaside.sim.world import World

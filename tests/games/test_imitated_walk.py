@@ -14,8 +14,8 @@ from stepaside.control.sight_sources import CameraSight
 from stepaside.core.poses import Pose
 from stepaside.games.game_settings import duel as make_duel
 from stepaside.games.outcome import Outcome
+from stepaside.games.players import RobotPlayer
 from stepaside.games.recorded_game import RecordedGame, run_game
-from stepaside.games.robot_player import RobotPlayer
 from stepaside.games.settings_reader import read_game
 from stepaside.sim.camera_settings import CameraSettings, ColourSettings
 from stepaside.sim.person_settings import PersonSettings

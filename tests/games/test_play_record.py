@@ -15,8 +15,8 @@ from stepaside.games.game_settings import StartSettings
 from stepaside.games.game_settings import duel as make_duel
 from stepaside.games.outcome import Outcome
 from stepaside.games.play_settings import PlaySettings
+from stepaside.games.players import RobotPlayer
 from stepaside.games.recorded_game import RecordedGame
-from stepaside.games.robot_player import RobotPlayer
 from stepaside.games.run_archive import complete_play, load_run
 from stepaside.games.settings_reader import dump_configuration
 from stepaside.robots.description import load_robot

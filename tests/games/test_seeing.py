@@ -10,8 +10,8 @@ from stepaside.control.sight_sources import CameraSight
 from stepaside.core.poses import wrap_angle, wrap_angles
 from stepaside.games import duel, run_game
 from stepaside.games.game_settings import StartSettings
+from stepaside.games.players import RobotPlayer
 from stepaside.games.recorded_game import RecordedGame
-from stepaside.games.robot_player import RobotPlayer
 from stepaside.perception.gaze import MAX_YAW, SCAN_SPEED
 from stepaside.perception.pipeline import Perception
 from stepaside.sim.camera_settings import (

@@ -9,8 +9,8 @@ from stepaside.core.errors import ConfigurationError
 from stepaside.core.poses import Array, wrap_angle
 from stepaside.games.game_settings import StartSettings
 from stepaside.games.game_settings import duel as make_duel
+from stepaside.games.players import RobotPlayer
 from stepaside.games.recorded_game import RecordedGame
-from stepaside.games.robot_player import RobotPlayer
 from stepaside.perception.lidar_perception import (
     find_people,
     nearest_ranges,

@@ -9,14 +9,13 @@ from stepaside.core.poses import Pose
 from stepaside.sim.crowd_motion import (
     NOTICES,
     CrowdMotion,
-    CrowdSettings,
     Neighbour,
     Vector,
     group_force,
     social_force,
 )
 from stepaside.sim.person_motion import PersonMotion
-from stepaside.sim.person_settings import PersonSettings
+from stepaside.sim.person_settings import CrowdSettings, PersonSettings
 
 STEP = 0.02  # in [s]
 ROBOT = (0.0, 0.0)

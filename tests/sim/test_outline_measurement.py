@@ -8,8 +8,8 @@ from stepaside.arena import BODY_RADIUS
 from stepaside.core.poses import Array, Pose
 from stepaside.games.game_settings import StartSettings
 from stepaside.games.game_settings import duel as make_duel
+from stepaside.games.players import RobotPlayer
 from stepaside.games.recorded_game import RecordedGame
-from stepaside.games.robot_player import RobotPlayer
 from stepaside.robots.description import load_robot
 from stepaside.sim.outline_measurement import measure_outline
 

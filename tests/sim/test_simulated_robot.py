@@ -9,11 +9,11 @@ import pytest
 from stepaside.control import ControlScheme
 from stepaside.control.sight_sources import MeasuredSight
 from stepaside.core.poses import Array, Pose
-from stepaside.games.robot_placing import RobotSetup, robot_with_strategy
-from stepaside.games.robot_player import RobotPlayer
+from stepaside.games.player_settings import PlayerSettings
+from stepaside.games.players import RobotPlayer
+from stepaside.games.robot_placing import RobotSetup, place_robot
 from stepaside.locomotion.control_settings import OPEN_LOOP, STABILISED
 from stepaside.perception.measurement import Sighting
-from stepaside.planning import GaitSettings
 from stepaside.robots.description import load_robot
 from stepaside.robots.description_types import FOOT_FORCES
 from stepaside.sim.body_settings import BodySettings
@@ -38,15 +38,13 @@ def walker(
     physics = PhysicsSettings(tick=0.012)
     world = World({"first": NAO, "second": NAO}, physics, body)
     world.data.qpos[:3] = (-9.0, 0.0, 0.33)  # out of the way
-    made = robot_with_strategy(
+    control = STABILISED if feedback else OPEN_LOOP
+    made = place_robot(
         world,
         RobotSetup(
-            "second",
+            PlayerSettings("second", control=control, start=tuple(frame)),
             NAO,
-            GaitSettings(),
-            STABILISED if feedback else OPEN_LOOP,
-            body=body,
-            start=frame,
+            body,
             seed=5,
             source=MeasuredSight(Sighting(0.0, 0.2, 2.0)),
             sights=sights,

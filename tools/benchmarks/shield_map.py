@@ -30,12 +30,12 @@ from stepaside.games.floor_games import play_floor
 from stepaside.games.floor_world import (
     FloorAgent,
     FloorMotion,
-    FloorPerson,
     FloorPoint,
     FloorWalk,
     FloorWorld,
 )
 from stepaside.games.game import GameRules
+from stepaside.games.people import FloorPerson
 from stepaside.games.strategy_games import PAIR
 from stepaside.locomotion.control_settings import LegsSettings
 from stepaside.locomotion.policy.policy_legs import load_legs

@@ -38,8 +38,8 @@ AMONG_TICKS = 0.99  # percentile of the tick times that is reported
 def record(file: Path) -> None:
     """Record the measurements and joint targets of two robots."""
     from stepaside.games.game_settings import duel
+    from stepaside.games.players import RobotPlayer
     from stepaside.games.recorded_game import RecordedGame
-    from stepaside.games.robot_player import RobotPlayer
     from stepaside.locomotion.control_settings import STABILISED
     from stepaside.sim.body_settings import BODIES
 

@@ -20,7 +20,7 @@ from ..strategies import Walk
 from ..strategies.knowledge import STAND, Intent
 from ..strategies.strategy import Strategy
 from ..strategies.velocity_set import STILL, BodyVelocity
-from .sight_sources import CameraSight, MeasuredSight, SightSource
+from .sight_sources import MeasuredSight, SightSource
 from .strategy_runner import StrategyRunner
 
 if TYPE_CHECKING:
@@ -170,23 +170,20 @@ def build_scheme(
     Raises:
         ReachError: If the standing posture of the gait is out of reach.
     """
-    forward = None
-    if isinstance(senses, CameraSight):
-        body = senses.perception.kinematics
-        forward = None if body is None else body.forward
+    senses = senses or MeasuredSight()
     walk = build_walk(
         *(description, gait, control),
         tick=tick,
         delay=delay,
         clearance=clearance,
-        forward=forward,
+        forward=senses.forward,
     )
     decisions = StrategyRunner(
         strategy,
         gait,
         None if clearance is None else clearance.surroundings,
     )
-    return ControlScheme(decisions, walk, senses or MeasuredSight())
+    return ControlScheme(decisions, walk, senses)
 
 
 def build_walk(

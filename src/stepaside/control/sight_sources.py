@@ -14,6 +14,7 @@ from ..strategies.decision_maker import choose_opponent
 if TYPE_CHECKING:
     from ..perception.lidar_perception import LidarPerception
     from ..perception.pipeline import Perception
+    from ..robots.forward_kinematics import ForwardKinematics
 
 StepAt = Callable[[float], CurrentStep]
 CORRECTION = 0.5  # of the attitude filter by the accelerometer, in [1/s]
@@ -43,6 +44,11 @@ class SightSource:
     @property
     def in_sight(self) -> PlayersInSight | None:
         """All players seen; None from a source that knows one opponent."""
+        return None
+
+    @property
+    def forward(self) -> "ForwardKinematics | None":
+        """Kinematics of the body that it measures, if it does."""
         return None
 
     def see(
@@ -173,6 +179,12 @@ class CameraSight(LidarSight):
     def views(self) -> tuple[Sector, ...]:
         """Range of the head, and views of the cameras on the torso."""
         return self.perception.views
+
+    @property
+    def forward(self) -> "ForwardKinematics | None":
+        """Kinematics of the body that the camera looks from."""
+        body = self.perception.kinematics
+        return None if body is None else body.forward
 
     def aim(self, targets: Array) -> None:
         """Turn the head to the last known position of the opponent."""

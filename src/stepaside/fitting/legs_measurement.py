@@ -12,6 +12,7 @@ import numpy as np
 from ..core.errors import PolicyError
 from ..core.poses import Array, Pose
 from ..core.random_streams import named_generator
+from ..games.player_settings import PlayerSettings
 from ..games.robot_placing import RobotSetup, policy_physics
 from ..locomotion.control_settings import LegsSettings
 from ..locomotion.policy.contract import CommandRanges
@@ -97,13 +98,9 @@ def _walk(
 ) -> LegsMotion:
     """Walk alone in a world from the default posture of the policy."""
     description = trial.description
-    setup = RobotSetup(
-        "robot",
-        description,
-        GaitSettings(zmp_forward=0.0),
-        legs=trial.legs,
-        seed=trial.seed,
-    )
+    gait = GaitSettings(zmp_forward=0.0)
+    own = PlayerSettings("robot", gait=gait, legs=trial.legs)
+    setup = RobotSetup(own, description, seed=trial.seed)
     physics = policy_physics(PhysicsSettings(), trial.body, [setup])
     setup = setup._replace(body=at_tick(trial.body, physics.tick))
     world = World({"robot": description}, physics, trial.body, trial.seed)

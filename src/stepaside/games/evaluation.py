@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 
 from ..core.constants import CAPTURE_DISTANCE
 from ..core.poses import Array
-from ..sim.crowd_motion import RADIUS
+from ..sim.person_settings import RADIUS
 from ..theory.unicycle.circles import fit_circle
 from .game import GameInPlay
 from .outcome import Outcome

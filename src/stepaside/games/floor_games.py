@@ -2,17 +2,15 @@
 
 from collections.abc import Mapping
 from dataclasses import replace
-from math import pi
 from types import MappingProxyType
 
 from .. import strategies
 from ..arena import NO_OBSTACLES, OPEN_FLOOR, ObstacleSet
 from ..core.constants import CAPTURE_DISTANCE
-from ..core.errors import ConfigurationError, StrategyError
+from ..core.errors import StrategyError
 from ..core.player_identity import Role
 from ..core.poses import Pose
-from ..sim.crowd_motion import RADIUS, CrowdMotion, Neighbour
-from ..sim.person_motion import PersonMotion
+from ..sim.person_settings import RADIUS
 from ..strategies.knowledge import limits_of
 from ..strategies.registry import load_strategy, shielded
 from ..strategies.strategy import Strategy
@@ -22,12 +20,10 @@ from .floor_world import (
     PERIOD,
     FloorAgent,
     FloorMotion,
-    FloorPerson,
     FloorPoint,
     FloorRecorder,
     FloorWalk,
     FloorWorld,
-    Seen,
 )
 from .game import GameInPlay, GameRules, play
 from .game_settings import GameSettings
@@ -76,12 +72,13 @@ def floor_of(
             )
             for own in settings.players
         },
-        _solids(settings),
+        solids_of(settings),
         [p.name for p in settings.players if p.role != Role.PURSUER],
     )
 
 
-def _solids(settings: GameSettings) -> ObstacleSet:
+def solids_of(settings: GameSettings) -> ObstacleSet:
+    """Return the obstacles of a game, walls included."""
     return (settings.room or OPEN_FLOOR).solid_set
 
 
@@ -109,7 +106,7 @@ def motion_of(
     of the settings. With the velocities of learned legs, a robot is the point
     that stands for them.
     """
-    pose, solids = own.pose, _solids(settings)
+    pose, solids = own.pose, solids_of(settings)
     physics = settings.level == "physics"
     assert pose is not None
     if own.decides:
@@ -125,25 +122,9 @@ def motion_of(
             walls=solids if own.role == Role.PURSUER else NO_OBSTACLES,
             radius=own.radius + MARGIN,
         )
-    if not own.goal:
-        target = _target_of(settings, own)
-        walk = walk_on_path(settings, own)
-        return FloorPerson(walk, lambda seen: seen[target][:2], period)
-    people = settings.people_around(own)
-    bodies = {
-        p.name: (p.name in people, p.radius, people.get(p.name, False))
-        for p in settings.players
-        if p is not own
-    }
+    from .people import walk_of
 
-    def neighbours(seen: Seen) -> list[Neighbour]:
-        return [
-            Neighbour(seen[name].x, seen[name].y, *body)
-            for name, body in bodies.items()
-        ]
-
-    crowd = CrowdMotion(own.crowd, pose, (own.goal[0], own.goal[1]), solids)
-    return FloorPerson(crowd, neighbours)
+    return walk_of(settings, own, period)
 
 
 def strategy_of(
@@ -183,30 +164,5 @@ def _agent_of(
         own.identity,
         list(settings.identities.values()),
         target=own.target,
-        obstacles=_solids(settings) if settings.knows_room else NO_OBSTACLES,
-    )
-
-
-def walk_on_path(settings: GameSettings, own: PlayerSettings) -> PersonMotion:
-    """Return the walk of a person without a goal, at its begin."""
-    pose = own.pose
-    aim = settings.player(_target_of(settings, own)).pose
-    assert pose is not None and aim is not None
-    course = pose.theta + (pi if own.person.backward else 0.0)
-    start = Pose(pose.x, pose.y, course)
-    return PersonMotion(own.person, start, aim[:2], _solids(settings))
-
-
-def _target_of(settings: GameSettings, own: PlayerSettings) -> str:
-    """Return the name of the player that a person without a goal walks to."""
-    others = [p for p in settings.players if p.name != own.name]
-    if own.target:
-        return own.target
-    opposing = [p for p in others if own.identity.opposes(p.identity)]
-    deciding = [p for p in others if p.decides]
-    for candidates in (opposing, deciding, others):
-        if candidates:
-            return candidates[0].name
-    raise ConfigurationError(
-        f"{own.name}: a person without a goal needs another player, got none"
+        obstacles=solids_of(settings) if settings.knows_room else NO_OBSTACLES,
     )

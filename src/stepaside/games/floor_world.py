@@ -4,10 +4,9 @@ A robot is its template unicycle, which decides at steps or eight times in a
 step, and follows the exact arc of each decision. Times are gait times.
 """
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from math import atan2, hypot, inf, pi
 from time import thread_time
-from typing import Any, Protocol
 
 import numpy as np
 
@@ -277,49 +276,6 @@ class FloorPoint(FloorMotion):
         """Return the pose at a time before the next sample, in [s]."""
         left = self._step - (self.due - time)
         return self.pose.compose(Pose(*(left * rate for rate in self._actual)))
-
-
-class MovingPerson(Protocol):
-    """Motion of a person, integrated step by step."""
-
-    pose: Pose  # present
-
-    def advance(self, time: float, duration: float, others: Any) -> None:
-        """Walk on up to a time, in [s], as others are seen."""
-
-
-class FloorPerson(FloorMotion):
-    """Person who walks among others, whom a function finds in what is seen."""
-
-    def __init__(
-        self,
-        motion: MovingPerson,
-        others: Callable[[Seen], Any],
-        period: float = PERIOD,
-    ) -> None:
-        """Begin a walk that decides in each period, in [s]."""
-        self.motion, self.pose = motion, motion.pose
-        self._others, self._period, self._now = others, period, 0.0
-
-    def decide(self, now: float, seen: Seen) -> None:
-        """Walk on for one period."""
-        self._now, self.due = now, now + self._period
-        self.motion.advance(self.due, self._period, self._others(seen))
-
-    def pose_at(self, time: float) -> Pose:
-        """Return the pose at a time before the next decision, in [s]."""
-        (x, y, _), ahead = self.pose, self.motion.pose
-        if time <= self._now:
-            return self.pose
-        share = min(1.0, (time - self._now) / (self.due - self._now))
-        return Pose(
-            x + share * (ahead.x - x), y + share * (ahead.y - y), ahead.theta
-        )
-
-    def advance(self, until: float) -> None:
-        """Move to a time, in [s]."""
-        super().advance(until)
-        self._now = until
 
 
 class FloorWorld:

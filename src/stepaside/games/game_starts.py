@@ -13,10 +13,7 @@ from ..core.errors import ConfigurationError
 from ..core.poses import Pose, wrap_angle
 from ..core.random_streams import named_generator
 from ..robots.description import load_robot
-from ..sim.crowd_motion import RADIUS
-from ..sim.person_motion import PersonMotion
-from ..sim.person_settings import PATHS
-from .floor_games import walk_on_path
+from ..sim.person_settings import PATHS, RADIUS
 from .game_settings import GameSettings, StartSettings
 from .player_settings import PLAYERS, PlayerSettings
 
@@ -68,6 +65,8 @@ def with_starts(settings: GameSettings) -> GameSettings:
     placed = _placed(settings, poses, goals)
     for player in placed.players:
         if player.body == "person" and not player.goal:
+            from .people import walk_on_path
+
             poses[player.name] = walk_on_path(placed, player).pose
     for name, (x, y, theta) in poses.items():
         poses[name] = Pose(x, y, wrap_angle(theta))
@@ -131,6 +130,8 @@ def _given_pose(player: PlayerSettings) -> Pose | None:
     """Return the initial pose that is not drawn; None if it is."""
     own, walks = player.person, not (player.goal or player.draws_goal)
     if player.body == "person" and walks and own.path not in PATHS:
+        from ..sim.person_motion import PersonMotion
+
         return PersonMotion(own, Pose(0.0, 0.0, 0.0), (0.0, 0.0)).pose
     return player.pose
 

@@ -14,6 +14,7 @@ from ..control.sight_sources import (
     LidarSight,
     MeasuredSight,
     SightOfPlayers,
+    SightSource,
 )
 from ..core.errors import ConfigurationError
 from ..core.poses import Pose
@@ -21,27 +22,24 @@ from ..core.random_streams import named_generator
 from ..perception.measurement import Sighting
 from ..robots.description import RobotDescription, load_robot
 from ..sim.body_settings import at_tick, with_control_period
-from ..sim.ground_truth import GroundTruth, IdealLineOfSight, torsos_apart
-from ..sim.person_body import PersonBody
+from ..sim.ground_truth import (
+    GroundTruth,
+    IdealLineOfSight,
+    TrueRobotState,
+    torsos_apart,
+)
 from ..sim.physics_settings import PhysicsSettings
 from ..sim.push import pushes_by_robot
 from ..sim.room_furnishing import obstacle_mover
 from ..sim.world import World
 from ..strategies import Strategy
 from .floor_games import motion_of, strategy_of
-from .floor_world import Seen
 from .game_furnishing import colours_of_players, furnish_game
 from .game_settings import GameSettings
 from .outcome import Outcome
-from .player import FloorPlayer, MarkerBody, Player
 from .player_settings import PlayerSettings
-from .robot_placing import (
-    RobotSetup,
-    policy_physics,
-    robot_at_velocities,
-    robot_with_strategy,
-)
-from .robot_player import RobotPlayer
+from .players import Player, RobotPlayer
+from .robot_placing import ORIGIN, RobotSetup, place_robot, policy_physics
 
 if TYPE_CHECKING:
     from .camera_senses import CameraSenses, SightEvaluator
@@ -103,38 +101,36 @@ class PhysicsWorld(World):
             move = obstacle_mover(self.model, self.data, settings.room)
             move(0.0)
             self.before_step.append(move)
-        self._states = {
+        # An ideal sensor needs the true states of all other players.
+        truths: dict[str, GroundTruth] = {
             name: setup.true_state_in(self)
             for name, setup in self._setups.items()
         }
-        self._motions = {
-            own.name: motion_of(
-                settings, own, self.physics.tick, strategies.get(own.name)
-            )
-            for own in settings.players
-            if own.body != "robot"
-        }
-        self._bodies = {
-            own.name: PersonBody(self, own.name, motion.pose)
-            if own.body == "person"
-            else MarkerBody(self, own.name, motion.pose)
-            for own in settings.players
-            if (motion := self._motions.get(own.name)) is not None
-        }
-        # An ideal sensor needs the true states of all other players.
-        self._truths: dict[str, GroundTruth] = {
-            own.name: self._states[own.name]
-            if own.name in self._states
-            else self._bodies[own.name].truth
-            for own in settings.players
-        }
-        self.players = tuple(self._player(own) for own in settings.players)
+        moved = {}
+        for own in settings.players:
+            if own.body != "robot":
+                from .people import FloorPlayer
+
+                given = strategies.get(own.name)
+                motion = motion_of(settings, own, self.physics.tick, given)
+                moved[own.name] = player = FloorPlayer(self, own, motion)
+                truths[own.name] = player.truth
+        self._truths = {name: truths[name] for name in settings.names}
+        self.players: tuple[Player, ...] = tuple(
+            moved.get(own.name) or self._robot(own) for own in settings.players
+        )
+        self._walkers = [p for p in self.players if isinstance(p, RobotPlayer)]
+        self._heads = [
+            robot.perception.head
+            for robot in self._walkers
+            if robot.perception is not None
+        ]
         mujoco.mj_forward(self.model, self.data)
         if settings.pushes:
             pushes = pushes_by_robot(settings.pushes, settings.robots)
-            for player in self.players:
-                if pushes.get(player.name):
-                    player.push(*pushes[player.name])
+            for robot in self._walkers:
+                if pushes[robot.name]:
+                    robot.push(*pushes[robot.name])
         self._has_things = settings.room is not None or bool(
             settings.scene.things
         )
@@ -169,10 +165,11 @@ class PhysicsWorld(World):
 
     def decide(self) -> None:
         """Let all players act at one control tick."""
-        if self.started_at is None and all(p.is_ready for p in self.players):
+        heads = self._heads
+        if self.started_at is None and all(h.is_ready for h in heads):
             self.started_at = self.time
-            for player in self.players:
-                player.start()
+            for head in heads:
+                head.start()
         for player in self.players:
             self.acting = player.name
             player.tick()
@@ -188,7 +185,7 @@ class PhysicsWorld(World):
 
     def fallen(self) -> tuple[str, ...]:
         """Return the names of the players that have fallen."""
-        return tuple(p.name for p in self.players if p.has_fallen)
+        return tuple(p.name for p in self._walkers if p.has_fallen)
 
     def touching(self) -> tuple[str, ...]:
         """Return the names of bodies in contact, after the first step."""
@@ -202,9 +199,9 @@ class PhysicsWorld(World):
         return super().touching() if near and self.robots_touch() else ()
 
     def close(self) -> None:
-        """Close all players."""
-        for player in self.players:
-            player.close()
+        """Close the cameras."""
+        for player in self._walkers:
+            player.robot.close()
 
     def _camera_senses(self, tick: float) -> "CameraSenses | None":
         """Return the camera sensing of the robots; None without cameras."""
@@ -224,45 +221,28 @@ class PhysicsWorld(World):
             tick=tick,
         )
 
-    def _player(self, own: PlayerSettings) -> Player:
-        """Return a player of the world."""
-        if own.body == "robot":
-            return self._robot(own)
-        motion = self._motions[own.name]
-
-        def seen() -> Seen:
-            poses = {
-                name: Pose(*truth.position_reference_in_world, 0.0)
-                for name, truth in self._truths.items()
-            }
-            return poses | {own.name: motion.pose}
-
-        return FloorPlayer(self._bodies[own.name], motion, seen)
-
     def _map_in_world(self, own: PlayerSettings) -> Pose:
         """Return the pose of the frame in which a robot knows places."""
-        if self._settings.knows_room:
-            return Pose(0.0, 0.0, 0.0)  # that of the known room
-        return _start_of(own)
+        known = self._settings.knows_room  # in the frame of the room
+        return ORIGIN if known or own.pose is None else own.pose
 
-    def _robot(self, own: PlayerSettings) -> Player:
+    def _robot(self, own: PlayerSettings) -> RobotPlayer:
         """Place a robot in the world, with sensors and controller."""
-        settings = self._settings
-        setup = self._setups[own.name]._replace(truth=self._states[own.name])
-        if own.name not in self._remote:
-            setup = self._with_senses(own, self._with_room(setup))
-            strategy = self._strategies[own.name]
-            return robot_with_strategy(self, setup, strategy)
-        if own.senses == "lidar":
+        truth = self._truths[own.name]
+        assert isinstance(truth, TrueRobotState)
+        setup = self._setups[own.name]._replace(truth=truth)
+        served = own.name in self._remote
+        if served and own.senses == "lidar":
             raise ConfigurationError(
                 "sensing must be ideal or cameras for a robot that another "
                 "process controls, got 'lidar'"
             )
-        if own.senses == "cameras" or self._remote[own.name]:
-            setup = self._with_senses(own, setup)
-        if settings.map.source == "given":  # it builds no map of its own
+        # A served robot builds no map of its own.
+        if not served or self._settings.map.source == "given":
             setup = self._with_room(setup)
-        return robot_at_velocities(self, setup)
+        if not served or own.senses == "cameras" or self._remote[own.name]:
+            setup = self._with_senses(setup)
+        return place_robot(self, setup, self._strategies.get(own.name))
 
     def _with_room(self, setup: RobotSetup) -> RobotSetup:
         """Return the setup of a robot with its knowledge of the room."""
@@ -272,55 +252,46 @@ class PhysicsWorld(World):
         from ..sim.outline_measurement import clearance_in
 
         seen = self._senses.perceptions if self._senses else {}
-        eyes = seen.get(setup.name)
+        eyes = seen.get(setup.own.name)
         clearance = clearance_in(
-            *(room, known, setup.start, setup.description, setup.gait),
+            *(room, known, setup.start, setup.description, setup.own.gait),
             None if eyes is None else eyes.floor,
         )
         return setup._replace(clearance=clearance)
 
-    def _with_senses(
-        self, own: PlayerSettings, setup: RobotSetup
-    ) -> RobotSetup:
+    def _with_senses(self, setup: RobotSetup) -> RobotSetup:
         """Return the setup of a robot with its senses."""
-        settings, tick = self._settings, self.physics.tick
+        settings, tick, own = self._settings, self.physics.tick, setup.own
+        source: SightSource = MeasuredSight()
         if own.senses == "cameras":
             assert self._senses is not None
             seen = self._senses.perceptions.get(own.name)
-            return setup._replace(
-                source=MeasuredSight()
-                if seen is None
-                else CameraSight(seen, tick=tick),
-                eyes=self._senses.eyes_of(self, own.name),
-            )
-        if own.senses == "ideal" and len(settings.players) == 1:
-            return setup._replace(
-                source=MeasuredSight(Sighting(0.0, 0.0, inf))
-            )
-        if own.senses == "ideal":
-            return setup._replace(
-                source=SightOfPlayers(own.identity, own.target),
-                sights=self._sights(own),
-            )
-        from ..perception.lidar_perception import LidarPerception
-        from ..sim.ranging import Lidar
+            if seen is not None:
+                source = CameraSight(seen, tick=tick)
+            eyes = self._senses.eyes_of(self, own.name)
+            return setup._replace(source=source, eyes=eyes)
+        if own.senses == "lidar":
+            from ..perception.lidar_perception import LidarPerception
+            from ..sim.ranging import Lidar
 
-        torso, lidar = setup.description.torso, settings.lidar
-        perception = LidarPerception(setup.description, lidar.far)
-        return setup._replace(
-            source=LidarSight(perception, tick=tick),
-            eyes=Lidar(self, own.name, torso, lidar, settings.seed),
-        )
-
-    def _sights(self, own: PlayerSettings) -> tuple[IdealLineOfSight, ...]:
-        """Return the ideal sensors of all other players on a robot."""
-        seed, truths = self._settings.seed, self._truths
-        return tuple(
+            torso, lidar = setup.description.torso, settings.lidar
+            perception = LidarPerception(setup.description, lidar.far)
+            return setup._replace(
+                source=LidarSight(perception, tick=tick),
+                eyes=Lidar(self, own.name, torso, lidar, settings.seed),
+            )
+        if len(settings.players) == 1:
+            source = MeasuredSight(Sighting(0.0, 0.0, inf))
+            return setup._replace(source=source)
+        truths = self._truths
+        sights = tuple(
             IdealLineOfSight(
                 truths[own.name],
                 truths[other.name],
                 own.sight,
-                named_generator(seed, f"sight/{own.name}/{other.name}"),
+                named_generator(
+                    settings.seed, f"sight/{own.name}/{other.name}"
+                ),
                 identity=other.identity,
                 between=[
                     truth
@@ -328,9 +299,11 @@ class PhysicsWorld(World):
                     if name not in (own.name, other.name)
                 ],
             )
-            for other in self._settings.players
+            for other in settings.players
             if other.name != own.name
         )
+        source = SightOfPlayers(own.identity, own.target)
+        return setup._replace(source=source, sights=sights)
 
     def sights(self, every: int) -> "dict[str, SightEvaluator]":
         """Return the evaluation of the sightings of robots with cameras.
@@ -363,13 +336,9 @@ def _setups_of(
         body = at_tick(body, settings.physics.tick)
     return {
         own.name: RobotSetup(
-            own.name,
+            own,
             descriptions.get(own.name) or load_robot(own.robot),
-            own.gait,
-            own.control,
-            own.legs,
             body,
-            _start_of(own),
             settings.seed,
         )
         for own in robots
@@ -380,16 +349,9 @@ def _physics_of(
     settings: GameSettings, setups: Mapping[str, RobotSetup]
 ) -> PhysicsSettings:
     """Return the physics of a game, at the control period of its robots."""
-    walking = [setup.legs.walks for setup in setups.values()]
+    walking = [setup.own.legs.walks for setup in setups.values()]
     if not any(walking):
         return with_control_period(settings.physics, settings.body)
     if settings.sensing_by("cameras") or not all(walking):
         return settings.physics  # heads move between decisions of the policy
     return policy_physics(settings.physics, settings.body, setups.values())
-
-
-def _start_of(own: PlayerSettings) -> Pose:
-    """Return the initial pose of a player in the world."""
-    pose = own.pose
-    assert pose is not None
-    return pose

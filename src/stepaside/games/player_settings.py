@@ -14,8 +14,7 @@ from ..locomotion.control_settings import ControlSettings, LegsSettings
 from ..planning import PRESETS, GaitSettings
 from ..robots.description import load_robot
 from ..sim.body_settings import BodySettings
-from ..sim.crowd_motion import RADIUS, CrowdSettings
-from ..sim.person_settings import PersonSettings
+from ..sim.person_settings import RADIUS, CrowdSettings, PersonSettings
 from ..sim.physics_settings import SightSettings
 from ..strategies import Evasion, load_strategy
 from ..strategies.registry import (

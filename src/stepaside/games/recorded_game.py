@@ -21,8 +21,8 @@ from .game_starts import with_starts
 from .outcome import Outcome
 from .physics_world import PhysicsWorld
 from .player_settings import EVADER, WALKER
+from .players import RobotPlayer
 from .recorder import Recorder
-from .robot_player import RobotPlayer
 from .run import Run
 from .summary import PerceptionSummary
 

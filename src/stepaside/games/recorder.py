@@ -13,8 +13,7 @@ from ..planning import Foot
 from .floor_world import PERIOD
 from .game import GameInPlay, GameObserver
 from .physics_world import PhysicsWorld
-from .player import Player
-from .robot_player import RobotPlayer
+from .players import Player, RobotPlayer
 from .summary import PlanningSummary
 from .trajectory import Trajectory
 
@@ -49,9 +48,11 @@ class PlayerRecord:
     def act(self, now: float) -> None:
         """Record the step that begins at this tick, and its images."""
         player, walk = self._player, self._player.maneuvers
+        if not isinstance(player, RobotPlayer):
+            return
         if player.begun is not None:
             self.begun.append(player.begun)
-        if not self._closely or not isinstance(player, RobotPlayer):
+        if not self._closely:
             return
         if walk is not None and walk.balance.solved is not None:
             self.solved.append(walk.balance.solved)
@@ -86,7 +87,7 @@ class PlayerRecord:
         player, numbers = self._player, self._numbers[:count]
         if player.frame is not None:
             arrays["landings"] = self._landings(player.frame)
-        if player.pushes:
+        if isinstance(player, RobotPlayer) and player.pushes:
             arrays["pushes"] = np.array(player.pushes)
         if self._plans:
             arrays["plans"] = np.array(self._plans)

@@ -4,22 +4,12 @@ from collections.abc import Iterable
 from dataclasses import is_dataclass, replace
 from typing import TYPE_CHECKING, NamedTuple
 
-from ..control.scheme import (
-    ControlScheme,
-    VelocityScheme,
-    build_scheme,
-    build_walk,
-)
+from ..control.scheme import ControlScheme, VelocityScheme, build_walk
 from ..control.sight_sources import MeasuredSight, SightSource
 from ..control.strategy_runner import StrategyRunner
 from ..core.poses import Pose
 from ..core.random_streams import named_generator
-from ..locomotion.control_settings import (
-    ControlSettings,
-    LegsSettings,
-)
 from ..locomotion.maneuver_walk import ManeuverWalk
-from ..planning import GaitSettings
 from ..robots.description import RobotDescription
 from ..robots.leg_kinematics import LegKinematics
 from ..sim.body_settings import BodySettings
@@ -28,7 +18,8 @@ from ..sim.physics_settings import PhysicsSettings
 from ..sim.simulated_robot import SimulatedRobot
 from ..sim.world import World
 from ..strategies import Strategy
-from .robot_player import RobotPlayer, VelocityWalker
+from .player_settings import PlayerSettings
+from .players import RobotPlayer, VelocityWalker
 
 if TYPE_CHECKING:
     from ..locomotion.guard import ClearanceSetup
@@ -41,16 +32,15 @@ if TYPE_CHECKING:
     from ..sim.sensor_suite import SensorSuite
 
 
+ORIGIN = Pose(0.0, 0.0, 0.0)
+
+
 class RobotSetup(NamedTuple):
     """Robot of a game, before it stands in the world."""
 
-    name: str  # in the world
+    own: PlayerSettings  # with the pose of its odometry, by default the origin
     description: RobotDescription
-    gait: GaitSettings  # or template of learned legs
-    control: ControlSettings = ControlSettings()
-    legs: LegsSettings = LegsSettings()
     body: BodySettings = BodySettings()
-    start: Pose = Pose(0.0, 0.0, 0.0)  # of its odometry in the world
     seed: int = 0  # of sensor errors
     truth: TrueRobotState | None = None  # its true state, if that exists
     source: SightSource | None = None  # of sightings for its controller
@@ -59,13 +49,18 @@ class RobotSetup(NamedTuple):
     # Knowledge of the room; who knows the room also knows its pose in it.
     clearance: "ClearanceSetup | None" = None
 
+    @property
+    def start(self) -> Pose:
+        """Pose of its odometry in the world."""
+        return self.own.pose or ORIGIN
+
     def true_state_in(self, world: World) -> TrueRobotState:
         """Return the true state of the robot in a world that contains it."""
         return TrueRobotState(
             world.model,
             world.data,
-            f"{self.name}/{self.description.torso}",
-            com_forward=self.gait.zmp_forward,
+            f"{self.own.name}/{self.description.torso}",
+            com_forward=self.own.gait.zmp_forward,
             place=self.description.place,
         )
 
@@ -81,19 +76,19 @@ class RobotSetup(NamedTuple):
         if isinstance(standing, LegKinematics):
             posture = standing
         else:
-            own, posture = standing.contract, standing.standing
-            pairs = zip(own.stiffness, own.damping, strict=True)
-            gains = dict(zip(own.joints, pairs, strict=True))
-        known = self.clearance
+            contract, posture = standing.contract, standing.standing
+            pairs = zip(contract.stiffness, contract.damping, strict=True)
+            gains = dict(zip(contract.joints, pairs, strict=True))
+        known, own = self.clearance, self.own
         return SimulatedRobot(
             world,
-            self.name,
+            own.name,
             self.description,
             posture,
             self.start,
             self.body,
-            generator=named_generator(self.seed, f"sensors/{self.name}"),
-            integrates_imu=gains is not None or bool(self.control.feedback),
+            generator=named_generator(self.seed, f"sensors/{own.name}"),
+            integrates_imu=gains is not None or bool(own.control.feedback),
             sights=self.sights,
             eyes=self.eyes,
             truth=self.truth or self.true_state_in(world),
@@ -101,67 +96,44 @@ class RobotSetup(NamedTuple):
             gains=gains,
         )
 
-    def place_on_legs(
-        self, world: World
-    ) -> tuple[SimulatedRobot, "PolicyWalk"]:
-        """Place it on learned legs, with a guard against obstacles."""
-        from ..locomotion.policy.policy_legs import PolicyWalk, load_legs
 
-        legs = load_legs(self.legs, self.description, tick=world.physics.tick)
-        known = self.clearance
-        guard = known and known.velocity_guard(legs.velocities)
-        return self.place(world, legs), PolicyWalk(legs, self.gait, guard)
-
-
-def robot_with_strategy(
-    world: World, setup: RobotSetup, strategy: Strategy
+def place_robot(
+    world: World, setup: RobotSetup, strategy: Strategy | None
 ) -> RobotPlayer:
-    """Place a robot in a world that contains it, with its controller."""
-    strategy, tick = with_body_radius(strategy, setup), world.physics.tick
-    if not setup.legs.walks:
-        scheme = build_scheme(
-            strategy,
-            setup.description,
-            setup.gait,
-            setup.control,
-            tick=tick,
-            delay=setup.body.delay_cycles * tick,
-            senses=setup.source,
-            clearance=setup.clearance,
-        )
-        robot = setup.place(world, scheme.walk.kinematics)
-        return RobotPlayer(robot, scheme, setup.start)
-    robot, walk = setup.place_on_legs(world)
+    """Place a robot in a world that contains it, with its controller.
+
+    Without a strategy it walks at velocities of another process.
+    """
+    own, known, tick = setup.own, setup.clearance, world.physics.tick
     source = setup.source or MeasuredSight()
-    runner = StrategyRunner(
-        strategy,
-        setup.gait,
-        setup.clearance and setup.clearance.surroundings,
-        velocities=walk.velocities,
-        views=source.views,
-    )
-    scheme = ControlScheme(runner, walk, source)
-    return RobotPlayer(robot, scheme, setup.start)
+    walk: ManeuverWalk | PolicyWalk
+    if own.legs.walks:
+        from ..locomotion.policy import policy_legs as learned
 
-
-def robot_at_velocities(world: World, setup: RobotSetup) -> VelocityWalker:
-    """Place a robot that walks at velocities of another process."""
-    tick = world.physics.tick
-    walk: PolicyWalk | ManeuverWalk
-    if setup.legs.walks:
-        robot, walk = setup.place_on_legs(world)
+        legs = learned.load_legs(own.legs, setup.description, tick=tick)
+        guard = known and known.velocity_guard(legs.velocities)
+        walk = learned.PolicyWalk(legs, own.gait, guard)
+        robot = setup.place(world, legs)
     else:
         walk = build_walk(
-            setup.description,
-            setup.gait,
-            setup.control,
+            *(setup.description, own.gait, own.control),
             tick=tick,
             delay=setup.body.delay_cycles * tick,
-            clearance=setup.clearance,
+            clearance=known,
+            forward=source.forward,
         )
         robot = setup.place(world, walk.kinematics)
-    scheme = VelocityScheme(walk)
-    return VelocityWalker(robot, scheme, setup.start, setup.description)
+    if strategy is None:
+        scheme = VelocityScheme(walk)
+        return VelocityWalker(robot, scheme, setup.start, setup.description)
+    runner = StrategyRunner(
+        with_body_radius(strategy, setup),
+        own.gait,
+        known and known.surroundings,
+        velocities=None if walk.maneuvers else walk.velocities,
+        views=source.views,
+    )
+    return RobotPlayer(robot, ControlScheme(runner, walk, source), setup.start)
 
 
 def with_body_radius(strategy: Strategy, setup: RobotSetup) -> Strategy:
@@ -172,7 +144,7 @@ def with_body_radius(strategy: Strategy, setup: RobotSetup) -> Strategy:
     known = setup.clearance
     if known is None or not is_dataclass(strategy):
         return strategy
-    radius = known.radius(setup.gait)
+    radius = known.radius(setup.own.gait)
     if getattr(strategy, "body_radius", radius) >= radius:
         return strategy
     enlarged: Strategy = replace(strategy, body_radius=radius)
@@ -192,7 +164,9 @@ def policy_physics(
 
     if body.has_sensor_errors or not body.has_ideal_servos:
         return physics
-    periods = {load_policy(r.legs, r.description)[0].period for r in robots}
+    periods = {
+        load_policy(r.own.legs, r.description)[0].period for r in robots
+    }
     if len(periods) != 1:
         return physics
     steps = periods.pop() / physics.time_step

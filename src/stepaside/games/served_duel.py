@@ -8,8 +8,8 @@ from typing import TYPE_CHECKING, NamedTuple
 from ..core.errors import ConfigurationError
 from .game import GameInPlay, GameObserver, Progress, play
 from .game_settings import GameSettings
+from .players import VelocityWalker
 from .recorded_game import RecordedGame
-from .robot_player import VelocityWalker
 from .run import Run
 
 if TYPE_CHECKING:

@@ -12,8 +12,7 @@ from typing import NamedTuple
 
 from ..arena import NO_OBSTACLES, ObstacleSet
 from ..core.poses import Pose, wrap_angle
-from ..core.ranges import Range
-from ..core.setting import CheckedSettings, setting
+from .person_settings import RADIUS, CrowdSettings
 
 RELAXATION = 0.5  # time to reach the desired velocity, in [s]
 STRENGTH = 5.1  # of the force from another walker, in [m/s^2]
@@ -104,9 +103,7 @@ NOTICES = {
     "scared": Notice(3.0, 40.0),
     "threatening": Notice(4.0, 40.0),
 }
-REACTIONS = ("none", "avoid-people", "regular", "impassive", *NOTICES)
 VIEW = radians(100.0)  # to either side, within which it notices a robot
-RADIUS = 0.25  # of a person, in [m]
 ARRIVED = 0.2  # distance from the goal at which the person halts, in [m]
 FASTEST = 1.3  # greatest speed over the desired one
 FAR = 8.0  # distance beyond which others have no influence, in [m]
@@ -120,28 +117,6 @@ TURN_RATE = pi  # of a person who turns to look at a robot, in [rad/s]
 SMOOTHING = 0.3  # time constant of the velocities of others, in [s]
 LOOKS_WITHIN = 1.2  # distance of a robot that a person looks at, in [m]
 STANDING = 0.1  # speed below which a robot stands, in [m/s]
-
-
-@dataclass(frozen=True, slots=True)
-class CrowdSettings(CheckedSettings, prefix="crowd."):
-    """Walk of a person to a goal."""
-
-    speed: float = setting(
-        0.8,
-        "Desired speed of the person",
-        Range(0.0, 3.0, "m/s", "faster is running"),
-    )
-    reaction: str = setting(
-        "regular",
-        "Reaction to others: none, to people but not robots, or to both. "
-        "Robots are people for a regular person and obstacles for an "
-        "impassive one. A surprised person halts, a curious one comes nearer, "
-        "a scared one keeps away, and a threatening one blocks the robot",
-        names=REACTIONS,
-    )
-    returns: bool = setting(
-        False, "Walk back to the start, and again, instead of halting"
-    )
 
 
 @dataclass(frozen=True, slots=True)

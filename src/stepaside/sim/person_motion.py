@@ -9,8 +9,8 @@ from ..arena import NO_OBSTACLES, ObstacleSet
 from ..core.errors import ConfigurationError
 from ..core.poses import Array, Pose, wrap_angle
 from ..theory import laws
-from .crowd_motion import RADIUS, CrowdMotion, CrowdSettings, Neighbour
-from .person_settings import PATHS, PersonSettings
+from .crowd_motion import CrowdMotion, Neighbour
+from .person_settings import PATHS, RADIUS, CrowdSettings, PersonSettings
 
 Place = tuple[float, float]
 BEYOND = 8.0  # goal of a person who reacts, beyond the evader, in [m]

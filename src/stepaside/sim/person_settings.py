@@ -1,20 +1,46 @@
-"""Settings of a person who plays the pursuer."""
+"""Settings of people."""
 
 from dataclasses import dataclass
 from math import inf, pi
 
 from ..core.errors import ConfigurationError
 from ..core.ranges import Range
-from ..core.setting import check_settings, setting
-from .crowd_motion import REACTIONS
+from ..core.setting import CheckedSettings, check_settings, setting
 
 PATHS = ("steer", "straight")
+REACTIONS = (
+    *("none", "avoid-people", "regular", "impassive"),
+    *("surprised", "curious", "scared", "threatening"),
+)
+RADIUS = 0.25  # of a person, in [m]
 PURSUERS = ("robot", "person")
 
 
 @dataclass(frozen=True, slots=True)
+class CrowdSettings(CheckedSettings, prefix="crowd."):
+    """Walk of a person to a goal."""
+
+    speed: float = setting(
+        0.8,
+        "Desired speed of the person",
+        Range(0.0, 3.0, "m/s", "faster is running"),
+    )
+    reaction: str = setting(
+        "regular",
+        "Reaction to others: none, to people but not robots, or to both. "
+        "Robots are people for a regular person and obstacles for an "
+        "impassive one. A surprised person halts, a curious one comes nearer, "
+        "a scared one keeps away, and a threatening one blocks the robot",
+        names=REACTIONS,
+    )
+    returns: bool = setting(
+        False, "Walk back to the start, and again, instead of halting"
+    )
+
+
+@dataclass(frozen=True, slots=True)
 class PersonSettings:
-    """Settings of the walk of a person."""
+    """Walk of a person without a goal."""
 
     path: str = setting(
         "steer",

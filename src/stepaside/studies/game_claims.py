@@ -16,8 +16,8 @@ from ..games.game_settings import GameSettings, StartSettings, duel
 from ..games.outcome import Outcome
 from ..games.physics_world import PhysicsWorld
 from ..games.player_settings import PLAYERS
+from ..games.players import RobotPlayer
 from ..games.recorded_game import RecordedGame, run_game
-from ..games.robot_player import RobotPlayer
 from ..games.run import Run
 from ..games.settings_reader import read_game
 from ..games.strategy_games import StepGame, StrategyTrack

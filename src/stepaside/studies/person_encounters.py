@@ -11,8 +11,7 @@ from ..core.setting import CheckedSettings, setting
 from ..games.game_settings import GameSettings, StartSettings
 from ..games.outcome import Outcome
 from ..games.recorded_game import run_game
-from ..sim.crowd_motion import REACTIONS
-from ..sim.person_settings import PersonSettings
+from ..sim.person_settings import REACTIONS, PersonSettings
 from ..strategies import DashEvasion
 from .tabulation import Record
 

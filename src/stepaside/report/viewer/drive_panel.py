@@ -9,7 +9,7 @@ import viser
 
 from ...core.errors import StepAsideError
 from ...games.player_settings import PLAYERS, PURSUER
-from ...games.robot_player import RobotPlayer
+from ...games.players import RobotPlayer
 from ...strategies import Strategy, Walk
 from .live_session import LiveSession
 

@@ -8,10 +8,9 @@ import numpy as np
 from ...core.poses import Array, Pose
 from ...games.game import GameInPlay, GameObserver
 from ...games.physics_world import PhysicsWorld
-from ...games.player import Player
 from ...games.player_settings import PLAYERS
+from ...games.players import Player, RobotPlayer
 from ...games.recorded_game import RecordedGame
-from ...games.robot_player import RobotPlayer
 from ...games.trajectory import angle_between
 from ...perception.pipeline import FrameReport
 from ...planning import Foot
@@ -85,7 +84,10 @@ class LiveHistory(GameObserver):
             x, y, _ = player.truth.position_com_in_world.tolist()
             self._trace("CoM trace", player.name, (x, y))
             # The ZMP is NaN while no foot is in contact.
-            if (zmp := player.zmp) is not None and np.isfinite(zmp[0]):
+            if not isinstance(player, RobotPlayer):
+                continue
+            zmp = player.robot.measured_zmp()
+            if np.isfinite(zmp[0]):
                 self._trace("ZMP trace", player.name, zmp)
 
     def _trace(self, layer: str, name: str, point: tuple[float, ...]) -> None:
@@ -98,11 +100,15 @@ class LiveHistory(GameObserver):
         if isinstance(game, RecordedGame) and game.world.time <= MAX_RECORDED:
             game.recorder.acted(game)
         for player in game.world.players:
+            if not isinstance(player, RobotPlayer):
+                continue
             odometry = true_odometry(player) if player.begun else None
             if player.begun is not None and odometry is not None:
                 pose = odometry.compose(player.begun.landing)
                 row = np.array([player.begun.foot.value, *pose])
                 new = deque[Array](maxlen=MAX_STEPS)
                 self.steps.setdefault(player.name, new).append(row)
-            for report in player.reports:
+            if player.perception is None:
+                continue
+            for report in player.perception.reports:
                 self.frames[f"{player.name}, {report.camera}"] = report

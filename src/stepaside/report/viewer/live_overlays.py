@@ -8,6 +8,7 @@ import viser
 from ...core.convex import convex_hull
 from ...core.poses import Array, Pose
 from ...games.player_settings import EVADER, PURSUER
+from ...games.players import RobotPlayer
 from ...locomotion.maneuver_walk import ManeuverWalk
 from ...planning import Foot
 from ...planning.plan import sole_corners
@@ -40,8 +41,9 @@ def live_overlays(session: LiveSession) -> list[SceneLines]:
             steps = session.history.steps.get(name, ())
             now = session.world.time
             found += _walk_lines(name, walk, [*steps], frame, now)
-        pushes = np.array(player.pushes[-MAX_PUSHES:]).reshape(-1, 6)
-        found.append(push_arrows(name, pushes))
+        if isinstance(player, RobotPlayer):
+            pushes = np.array(player.pushes[-MAX_PUSHES:]).reshape(-1, 6)
+            found.append(push_arrows(name, pushes))
     for (layer, name), points in session.history.traces.items():
         found.append(SceneLines(layer, name, polyline(np.array(points))))
     for name, radius in session.played.safety_radii.items():

@@ -15,6 +15,7 @@ from ...games.game_settings import GameSettings
 from ...games.game_starts import with_starts
 from ...games.outcome import Outcome
 from ...games.physics_world import PhysicsWorld
+from ...games.players import RobotPlayer
 from ...games.recorded_game import RecordedGame
 from ...sim.push import Push
 from ..palette import colours_in
@@ -183,7 +184,12 @@ class LiveSession:
                 robot.
         """
         push = Push(impulse, self.world.time, direction)
-        self.call(lambda: self.world.player(player).push(push))
+        robot = self.world.player(player)
+        if not isinstance(robot, RobotPlayer):
+            raise ConfigurationError(
+                f"only a robot can be pushed, got {player}"
+            )
+        self.call(lambda: robot.push(push))
 
     def save(self, parent: Path) -> Path:
         """Write the game so far into a new run folder, and return that.

@@ -14,7 +14,7 @@ from ...core.errors import StepAsideError
 from ...core.setting import Setting, settings_of
 from ...games.game_settings import GameSettings, StartSettings, duel
 from ...games.player_settings import EVADER, EVASION
-from ...games.robot_player import RobotPlayer
+from ...games.players import RobotPlayer
 from ...planning import PRESETS as GAITS
 from ...sim.person_settings import PersonSettings
 from .live_session import LiveSession

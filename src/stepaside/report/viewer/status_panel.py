@@ -7,7 +7,7 @@ import viser
 from viser import uplot
 
 from ...core.poses import Array
-from ...games.player import Player
+from ...games.players import Player, RobotPlayer
 from ...locomotion.locomotion import Phase
 from ...perception.images import ColourImage, Pixels
 from ...perception.pipeline import FrameReport
@@ -28,7 +28,7 @@ FOUND = (30, 190, 70)  # red, green and blue of detections
 
 def phase_of(player: Player) -> Phase:
     """Return the phase of a player; a player without phases is walking."""
-    if player.has_fallen:
+    if isinstance(player, RobotPlayer) and player.has_fallen:
         return Phase.FALLEN
     walk = player.maneuvers
     return Phase.WALKING if walk is None else walk.phase

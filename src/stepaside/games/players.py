@@ -1,7 +1,6 @@
-"""Players that are simulated robots: with a strategy, or served."""
+"""Players of a game in physics: simulated robots, and others."""
 
 import logging
-from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -17,27 +16,67 @@ from ..perception.measurement import RobotState, Sighting
 from ..planning import Foot
 from ..robots.description import RobotDescription
 from ..robots.forward_kinematics import ForwardKinematics, torso_pose_on_foot
-from ..sim.ground_truth import TrueStance
+from ..sim.ground_truth import GroundTruth, TrueStance
 from ..sim.push import Push, ScheduledPush
 from ..sim.simulated_robot import SimulatedRobot
 from ..strategies.velocity_set import BodyVelocity
-from .player import Player
 
 if TYPE_CHECKING:
     from ..drivers.ros2_server import BodyPlace
-    from ..perception.pipeline import FrameReport, Perception
+    from ..perception.pipeline import Perception
 
 log = logging.getLogger(__name__)
 
 AT_ONCE = 1.0  # a fall until then is one of the policy, in [s]
 
 
-class RobotPlayer(Player):
-    """Simulated robot with its controller.
+class Player:
+    """Player of a game in physics: a robot, a person or a moved marker."""
 
-    Attributes:
-        plans: Whether it walks by maneuvers.
-    """
+    name: str
+    truth: GroundTruth  # true state, for the rules of the game and the record
+    frame: Pose | None = None  # of its odometry in the world, if it has one
+    maneuvers: ManeuverWalk | None = None  # of a robot that plans its steps
+
+    @property
+    def place_in_world(self) -> Pose:
+        """Reference point and heading."""
+        truth = self.truth
+        return Pose(*truth.position_reference_in_world, truth.heading_in_world)
+
+    @property
+    def torso_in_world(self) -> Pose:
+        """Origin and heading of the torso."""
+        truth = self.truth
+        return Pose(*truth.position_torso_in_world, truth.heading_in_world)
+
+    @property
+    def is_moving(self) -> bool:
+        """Whether it has left its standing state."""
+        return True
+
+    def tick(self) -> None:
+        """Perceive, decide and act; physics advances afterwards.
+
+        Raises:
+            ReachError: If its legs cannot reach their references.
+            StrategyError: If its strategy gives no intent.
+        """
+
+    def sample(self, *, closely: bool) -> dict[str, Any]:
+        """Return its present motion, by name in a trajectory.
+
+        Closely with all that is measured of it.
+        """
+        return {
+            "com": self.truth.position_com_in_world,
+            "place": self.place_in_world,
+            "torso": self.torso_in_world,
+        }
+
+
+class RobotPlayer(Player):
+    """Simulated robot with its controller."""
 
     frame: Pose
 
@@ -48,32 +87,16 @@ class RobotPlayer(Player):
         self.name, self.truth, self.robot = robot.name, robot.truth, robot
         self.scheme, self.frame = scheme, frame
         self.walk = scheme.locomotion
-        self.plans = self.maneuvers is not None
+        self.maneuvers = self.walk.maneuvers
         # Exact sightings are read when a decision is due.
         self._coasts = robot.sees_exactly
         self._feels = scheme.locomotion.feels or not self._coasts
 
     @property
-    def _perception(self) -> "Perception | None":
+    def perception(self) -> "Perception | None":
+        """Perception by cameras, if it has one."""
         senses = self.scheme.senses
         return senses.perception if isinstance(senses, CameraSight) else None
-
-    @property
-    def reports(self) -> "Sequence[FrameReport]":
-        """Detections of the images that arrived at the last tick."""
-        perception = self._perception
-        return () if perception is None else perception.reports
-
-    @property
-    def is_ready(self) -> bool:
-        """Whether it has scanned the room, if it maps it."""
-        perception = self._perception
-        return perception is None or perception.head.is_ready
-
-    def start(self) -> None:
-        """Receive the signal that the game begins."""
-        if self._perception is not None:
-            self._perception.head.start()
 
     def tick(self) -> None:
         """Read the sensors, decide, and send joint targets."""
@@ -85,16 +108,6 @@ class RobotPlayer(Player):
             sees = not self._coasts or scheme.locomotion.decides(now)
             targets = scheme.update(robot.read(sees=sees, feels=self._feels))
         robot.write(targets)
-
-    @property
-    def maneuvers(self) -> ManeuverWalk | None:
-        """Walk of a robot that plans its steps."""
-        return self.walk.maneuvers
-
-    @property
-    def zmp(self) -> tuple[float, float]:
-        """Center of its foot forces in the world, in [m]; NaN in flight."""
-        return self.robot.measured_zmp()
 
     @property
     def pushes(self) -> tuple[ScheduledPush, ...]:
@@ -119,7 +132,7 @@ class RobotPlayer(Player):
             PolicyError: If a robot on learned legs fell before it could walk.
         """
         fallen, now = self.truth.has_fallen, self.robot.world.time
-        if not fallen or self.plans or now > AT_ONCE:
+        if not fallen or self.maneuvers or now > AT_ONCE:
             return fallen or self.walk.phase is Phase.FALLEN
         raise PolicyError(
             f"legs: {self.name} fell at {now:.2f} s, while it was to "
@@ -179,10 +192,6 @@ class RobotPlayer(Player):
     def push(self, *pushes: Push) -> None:
         """Schedule pushes of the torso, now or later."""
         self.robot.push(*pushes)
-
-    def close(self) -> None:
-        """Close the cameras."""
-        self.robot.close()
 
 
 class VelocityWalker(RobotPlayer):

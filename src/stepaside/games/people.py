@@ -1,0 +1,163 @@
+"""Players of a game that physics does not move: people, and templates."""
+
+from collections.abc import Callable
+from math import pi
+from typing import TYPE_CHECKING, Any, Protocol
+
+from ..core.errors import ConfigurationError
+from ..core.poses import Pose
+from ..sim.crowd_motion import CrowdMotion, Neighbour
+from ..sim.ground_truth import FloorTruth
+from ..sim.person_body import PersonBody, pose_template
+from ..sim.person_motion import PersonMotion
+from ..sim.world import World
+from .floor_games import solids_of
+from .floor_world import AT_ONCE, PERIOD, FloorMotion, Seen
+from .game_settings import GameSettings
+from .player_settings import PlayerSettings
+from .players import Player
+
+if TYPE_CHECKING:
+    from .physics_world import PhysicsWorld
+
+MARKER_HEIGHT = 0.27  # that stands for the CoM of a marker, in [m]
+MARKER_REACH = 0.1  # of a marker, which touches nothing, in [m]
+
+
+class MovingPerson(Protocol):
+    """Motion of a person, integrated step by step."""
+
+    pose: Pose  # present
+
+    def advance(self, time: float, duration: float, others: Any) -> None:
+        """Walk on up to a time, in [s], as others are seen."""
+
+
+class FloorPerson(FloorMotion):
+    """Person who walks among others, whom a function finds in what is seen."""
+
+    def __init__(
+        self,
+        motion: MovingPerson,
+        others: Callable[[Seen], Any],
+        period: float = PERIOD,
+    ) -> None:
+        """Begin a walk that decides in each period, in [s]."""
+        self.motion, self.pose = motion, motion.pose
+        self._others, self._period, self._now = others, period, 0.0
+
+    def decide(self, now: float, seen: Seen) -> None:
+        """Walk on for one period."""
+        self._now, self.due = now, now + self._period
+        self.motion.advance(self.due, self._period, self._others(seen))
+
+    def pose_at(self, time: float) -> Pose:
+        """Return the pose at a time before the next decision, in [s]."""
+        (x, y, _), ahead = self.pose, self.motion.pose
+        if time <= self._now:
+            return self.pose
+        share = min(1.0, (time - self._now) / (self.due - self._now))
+        return Pose(
+            x + share * (ahead.x - x), y + share * (ahead.y - y), ahead.theta
+        )
+
+    def advance(self, until: float) -> None:
+        """Move to a time, in [s]."""
+        super().advance(until)
+        self._now = until
+
+
+def walk_of(
+    settings: GameSettings, own: PlayerSettings, period: float
+) -> FloorPerson:
+    """Return the walk of a person, who decides in each period, in [s]."""
+    if not own.goal:
+        target = _target_of(settings, own)
+        walk = walk_on_path(settings, own)
+        return FloorPerson(walk, lambda seen: seen[target][:2], period)
+    people = settings.people_around(own)
+    bodies = {
+        p.name: (p.name in people, p.radius, people.get(p.name, False))
+        for p in settings.players
+        if p is not own
+    }
+
+    def neighbours(seen: Seen) -> list[Neighbour]:
+        return [
+            Neighbour(seen[name].x, seen[name].y, *body)
+            for name, body in bodies.items()
+        ]
+
+    pose, (x, y) = own.pose, own.goal
+    assert pose is not None
+    crowd = CrowdMotion(own.crowd, pose, (x, y), solids_of(settings))
+    return FloorPerson(crowd, neighbours)
+
+
+def walk_on_path(settings: GameSettings, own: PlayerSettings) -> PersonMotion:
+    """Return the walk of a person without a goal, at its begin."""
+    pose = own.pose
+    aim = settings.player(_target_of(settings, own)).pose
+    assert pose is not None and aim is not None
+    course = pose.theta + (pi if own.person.backward else 0.0)
+    start = Pose(pose.x, pose.y, course)
+    return PersonMotion(own.person, start, aim[:2], solids_of(settings))
+
+
+def _target_of(settings: GameSettings, own: PlayerSettings) -> str:
+    """Return the name of the player that a person without a goal walks to."""
+    others = [p for p in settings.players if p.name != own.name]
+    if own.target:
+        return own.target
+    opposing = [p for p in others if own.identity.opposes(p.identity)]
+    deciding = [p for p in others if p.decides]
+    for candidates in (opposing, deciding, others):
+        if candidates:
+            return candidates[0].name
+    raise ConfigurationError(
+        f"{own.name}: a person without a goal needs another player, got none"
+    )
+
+
+class MarkerBody:
+    """Marker of a unicycle, without contacts."""
+
+    def __init__(self, world: World, name: str, pose: Pose) -> None:
+        """Set the marker to a pose."""
+        self.name, self.world = name, world
+        self.truth = FloorTruth(pose, reach=MARKER_REACH, height=MARKER_HEIGHT)
+        self.move(pose)
+
+    def move(self, pose: Pose) -> None:
+        """Move to a pose in the world."""
+        self.truth.pose = pose
+        pose_template(self.world.model, self.world.data, self.name, pose)
+
+
+class FloorPlayer(Player):
+    """Player that physics does not move.
+
+    A body on the floor shows it and gives its true state. Its motion is that
+    of a game without bodies (:mod:`.floor_world`).
+    """
+
+    def __init__(
+        self, world: "PhysicsWorld", own: PlayerSettings, motion: FloorMotion
+    ) -> None:
+        """Combine a motion and its body in a world."""
+        self.name, self._motion, self._world = own.name, motion, world
+        self._body: PersonBody | MarkerBody
+        made = PersonBody if own.body == "person" else MarkerBody
+        self._body = made(world, own.name, motion.pose)
+        self.truth = self._body.truth
+
+    def tick(self) -> None:
+        """Advance the motion by one tick."""
+        world, motion = self._world, self._motion
+        until = world.time + world.physics.tick
+        while motion.due < until - AT_ONCE:
+            motion.advance(motion.due)
+            seen = world.states() | {self.name: motion.pose}
+            motion.decide(motion.due, seen)
+        motion.advance(until)
+        self._body.move(motion.pose)
