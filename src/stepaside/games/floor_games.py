@@ -5,7 +5,7 @@ from dataclasses import replace
 from types import MappingProxyType
 
 from .. import strategies
-from ..arena import NO_OBSTACLES, OPEN_FLOOR, ObstacleSet
+from ..arena import NO_OBSTACLES
 from ..core.constants import CAPTURE_DISTANCE
 from ..core.errors import StrategyError
 from ..core.player_identity import Role
@@ -72,14 +72,9 @@ def floor_of(
             )
             for own in settings.players
         },
-        solids_of(settings),
+        settings.solids,
         [p.name for p in settings.players if p.role != Role.PURSUER],
     )
-
-
-def solids_of(settings: GameSettings) -> ObstacleSet:
-    """Return the obstacles of a game, walls included."""
-    return (settings.room or OPEN_FLOOR).solid_set
 
 
 def rules_of(settings: GameSettings) -> GameRules:
@@ -106,7 +101,7 @@ def motion_of(
     of the settings. With the velocities of learned legs, a robot is the point
     that stands for them.
     """
-    pose, solids = own.pose, solids_of(settings)
+    pose, solids = own.pose, settings.solids
     physics = settings.level == "physics"
     assert pose is not None
     if own.decides:
@@ -164,5 +159,5 @@ def _agent_of(
         own.identity,
         list(settings.identities.values()),
         target=own.target,
-        obstacles=solids_of(settings) if settings.knows_room else NO_OBSTACLES,
+        obstacles=settings.solids if settings.knows_room else NO_OBSTACLES,
     )

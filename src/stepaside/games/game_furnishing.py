@@ -6,8 +6,6 @@ import mujoco
 
 from ..core.player_identity import Colour, Rgb, Role, shades_of
 from ..sim.camera_settings import SceneSettings
-from ..sim.person_body import SHIRT, add_person, add_template
-from ..sim.room_furnishing import add_solids
 from ..sim.world import COLOURS
 from .game_settings import GameSettings
 
@@ -47,6 +45,8 @@ def furnish_game(
     """
     colours, is_duel = colours_of_players(settings), settings.game == "duel"
     if settings.room is not None:
+        from ..sim.room_furnishing import add_solids
+
         add_solids(spec, settings.room)
     seeing = [
         p for p in settings.sensing_by("cameras") if p.name not in templates
@@ -62,12 +62,16 @@ def furnish_game(
             wearers=[p.name for p in seeing],
         )
     for player in settings.players:
+        if player.body == "robot" and player.name not in templates:
+            continue
+        from ..sim.person_body import SHIRT, add_person, add_template
+
+        colour = colours[player.name]
         if player.body == "person":
-            shirt = SHIRT if is_duel else colours[player.name]
-            solid = player.person.solid
+            shirt, solid = SHIRT if is_duel else colour, player.person.solid
             add_person(spec, player.name, shirt=shirt, solid=solid)
-        elif player.body != "robot" or player.name in templates:
-            add_template(spec, player.name, colours[player.name])
+        else:
+            add_template(spec, player.name, colour)
 
 
 def _wall_distance(settings: GameSettings) -> float:

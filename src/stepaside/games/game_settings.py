@@ -5,7 +5,7 @@ from dataclasses import dataclass, fields, replace
 from math import pi
 from typing import Any
 
-from ..arena import Room
+from ..arena import OPEN_FLOOR, ObstacleSet, Room
 from ..core.brief_repr import brief_repr
 from ..core.errors import ConfigurationError, check_within
 from ..core.player_identity import PlayerIdentity, Role
@@ -231,6 +231,11 @@ class GameSettings:
     def knows_room(self) -> bool:
         """Whether there is a room, and robots know it."""
         return self.room is not None and self.map.source != "none"
+
+    @property
+    def solids(self) -> ObstacleSet:
+        """Obstacles of the room, walls included."""
+        return (self.room or OPEN_FLOOR).solid_set
 
     def player(self, name: str) -> PlayerSettings:
         """Return the settings of the player with a name."""

@@ -2,7 +2,7 @@
 
 from collections.abc import Callable
 from math import pi
-from typing import TYPE_CHECKING, Any, Protocol
+from typing import Any, Protocol
 
 from ..core.errors import ConfigurationError
 from ..core.poses import Pose
@@ -11,14 +11,10 @@ from ..sim.ground_truth import FloorTruth
 from ..sim.person_body import PersonBody, pose_template
 from ..sim.person_motion import PersonMotion
 from ..sim.world import World
-from .floor_games import solids_of
 from .floor_world import AT_ONCE, PERIOD, FloorMotion, Seen
 from .game_settings import GameSettings
 from .player_settings import PlayerSettings
 from .players import Player
-
-if TYPE_CHECKING:
-    from .physics_world import PhysicsWorld
 
 MARKER_HEIGHT = 0.27  # that stands for the CoM of a marker, in [m]
 MARKER_REACH = 0.1  # of a marker, which touches nothing, in [m]
@@ -90,7 +86,7 @@ def walk_of(
 
     pose, (x, y) = own.pose, own.goal
     assert pose is not None
-    crowd = CrowdMotion(own.crowd, pose, (x, y), solids_of(settings))
+    crowd = CrowdMotion(own.crowd, pose, (x, y), settings.solids)
     return FloorPerson(crowd, neighbours)
 
 
@@ -101,7 +97,7 @@ def walk_on_path(settings: GameSettings, own: PlayerSettings) -> PersonMotion:
     assert pose is not None and aim is not None
     course = pose.theta + (pi if own.person.backward else 0.0)
     start = Pose(pose.x, pose.y, course)
-    return PersonMotion(own.person, start, aim[:2], solids_of(settings))
+    return PersonMotion(own.person, start, aim[:2], settings.solids)
 
 
 def _target_of(settings: GameSettings, own: PlayerSettings) -> str:
@@ -142,10 +138,14 @@ class FloorPlayer(Player):
     """
 
     def __init__(
-        self, world: "PhysicsWorld", own: PlayerSettings, motion: FloorMotion
+        self,
+        world: World,
+        own: PlayerSettings,
+        motion: FloorMotion,
+        seen: Callable[[], Seen],
     ) -> None:
-        """Combine a motion and its body in a world."""
-        self.name, self._motion, self._world = own.name, motion, world
+        """Combine a motion, its body in a world, and what it sees."""
+        self.name, self._motion, self._seen = own.name, motion, seen
         self._body: PersonBody | MarkerBody
         made = PersonBody if own.body == "person" else MarkerBody
         self._body = made(world, own.name, motion.pose)
@@ -153,11 +153,11 @@ class FloorPlayer(Player):
 
     def tick(self) -> None:
         """Advance the motion by one tick."""
-        world, motion = self._world, self._motion
+        world, motion = self._body.world, self._motion
         until = world.time + world.physics.tick
         while motion.due < until - AT_ONCE:
             motion.advance(motion.due)
-            seen = world.states() | {self.name: motion.pose}
+            seen = {**self._seen(), self.name: motion.pose}
             motion.decide(motion.due, seen)
         motion.advance(until)
         self._body.move(motion.pose)

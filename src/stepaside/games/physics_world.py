@@ -30,7 +30,6 @@ from ..sim.ground_truth import (
 )
 from ..sim.physics_settings import PhysicsSettings
 from ..sim.push import pushes_by_robot
-from ..sim.room_furnishing import obstacle_mover
 from ..sim.world import World
 from ..strategies import Strategy
 from .floor_games import motion_of, strategy_of
@@ -98,6 +97,8 @@ class PhysicsWorld(World):
             colours=colours_of_players(settings),
         )
         if settings.room is not None and settings.room.moving:
+            from ..sim.room_furnishing import obstacle_mover
+
             move = obstacle_mover(self.model, self.data, settings.room)
             move(0.0)
             self.before_step.append(move)
@@ -113,7 +114,8 @@ class PhysicsWorld(World):
 
                 given = strategies.get(own.name)
                 motion = motion_of(settings, own, self.physics.tick, given)
-                moved[own.name] = player = FloorPlayer(self, own, motion)
+                player = FloorPlayer(self, own, motion, self.states)
+                moved[own.name] = player
                 truths[own.name] = player.truth
         self._truths = {name: truths[name] for name in settings.names}
         self.players: tuple[Player, ...] = tuple(
