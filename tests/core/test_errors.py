@@ -12,7 +12,6 @@ from stepaside.core.errors import (
     ReachError,
     StepAsideError,
     check_finite,
-    check_not_negative,
     check_positive,
     check_within,
 )
@@ -24,8 +23,6 @@ def test_every_check_refuses_nan_and_inf(value: float) -> None:
         check_finite(value, "x", "m")
     with pytest.raises(PlanError, match=r"x must be finite and > 0 \[m\]"):
         check_positive(value, "x", "m")
-    with pytest.raises(PlanError, match=r"x must be finite and >= 0 \[m\]"):
-        check_not_negative(value, "x", "m")
     with pytest.raises(PlanError, match=r"x must lie in \[0, 2\] \[m\], got"):
         check_within(value, 0.0, 2.0, "x", "m")
 
@@ -34,7 +31,7 @@ def test_every_check_refuses_nan_and_inf(value: float) -> None:
     "value", [True, "1", None, [1.0], 10**5000, 1j], ids=type
 )
 def test_other_types_are_refused_with_a_short_message(value: Any) -> None:
-    for check in (check_finite, check_positive, check_not_negative):
+    for check in (check_finite, check_positive):
         with pytest.raises(PlanError, match="x must be finite") as refused:
             check(value, "x", "m")
         assert len(str(refused.value)) < 200

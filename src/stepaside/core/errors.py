@@ -122,14 +122,6 @@ def check_positive(
     check_within(value, LEAST, LARGEST, name, unit, error, rule)
 
 
-def check_not_negative(
-    value: float, name: str, unit: str, error: Kind = PlanError
-) -> None:
-    """Raise ``error`` unless ``value`` is finite and at least zero."""
-    rule = "be finite and >= 0"
-    check_within(value, 0.0, LARGEST, name, unit, error, rule)
-
-
 def check_bearing(value: float, name: str, error: Kind = PlanError) -> None:
     """Raise ``error`` unless ``value`` is an angle within one turn, [rad]."""
     check_within(value, -tau, tau, name, "rad", error)

@@ -3,7 +3,7 @@
 from dataclasses import dataclass
 
 from ..core.errors import ModelError
-from ..core.ranges import Range
+from ..core.ranges import Range, positive
 from ..core.setting import REQUIRED, CheckedSettings, setting
 
 FOOT_FORCES = tuple(
@@ -14,10 +14,6 @@ FOOT_FORCES = tuple(
 Place = tuple[float, float, float]
 Quaternion = tuple[float, float, float, float]  # (w, x, y, z), of any length
 MOST = 1e6  # far above every gain and torque of a robot
-
-
-def _above_zero(unit: str) -> Range:
-    return Range(0.0, MOST, unit, "above zero", above=True)
 
 
 def _at_least_zero(unit: str) -> Range:
@@ -58,7 +54,7 @@ class ReferencePoint(CheckedSettings, error=ModelError, prefix="place."):
         1.0,
         "Radius around the reference point that contains the whole standing "
         "robot with arms stretched",
-        _above_zero("m"),
+        positive("m"),
     )
 
 
@@ -67,25 +63,25 @@ class RobotGames(CheckedSettings, error=ModelError, prefix="game."):
     """Distances of a robot's games, and its scales relative to NAO."""
 
     safety_radius: float = setting(
-        0.8, "Safety radius of the robot as evader", _above_zero("m")
+        0.8, "Safety radius of the robot as evader", positive("m")
     )
     start_least: float = setting(
-        0.4, "Smallest distance at which it may begin", _above_zero("m")
+        0.4, "Smallest distance at which it may begin", positive("m")
     )
     start_near: float = setting(
-        0.6, "Smallest distance that is drawn", _above_zero("m")
+        0.6, "Smallest distance that is drawn", positive("m")
     )
     start_far: float = setting(
-        1.5, "Greatest distance that is drawn", _above_zero("m")
+        1.5, "Greatest distance that is drawn", positive("m")
     )
     push_unit: float = setting(
-        1.0, "Impulse like 1 N s on NAO", _above_zero("N s")
+        1.0, "Impulse like 1 N s on NAO", positive("N s")
     )
     force_unit: float = setting(
-        1.0, "Force like 1 N on NAO, by weight", _above_zero("N")
+        1.0, "Force like 1 N on NAO, by weight", positive("N")
     )
     length_unit: float = setting(
-        1.0, "Length like 1 m for NAO, by CoM height", _above_zero("m")
+        1.0, "Length like 1 m for NAO, by CoM height", positive("m")
     )
 
 
@@ -94,14 +90,14 @@ class ServoGains(CheckedSettings, error=ModelError):
     """Position servo of one joint."""
 
     stiffness: float = setting(
-        REQUIRED, "Proportional gain", _above_zero("N m/rad")
+        REQUIRED, "Proportional gain", positive("N m/rad")
     )
     damping: float = setting(
         REQUIRED,
         "Derivative gain, which includes the damping of the joint",
         _at_least_zero("N m s/rad"),
     )
-    torque: float = setting(REQUIRED, "Torque limit", _above_zero("N m"))
+    torque: float = setting(REQUIRED, "Torque limit", positive("N m"))
     armature: float = setting(
         0.0,
         "Reflected rotor inertia {unit}; 0 to keep that of the model",

@@ -35,130 +35,82 @@ def compile_tree(description: RobotDescription) -> RobotTree:
     model = description.compile()
     data = mujoco.MjData(model)
     mujoco.mj_kinematics(model, data)  # at the zero posture
-    return _TreeExtractor(model, data, description).tree()
-
-
-class _TreeExtractor:
-    """Extraction of the tree from a compiled model in its zero posture."""
-
-    def __init__(
-        self, model: Any, data: Any, description: RobotDescription
-    ) -> None:
-        self._model, self._data = model, data
-        self._description = description
-        self._torso = torso = model.body(description.torso).id
-        first = int(model.body_jntadr[torso])
-        free = int(mujoco.mjtJoint.mjJNT_FREE)
-        if first < 0 or model.jnt_type[first] != free:
-            raise ModelError(
-                f"torso of {description.name}: body {description.torso!r} "
-                "has no free joint"
-            )
-        self._origin = data.xpos[torso].copy()
-        self._axes = data.xmat[torso].reshape(3, 3).copy()
-        self._links, self._anchors = [TORSO], [np.zeros(3)]
-        self._link_of_body: dict[int, int] = {}
-
-    def tree(self) -> RobotTree:
-        """Extract links, frames and motors."""
-        model = self._model
-        self._add_mass(self._torso, 0)
-        for body in range(self._torso + 1, model.nbody):
-            parent = int(model.body_parentid[body])
-            if parent in self._link_of_body:
-                link = self._link_of_body[parent]
-                first = int(model.body_jntadr[body])
-                for i in range(int(model.body_jntnum[body])):
-                    link = self._add_joint(first + i, link)
-                self._add_mass(body, link)
-        bodies = {
-            model.body(b).name: self._frame(
-                link, self._data.xpos[b], self._data.xmat[b]
-            )
-            for b, link in self._link_of_body.items()
-        }
-        sites = {
-            model.site(i).name: self._frame(
-                self._link_of_body[int(model.site_bodyid[i])],
-                self._data.site_xpos[i],
-                self._data.site_xmat[i],
-            )
-            for i in range(model.nsite)
-            if int(model.site_bodyid[i]) in self._link_of_body
-        }
-        motors = tuple(
-            model.joint(model.actuator_trnid[i, 0]).name
-            for i in range(model.nu)
+    torso = model.body(description.torso).id
+    first = int(model.body_jntadr[torso])
+    if first < 0 or model.jnt_type[first] != mujoco.mjtJoint.mjJNT_FREE:
+        raise ModelError(
+            f"torso of {description.name}: body {description.torso!r} "
+            "has no free joint"
         )
-        return RobotTree(
-            tuple(self._links),
-            bodies,
-            sites,
-            motors,
-            tuple(self._servo(i) for i in range(model.nu)),
-            self._description.coupled_joints(model),
-            _size_of(model, self._description),
-        )
-
-    def _servo(self, actuator: int) -> Servo:
-        """Return the gains of torque = k (target - q) - d q'."""
-        gain = float(self._model.actuator_gainprm[actuator, 0])
-        _, by_angle, by_speed = self._model.actuator_biasprm[actuator, :3]
-        if gain <= 0.0 or by_angle != -gain:
-            return Servo(0.0, 0.0)
-        return Servo(gain, -float(by_speed))
-
-    def _add_joint(self, joint: int, parent: int) -> int:
-        model, data = self._model, self._data
-        name = model.joint(joint).name
-        kind = KINDS.get(int(model.jnt_type[joint]))
-        if kind is None:
-            raise ModelError(
-                f"joint {name!r} of {self._description.name} must be a hinge "
-                "or a slide"
-            )
-        anchor = self._to_torso(data.xanchor[joint])
-        low, high = model.jnt_range[joint].tolist()
-        if not model.jnt_limited[joint]:
-            low, high = -UNLIMITED, UNLIMITED
-        self._links.append(
-            Link(
-                name,
-                parent,
-                kind,
-                _clean(self._axes.T @ data.xaxis[joint]),
-                _clean(anchor - self._anchors[parent]),
-                float(model.qpos0[model.jnt_qposadr[joint]]),
-                low,
-                high,
-                *(0.0, ZERO),
-            )
-        )
-        self._anchors.append(anchor)
-        return len(self._links) - 1
-
-    def _add_mass(self, body: int, link: int) -> None:
-        """Weld a body to a link."""
-        self._link_of_body[body] = link
-        mass = float(self._model.body_mass[body])
-        com = self._to_torso(self._data.xipos[body]) - self._anchors[link]
-        old = self._links[link]
-        total = old.mass + mass
-        if total > 0.0:
+    origin, axes = data.xpos[torso], data.xmat[torso].reshape(3, 3)
+    links, anchors, carriers = [TORSO], [np.zeros(3)], dict[int, int]()
+    for body in np.flatnonzero(model.body_rootid == torso).tolist():
+        link = carriers.get(int(model.body_parentid[body]), 0)
+        first = int(model.body_jntadr[body])
+        joints = range(first, first + int(model.body_jntnum[body]))
+        for joint in joints if body != torso else ():
+            anchor = axes.T @ (data.xanchor[joint] - origin)
+            axis, offset = axes.T @ data.xaxis[joint], anchor - anchors[link]
+            found = _link(model, joint, link, description.name)
+            found = found._replace(axis=_clean(axis), origin=_clean(offset))
+            links.append(found)
+            anchors.append(anchor)
+            link = len(links) - 1
+        carriers[body] = link
+        mass, old = float(model.body_mass[body]), links[link]
+        com = axes.T @ (data.xipos[body] - origin) - anchors[link]
+        if (total := old.mass + mass) > 0.0:
             com = (old.mass * np.array(old.com) + mass * com) / total
-            self._links[link] = old._replace(mass=total, com=_clean(com))
+            links[link] = old._replace(mass=total, com=_clean(com))
 
-    def _frame(self, link: int, position: Array, axes: Array) -> LinkFrame:
-        x, y, z = self._axes.T @ axes.reshape(3, 3)
+    def frame(body: int, position: Array, own: Array) -> LinkFrame:
+        x, y, z = axes.T @ own.reshape(3, 3)
+        link = carriers[body]
+        place = axes.T @ (position - origin) - anchors[link]
         return LinkFrame(
-            link,
-            _clean(self._to_torso(position) - self._anchors[link]),
-            (_clean(x), _clean(y), _clean(z)),
+            link, _clean(place), (_clean(x), _clean(y), _clean(z))
         )
 
-    def _to_torso(self, position: Array) -> Array:
-        in_torso: Array = self._axes.T @ (position - self._origin)
-        return in_torso
+    return RobotTree(
+        tuple(links),
+        {
+            model.body(b).name: frame(b, data.xpos[b], data.xmat[b])
+            for b in carriers
+        },
+        {
+            model.site(i).name: frame(b, data.site_xpos[i], data.site_xmat[i])
+            for i, b in enumerate(model.site_bodyid.tolist())
+            if b in carriers
+        },
+        tuple(model.joint(i).name for i in model.actuator_trnid[:, 0]),
+        tuple(_servo(model, i) for i in range(model.nu)),
+        description.coupled_joints(model),
+        _size_of(model, description),
+    )
+
+
+def _link(model: mujoco.MjModel, joint: int, parent: int, robot: str) -> Link:
+    """Return the link of a joint, without its geometry and mass."""
+    name = model.joint(joint).name
+    kind = KINDS.get(int(model.jnt_type[joint]))
+    if kind is None:
+        raise ModelError(
+            f"joint {name!r} of {robot} must be a hinge or a slide"
+        )
+    low, high = model.jnt_range[joint].tolist()
+    if not model.jnt_limited[joint]:
+        low, high = -UNLIMITED, UNLIMITED
+    zero = float(model.qpos0[model.jnt_qposadr[joint]])
+    return Link(name, parent, kind, ZERO, ZERO, zero, low, high, 0.0, ZERO)
+
+
+def _servo(model: mujoco.MjModel, actuator: int) -> Servo:
+    """Return the gains of torque = k (target - q) - d q'."""
+    gain = float(model.actuator_gainprm[actuator, 0])
+    _, by_angle, by_speed = model.actuator_biasprm[actuator, :3]
+    if gain <= 0.0 or by_angle != -gain:
+        return Servo(0.0, 0.0)
+    return Servo(gain, -float(by_speed))
 
 
 def _size_of(model: Any, description: RobotDescription) -> BodySize:
