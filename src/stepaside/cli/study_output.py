@@ -5,6 +5,7 @@ from typing import TYPE_CHECKING, TypeVar
 
 import click
 
+from .options import TextType
 from .terminal import exit_interrupted, resume_message
 
 if TYPE_CHECKING:
@@ -14,11 +15,18 @@ C = TypeVar("C")
 PROCESSES = "processes"
 
 
+def _executor(text: str) -> str:
+    from ..studies.study import check_executor
+
+    check_executor(text)
+    return text
+
+
 executor_option = click.option(
     "--executor",
+    type=TextType("EXECUTOR", _executor),
     default=PROCESSES,
     show_default=True,
-    metavar="EXECUTOR",
     help="Where cases run: processes, dask, dask:tcp://HOST:PORT or "
     "MODULE:FACTORY; see docs/campaigns.md.",
 )

@@ -236,9 +236,12 @@ def merge_results(parts: Iterable[AnyPath], file: AnyPath) -> int:
         OutputError: If the file cannot be written.
     """
     whole = Path(as_path(file, "file"))
+    files = [Path(as_path(part, "parts")) for part in parts]
+    if not sum(map(_count, files)):
+        raise ConfigurationError("parts must have a record, got none")
     with closing(_opened(whole)) as base:
         columns = dict.fromkeys(_columns_of(base))
-        for part in (Path(as_path(part, "parts")) for part in parts):
+        for part in files:
             with _using(part):
                 base.execute("ATTACH ? AS part", [f"{part}"])
                 columns |= dict.fromkeys(_columns_of(base, "part"))
@@ -250,9 +253,15 @@ def merge_results(parts: Iterable[AnyPath], file: AnyPath) -> int:
                 base.execute("DETACH part")
         with _using(whole), base:
             _make_table(base, columns)
+    return _count(whole)
+
+
+def _count(file: Path) -> int:
+    """Return the number of records in a file; 0 if it does not exist."""
+    if not file.is_file():
+        return 0
+    with _using(file), closing(sqlite3.connect(file, BUSY)) as base:
         (number,) = base.execute("SELECT COUNT(*) FROM records").fetchone()
-    if not number:
-        raise ConfigurationError("parts must have a record, got none")
     return int(number)
 
 
@@ -453,6 +462,16 @@ class InlineExecutor(Executor):
         return future
 
 
+def check_executor(name: str) -> None:
+    """Check the form of the name of an executor; see :func:`open_executor`."""
+    module, colon, rest = name.partition(":")
+    made = colon and rest and module not in ("", PROCESSES)
+    if not made and name not in (PROCESSES, DASK):
+        raise ConfigurationError(
+            f"executor must be {EXECUTORS}, got {name!r:.80}"
+        )
+
+
 @contextmanager
 def open_executor(
     executor: Executor | str | None, workers: int | None = None
@@ -472,8 +491,9 @@ def open_executor(
     if not isinstance(executor, str):
         yield executor or InlineExecutor()
         return
+    check_executor(executor)
     name, _, rest = executor.partition(":")
-    if executor == PROCESSES:
+    if name == PROCESSES:
         with pools.worker_pool(workers) as pool:
             yield pool
     elif name == DASK:
@@ -482,7 +502,7 @@ def open_executor(
     else:
         try:
             factory = getattr(import_module(name), rest)
-        except (ImportError, AttributeError, ValueError) as error:
+        except (ImportError, AttributeError, TypeError) as error:
             raise ConfigurationError(
                 f"executor must be {EXECUTORS}, got {executor!r:.80}: {error}"
             ) from error

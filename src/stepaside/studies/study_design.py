@@ -4,8 +4,9 @@ import json
 import re
 import tomllib
 from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, field
 from fnmatch import fnmatchcase
-from functools import cache, partial
+from functools import cache
 from hashlib import sha256
 from math import prod
 from pathlib import Path
@@ -13,7 +14,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from ..core.entries import load_entries
+from ..core.entries import load_entries, read_entries
 from ..core.errors import AnyPath, ConfigurationError, as_path, check_choice
 from ..games.settings_reader import nested
 from ..strategies.registry import file_of
@@ -23,7 +24,6 @@ from .tabulation import Record
 
 PRESETS = Path(__file__).with_name("presets")
 SEED = "seed"
-SECTIONS = ("game", "settings", "grid", "variants", "cases", "by", "values")
 COMMA = re.compile(r",(?![^(\[{]*[)\]}])")  # not one within brackets
 OWN = re.compile(r'"([^"]+\.(?:py:[^"]+|onnx))"')  # file of a strategy
 SPACING = {"first", "last", "number"}  # of evenly spaced values
@@ -60,12 +60,14 @@ class Cases(Sequence[Case]):
 class _Design(NamedTuple):
     """What all cases share, and what the variants mean."""
 
-    game: str
+    game: str | Callable[..., Record]
     settings: Mapping[str, Any]
     variants: Mapping[str, Mapping[Any, Mapping[str, Any]]]
 
     def settings_of(self, case: Case) -> Any:
         """Return the settings of a case."""
+        if not isinstance(self.game, str):
+            return {**self.settings, **case}
         entries = nested(self.settings)
         for name, value in case.items():
             changes = {name: value}
@@ -76,13 +78,20 @@ class _Design(NamedTuple):
 
     def measure(self, case: Case) -> Record:
         """Play the game of a case; return its record."""
-        return {**case, **GAMES[self.game].play(self.settings_of(case))}
+        settings = self.settings_of(case)
+        if isinstance(self.game, str):
+            return {**case, **GAMES[self.game].play(settings)}
+        return {**case, **self.game(**settings)}
 
     def fingerprint(self, axes: Sequence[tuple[str, Sequence[Any]]]) -> str:
         """Return a hash of what all share and of the strategy files."""
         varied = [each for _, each in axes if not isinstance(each, range)]
-        found = [_json(self)]
-        for word in dict.fromkeys(OWN.findall(_json([self, varied]))):
+        game = self.game
+        if not isinstance(game, str):
+            game = f"{game.__module__}.{game.__qualname__}"
+        shared = _json([game, self.settings, self.variants])
+        found = [shared]
+        for word in dict.fromkeys(OWN.findall(shared + _json(varied))):
             file = file_of(word)
             if file is not None and file.is_file():
                 found.append(file.read_bytes().hex())
@@ -133,28 +142,33 @@ def make_study(
             f"got {number}"
         )
     varied = tuple(by) or tuple(each for each in every[0] if each != SEED)
-    if not isinstance(game, str):
-        own = f"{game.__module__}.{game.__qualname__} {shared}"
-        return Study(
-            name,
-            every,
-            partial(_call, game, shared),
-            lambda case: f"{own} {_json(case)}",
-            by=varied,
-            values=tuple(values),
-        )
-    check_choice(game, GAMES, "game")
     design = _Design(game, shared, variants)
-    _check(design, every)
+    if isinstance(game, str):
+        check_choice(game, GAMES, "game")
+        _check(design, every)
+        values = tuple(values) or GAMES[game].values
     own_of = cache(lambda: design.fingerprint(axes))
     return Study(
         name,
         every,
         design.measure,
         lambda case: f"{own_of()} {_json(case)}",
-        by=varied,
-        values=tuple(values) or GAMES[game].values,
+        varied,
+        tuple(values),
     )
+
+
+@dataclass
+class StudyFile:
+    """Entries of a study file; see :func:`load_study`."""
+
+    game: str = ""
+    settings: dict[str, Any] = field(default_factory=dict)
+    grid: dict[str, Any] = field(default_factory=dict)
+    variants: dict[str, dict[str, Any]] = field(default_factory=dict)
+    cases: tuple[dict[str, Any], ...] = ({},)
+    by: tuple[str, ...] = ()
+    values: tuple[str, ...] = ()
 
 
 def load_study(file: AnyPath, sets: Sequence[str] = ()) -> Study[Case]:
@@ -177,22 +191,6 @@ def load_study(file: AnyPath, sets: Sequence[str] = ()) -> Study[Case]:
         ConfigurationError: If the file is not TOML, or an entry is unknown,
             of the wrong type or out of its range.
     """
-    entries = study_entries(file, sets)
-    game = entries.pop("game")
-    if not isinstance(game, str):
-        raise ConfigurationError(f"{file}: game must be a name, got {game}")
-    return make_study(game, **entries, name=Path(as_path(file, "file")).stem)
-
-
-def preset_file(file: AnyPath) -> Path:
-    """Return the file of a study: of a preset, or the file itself."""
-    own = Path(as_path(file, "file"))
-    preset = PRESETS / f"{own}.toml"
-    return preset if preset.is_file() else own
-
-
-def study_entries(file: AnyPath, sets: Sequence[str] = ()) -> dict[str, Any]:
-    """Return the arguments of :func:`make_study`; see :func:`load_study`."""
     given, file = file, preset_file(file)
     if not file.is_file():
         presets = sorted(each.stem for each in PRESETS.glob("*.toml"))
@@ -202,35 +200,29 @@ def study_entries(file: AnyPath, sets: Sequence[str] = ()) -> dict[str, Any]:
         )
     entries = load_entries(file)
     if "game" not in entries and "players" in entries:
-        entries = {
-            "game": "game",
-            "settings": entries,
-            "grid": {SEED: SEEDS_OF_A_GAME},
-        }
-    for name in set(entries) - set(SECTIONS):
-        raise ConfigurationError(
-            f"{file}: unknown entry {name}; there are {', '.join(SECTIONS)}"
-        )
-    tables: dict[str, Any] = {"settings": {}, "grid": {}, "variants": {}}
-    entries = {"game": "", **tables, **entries}
-    for name in tables:
-        if not isinstance(entries[name], dict):
-            raise ConfigurationError(
-                f"{file}: {name} must be a table, got {entries[name]!r:.40}"
-            )
-    entries["grid"] = dict(_flat(entries["grid"]))
-    entries["settings"] = dict(_flat(entries["settings"]))
-    entries["cases"] = [dict(_flat(c)) for c in entries.get("cases", [{}])]
+        made = StudyFile("game", entries, {SEED: SEEDS_OF_A_GAME})
+    else:
+        made = read_entries(StudyFile, entries, f"{file}")
+    made.settings, made.grid = (
+        dict(_flat(made.settings)),
+        dict(_flat(made.grid)),
+    )
+    made.cases = tuple(dict(_flat(case)) for case in made.cases)
     for text in sets:
-        _set(entries, text)
-    entries["grid"] = {
-        axis: _values(axis, each, file)
-        for axis, each in entries["grid"].items()
-    }
-    return entries
+        _set(made, text)
+    for axis, each in made.grid.items():
+        made.grid[axis] = _values(axis, each, file)
+    return make_study(**vars(made), name=file.stem)
 
 
-def _set(entries: dict[str, Any], text: str) -> None:
+def preset_file(file: AnyPath) -> Path:
+    """Return the file of a study: of a preset, or the file itself."""
+    own = Path(as_path(file, "file"))
+    preset = PRESETS / f"{own}.toml"
+    return preset if preset.is_file() else own
+
+
+def _set(made: StudyFile, text: str) -> None:
     """Change one setting, its values, or the variants of an axis."""
     path, equals, word = text.partition("=")
     if not equals or not path:
@@ -238,7 +230,7 @@ def _set(entries: dict[str, Any], text: str) -> None:
             f"a change must be PATH=VALUE like duration=60, got {text!r:.60}"
         )
     value = _value(word)
-    named = entries["variants"].get(path)
+    named = made.variants.get(path)
     if named is not None:
         patterns = value if isinstance(value, list) else [value]
         chosen = {
@@ -250,14 +242,14 @@ def _set(entries: dict[str, Any], text: str) -> None:
             raise ConfigurationError(
                 f"{path} must be of {', '.join(named)}, got {word!r:.60}"
             )
-        entries["variants"][path] = chosen
+        made.variants[path] = chosen
     elif isinstance(value, list | dict) or RANGE.fullmatch(word):
-        entries["settings"].pop(path, None)
-        entries["grid"][path] = value
-    elif path in entries["grid"]:
-        entries["grid"][path] = [value]
+        made.settings.pop(path, None)
+        made.grid[path] = value
+    elif path in made.grid:
+        made.grid[path] = [value]
     else:
-        entries["settings"][path] = value
+        made.settings[path] = value
 
 
 def _value(word: str) -> Any:
@@ -288,12 +280,10 @@ def _values(axis: str, value: Any, file: Path) -> Sequence[Any]:
     )
 
 
-def _flat(entries: Any, prefix: str = "") -> Iterator[tuple[str, Any]]:
+def _flat(
+    entries: dict[str, Any], prefix: str = ""
+) -> Iterator[tuple[str, Any]]:
     """Yield the entries of nested tables by their names with dots."""
-    if not isinstance(entries, dict):
-        raise ConfigurationError(
-            f"grid and cases must be tables, got {entries!r:.40}"
-        )
     for name, value in entries.items():
         if isinstance(value, dict) and set(value) != SPACING:
             yield from _flat(value, f"{prefix}{name}.")
@@ -310,12 +300,6 @@ def _check(design: _Design, cases: Cases) -> None:
             change = {name: value} if name else value
             _json(change)
             design.settings_of({**first, **change})
-
-
-def _call(
-    function: Callable[..., Record], settings: Mapping[str, Any], case: Case
-) -> Record:
-    return {**case, **function(**{**settings, **case})}
 
 
 def _json(value: Any) -> str:
