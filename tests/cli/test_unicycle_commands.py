@@ -22,7 +22,7 @@ COMPARED = (
     "motions_apart_rad",
 )
 MAP = "--speed 0.1 --gain 0.2 --nearest 0.8 --farthest 1.5 --set aim=30deg "
-MAP += "--set facing=30deg --grid 5 --set distances=2 --set step=0.1 "
+MAP += "--set facing=30deg --grid 5 --set distances=2 "
 MAP += "--set duration=60"
 
 
@@ -58,7 +58,6 @@ def test_stability_under_sampling_and_delay_is_computed() -> None:
     words = "--speed 0.1 --gain 0.2 --set sample_time=0.4 --set delay=0.2"
     found = loads(circle, words)
     assert found["stable"]
-    assert len(found["step_eigenvalues"]) == 5
     limit = found["largest_stable_sample_time_s"]
     for off, stable in ((-0.1, True), (0.1, False)):
         words = "--speed 0.1 --gain 0.2 --set delay=0.2 --set sample_time="

@@ -234,11 +234,9 @@ def test_hysteresis_lets_circles_beyond_the_axis_stay() -> None:
 def test_every_game_settles_on_one_of_two_circles(game: Game) -> None:
     starts = random_starts(game, 150, seed=3)
     found = find_basins(game, starts)
-    assert found.unsettled == pytest.approx(0.0, abs=1e-12)
-    assert sum(found.shares) + found.captured == pytest.approx(1.0)
-    assert 0.1 < found.shares[1] < 0.35
-    assert found.starts == 150
-    near = np.array([state_of(c) for c in found.circles])
+    assert ((found.circle >= 0) | found.captured).all()
+    assert 0.1 < found.shares(2)[1] < 0.35
+    near = np.array([state_of(c) for c in circles_of(game)])
     mirrored = near * [1.0, -1.0, -1.0]
     out = play_games(game, [*near, *mirrored], 5.0)
     assert out.circle.tolist() == [0, 1, 0, 1]

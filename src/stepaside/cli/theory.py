@@ -1,7 +1,9 @@
 """``stepaside theory``: circles, maps, bounds and plans."""
 
-from dataclasses import dataclass, fields, replace
-from math import degrees, log, pi, prod
+from collections.abc import Sequence
+from contextlib import suppress
+from dataclasses import dataclass, fields
+from math import degrees, pi
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -16,7 +18,6 @@ from ..games.game_settings import OF_ALL, GameSettings
 from ..games.unicycle_settings import UnicycleGameSettings
 from ..planning import PRESETS, Direction, Foot, GaitSettings
 from ..report.result_labels import CIRCLES
-from ..theory.unicycle.unicycle_game import Game
 from .main import LazyGroup
 from .options import figure_option, json_option
 from .settings import takes_settings
@@ -31,7 +32,6 @@ from .terminal import echo, print_json
 
 if TYPE_CHECKING:
     from ..planning import ManeuverPlan
-    from ..theory.unicycle.start_maps import StartMap, WorstStart
 
 COMMANDS = {
     "circle": "Find all circles of a game and their basins of attraction.",
@@ -88,15 +88,14 @@ def circle(
     settings: CircleSettings, figure: Path | None, as_json: bool
 ) -> None:
     """Find the circles of a game, their stability and basins of attraction."""
-    game = settings.game
-    result = describe_circle(game, settings.sample_time, settings.delay)
+    result = _describe_circle(settings)
     with ProgressLine("circle", settings.starts, "games", quiet=as_json) as b:
         result |= _find_circles(settings, b.update)
-    print_json(result) if as_json else print_circles(result)
+    print_json(result) if as_json else _print_circles(result)
     if figure is not None:
         from ..report.unicycle_figures import draw_sweep
 
-        draw_sweep(game, str(figure))
+        draw_sweep(settings.game, str(figure))
 
 
 def _entries_of(found: Any) -> dict[str, Any]:
@@ -106,60 +105,34 @@ def _entries_of(found: Any) -> dict[str, Any]:
     return entries
 
 
-def describe_circle(
-    game: Game, sample_time: float = 0.0, delay: float = 0.0
-) -> dict[str, Any]:
-    """Return the main circle of a game for JSON, None where undefined."""
+def _describe_circle(settings: CircleSettings) -> dict[str, Any]:
+    """Return the main circle for JSON, None where undefined.
+
+    Stable means with sampling and delay; eigenvalues are those without.
+    """
+    from ..theory.unicycle import sampled_stability as sampled
     from ..theory.unicycle.circles import circle_of
 
+    game, held, late = settings.game, settings.sample_time, settings.delay
     found = circle_of(game)
     result = _entries_of(found) | {
         "radius_m": plain(found.radius_pursuer_m),
-        "sample_time_s": sample_time,
-        "delay_s": delay,
+        "sample_time_s": held,
+        "delay_s": late,
     }
-    if found.exists:
-        result |= _describe_sampling(game, found.sliding, sample_time, delay)
-    return result | {"game": to_entries(game)}
-
-
-def _describe_sampling(
-    game: Game, sliding: bool, sample_time: float, delay: float
-) -> dict[str, Any]:
-    """Return the stability under sampling and delay; empty if undefined.
-
-    The entry ``eigenvalues_per_s`` remains that without sampling.
-    """
-    from ..theory.unicycle import sampled_stability as sampled
-
-    if sliding:  # chattering: no linearisation exists
-        sampled_or_delayed = sample_time > 0.0 or delay > 0.0
-        undefined = {"stable": None, "time_constant_s": None}
-        return undefined if sampled_or_delayed else {}
-    result: dict[str, Any] = {
-        "largest_stable_sample_time_s": plain(
-            sampled.largest_stable_sample_time(game, delay)
-        ),
-    }
-    try:
-        largest = sampled.largest_stable_delay(game, sample_time)
-        result["largest_stable_delay_s"] = plain(largest)
-    except PlanError:  # sampling is too fine
-        result["largest_stable_delay_s"] = None
-    if sample_time > 0.0:
-        values = sampled.step_eigenvalues(game, sample_time, delay)
-        size = abs(values[0])
-        result["step_eigenvalues"] = plain(values)
-        result["stable"] = size < 1.0
-        settle = -sample_time / log(size) if 0.0 < size < 1.0 else None
-        result["time_constant_s"] = settle
-    elif delay > 0.0:
-        values = sampled.delayed_eigenvalues(game, delay)
-        rate = values[0].real
-        result["delayed_eigenvalues_per_s"] = plain(values)
+    if found.sliding and (held or late):  # chattering: no linearisation
+        result |= {"stable": None, "time_constant_s": None}
+    elif found.exists and not found.sliding:
+        rate = sampled.growth_rate(game, held, late)
         result["stable"] = rate < 0.0
-        result["time_constant_s"] = -1.0 / rate if rate < 0.0 else None
-    return result
+        result["time_constant_s"] = plain(-1.0 / rate) if rate < 0.0 else None
+        largest = sampled.largest_stable_sample_time(game, late)
+        result["largest_stable_sample_time_s"] = plain(largest)
+        result["largest_stable_delay_s"] = None
+        with suppress(PlanError):  # sampling is too fine
+            largest = sampled.largest_stable_delay(game, held)
+            result["largest_stable_delay_s"] = plain(largest)
+    return result | {"game": to_entries(game)}
 
 
 def _find_circles(settings: CircleSettings, progress: Any) -> dict[str, Any]:
@@ -168,40 +141,39 @@ def _find_circles(settings: CircleSettings, progress: Any) -> dict[str, Any]:
     from ..theory.unicycle.start_maps import find_basins, random_starts
 
     game = settings.game
-    circles = circles_of(game)
-    shares: tuple[float | None, ...] = (None,) * len(circles)
-    starts = None
+    circles, starts = circles_of(game), None
+    shares: Sequence[float | None] = [None] * len(circles)
     if settings.starts:
         drawn = random_starts(game, settings.starts, seed=settings.seed)
-        basins = find_basins(
+        out = find_basins(
             game, drawn, capture_distance=settings.capture, progress=progress
         )
-        shares = basins.shares
+        shares = out.shares(len(circles))
         starts = {
             "number": settings.starts,
-            "captured_share": basins.captured,
-            "unsettled_share": basins.unsettled,
-            "mean_closest_distance_m": basins.closest_distance,
+            "captured_share": float(out.captured.mean()),
+            "unsettled_share": float(
+                ((out.circle < 0) & ~out.captured).mean()
+            ),
+            "mean_closest_distance_m": float(out.closest_distance.mean()),
         }
-    return {
-        "circles": [
-            {
-                "circle": CIRCLES[each.direction],
-                "direction": each.direction,
-                "side_rule": "behind" if each.behind else "latched",
-                **_entries_of(each),
-                "share": share,
-            }
-            for each, share in zip(circles, shares, strict=True)
-        ],
-        "starts": starts,
-    }
+    rows = [
+        {
+            "circle": CIRCLES[each.direction],
+            "direction": each.direction,
+            "side_rule": "behind" if each.behind else "latched",
+            **_entries_of(each),
+            "share": share,
+        }
+        for each, share in zip(circles, shares, strict=True)
+    ]
+    return {"circles": rows, "starts": starts}
 
 
-def print_circles(result: dict[str, Any]) -> None:
+def _print_circles(result: dict[str, Any]) -> None:
     """Print the main circle, then all circles as a table."""
     if result["exists"]:
-        aside = ("circles", "game", "starts", "step_eigenvalues")
+        aside = ("circles", "game", "starts")
         shown = {k: v for k, v in result.items() if k not in aside}
         print_table(result_rows(shown, 6))
     else:
@@ -254,12 +226,6 @@ class StartMapSettings(UnicycleGameSettings):
         positive("s", None),
         default_text="30/k",
     )
-    step: float | None = setting(
-        None,
-        "Integration step",
-        positive("s", None),
-        default_text="0.025/k",
-    )
     capture: float | None = setting(
         None,
         "Capture distance",
@@ -276,71 +242,48 @@ def map(  # noqa: A001 (the command's name)
     settings: StartMapSettings, figure: Path | None, as_json: bool
 ) -> None:
     """Simulate games over a grid of initial poses and find the worst one."""
-    from ..theory.unicycle.simulation import accurate_step
-    from ..theory.unicycle.start_maps import (
-        StartBox,
-        find_worst_start,
-        map_starts,
-    )
-
-    game = settings.game
-    unit = game.evader.speed / game.evader.gain
-    gain = min(game.pursuer.gain, game.evader.gain)
-    settings = replace(
-        settings,
-        nearest=settings.nearest or 1.6 * unit,
-        farthest=settings.farthest or 4.0 * unit,
-        duration=settings.duration or 30.0 / gain,
-        step=settings.step or accurate_step(game),
-        capture=settings.capture or 0.1 * unit,
-    )
-    near: Any = settings.nearest
-    far: Any = settings.farthest
-    box = StartBox(near, far, settings.aim, settings.facing)
-    shape = settings.distances, settings.grid, settings.grid
-    rules: Any = {
-        "step": settings.step,
-        "capture_distance": settings.capture,
-    }
-    duration: Any = settings.duration
-    with ProgressLine("map", prod(shape), "games", quiet=as_json) as bar:
-        found = map_starts(
-            game, box, duration, shape=shape, progress=bar.update, **rules
-        )
-    worst = find_worst_start(game, found, box, duration, **rules)
-    result = _map_entries(settings, found, worst)
-    print_json(result) if as_json else _print_map(result)
-    if figure is not None:
-        from ..report.unicycle_figures import draw_map
-        from ..theory.unicycle.circles import circles_of
-
-        circles, body = circles_of(game), rules["capture_distance"]
-        draw_map(found, str(figure), circles=circles, body=body)
-
-
-def _map_entries(
-    settings: StartMapSettings, found: "StartMap", worst: "WorstStart"
-) -> dict[str, Any]:
-    """Return all results for JSON."""
     import numpy as np
 
     from ..theory.unicycle.circles import circles_of
-    from ..theory.unicycle.start_maps import settled_fractions
+    from ..theory.unicycle.start_maps import find_worst_start, map_starts
 
-    out, game = found.outcomes, settings.game
-    total = len(out.settled_time)
+    game = settings.game
+    unit = game.evader.speed / game.evader.gain
+    near, far = settings.nearest or 1.6 * unit, settings.farthest or 4.0 * unit
+    if far < near:
+        raise click.UsageError(
+            f"farthest must be >= nearest, {near:g} [m], got {far:g} [m]"
+        )
+    gain = min(game.pursuer.gain, game.evader.gain)
+    duration = settings.duration or 30.0 / gain
+    capture = settings.capture or 0.1 * unit
+    axes = (
+        np.linspace(near, far, settings.distances),
+        np.linspace(-settings.aim, settings.aim, settings.grid),
+        np.linspace(-settings.facing, settings.facing, settings.grid),
+    )
+    total = settings.distances * settings.grid**2
+    with ProgressLine("map", total, "games", quiet=as_json) as bar:
+        found = map_starts(
+            *(game, axes, duration),
+            capture_distance=capture,
+            progress=bar.update,
+        )
+    start, closest = find_worst_start(
+        game, found, duration, capture_distance=capture
+    )
+    out, circles = found.outcomes, circles_of(game)
     settled = out.settled_time[np.isfinite(out.settled_time)]
     times = settled if len(settled) else np.array([np.inf])
-    circles = circles_of(game)
-    shares = settled_fractions(out, len(circles))
-    return {
+    shares = out.shares(len(circles))
+    result = {
         "games": total,
-        "min_distance_m": worst.closest_distance,
+        "min_distance_m": closest,
         "worst_start": {
-            "distance_m": worst.start.distance,
-            "pursuer_error_rad": worst.start.pursuer_error,
-            "bearing_rad": worst.start.bearing,
-            "captured": worst.captured,
+            "distance_m": start.distance,
+            "pursuer_error_rad": start.pursuer_error,
+            "bearing_rad": start.bearing,
+            "captured": bool(closest <= capture * (1.0 + 1e-9)),
         },
         "mean_closest_distance_m": float(out.closest_distance.mean()),
         "captured_share": float(out.captured.mean()),
@@ -357,11 +300,15 @@ def _map_entries(
         ],
         "settled_time_median_s": plain(float(np.median(times))),
         "settled_time_largest_s": plain(float(times.max())),
-        "capture_m": settings.capture,
-        "duration_s": settings.duration,
-        "step_s": settings.step,
+        "capture_m": capture,
+        "duration_s": duration,
         "game": to_entries(game),
     }
+    print_json(result) if as_json else _print_map(result)
+    if figure is not None:
+        from ..report.unicycle_figures import draw_map
+
+        draw_map(found, str(figure), circles=circles, body=capture)
 
 
 def _print_map(result: dict[str, Any]) -> None:

@@ -3,7 +3,7 @@
 from collections.abc import Callable
 from dataclasses import replace
 from string import ascii_letters as LETTERS
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 from matplotlib.colors import ListedColormap
@@ -100,13 +100,7 @@ def _ticks(middle: float, half: float) -> Array:
     return ticks
 
 
-class ParameterSweep(NamedTuple):
-    """Range of one parameter."""
-
-    label: str  # with its unit
-    low: float
-    high: float
-    vary: Callable[[Game, float], Game]  # the game with a value
+Vary = Callable[[Game, float], Game]  # returns the game with a value
 
 
 def _with_gain(game: Game, ratio: float) -> Game:
@@ -121,14 +115,11 @@ def _with_speed(game: Game, ratio: float) -> Game:
     return replace(game, pursuer=pursuer)
 
 
-_SWEEPS = (
-    ParameterSweep(
-        "evasion angle [rad]", 0.15, 3.0, lambda g, x: replace(g, angle=x)
-    ),
-    ParameterSweep("evader's gain / pursuer's gain [1]", 0.4, 2.5, _with_gain),
-    ParameterSweep(
-        "pursuer's speed / evader's speed [1]", 0.4, 1.6, _with_speed
-    ),
+# Label, lowest and highest value of a parameter.
+_SWEEPS: tuple[tuple[str, float, float, Vary], ...] = (
+    ("evasion angle [rad]", 0.15, 3.0, lambda g, x: replace(g, angle=x)),
+    ("evader's gain / pursuer's gain [1]", 0.4, 2.5, _with_gain),
+    ("pursuer's speed / evader's speed [1]", 0.4, 1.6, _with_speed),
 )
 
 
@@ -150,30 +141,31 @@ def draw_sweep(game: Game, path: AnyPath) -> None:
     unit = game.evader.speed / game.evader.gain
     high = 3.3 * here.distance_m if here.exists else 6.0 * unit
     for over, under, sweep in zip("abc", "def", _SWEEPS, strict=True):
+        label, lowest, highest, vary = sweep
         for law in TurningLaw:
             line, mark, colour = _STYLES[law]
-            xs = np.linspace(sweep.low, sweep.high, 200).tolist()
-            circles = [
-                circle_of(replace(sweep.vary(game, x), law=law)) for x in xs
-            ]
+            own = replace(game, law=law)
+            xs = np.linspace(lowest, highest, 200).tolist()
+            circles = [circle_of(vary(own, x)) for x in xs]
             ends = [
-                (x, simulate_circle(replace(sweep.vary(game, x), law=law)))
-                for x in np.linspace(sweep.low, sweep.high, 7).tolist()
+                (x, end)
+                for x in np.linspace(lowest, highest, 7).tolist()
+                if (end := simulate_circle(vary(own, x))) is not None
             ]
-            found = [(x, end) for x, end in ends if end is not None]
+            look: dict[str, Any] = {"ms": 4, "mec": THEORY, "mfc": colour}
             for letter, name in (
                 (over, "radius_pursuer_m"),
                 (under, "distance_m"),
             ):
                 lines = [getattr(circle, name) for circle in circles]
-                name_of = f"{law}, equations"
-                axes[letter].plot(xs, lines, line, color=colour, label=name_of)
-                points = [(x, getattr(end, name)) for x, end in found]
-                look: dict[str, Any] = {"ms": 4, "mec": THEORY, "mfc": colour}
-                look["label"] = f"{law}, simulated"
+                named = {"label": f"{law}, equations"}
+                axes[letter].plot(xs, lines, line, color=colour, **named)
+                points = [(x, getattr(end, name)) for x, end in ends]
                 if points:
-                    axes[letter].plot(*zip(*points, strict=True), mark, **look)
-        axes[under].set(xlabel=sweep.label, ylim=(0.0, high))
+                    columns = zip(*points, strict=True)
+                    named = {"label": f"{law}, simulated"}
+                    axes[letter].plot(*columns, mark, **look, **named)
+        axes[under].set(xlabel=label, ylim=(0.0, high))
         axes[over].set(ylim=(0.0, high))
         axes[over].tick_params(labelbottom=False)
     axes["a"].set_ylabel("radius of the\npursuer's circle [m]")
@@ -210,13 +202,13 @@ def draw_map(
     four distances are drawn; if there are several circles, the one that each
     game ends on, too. The capture distance is drawn as a line, in [m].
     """
-    count = len(found.distances)
-    picks = np.unique(np.linspace(0, count - 1, min(4, count)).astype(int))
-    closest, settled = (
-        found.grid("closest_distance"),
-        found.grid("settled_time"),
-    )
-    drawn = [
+    distances, aims, bearings = found.axes
+    aims, bearings = np.rad2deg(aims), np.rad2deg(bearings)
+    wide = min(4, len(distances))
+    picks = np.linspace(0, len(distances) - 1, wide).astype(int)
+    closest, settled = map(found.grid, ("closest_distance", "settled_time"))
+    settled = np.where(np.isfinite(settled), settled, np.nan)
+    drawn: list[tuple[Array, str, dict[str, Any]]] = [
         (closest, "closest approach [m]", {"cmap": "viridis", "vmin": 0.0}),
         (
             settled,
@@ -230,52 +222,37 @@ def draw_map(
         look = {"cmap": ListedColormap(_COLOURS[: len(circles)]), "vmin": -0.5}
         look["vmax"] = len(circles) - 0.5
         drawn.append((numbers, "circle, distance [m]", look))
-    wide = len(picks)
     rows = [LETTERS[wide * i : wide * (i + 1)] for i in range(len(drawn))]
     figure, axes = panels(
         rows,
         2.7 * wide + 1.4,
         [1.9] * len(rows),
-        legend=1,
+        right=0.6,
         gaps=(0.45, 0.4),
         sharex=True,
         sharey=True,
     )
-    bearings, aims = (
-        np.rad2deg(found.bearings),
-        np.rad2deg(found.pursuer_errors),
-    )
     for row, (values, label, look) in zip(rows, drawn, strict=True):
-        shown = np.where(np.isfinite(values), values, np.nan)
-        if "vmax" not in look:
-            known = shown[np.isfinite(shown)]
-            look["vmax"] = float(known.max(initial=1e-9))
+        if np.isfinite(values).any():
+            look.setdefault("vmax", np.nanmax(values))
         for letter, i in zip(row, picks, strict=True):
-            ax = axes[letter]
-            image = ax.pcolormesh(bearings, aims, shown[i], **look)
-            ax.set_facecolor("0.8")
-            ax.grid(visible=False)
-            if label[:7] != "circle," and (
-                closest[i].min() <= body < closest[i].max()
-            ):
+            image = axes[letter].pcolormesh(bearings, aims, values[i], **look)
+            axes[letter].set_facecolor("0.8")
+            axes[letter].grid(visible=False)
+            if closest[i].min() <= body < closest[i].max():
                 level = [1.001 * body]
-                ax.contour(bearings, aims, closest[i], level, colors="w")
-        bar = figure.colorbar(
-            image, ax=[axes[letter] for letter in row], label=label
-        )
-        axes[row[0]].set_ylabel(
-            "bearing of the evader\nfrom the pursuer [deg]"
-        )
+                axes[letter].contour(
+                    bearings, aims, closest[i], level, colors="w"
+                )
+        shown = [axes[letter] for letter in row]
+        bar = figure.colorbar(image, ax=shown, label=label, fraction=0.03)
+        axes[row[0]].set_ylabel("bearing of evader [deg]")
     if len(circles) > 1:
         texts = [
             f"{CIRCLES[c.direction]}\n{c.distance_m:.3g}" for c in circles
         ]
         bar.ax.set_yticks(range(len(circles)), texts)
-    for letter, i in zip(rows[0], picks, strict=True):
-        title = f"initial distance {found.distances[i]:.2f} m"
-        axes[letter].set_title(title)
-    for letter in rows[-1]:
-        axes[letter].set_xlabel(
-            "bearing of the pursuer\nfrom the evader [deg]"
-        )
+    for over, under, i in zip(rows[0], rows[-1], picks, strict=True):
+        axes[over].set_title(f"initial distance {distances[i]:.2f} m")
+        axes[under].set_xlabel("bearing of pursuer [deg]")
     save(figure, path)

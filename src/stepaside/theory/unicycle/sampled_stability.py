@@ -5,7 +5,7 @@ circle; they only change the convergence to it.
 """
 
 from collections.abc import Callable
-from math import floor, inf, pi
+from math import floor, inf, log, pi
 
 import numpy as np
 
@@ -124,6 +124,20 @@ def delayed_eigenvalues(game: Game, delay: float) -> tuple[complex, ...]:
     return sorted_eigenvalues(np.linalg.eigvals(full))[:3]
 
 
+def growth_rate(game: Game, sample_time: float, delay: float) -> float:
+    """Return the rate at which the slowest deviation grows, in [1/s].
+
+    It is negative where the circle is stable. A sample time of 0, in [s],
+    stands for no sampling.
+    """
+    if sample_time > 0.0:
+        size = abs(step_eigenvalues(game, sample_time, delay)[0])
+        return log(size) / sample_time if size > 0.0 else -inf
+    if delay > 0.0:
+        return delayed_eigenvalues(game, delay)[0].real
+    return smooth_circle(game).eigenvalues[0].real
+
+
 def largest_stable_sample_time(game: Game, delay: float = 0.0) -> float:
     """Return the sampling period, in [s], at which the circle loses stability.
 
@@ -131,12 +145,11 @@ def largest_stable_sample_time(game: Game, delay: float = 0.0) -> float:
     twentieth of which the search starts.
     """
     gain = max(game.pursuer.gain, game.evader.gain)
-    if delay > 0.0 and delay >= largest_stable_delay(game):
+    if growth_rate(game, 0.0, delay) >= 0.0:
         return 0.0
-    low = 1e-2 / gain if delay == 0.0 else 0.05 * delay
     return _first_crossing(
-        lambda time: abs(step_eigenvalues(game, time, delay)[0]) - 1.0,
-        low,
+        lambda time: growth_rate(game, time, delay),
+        0.05 * delay or 1e-2 / gain,
         0.02 / gain,
     )
 
@@ -144,20 +157,12 @@ def largest_stable_sample_time(game: Game, delay: float = 0.0) -> float:
 def largest_stable_delay(game: Game, sample_time: float = 0.0) -> float:
     """Return the delay, in [s], at which the circle loses stability.
 
-    It is 0 if the circle is unstable without delay. A sample time of 0, in
-    [s], stands for no sampling.
+    It is 0 if the circle is unstable without delay.
     """
     gain = max(game.pursuer.gain, game.evader.gain)
-
-    def excess(delay: float) -> float:
-        if sample_time > 0.0:
-            return abs(step_eigenvalues(game, sample_time, delay)[0]) - 1.0
-        return delayed_eigenvalues(game, delay)[0].real / gain
-
-    if sample_time == 0.0 and not smooth_circle(game).stable:
-        return 0.0
-    low = 0.0 if sample_time > 0.0 else 1e-3 / gain
-    return _first_crossing(excess, low, 0.02 / gain)
+    return _first_crossing(
+        lambda delay: growth_rate(game, sample_time, delay), 0.0, 0.02 / gain
+    )
 
 
 def _first_crossing(

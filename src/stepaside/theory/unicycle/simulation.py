@@ -103,6 +103,12 @@ class Outcomes:
     states: Array  # final r [m], a, psi [rad]. Shape (n, 3)
     sides: NDArray[np.int64]  # final side. Shape (n,)
 
+    def shares(self, count: int) -> list[float]:
+        """Return the fraction of games that end on each of the circles."""
+        numbers = np.bincount(self.circle + 1, minlength=count + 1)[1:]
+        found: list[float] = (numbers / len(self.circle)).tolist()
+        return found
+
 
 @dataclass(frozen=True, slots=True)
 class FittedCircle:
