@@ -13,8 +13,11 @@ from stepaside.fitting.derivation import (
     LEAST_SPACING,
     derive,
 )
-from stepaside.fitting.leg_detection import DetectedLeg
-from stepaside.fitting.model_analysis import analyse_model, forward_score
+from stepaside.fitting.model_analysis import (
+    DetectedLeg,
+    analyse_model,
+    forward_score,
+)
 
 
 def test_geoms_without_size_are_removed(tmp_path: Path) -> None:

@@ -14,8 +14,11 @@ from stepaside.fitting.derivation import (
     derive,
 )
 from stepaside.fitting.description_writer import write_description
-from stepaside.fitting.leg_detection import DetectedLeg
-from stepaside.fitting.model_analysis import ModelAnalysis, analyse_model
+from stepaside.fitting.model_analysis import (
+    DetectedLeg,
+    ModelAnalysis,
+    analyse_model,
+)
 from stepaside.fitting.standing_posture import knee_limits, standing_of
 from stepaside.robots.description import FILE, load_robot
 from stepaside.robots.tree_compiler import compile_tree

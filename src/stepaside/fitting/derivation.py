@@ -33,8 +33,7 @@ from .gait_feasibility import (
     stabiliser_of,
     step_loads,
 )
-from .leg_detection import ALIGNED, JOINT_TYPES, check_size
-from .model_analysis import ModelAnalysis, analyse_model
+from .model_analysis import ModelAnalysis, analyse_model, check_size
 from .motor_data import (
     DEFAULT_SPEED,
     WEAK_LOAD,
@@ -45,7 +44,7 @@ from .motor_data import (
     published_torques,
     published_values,
 )
-from .standing_posture import knee_limits, reach_of, standing_of, stiff_joints
+from .standing_posture import knee_limits, reach_of, standing_of
 
 # CoM heights that are tried, as fractions of the greatest one in reach: the
 # lower, the farther a knee is from straight at the end of a step.
@@ -177,14 +176,13 @@ def _reachable_sizes(
     sole: tuple[float, float, float, float],
 ) -> tuple[float, RobotSize]:
     """Return the least CoM height in reach, and the size at the greatest."""
-    stiff = stiff_joints(analysis)
     spacing = spacing_of(analysis, sole[3])
-    lowest, highest = _reachable_heights(description, spacing, sole, stiff)
+    lowest, highest = _reachable_heights(description, spacing, sole)
     greatest = max(GREATEST_BY_HEIGHT * highest, LEAST_SPACING * 2.0 * sole[3])
     if spacing > greatest:
         # A narrower stance lifts the CoM; one iteration is enough.
         spacing = greatest
-        lowest, highest = _reachable_heights(description, spacing, sole, stiff)
+        lowest, highest = _reachable_heights(description, spacing, sole)
     reach = description.place.reach
     return lowest, RobotSize(highest, analysis.mass, spacing, sole, reach)
 
@@ -224,7 +222,6 @@ def _reachable_heights(
     description: RobotDescription,
     spacing: float,
     sole: tuple[float, float, float, float],
-    stiff: list[str],
 ) -> tuple[float, float]:
     """Return least and greatest CoM height with the feet abreast, in [m]."""
     forward = 0.45 * (sole[0] + sole[1])
@@ -238,13 +235,9 @@ def _reachable_heights(
         try:
             kinematics.stand(stance)
         except ReachError as error:
-            reason = str(error)
-            if stiff:
-                reason = f"see the ranges of {', '.join(stiff)}, which do "
-                reason += "not allow bent knees"
             raise ModelError(
                 f"{description.name} can stand at no height with its feet "
-                f"{spacing:.3f} m apart: {reason}"
+                f"{spacing:.3f} m apart: {error}"
             ) from error
     return lowest, highest
 
@@ -354,36 +347,6 @@ def _relative_path(folder: Path, path: Path) -> str:
     return Path(os.path.relpath(path.resolve(), folder.resolve())).as_posix()
 
 
-GREATEST_HEAD = 0.2  # mass of a head, by that of the robot
-MIDDLE = 0.05  # distance from the sagittal plane, by the length of a leg
-
-
-def head_of(analysis: ModelAnalysis) -> dict[str, Any]:
-    """Return the joints of the head, and the cameras of a model.
-
-    Yaw and pitch joints are those over the hips in the sagittal plane that
-    carry the least mass.
-    """
-    model, data = analysis.model, analysis.data
-    hips = max(leg.hip[2] for leg in analysis.legs)
-    carried = model.body_subtreemass[model.jnt_bodyid]
-    fits = (
-        np.isin(model.jnt_type, JOINT_TYPES)
-        & (data.xanchor[:, 2] > hips)
-        & (np.abs(data.xanchor[:, 1]) < MIDDLE * analysis.length)
-        & (carried < GREATEST_HEAD * analysis.mass)
-    )
-    found: dict[str, Any] = {}
-    for name, axis in (("yaw", 2), ("pitch", 1)):
-        joints = np.flatnonzero(fits & (np.abs(data.xaxis[:, axis]) > ALIGNED))
-        found[name] = None
-        if len(joints):
-            lightest = int(joints[carried[joints].argmin()])
-            found[name] = model.joint(lightest).name
-    cameras = [model.camera(i).name for i in range(model.ncam)]
-    return found | {"cameras": cameras}
-
-
 def report_of(derived: DerivedDescription) -> dict[str, Any]:
     """Return the report as values for JSON."""
     analysis, size = derived.analysis, derived.size
@@ -408,7 +371,6 @@ def report_of(derived: DerivedDescription) -> dict[str, Any]:
         "torque_share": round(derived.loads.usual, 3),
         "game": asdict(own.game),
         "coupled": sorted(followers_of(analysis.model)),
-        "head": head_of(analysis),
         "omitted_meshes": len(analysis.missing),
         "missing_values": {
             "sole": any(leg.is_guessed for leg in analysis.legs),

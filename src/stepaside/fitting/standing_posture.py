@@ -13,8 +13,7 @@ import mujoco
 import numpy as np
 
 from ..robots.geom_points import geom_points_in_world
-from .leg_detection import ALIGNED, JOINT_TYPES, DetectedLeg
-from .model_analysis import ModelAnalysis
+from .model_analysis import ALIGNED, JOINT_TYPES, DetectedLeg, ModelAnalysis
 
 BENT = (-0.3, 0.6, -0.3)  # hip, knee and ankle of a straight leg, in [rad]
 STRAIGHT_MARGIN = 0.05  # least bend of a knee, in [rad]
@@ -42,16 +41,6 @@ def standing_of(found: ModelAnalysis) -> dict[str, float]:
         if name not in angles and _inside(model, name, 0.0) != 0.0:
             angles[name] = _inside(model, name, 0.0)
     return {name: round(angle, 3) for name, angle in angles.items()}
-
-
-def stiff_joints(found: ModelAnalysis) -> list[str]:
-    """Return the leg joints whose range excludes the standing angle."""
-    return [
-        name
-        for leg in found.legs
-        for name, bend in _bends(found, leg).items()
-        if _inside(found.model, name, bend) != bend
-    ]
 
 
 def _bends(found: ModelAnalysis, leg: DetectedLeg) -> dict[str, float]:
