@@ -14,7 +14,7 @@ from stepaside.cli.theory import circle
 from stepaside.cli.theory import map as map_command
 
 COMPARED = (
-    "radius_m",
+    "radius_pursuer_m",
     "radius_evader_m",
     "distance_m",
     "turning_rate_rad_s",
@@ -40,7 +40,7 @@ def loads(command: Any, words: str) -> dict[str, Any]:
 
 def test_circle_prints_the_values_of_figure_2() -> None:
     found = loads(circle, "--speed 1 --gain 0.5 --angle 90deg")
-    assert found["radius_m"] == pytest.approx(8 / pi)
+    assert found["radius_pursuer_m"] == pytest.approx(8 / pi)
     assert found["distance_m"] == pytest.approx(3.6012652646)
     assert found["eigenvalues_per_s"][-1] == pytest.approx([-0.5, 0.0])
     assert found["stable"] and found["time_constant_s"] == pytest.approx(4)
@@ -49,7 +49,7 @@ def test_circle_prints_the_values_of_figure_2() -> None:
 
 def test_missing_circle_is_a_valid_result() -> None:
     found = loads(circle, "--angle 0")
-    assert found["exists"] is False and found["radius_m"] is None
+    assert found["exists"] is False and found["distance_m"] is None
     table = run(circle, "--angle 0")
     assert table.exit_code == 0 and "no circle" in table.output
 

@@ -105,7 +105,7 @@ def test_stability_of_the_main_circle() -> None:
     assert rates == pytest.approx(sorted([-gain, slow, quick]))
     goal = circle(angle, speed=1.0, gain=gain)
     assert seen["distance_m"] == pytest.approx(goal.distance)
-    assert seen["radius_m"] == pytest.approx(goal.radius)
+    assert seen["radius_pursuer_m"] == pytest.approx(goal.radius)
 
 
 def test_a_map_finds_the_worst_start() -> None:

@@ -188,7 +188,6 @@ def unicycles(
         theory = plain(circle_of(game))
         named = ("exists", *COMPARED, "time_constant_s")
         result["theory"] = {name: theory[name] for name in named}
-        result["theory"]["radius_m"] = theory["radius_pursuer_m"]
     if as_json:
         print_json(result)
     elif "theory" in result:
@@ -223,9 +222,9 @@ def _simulate(
         "switch_times_s": list(run.switches),
     }
     if not run.captured:
-        found = plain(measure(run))
-        result |= {"radius_m": found["radius_pursuer_m"]} | found
-        result["turning_rate_rad_s"] = abs(found["turning_rate_rad_s"] or 0.0)
+        result |= plain(measure(run))
+        rate = result["turning_rate_rad_s"]
+        result["turning_rate_rad_s"] = abs(rate or 0.0)
         result["circle"] = run.circle and {
             "direction": run.circle.direction,
             "distance_m": run.circle.distance_m,
@@ -265,8 +264,8 @@ def _play_named(
     times, capture = (settings.time, settings.period), settings.capture
     run = play_unicycles(settings.game, settings.start, names, times, capture)
     paths = run.pursuer, run.evader
-    floor = [float(np.hypot(*(p - p[0])[:, :2].T).max()) for p in paths]
     radii = [fit_circle(p[-len(p) // 5 :, :2])[1] for p in paths]
+    fled = (run.evader - run.evader[0])[:, :2]
     heading = float(run.pursuer[-1, 2] - run.evader[-1, 2])
     return {
         "pursuer_strategy": names[0],
@@ -275,13 +274,11 @@ def _play_named(
         "end_time_s": float(run.times[-1]),
         "closest_distance_m": run.closest_distance,
         "distance_m": float(run.distances[-1]),
-        "radius_m": radii[0],
         "radius_pursuer_m": radii[0],
         "radius_evader_m": radii[1],
         "headings_apart_rad": abs(wrap_angle(heading)),
         "motions_apart_rad": abs(wrap_angle(heading + np.pi)),
-        "floor_used_pursuer_m": floor[0],
-        "floor_used_evader_m": floor[1],
+        "floor_used_evader_m": float(np.hypot(*fled.T).max()),
     }
 
 

@@ -116,7 +116,6 @@ def _describe_circle(settings: CircleSettings) -> dict[str, Any]:
     game, held, late = settings.game, settings.sample_time, settings.delay
     found = circle_of(game)
     result = _entries_of(found) | {
-        "radius_m": plain(found.radius_pursuer_m),
         "sample_time_s": held,
         "delay_s": late,
     }

@@ -136,7 +136,7 @@ def forecast(settings: GameSettings) -> TheorySummary:
     if circle.exists:
         found = TheorySummary(
             radius_m=circle.radius_evader_m,
-            pursuer_radius_m=circle.radius_pursuer_m,
+            radius_pursuer_m=circle.radius_pursuer_m,
             distance_m=circle.distance_m,
             relative_orientation_deg=degrees(circle.headings_apart_rad),
         )
@@ -204,7 +204,7 @@ def evaluate_duel(run: Run, triggered: float | None) -> dict[str, Any]:
     circle = circle_of_theory(settings)
     converged = convergence_time(run.times, *paths, settings, circle)
     if theory.expected == "contact" and converged is None:
-        unknown = ("radius_m", "pursuer_radius_m", "distance_m")
+        unknown = ("radius_m", "radius_pursuer_m", "distance_m")
         theory = replace(
             theory, relative_orientation_deg=None, **dict.fromkeys(unknown)
         )

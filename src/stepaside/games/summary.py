@@ -78,7 +78,7 @@ class TheorySummary:
     circle_since_s: float | None = None  # of the templates
     min_distance_m: float | None = None  # of the templates
     radius_m: float | None = None  # of the evader; None without a circle
-    pursuer_radius_m: float | None = None
+    radius_pursuer_m: float | None = None
     distance_m: float | None = None
     relative_orientation_deg: float | None = None
 
