@@ -24,15 +24,7 @@ from .options import (
     seed_option,
 )
 from .run_output import finish_run, play_with_bar, run_folder
-from .settings import (
-    changes_of,
-    lists_option,
-    refuse_settings,
-    set_option,
-    set_pair,
-    takes_settings,
-)
-from .settings_text import commented
+from .settings import FILE, refuse_settings, takes_settings
 from .tables import (
     format_value,
     plain,
@@ -40,7 +32,7 @@ from .tables import (
     result_rows,
     table_rows,
 )
-from .terminal import print_json, write_result
+from .terminal import print_json
 
 if TYPE_CHECKING:
     from ..theory.unicycle.unicycle_game import Game, RelativeStart
@@ -61,23 +53,18 @@ def run(**_: Any) -> None:
     """
 
 
+NAMED_OF_GAME = ("seed", "duration", "level")
+
+
 @click.command("game")
-@file_argument("file")
-@click.option("--seed", metavar="NUMBER", help="Random seed.")
-@click.option("--duration", metavar="NUMBER", help="Simulated time [s].")
-@click.option("--level", metavar="TEXT", help="Level of simulation.")
-@lists_option
-@set_option
+@takes_settings(
+    NAMED_OF_GAME,
+    GameSettings,
+    config=click.argument("config", metavar="FILE", type=FILE),
+)
 @folder_option()
 @json_option
-def game(
-    file: Path,
-    sets: tuple[str, ...],
-    lists: bool,
-    output: Path | None,
-    as_json: bool,
-    **named: str | None,
-) -> None:
+def game(settings: GameSettings, output: Path | None, as_json: bool) -> None:
     """Play the game of the players that FILE lists.
 
     FILE is TOML with a table [[players]] for each player: a robot, its
@@ -86,21 +73,7 @@ def game(
     `stepaside show` shows.
     """
     from ..games.recorded_game import run_game
-    from ..games.settings_reader import (
-        entries_of_game,
-        load_game,
-        nested,
-        read_game,
-    )
 
-    texts = [(name, text) for name, text in named.items() if text]
-    texts += map(set_pair, sets)
-    settings = load_game(file)
-    changes = changes_of(texts, entries_of_game(settings))
-    settings = read_game(nested(changes), base=settings)
-    if lists:
-        write_result(commented(settings))
-        return
     folder = run_folder(output, as_json, f"game-seed{settings.seed}")
     run = play_with_bar(settings, run_game)
     finish_run(run, folder, as_json)

@@ -39,9 +39,10 @@ lists_option = click.option(
     is_flag=True,
     help="Print all settings with meaning, unit and range, and end.",
 )
+FILE = click.Path(exists=True, dir_okay=False, path_type=Path)
 config_option = click.option(
     "--config",
-    type=click.Path(exists=True, dir_okay=False, path_type=Path),
+    type=FILE,
     help="File of settings (TOML); options override it.",
 )
 set_option = click.option(
@@ -83,7 +84,11 @@ GIVEN = "stepaside.given"  # of a context: given settings, and --config
 
 
 def takes_settings(
-    named: Sequence[str], kind: Any, *, aside: Collection[str] = ()
+    named: Sequence[str],
+    kind: Any,
+    *,
+    aside: Collection[str] = (),
+    config: Decorator = config_option,
 ) -> Decorator:
     """Add options of settings, ``--set``, ``--config`` and ``--settings``.
 
@@ -91,9 +96,9 @@ def takes_settings(
         named: Paths of settings with an option of their own.
         kind: Class of the argument ``settings``, or the game that they change.
         aside: Entries of a file that belong to other commands.
+        config: Option, or argument, of the file.
     """
-    is_game = isinstance(kind, GameSettings)
-    entries = entries_of_game(kind) if is_game else entries_of(kind)
+    entries = _entries_of(kind)
 
     def decorate(function: Callable[..., Any]) -> Callable[..., Any]:
         @wraps(function)
@@ -104,24 +109,24 @@ def takes_settings(
                 for text in _texts(values.pop(_argument(path)))
             ]
             texts += [set_pair(text) for text in values.pop("sets")]
-            changes = changes_of(texts, entries)
-            config = values.pop("config")
-            given = {*changes, *(["--config"] if config else [])}
-            click.get_current_context().meta[GIVEN] = given
-            settings = _read(kind, changes, config, aside)
-            _refuse_unused(changes, entries, settings)
+            settings = _read(kind, texts, values.pop("config"), aside)
             if values.pop("lists"):
                 return write_result(commented(settings))
             return function(settings=settings, **values)
 
         result: Callable[..., Any] = command
-        for option in (lists_option, config_option, set_option):
+        for option in (lists_option, config, set_option):
             result = option(result)
         for path in reversed(named):
             result = _option(path, entries[path])(result)
         return result
 
     return decorate
+
+
+def _entries_of(kind: Any) -> Mapping[str, Entry]:
+    is_game = isinstance(kind, GameSettings)
+    return entries_of_game(kind) if is_game else entries_of(kind)
 
 
 def flag_of(path: str) -> str:
@@ -245,24 +250,34 @@ def _value(text: str, entry: Entry) -> Any:
 
 def _read(
     kind: Any,
-    changes: Mapping[str, Any],
+    texts: Sequence[tuple[str, str]],
     config: Path | None,
     aside: Collection[str],
 ) -> Any:
     """Return the settings of a command from options and file."""
     file = {} if config is None else load_settings(config)
-    left_open = {e for path in changes for e in IMPLY.get(path, ())}
-    file, given = _without(file, left_open), nested(changes)
-    source = "" if config is None else str(config)
-    if isinstance(kind, GameSettings):
-        game = read_game(file, source, base=kind)
-        return read_game(given, base=game).resolved()
-    ignored = {*aside} - {field.name for field in fields(kind)}
-    entries = {
-        k: v for k, v in nested(given, file).items() if k not in ignored
-    }
-    settings = settings_of(kind, entries, source if not changes else "")
-    return settings.resolved() if hasattr(kind, "resolved") else settings
+    left_open = {e for path, _ in texts for e in IMPLY.get(path, ())}
+    file, source = _without(file, left_open), str(config or "")
+    base = kind
+    if kind is GameSettings:
+        base = read_game(file, source)
+    elif isinstance(kind, GameSettings):
+        base = read_game(file, source, base=kind)
+    entries = _entries_of(base)
+    changes = changes_of(texts, entries)
+    given = {*changes, *(["--config"] if config else [])}
+    click.get_current_context().meta[GIVEN] = given
+    if isinstance(base, GameSettings):
+        settings = read_game(nested(changes), base=base)
+    else:
+        ignored = {*aside} - {field.name for field in fields(kind)}
+        known = nested(nested(changes), file)
+        chosen = {k: v for k, v in known.items() if k not in ignored}
+        settings = settings_of(kind, chosen, source if not changes else "")
+    if hasattr(settings, "resolved"):
+        settings = settings.resolved()
+    _refuse_unused(changes, entries, settings)
+    return settings
 
 
 def _without(
