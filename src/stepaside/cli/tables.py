@@ -159,7 +159,7 @@ def print_run(run: "Run", more: dict[str, int] | None = None) -> None:
             rows.append(("means", f"measured from {begin:.1f} s on"))
         rows.append(("expected", theory["words"] or "-"))
     radii = {
-        "pursuer": {"radius_m": theory.get("pursuer_radius_m")},
+        "pursuer": {"radius_m": theory.get("radius_pursuer_m")},
         "evader": {"radius_m": theory.get("radius_m")},
     }
     groups = [
