@@ -13,7 +13,6 @@ REACTIONS = (
     *("surprised", "curious", "scared", "threatening"),
 )
 RADIUS = 0.25  # of a person, in [m]
-PURSUERS = ("robot", "person")
 
 
 @dataclass(frozen=True, slots=True)

@@ -243,9 +243,15 @@ class SimulatedRobot:
         posture: Array = self.world.data.qpos[self.qpos_slice].copy()
         return posture
 
+    @property
+    def foot_forces(self) -> Array:
+        """Exact forces of the left foot, then of the right one, in [N]."""
+        forces: Array = self.world.data.sensordata[self._force_addresses]
+        return forces
+
     def measured_zmp(self) -> tuple[float, float]:
         """Return the centre of pressure in the world, [m]; NaN in flight."""
-        forces = self.world.data.sensordata[self._force_addresses]
+        forces = self.foot_forces
         total = forces.sum()
         if not total > 0.0:
             return nan, nan
@@ -270,7 +276,7 @@ class SimulatedRobot:
             "joint_targets": targets,
             "gyro": data.sensordata[self._gyro],
             "accelerometer": data.sensordata[self._accelerometer],
-            "foot_forces": data.sensordata[self._force_addresses],
+            "foot_forces": self.foot_forces,
         }
 
     def close(self) -> None:

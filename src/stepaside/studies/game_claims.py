@@ -1,7 +1,7 @@
 """Readings of games for the claims of Sec. III-E, IV and V."""
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, replace
 from math import acos, degrees, inf, nan
 from typing import NamedTuple
 
@@ -23,7 +23,6 @@ from ..games.settings_reader import read_game
 from ..games.strategy_games import StepGame, StrategyTrack
 from ..games.trajectory import angle_between, distance_between, last_third
 from ..planning import PRESETS, GaitSettings
-from ..robots.description import load_robot
 from ..theory.unicycle.circles import fit_circle
 from .theory_claims import most_deviating
 from .tournament import (
@@ -47,81 +46,68 @@ class WalkedPlan(NamedTuple):
 
 @dataclass(frozen=True, slots=True)
 class InstrumentedDuel:
-    """Duel with records of every control tick."""
+    """Duel with records of every control tick, by robot."""
 
     run: Run  # the duel
     ticks: Array  # times of the control ticks [s]. (n,)
-    # by robot, loads of left and right foot at the end of each tick [N]. (n,
-    # 2)
-    loads: dict[str, Array] = field(default_factory=dict)
-    # by robot, positions of left and right foot in the world at the end of
-    # each tick [m]. (n, 2, 2)
-    feet: dict[str, Array] = field(default_factory=dict)
-    # by robot, CoM reference of the joint targets of each tick, in the
-    # odometry frame [m]. (n, 2)
-    references: dict[str, Array] = field(default_factory=dict)
-    # by robot, the plans that were walked
-    plans: dict[str, tuple[WalkedPlan, ...]] = field(default_factory=dict)
+    # loads of left and right foot at the end of each tick [N]. (n, 2)
+    loads: dict[str, Array]
+    # positions of left and right foot in the world then [m]. (n, 2, 2)
+    feet: dict[str, Array]
+    # CoM reference of the joint targets of each tick, in odometry [m]. (n, 2)
+    references: dict[str, Array]
+    plans: dict[str, tuple[WalkedPlan, ...]]  # that were walked
 
 
 def play_instrumented(settings: GameSettings) -> InstrumentedDuel:
     """Play a duel to its end, as ``run_game`` does, recording every tick."""
-    observers = {name: _TickObserver(settings, name) for name in PLAYERS}
-    duel = RecordedGame(settings, tuple(observers.values()))
-    play(duel)
-    run, world = duel.run().uninterrupted(), duel.in_physics
-    found = InstrumentedDuel(
-        run,
+    game = RecordedGame(settings)
+    world = game.in_physics
+    found = {name: _TickObserver(world, name) for name in PLAYERS}
+    game.observers += tuple(found.values())
+    play(game)
+    return InstrumentedDuel(
+        game.run().uninterrupted(),
         world.physics.tick * np.arange(world.ticks, dtype=np.float64),
+        {name: np.array(own.loads) for name, own in found.items()},
+        {name: np.array(own.feet) for name, own in found.items()},
+        {name: np.array(own.references) for name, own in found.items()},
+        {name: tuple(own.plans) for name, own in found.items()},
     )
-    for name, observer in observers.items():
-        loads, feet, references = zip(*observer.rows, strict=True)
-        found.loads[name] = np.array(loads)
-        found.feet[name] = np.array(feet)
-        found.references[name] = np.array(references)
-        found.plans[name] = tuple(observer.plans)
-    return found
 
 
 class _TickObserver(GameObserver):
-    """Observer of one robot of a match: its state at the end of each tick."""
+    """Observer of one robot of a duel: its state at the end of each tick."""
 
-    def __init__(self, settings: GameSettings, name: str) -> None:
-        self.rows: list[tuple[Array, Array, Array]] = []
+    def __init__(self, world: PhysicsWorld, name: str) -> None:
+        self.loads: list[Array] = []
+        self.feet: list[Array] = []
+        self.references: list[Array] = []
         self.plans: list[WalkedPlan] = []
-        self._name, self._plan = name, object()
-        self._robot = load_robot(settings.player(name).robot)
+        player = world.player(name)
+        assert isinstance(player, RobotPlayer)
+        self._world, self._robot = world, player.robot
+        self._walk = player.scheme.walk
+
+    def acted(self, game: GameInPlay) -> None:
+        """Record the plan that begins at this tick."""
+        if (begun := self._walk.begun) is not None:
+            standing = begun.plan.schedule.standing
+            now = self._world.time
+            self.plans.append(WalkedPlan(begun.started, now, standing))
 
     def before(self, game: GameInPlay) -> None:
         """Record the state after the previous tick."""
-        world, robot = game.world, self._robot
-        assert isinstance(world, PhysicsWorld)
-        if len(self.rows) == world.ticks:
+        if len(self.loads) == self._world.ticks:
             return
-        player = world.player(self._name)
-        assert isinstance(player, RobotPlayer)
-        walk = player.scheme.walk
-        data = world.data
-        forces = [
-            data.sensor(f"{self._name}/{sensor}").data[0]
-            for sensor in robot.sensors.feet  # of the left one first
-        ]
-        sites = [
-            data.site(f"{self._name}/{sole}").xpos[:2]
-            for sole in (robot.left_foot, robot.right_foot)
-        ]
-        self.rows.append(
-            (
-                np.reshape(forces, (2, -1)).sum(axis=1),
-                np.array(sites),
-                np.array(walk.reference.com[:2]),
-            )
-        )
-        if walk.plan is not self._plan and walk.plan is not None:
-            sent = (world.ticks - 1) * world.physics.tick
-            standing = walk.plan.schedule.standing
-            self.plans.append(WalkedPlan(walk.plan_started, sent, standing))
-        self._plan = walk.plan
+        stance = self._robot.stance
+        forces = self._robot.foot_forces.reshape(
+            2, -1
+        )  # left, right
+        self.loads.append(forces.sum(axis=1))
+        soles = stance.left_sole, stance.right_sole
+        self.feet.append(np.array([sole[:2] for sole in soles]))
+        self.references.append(np.array(self._walk.reference.com[:2]))
 
     def ended(self, game: GameInPlay) -> None:
         """Record the state after the last tick."""
