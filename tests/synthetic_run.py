@@ -7,8 +7,8 @@ from typing import Any
 import numpy as np
 
 from stepaside.core.poses import Array
+from stepaside.games.game import Outcome
 from stepaside.games.game_settings import GameSettings, duel
-from stepaside.games.outcome import Outcome
 from stepaside.games.run import Run
 from stepaside.games.summary import PlayerSummary, Summary, TheorySummary
 from stepaside.games.trajectory import Trajectory

@@ -9,8 +9,8 @@ from stepaside.core.signal_handling import (
     DeferredInterrupt,
     interruptible,
 )
+from stepaside.games.game import Outcome
 from stepaside.games.game_settings import walk
-from stepaside.games.outcome import Outcome
 from stepaside.games.players import Player
 from stepaside.games.recorded_game import run_game
 

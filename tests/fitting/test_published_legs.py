@@ -15,8 +15,8 @@ pytest.importorskip("onnxruntime")
 
 from stepaside.cli.main import main
 from stepaside.fitting.legs_measurement import LegsTrial, run_trial
+from stepaside.games.game import Outcome
 from stepaside.games.game_settings import duel
-from stepaside.games.outcome import Outcome
 from stepaside.games.recorded_game import run_game
 from stepaside.games.settings_reader import read_game
 from stepaside.locomotion.control_settings import LegsSettings

@@ -7,9 +7,9 @@ import mujoco
 import numpy as np
 import pytest
 
+from stepaside.games.game import Outcome
 from stepaside.games.game_settings import StartSettings
 from stepaside.games.game_settings import duel as make_duel
-from stepaside.games.outcome import Outcome
 from stepaside.games.players import RobotPlayer
 from stepaside.games.recorded_game import RecordedGame, run_game
 from stepaside.sim.camera_settings import RoomObject, SceneSettings

@@ -12,9 +12,9 @@ import pytest
 
 from stepaside.core.errors import ConfigurationError
 from stepaside.core.poses import Array
+from stepaside.games.game import Outcome
 from stepaside.games.game_settings import StartSettings
 from stepaside.games.game_settings import duel as make_duel
-from stepaside.games.outcome import Outcome
 from stepaside.games.recorded_game import repeat_game, run_game
 from stepaside.games.run import Run
 from stepaside.games.run_archive import (

@@ -7,8 +7,8 @@ from typing import Any
 import numpy as np
 import pytest
 
+from stepaside.games.game import Outcome
 from stepaside.games.game_settings import GameSettings
-from stepaside.games.outcome import Outcome
 from stepaside.games.recorded_game import run_game
 from stepaside.games.run import Run
 from stepaside.games.settings_reader import read_game

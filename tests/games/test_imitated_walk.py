@@ -12,8 +12,8 @@ pytest.importorskip("onnx")
 from imitated_walk import nao_on_imitated_walk
 from stepaside.control.sight_sources import CameraSight
 from stepaside.core.poses import Pose
+from stepaside.games.game import Outcome
 from stepaside.games.game_settings import duel as make_duel
-from stepaside.games.outcome import Outcome
 from stepaside.games.players import RobotPlayer
 from stepaside.games.recorded_game import RecordedGame, run_game
 from stepaside.games.settings_reader import read_game

@@ -11,8 +11,13 @@ import pytest
 from stepaside.core.errors import ReachError, StrategyError
 from stepaside.core.player_identity import PlayerIdentity, Role
 from stepaside.core.poses import Pose
-from stepaside.games.game import GameInPlay, GameObserver, GameRules, play
-from stepaside.games.outcome import Outcome
+from stepaside.games.game import (
+    GameInPlay,
+    GameObserver,
+    GameRules,
+    Outcome,
+    play,
+)
 from stepaside.games.recorder import Recorder
 
 TICK = 0.004

@@ -11,9 +11,9 @@ from stepaside.core.errors import ConfigurationError
 from stepaside.core.poses import Array, Pose, wrap_angle
 from stepaside.drivers.play_log import PlayLog, PlayTick, joint_row
 from stepaside.drivers.safety import SafetyState
+from stepaside.games.game import Outcome
 from stepaside.games.game_settings import StartSettings
 from stepaside.games.game_settings import duel as make_duel
-from stepaside.games.outcome import Outcome
 from stepaside.games.play_settings import PlaySettings
 from stepaside.games.players import RobotPlayer
 from stepaside.games.recorded_game import RecordedGame

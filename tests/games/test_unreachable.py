@@ -6,8 +6,8 @@ from collections.abc import Iterator
 import numpy as np
 import pytest
 
+from stepaside.games.game import Outcome
 from stepaside.games.game_settings import GameSettings, StartSettings, duel
-from stepaside.games.outcome import Outcome
 from stepaside.games.player_settings import PLAYERS
 from stepaside.games.recorded_game import run_game
 from stepaside.games.run import Run

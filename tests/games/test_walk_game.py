@@ -8,8 +8,8 @@ import numpy as np
 import pytest
 
 from stepaside.games.evaluation import express_in_support_foot
+from stepaside.games.game import Outcome
 from stepaside.games.game_settings import walk
-from stepaside.games.outcome import Outcome
 from stepaside.games.recorded_game import run_game
 from stepaside.games.run import Run
 from stepaside.locomotion.control_settings import OPEN_LOOP, STABILISED

@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 
 from stepaside.games.evaluation import upright_samples
+from stepaside.games.game import Outcome
 from stepaside.games.game_settings import walk
-from stepaside.games.outcome import Outcome
 from stepaside.games.recorded_game import RecordedGame, run_game
 from walkers import walker_of
 

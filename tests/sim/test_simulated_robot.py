@@ -9,9 +9,9 @@ import pytest
 from stepaside.control import ControlScheme
 from stepaside.control.sight_sources import MeasuredSight
 from stepaside.core.poses import Array, Pose
+from stepaside.games.physics_world import RobotSetup, place_robot
 from stepaside.games.player_settings import PlayerSettings
 from stepaside.games.players import RobotPlayer
-from stepaside.games.robot_placing import RobotSetup, place_robot
 from stepaside.locomotion.control_settings import OPEN_LOOP, STABILISED
 from stepaside.perception.measurement import Sighting
 from stepaside.robots.description import load_robot

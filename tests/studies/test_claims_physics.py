@@ -10,8 +10,8 @@ import numpy as np
 import pytest
 
 from stepaside.core.poses import Array
+from stepaside.games.game import Outcome
 from stepaside.games.game_settings import GameSettings, duel
-from stepaside.games.outcome import Outcome
 from stepaside.games.player_settings import PLAYERS
 from stepaside.games.run import Run
 from stepaside.games.trajectory import Trajectory

@@ -8,7 +8,7 @@ import pytest
 
 from stepaside.arena import RoomRecipe
 from stepaside.games import StepGame
-from stepaside.games.outcome import Outcome
+from stepaside.games.game import Outcome
 from stepaside.strategies import table_cache as tables
 from stepaside.studies import tournament as studied
 from stepaside.studies.tournament import (

@@ -7,7 +7,7 @@ from types import TracebackType
 from ..core.atomic_output import reason_of
 from ..core.errors import OutputError, StepAsideError
 from ..drivers.play_log import PlayLog, PlayTick
-from ..games.outcome import Outcome
+from ..games.game import Outcome
 from ..games.play_settings import PlaySettings
 from ..games.run_archive import CONFIGURATION, complete_play
 from ..games.settings_reader import dump_configuration

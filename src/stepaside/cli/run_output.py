@@ -5,7 +5,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from ..core.progress import ProgressLine
-from ..games.outcome import Outcome
+from ..games.game import Outcome
 from .terminal import NOTHING_SAVED, echo, exit_interrupted, print_json
 
 if TYPE_CHECKING:

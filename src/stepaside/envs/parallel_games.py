@@ -22,9 +22,8 @@ from ..core.errors import (
     check_within,
 )
 from ..games.floor_world import FloorWorld
-from ..games.game import GameInPlay
+from ..games.game import GameInPlay, Outcome
 from ..games.game_settings import GameSettings
-from ..games.outcome import Outcome
 from ..games.player_settings import PLAYERS
 from ..games.recorded_game import RecordedGame
 from ..games.settings_reader import load_game

@@ -12,8 +12,8 @@ import numpy as np
 from ..core.errors import PolicyError
 from ..core.poses import Array, Pose
 from ..core.random_streams import named_generator
+from ..games.physics_world import RobotSetup, policy_physics
 from ..games.player_settings import PlayerSettings
-from ..games.robot_placing import RobotSetup, policy_physics
 from ..locomotion.control_settings import LegsSettings
 from ..locomotion.policy.contract import CommandRanges
 from ..locomotion.policy.policy_legs import PolicyLegs, load_policy

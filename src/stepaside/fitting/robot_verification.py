@@ -11,9 +11,8 @@ import mujoco
 import numpy as np
 
 from ..core.errors import StepAsideError
-from ..games.game import play
+from ..games.game import Outcome, play
 from ..games.game_settings import walk
-from ..games.outcome import Outcome
 from ..games.recorded_game import RecordedGame
 from ..games.robot_settings import settings_from_description
 from ..locomotion.control_settings import ControlSettings

@@ -17,8 +17,7 @@ from ..core.constants import CAPTURE_DISTANCE
 from ..core.poses import Array
 from ..sim.person_settings import RADIUS
 from ..theory.unicycle.circles import fit_circle
-from .game import GameInPlay
-from .outcome import Outcome
+from .game import GameInPlay, Outcome
 from .run import Run
 from .summary import (
     CrowdSummary,

@@ -15,7 +15,7 @@ from ..core.poses import Array
 from ..core.rotations import rotation_of
 from ..core.setting import CheckedSettings, setting
 from .evaluation import measure
-from .outcome import Outcome
+from .game import Outcome
 from .player_settings import MOST_PLAYERS, PLAYER_NAME
 from .run import Run
 from .trajectory import Trajectory, check_record

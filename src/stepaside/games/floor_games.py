@@ -25,9 +25,8 @@ from .floor_world import (
     FloorWalk,
     FloorWorld,
 )
-from .game import GameInPlay, GameRules, play
+from .game import GameInPlay, GameRules, Outcome, play
 from .game_settings import GameSettings
-from .outcome import Outcome
 from .player_settings import PlayerSettings
 
 MARGIN = 0.06  # of bodies and of their sway, in [m]

@@ -25,8 +25,7 @@ from ..strategies.decision_maker import (
 from ..strategies.knowledge import Knowledge, Limits, OtherPlayer
 from ..strategies.strategy import Strategy
 from ..strategies.velocity_set import STILL, respond
-from .game import GameInPlay, GameObserver
-from .outcome import Outcome
+from .game import GameInPlay, GameObserver, Outcome
 from .trajectory import Trajectory
 
 PERIOD = 0.02  # of records, and of the decisions of people, in [s]

@@ -2,6 +2,7 @@
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
+from enum import StrEnum
 from itertools import combinations
 from math import hypot, inf
 from time import perf_counter
@@ -12,10 +13,25 @@ from ..core.errors import ReachError, StrategyError
 from ..core.player_identity import PlayerIdentity
 from ..core.poses import Pose
 from ..core.signal_handling import DeferredInterrupt
-from .outcome import Outcome
 
 ARRIVAL = 0.3  # distance from a goal at which it is reached, in [m]
 REPORT_PERIOD = 0.2  # between two progress reports, in [s]
+
+
+class Outcome(StrEnum):
+    """Outcome of a game or a play.
+
+    Bodies are in contact in physics; a body on the floor touches an obstacle.
+    """
+
+    COMPLETED = "completed"
+    CAPTURED = "captured"
+    TOUCHED = "touched"
+    FALL = "fall"
+    CONTACT = "contact"
+    UNREACHABLE = "unreachable"
+    FAILED = "failed"
+    INTERRUPTED = "interrupted"
 
 
 class PlayedWorld(Protocol):

@@ -26,7 +26,7 @@ from ..robots.forward_kinematics import (
     torso_pose_on_foot,
 )
 from .evaluation import measure
-from .outcome import Outcome
+from .game import Outcome
 from .play_settings import PlaySettings
 from .player_settings import PLAYERS
 from .run import Run

@@ -15,10 +15,9 @@ from .evaluation import crowd_of, measure, summarise_walk
 from .floor_games import floor_of, rules_of
 from .floor_world import PERIOD, FloorRecorder, FloorWorld
 from .forecast import evaluate_duel
-from .game import GameInPlay, GameObserver, Progress, play
+from .game import GameInPlay, GameObserver, Outcome, Progress, play
 from .game_settings import GameSettings
 from .game_starts import with_starts
-from .outcome import Outcome
 from .physics_world import PhysicsWorld
 from .player_settings import EVADER, WALKER
 from .players import RobotPlayer

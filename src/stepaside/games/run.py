@@ -12,7 +12,7 @@ import numpy as np
 from ..arena import Room
 from ..core.player_identity import PlayerIdentity, Role
 from ..core.poses import Array
-from .outcome import Outcome
+from .game import Outcome
 from .player_settings import EVADER, PURSUER, WALKER
 from .summary import Summary
 from .trajectory import Trajectory, angle_between, distance_between

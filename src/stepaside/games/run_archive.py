@@ -18,8 +18,8 @@ from ..core.entries import load_entries, read_entries
 from ..core.errors import AnyPath, ConfigurationError, as_path
 from ..core.poses import Array
 from ..robots.description import known_robots
+from .game import Outcome
 from .game_settings import GAME_KINDS
-from .outcome import Outcome
 from .player_settings import MOST_PLAYERS, PLAYER_NAME
 from .run import Run
 from .settings_reader import (

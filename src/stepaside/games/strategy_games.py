@@ -17,8 +17,7 @@ from ..strategies.strategy import Strategy
 from ..theory.unicycle.unicycle_game import Game, RelativeStart, Unicycle
 from .floor_games import play_floor
 from .floor_world import FloorAgent, FloorRecorder, FloorWalk, FloorWorld
-from .game import GameInPlay, GameRules
-from .outcome import Outcome
+from .game import GameInPlay, GameRules, Outcome
 from .player_settings import PLAYERS
 
 UNBOUNDED = 1e9  # safety radius of a game without safety area, in [m]

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 from ..core.poses import Array
-from ..games.outcome import Outcome
+from ..games.game import Outcome
 from ..games.run import Run
 from ..perception.images import Pixels
 from .palette import PALETTES

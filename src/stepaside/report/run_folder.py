@@ -7,7 +7,7 @@ from pathlib import Path
 
 from ..core.atomic_output import check_folder, folder_draft
 from ..core.errors import AnyPath, OutputError, as_path
-from ..games.outcome import Outcome
+from ..games.game import Outcome
 from ..games.run import Run
 from ..games.run_archive import write_checksums, write_run_files
 

@@ -11,9 +11,8 @@ from ..arena import RoomRecipe, generate_room
 from ..core.errors import ConfigurationError
 from ..core.poses import Array
 from ..games.forecast import circle_of_theory, convergence_time
-from ..games.game import GameInPlay, GameObserver, play
+from ..games.game import GameInPlay, GameObserver, Outcome, play
 from ..games.game_settings import GameSettings, StartSettings, duel
-from ..games.outcome import Outcome
 from ..games.physics_world import PhysicsWorld
 from ..games.player_settings import PLAYERS
 from ..games.players import RobotPlayer
@@ -101,9 +100,7 @@ class _TickObserver(GameObserver):
         if len(self.loads) == self._world.ticks:
             return
         stance = self._robot.stance
-        forces = self._robot.foot_forces.reshape(
-            2, -1
-        )  # left, right
+        forces = self._robot.foot_forces.reshape(2, -1)  # left, right
         self.loads.append(forces.sum(axis=1))
         soles = stance.left_sole, stance.right_sole
         self.feet.append(np.array([sole[:2] for sole in soles]))

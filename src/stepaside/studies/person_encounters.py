@@ -8,8 +8,8 @@ import numpy as np
 from ..core.poses import wrap_angle
 from ..core.random_streams import named_generator
 from ..core.setting import CheckedSettings, setting
+from ..games.game import Outcome
 from ..games.game_settings import GameSettings, StartSettings
-from ..games.outcome import Outcome
 from ..games.recorded_game import run_game
 from ..sim.person_settings import REACTIONS, PersonSettings
 from ..strategies import DashEvasion

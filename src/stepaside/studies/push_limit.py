@@ -6,8 +6,8 @@ from math import radians
 
 from ..core.ranges import Range
 from ..core.setting import CheckedSettings, setting
+from ..games.game import Outcome
 from ..games.game_settings import GameSettings
-from ..games.outcome import Outcome
 from ..games.player_settings import WALKER
 from ..games.recorded_game import run_game
 from ..planning import Foot, ManeuverPlanner

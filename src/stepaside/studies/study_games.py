@@ -10,8 +10,8 @@ import numpy as np
 from ..core.errors import PlanError
 from ..core.player_identity import Role
 from ..core.poses import Pose
+from ..games.game import Outcome
 from ..games.game_settings import GameSettings, duel, walk
-from ..games.outcome import Outcome
 from ..games.recorded_game import run_game
 from ..games.run import Run
 from ..games.settings_reader import read_game, settings_of

@@ -17,7 +17,7 @@ from ..core.convex import grown_hull_area
 from ..core.poses import Array, Pose, rotate, wrap_angles
 from ..core.setting import check_settings, setting
 from ..games.floor_world import PARTS
-from ..games.outcome import Outcome
+from ..games.game import Outcome
 from ..games.player_settings import PLAYERS
 from ..games.run import Run
 from ..games.strategy_games import StepGame, StrategyTrack, play_strategies

@@ -11,9 +11,9 @@ from time import perf_counter, sleep
 from ...core.errors import ConfigurationError, StepAsideError
 from ...core.player_identity import Role
 from ...games.forecast import circle_of_theory
+from ...games.game import Outcome
 from ...games.game_settings import GameSettings
 from ...games.game_starts import with_starts
-from ...games.outcome import Outcome
 from ...games.physics_world import PhysicsWorld
 from ...games.players import RobotPlayer
 from ...games.recorded_game import RecordedGame
