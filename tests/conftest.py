@@ -73,8 +73,8 @@ def blank_figures(monkeypatch: pytest.MonkeyPatch) -> None:
 @pytest.fixture
 def inline_workers(monkeypatch: pytest.MonkeyPatch) -> None:
     """Run in this process what workers would."""
-    from inline_executor import InlineExecutor
     from stepaside.core import worker_pool
+    from stepaside.studies.study import InlineExecutor
 
     monkeypatch.setattr(worker_pool, "worker_pool", lambda _: InlineExecutor())
 

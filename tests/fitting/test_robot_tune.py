@@ -8,7 +8,6 @@ from click.testing import CliRunner
 
 import stepaside.fitting.gait_search as tuning
 import vendor_humanoid as stranger
-from inline_executor import InlineExecutor
 from stepaside.cli.main import main
 from stepaside.fitting.derivation import derive
 from stepaside.fitting.description_writer import (
@@ -26,6 +25,7 @@ from stepaside.robots.description import (
     RobotDescription,
     load_robot,
 )
+from stepaside.studies.study import InlineExecutor
 
 
 @pytest.fixture(scope="module")
