@@ -13,8 +13,7 @@ from stepaside.drivers.method_thread import SessionLost
 from stepaside.drivers.robot import JointRobot, JointTargets
 from stepaside.drivers.robot_reports import plain_report
 from stepaside.drivers.safety import SafetyState
-from stepaside.locomotion.locomotion import Phase
-from stepaside.locomotion.zmp.current_step import resting_step
+from stepaside.locomotion.locomotion import Phase, resting_step
 from stepaside.perception.measurement import (
     RobotState,
     RobotStatus,

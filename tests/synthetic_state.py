@@ -9,7 +9,7 @@ from stepaside.locomotion.control_settings import (
     ControlSettings,
     StabiliserSettings,
 )
-from stepaside.locomotion.zmp.current_step import CurrentStep
+from stepaside.locomotion.locomotion import CurrentStep
 from stepaside.locomotion.zmp.reference_table import ReferenceSample
 from stepaside.locomotion.zmp.stabiliser import Stabiliser
 from stepaside.locomotion.zmp.state_estimator import BodyState

@@ -14,7 +14,7 @@ from stepaside.control.sight_sources import (
 from stepaside.core.constants import GRAVITY
 from stepaside.core.poses import Array, Pose
 from stepaside.core.rotations import rotation
-from stepaside.locomotion.zmp.current_step import CurrentStep, resting_step
+from stepaside.locomotion.locomotion import CurrentStep, resting_step
 from stepaside.perception.measurement import Sighting
 from stepaside.planning import Foot
 

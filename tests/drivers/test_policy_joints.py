@@ -31,8 +31,8 @@ from stepaside.perception.measurement import Sighting
 from stepaside.planning import GaitSettings
 from stepaside.robots.description import RobotDescription, load_robot
 from stepaside.robots.forward_kinematics import ForwardKinematics
-from stepaside.sim.body_errors import set_joint_gains
 from stepaside.sim.physics_settings import PhysicsSettings
+from stepaside.sim.servos import set_joint_gains
 from stepaside.sim.simulated_robot import SimulatedRobot
 from stepaside.sim.world import World
 from stepaside.strategies import Pursuit

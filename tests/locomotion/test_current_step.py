@@ -9,9 +9,9 @@ import pytest
 
 from stepaside.core.poses import Pose
 from stepaside.locomotion.control_settings import StabiliserSettings
+from stepaside.locomotion.locomotion import CurrentStep
 from stepaside.locomotion.zmp.current_step import (
     Box,
-    CurrentStep,
     adapted_landing,
     shifted_swing,
     zmp_box,

@@ -8,11 +8,8 @@ import pytest
 
 from stepaside.core.poses import Array
 from stepaside.locomotion.control_settings import StabiliserSettings
-from stepaside.locomotion.zmp.current_step import (
-    CurrentStep,
-    resting_step,
-    zmp_box,
-)
+from stepaside.locomotion.locomotion import CurrentStep, resting_step
+from stepaside.locomotion.zmp.current_step import zmp_box
 from stepaside.locomotion.zmp.mpc import IntrinsicallyStableMpc
 from stepaside.planning import Direction, Foot, ManeuverPlanner
 from synthetic_state import GAIT, SUPPORT, TICK, stabiliser

@@ -7,8 +7,8 @@ import numpy as np
 import pytest
 
 from stepaside.core.poses import Array
-from stepaside.sim.body_errors import Servos
 from stepaside.sim.body_settings import BodySettings
+from stepaside.sim.servos import Servos
 
 KP, KV, STALL = 20.0, 0.5, 1.5
 STEP, CYCLE = 0.002, 0.012

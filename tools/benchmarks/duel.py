@@ -69,7 +69,8 @@ def _measure_duel(duration: float, rounds: int) -> dict[str, float]:
             for command in commands:
                 data.ctrl[:] = command
                 if rendered:
-                    steps = settings.physics.steps_per_tick
+                    own = settings.physics
+                    steps = round(own.tick / own.time_step)
                     mujoco.mj_step(model, data, nstep=steps)
                 else:
                     world.step()

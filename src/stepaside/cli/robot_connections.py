@@ -129,7 +129,7 @@ def _open_joints(
     legs, gains = settings.legs, None
     sees = settings.senses == "cameras"
     motors = motors_of(robot, description)
-    if legs.walks:
+    if legs.network:
         if not robot.takes_gains:
             raise click.UsageError(
                 "legs requires a robot that takes gains, got "
@@ -144,7 +144,7 @@ def _open_joints(
         scheme_factory(
             description,
             settings.gait,
-            legs if legs.walks else settings.control,
+            legs if legs.network else settings.control,
             tick=robot.tick,
             delay_ticks=settings.delay_ticks,
             sees_as=settings.role if sees else None,
@@ -153,7 +153,7 @@ def _open_joints(
         open_eyes=(lambda opened: _open_camera(settings, opened))
         if sees
         else None,
-        needs_forces=not legs.walks,
+        needs_forces=not legs.network,
         dry_run=settings.dry_run,
     )
 

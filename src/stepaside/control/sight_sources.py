@@ -5,7 +5,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 from ..core.player_identity import PlayerIdentity
 from ..core.poses import ALL_AROUND, Array, Sector
-from ..locomotion.zmp.current_step import CurrentStep
+from ..locomotion.locomotion import CurrentStep
 from ..perception.attitude import AttitudeFilter
 from ..perception.measurement import RobotState, Sighting
 from ..planning import Foot

@@ -181,7 +181,7 @@ def _approach_of_person(settings: GameSettings) -> float | None:
     own, velocities = settings.evader, None
     if own.strategy.startswith(OBJECT):
         return None
-    if own.legs.walks:
+    if own.legs.network:
         from ..locomotion.policy.policy_legs import load_legs
 
         robot, tick = load_robot(own.robot), settings.physics.tick

@@ -20,7 +20,7 @@ from ..sim.camera_settings import (
     SceneSettings,
 )
 from ..sim.physics_settings import PhysicsSettings
-from ..sim.push import MOST_PUSHES, Push, check_pushes
+from ..sim.push import MOST_PUSHES, Push
 from ..strategies.registry import OF_EVASION
 from .player_settings import (
     EVADER,
@@ -184,7 +184,12 @@ class GameSettings:
             MOST_ROBOTS.check(len(robots), "number of robots")
         if self.pushes and not robots:
             raise ConfigurationError("pushes need a robot, got none")
-        check_pushes(self.pushes, robots)
+        for push in self.pushes:
+            if push.player not in ("", *robots):
+                raise ConfigurationError(
+                    f"push player must be one of {', '.join(robots)}, got "
+                    f"{push.player!r}"
+                )
         check_senses(self)
 
     def changed(self, **changes: Any) -> "GameSettings":
@@ -417,7 +422,7 @@ def check_senses(settings: GameSettings) -> None:
                 "robots, as cameras do not tell robots of one role apart, got "
                 "'cameras'"
             )
-        if own.legs.walks and settings.room is not None:
+        if own.legs.network and settings.room is not None:
             raise ConfigurationError(
                 f"{own.name}: legs.network must be empty in rooms with camera "
                 f"sensing, got {own.legs.network!r}"

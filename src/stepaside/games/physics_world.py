@@ -26,7 +26,7 @@ from ..locomotion.maneuver_walk import ManeuverWalk
 from ..perception.measurement import Sighting
 from ..robots.description import RobotDescription, load_robot
 from ..robots.leg_kinematics import LegKinematics
-from ..sim.body_settings import BodySettings, at_tick, with_control_period
+from ..sim.body_settings import BodySettings, at_tick
 from ..sim.ground_truth import (
     GroundTruth,
     IdealLineOfSight,
@@ -132,7 +132,7 @@ def place_robot(
     own, known, tick = setup.own, setup.clearance, world.physics.tick
     source = setup.source or MeasuredSight()
     walk: ManeuverWalk | PolicyWalk
-    if own.legs.walks:
+    if own.legs.network:
         from ..locomotion.policy import policy_legs as learned
 
         legs = learned.load_legs(own.legs, setup.description, tick=tick)
@@ -490,7 +490,7 @@ def _setups_of(
     """Return the robots of a game before they stand in the world."""
     robots = [p for p in settings.players if p.body == "robot"]
     body = settings.body
-    if any(own.legs.walks for own in robots):
+    if any(own.legs.network for own in robots):
         body = at_tick(body, settings.physics.tick)
     return {
         own.name: RobotSetup(
@@ -507,9 +507,10 @@ def _physics_of(
     settings: GameSettings, setups: Mapping[str, RobotSetup]
 ) -> PhysicsSettings:
     """Return the physics of a game, at the control period of its robots."""
-    walking = [setup.own.legs.walks for setup in setups.values()]
+    walking = [bool(setup.own.legs.network) for setup in setups.values()]
     if not any(walking):
-        return with_control_period(settings.physics, settings.body)
+        cycle = settings.body.cycle
+        return replace(settings.physics, tick=cycle or settings.physics.tick)
     if settings.sensing_by("cameras") or not all(walking):
         return settings.physics  # heads move between decisions of the policy
     return policy_physics(settings.physics, settings.body, setups.values())

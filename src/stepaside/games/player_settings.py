@@ -99,7 +99,7 @@ class RobotSettings:
         strategy, evasion = self.strategy, self.evasion
         if not strategy and role == EVADER:
             # Learned legs step to every side.
-            aside = person and walks and self.legs.walks
+            aside = person and walks and bool(self.legs.network)
             strategy = STEP_ASIDE if aside else EVASION
         elif not strategy:
             strategy = PURSUIT if role == PURSUER else "stand"

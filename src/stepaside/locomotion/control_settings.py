@@ -211,11 +211,6 @@ class LegsSettings(CheckedSettings):
         "Correct the velocity of a walking policy by gyro and leg odometry",
     )
 
-    @property
-    def walks(self) -> bool:
-        """Whether the robot walks by a policy."""
-        return bool(self.network)
-
 
 @dataclass(frozen=True, slots=True)
 class MapSettings(CheckedSettings, prefix="map."):

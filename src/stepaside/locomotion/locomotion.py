@@ -1,6 +1,7 @@
 """Interface between a controller that decides and one that walks."""
 
 from enum import Enum
+from math import cos, sin
 from typing import NamedTuple, Protocol
 
 from ..arena import NO_OBSTACLES
@@ -32,6 +33,34 @@ class StepStarted(NamedTuple):
     # processor time of planning [s]; None for a halt
     planning_time: float | None
     velocity_jump: float  # jump of the CoM velocity reference [m/s]
+
+
+class CurrentStep(NamedTuple):
+    """Step in progress, in odometry."""
+
+    support: Pose  # pose of the support foot
+    swing: Foot  # foot that swings, or swung last
+    landing: Pose  # planned landing pose
+    remaining: float  # time until the landing [s]; negative after it
+    progress: float  # fraction of the swing path that is completed
+    walking: bool  # whether the robot walks; otherwise it stands
+    plan: ManeuverPlan | None = None  # plan whose first step this is, if any
+    passed: float = 0.0  # time since that plan began [s]
+
+    def to_support(self, x: float, y: float) -> tuple[float, float]:
+        """Rotate a vector from odometry to the support foot's axes."""
+        c, s = cos(-self.support.theta), sin(-self.support.theta)
+        return c * x - s * y, s * x + c * y
+
+    def from_support(self, x: float, y: float) -> tuple[float, float]:
+        """Rotate a vector from the support foot's axes to odometry."""
+        c, s = cos(self.support.theta), sin(self.support.theta)
+        return c * x - s * y, s * x + c * y
+
+
+def resting_step(support: Pose, foot: Foot) -> CurrentStep:
+    """Return the step of a robot that stands on a support, not on a foot."""
+    return CurrentStep(support, foot, support, 0.0, 1.0, False)
 
 
 class MotionRequest(NamedTuple):

@@ -17,18 +17,16 @@ from ..planning import (
     TemplateDrive,
 )
 from ..planning.maneuver import landing_state
+from ..planning.schedule import swing_progress
 from ..robots.leg_kinematics import BodyReference, LegKinematics
 from ..strategies.velocity_set import VelocitySet
 from .locomotion import (
+    CurrentStep,
     GuardDecision,
     IntentSource,
     MotionRequest,
     Phase,
     StepStarted,
-)
-from .zmp.current_step import (
-    CurrentStep,
-    first_step_of,
     resting_step,
 )
 from .zmp.open_loop import OpenLoop
@@ -370,6 +368,32 @@ class ManeuverWalk:
     def _support(self, swing: Foot) -> Pose:
         """Return the support foot while the other swings, in odometry."""
         return self.right_foot if swing is Foot.LEFT else self.left_foot
+
+
+def first_step_of(
+    plan: ManeuverPlan,
+    frame: Pose,
+    passed: float,
+    landing: Pose | None = None,
+) -> CurrentStep:
+    """Return the first step of a plan with a frame in odometry.
+
+    The planned landing is given if it is known.
+    """
+    gait = plan.schedule.settings
+    walked = passed
+    if plan.schedule.standing:
+        walked -= gait.start_support
+    return CurrentStep(
+        frame,
+        plan.first_foot,
+        frame.compose(plan.landing) if landing is None else landing,
+        gait.single_support - walked,
+        swing_progress(walked / gait.single_support, gait.swing_profile),
+        True,
+        plan,
+        passed,
+    )
 
 
 def velocity_limits(gait: GaitSettings) -> tuple[float, float]:

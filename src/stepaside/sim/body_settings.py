@@ -9,7 +9,6 @@ from math import pi, radians
 
 from ..core.ranges import Range
 from ..core.setting import CheckedSettings, setting
-from .physics_settings import PhysicsSettings
 
 SENSOR = "some hundred times NAO's; beyond, a sensor is useless"
 
@@ -163,10 +162,3 @@ def at_tick(body: BodySettings, tick: float) -> BodySettings:
         delay_cycles=round(body.delay_cycles * body.cycle / tick),
         imu_delay_cycles=round(body.imu_delay_cycles * body.cycle / tick),
     )
-
-
-def with_control_period(
-    physics: PhysicsSettings, body: BodySettings
-) -> PhysicsSettings:
-    """Return physics settings with the control period of a body."""
-    return replace(physics, tick=body.cycle) if body.cycle > 0.0 else physics

@@ -61,11 +61,6 @@ class PhysicsSettings:
                 f"{self.time_step:g} [s], got {self.tick:g}"
             )
 
-    @property
-    def steps_per_tick(self) -> int:
-        """Number of physics steps per control tick."""
-        return round(self.tick / self.time_step)
-
 
 @dataclass(frozen=True, slots=True)
 class SightSettings(CheckedSettings):

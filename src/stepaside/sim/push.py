@@ -92,20 +92,10 @@ class ScheduledPush(NamedTuple):
     impulse_y: float  # impulse along y of the world [N s]
 
 
-def check_pushes(pushes: Sequence[Push], robots: Sequence[str]) -> None:
-    """Check that pushes name robots of a game, or none."""
-    for push in pushes:
-        if push.player not in ("", *robots):
-            raise ConfigurationError(
-                f"push player must be one of {', '.join(robots)}, got "
-                f"{push.player!r}"
-            )
-
-
 def pushes_by_robot(
     pushes: Sequence[Push], robots: Sequence[str]
 ) -> dict[str, tuple[Push, ...]]:
-    """Group pushes by the name of the robot; see :func:`check_pushes`."""
+    """Group pushes by the name of the robot, by default the last."""
     return {
         name: tuple(p for p in pushes if (p.player or robots[-1]) == name)
         for name in robots

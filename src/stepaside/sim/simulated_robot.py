@@ -14,16 +14,9 @@ from ..core.poses import Array, Pose
 from ..core.rotations import angles_of
 from ..perception.measurement import RobotState, Sighting
 from ..robots.description import REMEDY, RobotDescription
-from .body_errors import (
-    JointGains,
-    SensorErrors,
-    Servos,
-    StrapdownImu,
-    set_joint_gains,
-)
-from .body_settings import BodySettings
+from .body_settings import IDEAL, BodySettings
 from .ground_truth import IdealLineOfSight, TrueRobotState, TrueStance
-from .push import Push, PushApplier, ScheduledPush
+from .servos import JointGains, Servos, set_joint_gains
 from .world import World, transform_free_joint
 
 EMPTY = np.empty(0)
@@ -31,6 +24,8 @@ EMPTY = np.empty(0)
 if TYPE_CHECKING:
     from ..locomotion.policy.policy_legs import InitialPosture
     from ..robots.leg_kinematics import LegKinematics
+    from .body_errors import SensorErrors, StrapdownImu
+    from .push import Push, PushApplier, ScheduledPush
     from .ranging import Lidar
     from .sensor_suite import SensorSuite
 
@@ -45,7 +40,7 @@ class SimulatedRobot:
         description: RobotDescription,
         kinematics: LegKinematics | InitialPosture,
         pose: Pose,
-        body: BodySettings | None = None,
+        body: BodySettings = IDEAL,
         *,
         gains: JointGains | None = None,
         generator: np.random.Generator | None = None,
@@ -63,7 +58,6 @@ class SimulatedRobot:
         velocity between readings, as real ones do, instead of samples. An
         ideal sensor of the pose in a room replaces localisation.
         """
-        body = body or BodySettings()
         self.world, self.name, self.eyes = world, name, eyes
         self.tick, self._sights = world.physics.tick, sights
         model, data = world.model, world.data
@@ -83,14 +77,10 @@ class SimulatedRobot:
             body.backlash * np.array([n in description.legs for n in names]),
             feedforward=gains is None,
         )
-        if not body.has_ideal_servos:
+        if not self.servos.ideal:
             world.before_step.append(self.servos.before_step)
         self.servos.reset(kinematics.joint_targets)
         self._find_sensors(description)
-        self._errors: SensorErrors | None = None
-        if generator is not None and body.has_sensor_errors:
-            unit = description.game.force_unit
-            self._errors = SensorErrors(body, generator, force_unit=unit)
         root = model.body(f"{name}/{description.torso}")
         posture, free = kinematics.posture, int(root.jntadr[0])
         at, dof = int(model.jnt_qposadr[free]), int(model.jnt_dofadr[free])
@@ -104,7 +94,15 @@ class SimulatedRobot:
         self.pusher: PushApplier | None = None
         self.truth = truth or TrueRobotState(model, data, root.name)
         self._knows_pose = knows_pose
+        self._errors: SensorErrors | None = None
         self._imu: StrapdownImu | None = None
+        if generator is None or body == IDEAL and not integrates_imu:
+            return
+        from .body_errors import SensorErrors, StrapdownImu
+
+        if body.has_sensor_errors:
+            unit = description.game.force_unit
+            self._errors = SensorErrors(body, generator, force_unit=unit)
         gyro = model.sensor(f"{name}/{description.sensors.gyro}").id
         site = int(model.sensor_objid[gyro])
         if integrates_imu and model.site_bodyid[site] == root.id:
@@ -208,6 +206,8 @@ class SimulatedRobot:
     def push(self, *pushes: Push) -> None:
         """Schedule pushes of the torso."""
         if self.pusher is None:
+            from .push import PushApplier
+
             world = self.world
             self.pusher = PushApplier(world.model, world.data, self._torso)
             world.before_step.append(self.pusher.before_step)

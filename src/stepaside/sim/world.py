@@ -13,7 +13,6 @@ from ..core.poses import Pose
 from ..core.random_streams import named_generator
 from ..robots.description import RobotDescription
 from ..robots.tree_cache import load_tree
-from .body_errors import perturb_masses
 from .body_settings import BodySettings
 from .floor import add_floor, tilt_gravity
 from .physics_settings import PhysicsSettings
@@ -70,6 +69,8 @@ def build_model(
                 geom.conaffinity = CONTACT_BITS & ~own
                 geom.friction[0] = physics.friction
         if body is not None and body.mass_error + body.com_error > 0.0:
+            from .body_errors import perturb_masses
+
             generator = named_generator(seed, f"masses/{name}")
             perturb_masses(
                 *(part.bodies, body, description.torso, generator),
@@ -116,6 +117,7 @@ class World:
         for robot in robots.values():
             load_tree(robot)  # raises if model and description differ
         self.physics = physics
+        self._steps = round(physics.tick / physics.time_step)
         self.model = build_model(
             *(robots, physics, body, seed, furnish),
             rendered=rendered,
@@ -152,7 +154,7 @@ class World:
 
     def step(self) -> None:
         """Advance by one control tick, whose last step computes sensors."""
-        model, data, steps = self.model, self.data, self.physics.steps_per_tick
+        model, data, steps = self.model, self.data, self._steps
         if self.before_step:
             now, time_step = self.time, self.physics.time_step
             for step in range(steps):

@@ -431,7 +431,7 @@ def legs_settings(robot: str, seed: int) -> GameSettings:
     """
     settings = duel(seed=seed, duration=CIRCLE_TIME)
     settings = read_game({"robot": robot}, base=settings)
-    if not settings.evader.legs.walks:
+    if not settings.evader.legs.network:
         raise ConfigurationError(
             f"the robot {robot!r} must have learned legs: its robot.toml "
             "names no network in [locomotion]"

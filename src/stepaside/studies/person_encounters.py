@@ -69,7 +69,7 @@ class Encounter(CheckedSettings):
         """Settings of the game, with the person far enough away at first."""
         duel = self.game.resolved()
         evasion = replace(duel.evader.evasion, trigger="time")
-        if duel.evader.legs.walks:
+        if duel.evader.legs.network:
             evasion = replace(evasion, clearance=DashEvasion().clearance)
         ahead = evasion.contact_time + STANDING
         distance = evasion.clearance + self.speed * ahead

@@ -18,12 +18,13 @@ from ...strategies.velocity_set import STILL, BodyVelocity, VelocitySet
 from ..control_settings import LegsSettings
 from ..guard import VelocityGuard
 from ..locomotion import (
+    CurrentStep,
     IntentSource,
     Phase,
     StepStarted,
+    resting_step,
     template_velocity,
 )
-from ..zmp.current_step import CurrentStep, resting_step
 from .contract import PolicyContract
 from .contract_reader import RobotJoints, read_contract
 from .leg_odometry import LegOdometry

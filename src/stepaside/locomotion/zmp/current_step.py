@@ -1,69 +1,13 @@
-"""Step in progress, and the ZMP shifts and landings that it allows."""
+"""ZMP shifts and landings that a step in progress allows."""
 
-from math import cos, exp, hypot, sin
-from typing import NamedTuple
+from math import exp, hypot
 
-from ...core.poses import Pose
-from ...planning import Foot, GaitSettings, ManeuverPlan
-from ...planning.schedule import swing_progress
+from ...planning import Foot, GaitSettings
 from ...robots.leg_kinematics import BodyReference
 from ..control_settings import StabiliserSettings
+from ..locomotion import CurrentStep
 
 Box = tuple[tuple[float, float], tuple[float, float]]
-
-
-class CurrentStep(NamedTuple):
-    """Step in progress, in odometry."""
-
-    support: Pose  # pose of the support foot
-    swing: Foot  # foot that swings, or swung last
-    landing: Pose  # planned landing pose
-    remaining: float  # time until the landing [s]; negative after it
-    progress: float  # fraction of the swing path that is completed
-    walking: bool  # whether the robot walks; otherwise it stands
-    plan: ManeuverPlan | None = None  # plan whose first step this is, if any
-    passed: float = 0.0  # time since that plan began [s]
-
-    def to_support(self, x: float, y: float) -> tuple[float, float]:
-        """Rotate a vector from odometry to the support foot's axes."""
-        c, s = cos(-self.support.theta), sin(-self.support.theta)
-        return c * x - s * y, s * x + c * y
-
-    def from_support(self, x: float, y: float) -> tuple[float, float]:
-        """Rotate a vector from the support foot's axes to odometry."""
-        c, s = cos(self.support.theta), sin(self.support.theta)
-        return c * x - s * y, s * x + c * y
-
-
-def resting_step(support: Pose, foot: Foot) -> CurrentStep:
-    """Return the step of a robot that stands on a support, not on a foot."""
-    return CurrentStep(support, foot, support, 0.0, 1.0, False)
-
-
-def first_step_of(
-    plan: ManeuverPlan,
-    frame: Pose,
-    passed: float,
-    landing: Pose | None = None,
-) -> CurrentStep:
-    """Return the first step of a plan with a frame in odometry.
-
-    The planned landing is given if it is known.
-    """
-    gait = plan.schedule.settings
-    walked = passed
-    if plan.schedule.standing:
-        walked -= gait.start_support
-    return CurrentStep(
-        frame,
-        plan.first_foot,
-        frame.compose(plan.landing) if landing is None else landing,
-        gait.single_support - walked,
-        swing_progress(walked / gait.single_support, gait.swing_profile),
-        True,
-        plan,
-        passed,
-    )
 
 
 def zmp_box(swing: Foot, gait: GaitSettings, edge: float) -> Box:

@@ -11,7 +11,7 @@ from ...perception.measurement import RobotState
 from ...planning import CenterState, ManeuverPlan
 from ...robots.joint_loads import LegLoads
 from ...robots.leg_kinematics import BodyReference, LegKinematics
-from .current_step import CurrentStep
+from ..locomotion import CurrentStep
 from .reference_table import ReferenceTable
 
 if TYPE_CHECKING:

@@ -29,8 +29,8 @@ from ...robots.description import RobotDescription
 from ...robots.forward_kinematics import ForwardKinematics, MeasuredPosture
 from ...robots.leg_kinematics import BodyReference, LegKinematics
 from ..control_settings import ControlSettings, StabiliserSettings
+from ..locomotion import CurrentStep
 from .current_step import (
-    CurrentStep,
     adapted_landing,
     beyond,
     clip_to,
