@@ -33,7 +33,8 @@ def measure_outline(
     """Measure the outline [m] of all that collides, in the stance of a gait.
 
     It is a polygon around trunk, head, arms and legs, in the frame of the
-    body, and a rectangle around each foot in its frame.
+    body, and a rectangle around each foot in its frame. Round shapes count as
+    the boxes around them.
     """
     kinematics = LegKinematics(description, tick=1.0)
     kinematics.stand(initial_stance(gait))
@@ -73,13 +74,17 @@ def _outline_of(
     axes: Array,
     sides: int,
 ) -> Array:
-    """Return the polygon around geoms in a frame. Shape (sides, 2)."""
+    """Return the polygon around the boxes of geoms in a frame, (sides, 2)."""
     angles = np.arange(sides) * (2.0 * np.pi / sides)
     normals = np.stack([np.cos(angles), np.sin(angles)], axis=-1)
     level = np.zeros((sides, 3))
     level[:, :2] = normals @ axes.T
-    reach = np.max([_reach(model, data, g, level) for g in geoms], axis=0)
-    reach = reach - level[:, :2] @ origin
+    around = model.geom_aabb[geoms]  # centres and half sizes of boxes
+    turned = level @ data.geom_xmat[geoms].reshape(-1, 3, 3)
+    reach = np.einsum("gnk,gk->gn", turned, around[:, :3])
+    reach += np.einsum("gnk,gk->gn", np.abs(turned), around[:, 3:])
+    reach = (reach + data.geom_xpos[geoms] @ level.T).max(axis=0)
+    reach -= level[:, :2] @ origin
     # Each corner is the intersection of two consecutive lines.
     after, farther = np.roll(normals, -1, axis=0), np.roll(reach, -1)
     lines = np.stack([normals, after], axis=1)
@@ -87,31 +92,6 @@ def _outline_of(
         lines, np.stack([reach, farther], axis=1)[:, :, None]
     )[:, :, 0]
     return corners
-
-
-def _reach(
-    model: mujoco.MjModel, data: mujoco.MjData, geom: int, along: Array
-) -> Array:
-    """Return the extent of a geom along directions. Shapes (n, 3), (n,)."""
-    kind = mujoco.mjtGeom(model.geom_type[geom])
-    turned = along @ data.geom_xmat[geom].reshape(3, 3)
-    a, b, c = model.geom_size[geom].tolist()
-    offset = np.zeros(3)
-    if kind is mujoco.mjtGeom.mjGEOM_SPHERE:
-        reach = np.full(len(along), a)
-    elif kind is mujoco.mjtGeom.mjGEOM_CAPSULE:
-        reach = a + b * np.abs(turned[:, 2])
-    elif kind is mujoco.mjtGeom.mjGEOM_CYLINDER:
-        reach = a * np.hypot(turned[:, 0], turned[:, 1])
-        reach = reach + b * np.abs(turned[:, 2])
-    elif kind is mujoco.mjtGeom.mjGEOM_ELLIPSOID:
-        reach = np.linalg.norm(turned * (a, b, c), axis=1)
-    else:  # a box, or the box around a mesh
-        offset = model.geom_aabb[geom, :3]
-        reach = np.abs(turned) @ model.geom_aabb[geom, 3:]
-    shift = data.geom_xpos[geom]
-    found: Array = along @ shift + turned @ offset + reach
-    return found
 
 
 def clearance_in(
