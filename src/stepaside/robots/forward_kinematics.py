@@ -30,8 +30,7 @@ class MeasuredPosture(NamedTuple):
 class ForwardKinematics:
     """Kinematics of the actuated joints: CoM, left foot, right foot and head.
 
-    Results are in the torso frame, in [m], with axes as columns. The last one
-    is cached for balance control and perception.
+    Results are in the torso frame, in [m], with axes as columns.
     """
 
     def __init__(
@@ -53,21 +52,13 @@ class ForwardKinematics:
             *(place_frames, joint_tree(tree, columns, fixed, frames)),
             *(self.angles, self.com, self.places, self.axes),
         )
-        self._cache_key = b""
-        self._posture: MeasuredPosture
 
     def posture(self, joint_positions: Array) -> MeasuredPosture:
         """Return the posture at angles of the actuated joints, in [rad]."""
-        key = joint_positions.tobytes()
-        if key != self._cache_key:
-            self.evaluate(joint_positions)
-            places, axes = self.places.copy(), self.axes.copy()
-            self._posture = MeasuredPosture(
-                *(self.com.copy(), places[:2], axes[:2]),
-                *((places[2], axes[2]) if len(places) > 2 else ()),
-            )
-            self._cache_key = key
-        return self._posture
+        self.evaluate(joint_positions)
+        places, axes = self.places.copy(), self.axes.copy()
+        head = (places[2], axes[2]) if len(places) > 2 else ()
+        return MeasuredPosture(self.com.copy(), places[:2], axes[:2], *head)
 
     def evaluate(self, angles: Array) -> None:
         """Set the results at angles, in [rad]."""

@@ -9,7 +9,7 @@ from ..core.poses import Pose
 from ..core.rotations import quaternion_of
 from .floor import FLOOR_BIT, add_geom
 from .ground_truth import FloorTruth
-from .world import CONTACT_BITS, World
+from .world import COLOURS, CONTACT_BITS, World
 
 SKIN = (0.85, 0.68, 0.56, 1.0)
 SHIRT = (0.80, 0.16, 0.14, 1.0)
@@ -122,10 +122,6 @@ DISC_HALF_HEIGHT = 0.006  # in [m]
 MAST_RADIUS = 0.012  # in [m]
 MAST_HEIGHT = 0.5  # in [m]
 ARROW = 0.12  # length, in [m]
-COLOURS = {
-    "pursuer": (0.73, 0.17, 0.10, 1.0),
-    "evader": (0.12, 0.37, 0.75, 1.0),
-}
 OTHER_COLOUR = (0.35, 0.35, 0.38, 1.0)
 
 
