@@ -3,7 +3,6 @@
 import numpy as np
 import pytest
 
-from stepaside.games.evaluation import upright_samples
 from stepaside.games.game import Outcome
 from stepaside.games.game_settings import walk
 from stepaside.games.recorded_game import RecordedGame, run_game
@@ -41,8 +40,6 @@ def test_a_walk_lasts_its_duration(duration: float, ticks: int) -> None:
     due = 0.02 * np.arange(ticks // 5 + 1)
     last = [] if ticks % 5 == 0 else [0.004 * ticks]
     np.testing.assert_allclose(result.times, [*due, *last], atol=1e-12)
-    even = upright_samples(result.times, result.outcome)
-    np.testing.assert_allclose(result.times[even], due, atol=1e-12)
     # The footstep that is being made counts.
     walking, planning = result.summary.walking, result.summary.planning
     assert walking is not None and planning is not None

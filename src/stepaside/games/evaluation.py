@@ -181,23 +181,6 @@ def _turned(frames: Array, vectors: Array) -> Array:
     return np.column_stack([c * x + s * y, c * y - s * x])
 
 
-def upright_samples(
-    times: Array, outcome: Outcome | None
-) -> NDArray[np.bool_]:
-    """Return a mask of the evenly spaced samples of an upright robot.
-
-    The last sample is at the end of the game, which may come between two
-    periods or after a fall.
-    """
-    mask: NDArray[np.bool_] = np.ones(len(times), dtype=bool)
-    if len(times) > 2:
-        period = times[1] - times[0]
-        mask[-1] = abs(times[-1] - times[-2] - period) < 0.1 * period
-    if outcome in (Outcome.FALL, Outcome.CONTACT):
-        mask[-1:] = False
-    return mask
-
-
 def summarise_walk(run: Run, solved: "Sequence[MpcResult]") -> WalkingSummary:
     """Compute the summary of a walk; with the results of its MPC, if any."""
     solver = None
@@ -209,7 +192,8 @@ def summarise_walk(run: Run, solved: "Sequence[MpcResult]") -> WalkingSummary:
             median_us=float(np.median(spent)),
             p99_us=float(np.quantile(spent, 0.99)),
         )
-    mask = upright_samples(run.times, run.outcome) & (run.times >= WARM_UP)
+    mask = run.times >= WARM_UP
+    mask[-1] = False  # it may lie between two periods, or after a fall
     rows: dict[str, Any] = {
         name: rows[mask]
         for name, rows in run.walker.arrays().items()

@@ -13,7 +13,6 @@ from zlib import error as DeflateError
 import numpy as np
 import tomli_w
 
-from ..core.atomic_output import atomic_draft
 from ..core.entries import load_entries, read_entries
 from ..core.errors import AnyPath, ConfigurationError, as_path
 from ..core.poses import Array
@@ -40,15 +39,8 @@ SUMMARY = "summary.json"
 TRAJECTORIES = "trajectories.npz"
 CHECKSUMS = "checksums.txt"
 READ_ERRORS = (  # raised for damaged files
-    ValueError,
-    OSError,
-    EOFError,
-    KeyError,
-    NotImplementedError,
-    BadZipFile,
-    DeflateError,
-    RuntimeError,
-    MemoryError,
+    *(ValueError, OSError, EOFError, KeyError, RuntimeError, MemoryError),
+    *(BadZipFile, DeflateError),
 )
 KINDS = {
     **dict.fromkeys(GAME_KINDS, "game_settings:GameSettings"),
@@ -77,14 +69,10 @@ def write_run_files(folder: Path, run: Run) -> None:
     _keep_robots(entries, folder)
     header = {"format": FORMAT, "game": run.game}
     summary = json.dumps(header | run.results(), indent=2, allow_nan=False)
-    for name, text in (
-        (CONFIGURATION, tomli_w.dumps(entries)),
-        (SUMMARY, summary + "\n"),
-    ):
-        with atomic_draft(folder / name) as draft:
-            draft.write_text(text, encoding="utf-8")
-    with atomic_draft(folder / TRAJECTORIES) as draft:
-        np.savez_compressed(draft, allow_pickle=False, **run.arrays())
+    file = folder / TRAJECTORIES
+    np.savez_compressed(file, allow_pickle=False, **run.arrays())
+    (folder / CONFIGURATION).write_text(tomli_w.dumps(entries), "utf-8")
+    (folder / SUMMARY).write_text(summary + "\n", "utf-8")
 
 
 def _keep_robots(entries: Any, folder: Path) -> None:

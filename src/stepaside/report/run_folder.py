@@ -1,6 +1,5 @@
 """Run folders: atomic output of a game with its figures."""
 
-import errno
 import os
 import tempfile
 from pathlib import Path
@@ -39,8 +38,8 @@ def figure_name(run: Run) -> str:
 def write_run(folder: AnyPath, run: Run, *, drawn: bool = True) -> Path:
     """Write a game: configuration, summary, trajectories and figures.
 
-    The folder appears when it is complete. If another process has created
-    ``NAME`` meanwhile, the run is written to ``NAME-2``.
+    The folder appears when it is complete; beside one that exists it is
+    ``NAME-2``.
 
     Args:
         folder: Folder to create.
@@ -65,19 +64,9 @@ def write_run(folder: AnyPath, run: Run, *, drawn: bool = True) -> Path:
 
             draw_run(run, draft / figure)
         write_checksums(draft)
-        return _move(draft, folder) / figure
-
-
-def _move(draft: Path, folder: Path) -> Path:
-    """Rename a draft to its folder, or to the next unused name."""
-    target = folder
-    while True:
-        try:
-            return draft.rename(target)  # replaces an empty folder
-        except OSError as error:
-            if error.errno not in (errno.ENOTEMPTY, errno.EEXIST):
-                raise
-            target = free_folder(folder.parent, folder.name)
+        if folder.is_dir() and any(folder.iterdir()):
+            folder = free_folder(folder.parent, folder.name)
+        return draft.rename(folder) / figure
 
 
 def save_run(folder: Path, run: Run) -> tuple[Path | None, OutputError | None]:
