@@ -1,15 +1,16 @@
 """Text of ``robot.toml``: values with comments, and their changes."""
 
+import json
 import re
 import tomllib
 from collections.abc import Iterator, Mapping
 from dataclasses import asdict
 from pathlib import Path
-from textwrap import wrap
+from textwrap import fill
 from typing import Any
 
 from ..robots.description import RobotDescription
-from ..robots.description_types import NO_OVERLAY, ServoGains
+from ..robots.description_types import NO_OVERLAY
 from .derivation import DerivedDescription
 from .motor_data import SATURATION_ANGLE, followers_of
 
@@ -36,13 +37,14 @@ def write_description(derived: DerivedDescription) -> str:
 def _entries(derived: DerivedDescription) -> dict[str, Any]:
     """Return the entries of the description, in the order of the file."""
     own = derived.description
-    overlay: dict[str, Any] = {"meshes": own.overlay.meshes}
-    if own.overlay.turn != NO_OVERLAY.turn:
-        overlay["turn"] = own.overlay.turn
-    overlay["soles"] = [asdict(sole) for sole in own.overlay.soles]
-    overlay["servos"] = {
-        name: _servo(gains) for name, gains in own.overlay.servos.items()
+    overlay = {
+        "meshes": own.overlay.meshes,
+        "turn": own.overlay.turn,
+        "soles": [asdict(sole) for sole in own.overlay.soles],
+        "servos": _servos(own),
     }
+    if own.overlay.turn == NO_OVERLAY.turn:
+        del overlay["turn"]
     entries = {
         "name": own.name,
         "model": own.model,
@@ -64,56 +66,57 @@ def _entries(derived: DerivedDescription) -> dict[str, Any]:
         "overlay": overlay,
         "published": own.published,
     }
-    return {
-        name: value
-        for name, value in entries.items()
-        if value is not None and value != {}
-    }
+    return {k: v for k, v in entries.items() if v is not None and v != {}}
 
 
 def _words(derived: DerivedDescription) -> dict[str, str]:
-    own, analysis, missing = derived.description, derived.analysis, ""
-    if analysis.missing:
-        missing = (
-            f"{len(analysis.missing)} mesh files are missing or in a format "
-            f"that MuJoCo does not read, like {analysis.missing[0]}: their "
-            "geoms are removed."
-        )
-    left, right = analysis.legs
-    sole = f"lowest points of the geoms of {left.foot} and {right.foot}"
-    if left.is_guessed:
-        sole = f"{ASK} a guess from the length of the leg, measure it"
-    speeds = "Speed limits of the model, in [rad/s]."
-    if assumed := derived.assumed_speeds:
-        some = len(assumed) < len(own.speed_limits)
-        joints = f" of {', '.join(assumed)}" * some
-        speeds = f"{ASK} no-load speeds{joints}, in [rad/s]."
-    torques = ", ".join(derived.assumed_torques)
-    weak = (
-        f", but no more than the torque limit over {SATURATION_ANGLE} rad, "
-        f"since a step takes {100.0 * derived.loads.usual:.0f} % of a torque "
-        "limit most of the time"
+    """Return what the texts of the comments hold in braces."""
+    own, analysis, high = (
+        derived.description,
+        derived.analysis,
+        derived.highest,
     )
-    high = derived.highest
-    times = f", times {derived.lengths:.2f} for the speed limits"
-    zmp = f", times {derived.zmp_offset:g} for the ankle torques"
+    left, right = analysis.legs
+    missing, torques = analysis.missing, ", ".join(derived.assumed_torques)
+    some = len(derived.assumed_speeds) < len(own.speed_limits)
+    joints = f" of {', '.join(derived.assumed_speeds)}" * some
+    load = 100.0 * derived.loads.usual
     return {
         "robot": own.name,
-        "meshes": missing,
+        "meshes": f"{len(missing)} mesh files are missing or in a format that "
+        f"MuJoCo does not read, like {missing[0]}: their geoms are removed."
+        if missing
+        else "",
         "coupled": ", ".join(sorted(followers_of(analysis.model))) or "none",
-        "speeds": speeds,
-        "sole": sole,
-        "lengths": times if derived.lengths < 1.0 else "",
+        "speeds": f"{ASK} no-load speeds{joints}, in [rad/s]."
+        if derived.assumed_speeds
+        else "Speed limits of the model, in [rad/s].",
+        "sole": f"{ASK} a guess from the length of the leg, measure it"
+        if left.is_guessed
+        else f"lowest points of the geoms of {left.foot} and {right.foot}",
+        "lengths": f", times {derived.lengths:.2f} for the speed limits"
+        if derived.lengths < 1.0
+        else "",
         "height": f"{derived.size.com_height / high:.2f} of the greatest in "
         f"reach ({derived.lowest:.3f} to {high:.3f})",
-        "zmp": zmp if derived.zmp_offset < 1.0 else "",
-        "weak": weak if derived.is_weak else "",
+        "zmp": f", times {derived.zmp_offset:g} for the ankle torques"
+        if derived.zmp_offset < 1.0
+        else "",
+        "weak": f", but no more than the torque limit over {SATURATION_ANGLE} "
+        f"rad, since a step takes {load:.0f} % of a torque limit most of the "
+        "time"
+        if derived.is_weak
+        else "",
         "torques": f"{ASK} torque limits of {torques}." if torques else "",
     }
 
 
-def _servo(gains: ServoGains) -> dict[str, float]:
-    return {k: v for k, v in asdict(gains).items() if k != "armature" or v}
+def _servos(own: RobotDescription) -> dict[str, dict[str, float]]:
+    """Return the gains of all servos, without armatures of 0."""
+    return {
+        joint: {k: v for k, v in asdict(gains).items() if k != "armature" or v}
+        for joint, gains in own.overlay.servos.items()
+    }
 
 
 def _lines(
@@ -137,31 +140,21 @@ def _lines(
         name = f"{prefix}{key}"
         yield ""
         yield from _comment(above.get(name, ""))
-        if any(not isinstance(each, Mapping) for each in value.values()) or (
-            prefix
-        ):
+        if prefix or not all(isinstance(v, Mapping) for v in value.values()):
             yield f"[{name}]"
         yield from _lines(value, f"{name}.", above, beside)
 
 
 def _value(value: Any) -> str:
-    if isinstance(value, bool):
-        return str(value).lower()
-    if isinstance(value, str):
-        escaped = value.replace("\\", "\\\\").replace('"', '\\"')
-        return f'"{escaped}"'
     if isinstance(value, Mapping):
         pairs = (f"{_key(k)} = {_value(v)}" for k, v in value.items())
         return f"{{ {', '.join(pairs)} }}"
-    if isinstance(value, tuple | list):
-        items = [_value(each) for each in value]
-        if value and isinstance(value[0], tuple):
-            items = [item[1:-1] for item in items]  # one list, row by row
-        if value and not isinstance(value[0], str | float | int):
-            rows = "".join(f"    {item},\n" for item in items)
-            return f"[\n{rows}]"
-        return f"[{', '.join(items)}]"
-    return repr(float(value))
+    if isinstance(value, list) and value:  # of rows
+        rows = (_value(each) for each in value)
+        if isinstance(value[0], tuple):
+            rows = (row[1:-1] for row in rows)  # one list, row by row
+        return "[\n" + "".join(f"    {row},\n" for row in rows) + "]"
+    return json.dumps(value, ensure_ascii=False)
 
 
 def _key(name: str) -> str:
@@ -169,12 +162,10 @@ def _key(name: str) -> str:
     return name if plain.isascii() and plain.isalnum() else _value(name)
 
 
-def _comment(text: str) -> list[str]:
+def _comment(text: str) -> Iterator[str]:
     """Wrap each line of a text into comments of at most 79 characters."""
-    return [
-        line
-        for part in text.splitlines()
-        for line in wrap(
+    for part in filter(str.strip, text.splitlines()):
+        yield fill(
             part,
             79,
             initial_indent="# ",
@@ -182,7 +173,6 @@ def _comment(text: str) -> list[str]:
             break_long_words=False,
             break_on_hyphens=False,
         )
-    ]
 
 
 def rewrite_description(
@@ -190,51 +180,48 @@ def rewrite_description(
 ) -> str:
     """Return the text of a description with the values of a search.
 
-    Comments stay; a changed value has one on its previous value.
+    Comments stay; a changed value has one on its previous value. New keys
+    are at the ends of their sections.
     """
-    control = {k: tuned.control[k] for k in ("method", "feedback")}
-    servos = {k: _servo(gains) for k, gains in tuned.overlay.servos.items()}
-    lines = text.splitlines()
-    if lines and lines[0] == TITLE:
-        lines = lines[lines.index("#", 1) + 1 :]
-    if tuned.lean > 0.0:
-        lines = _replaced(lines, "", {"lean": tuned.lean})
-    lines = _replaced(lines, "gait", tuned.gait)
-    lines = _replaced(lines, "control", control)
-    if servos:
-        lines = _replaced(lines, "overlay.servos", servos)
+    tables: dict[str, dict[str, Any]] = {
+        "": {"lean": tuned.lean} if tuned.lean > 0.0 else {},
+        "gait": dict(tuned.gait),
+        "control": {k: tuned.control[k] for k in ("method", "feedback")},
+        "overlay.servos": dict(_servos(tuned)),
+    }
+    present = text.splitlines()
+    if present and present[0] == TITLE:
+        present = present[present.index("#", 1) + 1 :]
+    lines: list[str] = []
+    ends: dict[str, int] = {}  # of the entries of each section
+    section = ""
+    for line in present:
+        if head := SECTION.match(line):
+            section = head[1].strip()
+        entry, values = ENTRY.match(line), tables.get(section, {})
+        if entry and entry[2].strip('"') in values:
+            line = _changed(entry, _value(values.pop(entry[2].strip('"'))))
+        lines.append(line)
+        if line.strip() and not line.startswith("#"):
+            ends[section] = len(lines)
+    for section in sorted(tables, key=lambda s: -ends.get(s, len(lines))):
+        added = [
+            f"{_key(k)} = {_value(v)}" for k, v in tables[section].items()
+        ]
+        if added and section not in ends:
+            added = ["", f"[{section}]", *added]
+        at = ends.get(section, len(lines))
+        lines[at:at] = added
     head = [TITLE, *(f"# {word}" for word in words), "#"]
     return "\n".join([*head, *lines]) + "\n"
 
 
-def _replaced(
-    present: list[str], section: str, values: Mapping[str, Any]
-) -> list[str]:
-    """Return lines with new values in a section, new keys at its end."""
-    remaining = dict(values)
-    lines: list[str] = []
-    end: int | None = None  # of the entries of the section
-    current = ""
-    for line in present:
-        if head := SECTION.match(line):
-            current = head[1].strip()
-        lines.append(line)
-        if current != section:
-            continue
-        if line.strip() and not line.startswith("#"):
-            end = len(lines)
-        entry = ENTRY.match(line)
-        name = entry[2].strip('"') if entry else ""
-        if entry and name in remaining:
-            value = _value(remaining.pop(name))
-            if value == entry[3]:
-                continue
-            comments = [] if value[0] == "{" else [f"tuned, was {entry[3]}"]
-            old = re.sub(r"tuned, was [^;]*;? ?", "", (entry[4] or "")[1:])
-            comments += [old.strip()] if old.strip() else []
-            comment = f" # {'; '.join(comments)}" if comments else ""
-            lines[-1] = f"{f'{entry[2]} = {value}':<32}{comment}".rstrip()
-    added = [f"{_key(k)} = {_value(v)}" for k, v in remaining.items()]
-    if end is None:
-        return [*lines, "", f"[{section}]", *added]
-    return [*lines[:end], *added, *lines[end:]]
+def _changed(entry: re.Match[str], value: str) -> str:
+    """Return the line of an entry with a new value."""
+    if value == entry[3]:
+        return entry[0]
+    comments = [] if value[0] == "{" else [f"tuned, was {entry[3]}"]
+    old = re.sub(r"tuned, was [^;]*;? ?", "", (entry[4] or "")[1:]).strip()
+    comments += [old] if old else []
+    comment = f" # {'; '.join(comments)}" if comments else ""
+    return f"{f'{entry[2]} = {value}':<32}{comment}".rstrip()
