@@ -16,6 +16,7 @@ from stepaside.arena import RoomRecipe
 from stepaside.core.errors import ConfigurationError, PlanError
 from stepaside.envs import IDS, DuelEnv, ParallelDuel, VectorDuel
 from stepaside.envs.environment_settings import EnvironmentSettings
+from stepaside.games import StepGame
 from stepaside.games import duel as make_duel
 from stepaside.strategies import (
     Evasion,
@@ -129,6 +130,8 @@ def test_a_law_that_the_kernel_does_not_know_is_refused() -> None:
         word = f"got a {type(opponent).__name__}; others"
         with pytest.raises(ConfigurationError, match=word):
             VectorDuel(role="pursuer", opponent=opponent)
+    with pytest.raises(ConfigurationError, match="speed_ratio .* must be 1"):
+        VectorDuel(role="evader", game=StepGame(pursuer_speed_ratio=1.5))
 
 
 def test_contact_with_an_obstacle_counts_as_no_distance() -> None:

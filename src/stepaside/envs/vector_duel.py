@@ -57,6 +57,11 @@ def rules_of(game: StepGame) -> BatchRules:
             f"{LARGEST_TURN * parts:g} [rad] for many games, got "
             f"{pi * share:g}"
         )
+    if game.limits[0] != game.limits[1]:
+        raise ConfigurationError(
+            "game.pursuer_speed_ratio and game.pursuer_gain_ratio must be 1 "
+            "for many games"
+        )
     return BatchRules(
         game.stride / parts,
         share,

@@ -37,36 +37,16 @@ def write_description(derived: DerivedDescription) -> str:
 def _entries(derived: DerivedDescription) -> dict[str, Any]:
     """Return the entries of the description, in the order of the file."""
     own = derived.description
-    overlay = {
-        "meshes": own.overlay.meshes,
-        "turn": own.overlay.turn,
-        "soles": [asdict(sole) for sole in own.overlay.soles],
-        "servos": _servos(own),
-    }
+    entries = asdict(own)
+    overlay = entries["overlay"]
+    overlay |= {"soles": [*overlay["soles"]], "servos": _servos(own)}
     if own.overlay.turn == NO_OVERLAY.turn:
         del overlay["turn"]
-    entries = {
-        "name": own.name,
-        "model": own.model,
-        "torso": own.torso,
-        "left_foot": own.left_foot,
-        "right_foot": own.right_foot,
-        "accent": "",
-        "lean": own.lean or None,
-        "legs": [leg.joints for leg in derived.analysis.legs],
-        "standing": own.standing,
-        "working_limits": own.working_limits,
-        "speed_limits": own.speed_limits,
-        "gait": own.gait,
-        "sole": own.sole,
-        "control": own.control,
-        "game": asdict(own.game),
-        "place": asdict(own.place),
-        "body": own.body,
-        "overlay": overlay,
-        "published": own.published,
-    }
-    return {k: v for k, v in entries.items() if v is not None and v != {}}
+    if not own.lean:
+        del entries["lean"]
+    entries["legs"] = [leg.joints for leg in derived.analysis.legs]
+    del entries["folder"], entries["sensors"]
+    return {k: v for k, v in entries.items() if v != {}}
 
 
 def _words(derived: DerivedDescription) -> dict[str, str]:
