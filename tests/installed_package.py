@@ -19,7 +19,7 @@ STATUS = {  # of each command line
     "run unicycles --duration 1 --json": 0,
     "theory circle --starts 2 --json": 0,
     "theory map --grid 2 --set distances=1 --set duration=1 --json": 0,
-    "theory bound --grid 16 --set refine=0 --json": 0,
+    "theory bound --grid 16 --json": 0,
     "study duels --set seed=0:1 --set duration=0.1 --workers 1 --json": 0,
     "robot --json": 0,
     "reproduce --help": 0,

@@ -26,7 +26,7 @@ WORKS = (
     "run unicycles --duration 1 --json",
     "theory circle --starts 2 --json",
     "theory map --grid 2 --set distances=1 --set duration=1 --json",
-    "theory bound --grid 16 --set refine=0 --json",
+    "theory bound --grid 16 --json",
     "robot --json",
     "doctor --json",
 )

@@ -178,7 +178,7 @@ def test_optimal_evasion_of_a_car_has_merzs_barrier(tmp_path: Path) -> None:
             "--capture",
             1,
         ),
-        *("--grid", 16, "--set", "refine=0"),
+        *("--grid", 16),
         *("--set", "horizon=1.6"),
         *("--output", table),
     )
@@ -199,7 +199,7 @@ def test_a_person_is_escaped_as_isaacs_says() -> None:
         *("theory", "bound", "--against", "person", "--pursuer-speed", person),
         *("--evader-speed", robot),
         *("--set", f"person_turning_radius={radius}"),
-        *("--grid", 30, "--set", "refine=0"),
+        *("--grid", 30),
     )
     assert seen["closed_form_m"] == pytest.approx(closed)
     assert seen["guaranteed_m"] == pytest.approx(closed, rel=0.05)

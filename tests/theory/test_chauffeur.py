@@ -12,7 +12,7 @@ from stepaside.theory.value import (
     ValueTable,
     solve_chauffeur,
 )
-from stepaside.theory.value.chauffeur import barrier_of, guaranteed_distance
+from stepaside.theory.value.chauffeur import guaranteed_distance
 
 RATIO = 0.643
 CELLS = 60
@@ -45,7 +45,8 @@ def test_closed_form_is_continuous_and_has_its_limits() -> None:
 def test_straight_run_against_a_full_turn_grazes_the_capture_circle() -> None:
     """Play barrier points forwards, in coordinates of the floor."""
     capture = 0.15
-    line = barrier_of(GAME, capture)
+    line = GAME.barrier(capture)
+    assert line is not None
     side = np.arccos(RATIO)
     ends = np.linspace(0.0, _closing_time(capture), len(line) + 2)[1:-1]
     for (ahead, left, _), t in list(zip(line, ends, strict=True))[::6]:
@@ -78,7 +79,9 @@ def test_barrier_of_the_table_is_within_a_third_of_a_cell(
     table: ValueTable,
 ) -> None:
     for capture in (0.1, 0.15):
-        off = table.offsets(barrier_of(GAME, capture), capture)
+        line = GAME.barrier(capture)
+        assert line is not None
+        off = table.offsets(line, capture)
         off = np.abs(off) / table.grid.spacing
         assert off.max() < 0.35 and off.mean() < 0.06
 
@@ -123,11 +126,10 @@ def test_evader_that_is_as_fast_is_refused(speed: float) -> None:
         game_of(speed)
 
 
-def test_barrier_without_a_closed_form_is_refused() -> None:
-    with pytest.raises(PlanError, match="barrier is known up to"):
-        barrier_of(game_of(0.95), 0.2)
-    with pytest.raises(PlanError, match="capture must lie in"):
-        barrier_of(game_of(0.5), 0.2)
+def test_a_barrier_has_a_closed_form_below_the_guaranteed_distance() -> None:
+    assert game_of(0.95).barrier(0.2) is None
+    assert game_of(0.5).barrier(0.2) is None
+    assert game_of(0.5).barrier(0.1) is not None
     assert sqrt(1.0 - 0.25) + 0.5 * pi / 6 - 1.0 == pytest.approx(
         guaranteed_distance(0.5)
     )

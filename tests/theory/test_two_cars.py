@@ -48,6 +48,7 @@ def test_the_barrier_is_that_of_the_closed_form(capture: float) -> None:
     """
     table = solve_cars(CARS, 4.8, 40)
     poses, pieces = barrier_poses(capture)
+    np.testing.assert_array_equal(CARS.barrier(capture), poses)
     inside = np.hypot(poses[:, 0], poses[:, 1]) < 4.5
     off = np.abs(table.offsets(poses[inside], capture))
     assert table.grid.spacing == pytest.approx(0.12)

@@ -11,12 +11,10 @@ import numpy as np
 from benchmark_options import ask, machine
 from result_files import header, write_result
 
-from stepaside.core.errors import PlanError
 from stepaside.theory.value import (
     ChauffeurGame,
     solve_chauffeur,
 )
-from stepaside.theory.value.chauffeur import barrier_of
 
 RATIOS = (0.2, 0.36, 0.5, 0.643, 0.8, 0.95)
 CELLS = (30, 60, 120)
@@ -38,12 +36,9 @@ def row_of(ratio: float) -> dict[str, Any]:
                 "seconds": table.seconds,
             }
         )
-    row["barrier"] = None
-    try:
-        poses = barrier_of(game, SHARE * closed)
-    except PlanError:
-        pass  # no closed form in the second regime
-    else:
+    row["barrier"] = None  # without closed form in the second regime
+    poses = game.barrier(SHARE * closed)
+    if poses is not None:
         off = np.abs(table.offsets(poses, SHARE * closed))
         off /= table.grid.spacing
         row["barrier"] = {

@@ -52,9 +52,8 @@ LABELS = {
     "seconds_s": "solver time",
     "sliding": "evader slides at zero error",
     "unsettled_share": "games not settled",
-    "value_error_m": "mean error of the value",
-    "distance_error_m": "mean distance between the barriers",
-    "grid_error_m": "mean difference to the coarser grid",
+    "barrier_error_m": "mean error of the barrier",
+    "grid_error_m": "mean difference to a grid of half the cells",
 }
 CIRCLES = {1: "main", -1: "reversed"}
 """Names of the circles of a game of unicycles, by their direction."""

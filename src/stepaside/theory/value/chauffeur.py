@@ -70,6 +70,30 @@ class ChauffeurGame:
         """
         return self.turning_radius * guaranteed_distance(self.ratio)
 
+    def barrier(self, capture: float) -> Array | None:
+        """Return poses on the left half of the barrier, without its ends.
+
+        There is a closed form up to 0.897 of the speed of the car, and for
+        capture distances, in [m], below the guaranteed one; None beyond. They
+        lead from the circle of capture to where both halves meet. Shape
+        (POINTS, 3).
+        """
+        ratio, radius = self.ratio, self.turning_radius
+        keepable = 0.0 < capture < self.guaranteed_distance
+        if ratio * asin(ratio) > 1.0 or not keepable:
+            return None
+        s, own = acos(ratio), capture / radius
+
+        def aside(t: Array) -> Array:
+            side: Array = (own - ratio * t) * np.sin(s + t) + 1.0 - np.cos(t)
+            return side
+
+        fine = np.linspace(0.0, asin(ratio), 20_000)
+        end = fine[np.argmax(aside(fine) <= 0.0)]
+        t = np.linspace(0.0, end, POINTS + 2)[1:-1]
+        ahead = (own - ratio * t) * np.cos(s + t) + np.sin(t)
+        return radius * np.column_stack([ahead, aside(t), 0.0 * t])
+
     @property
     def twists(self) -> Array:
         """Velocities of the evader along the line of sight. Shape (n, 3)."""
@@ -149,30 +173,3 @@ def guaranteed_distance(ratio: float) -> float:
     if ratio * asin(ratio) <= 1.0:
         return sqrt(1.0 - ratio**2) + ratio * asin(ratio) - 1.0
     return sqrt(1.0 + ratio**2 - 2.0 * ratio * sin(1.0 / ratio))
-
-
-def barrier_of(game: ChauffeurGame, capture: float) -> Array:
-    """Return poses on the left half of the barrier, without its ends.
-
-    There is a closed form up to 0.897 of the speed of the car, and capture
-    distances, in [m], below the guaranteed one. They lead from the circle of
-    capture to where both halves meet. Shape (POINTS, 3).
-    """
-    ratio, radius = game.ratio, game.turning_radius
-    if ratio * asin(ratio) > 1.0:
-        raise PlanError(
-            "the barrier is known up to 0.897 of the pursuer's speed, got "
-            f"{ratio:g}"
-        )
-    check_within(capture, 0.0, game.guaranteed_distance, "capture", "m")
-    s, own = acos(ratio), capture / radius
-
-    def aside(t: Array) -> Array:
-        side: Array = (own - ratio * t) * np.sin(s + t) + 1.0 - np.cos(t)
-        return side
-
-    fine = np.linspace(0.0, asin(ratio), 20_000)
-    end = fine[np.argmax(aside(fine) <= 0.0)] if capture > 0.0 else 0.0
-    t = np.linspace(0.0, end, POINTS + 2)[1:-1]
-    ahead = (own - ratio * t) * np.cos(s + t) + np.sin(t)
-    return radius * np.column_stack([ahead, aside(t), 0.0 * t])

@@ -110,6 +110,16 @@ class CarGame:
         """Those of a pursuer without a law. Shape (m, 3)."""
         return turning(self.pursuer_speed, self.pursuer_turn, TURNS)
 
+    def barrier(self, capture: float) -> Array | None:
+        """Return poses on the barrier of a distance of capture, in [m].
+
+        None if the cars are not identical. Shape (n, 3).
+        """
+        if not self.identical:
+            return None
+        poses, _ = barrier_poses(capture / self.unit)
+        return poses * [self.unit, self.unit, 1.0]
+
     def period(self, spacing: float) -> float:
         """Return the time for which turns are held, in [s], on a grid [m]."""
         quickest = max(self.evader_turn, self.pursuer_turn)
