@@ -21,13 +21,13 @@ from ..strategies.learned import (
     RING_POINTS,
     SENSED_TERMS,
 )
-from ..strategies.search.step_motion import walk_arc
+from ..strategies.search.step_motion import (
+    evasion_heading,
+    update_side,
+    walk_arc,
+)
 from ..theory import laws
 
-inlined(laws.wrap_once)  # called by evasion_heading
-inlined(laws.side_behind)  # called by update_side
-evasion_heading = inlined(laws.evasion_heading)
-update_side = inlined(laws.update_side)
 is_evading = inlined(laws.is_evading)
 
 TERM_CODES = {

@@ -2,11 +2,9 @@
 
 A maneuver is a sequence of pieces with a constant turn each, followed by
 the law of Sec. II-B until the horizon. Its score is the least distance to
-the pursuer, limited to ``enough``, less penalties for missing clearance and
-for losing sight of the pursuer. The score never increases along a maneuver:
-so the search descends the tree of pieces and prunes a branch as soon as it
-is no better than the best maneuver so far. If no sequence is good, it also
-tries sequences that begin with a turn on the spot.
+the pursuer, less penalties, and never increases along a maneuver: so a
+branch is pruned as soon as it is no better than the best maneuver so far. If
+no sequence is good, it also tries sequences behind turns on the spot.
 """
 
 from dataclasses import dataclass
@@ -27,12 +25,15 @@ from .search.step_motion import (
     PAPERS,
     PlayerPair,
     StepRules,
+    evader_bearing,
+    evasion_heading,
     fit_heading,
     pair_in,
     pair_of,
     step_both,
     step_rules,
     store,
+    update_side,
 )
 from .strategy import BackwardStrategy
 from .table_cache import pursuit_bound
@@ -160,10 +161,9 @@ def poses_at_step(
 ) -> PlayerPair:
     """Return the poses of both players when the decided step begins.
 
-    The heading of the pursuer is that of the paper's along the last
-    sightings. One that has not moved is assumed to face the own robot. If a
-    foot has just landed, the body passes it half a step later; the pursuer
-    walks straight on until then.
+    The pursuer turned as the paper's, or faces the own robot if it has not
+    moved. A body passes a landed foot half a step later; the pursuer walks
+    straight on until then.
     """
     rows = track.rows[-SIGHTINGS:]
     first, last = rows[0], rows[-1]
@@ -234,25 +234,12 @@ def judge(both: PlayerPair, score: float, aims: Aims) -> float:
     if reward < score:
         score = reward
     clear = clearance_at(aims.packed, both.ex, both.ey, aims.clearance)
-    psi = abs(atan2(both.ec * dy - both.es * dx, both.ec * dx + both.es * dy))
+    psi = abs(evader_bearing(both))
     if psi > SIGHT:
         score = min(score, reward - BLINDNESS * (psi - SIGHT))
     if clear < aims.clearance:
         score = min(score, reward - aims.penalty * (aims.clearance - clear))
     return score
-
-
-@inlined
-def law_turn(both: PlayerPair, side: float, share: float) -> float:
-    """Return the turn of a step aside by eqs. (4)-(5), in [rad]."""
-    dx, dy = both.px - both.ex, both.py - both.ey
-    psi = atan2(both.ec * dy - both.es * dx, both.ec * dx + both.es * dy)
-    heading = psi + side * 0.5 * pi
-    if heading > pi:
-        heading -= 2.0 * pi
-    elif heading < -pi:
-        heading += 2.0 * pi
-    return share * heading
 
 
 @compiled
@@ -265,19 +252,16 @@ def roll_out(
     worst: float,
     aims: Aims,
 ) -> tuple[PlayerPair, float, int]:
-    """Roll out given turns, then the law, which is filled in.
+    """Roll out given turns, then the law; return state, score and steps.
 
-    Some first steps turn on the spot. It ends at a score that is no better
-    than the worst. Returns state, score and number of steps.
+    It ends at a score that is no better than the worst.
     """
-    rules, side = aims.rules, 0.0
+    rules, side = aims.rules, 0
     for n in range(len(turns)):
         if n >= given:
-            if side == 0.0:
-                dx, dy = both.px - both.ex, both.py - both.ey
-                left = both.ec * dy - both.es * dx
-                side = -1.0 if left > 0.0 else 1.0
-            turns[n] = law_turn(both, side, rules.share)
+            psi = evader_bearing(both)
+            side = update_side(side, psi, pi)
+            turns[n] = rules.share * evasion_heading(psi, side, 0.5 * pi)
         pace = ON_THE_SPOT if n < spot else 1.0
         both = step_both(both, turns[n], pace, PAPERS, rules)
         score = judge(both, score, aims)
@@ -348,9 +332,8 @@ def look_ahead(
 ) -> BestManeuver:
     """Find the best maneuver among obstacles.
 
-    The law alone is tried first, then the rest of the plan, of which some
-    steps turn on the spot, and then every sequence of pieces; one is chosen
-    only if it improves on those before it, but a tie keeps the plan.
+    The law alone is tried first, then the rest of the plan, and then every
+    sequence of pieces; a tie keeps the plan.
     """
     chosen, work = np.zeros(HORIZON + SPOTS), np.zeros(HORIZON + SPOTS)
     start, best, spot, made = aims.enough, -inf, 0, 0

@@ -7,22 +7,26 @@ is imported when the strategy is made.
 
 import re
 from ast import literal_eval
-from collections.abc import Callable, Iterable, Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import fields, is_dataclass, replace
 from difflib import get_close_matches
 from math import inf, pi, radians
 from pathlib import Path
-from types import FunctionType
 from typing import Any, NamedTuple
 
 from .. import strategies
-from ..core.errors import ConfigurationError, StepAsideError, shown
+from ..core.errors import (
+    ConfigurationError,
+    StepAsideError,
+    StrategyError,
+    shown,
+)
 from ..core.user_file import FAILURES, load_user_file
 from ..planning import Direction
 from .evasion import Evasion
-from .knowledge import Intent, Knowledge, Limits
+from .knowledge import Knowledge, Limits
 from .shield_settings import ShieldSettings
-from .strategy import Strategy
+from .strategy import Strategy, evaluate_strategy
 
 STRATEGIES: Mapping[str, tuple[str, Mapping[str, Any]]] = {
     "evasion": ("Evasion", {}),
@@ -118,15 +122,11 @@ def load_strategy(
 
     Args:
         name: One of :data:`STRATEGIES` or FILE.py:NAME, with arguments or
-            without, or FILE.onnx, a learned strategy. In a Python file NAME
-            is a strategy, or a class or function that returns one, given the
-            arguments. The file is executed. A strategy object is returned as
-            it is.
-        evasion: Settings of the paper's evader that arguments replace; its
-            defaults if not given.
-
-    Returns:
-        The strategy; user code has passed a few trial decisions.
+            without, or FILE.onnx, a learned strategy. In a Python file, which
+            is executed, NAME is a strategy, or a class or function that
+            returns one, given the arguments. User code makes a few trial
+            decisions.
+        evasion: Settings of the paper's evader that arguments replace.
 
     Raises:
         ConfigurationError: If there is no such strategy, or it is invalid.
@@ -242,9 +242,7 @@ def _create(named: _Named, file: Path, name: str) -> Any:
         own = [
             key
             for key, each in vars(loaded).items()
-            if not key.startswith("_")
-            and getattr(each, "__module__", None) == loaded.__name__
-            and (hasattr(each, "decide") or isinstance(each, FunctionType))
+            if getattr(each, "__module__", None) == loaded.__name__
         ]
         raise ConfigurationError(
             f"{where}: the file has no {name}, but "
@@ -282,38 +280,32 @@ def trial_knowledge() -> Iterator[Knowledge]:
 def validate_strategy(candidate: Any, name: str) -> None:
     """Check by trial decisions that an object behaves as a strategy."""
 
-    def require(met: bool, rule: str, got: object) -> None:
-        if not met:
-            text = " ".join(str(got).split())
-            raise ConfigurationError(f"strategy {name}: {rule}, got {text}")
-
-    def attempt(rule: str, call: Callable[..., Any], *given: Any) -> Any:
-        try:
-            return call(*given)
-        except FAILURES as error:
-            require(False, rule, f"{type(error).__name__}: {error}")
+    def refuse(rule: str, got: object) -> ConfigurationError:
+        text = " ".join(str(got).split())
+        return ConfigurationError(f"strategy {name}: {rule}, got {text}")
 
     for method in ("begin", "decide"):
-        has = callable(getattr(candidate, method, None))
-        got = f"a {type(candidate).__name__} without"
-        require(has, f"must have a method {method}", got)
+        if not callable(getattr(candidate, method, None)):
+            got = f"a {type(candidate).__name__} without"
+            raise refuse(f"must have a method {method}", got)
     for key, kind in (("direction", Direction), ("saturated", bool)):
         value = getattr(candidate, key, None)
-        rule = f"{key} must be a {kind.__name__}"
-        require(isinstance(value, kind), rule, repr(value))
-    memory = attempt("begin() must return a memory", candidate.begin)
-    rule = "decide(knowledge, memory) must return (Intent, memory)"
-    for knowledge in trial_knowledge():
-        one, other = (
-            attempt(rule, candidate.decide, knowledge, memory)
-            for _ in range(2)
-        )
-        for each in (one, other):
-            pair = isinstance(each, tuple) and len(each) == 2
-            require(pair and isinstance(each[0], Intent), rule, repr(each))
-        require(
-            one[0] == other[0],
-            "the same knowledge and memory must give the same intent",
-            f"{one[0]} and then {other[0]}",
-        )
-        memory = one[1]
+        if not isinstance(value, kind):
+            raise refuse(f"{key} must be a {kind.__name__}", repr(value))
+    rule = "begin() must return a memory"
+    try:
+        memory = candidate.begin()
+        rule = "decide(knowledge, memory) must return (Intent, memory)"
+        for knowledge in trial_knowledge():
+            one, memory_then = evaluate_strategy(candidate, knowledge, memory)
+            other, _ = evaluate_strategy(candidate, knowledge, memory)
+            if one != other:
+                rule = (
+                    "the same knowledge and memory must give the same intent"
+                )
+                raise StrategyError(f"{one} and then {other}")
+            memory = memory_then
+    except StrategyError as error:
+        raise refuse(rule, error) from error
+    except FAILURES as error:
+        raise refuse(rule, f"{type(error).__name__}: {error}") from error

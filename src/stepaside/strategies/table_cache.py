@@ -4,30 +4,24 @@ from collections.abc import Callable, Mapping
 from contextlib import suppress
 from functools import lru_cache
 from hashlib import sha256
-from typing import TYPE_CHECKING, Any
-from zipfile import BadZipFile
+from typing import Any
 
 import numpy as np
 
 from ..core.atomic_output import atomic_draft
 from ..core.compilation import cache_folder
 from ..core.poses import Array
-
-if TYPE_CHECKING:  # the solver imports Numba
-    from ..theory.value import ValueTable
+from ..theory.value import CarGame, ValueTable, solve_cars
+from ..theory.value.table import UNREADABLE
 
 FAR = 4.5  # of the game against eqs. (1)-(2), in v/k
 FORMAT = 8  # of the files
-UNREADABLE = (OSError, ValueError, KeyError, EOFError, BadZipFile)
 
 
 def cached(
     name: str, key: object, solve: Callable[[], Mapping[str, Array]]
 ) -> Mapping[str, Array]:
-    """Return arrays from the cache folder, or solve and keep them.
-
-    The key is all that they depend on; equal keys have equal ``repr``.
-    """
+    """Return arrays from the cache folder by their key, or solve them."""
     digest = sha256(repr((FORMAT, key)).encode()).hexdigest()
     file = cache_folder() / f"{name}-{digest[:16]}.npz"
     try:
@@ -46,13 +40,8 @@ def cached(
 
 
 @lru_cache(maxsize=8)
-def pursuit_bound(cells: int) -> "ValueTable":
-    """Load or solve the bound against eqs. (1)-(2), with unit speed and gain.
-
-    The table has a number of cells along each axis.
-    """
-    from ..theory.value import CarGame, ValueTable, solve_cars
-
+def pursuit_bound(cells: int) -> ValueTable:
+    """Load or solve the bound against (1)-(2), of unit speed and gain."""
     game = CarGame(1.0, 1.0, pursuer_gain=1.0)
     arrays = cached(
         "pursuit", cells, lambda: solve_cars(game, FAR, cells).arrays()

@@ -1,10 +1,9 @@
 """Beam search over the evader's steps, against a model of the pursuer.
 
-A beam of states is advanced step by step: each with every action, the
-pursuer by its model. States that are captured or touch an obstacle are
-dropped; of those that are nearly alike the best goes on, and where the beam
-has places left the others, by rank (:func:`expand`). So the last state that
-remains has survived longest.
+A beam of states is advanced step by step with every action. States that are
+captured or touch an obstacle are dropped; of those that are nearly alike the
+best goes on, then the others, by rank. The last that remains has survived
+longest.
 """
 
 from math import cos, pi, sin, sqrt

@@ -1,10 +1,7 @@
-r"""Motion of both players in one step, and the fit of a pursuer, compiled.
+"""Motion of both players in one step, and the fit of a pursuer, compiled.
 
-In one step a robot advances by a stride along an arc and turns by `u`. The
-pursuer of eqs. (1)-(2) turns by :math:`\kappa` times the bearing of the
-evader, :math:`\kappa = k \Delta / \bar{v}`; models of other pursuers are
-those of :class:`~stepaside.strategies.Pursuit`. The headings are unit vectors
-to save trigonometric functions.
+The pursuer turns as :class:`~stepaside.strategies.Pursuit` does. Headings are
+unit vectors to save trigonometric functions.
 """
 
 from math import atan2, cos, hypot, pi, sin, sqrt
@@ -13,7 +10,13 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from ...core.compilation import compiled, inlined
+from ...theory import laws
 from ..knowledge import Limits
+
+inlined(laws.wrap_once)  # called by evasion_heading
+inlined(laws.side_behind)  # called by update_side
+evasion_heading = inlined(laws.evasion_heading)
+update_side = inlined(laws.update_side)
 
 ITERATIONS = 4  # of Gauss-Newton; without noise the error is below 1e-9 m
 DIFFERENCE = 1e-4  # of the headings that give the derivative, in [rad]
@@ -103,6 +106,13 @@ def walk_arc(
         mc * cosine - ms * sine,
         ms * cosine + mc * sine,
     )
+
+
+@inlined
+def evader_bearing(both: PlayerPair) -> float:
+    """Return the bearing of the pursuer from the evader, in [rad]."""
+    dx, dy = both.px - both.ex, both.py - both.ey
+    return atan2(both.ec * dy - both.es * dx, both.ec * dx + both.es * dy)
 
 
 @inlined
