@@ -212,7 +212,7 @@ def test_names_and_arguments_are_refused_by_rule(
             r"Timid\(far=1\) must make a strategy, got TypeError",
         ),
         ("Mute", r"must return \(Intent, memory\), got TypeError"),
-        ("Moody", "equal knowledge and memory must give equal intents"),
+        ("Moody", "the same knowledge and memory must give the same intent"),
         ("Broken", "must return .*, got ZeroDivisionError"),
         ("Wild", "must return .*, got PlanError: speed_factor must lie in"),
         ("sideways", "direction must be a Direction, got -1"),

@@ -44,10 +44,7 @@ class Approach(NamedTuple):
 
     @property
     def origin(self) -> float:
-        """Direction from which the opponent approaches, in [rad].
-
-        It is the line of sight if the opponent hardly moves.
-        """
+        """Direction from which it approaches, or is seen if still [rad]."""
         if self.speed < STILL:
             return atan2(self.y, self.x)
         return atan2(-self.v, -self.u)
@@ -55,8 +52,7 @@ class Approach(NamedTuple):
     def contact_time(self, clearance: float) -> float:
         """Return the time [s] until the opponent is within a clearance [m].
 
-        The own robot stands. It is 0 for an opponent within the clearance
-        that still approaches, infinite for one that passes or recedes.
+        Infinite for one that passes, or recedes from, a robot that stands.
         """
         nearing = -(self.x * self.u + self.y * self.v)
         if nearing <= 0.0 or self.speed < STILL:
@@ -72,22 +68,15 @@ class Approach(NamedTuple):
 
 
 def predict_clearance(
-    approach: Approach,
-    limits: Limits,
-    heading: float,
-    *,
-    stands: bool,
+    approach: Approach, limits: Limits, heading: float, *, stands: bool
 ) -> float:
     """Predict the least distance to an opponent from now on, in [m].
 
     The opponent keeps its velocity; the robot turns to a heading in its frame
     [rad] and walks backward, after a step if it stands.
     """
-    share = limits.share
-    step = limits.step_duration
-    x, y, u, v = approach
-    theta = 0.0
-    least = approach.distance
+    (x, y, u, v), theta, least = approach, 0.0, approach.distance
+    share, step = limits.share, limits.step_duration
     for i in range(HORIZON):
         dx, dy = step * u, step * v
         if i > 0 or not stands:
@@ -134,11 +123,10 @@ class Evasion:
     The side is chosen when evasion begins, and changes only when the bearing
     of the pursuer is clearly on the other side.
 
-    The trigger is a distance, as in the paper, or a time to contact. With a
-    time, the evader begins when a pursuer with constant velocity would be
-    near soon. It then walks across the path of the pursuer, turns as fast as
-    its gait can, and keeps the side with the larger clearance until standing
-    is safe.
+    With the trigger time it begins when a pursuer with constant velocity
+    would be near soon. It then walks across the path of the pursuer, turns as
+    fast as its gait can, and keeps the side with the larger clearance until
+    standing is safe.
     """
 
     direction: ClassVar = Direction.BACKWARD
@@ -207,11 +195,7 @@ class Evasion:
 
     @property
     def area(self) -> float:
-        """Radius of the area that it keeps free around itself, in [m].
-
-        With the trigger time this is the clearance: the distance at which
-        evasion begins depends on the speed of the pursuer.
-        """
+        """Radius of the area that it keeps free around itself, in [m]."""
         return self.clearance if self.trigger == "time" else self.safety_radius
 
     def begin(self) -> EvasionMemory:

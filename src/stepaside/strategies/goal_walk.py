@@ -28,11 +28,10 @@ SOON = 2.5  # time to a predicted contact at which it halts, in [s]
 class GoalWalk(Pursuit):
     """Walk to a goal, giving way to others.
 
-    Among headings to both sides of the way to the goal it takes the one that
-    deviates least and keeps the clearance to every other player, all of
-    which are predicted with constant velocities. It halts while none keeps
-    clear of a contact. Legs that walk in any direction choose among
-    velocities likewise, by the progress that each loses.
+    It takes the heading that deviates least from the way to the goal and
+    keeps clear of every other player, at constant velocities, and halts while
+    none does. Legs that walk in any direction choose among velocities
+    likewise, by the progress that each loses.
     """
 
     goal: tuple[float, ...] = setting(
@@ -88,11 +87,7 @@ class GoalWalk(Pursuit):
     def _clear_velocity(
         self, knowledge: Knowledge, bearing: float, velocities: VelocitySet
     ) -> Intent:
-        """Return the velocity in any direction that keeps clear.
-
-        A candidate costs the progress that it loses along the bearing of the
-        goal, and the clearance that it misses, the sooner the more.
-        """
+        """Return the velocity in any direction that keeps clear."""
         angles = bearing + np.linspace(-pi, pi, DIRECTIONS, endpoint=False)
         fastest = np.array(
             [greatest_velocity(each, velocities) for each in angles]
@@ -127,10 +122,9 @@ def nearest_passages(
 ) -> tuple[Array, Array]:
     """Predict the closest approach of each other player, at constant velocity.
 
-    Own velocities (2, n) in the frame, in [m/s]. Approaches before the
-    earliest time [s] do not count, as no choice changes them. Returns
-    distances [m] and times from now [s] up to the horizon, of shape (others,
-    n).
+    Own velocities (2, n) are those in the frame, in [m/s]; no choice changes
+    approaches before the earliest time. Returns distances [m] and times from
+    now [s], of shape (others, n).
     """
     rows = [
         (*other.position, *(other.velocity or (0.0, 0.0)), other.age)

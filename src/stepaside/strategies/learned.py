@@ -327,10 +327,7 @@ class LearnedStrategy:
         return Intent(heading, speed) if speed > 0.0 else STAND, memory
 
     def intents(self, observations: Tensor) -> Array:
-        """Return heading [rad] and speed factor for each observation.
-
-        Observations have shape (n, width), the result has (n, 2).
-        """
+        """Return heading [rad] and speed factor of n observations. (n, 2)."""
         outputs = open_network(self.network).evaluate(observations)
         if not np.isfinite(outputs).all():
             column = int(np.argwhere(~np.isfinite(outputs))[0][1])

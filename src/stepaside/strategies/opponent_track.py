@@ -32,34 +32,19 @@ class OpponentTrack(NamedTuple):
     def note(
         self, time: float, position: tuple[float, float], own: Pose = ORIGIN
     ) -> "OpponentTrack":
-        """Return the track with a newer position [m] at a time [s].
-
-        The own pose is needed for the rates of the line of sight.
-        """
-        rows, oldest = self.rows, time - self.span * self.step
-        first, last = 0, len(rows)
-        while first < last and rows[first].time < oldest:
-            first += 1
-        while first < last and rows[last - 1].time >= time:
-            last -= 1
+        """Return the track with a newer position [m] at a time [s]."""
+        oldest = time - self.span * self.step
+        rows = [row for row in self.rows if oldest <= row.time < time]
         near = self.spacing * self.step - 1e-9
         # The newest is replaced if it is too close to the one before.
-        if (
-            last - first > 1
-            and rows[last - 1].time - rows[last - 2].time < near
-        ):
-            last -= 1
+        if len(rows) > 1 and rows[-1].time - rows[-2].time < near:
+            rows.pop()
         seen = SeenOpponent(time, *position, own)
-        rows = (*rows[first:last], seen)
-        return OpponentTrack(self.step, self.span, self.spacing, rows)
+        return self._replace(rows=(*rows, seen))
 
     @property
     def velocity(self) -> tuple[float, float] | None:
-        """Velocity, in [m/s]; None while unknown.
-
-        It is the slope of a least-squares line through the positions, which
-        reduces the effect of sway and of outliers.
-        """
+        """Slope of a line fitted to the positions [m/s]; None if unknown."""
         rows = self.rows
         if not rows or rows[-1].time - rows[0].time <= LEAST * self.step:
             return None
@@ -101,9 +86,7 @@ class OpponentTrack(NamedTuple):
         """
         now = self.rows[-1]
         begin = now.time - CYCLE * self.step - 1e-9
-        for was in self.rows:
-            if was.time >= begin:
-                break
+        was = next(row for row in self.rows if row.time >= begin)
         passed = now.time - was.time
         if passed <= LEAST * self.step:
             return None, None

@@ -85,10 +85,10 @@ class ShieldModel(NamedTuple):
         return BodyVelocity(ahead / duration, 0.0, turn / duration), duration
 
     def choices(self) -> Array:
-        """Return the velocities among which the shield chooses.
+        """Return the velocities among which the shield chooses. (n, 3).
 
         Components ahead and to the left, in the frame at the begin, in
-        [m/s], and turning rate [rad/s]. Shape (n, 3).
+        [m/s], and turning rate [rad/s].
         """
         limits, legs = self.limits, self.limits.velocities
         if legs is None:
@@ -249,10 +249,9 @@ def observed_course(
 ) -> Course | None:
     """Return the heading of an opponent after its last sighting.
 
-    The direction of the chord between two positions, at least a window [s]
-    apart, is off by at most the turn between them, and by the errors of both.
-    The heading follows it no faster than the opponent turns: then it turns as
-    the opponent may, and stays within the error of the chord.
+    The chord between two positions, at least a window [s] apart, is off by at
+    most the turn between them, and by the errors of both. The heading follows
+    it no faster than the opponent turns (docs/shield.md).
 
     The person is given by its greatest turning rate [rad/s] and the error of a
     position [m]; errors of a heading up to a bound [rad] count as known. None
@@ -288,11 +287,10 @@ def observed_course(
 class TemplatePoint(NamedTuple):
     """Template point of a body on learned legs, which follows at once.
 
-    A body that follows commands with a lag comes to rest at its position
-    plus the lag times its velocity. The point moves with the commanded
-    velocity, and towards that place of rest by no more than a loss per
-    period; so the distance of the body from it is bounded: the tube that
-    ``robot legs measure`` finds.
+    A body with a lag comes to rest at its position plus the lag times its
+    velocity. The point moves with the commanded velocity, and towards that
+    place of rest by no more than a loss per period; so the distance of the
+    body from it is bounded: the tube that ``robot legs measure`` finds.
     """
 
     position: Vector  # its position in the map [m]
@@ -301,10 +299,7 @@ class TemplatePoint(NamedTuple):
     def advance(
         self, command: Vector, body: Vector, lag: float, duration: float
     ) -> "TemplatePoint":
-        """Return the point a duration [s] later, at a position of the body.
-
-        The velocity over the floor is commanded, and legs lag by ``lag``.
-        """
+        """Return the point a duration [s] later, at a place of the body."""
         (u, v), share = self.drift, response_share(duration, lag)
         drift = u + share * (command[0] - u), v + share * (command[1] - v)
         x = self.position[0] + duration * command[0]
@@ -344,9 +339,7 @@ class ShieldedStrategy:
     A decision stands if no person within the bounds of the settings can come
     within contact while it is carried out, and if the robot can prevent
     contact for ever afterwards; else the motion is taken that guarantees the
-    largest distance. A robot that stands must start where standing for its
-    response time is no longer safe. Assumptions and proof are in
-    docs/shield.md.
+    largest distance. Assumptions and proof are in docs/shield.md.
     """
 
     strategy: Strategy

@@ -15,9 +15,8 @@ from .knowledge import ON_THE_SPOT, STAND, Intent, Knowledge, Limits
 class Strategy(Protocol):
     """Pure function from knowledge and memory to an intent.
 
-    A strategy has no mutable state. Its memory is a value of its own type
-    that is passed in and returned, so that the same knowledge and memory
-    always give the same decision, on any level of the game.
+    It has no mutable state: the same knowledge and memory, a value of its own
+    type, always give the same decision, on any level of the game.
     """
 
     @property
@@ -104,11 +103,10 @@ def unicycle_intent(
 ) -> Intent:
     """Return the intent of a unicycle that is nearest to a body velocity.
 
-    A unicycle has no lateral velocity: it turns its direction of driving to
-    that of the horizontal velocity, and meanwhile drives at the component of
-    the velocity along it, the nearest speed that it has; where that component
-    is negative it turns on the spot. The desired turning rate counts where
-    no horizontal velocity is desired.
+    It turns its direction of driving to that of the horizontal velocity, and
+    meanwhile drives at the component along it, or turns on the spot where
+    that is negative. The desired turning rate counts where no horizontal
+    velocity is desired.
     """
     if intent.velocity is None:
         return intent

@@ -34,8 +34,7 @@ Point = tuple[float, float]
 class CyclicPursuit(Pursuit):
     """Pursuer of the next player of its own team, in the order of names.
 
-    With all players of a team in cyclic pursuit they end on a regular
-    polygon. Without a team it pursues the opponent.
+    All players of a team end on a regular polygon.
     """
 
     def decide(
@@ -57,8 +56,7 @@ class CyclicPursuit(Pursuit):
 class AssignedPursuit(Pursuit):
     """Pursuer of the evader that its team assigns to it.
 
-    Every pursuer computes the assignment with the least total distance from
-    its knowledge; with equal knowledge all compute the same.
+    Each computes the assignment with the least total distance.
     """
 
     def decide(
@@ -147,11 +145,7 @@ def assign(costs: Array) -> tuple[int, ...]:
 
 
 def fellows_of(knowledge: Knowledge) -> dict[str, Point]:
-    """Return positions of the own team's pursuers in the frame, in [m].
-
-    They are those of the same role, by name and sorted by it; the own
-    position is the origin.
-    """
+    """Return positions of the own team's pursuers by name, in the frame."""
     own = knowledge.identity
     if own is None:
         return {"": (0.0, 0.0)}
@@ -163,11 +157,7 @@ def fellows_of(knowledge: Knowledge) -> dict[str, Point]:
 
 
 def keep_apart(knowledge: Knowledge, intent: Intent) -> Intent:
-    """Return an intent that keeps a pursuer away from its teammates.
-
-    Near a teammate ahead or beside the heading turns away from it; nearer
-    still, the pursuer halts while the teammate walks on.
-    """
+    """Return an intent that turns away from near teammates, or halts."""
     heading = intent.heading
     for mate in knowledge.teammates:
         ahead = cos(mate.bearing)
@@ -192,10 +182,8 @@ class TeamEvasion(BackwardStrategy):
     """Evader that reasons about all pursuers at once.
 
     It walks backward, and begins the turning sequence after which the
-    smallest predicted distance to any pursuer is largest. Each pursuer is
-    predicted by eqs. (1)-(2) with the own gait, so that a sequence away from
-    one pursuer into another one scores low. This is no guarantee: the
-    pursuers may move otherwise.
+    smallest distance to any pursuer is largest, if each moves by (1)-(2) with
+    the own gait. This is no guarantee: they may move otherwise.
     """
 
     safety_radius: float = setting(
@@ -241,10 +229,7 @@ class TeamEvasion(BackwardStrategy):
 
 
 def pursuers_of(knowledge: Knowledge) -> Array:
-    """Return the poses of all opponents; of the opponent without a team.
-
-    One of unknown velocity is taken to face the evader. Shape (n, 3).
-    """
+    """Return the poses of all opponents; one who stands faces the evader."""
     rows = []
     for other in knowledge.opponents or (knowledge,):
         (x, y), (u, v) = other.position, other.velocity or (0.0, 0.0)
@@ -255,10 +240,7 @@ def pursuers_of(knowledge: Knowledge) -> Array:
 
 @lru_cache(maxsize=8)
 def candidate_turns(largest: float) -> Array:
-    """Return turns [rad] per step: all combinations of three pieces.
-
-    Shape (candidates, steps).
-    """
+    """Return turns [rad] of each step of all candidates."""
     even = np.linspace(-largest, largest, TURNS)
     grid = np.meshgrid(*[even] * len(PIECES), indexing="ij")
     pieces = np.stack(grid, axis=-1).reshape(-1, len(PIECES))
@@ -272,9 +254,7 @@ def roll_out_all(
 ) -> None:
     """Write the least distance to any pursuer, in all and at the end, in [m].
 
-    The evader walks backward from the origin of the frame by turns
-    (candidates, steps); pursuers at poses (n, 3) head for it by (1)-(2), with
-    its stride and gain.
+    The evader walks from the origin of the frame by turns of each candidate.
     """
     for j in range(len(turns)):
         for i in range(len(pursuers)):

@@ -32,8 +32,7 @@ class VelocitySet(NamedTuple):
     """Velocities that legs deliver, in the frame of the body.
 
     Horizontal velocities fill an ellipse whose half axes are the bounds
-    ahead, behind and to the sides: legs that walk obliquely deliver less of
-    both components. The turning rate is bounded by itself.
+    ahead, behind and to the sides; the turning rate is bounded by itself.
     """
 
     forward: Bounds  # bounds ahead [m/s]
@@ -55,9 +54,8 @@ class VelocitySet(NamedTuple):
     def nearest(self, velocity: BodyVelocity) -> BodyVelocity:
         """Return the velocity in the set with the path of another.
 
-        A component that the legs do not deliver at all is left out. The
-        others are scaled alike, so that direction and curvature of the path
-        stay the same and it takes longer.
+        What the legs do not deliver at all is left out; the rest is scaled
+        alike, so that direction and curvature stay the same.
         """
         share, relative, kept = 1.0, [], []
         for value, (low, high) in zip(velocity, self[:3], strict=True):
@@ -84,10 +82,7 @@ def respond(
     lags: AxisValues,
     duration: float,
 ) -> BodyVelocity:
-    """Return the velocity of legs a duration [s] after a command.
-
-    Each axis approaches its command with its own time constant, in [s].
-    """
+    """Return the velocity of legs a duration [s] after a command."""
     axes = zip(velocity, command, lags, strict=True)
     return BodyVelocity(
         *(v + response_share(duration, lag) * (c - v) for v, c, lag in axes)
