@@ -79,8 +79,8 @@ def _pair(
 ) -> PairSummary:
     first, second = run.tracks[one], run.tracks[other]
     apart = distance_between(first.torso, second.torso)
-    closest, ids = int(apart.argmin()), run.identities
-    opposed = one in ids and other in ids and ids[one].opposes(ids[other])
+    closest = int(apart.argmin())
+    opposed = bool({(one, other), (other, one)} & {*run.facing})
     caught = np.flatnonzero(opposed & (apart <= CAPTURE_DISTANCE))
     last = first.unicycle[late], second.unicycle[late]
     return PairSummary(

@@ -3,7 +3,7 @@
 from collections.abc import Mapping
 from dataclasses import asdict, dataclass
 from functools import cached_property
-from itertools import combinations
+from itertools import combinations, product
 from math import isfinite
 from typing import Any
 
@@ -133,23 +133,26 @@ class Run:
         return self.tracks[WALKER]
 
     @cached_property
+    def facing(self) -> tuple[tuple[str, str], ...]:
+        """Names of each pursuer and evader."""
+        roles = {name: own.role for name, own in self.identities.items()}
+        return tuple(
+            (one, other)
+            for one, other in product(self.players, repeat=2)
+            if roles.get(one) is Role.PURSUER
+            and roles.get(other) is Role.EVADER
+        )
+
+    @cached_property
     def opponents(self) -> tuple[tuple[str, str], ...]:
         """Names of each pursuer and evader.
 
         Without such, of every pair of a player with a strategy and another,
         or of all. Empty with one player.
         """
-        roles = {n: identity.role for n, identity in self.identities.items()}
-        found = tuple(
-            (one, other)
-            for one in self.players
-            for other in self.players
-            if roles.get(one) is Role.PURSUER
-            and roles.get(other) is Role.EVADER
-        )
-        pairs = tuple(combinations(self.players, 2))
-        own = set(self.deciding)
-        return found or tuple(p for p in pairs if own & {*p}) or pairs
+        pairs, own = tuple(combinations(self.players, 2)), {*self.deciding}
+        deciding = tuple(pair for pair in pairs if own & {*pair})
+        return self.facing or deciding or pairs
 
     @property
     def pair(self) -> tuple[Trajectory, Trajectory] | None:
@@ -162,13 +165,8 @@ class Run:
     @property
     def lines_of_sight(self) -> tuple[tuple[str, str], ...]:
         """Names of each pursuer and evader, or of any two players alone."""
-        ids = self.identities
-        facing = tuple(
-            (one, other)
-            for one, other in self.opponents
-            if one in ids and other in ids and ids[one].opposes(ids[other])
-        )
-        return facing or (self.opponents if len(self.players) == 2 else ())
+        alone = self.opponents if len(self.players) == 2 else ()
+        return self.facing or alone
 
     @property
     def distance(self) -> Array:
