@@ -1,8 +1,8 @@
 """Recorded motion and signals of one player."""
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
-from typing import TYPE_CHECKING
+from dataclasses import dataclass, field, fields
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -16,58 +16,14 @@ if TYPE_CHECKING:
 
 POSE = ("x_m", "y_m", "heading_rad")
 POINT = ("x_m", "y_m")
-COLUMNS: Mapping[str, tuple[str, ...]] = {
-    "com": ("x_m", "y_m", "z_m"),
-    "torso": POSE,
-    "place": POSE,
-    "com_reference": POINT,
-    "zmp_reference": POINT,
-    "zmp": POINT,
-    "qpos": (),
-    "landings": ("time_s", "side", *POSE),
-    "sight": (
-        *("time_s", "bearing_rad", "distance_m"),
-        *("true_bearing_rad", "true_distance_m", "is_lost"),
-    ),
-    "pushes": (
-        *("time_s", "duration_s", "x_m", "y_m"),
-        *("impulse_x_n_s", "impulse_y_n_s"),
-    ),
-    "command": (
-        *("template_forward_m_s", "template_turn_rad_s"),
-        *("template_lateral_m_s", "forward_m_s", "turn_rad_s"),
-        "lateral_m_s",
-    ),
-    "velocity": ("x_m_s", "y_m_s"),
-    "tilt": ("roll_rad", "pitch_rad"),
-    "sole": POSE,
-    "support": ("side", "single", *POSE),
-    "heading_reference": ("heading_rad",),
-    "estimate": (
-        *("com_x_m", "com_y_m", "velocity_x_m_s", "velocity_y_m_s"),
-        *("zmp_x_m", "zmp_y_m", "roll_rad", "pitch_rad"),
-    ),
-    "dcm": POINT,
-    "plans": ("time_s", "number", "side", *POSE),
-    "phase": ("phase",),
-    "torso_velocity": (
-        *("x_m_s", "y_m_s", "z_m_s"),
-        *("about_x_rad_s", "about_y_rad_s", "about_z_rad_s"),
-    ),
-    "joint_velocity": (),
-    "joint_effort": (),
-    "joint_targets": (),
-    "gyro": ("x_rad_s", "y_rad_s", "z_rad_s"),
-    "accelerometer": ("x_m_s2", "y_m_s2", "z_m_s2"),
-    "foot_forces": tuple(
-        f"{side}_{place}_n"
-        for side in ("left", "right")
-        for place in ("front_left", "front_right", "rear_left", "rear_right")
-    ),
-}
-"""Columns of each array, with units; none of those with a column per joint."""
+RATES = ("x_rad_s", "y_rad_s", "z_rad_s")
 OF_EVENTS = ("landings", "sight", "pushes", "plans")  # not of samples
 MAY_LACK = ("zmp", "sight", "estimate", "joint_targets")  # may be NaN
+
+
+def table(*columns: str) -> Any:
+    """Return a field of an array with columns; without any one per joint."""
+    return field(default=None, metadata={"columns": columns})
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -83,40 +39,67 @@ class Trajectory:
 
     __repr__ = brief_repr
 
-    com: Array
-    torso: Array  # origin and heading
-    place: Array | None = None  # reference point and heading
-    com_reference: Array | None = None  # planned
-    zmp_reference: Array | None = None  # planned
-    zmp: Array | None = None  # center of the foot forces; or NaN
-    qpos: Array | None = None
+    com: Array = table("x_m", "y_m", "z_m")
+    torso: Array = table(*POSE)  # origin and heading
+    place: Array | None = table(*POSE)  # reference point and heading
+    com_reference: Array | None = table(*POINT)  # planned
+    zmp_reference: Array | None = table(*POINT)  # planned
+    zmp: Array | None = table(*POINT)  # center of the foot forces; or NaN
+    qpos: Array | None = table()
     """Position and quaternion of the torso, and joint angles, as float32."""
-    landings: Array | None = None  # of each footstep; side 1 left, -1 right
-    sight: Array | None = None  # of each sighting
-    pushes: Array | None = None  # of each push, at the torso
-    command: Array | None = None
+    landings: Array | None = table("time_s", "side", *POSE)
+    """Of each footstep; the side is 1 left, -1 right."""
+    sight: Array | None = table(
+        *("time_s", "bearing_rad", "distance_m"),
+        *("true_bearing_rad", "true_distance_m", "is_lost"),
+    )
+    """Of each sighting."""
+    pushes: Array | None = table(
+        *("time_s", "duration_s", *POINT, "impulse_x_n_s", "impulse_y_n_s"),
+    )
+    """Of each push, at the torso."""
+    command: Array | None = table(
+        *("template_forward_m_s", "template_turn_rad_s"),
+        *("template_lateral_m_s", "forward_m_s", "turn_rad_s"),
+        "lateral_m_s",
+    )
     """Velocities of a robot with its own walk: of the template and as
     commanded."""
-    velocity: Array | None = None  # of the CoM
-    tilt: Array | None = None  # of the torso
-    sole: Array | None = None  # support sole
-    support: Array | None = None
+    velocity: Array | None = table("x_m_s", "y_m_s")  # of the CoM
+    tilt: Array | None = table("roll_rad", "pitch_rad")  # of the torso
+    sole: Array | None = table(*POSE)  # support sole
+    support: Array | None = table("side", "single", *POSE)
     """Support foot (1 left, -1 right), 1 in single support, planned pose of
     the sole."""
-    heading_reference: Array | None = None  # of the torso
-    estimate: Array | None = None  # or NaN
-    dcm: Array | None = None  # of a walk by maneuvers
-    plans: Array | None = None
+    heading_reference: Array | None = table("heading_rad")  # of the torso
+    estimate: Array | None = table(
+        *("com_x_m", "com_y_m", "velocity_x_m_s", "velocity_y_m_s"),
+        *("zmp_x_m", "zmp_y_m", "roll_rad", "pitch_rad"),
+    )
+    """Of the state estimator; or NaN."""
+    dcm: Array | None = table(*POINT)  # of a walk by maneuvers
+    plans: Array | None = table("time_s", "number", "side", *POSE)
     """Of each footstep of a maneuver: time at which its first step begins,
     number in the maneuver, side and pose."""
-    phase: Array | None = None  # index in ``Phase``
-    torso_velocity: Array | None = None  # angular in the torso
-    joint_velocity: Array | None = None  # of joints in the order of qpos
-    joint_effort: Array | None = None  # of motors at the joints [N m]
-    joint_targets: Array | None = None  # in force; NaN without a motor
-    gyro: Array | None = None  # in the torso
-    accelerometer: Array | None = None  # specific force, in the torso
-    foot_forces: Array | None = None
+    phase: Array | None = table("phase")  # index in ``Phase``
+    torso_velocity: Array | None = table(
+        *("x_m_s", "y_m_s", "z_m_s"), *(f"about_{name}" for name in RATES)
+    )
+    """Linear in the world, angular in the torso."""
+    joint_velocity: Array | None = table()  # of joints in the order of qpos
+    joint_effort: Array | None = table()  # of motors at the joints [N m]
+    joint_targets: Array | None = table()  # in force; NaN without a motor
+    gyro: Array | None = table(*RATES)  # in the torso
+    accelerometer: Array | None = table("x_m_s2", "y_m_s2", "z_m_s2")
+    """Specific force, in the torso."""
+    foot_forces: Array | None = table(
+        *(
+            f"{side}_{end}_{edge}_n"
+            for side in ("left", "right")
+            for end in ("front", "rear")
+            for edge in ("left", "right")
+        )
+    )
     strategy: Mapping[str, Array] = field(default_factory=dict)
     """Numbers of the strategy by name, NaN where there is none: sighting,
     desired heading, entries of its memory. Not in a run folder."""
@@ -143,6 +126,14 @@ class Trajectory:
             for name in COLUMNS
             if (values := getattr(self, name)) is not None
         }
+
+
+COLUMNS: Mapping[str, tuple[str, ...]] = {
+    own.name: own.metadata["columns"]
+    for own in fields(Trajectory)
+    if "columns" in own.metadata
+}
+"""Columns of each array, with units; none of those with a column per joint."""
 
 
 def check_record(

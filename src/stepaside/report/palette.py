@@ -107,12 +107,3 @@ def colours_in(
         else roles.get(name) or next(others)
         for name in players
     }
-
-
-def luminance(colour: str) -> float:
-    """Return the relative luminance, 0 to 1, as WCAG 2.2 defines it."""
-    red, green, blue = (
-        c / 12.92 if c <= 0.04045 else ((c + 0.055) / 1.055) ** 2.4
-        for c in fractions(colour)
-    )
-    return 0.2126 * red + 0.7152 * green + 0.0722 * blue
