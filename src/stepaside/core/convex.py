@@ -1,7 +1,6 @@
 """Convex polygons in the plane: hull, half planes and area."""
 
 from collections.abc import Sequence
-from math import pi
 
 import numpy as np
 from numpy.typing import NDArray
@@ -66,13 +65,3 @@ def signed_area(polygon: Array) -> float:
     after = next_corners(polygon)
     doubled = polygon[:, 0] * after[:, 1] - polygon[:, 1] * after[:, 0]
     return 0.5 * float(doubled.sum())
-
-
-def grown_hull_area(points: Array, radius: float) -> float:
-    """Return the area of the hull of points grown by a radius, in [m^2].
-
-    For positions of a disc it is the smallest convex floor for its path.
-    """
-    hull = convex_hull(np.asarray(points, dtype=np.float64))
-    perimeter = float(np.hypot(*(np.roll(hull, -1, axis=0) - hull).T).sum())
-    return signed_area(hull) + perimeter * radius + pi * radius**2

@@ -9,7 +9,7 @@ from ..arena import NO_OBSTACLES, OPEN_FLOOR, Room
 from ..core.constants import CAPTURE_DISTANCE
 from ..core.errors import check_positive, check_within
 from ..core.player_identity import PlayerIdentity, Role
-from ..core.poses import Array, Pose, wrap_angles
+from ..core.poses import Array, Pose
 from ..strategies.evasion import Evasion
 from ..strategies.knowledge import Limits
 from ..strategies.registry import load_strategy
@@ -42,12 +42,6 @@ class StrategyTrack(NamedTuple):
     def captured(self) -> bool:
         """Whether the distance fell to the capture distance."""
         return self.outcome is Outcome.CAPTURED
-
-    @property
-    def bearings(self) -> Array:
-        """Bearings of the pursuer from the evader, in [rad]. Shape (n,)."""
-        dx, dy, _ = (self.pursuer - self.evader).T
-        return wrap_angles(np.arctan2(dy, dx) - self.evader[:, 2])
 
     @property
     def distances(self) -> Array:

@@ -34,7 +34,6 @@ LABELS = {
     "evader_error_rad": "heading error of the evader",
     "exists": "circle exists",
     "falling_m": "decrease of a value in the last period, at most",
-    "floor_m2": "floor area",
     "floor_used_evader_m": "maximum distance of the evader from its start",
     "headings_apart_rad": "angle between headings",
     "mean_closest_distance_m": "mean closest approach",

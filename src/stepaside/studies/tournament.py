@@ -1,7 +1,7 @@
 """Games of a tournament: an evader against a pursuer, without physics."""
 
 from dataclasses import dataclass, field, replace
-from math import inf, isfinite, pi, radians
+from math import inf, isfinite, pi
 
 import numpy as np
 
@@ -13,8 +13,7 @@ from ..arena import (
     draw_any_start,
     generate_room,
 )
-from ..core.convex import grown_hull_area
-from ..core.poses import Array, Pose, rotate, wrap_angles
+from ..core.poses import Array, Pose, rotate
 from ..core.setting import check_settings, setting
 from ..games.floor_world import PARTS
 from ..games.game import Outcome
@@ -29,7 +28,6 @@ from ..theory.unicycle.circles import find_circle
 from .tabulation import Record
 
 EARLIEST_CAPTURE = 0.02  # with any heading capture ends no game, in [m]
-SIGHT = radians(148.0)  # greatest bearing in view of a turned head, in [rad]
 ASIDE = "evasion(safety_radius=100)"  # beyond every distance of these games
 CELLS = 64  # of the value table of the bound
 
@@ -99,21 +97,14 @@ def play_pairing(settings: PairingSettings) -> Record:
     bound = bound_of(track.pursuer[0], track.evader[0], game)
     reached = 0.0 if outcome is Outcome.TOUCHED else closest
     seconds = (len(track.distances) - 1) * game.period / PARTS[settings.level]
-    clear, places = float(track.clearances.min()), track.evader[:, :2]
-    turns = np.abs(wrap_angles(np.diff(track.evader[:, 2])))
+    clear, ways = track.clearances.min(), np.diff(track.evader, axis=0)
     return {
-        "evader": settings.evader,
-        "pursuer": settings.pursuer,
-        "seed": settings.seed,
         "outcome": outcome.value,
         "survived_s": seconds,
         "closest_m": closest,
         "bound_m": bound,
-        "clearance_m": clear if isfinite(clear) else None,
-        "floor_m2": grown_hull_area(places, game.body_radius),
-        "walked_m": float(np.hypot(*np.diff(places, axis=0).T).sum()),
-        "turning_rad_s": float(turns.sum()) / max(seconds, 1e-9),
-        "unseen": float((np.abs(track.bearings) > SIGHT).mean()),
+        "clearance_m": float(clear) if isfinite(clear) else None,
+        "walked_m": float(np.hypot(ways[:, 0], ways[:, 1]).sum()),
         "decision_s": track.decision,
         "longest_decision_s": track.longest_decision,
         "survived": outcome is Outcome.COMPLETED,
