@@ -192,8 +192,8 @@ def rewrite_description(
             added = ["", f"[{section}]", *added]
         at = ends.get(section, len(lines))
         lines[at:at] = added
-    head = [TITLE, *(f"# {word}" for word in words), "#"]
-    return "\n".join([*head, *lines]) + "\n"
+    top = [TITLE, *(f"# {word}" for word in words), "#"]
+    return "\n".join([*top, *lines]) + "\n"
 
 
 def _changed(entry: re.Match[str], value: str) -> str:
