@@ -16,7 +16,7 @@ from fake_robot import (
     Run,
     feeding,
 )
-from stepaside.control.sight_sources import CameraSight
+from stepaside.control.sensor_sight import CameraSight
 from stepaside.locomotion.locomotion import Phase
 from stepaside.perception.measurement import Sighting
 from stepaside.planning import Direction, Foot

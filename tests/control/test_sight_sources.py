@@ -7,10 +7,7 @@ import numpy as np
 import pytest
 
 from fake_robot import FakePerception, measure
-from stepaside.control.sight_sources import (
-    CORRECTION,
-    CameraSight,
-)
+from stepaside.control.sensor_sight import CORRECTION, CameraSight
 from stepaside.core.constants import GRAVITY
 from stepaside.core.poses import Array, Pose
 from stepaside.core.rotations import rotation

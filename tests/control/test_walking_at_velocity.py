@@ -4,7 +4,7 @@ from math import pi
 
 import pytest
 
-from stepaside.control.scheme import (
+from stepaside.control.velocity_scheme import (
     limit_velocity,
     request_at_velocity,
 )

@@ -10,7 +10,7 @@ pytest.importorskip("onnxruntime")
 pytest.importorskip("onnx")
 
 from imitated_walk import nao_on_imitated_walk
-from stepaside.control.sight_sources import CameraSight
+from stepaside.control.sensor_sight import CameraSight
 from stepaside.core.poses import Pose
 from stepaside.games.game import Outcome
 from stepaside.games.game_settings import duel as make_duel

@@ -6,7 +6,7 @@ from math import atan2, degrees, hypot, radians
 import numpy as np
 import pytest
 
-from stepaside.control.sight_sources import CameraSight
+from stepaside.control.sensor_sight import CameraSight
 from stepaside.core.poses import wrap_angle, wrap_angles
 from stepaside.games import duel, run_game
 from stepaside.games.game_settings import StartSettings

@@ -10,8 +10,8 @@ from stepaside.core.poses import Pose, wrap_angle
 from stepaside.drivers.robot import REST
 from stepaside.games.game_settings import GameSettings, StartSettings, duel
 from stepaside.games.player_settings import PLAYERS
-from stepaside.games.players import VelocityWalker
 from stepaside.games.recorded_game import RecordedGame
+from stepaside.games.velocity_walker import VelocityWalker
 from stepaside.locomotion.control_settings import STABILISED, LegsSettings
 from stepaside.sim.body_settings import BODIES
 from stepaside.strategies.velocity_set import BodyVelocity

@@ -5,6 +5,7 @@ from typing import Any
 import pytest
 
 from stepaside.core.errors import ConfigurationError
+from stepaside.games import walk
 from stepaside.locomotion.control_settings import (
     OPEN_LOOP,
     STABILISED,
@@ -42,6 +43,6 @@ def test_the_paper_walks_without_feedback() -> None:
 @pytest.mark.parametrize("method", ["measured", "mpc"])
 def test_a_measured_state_needs_feedback(method: str) -> None:
     with pytest.raises(ConfigurationError, match="needs feedback = true"):
-        ControlSettings(method, False)  # type: ignore[arg-type]
-    settings = ControlSettings(method=method, feedback=True)  # type: ignore[arg-type]
-    assert settings.method == method
+        walk(control=ControlSettings(method, False)).resolved()  # type: ignore[arg-type]
+    settings = walk(control=ControlSettings(method, True))  # type: ignore[arg-type]
+    assert settings.players[0].control.method == method

@@ -13,11 +13,11 @@ from click.testing import CliRunner
 
 from injection_strings import HOSTILE
 from stepaside.cli.main import main
+from stepaside.core.errors import visible
 from stepaside.games.run_archive import load_run
 from stepaside.games.settings_reader import dump_configuration
 from stepaside.report.replay_page import write_page
 from stepaside.report.scene import RunScene
-from stepaside.report.text_escaping import visible
 from stepaside.sim.person_settings import PersonSettings
 
 CHROMIUM = shutil.which("chromium") or shutil.which("chromium-browser")

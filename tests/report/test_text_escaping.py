@@ -16,17 +16,16 @@ from hypothesis import strategies as st
 import stepaside
 from injection_strings import HOSTILE
 from stepaside.cli.main import main
+from stepaside.core.errors import INVISIBLE, visible
 from stepaside.games.run import Run
 from stepaside.games.run_archive import write_run_files
 from stepaside.games.trajectory import Trajectory
 from stepaside.report.text_escaping import (
-    INVISIBLE,
     fill_page,
     for_figure,
     for_markdown,
     for_script,
     policy_of,
-    visible,
 )
 from synthetic_run import run_of
 

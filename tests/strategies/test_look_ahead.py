@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from stepaside.arena import Disc, ObstacleSet, Room, RoomRecipe, generate_room
-from stepaside.core.compilation import cache_folder
+from stepaside.core.compiled_cache import cache_folder
 from stepaside.core.poses import Pose
 from stepaside.games import Outcome, StepGame, play_strategies
 from stepaside.strategies import (

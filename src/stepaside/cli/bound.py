@@ -11,10 +11,10 @@ import click
 from ..core.progress import ProgressLine
 from ..core.ranges import Range, positive
 from ..core.setting import CheckedSettings, setting
-from .options import figure_option, json_option, output_file
+from .options import figure_option, output_file
 from .settings import refuse_settings, takes_settings
 from .tables import plain, print_table, result_rows
-from .terminal import echo, print_json
+from .terminal import echo, json_option, print_json
 
 AGAINST = ("pursuit", "any", "person")
 OF_CARS = ("pursuer_gain", "evader_turn", "horizon")

@@ -11,8 +11,7 @@ import click
 
 from .. import __version__
 from ..core.extras import EXTRAS
-from .options import json_option
-from .terminal import echo, print_json
+from .terminal import echo, json_option, print_json
 
 
 @click.command("doctor")

@@ -6,10 +6,10 @@ import click
 
 from ..games.game_settings import GameSettings
 from ..games.game_settings import duel as make_duel
-from .options import folder_option, json_option
+from .options import folder_option
 from .run_output import finish_run, play_with_bar, run_folder
 from .settings import takes_settings
-from .terminal import echo
+from .terminal import echo, json_option
 
 NAMED = (
     *("seed", "duration", "robot", "gait", "body"),

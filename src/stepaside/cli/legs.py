@@ -12,12 +12,11 @@ from .main import LazyGroup
 from .options import (
     figure_option,
     file_argument,
-    json_option,
     seed_option,
     workers_option,
 )
 from .tables import plain, print_columns, print_table, result_rows
-from .terminal import echo, print_json
+from .terminal import echo, json_option, print_json
 
 if TYPE_CHECKING:
     from ..fitting.legs_measurement import LegsMeasurement

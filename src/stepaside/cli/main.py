@@ -23,7 +23,7 @@ COMMANDS = {
     "theory": "Compute circles, maps, bounds and plans.",
     "reproduce": "Measure every claim of the paper and write a report.",
     "play": "Control a robot over LoLA, NAOqi, ROS 2 or its own SDK.",
-    "serve": "Serve simulated robots over LoLA or ROS 2.",
+    "serve": "Serve simulated robots over ROS 2.",
     "robot": "Show, describe, check or tune a robot and its legs.",
     "doctor": "Report what is installed, what is missing, and how to get it.",
 }

@@ -2,8 +2,7 @@
 
 import re
 from collections.abc import Callable
-from contextlib import nullcontext
-from functools import partial, wraps
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -11,7 +10,6 @@ import click
 
 from ..core.atomic_output import FIGURES, check_file
 from ..core.errors import StepAsideError
-from .terminal import reserve_stdout
 
 
 class TextType(click.ParamType[Any]):
@@ -48,19 +46,6 @@ def output_file(option: str, *suffixes: str) -> TextType:
         return file
 
     return TextType("FILE", parse)
-
-
-def json_option(function: Callable[..., Any]) -> Callable[..., Any]:
-    """Add ``--json``, which reserves standard output for one JSON object."""
-
-    @wraps(function)
-    def command(*args: Any, **values: Any) -> Any:
-        with reserve_stdout() if values["as_json"] else nullcontext():
-            return function(*args, **values)
-
-    return click.option(
-        "--json", "as_json", is_flag=True, help="Print one JSON object."
-    )(command)
 
 
 def figure_option(

@@ -11,8 +11,8 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from ..games.play_settings import ROS2, PlaySettings
-from .options import json_option
 from .settings import refuse_settings, takes_settings
+from .terminal import json_option
 
 if TYPE_CHECKING:
     from ..drivers.joint_loop import JointLoop

@@ -8,13 +8,18 @@ import click
 
 from ..core.atomic_output import atomic_draft, check_folder
 from .options import (
-    json_option,
     seed_option,
     shard_option,
     workers_option,
 )
 from .study_output import executor_option, finish_study, run_stored
-from .terminal import echo, exit_interrupted, print_json, resume_message
+from .terminal import (
+    echo,
+    exit_interrupted,
+    json_option,
+    print_json,
+    resume_message,
+)
 
 RECORDS = "claims.sqlite"
 SKIPPED = (

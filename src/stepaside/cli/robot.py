@@ -12,7 +12,6 @@ from .main import LazyGroup
 from .options import (
     figure_option,
     folder_option,
-    json_option,
     workers_option,
 )
 from .study_output import executor_option
@@ -20,6 +19,7 @@ from .tables import plain, print_table, result_rows
 from .terminal import (
     echo,
     exit_interrupted,
+    json_option,
     print_json,
     resume_message,
     write_result,

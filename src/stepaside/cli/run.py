@@ -19,7 +19,6 @@ from .options import (
     figure_option,
     file_argument,
     folder_option,
-    json_option,
     output_file,
     seed_option,
 )
@@ -32,7 +31,7 @@ from .tables import (
     result_rows,
     table_rows,
 )
-from .terminal import print_json
+from .terminal import json_option, print_json
 
 if TYPE_CHECKING:
     from ..theory.unicycle.unicycle_game import Game, RelativeStart

@@ -10,10 +10,11 @@ import click
 from ..games.game_settings import GameSettings
 from ..games.game_settings import duel as make_duel
 from ..games.player_settings import PLAYERS
-from .options import folder_option, json_option
+from .options import folder_option
 from .robot_connections import join_domain, with_feedback
 from .run_output import finish_run, run_folder
 from .settings import takes_settings
+from .terminal import json_option
 
 NAMED = ("seed", "duration", "robot", "start.distance")
 

@@ -15,15 +15,20 @@ from ..core.atomic_output import (
     check_folder,
     folder_draft,
 )
-from ..core.errors import ConfigurationError, OutputError
+from ..core.errors import ConfigurationError, OutputError, visible
 from ..core.progress import ProgressLine
 from ..report.film_settings import FilmSettings
 from ..report.result_labels import label_of
-from ..report.text_escaping import visible
-from .options import browser_option, json_option
+from .options import browser_option
 from .settings import GIVEN, refuse_settings, takes_settings
 from .tables import format_value, print_columns, print_run
-from .terminal import NOTHING_SAVED, echo, exit_interrupted, print_json
+from .terminal import (
+    NOTHING_SAVED,
+    echo,
+    exit_interrupted,
+    json_option,
+    print_json,
+)
 
 if TYPE_CHECKING:
     from ..games.game import Progress

@@ -10,13 +10,12 @@ from ..report.result_labels import in_unit, label_of
 from .options import (
     TextType,
     figure_option,
-    json_option,
     shard_option,
     workers_option,
 )
 from .study_output import executor_option, finish_study, run_stored
 from .tables import print_columns, print_table
-from .terminal import print_json, write_result
+from .terminal import json_option, print_json, write_result
 
 SUFFIX = ".sqlite"
 

@@ -3,20 +3,21 @@
 import json
 import os
 import sys
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import (
     ExitStack,
     contextmanager,
     nullcontext,
     redirect_stdout,
 )
+from functools import wraps
 from pathlib import Path
 from typing import Any, NoReturn, TextIO
 
 import click
 
+from ..core.errors import visible
 from ..core.signal_handling import interrupted_status
-from ..report.text_escaping import visible
 
 NOTHING_SAVED = "nothing is saved"
 STDOUT, STDERR = 1, 2  # file descriptors
@@ -107,3 +108,16 @@ def resume_message(done: str, path: Path | None) -> str:
     if path is None:
         return f"{done} finished; {NOTHING_SAVED} without --output"
     return f"{done} are saved in {path}; run the same command to continue"
+
+
+def json_option(function: Callable[..., Any]) -> Callable[..., Any]:
+    """Add ``--json``, which reserves standard output for one JSON object."""
+
+    @wraps(function)
+    def command(*args: Any, **values: Any) -> Any:
+        with reserve_stdout() if values["as_json"] else nullcontext():
+            return function(*args, **values)
+
+    return click.option(
+        "--json", "as_json", is_flag=True, help="Print one JSON object."
+    )(command)

@@ -19,7 +19,7 @@ from ..games.unicycle_settings import UnicycleGameSettings
 from ..planning import PRESETS, Direction, Foot, GaitSettings
 from ..report.result_labels import CIRCLES
 from .main import LazyGroup
-from .options import figure_option, json_option
+from .options import figure_option
 from .settings import takes_settings
 from .tables import (
     plain,
@@ -28,7 +28,7 @@ from .tables import (
     print_table,
     result_rows,
 )
-from .terminal import echo, print_json
+from .terminal import echo, json_option, print_json
 
 if TYPE_CHECKING:
     from ..planning import ManeuverPlan

@@ -6,18 +6,14 @@ from typing import TYPE_CHECKING, NamedTuple
 from ..core.player_identity import PlayerIdentity
 from ..core.poses import ALL_AROUND, Array, Sector
 from ..locomotion.locomotion import CurrentStep
-from ..perception.attitude import AttitudeFilter
 from ..perception.measurement import RobotState, Sighting
-from ..planning import Foot
 from ..strategies.decision_maker import choose_opponent
 
 if TYPE_CHECKING:
-    from ..perception.lidar_perception import LidarPerception
     from ..perception.pipeline import Perception
     from ..robots.forward_kinematics import ForwardKinematics
 
 StepAt = Callable[[float], CurrentStep]
-CORRECTION = 0.5  # of the attitude filter by the accelerometer, in [1/s]
 
 
 class PlayersInSight(NamedTuple):
@@ -49,6 +45,11 @@ class SightSource:
     @property
     def forward(self) -> "ForwardKinematics | None":
         """Kinematics of the body that it measures, if it does."""
+        return None
+
+    @property
+    def cameras(self) -> "Perception | None":
+        """Perception by cameras, if it has one."""
         return None
 
     def see(
@@ -127,65 +128,3 @@ class SightOfPlayers(SightSource):
             target=self._target,
             present=self._chosen,
         )
-
-
-class LidarSight(SightSource):
-    """Sightings from scans of a lidar, relative to the support foot.
-
-    The pose of a sensor uses the torso tilt that balance estimates; without
-    an estimate, an attitude filter of its own.
-    """
-
-    perception: "Perception | LidarPerception"
-
-    def __init__(
-        self, perception: "Perception | LidarPerception", *, tick: float
-    ) -> None:
-        """Wrap a perception, at a control period in [s]."""
-        self.perception = perception
-        self._attitude = AttitudeFilter(CORRECTION, 0.0, calibration=0.0)
-        self._tick = tick
-
-    def see(
-        self,
-        measurement: RobotState,
-        step: StepAt,
-        tilt: tuple[float, float] | None,
-    ) -> Sighting | None:
-        """Return the sighting by the images or scans so far."""
-        if tilt is None:
-            own = self._attitude
-            gyro, force = measurement.gyro, measurement.accelerometer
-            own.update(gyro, force, (0.0, 0.0), self._tick)
-            tilt = own.roll, own.pitch
-        made = step(measurement.time)
-        left_supports = made.swing is Foot.RIGHT
-        return self.perception.see(
-            measurement, made.support, left_supports, tilt
-        )
-
-
-class CameraSight(LidarSight):
-    """Sightings from images, with a head that looks at the opponent."""
-
-    perception: "Perception"
-
-    @property
-    def turning(self) -> float:
-        """Turn on the spot for a scan: 1 left, -1 right, or 0."""
-        return self.perception.head.turning
-
-    @property
-    def views(self) -> tuple[Sector, ...]:
-        """Range of the head, and views of the cameras on the torso."""
-        return self.perception.views
-
-    @property
-    def forward(self) -> "ForwardKinematics | None":
-        """Kinematics of the body that the camera looks from."""
-        body = self.perception.kinematics
-        return None if body is None else body.forward
-
-    def aim(self, targets: Array) -> None:
-        """Turn the head to the last known position of the opponent."""
-        self.perception.aim(targets)

@@ -8,7 +8,10 @@ from math import tau
 from numbers import Integral, Real
 from pathlib import Path
 from typing import Any
+from unicodedata import category
 
+# Unicode categories: control, format, surrogate, line and paragraph separator.
+INVISIBLE = {"Cc", "Cf", "Cs", "Zl", "Zp"}
 AnyPath = str | os.PathLike[str]
 
 # Outside this range cubes and ratios may overflow a double; no length, time
@@ -53,6 +56,20 @@ class OutputError(StepAsideError, OSError):
 
 class CampaignError(StepAsideError, RuntimeError):
     """A campaign cannot go on: its workers are lost or do not fit."""
+
+
+def visible(text: str, *, but: str = "") -> str:
+    r"""Escape invisible characters, like ``\x1b`` for escape, ``but`` some.
+
+    The text may contain lone surrogates, as file names that are not valid
+    UTF-8 do.
+    """
+    return "".join(
+        c.encode("unicode_escape").decode("ascii")
+        if category(c) in INVISIBLE and c not in but
+        else c
+        for c in text
+    )
 
 
 def shown(value: object) -> str:

@@ -6,7 +6,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from ..control.scheme import ControlScheme, build_scheme
-from ..control.sight_sources import CameraSight, MeasuredSight, SightSource
+from ..control.sensor_sight import CameraSight
+from ..control.sight_sources import MeasuredSight, SightSource
 from ..control.strategy_runner import StrategyRunner
 from ..core.errors import ConfigurationError, ModelError
 from ..core.poses import Array

@@ -298,11 +298,15 @@ class FloorWorld:
         self.acting = ""
         self._seen = {name: own.pose for name, own in self.motions.items()}
         self._obstacles = obstacles
-        self._bodies = {
-            name: own
-            for name, own in self.motions.items()
-            if name in bodies and obstacles and isinstance(own, FloorWalk)
-        }
+        self._bodies = (
+            {}
+            if obstacles is NO_OBSTACLES
+            else {
+                name: own
+                for name, own in self.motions.items()
+                if name in bodies and isinstance(own, FloorWalk)
+            }
+        )
 
     def states(self) -> dict[str, Pose]:
         """Return the pose of each player in the world, by name."""

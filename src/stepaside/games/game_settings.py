@@ -5,7 +5,7 @@ from dataclasses import dataclass, fields, replace
 from math import pi
 from typing import Any
 
-from ..arena import OPEN_FLOOR, ObstacleSet, Room
+from ..arena import NO_OBSTACLES, ObstacleSet, Room
 from ..core.brief_repr import brief_repr
 from ..core.errors import ConfigurationError, check_within
 from ..core.player_identity import PlayerIdentity, Role
@@ -240,7 +240,7 @@ class GameSettings:
     @property
     def solids(self) -> ObstacleSet:
         """Obstacles of the room, walls included."""
-        return (self.room or OPEN_FLOOR).solid_set
+        return self.room.solid_set if self.room else NO_OBSTACLES
 
     def player(self, name: str) -> PlayerSettings:
         """Return the settings of the player with a name."""

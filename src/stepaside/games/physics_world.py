@@ -10,10 +10,8 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import mujoco
 
-from ..control.scheme import ControlScheme, VelocityScheme, build_walk
+from ..control.scheme import ControlScheme, build_walk
 from ..control.sight_sources import (
-    CameraSight,
-    LidarSight,
     MeasuredSight,
     SightOfPlayers,
     SightSource,
@@ -43,7 +41,7 @@ from .game import Outcome
 from .game_furnishing import colours_of_players, furnish_game
 from .game_settings import GameSettings
 from .player_settings import PlayerSettings
-from .players import Player, RobotPlayer, VelocityWalker
+from .players import Player, RobotPlayer
 
 if TYPE_CHECKING:
     from ..locomotion.guard import ClearanceSetup
@@ -149,6 +147,9 @@ def place_robot(
         )
         robot = setup.place(world, walk.kinematics)
     if strategy is None:
+        from ..control.velocity_scheme import VelocityScheme
+        from .velocity_walker import VelocityWalker
+
         scheme = VelocityScheme(walk)
         return VelocityWalker(robot, scheme, setup.start, setup.description)
     runner = StrategyRunner(
@@ -422,6 +423,8 @@ class PhysicsWorld(World):
         settings, tick, own = self._settings, self.physics.tick, setup.own
         source: SightSource = MeasuredSight()
         if own.senses == "cameras":
+            from ..control.sensor_sight import CameraSight
+
             assert self._senses is not None
             seen = self._senses.perceptions.get(own.name)
             if seen is not None:
@@ -429,6 +432,7 @@ class PhysicsWorld(World):
             eyes = self._senses.eyes_of(self, own.name)
             return setup._replace(source=source, eyes=eyes)
         if own.senses == "lidar":
+            from ..control.sensor_sight import LidarSight
             from ..perception.lidar_perception import LidarPerception
             from ..sim.ranging import Lidar
 

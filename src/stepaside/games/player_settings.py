@@ -114,6 +114,10 @@ class RobotSettings:
             evasion = replace(evasion, trigger="time" if soon else "distance")
         feedback, method = self.control.feedback, self.control.method
         fast = self.gait.is_fast
+        if feedback is False and method in ("measured", "mpc"):
+            raise ConfigurationError(
+                f"method {method!r} needs feedback = true, got false"
+            )
         if feedback is None:  # plans from the measured state need it, too
             planned = method in (None, "closed-form")
             feedback = fast or body != IDEAL or not planned

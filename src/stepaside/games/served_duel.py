@@ -8,9 +8,9 @@ from typing import TYPE_CHECKING, NamedTuple
 from ..core.errors import ConfigurationError
 from .game import GameInPlay, GameObserver, Progress, play
 from .game_settings import GameSettings
-from .players import VelocityWalker
 from .recorded_game import RecordedGame
 from .run import Run
+from .velocity_walker import VelocityWalker
 
 if TYPE_CHECKING:
     from ..drivers.ros2_dds import DdsParticipant

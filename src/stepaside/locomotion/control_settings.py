@@ -3,9 +3,8 @@
 from dataclasses import dataclass
 from typing import Literal, get_args
 
-from ..core.errors import ConfigurationError, shown
 from ..core.ranges import Range
-from ..core.setting import CheckedSettings, check_settings, setting
+from ..core.setting import CheckedSettings, setting
 
 Method = Literal["closed-form", "measured", "mpc"]
 METHODS: tuple[str, ...] = get_args(Method)
@@ -143,7 +142,7 @@ class MpcSettings(CheckedSettings, prefix="mpc."):
 
 
 @dataclass(frozen=True, slots=True)
-class ControlSettings:
+class ControlSettings(CheckedSettings):
     """Method and feedback of walking control.
 
     Method and feedback that are None are decided by gait and body; see
@@ -175,18 +174,6 @@ class ControlSettings:
         "Horizon and weights of the MPC",
         needs=("control.method", "mpc"),
     )
-
-    def __post_init__(self) -> None:
-        """Validate the settings."""
-        check_settings(self)
-        if not isinstance(self.feedback, bool | None):
-            raise ConfigurationError(
-                f"feedback must be true or false, got {shown(self.feedback)}"
-            )
-        if self.feedback is False and self.method in ("measured", "mpc"):
-            raise ConfigurationError(
-                f"method {self.method!r} needs feedback = true, got false"
-            )
 
 
 OPEN_LOOP = ControlSettings("closed-form", False)

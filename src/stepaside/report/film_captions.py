@@ -7,12 +7,12 @@ from typing import Any
 
 import numpy as np
 
+from ..core.errors import visible
 from ..core.poses import Array
 from ..games.game import Outcome
 from ..games.run import Run
 from ..perception.images import Pixels
 from .palette import PALETTES
-from .text_escaping import visible
 
 MIN_HEIGHT = 240  # of an image with legible text, in [pixels]
 FONT_SIZE = 1.0 / 30.0  # fraction of the height of an image

@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..core.atomic_output import atomic_draft
-from ..core.errors import AnyPath, ConfigurationError, as_path
+from ..core.errors import AnyPath, ConfigurationError, as_path, visible
 from ..core.poses import Array
 from ..games.run import Run
 from ..games.trajectory import whole_cycles
@@ -20,7 +20,7 @@ from .film_captions import describe_state
 from .overlays import LAYERS, overlays_of
 from .palette import PALETTES, colours_in
 from .scene import RunScene, wall_corners
-from .text_escaping import fill_page, visible
+from .text_escaping import fill_page
 from .visual_geoms import label_over, visual_geoms_of
 
 ARCHIVE = "templates/viewer.zip"  # of trimesh

@@ -11,27 +11,12 @@ from base64 import b64encode
 from collections.abc import Mapping
 from hashlib import sha256
 from typing import Any
-from unicodedata import category
 
-# Unicode categories: control, format, surrogate, line and paragraph separator.
-INVISIBLE = {"Cc", "Cf", "Cs", "Zl", "Zp"}
+from ..core.errors import visible
+
 PLACEHOLDER = re.compile("@@([A-Z]+)@@")
 INLINE = re.compile(r"<(script|style)>(.*?)</\1>", re.DOTALL)
 ACTIVE = {ord(c): f"\\u{ord(c):04x}" for c in "<>&\u2028\u2029"}
-
-
-def visible(text: str, *, but: str = "") -> str:
-    r"""Escape invisible characters, like ``\x1b`` for escape, ``but`` some.
-
-    The text may contain lone surrogates, as file names that are not valid
-    UTF-8 do.
-    """
-    return "".join(
-        c.encode("unicode_escape").decode("ascii")
-        if category(c) in INVISIBLE and c not in but
-        else c
-        for c in text
-    )
 
 
 def for_figure(text: str) -> str:

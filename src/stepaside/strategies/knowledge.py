@@ -144,6 +144,12 @@ class Knowledge:
         return x + distance * cos(sight), y + distance * sin(sight)
 
     @property
+    def knows_obstacles(self) -> bool:
+        """Whether it knows of any obstacle."""
+        known = self.obstacles_in_map
+        return known is not NO_OBSTACLES and bool(known)
+
+    @property
     def opponents(self) -> tuple[OtherPlayer, ...]:
         """The others that have an opposing role."""
         own = self.identity

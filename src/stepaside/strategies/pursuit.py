@@ -102,7 +102,7 @@ class Pursuit(CheckedSettings):
         if self.lead or self.pull or self.noise:
             seen = self._aimed(knowledge, memory.track)
         bearing = seen.bearing
-        if seen.obstacles_in_map:
+        if seen.knows_obstacles:
             bearing = self.path_bearing(seen, memory.side)
             aside = wrap_angle(bearing - seen.bearing)
             if abs(aside) > DETOUR:
@@ -157,7 +157,7 @@ class Pursuit(CheckedSettings):
 
     def _is_blocked(self, knowledge: Knowledge) -> bool:
         """Return whether the next straight steps violate the clearance."""
-        if not knowledge.obstacles_in_map:
+        if not knowledge.knows_obstacles:
             return False
         x, y, theta = knowledge.pose_in_map
         ahead = FREE_STRIDES * knowledge.limits.stride

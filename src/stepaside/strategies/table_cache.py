@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from ..core.atomic_output import atomic_draft
-from ..core.compilation import cache_folder
+from ..core.compiled_cache import cache_folder
 from ..core.poses import Array
 from ..theory.value import CarGame, ValueTable, solve_cars
 from ..theory.value.table import UNREADABLE

@@ -1,0 +1,119 @@
+"""Simulated robot that another process lets walk at velocities."""
+
+import logging
+from typing import TYPE_CHECKING
+
+from ..control.velocity_scheme import VelocityScheme
+from ..core.poses import Pose, wrap_angle
+from ..perception.images import ColourImage
+from ..perception.measurement import RobotState, Sighting
+from ..planning import Foot
+from ..robots.description import RobotDescription
+from ..robots.forward_kinematics import ForwardKinematics, torso_pose_on_foot
+from ..sim.simulated_robot import SimulatedRobot
+from ..strategies.velocity_set import BodyVelocity
+from .players import RobotPlayer
+
+if TYPE_CHECKING:
+    from ..drivers.ros2_server import BodyPlace
+
+log = logging.getLogger(__name__)
+
+
+class VelocityWalker(RobotPlayer):
+    """Simulated robot that walks at velocities that another process commands.
+
+    Attributes:
+        description: Description of the robot.
+    """
+
+    scheme: VelocityScheme
+
+    def __init__(
+        self,
+        robot: SimulatedRobot,
+        scheme: VelocityScheme,
+        frame: Pose,
+        description: RobotDescription,
+    ) -> None:
+        """Combine a robot and its controller."""
+        super().__init__(robot, scheme, frame)
+        self.description = description
+        self._forward = ForwardKinematics(description)
+        self._image: ColourImage | None = None
+        self._measured: tuple[int, RobotState] | None = None
+        self._ignores_lateral = False
+
+    def command(self, velocity: BodyVelocity) -> None:
+        """Walk at a velocity from the next tick on.
+
+        A walk by maneuvers has no sidesteps.
+        """
+        self.scheme.command(velocity)
+        ignores = velocity.lateral and not self.velocity.lateral
+        if ignores and not self._ignores_lateral:
+            self._ignores_lateral = True
+            log.warning(
+                "%s does not step sideways; its lateral velocity is ignored",
+                self.name,
+            )
+
+    @property
+    def velocity(self) -> BodyVelocity:
+        """Velocity that it follows."""
+        return self.scheme.velocity
+
+    def tick(self) -> None:
+        """Walk at the commanded velocity."""
+        self.robot.write(self.scheme.update(self.measure()))
+
+    def measure(self) -> RobotState:
+        """Return the measurement of this tick, and keep its last image.
+
+        Noise is drawn once.
+        """
+        ticks = self.robot.world.ticks
+        if self._measured is None or self._measured[0] != ticks:
+            self._measured = ticks, self.robot.read()
+        measured = self._measured[1]
+        for percept in measured.percepts:
+            if isinstance(percept, ColourImage):
+                self._image = percept
+        return measured
+
+    def state(self) -> RobotState:
+        """Return the state that the robot reports to its client."""
+        measured = self.measure()
+        return RobotState(
+            measured.time,
+            measured.joint_positions,
+            sighting=self._seen(measured.sighting),
+            percepts=() if self._image is None else (self._image,),
+            pose=self.scheme.decisions.templates.at(measured.time),
+        )
+
+    def _seen(self, sighting: Sighting | None) -> Sighting | None:
+        """Return a sighting with its bearing relative to the template."""
+        if sighting is None:
+            return None
+        scheme, time = self.scheme, sighting.time
+        past = scheme.decisions
+        turned = past.headings.at(time) - past.templates.at(time).theta
+        bearing = wrap_angle(turned + sighting.bearing)
+        return Sighting(time, bearing, sighting.distance)
+
+    def torso(self) -> "BodyPlace":
+        """Return the pose of the torso by the stance foot and the tilt."""
+        measured, walk = self.measure(), self.scheme.locomotion
+        step, tilt = walk.step(measured.time), walk.tilt or (0.0, 0.0)
+        torso = torso_pose_on_foot(
+            self._forward.posture(measured.joint_positions),
+            0 if step.swing is Foot.RIGHT else 1,
+            step.support,
+            tilt,
+        )
+        x, y, z = torso.position_in_odometry.tolist()
+        place = Pose(x, y, torso.heading_in_odometry)
+        template = self.scheme.decisions.templates.at(measured.time)
+        planar = template.inverse().compose(place)
+        return (planar.x, planar.y, z), (*tilt, wrap_angle(planar.theta))
