@@ -128,6 +128,13 @@ def test_links_move_as_in_the_model(robot: str, tmp_path: Path) -> None:
         np.testing.assert_allclose(found, expected, atol=1e-7)
 
 
+def test_a_body_may_have_the_name_of_a_frame(tmp_path: Path) -> None:
+    text = ODD.replace('"upper"', f'"{BASE}"').replace('"tip"', '"imu_link"')
+    model = loaded(urdf_of(odd_robot(tmp_path, text)))
+    assert model.body("imu_link_body").parentid == model.body("lower").id
+    assert model.body(f"{BASE}_body").id != model.body(BASE).id
+
+
 def test_an_optical_frame_looks_along_z() -> None:
     data = mujoco.MjData(copy := loaded(urdf_of(load_robot("nao"))))
     mujoco.mj_kinematics(copy, data)

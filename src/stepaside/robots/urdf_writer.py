@@ -26,6 +26,7 @@ SOLES = ("l_sole", "r_sole")  # as in REP 120
 IMU = "imu_link"
 OPTICAL = "_optical_frame"  # z forward, x right, as in REP 103
 CAMERA_AXES = np.array([[0.0, 0.0, 1.0], [-1.0, 0.0, 0.0], [0.0, -1.0, 0.0]])
+FRAMES = (BASE, *SOLES, IMU, "camera", "depth_camera")
 VISIBLE_GROUP = 2  # geoms of higher groups are not drawn
 _GEOMS = mujoco.mjtGeom
 Placement = tuple[Array, Array]  # position [m] and axes as columns
@@ -38,10 +39,10 @@ def urdf_of(
     """Return the URDF of a robot, as XML text.
 
     The root is ``base_link``, at the origin of the torso. Links have the
-    names of their bodies; the frame of one that moves is at its joint, and
-    parallel to the torso in the zero posture. The soles are ``l_sole`` and
-    ``r_sole``; cameras of a described head have a frame each, with an optical
-    frame.
+    names of their bodies, with ``_body`` added to one that is taken; the frame
+    of one that moves is at its joint, and parallel to the torso in the zero
+    posture. The soles are ``l_sole`` and ``r_sole``; cameras of a described
+    head have a frame each, with an optical frame.
     """
     writer = _UrdfWriter(description, colour)
     writer.add_links()
@@ -81,6 +82,7 @@ class _UrdfWriter:
         for body in under.tolist():
             link, moves = self._link_of(body), model.body_weldid[body] == body
             name = model.body(body).name or f"body_{body}"
+            name += "_body" if name in FRAMES else ""
             pose = self._in_link(link, data.xpos[body], data.xmat[body])
             if moves:
                 bodiless.discard(link)
