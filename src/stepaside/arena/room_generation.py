@@ -1,5 +1,6 @@
 """Random rooms and initial poses, and the free space between."""
 
+from dataclasses import replace
 from itertools import combinations
 from math import pi, radians, tau
 from typing import Any
@@ -73,7 +74,7 @@ def generate_room(recipe: RoomRecipe, seed: int) -> Room:
     """Draw a random room of obstacles that do not overlap, with poses."""
     random = named_generator(seed, "room")
     doors: list[Door] = []
-    for _ in range(recipe.doors):
+    while len(doors) < recipe.doors:
         doors.append(_draw_door(recipe, doors, random))
     obstacles: list[Obstacle] = []
     kinds = (
@@ -99,13 +100,10 @@ def generate_room(recipe: RoomRecipe, seed: int) -> Room:
         else:
             raise _full(recipe, f"{len(kinds)} obstacles")
     room = Room(recipe.width, recipe.depth, tuple(obstacles), tuple(doors))
-    starts = draw_initial_poses(room, seed)
-    return Room(room.width, room.depth, room.obstacles, room.doors, starts)
+    return replace(room, starts=draw_initial_poses(room, seed))
 
 
-def draw_initial_poses(
-    room: Room, seed: int, radius: float = BODY_RADIUS
-) -> tuple[Pose, Pose]:
+def draw_initial_poses(room: Room, seed: int) -> tuple[Pose, Pose]:
     """Draw initial poses of pursuer and evader in a room.
 
     They are 0.6 m to 1.5 m apart, the pursuer within 90 degrees of facing
@@ -113,6 +111,7 @@ def draw_initial_poses(
     free line of sight, a path, and clearance for the tightest turn by (2).
     """
     random, solids = named_generator(seed, "room starts"), room.solid_set
+    radius = BODY_RADIUS
     half = 0.5 * np.array([room.width or 0.0, room.depth or 0.0])
     for _ in range(MAX_DRAWS):
         place = half * random.uniform(-1.0, 1.0, 2)
