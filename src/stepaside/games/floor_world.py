@@ -87,20 +87,21 @@ class FloorAgent(DecisionMaker):
     ) -> Knowledge | None:
         """Return the knowledge at a time, in [s]; None without others."""
         own = seen[self.identity.name]
-        known = {who: self._other(who, now, own, seen) for who in self._ids}
+        known = tuple(self._other(who, now, own, seen) for who in self._ids)
         if not known:
             return None
-        self._before = now, seen
-        present = choose_opponent(
-            self.identity,
-            {who: other.distance for who, other in known.items()},
-            target=self._target,
-            present=self._present,
-        )
-        if present != self._present:
-            self._present = present
-            self.reset_rates()
-        opponent = next(o for who, o in known.items() if who.name == present)
+        self._before, opponent = (now, seen), known[0]
+        if len(known) > 1:
+            present = choose_opponent(
+                self.identity,
+                {each.identity: each.distance for each in known},
+                target=self._target,
+                present=self._present,
+            )
+            if present != self._present:
+                self._present = present
+                self.reset_rates()
+            opponent = next(o for o in known if o.identity.name == present)
         return self.observe(
             now,
             own,
@@ -108,7 +109,7 @@ class FloorAgent(DecisionMaker):
             moving=moving,
             obstacles=self.obstacles,
             velocity=opponent.velocity,
-            others=tuple(known.values()),
+            others=known,
         )
 
     def _other(
@@ -121,7 +122,8 @@ class FloorAgent(DecisionMaker):
         velocity = None
         if before and now > then:
             was = before[who.name]
-            rates = (x - was.x) / (now - then), (y - was.y) / (now - then)
+            passed = now - then
+            rates = (x - was.x) / passed, (y - was.y) / passed
             velocity = turned(rates, -own.theta)
         bearing = wrap_angle(atan2(dy, dx) - own.theta)
         return OtherPlayer(who, bearing, hypot(dx, dy), velocity)
