@@ -56,6 +56,7 @@ if TYPE_CHECKING:
 
 
 ORIGIN = Pose(0.0, 0.0, 0.0)
+NOWHERE = Sighting(0.0, 0.0, inf)  # without an opponent
 
 
 class RobotSetup(NamedTuple):
@@ -146,20 +147,27 @@ def place_robot(
             forward=source.forward,
         )
         robot = setup.place(world, walk.kinematics)
+    velocities = None if walk.maneuvers else walk.velocities
+    start = setup.start
     if strategy is None:
-        from ..control.velocity_scheme import VelocityScheme
-        from .velocity_walker import VelocityWalker
+        from .velocity_walker import CommandedVelocity, VelocityWalker
 
-        scheme = VelocityScheme(walk)
-        return VelocityWalker(robot, scheme, setup.start, setup.description)
+        source = MeasuredSight(NOWHERE)
+        runner = StrategyRunner(
+            CommandedVelocity(own.gait, velocities),
+            own.gait,
+            velocities=velocities,
+        )
+        scheme = ControlScheme(runner, walk, source)
+        return VelocityWalker(robot, scheme, start, setup.description)
     runner = StrategyRunner(
         with_body_radius(strategy, setup),
         own.gait,
         known and known.surroundings,
-        velocities=None if walk.maneuvers else walk.velocities,
+        velocities=velocities,
         views=source.views,
     )
-    return RobotPlayer(robot, ControlScheme(runner, walk, source), setup.start)
+    return RobotPlayer(robot, ControlScheme(runner, walk, source), start)
 
 
 def with_body_radius(strategy: Strategy, setup: RobotSetup) -> Strategy:
@@ -443,7 +451,7 @@ class PhysicsWorld(World):
                 eyes=Lidar(self, own.name, torso, lidar, settings.seed),
             )
         if len(settings.players) == 1:
-            source = MeasuredSight(Sighting(0.0, 0.0, inf))
+            source = MeasuredSight(NOWHERE)
             return setup._replace(source=source)
         truths = self._truths
         sights = tuple(

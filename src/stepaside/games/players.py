@@ -1,6 +1,5 @@
 """Players of a game in physics: simulated robots, and others."""
 
-import logging
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -17,8 +16,6 @@ from ..sim.simulated_robot import SimulatedRobot
 
 if TYPE_CHECKING:
     from ..perception.pipeline import Perception
-
-log = logging.getLogger(__name__)
 
 AT_ONCE = 1.0  # a fall until then is one of the policy, in [s]
 

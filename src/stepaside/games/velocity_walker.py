@@ -1,23 +1,79 @@
-"""Simulated robot that another process lets walk at velocities."""
+"""Robots that walk at velocities that another process commands."""
 
 import logging
+from math import pi
 from typing import TYPE_CHECKING
 
-from ..control.velocity_scheme import VelocityScheme
+from ..control.scheme import ControlScheme
 from ..core.poses import Pose, wrap_angle
+from ..locomotion.maneuver_walk import velocity_limits
 from ..perception.images import ColourImage
 from ..perception.measurement import RobotState, Sighting
-from ..planning import Foot
+from ..planning import Direction, Foot, GaitSettings
 from ..robots.description import RobotDescription
 from ..robots.forward_kinematics import ForwardKinematics, torso_pose_on_foot
 from ..sim.simulated_robot import SimulatedRobot
-from ..strategies.velocity_set import BodyVelocity
+from ..strategies.knowledge import STAND, Intent, Knowledge
+from ..strategies.velocity_set import STILL, BodyVelocity, VelocitySet
 from .players import RobotPlayer
 
 if TYPE_CHECKING:
     from ..drivers.ros2_server import BodyPlace
 
 log = logging.getLogger(__name__)
+
+SLOW = 1e-3  # speed [m/s] or turning rate [rad/s] that counts as zero
+IN_PLACE = 1e-3  # speed factor of a turn on the spot
+
+
+class CommandedVelocity:
+    """Strategy that walks at a velocity, which is replaced from outside.
+
+    Learned legs follow the velocity itself. A walk by maneuvers has no
+    sidesteps, and halts before it reverses its direction.
+
+    Attributes:
+        command: The velocity, also one that is too fast.
+    """
+
+    saturated = False
+
+    def __init__(self, gait: GaitSettings, legs: VelocitySet | None) -> None:
+        """Stand, on learned legs or by maneuvers of a gait."""
+        self._limits, self._legs = velocity_limits(gait), legs
+        self.direction, self.command = Direction.FORWARD, STILL
+
+    @property
+    def velocity(self) -> BodyVelocity:
+        """Velocity that it follows: the nearest, or slower on the path."""
+        if self._legs is not None:
+            return self._legs.nearest(self.command)
+        (forward, _, turn), (speed, rate) = self.command, self._limits
+        share = 1.0 / max(1.0, abs(forward) / speed, abs(turn) / rate)
+        return BodyVelocity(share * forward, 0.0, share * turn)
+
+    def begin(self) -> None:
+        """Return no memory."""
+
+    def decide(
+        self, knowledge: Knowledge, memory: None
+    ) -> tuple[Intent, None]:
+        """Return the step that follows the command."""
+        velocity = self.velocity
+        if self._legs is not None:
+            walks = velocity != STILL
+            return Intent(velocity=velocity) if walks else STAND, None
+        (forward, _, turn), (speed, rate) = velocity, self._limits
+        under_way = self.direction if knowledge.moving else None
+        wanted = Direction.FORWARD if forward >= 0.0 else Direction.BACKWARD
+        if abs(forward) < SLOW:
+            wanted = under_way or Direction.FORWARD
+        rests = abs(forward) < SLOW and abs(turn) < SLOW
+        if rests or under_way not in (None, wanted):
+            return STAND, None
+        self.direction = wanted
+        share = max(IN_PLACE, min(1.0, abs(forward) / speed))
+        return Intent(pi * turn / rate, share), None
 
 
 class VelocityWalker(RobotPlayer):
@@ -27,18 +83,20 @@ class VelocityWalker(RobotPlayer):
         description: Description of the robot.
     """
 
-    scheme: VelocityScheme
-
     def __init__(
         self,
         robot: SimulatedRobot,
-        scheme: VelocityScheme,
+        scheme: ControlScheme,
         frame: Pose,
         description: RobotDescription,
     ) -> None:
         """Combine a robot and its controller."""
         super().__init__(robot, scheme, frame)
         self.description = description
+        strategy = scheme.decisions.strategy
+        assert isinstance(strategy, CommandedVelocity)
+        self._strategy = strategy
+        scheme.decisions.headings.note(0.0, self.walk.torso_heading)
         self._forward = ForwardKinematics(description)
         self._image: ColourImage | None = None
         self._measured: tuple[int, RobotState] | None = None
@@ -49,7 +107,7 @@ class VelocityWalker(RobotPlayer):
 
         A walk by maneuvers has no sidesteps.
         """
-        self.scheme.command(velocity)
+        self._strategy.command = velocity
         ignores = velocity.lateral and not self.velocity.lateral
         if ignores and not self._ignores_lateral:
             self._ignores_lateral = True
@@ -61,7 +119,7 @@ class VelocityWalker(RobotPlayer):
     @property
     def velocity(self) -> BodyVelocity:
         """Velocity that it follows."""
-        return self.scheme.velocity
+        return self._strategy.velocity
 
     def tick(self) -> None:
         """Walk at the commanded velocity."""
