@@ -208,7 +208,7 @@ def test_a_vector_environment_can_be_pickled() -> None:
 
 
 def test_learners_must_differ(file: Path) -> None:
-    with pytest.raises(sa.StepAsideError, match="learners must differ"):
+    with pytest.raises(sa.StepAsideError, match="learners must be different"):
         ParallelGame(file, learners=["blue", "blue"])
 
 

@@ -14,10 +14,9 @@ except ModuleNotFoundError as error:
     hint = install_hint(error)
     raise ModuleNotFoundError(hint, name=error.name) from error
 
-from .duel_env import DuelEnv
+from .duel_env import DuelEnv, VectorDuel
 from .environment_settings import EnvironmentSettings
 from .parallel_games import ParallelDuel, ParallelGame
-from .vector_duel import VectorDuel
 
 IDS = {"stepaside/Evade-v0": "evader", "stepaside/Pursue-v0": "pursuer"}
 for _id, _role in IDS.items():

@@ -1,16 +1,54 @@
-"""Gymnasium environment of one player of a duel against a strategy."""
+"""Gymnasium environments of one player of a duel: a game, and many."""
 
+from collections.abc import Sequence
+from math import ceil, floor, pi
 from typing import Any, ClassVar
 
 import gymnasium
+import numpy as np
+from gymnasium.vector import AutoresetMode, VectorEnv
+from gymnasium.vector.utils import batch_space
+from numpy.typing import NDArray
 
-from ..core.errors import ConfigurationError, check_choice, shown
+from ..arena.obstacles import ObstacleSet
+from ..core.errors import (
+    ConfigurationError,
+    PlanError,
+    check_choice,
+    check_within,
+    shown,
+)
 from ..games.player_settings import PLAYERS
+from ..games.strategy_games import StepGame
+from ..strategies.evasion import Evasion
+from ..strategies.learned import LearnedStrategy
+from ..strategies.pursuit import Pursuit
 from ..strategies.registry import load_strategy
-from ..strategies.strategy import Strategy
-from .environment_settings import direction_of
+from ..strategies.strategy import StandStill, Strategy
+from .environment_settings import (
+    ALL_TERMS,
+    SEEDS,
+    STRIDE,
+    EnvironmentSettings,
+    IntentActions,
+    direction_of,
+    observation_space,
+)
 from .parallel_games import ParallelDuel, Row
+from .step_batch import (
+    TERM_CODES,
+    BatchLaw,
+    BatchRules,
+    BatchState,
+    RoomBatch,
+    advance_games,
+    decide_by_law,
+    observe_games,
+    start_games,
+)
 
+LARGEST_TURN = 0.8  # between two decisions, of the series of the kernel
+Integers = NDArray[np.int64]
 USUAL = {"evader": "pursuit", "pursuer": "evasion"}  # opponent of a role
 
 
@@ -100,3 +138,241 @@ class DuelEnv(gymnasium.Env[Row, Any]):
     def close(self) -> None:
         """End the episode and release its resources."""
         self._both.close()
+
+
+def rules_of(game: StepGame) -> BatchRules:
+    """Return the rules of a game as numbers."""
+    parts, share = game.decisions, game.gain * game.period
+    if pi * share / parts > LARGEST_TURN:
+        raise ConfigurationError(
+            "turns of game.gain must be at most "
+            f"{LARGEST_TURN * parts:g} [rad] for many games, got "
+            f"{pi * share:g}"
+        )
+    if game.limits[0] != game.limits[1]:
+        raise ConfigurationError(
+            "game.pursuer_speed_ratio and game.pursuer_gain_ratio must be 1 "
+            "for many games"
+        )
+    return BatchRules(
+        game.stride / parts,
+        share,
+        float(parts),
+        game.period / parts,
+        game.speed,
+        game.gain,
+        game.capture,
+        game.body_radius,
+        game.count,
+        # Of strategies.opponent_track, in decisions.
+        floor(2.25 * parts + 1e-9),
+        ceil(0.75 * parts + 1e-9),
+    )
+
+
+def law_of(strategy: Strategy) -> BatchLaw:
+    """Return the law of a strategy as numbers, if the kernel knows it."""
+    if isinstance(strategy, Pursuit):
+        more = strategy.pull, strategy.lead, strategy.noise, strategy.waiting
+        if not any(more):
+            return BatchLaw(strategy.gain)
+    if type(strategy) is Evasion and strategy.trigger != "time":
+        return BatchLaw(
+            angle=strategy.angle,
+            safety_radius=strategy.safety_radius,
+            release=strategy.release_distance,
+            hysteresis=strategy.side_hysteresis,
+        )
+    if type(strategy) is StandStill:
+        return BatchLaw()  # it evades at no distance
+    raise ConfigurationError(
+        "opponent of many games must be evasion with the trigger distance, "
+        "pursuit of any gain, sharp, stand or FILE.onnx, got a "
+        f"{type(strategy).__name__}; others play in vectorization_mode "
+        "'sync' or 'async'"
+    )
+
+
+def codes_of(terms: Sequence[str]) -> Integers:
+    """Return the codes of terms for the kernel."""
+    return np.array([TERM_CODES[name] for name in terms], dtype=np.int64)
+
+
+class VectorDuel(VectorEnv[Row, Any, Any]):
+    """Many games of :class:`.DuelEnv`, without Python per game.
+
+    Game i with seed s is the game of a single environment with seed s. It is
+    reset in the step that ends it (``AutoresetMode.SAME_STEP``): the
+    observation is then the first of the next episode, the last one of the
+    episode is in ``info["final_obs"]``.
+
+    Attributes:
+        role: "pursuer" or "evader".
+        settings: Settings of the environment.
+    """
+
+    metadata: ClassVar[dict[str, Any]] = {  # type: ignore[misc]
+        "autoreset_mode": AutoresetMode.SAME_STEP,
+        "render_modes": [],
+    }
+
+    def __init__(
+        self,
+        num_envs: int = 1,
+        *,
+        role: str,
+        opponent: str | Strategy | None = None,
+        render_mode: str | None = None,
+        **settings: Any,
+    ) -> None:
+        """Build so many games, with fields of :class:`.EnvironmentSettings`.
+
+        The opponent is evasion, pursuit of any gain, sharp, stand, FILE.onnx,
+        or such a strategy; many games are not drawn.
+        """
+        check_choice(role, PLAYERS, "role")
+        if render_mode is not None:
+            raise ConfigurationError(
+                "render_mode must be None for many games, got "
+                f"{render_mode!r:.40}"
+            )
+        self.role, self.settings = role, EnvironmentSettings(**settings)
+        given, error = self.settings, ConfigurationError
+        if given.level == "physics":
+            raise error(
+                "level must be unicycle or steps for compiled games, got "
+                "physics, which plays in vectorization_mode 'sync' or 'async'"
+            )
+        check_within(num_envs, 1, 1_000_000, "num_envs", "1", error)
+        self.num_envs = number = int(num_envs)
+        self._own, self._other = (0, 1) if role == "pursuer" else (1, 0)
+        self._rules = rules = rules_of(given.step_game)
+        (strategy,) = load_opponent(opponent, role).values()
+        self._opponent = (
+            strategy
+            if isinstance(strategy, LearnedStrategy)
+            else law_of(strategy)
+        )
+        self._saturated = np.zeros(2, np.bool_)
+        self._saturated[self._other] = strategy.saturated
+        rooms, starts = given.draw_arenas()
+        solids = [room.solid_set.shapes for room in rooms]
+        whole = ObstacleSet(tuple(s for shapes in solids for s in shapes))
+        firsts = np.cumsum([0, *map(len, solids)])
+        self._rooms = RoomBatch(whole.packed, firsts)
+        x, y, heading = np.moveaxis(np.array(starts, np.float64), -1, 0)
+        axes = x, y, np.cos(heading), np.sin(heading)
+        self._starts = np.stack(axes, axis=-1)
+        history = 1 << rules.lag.bit_length()  # above lag, a power of two
+        self._state = BatchState(
+            np.zeros((number, 2, 4)),
+            np.zeros((number, history, 3)),
+            np.zeros(number, np.int64),
+            np.zeros((number, 2), np.int64),
+            np.zeros((number, 2), np.bool_),
+            np.zeros(number),
+            np.zeros(number, np.int64),
+            np.zeros(number, np.bool_),
+        )
+        self._intents = np.zeros((number, 2, 2))
+        self._seeds: Integers | None = None  # of the present episodes
+        self._actions = IntentActions(given)
+        self.single_action_space = self._actions.space
+        self.single_observation_space = observation_space(given.terms)
+        self.action_space = batch_space(self.single_action_space, number)
+        self.observation_space = batch_space(
+            self.single_observation_space, number
+        )
+
+    def reset(
+        self,
+        *,
+        seed: int | Sequence[int] | None = None,
+        options: dict[str, Any] | None = None,
+    ) -> tuple[Row, dict[str, Any]]:
+        """Begin an episode of all games; options are not used.
+
+        An integer as seed gives game i that many plus i; None continues with
+        the next episodes.
+        """
+        number = self.num_envs
+        if isinstance(seed, int | np.integer):
+            seed = [int(seed) + i for i in range(number)]
+        if seed is not None:
+            if len(seed) != number:
+                raise PlanError(
+                    f"there must be {number} seeds, got {len(seed)}"
+                )
+            self._seeds = np.array([one % SEEDS for one in seed])
+        elif self._seeds is None:
+            self._seeds = self.np_random.integers(SEEDS, size=number)
+        else:
+            self._seeds += STRIDE
+        self._begin(np.arange(number))
+        return self._observed(), self._info()
+
+    def step(self, actions: Any) -> tuple[Row, Any, Any, Any, dict[str, Any]]:
+        """Play one decision of all games.
+
+        Raises:
+            PlanError: If the actions are invalid, or nothing was reset.
+        """
+        if self._seeds is None:
+            raise PlanError("reset the environment first: no episode is on")
+        rows, state, rules = (
+            self._actions.rows(actions),
+            self._state,
+            self._rules,
+        )
+        if len(rows) != self.num_envs:
+            raise PlanError(
+                f"there must be {self.num_envs} actions, got {len(rows)}"
+            )
+        closest, opponent = state.closest.copy(), self._opponent
+        self._intents[:, self._own] = rows
+        others = self._intents[:, self._other]
+        if isinstance(opponent, LearnedStrategy):
+            seen = self._seen(self._other, opponent.contract.terms)
+            others[:] = opponent.intents(seen)
+        else:
+            decide_by_law(state, self._other, opponent, rules, others)
+        advance_games(
+            state, self._intents, self._saturated, self._rooms, rules
+        )
+        ended = state.ended.copy()
+        late = state.decisions >= rules.limit
+        sign = 1.0 if self.role == "evader" else -1.0
+        rewards = (state.closest - closest) * (sign * rules.gain / rules.speed)
+        over, info, observations = ended | late, self._info(), self._observed()
+        if over.any():
+            info["final_obs"], info["_final_obs"] = observations, over
+            closest = info["closest_m"]
+            info["final_info"] = {"closest_m": closest, "_closest_m": over}
+            self._seeds[over] += STRIDE
+            self._begin(np.flatnonzero(over))
+            observations = self._observed()
+            info |= self._info()
+        return observations, rewards, ended, late & ~ended, info
+
+    def _begin(self, games: Integers) -> None:
+        """Begin an episode of some games, by their seeds."""
+        assert self._seeds is not None
+        arenas = self._seeds[games] % len(self._starts)
+        self._state.rooms[games] = arenas
+        start_games(self._state, games, self._starts[arenas])
+
+    def _info(self) -> dict[str, Any]:
+        everyone = np.ones(self.num_envs, np.bool_)
+        closest = self._state.closest.copy()
+        return {"closest_m": closest, "_closest_m": everyone}
+
+    def _observed(self) -> Row:
+        return self._seen(self._own, self.settings.terms)
+
+    def _seen(self, player: int, terms: Sequence[str]) -> Row:
+        """Return the observations of player 0 or 1. Shape (n, width)."""
+        width = sum(ALL_TERMS[name].width for name in terms)
+        out = np.empty((self.num_envs, width), np.float32)
+        state, rooms, rules = self._state, self._rooms, self._rules
+        observe_games(state, player, codes_of(terms), rooms, rules, out)
+        return out

@@ -490,16 +490,11 @@ def learning(
     """Return the names of the players that learn: by default all that can."""
     able = [p.name for p in game.players if p.decides and p.role in PLAYERS]
     chosen = able if learners is None else list(learners)
-    wrong = [name for name in chosen if name not in able]
-    if wrong or not chosen:
+    if not chosen or len(set(chosen) & set(able)) < len(chosen):
         raise ConfigurationError(
-            "learners must be robots or unicycles that are pursuers or "
-            f"evaders ({', '.join(able) or 'there are none'}), got "
-            f"{wrong[0] if wrong else 'none'}"
-        )
-    if len(set(chosen)) < len(chosen):
-        raise ConfigurationError(
-            f"learners must differ, got {', '.join(chosen)}"
+            "learners must be different robots or unicycles that are pursuers "
+            f"or evaders ({', '.join(able) or 'there are none'}), got "
+            f"{', '.join(chosen) or 'none'}"
         )
     if not {"pursuer", "evader"} <= {p.role for p in game.players}:
         raise ConfigurationError(

@@ -6,11 +6,11 @@ from typing import Any
 import numpy as np
 from stable_baselines3.common.vec_env import VecEnv
 
-from .vector_duel import VectorDuel
+from .duel_env import VectorDuel
 
 
 class StableBaselinesDuel(VecEnv):
-    """Games of :class:`.vector_duel.VectorDuel` for Stable-Baselines3.
+    """Games of :class:`.VectorDuel` for Stable-Baselines3.
 
     Seeds, observations, actions and rewards are the same. An episode that
     ends has "terminal_observation", "TimeLimit.truncated" and "closest_m" in

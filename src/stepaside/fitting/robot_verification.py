@@ -286,10 +286,8 @@ def _actuators(description: RobotDescription) -> Finding:
     model = description.compile()
     limits = _torque_limits(model)
     kinds = dict(zip(limits, model.actuator_biastype, strict=True))
-    moved = [n for n in description.legs if n in description.speed_limits]
     affine = mujoco.mjtBias.mjBIAS_AFFINE
     faults = {
-        "no actuator for": [n for n in moved if n not in limits],
         "no force range for": [n for n, high in limits.items() if high <= 0.0],
         "no position servo for": [n for n, k in kinds.items() if k != affine],
     }
