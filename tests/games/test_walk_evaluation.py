@@ -8,9 +8,9 @@ import numpy as np
 import pytest
 
 from stepaside.core.poses import Array
-from stepaside.games.evaluation import WARM_UP, walking_of
 from stepaside.games.game_settings import walk
 from stepaside.games.trajectory import COLUMNS, Trajectory
+from stepaside.games.walk_evaluation import WARM_UP, walking_of
 
 SETTINGS = walk(seed=4)
 CYCLE = 2.0 * SETTINGS.gait.step_duration

@@ -7,11 +7,11 @@ from typing import Any
 import numpy as np
 import pytest
 
-from stepaside.games.evaluation import express_in_support_foot
 from stepaside.games.game import Outcome
 from stepaside.games.game_settings import walk
 from stepaside.games.recorded_game import run_game
 from stepaside.games.run import Run
+from stepaside.games.walk_evaluation import express_in_support_foot
 from stepaside.locomotion.control_settings import OPEN_LOOP, STABILISED
 from stepaside.planning import GaitSettings
 from stepaside.sim.body_settings import BODIES

@@ -11,7 +11,7 @@ import numpy as np
 from ..robots.description import RobotDescription
 from ..strategies import Strategy
 from ..strategies.registry import describe_strategy
-from .evaluation import crowd_of, measure, summarise_walk
+from .evaluation import crowd_of, measure
 from .floor_games import floor_of, rules_of
 from .floor_world import PERIOD, FloorRecorder, FloorWorld
 from .forecast import evaluate_duel
@@ -162,6 +162,8 @@ class RecordedGame(GameInPlay):
         if run.game == "duel":
             found |= evaluate_duel(run, world.first_moves.get(EVADER))
         if run.game == "walk":
+            from .walk_evaluation import summarise_walk
+
             walker = world.player(WALKER)
             assert isinstance(walker, RobotPlayer)
             pusher = walker.robot.pusher

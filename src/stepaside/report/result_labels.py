@@ -23,14 +23,12 @@ UNITS = {
 # Labels of names that are not clear by themselves.
 LABELS = {
     "bearing_rad": "bearing of the pursuer",
-    "body_radius_m": "radius of a body",
     "capture_m": "capture distance",
     "captured_share": "games captured",
     "closed": "closed walls",
     "closest_distance_m": "closest approach",
     "coupled": "coupled joints",
     "end_time_s": "final time",
-    "eigenvalues_per_s": "eigenvalues",
     "evader_error_rad": "heading error of the evader",
     "exists": "circle exists",
     "falling_m": "decrease of a value in the last period, at most",
