@@ -10,11 +10,11 @@ import pytest
 
 from stepaside.arena import Box, ObstacleSet
 from stepaside.core.player_identity import PlayerIdentity, Role
-from stepaside.strategies.goal_walk import GoalWalk
 from stepaside.strategies.knowledge import Knowledge, Limits, OtherPlayer
 from stepaside.strategies.team_strategies import (
     AssignedPursuit,
     CyclicPursuit,
+    GoalWalk,
     Pincer,
     TeamEvasion,
     assign,

@@ -1,7 +1,6 @@
 from .dash_evasion import DashEvasion as DashEvasion
 from .evasion import Evasion as Evasion
 from .evasion import EvasionMemory as EvasionMemory
-from .goal_walk import GoalWalk as GoalWalk
 from .knowledge import STAND as STAND
 from .knowledge import Intent as Intent
 from .knowledge import Knowledge as Knowledge
@@ -19,6 +18,7 @@ from .strategy import Strategy as Strategy
 from .strategy import Walk as Walk
 from .team_strategies import AssignedPursuit as AssignedPursuit
 from .team_strategies import CyclicPursuit as CyclicPursuit
+from .team_strategies import GoalWalk as GoalWalk
 from .team_strategies import Pincer as Pincer
 from .team_strategies import TeamEvasion as TeamEvasion
 

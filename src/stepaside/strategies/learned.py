@@ -259,33 +259,25 @@ def dense_network(
         layers: Weights (inputs, outputs) and biases (outputs,) of each.
         activation: Operator between two layers, of those of ONNX.
     """
-    from onnx import TensorProto, helper, numpy_helper
+    from onnx import numpy_helper, parser
 
-    nodes, weights, name = [], [], "observation"
+    lines, weights, name = [], [], "observation"
     for n, layer in enumerate(layers):
         for key, values in zip(("weights", "biases"), layer, strict=True):
             tensor = np.asarray(values, dtype=np.float32)
             weights.append(numpy_helper.from_array(tensor, f"{key}_{n}"))
-        is_last = n == len(layers) - 1
-        out = "action" if is_last else f"sum_{n}"
-        given = [name, f"weights_{n}", f"biases_{n}"]
-        nodes.append(helper.make_node("Gemm", given, [out]))
-        if not is_last:
+        out = "action" if n == len(layers) - 1 else f"sum_{n}"
+        lines.append(f"{out} = Gemm({name}, weights_{n}, biases_{n})")
+        if out != "action":
             name = f"layer_{n}"
-            nodes.append(helper.make_node(activation, [out], [name]))
-    ports = [
-        helper.make_tensor_value_info(port, TensorProto.FLOAT, ["batch", size])
-        for port, size in (
-            ("observation", np.shape(layers[0][0])[0]),
-            ("action", np.shape(layers[-1][0])[1]),
-        )
-    ]
-    model = helper.make_model(
-        helper.make_graph(nodes, "strategy", ports[:1], ports[1:], weights),
-        opset_imports=[helper.make_opsetid("", OPSET)],
-        ir_version=IR_VERSION,
-        producer_name="stepaside",
+            lines.append(f"{name} = {activation}({out})")
+    shape = f"float[batch, {len(layers[0][0])}] observation"
+    made = f"float[batch, {len(layers[-1][1])}] action"
+    model = parser.parse_model(
+        f'<ir_version: {IR_VERSION}, opset_import: ["": {OPSET}]>\n'
+        f"strategy ({shape}) => ({made}) {{ {' '.join(lines)} }}"
     )
+    model.graph.initializer.extend(weights)
     content: bytes = model.SerializeToString()
     return content
 
