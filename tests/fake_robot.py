@@ -76,7 +76,7 @@ class FakeStrategy:
     ) -> tuple[Intent, tuple[Knowledge, ...]]:
         """Go when told, and not too far, and head where told."""
         going = self.going and knowledge.distance < 2.0
-        intent = Intent(self.heading, self.speed_factor, going)
+        intent = Intent(self.heading, self.speed_factor * going)
         return intent, (*memory, knowledge) if going else memory
 
 

@@ -69,8 +69,7 @@ class Whim:
             self.left = int(self.random.integers(1, 12))
             self.wanted = Intent(
                 self.random.uniform(-pi, pi),
-                self.random.uniform(0.2, 1.0),
-                bool(self.random.random() < 0.9),
+                self.random.uniform(0.2, 1.0) * (self.random.random() < 0.9),
             )
         if not known.moving:
             return Intent(self.wanted.heading), None

@@ -28,7 +28,7 @@ class FiveSteps(Evasion):
 
     def decide(self, knowledge: Knowledge, memory: Any) -> tuple[Intent, Any]:
         """Return what it wants, and what it remembers."""
-        return Intent(knowledge.bearing, moving=memory < 5), memory + 1
+        return Intent(knowledge.bearing, float(memory < 5)), memory + 1
 
 
 class Still(Evasion):
@@ -36,7 +36,7 @@ class Still(Evasion):
 
     def decide(self, knowledge: Knowledge, memory: Any) -> tuple[Intent, Any]:
         """Return what it wants, and what it remembers."""
-        return Intent(0.0, moving=False), memory
+        return Intent(speed_factor=0.0), memory
 
 
 class Straight(Evasion):

@@ -82,7 +82,7 @@ class RandomWalk:
         drawn = np.random.default_rng((self.seed, int(knowledge.time)))
         stands = self.seed % 4 == 0 or knowledge.time < self.begins - 1e-9
         if stands or drawn.random() < 0.3:
-            return Intent(moving=False), memory + 1
+            return Intent(speed_factor=0.0), memory + 1
         if self.legs:
             velocity = BodyVelocity(*drawn.uniform(-0.5, 0.5, 3).tolist())
             return Intent(velocity=velocity), memory + 1

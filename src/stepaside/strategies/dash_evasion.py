@@ -19,7 +19,7 @@ from ..core.poses import (
 )
 from ..core.ranges import Range
 from ..core.setting import CheckedSettings, setting
-from .knowledge import STAND, Intent, Knowledge, Limits
+from .knowledge import STAND, Intent, Knowledge
 from .opponent_track import OpponentTrack
 from .strategy import BackwardStrategy
 from .velocity_set import (
@@ -68,8 +68,7 @@ def make_dashes(
     angles = theta + 2.0 * pi / count * np.arange(count)
     ahead, aside = (max(high, -low) for low, high in velocities[:2])
     turns = wrap_angles(angles - theta + (0.0 if ahead >= aside else pi / 2))
-    turns = np.where(turns > 0.5 * pi, turns - pi, turns)
-    turns = np.where(turns < -0.5 * pi, turns + pi, turns)
+    turns -= pi * np.round(turns / pi)
     if both_ends:
         angles = np.concatenate([angles, angles])
         turns = np.concatenate([turns, np.where(turns > 0.0, -pi, pi) + turns])
@@ -282,7 +281,10 @@ class DashEvasion(BackwardStrategy, CheckedSettings):
     ) -> tuple[Intent, DashMemory]:
         """Begin the dash with the largest worst-case closest approach."""
         limits, now = knowledge.limits, knowledge.time
-        velocities = limits.velocities or _of_unicycle(limits)
+        speed, rate = limits.speed, pi * limits.gain
+        velocities = limits.velocities or VelocitySet(
+            (-speed, speed), (0.0, 0.0), (-rate, rate)
+        )
         track = memory.track.note(
             now - knowledge.age, knowledge.position_in_map
         )
@@ -347,19 +349,15 @@ class DashEvasion(BackwardStrategy, CheckedSettings):
         return along > 0.0 and abs(x * v - y * u) < self.clearance
 
     def _bonus(self, dashes: Dashes, present: float | None) -> Array:
-        """Return the value in [m] that prevents changes of little use.
-
-        The present dash has an angle in [rad]; None while the robot stands.
-        """
-        begins = dashes.begins
-        bonus: Array = np.where(np.isinf(begins), self.effort, 0.0)
+        """Return the value in [m] that prevents changes from the present."""
+        waits = dashes.begins > 0.0
         if present is None:
-            return np.where(
-                np.isinf(begins) | (begins == 0.0), bonus, 0.5 * self.effort
-            )
-        changes = self.change * (np.cos(dashes.angles - present) - 1.0)
-        waits = np.where(begins > 0.0, EFFORT, 0.0)
-        return np.where(np.isinf(begins), bonus, changes - waits)
+            found = np.where(waits, 0.5 * self.effort, 0.0)
+        else:
+            found = self.change * (np.cos(dashes.angles - present) - 1.0)
+            found[waits] -= EFFORT
+        found[np.isinf(dashes.begins)] = self.effort
+        return found
 
     def _worth(self, paths: Array, opponent: Opponent, radius: float) -> Array:
         """Return the value of each dash against one turning radius [m]."""
@@ -382,9 +380,3 @@ def extrapolate(track: OpponentTrack, now: float) -> Opponent:
         atan2(v, u),
         speed if speed > STILL_OPPONENT else 0.0,
     )
-
-
-def _of_unicycle(limits: Limits) -> VelocitySet:
-    """Return the velocities of a unicycle."""
-    speed, turn = limits.speed, pi * limits.gain
-    return VelocitySet((-speed, speed), (0.0, 0.0), (-turn, turn))

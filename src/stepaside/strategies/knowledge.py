@@ -3,14 +3,10 @@
 from dataclasses import dataclass, replace
 from math import atan2, cos, hypot, pi, sin
 
-import numpy as np
-
 from ..arena import NO_OBSTACLES, ObstacleSet
 from ..core.errors import (
-    PlanError,
     check_bearing,
     check_within,
-    shown,
 )
 from ..core.player_identity import PlayerIdentity
 from ..core.poses import ALL_AROUND, Pose, Sector, wrap_angle
@@ -203,7 +199,6 @@ class Intent:
     # rate from the next step on
     heading: float = 0.0
     speed_factor: float = 1.0  # fraction of the gait's speed [0, 1]; 0 stops
-    moving: bool = True  # whether to move at all
     # desired velocity of the body in its present frame, in place of heading
     # and speed. Legs with a velocity set walk at the nearest velocity in it,
     # unicycles follow :func:`~stepaside.strategies.strategy.unicycle_intent`
@@ -212,12 +207,6 @@ class Intent:
     def __post_init__(self) -> None:
         """Validate the intent."""
         check_bearing(self.heading, "heading")
-        if type(self.moving) is not bool and not isinstance(
-            self.moving, np.bool_
-        ):
-            raise PlanError(
-                f"moving must be true or false, got {shown(self.moving)}"
-            )
         check_within(self.speed_factor, 0.0, 1.0, "speed_factor", "1")
         if self.velocity is not None:
             for name, value in self.velocity._asdict().items():
@@ -227,11 +216,10 @@ class Intent:
     @property
     def walks(self) -> bool:
         """Whether it requests any motion."""
-        moves = self.speed_factor > 0.0 and self.velocity != STILL
-        return bool(self.moving and moves)
+        return bool(self.speed_factor > 0.0 and self.velocity != STILL)
 
 
 ON_THE_SPOT = 0.05  # speed factor of a turn on the spot
 
-STAND = Intent(moving=False)
+STAND = Intent(speed_factor=0.0)
 """Intent to stand, or to come to rest."""

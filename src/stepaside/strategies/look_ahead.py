@@ -148,11 +148,10 @@ class LookAhead(BackwardStrategy, CheckedSettings):
         if not best.spot and then < min(self.body_radius, now):
             # A turn on the spot needs no room; standing would block for good.
             return Intent(heading, ON_THE_SPOT), LookAheadMemory(True, track)
-        ahead = best.turns[: best.spot + sum(PIECES)]
-        return Intent(
-            heading, ON_THE_SPOT if best.spot else 1.0
-        ), LookAheadMemory(
-            True, track, tuple(ahead.tolist()), knowledge.time, best.spot
+        ahead = tuple(best.turns[: best.spot + sum(PIECES)].tolist())
+        intent = Intent(heading, ON_THE_SPOT if best.spot else 1.0)
+        return intent, LookAheadMemory(
+            True, track, ahead, knowledge.time, best.spot
         )
 
 

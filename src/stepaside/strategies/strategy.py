@@ -66,8 +66,7 @@ class Walk:
         self, knowledge: Knowledge, memory: None
     ) -> tuple[Intent, None]:
         """Return the constant intent."""
-        moving = self.speed_factor != 0.0
-        return Intent(self.bearing, self.speed_factor, moving), None
+        return Intent(self.bearing, self.speed_factor), None
 
 
 @dataclass(frozen=True, slots=True)
