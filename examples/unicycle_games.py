@@ -13,14 +13,14 @@ import numpy as np
 
 from stepaside import (
     RelativeStart,
+    Unicycles,
     certify,
     find_circle,
-    make_game,
     play_games,
     simulate,
 )
 
-game = make_game(0.1, 0.1, 0.2, 0.2)  # speeds [m/s], gains [1/s]
+game = Unicycles(0.1, 0.1, 0.2, 0.2)  # speeds [m/s], gains [1/s]
 
 circle = find_circle(0.1, 0.1, 0.2, 0.2)
 print(

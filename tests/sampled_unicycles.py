@@ -4,7 +4,7 @@ from math import atan2, hypot, pi, sin
 
 import numpy as np
 
-from stepaside.theory.unicycle import Game, RelativeStart
+from stepaside.theory.unicycle import RelativeStart, Unicycles
 
 
 def wrap(angle: float) -> float:
@@ -23,7 +23,7 @@ def drive(pose: np.ndarray, speed: float, turn: float, span: float) -> None:
 
 
 def play_sampled(
-    game: Game,
+    game: Unicycles,
     start: RelativeStart,
     duration: float,
     period: float,
@@ -47,11 +47,11 @@ def play_sampled(
         if n == round(duration / period):
             break
         b = wrap(psi + (-game.angle if psi > 0.0 else game.angle))
-        rates.append((game.pursuer.gain * a, game.evader.gain * b))
+        rates.append((game.pursuer_gain * a, game.evader_gain * b))
         queue.append(rates[-1])
         for turns, span in ((queue[0], late), (queue[1], period - late)):
-            drive(pursuer, game.pursuer.speed, turns[0], span)
-            drive(evader, -game.evader.speed, turns[1], span)
+            drive(pursuer, game.pursuer_speed, turns[0], span)
+            drive(evader, -game.evader_speed, turns[1], span)
         queue.pop(0)
         paths.append((pursuer.copy(), evader.copy()))
     return (

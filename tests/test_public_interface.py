@@ -245,12 +245,12 @@ ANGLES: dict[str, Callable[[Any], Any]] = {
     ),
     "walk bearing": stepaside.walk,
     "Push direction": lambda a: stepaside.Push(1.0, 1.0, a),
-    "Game angle": lambda a: stepaside.make_game(1.0, 1.0, 1.0, 1.0, a),
-    "Game hysteresis": lambda a: stepaside.make_game(
+    "Unicycles angle": lambda a: stepaside.Unicycles(1.0, 1.0, 1.0, 1.0, a),
+    "Unicycles hysteresis": lambda a: stepaside.Unicycles(
         1.0, 1.0, 1.0, 1.0, hysteresis=a
     ),
     "play_games starts": lambda a: stepaside.play_games(
-        stepaside.make_game(1.0, 1.0, 1.0, 1.0), [[1.0, a, 0.0]], 0.1
+        stepaside.Unicycles(1.0, 1.0, 1.0, 1.0), [[1.0, a, 0.0]], 0.1
     ),
     "Box heading": lambda a: Box(0.0, 0.0, 1.0, 1.0, a),
     "MovingBox heading": lambda a: MovingBox(

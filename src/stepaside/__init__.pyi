@@ -50,8 +50,8 @@ from .studies import make_study as make_study
 from .studies import run_study as run_study
 from .studies import tabulate as tabulate
 from .theory.unicycle import RelativeStart as RelativeStart
+from .theory.unicycle import Unicycles as Unicycles
 from .theory.unicycle import find_circle as find_circle
-from .theory.unicycle import make_game as make_game
 from .theory.unicycle import play_games as play_games
 from .theory.unicycle.certificate import certify as certify
 from .theory.unicycle.simulation import simulate as simulate
@@ -107,7 +107,7 @@ __all__ = [
     "load_strategy",
     "load_study",
     "load_tree",
-    "make_game",
+    "Unicycles",
     "make_study",
     "play_games",
     "run_game",

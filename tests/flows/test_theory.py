@@ -37,7 +37,7 @@ def test_fig_2_of_the_paper(tmp_path: Path) -> None:
 
 @pytest.mark.parametrize("angle", [45, 90])
 def test_unicycles_of_the_saturated_law(angle: int) -> None:
-    game = sa.make_game(1.0, 1.0, 0.5, 0.5, radians(angle), "saturated")
+    game = sa.Unicycles(1.0, 1.0, 0.5, 0.5, radians(angle), "saturated")
     goal = circle(radians(angle), saturated=True, speed=1.0, gain=0.5)
     found = sa.find_circle(1.0, 1.0, 0.5, 0.5, radians(angle), "saturated")
     assert found.distance_m == pytest.approx(goal.distance)
@@ -51,7 +51,7 @@ def test_a_certificate_bounds_what_is_played() -> None:
     speed, gain = 0.1, 0.2
     goal = circle()
     start = sa.RelativeStart(1.0, 0.3, -0.4)
-    game = sa.make_game(speed, speed, gain, gain)
+    game = sa.Unicycles(speed, speed, gain, gain)
     closest = closest_of_unicycles(
         (1.0, 0.3, -0.4), 150.0, speed=speed, gain=gain
     )

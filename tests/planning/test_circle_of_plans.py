@@ -16,12 +16,8 @@ from stepaside.core.poses import Array, Pose, wrap_angle
 from stepaside.perception.measurement import RobotState, Sighting
 from stepaside.planning import Foot, GaitSettings
 from stepaside.strategies import Evasion, Pursuit
+from stepaside.theory.unicycle import RelativeStart, Unicycles
 from stepaside.theory.unicycle.circles import Circle, find_circle, fit_circle
-from stepaside.theory.unicycle.unicycle_game import (
-    RelativeStart,
-    Unicycle,
-    make_game,
-)
 
 TICK = 0.02
 GAIT = GaitSettings()
@@ -134,8 +130,7 @@ def test_it_is_the_same_circle_with_any_gait(gait: GaitSettings) -> None:
 def test_the_sampled_template_is_in_balance_on_the_circle() -> None:
     """Held turns, decided as late as a body is behind its foot."""
     circle = find_circle(GAIT.speed, GAIT.speed, GAIT.gain, GAIT.gain)
-    body = Unicycle(GAIT.speed, GAIT.gain)
-    game = make_game(*(body.speed, body.speed, body.gain, body.gain), 0.5 * pi)
+    game = Unicycles(GAIT.speed, GAIT.speed, GAIT.gain, GAIT.gain)
     start = RelativeStart(circle.distance_m, -0.25 * pi, 0.25 * pi)
     for delay in (0.0, 0.34 * GAIT.path_interval):
         states, _, _, evader = play_sampled(

@@ -16,11 +16,10 @@ from stepaside.strategies import (
 )
 from stepaside.theory.unicycle import (
     RelativeStart,
-    make_game,
+    Unicycles,
 )
-from stepaside.theory.unicycle.unicycle_game import Unicycle
 
-BODY = Unicycle(1.0, 0.5)  # Fig. 2
+FIG_2 = Unicycles(1.0, 1.0, 0.5, 0.5)
 START = RelativeStart(2.5, 0.3, -0.2)
 ALWAYS = Evasion(safety_radius=1e9, side_hysteresis=0.0)
 
@@ -34,7 +33,7 @@ def play(
         pursuer or Pursuit(),  # type: ignore[arg-type]
         evader or ALWAYS,  # type: ignore[arg-type]
         changes.pop("start", START).poses(),  # type: ignore[attr-defined]
-        game=StepGame.of_unicycles(BODY, BODY, **(options | changes)),  # type: ignore[arg-type]
+        game=StepGame.of_unicycles(FIG_2, **(options | changes)),  # type: ignore[arg-type]
     )
 
 
@@ -49,9 +48,9 @@ def test_strategies_of_the_paper_are_its_sampled_game(
         Pursuit(),
         replace(ALWAYS, angle=angle),
         start.poses(),
-        game=StepGame.of_unicycles(BODY, BODY, 0.2, 10.0),
+        game=StepGame.of_unicycles(FIG_2, 0.2, 10.0),
     )
-    game = make_game(1.0, 1.0, 0.5, 0.5, angle)
+    game = Unicycles(1.0, 1.0, 0.5, 0.5, angle)
     _, _, pursuer, evader = play_sampled(game, start, 10.0, 0.2)
     np.testing.assert_allclose(run.pursuer, pursuer, atol=1e-9)
     np.testing.assert_allclose(run.evader, evader, atol=1e-9)
@@ -95,7 +94,7 @@ def test_a_mirrored_game_is_the_mirror_image() -> None:
             Pursuit(),
             ALWAYS,
             RelativeStart(2.5, sign * 0.3, sign * -0.2).poses(),
-            game=StepGame.of_unicycles(BODY, BODY, 0.2, 10.0),
+            game=StepGame.of_unicycles(FIG_2, 0.2, 10.0),
         )
         for sign in (1.0, -1.0)
     ]

@@ -23,7 +23,7 @@ from stepaside.planning.plan import PlanSamples
 from stepaside.studies import theory_claims
 from stepaside.studies.claims import ONCE, load_claims
 from stepaside.theory.unicycle.simulation import PlayedGame
-from stepaside.theory.unicycle.unicycle_game import Game
+from stepaside.theory.unicycle.unicycle_game import Unicycles
 
 Patch = Callable[[pytest.MonkeyPatch], None]
 Pair = tuple[Array, Array]
@@ -38,11 +38,13 @@ def games_once(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(theory_claims, "play_unicycles", sampled)
 
 
-def seen_as(change: Callable[[Game, Array, Array, Array], Pair]) -> Patch:
+def seen_as(
+    change: Callable[[Unicycles, Array, Array, Array], Pair],
+) -> Patch:
     """Falsify the poses of every simulated game."""
 
     def patch(monkeypatch: pytest.MonkeyPatch) -> None:
-        def false(game: Game) -> Any:
+        def false(game: Unicycles) -> Any:
             run = play(game)
 
             def poses(times: Any) -> Pair:
@@ -61,7 +63,7 @@ def seen_as(change: Callable[[Game, Array, Array, Array], Pair]) -> Patch:
     return patch
 
 
-def played_as(change: Callable[[Game], Game]) -> Patch:
+def played_as(change: Callable[[Unicycles], Unicycles]) -> Patch:
     """Simulate a modified game."""
 
     def patch(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -340,7 +342,7 @@ def test_every_fault_has_a_claim() -> None:
 def test_evader_with_the_opposite_turn_misses_the_circle(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
-    def wrong(game: Game) -> PlayedGame:
+    def wrong(game: Unicycles) -> PlayedGame:
         return play(replace(game, angle=3.0 - game.angle))
 
     monkeypatch.setattr(theory_claims, "play", wrong)

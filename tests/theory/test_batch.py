@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from stepaside.core.errors import PlanError
+from stepaside.theory.unicycle import RelativeStart, Unicycles
 from stepaside.theory.unicycle.circles import circles_of
 from stepaside.theory.unicycle.simulation import (
     PlayedGame,
@@ -13,25 +14,20 @@ from stepaside.theory.unicycle.simulation import (
     play_games,
     simulate,
 )
-from stepaside.theory.unicycle.unicycle_game import (
-    Game,
-    RelativeStart,
-    make_game,
-)
 
 GAMES = [
-    make_game(1.0, 1.0, 0.5, 0.5),
-    make_game(1.0, 1.1, 0.5, 0.7, np.pi / 2, "saturated"),
-    make_game(1.0, 1.0, 0.5, 0.5, 0.3, "saturated"),
-    make_game(1.1, 1.0, 0.5, 0.4, 1.0, side_rule="latched"),
-    make_game(1.0, 1.0, 0.5, 0.5, 1.2, hysteresis=0.2),
-    make_game(1.0, 1.0, 0.5, 0.5, 0.0),
-    make_game(1.2, 1.0, 0.7, 0.4, 2.8, "saturated", side_rule="latched"),
-    make_game(1.4, 1.0, 0.3, 0.8, 1.5, "saturated", hysteresis=0.05),
+    Unicycles(1.0, 1.0, 0.5, 0.5),
+    Unicycles(1.0, 1.1, 0.5, 0.7, np.pi / 2, "saturated"),
+    Unicycles(1.0, 1.0, 0.5, 0.5, 0.3, "saturated"),
+    Unicycles(1.1, 1.0, 0.5, 0.4, 1.0, side_rule="latched"),
+    Unicycles(1.0, 1.0, 0.5, 0.5, 1.2, hysteresis=0.2),
+    Unicycles(1.0, 1.0, 0.5, 0.5, 0.0),
+    Unicycles(1.2, 1.0, 0.7, 0.4, 2.8, "saturated", side_rule="latched"),
+    Unicycles(1.4, 1.0, 0.3, 0.8, 1.5, "saturated", hysteresis=0.05),
 ]
 # A start; distances that it stays between, after the transient.
-NO_CIRCLE = make_game(1.7651, 0.43, 2.0897, 1.0674, 1.3004)
-ONE_CIRCLE = make_game(0.8831, 0.7117, 0.4482, 0.7551, 2.1371)
+NO_CIRCLE = Unicycles(1.7651, 0.43, 2.0897, 1.0674, 1.3004)
+ONE_CIRCLE = Unicycles(0.8831, 0.7117, 0.4482, 0.7551, 2.1371)
 COUNTEREXAMPLES = [
     (NO_CIRCLE, (0.6049, -0.4196, 1.4271), (0.1506, 0.9964)),
     (ONE_CIRCLE, (0.943, -1.911, -0.219), (0.1614, 0.8259)),
@@ -51,7 +47,7 @@ def side_changes(run: PlayedGame) -> np.ndarray:
 
 
 @pytest.mark.parametrize("game", GAMES)
-def test_every_game_is_that_which_is_played_alone(game: Game) -> None:
+def test_every_game_is_that_which_is_played_alone(game: Unicycles) -> None:
     starts = random_starts(4)
     many = play_games(game, starts, 60.0, capture_distance=0.05)
     for i, start in enumerate(starts):
@@ -73,7 +69,7 @@ def test_every_game_is_that_which_is_played_alone(game: Game) -> None:
 
 @pytest.mark.parametrize(("game", "start", "between"), COUNTEREXAMPLES)
 def test_side_may_change_without_end_against_a_faster_pursuer(
-    game: Game,
+    game: Unicycles,
     start: tuple[float, float, float],
     between: tuple[float, float],
 ) -> None:
@@ -94,7 +90,7 @@ def test_without_a_stable_circle_the_side_changes_without_end() -> None:
     found = 0
     while found < 5:
         vp, ve, kp, ke = np.exp(rng.uniform(-0.9, 0.9, 4)).tolist()
-        game = make_game(vp, ve, kp, ke, float(rng.uniform(0.05, 3.0)))
+        game = Unicycles(vp, ve, kp, ke, float(rng.uniform(0.05, 3.0)))
         held = any(circle.stable for circle in circles_of(game))
         if vp < ve or held:
             continue
@@ -112,7 +108,7 @@ def test_without_a_stable_circle_the_side_changes_without_end() -> None:
 @pytest.mark.parametrize("sign", [1, -1])
 def test_return_to_an_edge_within_a_step_is_located(sign: int) -> None:
     """The line of sight outruns the evader for some milliseconds only."""
-    game = make_game(1.0, 1.0, 0.5, 0.5, law="saturated")
+    game = Unicycles(1.0, 1.0, 0.5, 0.5, law="saturated")
     start = (1.2787314540990418, -sign * 2.7776696801482905, -sign * np.pi / 2)
     out = play_games(game, [start], 0.01, step=0.01)
     assert out.states[0, 2] == start[2]
@@ -132,7 +128,9 @@ def test_settled_time_is_the_last_arrival_at_the_circle() -> None:
 
 
 @pytest.mark.parametrize("game", GAMES)
-def test_the_default_step_has_the_outcomes_of_a_tenth(game: Game) -> None:
+def test_the_default_step_has_the_outcomes_of_a_tenth(
+    game: Unicycles,
+) -> None:
     starts = random_starts(300, seed=3)
     step = accurate_step(game)
     fine = play_games(game, starts, 40.0, step=0.1 * step)

@@ -6,38 +6,36 @@ import numpy as np
 import pytest
 
 from stepaside.core.errors import PlanError
+from stepaside.theory.unicycle import RelativeStart, Unicycles
 from stepaside.theory.unicycle.certificate import (
     certify,
 )
 from stepaside.theory.unicycle.circles import circle_of
 from stepaside.theory.unicycle.simulation import play_games
-from stepaside.theory.unicycle.unicycle_game import (
-    Game,
-    RelativeStart,
-    make_game,
-)
 
-ASIDE = make_game(1.0, 1.0, 1.0, 1.0)
-LATCHED = make_game(1.0, 1.0, 1.0, 1.0, side_rule="latched")
-SLIM = make_game(1.0, 1.0, 1.0, 1.0, 2.6, side_rule="latched")
-WIDE = make_game(0.7, 0.7, 0.4, 0.4, 2.2)
+ASIDE = Unicycles(1.0, 1.0, 1.0, 1.0)
+LATCHED = Unicycles(1.0, 1.0, 1.0, 1.0, side_rule="latched")
+SLIM = Unicycles(1.0, 1.0, 1.0, 1.0, 2.6, side_rule="latched")
+WIDE = Unicycles(0.7, 0.7, 0.4, 0.4, 2.2)
 
 
-def random_starts(game: Game, count: int, spread: float = pi) -> np.ndarray:
+def random_starts(
+    game: Unicycles, count: int, spread: float = pi
+) -> np.ndarray:
     rng = np.random.default_rng(11)
-    unit = game.evader.speed / game.evader.gain
+    unit = game.evader_speed / game.evader_gain
     angles = rng.uniform(-spread, spread, (count, 2))
     return np.column_stack([rng.uniform(0.3, 4.0, count) * unit, angles])
 
 
 @pytest.mark.parametrize("game", [ASIDE, LATCHED, WIDE])
-def test_no_game_comes_closer_than_certified(game: Game) -> None:
+def test_no_game_comes_closer_than_certified(game: Unicycles) -> None:
     starts = random_starts(game, 350, 2.0)
     proofs = [certify(game, RelativeStart(*start)) for start in starts]
     held = np.array([proof.holds for proof in proofs])
     bound = np.array([p.distance_m for p in proofs if p.holds])
-    duration = 30.0 / game.evader.gain
-    step = 0.05 / game.evader.gain
+    duration = 30.0 / game.evader_gain
+    step = 0.05 / game.evader_gain
     out = play_games(game, starts[held], duration, step=step)
     assert held.sum() > 30
     assert np.all(out.closest_distance >= bound - 1e-6)
@@ -64,7 +62,7 @@ def test_sharpened_bound_certifies_more_than_the_plain_one() -> None:
     side = np.where(psi > 0.0, -1.0, 1.0)
     b = side * psi + LATCHED.angle
     d, x = side * a - b, 0.5 * (side * a + side * psi)
-    unit = LATCHED.pursuer.speed / LATCHED.pursuer.gain
+    unit = LATCHED.pursuer_speed / LATCHED.pursuer_gain
     radius = circle_of(LATCHED).distance_m
     plain = radius - abs(r * np.exp(1j * x) - radius) - unit * abs(d)
     assert np.all(sharp >= plain - 1e-9)
@@ -88,7 +86,7 @@ def test_sharpened_bound_certifies_more_than_the_plain_one() -> None:
     ],
 )
 def test_certificate_needs_unwrapped_errors_and_a_kept_side(
-    game: Game, start: tuple[float, float, float], holds: bool
+    game: Unicycles, start: tuple[float, float, float], holds: bool
 ) -> None:
     for sign in (1.0, -1.0):
         r, a, psi = start
@@ -100,20 +98,20 @@ def test_no_certificate_where_the_side_may_change_otherwise() -> None:
     start = RelativeStart(1.57, 0.31, -1.05)
     assert certify(ASIDE, start, side=1).holds
     assert not certify(ASIDE, start, side=-1).holds
-    loose = make_game(1.0, 1.0, 1.0, 1.0, hysteresis=0.1)
+    loose = Unicycles(1.0, 1.0, 1.0, 1.0, hysteresis=0.1)
     assert not certify(loose, start).holds
     assert certify(LATCHED, start, side=1).holds
 
 
 def test_unequal_players_are_refused() -> None:
     with pytest.raises(PlanError, match="equal speeds and gains"):
-        certify(make_game(1.0, 1.1, 1.0, 1.0), RelativeStart(1.0))
+        certify(Unicycles(1.0, 1.1, 1.0, 1.0), RelativeStart(1.0))
 
 
 def test_bound_has_the_units_of_the_game() -> None:
     """Speed v and gain k scale lengths by v / k."""
     unit, start = 0.7 / 0.4, RelativeStart(1.57, 0.31, -1.05)
-    scaled = make_game(0.7, 0.7, 0.4, 0.4)
+    scaled = Unicycles(0.7, 0.7, 0.4, 0.4)
     big = RelativeStart(1.57 * unit, 0.31, -1.05)
     one, other = certify(ASIDE, start), certify(scaled, big)
     assert one.distance_m is not None and other.distance_m is not None

@@ -5,12 +5,12 @@ from math import pi
 import numpy as np
 import pytest
 
+from stepaside.theory.unicycle import RelativeStart, Unicycles
 from stepaside.theory.unicycle.circles import circles_of, settling_time
 from stepaside.theory.unicycle.simulation import measure, play_games, simulate
-from stepaside.theory.unicycle.unicycle_game import RelativeStart, make_game
 
-FAST = make_game(2.0, 1.0, 1.0, 4.0)
-NO_CIRCLE = make_game(1.0, 1.0, 0.5, 2.0, 0.0)
+FAST = Unicycles(2.0, 1.0, 1.0, 4.0)
+NO_CIRCLE = Unicycles(1.0, 1.0, 0.5, 2.0, 0.0)
 
 
 def test_settling_time_waits_for_the_slowest_circle_and_one_turn() -> None:

@@ -7,6 +7,7 @@ import pytest
 
 from stepaside.core.errors import PlanError
 from stepaside.core.poses import wrap_angle
+from stepaside.theory.unicycle import LAWS, Unicycles
 from stepaside.theory.unicycle.circles import (
     Circle,
     circle_of,
@@ -18,15 +19,10 @@ from stepaside.theory.unicycle.start_maps import (
     find_basins,
     random_starts,
 )
-from stepaside.theory.unicycle.unicycle_game import (
-    Game,
-    TurningLaw,
-    make_game,
-)
 
-SATURATED = TurningLaw.SATURATED
-FAST = make_game(2.0, 1.0, 1.0, 4.0)
-FAST_6 = make_game(2.0, 1.0, 1.0, 4.0, pi / 2, "saturated")
+SATURATED = "saturated"
+FAST = Unicycles(2.0, 1.0, 1.0, 4.0)
+FAST_6 = Unicycles(2.0, 1.0, 1.0, 4.0, pi / 2, "saturated")
 
 
 def random_games(count: int, seed: int = 8) -> np.ndarray:
@@ -36,30 +32,32 @@ def random_games(count: int, seed: int = 8) -> np.ndarray:
     return np.column_stack([values, rng.uniform(0.05, 3.1, count)])
 
 
-def game_of(values: np.ndarray, law: TurningLaw, rule: str) -> Game:
-    """Game of a row of :func:`random_games`."""
+def game_of(values: np.ndarray, law: str, rule: str) -> Unicycles:
+    """Unicycles of a row of :func:`random_games`."""
     vp, ve, kp, ke, angle = (float(v) for v in values)
-    return make_game(vp, ve, kp, ke, angle, law, side_rule=rule)
+    return Unicycles(vp, ve, kp, ke, angle, law, side_rule=rule)
 
 
-def rates(game: Game, state: np.ndarray, evader_turns: float) -> np.ndarray:
+def rates(
+    game: Unicycles, state: np.ndarray, evader_turns: float
+) -> np.ndarray:
     """Rates of (r, a, psi) under the printed laws, at side +1."""
     r, a, psi = state
-    vp, ve = game.pursuer.speed, game.evader.speed
+    vp, ve = game.pursuer_speed, game.evader_speed
     sight = (vp * sin(a) - ve * sin(psi)) / r
     closing = ve * cos(psi) - vp * cos(a)
-    turn_p = game.pursuer.gain * wrap_angle(a)
+    turn_p = game.pursuer_gain * wrap_angle(a)
     return np.array([closing, sight - turn_p, sight - evader_turns])
 
 
-def evader_rate(game: Game, circle: Circle, psi: float) -> float:
+def evader_rate(game: Unicycles, circle: Circle, psi: float) -> float:
     """Turning rate of the evader near a circle; its own when it slides."""
     error = wrap_angle(psi + game.angle)
-    if game.law is TurningLaw.PROPORTIONAL:
-        return game.evader.gain * error
+    if game.law == "proportional":
+        return game.evader_gain * error
     if circle.sliding:
         return circle.turning_rate_rad_s
-    return game.evader.gain * float(np.sign(error))
+    return game.evader_gain * float(np.sign(error))
 
 
 def state_of(circle: Circle) -> np.ndarray:
@@ -75,14 +73,14 @@ def test_faster_pursuer_has_a_close_reversed_circle_too() -> None:
     assert other.distance_m == pytest.approx(0.5876, abs=1e-4)
     assert main.behind and other.behind
     assert main.stable and other.stable
-    near = circles_of(make_game(1.01, 1.0, 1.0, 4.0))[1]
+    near = circles_of(Unicycles(1.01, 1.0, 1.0, 4.0))[1]
     assert near.stable and near.distance_m < 0.03
 
 
 @pytest.mark.parametrize("rule", ["behind", "latched"])
-@pytest.mark.parametrize("law", list(TurningLaw))
+@pytest.mark.parametrize("law", LAWS)
 def test_every_circle_is_an_equilibrium_of_the_printed_law(
-    law: TurningLaw, rule: str
+    law: str, rule: str
 ) -> None:
     seen = 0
     for values in random_games(60):
@@ -95,14 +93,14 @@ def test_every_circle_is_an_equilibrium_of_the_printed_law(
             rate = circle.turning_rate_rad_s
             assert rate == pytest.approx(turn)
             assert circle.direction == np.sign(rate)
-            assert abs(rate) <= game.evader.gain * (
+            assert abs(rate) <= game.evader_gain * (
                 1.0 + 1e-12 if game.saturated else pi
             )
             assert circle.distance_m > 0.0
             for error in (circle.pursuer_error_rad, circle.evader_error_rad):
                 assert -pi < error <= pi
             assert circle.radius_evader_m * abs(rate) == pytest.approx(
-                game.evader.speed
+                game.evader_speed
             )
             if rule == "behind":
                 assert -pi < circle.bearing_rad < 0.0
@@ -111,10 +109,10 @@ def test_every_circle_is_an_equilibrium_of_the_printed_law(
     assert seen > 40
 
 
-def searched(game: Game) -> list[float]:
+def searched(game: Unicycles) -> list[float]:
     """Turning rates of the rests at side +1, by search over a plain grid."""
-    vp, ve = game.pursuer.speed, game.evader.speed
-    kp, ke, alpha = game.pursuer.gain, game.evader.gain, game.angle
+    vp, ve = game.pursuer_speed, game.evader_speed
+    kp, ke, alpha = game.pursuer_gain, game.evader_gain, game.angle
 
     def crossings(x: np.ndarray, f: np.ndarray) -> list[float]:
         i = np.flatnonzero((f[1:] > 0) != (f[:-1] > 0))
@@ -140,8 +138,8 @@ def searched(game: Game) -> list[float]:
     )
 
 
-@pytest.mark.parametrize("law", list(TurningLaw))
-def test_dense_search_finds_no_other_circle(law: TurningLaw) -> None:
+@pytest.mark.parametrize("law", LAWS)
+def test_dense_search_finds_no_other_circle(law: str) -> None:
     for values in random_games(150, seed=9):
         game = game_of(values, law, "latched")
         ours = sorted(c.turning_rate_rad_s for c in circles_of(game))
@@ -152,7 +150,7 @@ def test_two_nearly_coincident_circles_are_both_found() -> None:
     """Up to the speed at which two of one direction meet and are gone."""
     gaps = []
     for speed in np.linspace(1.2629, 1.26545, 60):
-        game = make_game(
+        game = Unicycles(
             float(speed), 1.2627, 0.8583, 0.503, 0.0792, side_rule="latched"
         )
         ours = sorted(c.turning_rate_rad_s for c in circles_of(game))
@@ -167,7 +165,7 @@ def test_reversed_circle_is_behind_only_where_the_pursuer_is_faster() -> None:
     """There r = (v_p sin|a| - v_e sin|psi|) / |omega|, cosines equal."""
     seen = 0
     for values in random_games(200):
-        for law in TurningLaw:
+        for law in LAWS:
             for circle in circles_of(game_of(values, law, "behind")):
                 if circle.direction < 0:
                     seen += 1
@@ -175,8 +173,8 @@ def test_reversed_circle_is_behind_only_where_the_pursuer_is_faster() -> None:
     assert seen > 20
 
 
-@pytest.mark.parametrize("law", list(TurningLaw))
-def test_eigenvalues_are_those_of_the_printed_law(law: TurningLaw) -> None:
+@pytest.mark.parametrize("law", LAWS)
+def test_eigenvalues_are_those_of_the_printed_law(law: str) -> None:
     """Finite differences of the rates, of the sliding motion if it slides."""
     h = 1e-6
     for values in random_games(25):
@@ -205,7 +203,7 @@ def test_eigenvalues_are_those_of_the_printed_law(law: TurningLaw) -> None:
 
 def test_main_circle_comes_first_and_only_once() -> None:
     for values in random_games(80):
-        for law in TurningLaw:
+        for law in LAWS:
             for rule in ("behind", "latched"):
                 game = game_of(values, law, rule)
                 main, found = circle_of(game), circles_of(game)
@@ -220,18 +218,18 @@ def test_main_circle_comes_first_and_only_once() -> None:
 
 
 def test_hysteresis_lets_circles_beyond_the_axis_stay() -> None:
-    game = make_game(1.3, 1.0, 1.0, 1.0, 1.2, hysteresis=1.0)
+    game = Unicycles(1.3, 1.0, 1.0, 1.0, 1.2, hysteresis=1.0)
     inside = circle_of(game)
     assert inside in circles_of(game)
-    kept = circles_of(make_game(1.0, 1.0, 0.5, 0.5, 1.2, side_rule="latched"))
+    kept = circles_of(Unicycles(1.0, 1.0, 0.5, 0.5, 1.2, side_rule="latched"))
     reversed_one = kept[1]  # at the bearing -pi - 0.6
     for width, expected in ((0.0, False), (0.59, False), (0.61, True)):
-        behind = make_game(1.0, 1.0, 0.5, 0.5, 1.2, hysteresis=width)
+        behind = Unicycles(1.0, 1.0, 0.5, 0.5, 1.2, hysteresis=width)
         assert (reversed_one in circles_of(behind)) == expected
 
 
 @pytest.mark.parametrize("game", [FAST, FAST_6])
-def test_every_game_settles_on_one_of_two_circles(game: Game) -> None:
+def test_every_game_settles_on_one_of_two_circles(game: Unicycles) -> None:
     starts = random_starts(game, 150, seed=3)
     found = find_basins(game, starts)
     assert ((found.circle >= 0) | found.captured).all()
@@ -311,7 +309,7 @@ def test_every_circle_balances() -> None:
     """Closing speed is zero, the line of sight turns with the players."""
     found = 0
     for vp, ve, kp, ke, alpha in random_games(300):
-        for law in TurningLaw:
+        for law in LAWS:
             circle = find_circle(vp, ve, kp, ke, alpha, law)
             if not circle.exists:
                 continue
@@ -324,7 +322,7 @@ def test_every_circle_balances() -> None:
             assert sight == pytest.approx(omega)
             assert omega == pytest.approx(kp * a)
             assert 0 <= b < alpha + 1e-12
-            if law is TurningLaw.PROPORTIONAL:
+            if law == "proportional":
                 assert omega == pytest.approx(ke * b)
             else:
                 assert omega <= ke * (1 + 1e-12)

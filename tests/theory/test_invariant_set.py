@@ -5,16 +5,12 @@ from math import pi
 import numpy as np
 import pytest
 
+from stepaside.theory.unicycle import RelativeStart, Unicycles
 from stepaside.theory.unicycle.certificate import stays_unwrapped
 from stepaside.theory.unicycle.circles import circles_of
 from stepaside.theory.unicycle.simulation import play_games, simulate
-from stepaside.theory.unicycle.unicycle_game import (
-    Game,
-    RelativeStart,
-    make_game,
-)
 
-KEPT = make_game(1.0, 1.0, 1.0, 1.0, side_rule="latched")
+KEPT = Unicycles(1.0, 1.0, 1.0, 1.0, side_rule="latched")
 
 
 def diamond(count: int, seed: int, near: float, far: float) -> np.ndarray:
@@ -66,7 +62,7 @@ def test_no_game_leaves_the_diamond_for_any_sequence_of_sides(
 def test_kept_side_ends_on_the_main_circle_from_all_of_the_diamond(
     angle: float,
 ) -> None:
-    game = make_game(1.0, 1.0, 1.0, 1.0, angle, side_rule="latched")
+    game = Unicycles(1.0, 1.0, 1.0, 1.0, angle, side_rule="latched")
     out = play_games(game, diamond(200, 4, 0.05, 5.0), 150.0, step=0.03)
     assert np.all(out.circle == 0)
 
@@ -85,12 +81,12 @@ def test_unwrapped_motion_can_end_on_the_reversed_circle() -> None:
 
 def test_wide_angle_spirals_inward_where_the_side_keeps_changing() -> None:
     """Convergence does not go through changes of side at any angle."""
-    game = make_game(1.0, 1.0, 1.0, 1.0, 2.2)
+    game = Unicycles(1.0, 1.0, 1.0, 1.0, 2.2)
     start = RelativeStart(0.051, 1.107, 0.932)
     assert stays_unwrapped(game, -start.pursuer_error, -start.bearing)
     run = simulate(game, start, 6.0)
     assert len(run.switches) > 5 and not run.captured
-    moved = make_game(1.0, 1.0, 1.0, 1.0, pi / 2)
+    moved = Unicycles(1.0, 1.0, 1.0, 1.0, pi / 2)
     ends = [
         play_games(g, [[0.051, 1.107, 0.932]], 20.0, step=0.02).states[0, 0]
         for g in (game, moved)
@@ -106,11 +102,11 @@ def test_wide_angle_spirals_inward_where_the_side_keeps_changing() -> None:
         (KEPT, 1.0, -2.2, False),
         (KEPT, -1.1, 1.5, True),
         (KEPT, -1.1, 1.6, False),  # its error is beyond pi
-        (make_game(1, 1, 1, 1, 2.0, side_rule="latched"), 0.5, -0.5, False),
-        (make_game(1, 1, 1, 1, 2.0), 0.5, -0.5, True),
+        (Unicycles(1, 1, 1, 1, 2.0, side_rule="latched"), 0.5, -0.5, False),
+        (Unicycles(1, 1, 1, 1, 2.0), 0.5, -0.5, True),
     ],
 )
 def test_starts_proved_not_to_wrap(
-    game: Game, a: float, psi: float, expected: bool
+    game: Unicycles, a: float, psi: float, expected: bool
 ) -> None:
     assert stays_unwrapped(game, a, psi) == expected

@@ -5,6 +5,7 @@ import pytest
 
 from sampled_unicycles import play_sampled
 from stepaside.core.errors import PlanError
+from stepaside.theory.unicycle import RelativeStart, Unicycles
 from stepaside.theory.unicycle.circles import circle_of
 from stepaside.theory.unicycle.sampled_stability import (
     delayed_eigenvalues,
@@ -13,17 +14,12 @@ from stepaside.theory.unicycle.sampled_stability import (
     step_eigenvalues,
     step_map,
 )
-from stepaside.theory.unicycle.unicycle_game import (
-    Game,
-    RelativeStart,
-    make_game,
-)
 
-NAO = make_game(0.1, 0.1, 0.2, 0.2)
-UNEVEN = make_game(0.9, 1.0, 0.4, 0.7, 1.1)
+NAO = Unicycles(0.1, 0.1, 0.2, 0.2)
+UNEVEN = Unicycles(0.9, 1.0, 0.4, 0.7, 1.1)
 
 
-def on_circle(game: Game = NAO) -> np.ndarray:
+def on_circle(game: Unicycles = NAO) -> np.ndarray:
     circle = circle_of(game)
     bearing = circle.evader_error_rad - game.angle
     return np.array([circle.distance_m, circle.pursuer_error_rad, bearing])
@@ -32,7 +28,7 @@ def on_circle(game: Game = NAO) -> np.ndarray:
 @pytest.mark.parametrize("game", [NAO, UNEVEN])
 @pytest.mark.parametrize("delay", [0.0, 0.3, 1.7])
 def test_sampling_and_delay_do_not_change_the_circle(
-    game: Game, delay: float
+    game: Unicycles, delay: float
 ) -> None:
     states, *_ = play_sampled(game, RelativeStart(*on_circle(game)), 0.4, 0.4)
     np.testing.assert_allclose(states[-1], on_circle(game), atol=1e-12)
@@ -102,15 +98,15 @@ def test_largest_delay_has_an_eigenvalue_on_the_axis() -> None:
     assert abs(value.real) < 1e-9
     fine = largest_stable_delay(NAO, 0.25)
     assert fine == pytest.approx(limit - 0.125, abs=0.02)
-    unit = largest_stable_delay(make_game(1.0, 1.0, 1.0, 1.0))
+    unit = largest_stable_delay(Unicycles(1.0, 1.0, 1.0, 1.0))
     assert limit == pytest.approx(5.0 * unit, rel=1e-9)
 
 
 def test_no_linearisation_for_a_sliding_evader_or_without_a_circle() -> None:
     with pytest.raises(PlanError, match="slides"):
-        step_map(make_game(1, 1, 1, 1, 0.3, "saturated"), 0.1)
+        step_map(Unicycles(1, 1, 1, 1, 0.3, "saturated"), 0.1)
     with pytest.raises(PlanError, match="no circle"):
-        step_map(make_game(1, 1, 1, 1, 0.0), 0.1)
+        step_map(Unicycles(1, 1, 1, 1, 0.0), 0.1)
 
 
 def test_equal_players_tolerate_sampling_of_1_7_and_delay_of_1_1() -> None:

@@ -6,14 +6,11 @@ from typing import Any
 import numpy as np
 import pytest
 
+from stepaside.theory.unicycle import Unicycles
 from stepaside.theory.unicycle.simulation import play_games, simulate
 from stepaside.theory.unicycle.start_maps import (
     find_worst_start,
     map_starts,
-)
-from stepaside.theory.unicycle.unicycle_game import (
-    Game,
-    make_game,
 )
 
 
@@ -23,7 +20,7 @@ def facing(*shape: int) -> Any:
     return tuple(map(np.linspace, *zip(*ends, strict=True), shape))
 
 
-NAO = make_game(0.1, 0.1, 0.2, 0.2)
+NAO = Unicycles(0.1, 0.1, 0.2, 0.2)
 SIDES = np.array([-1.0, 1.0])
 
 
@@ -34,9 +31,11 @@ def test_map_is_symmetric_under_mirroring() -> None:
 
 
 @pytest.mark.parametrize(
-    "game", [NAO, make_game(0.1, 0.1, 0.2, 0.2, np.pi / 2, "saturated")]
+    "game", [NAO, Unicycles(0.1, 0.1, 0.2, 0.2, np.pi / 2, "saturated")]
 )
-def test_independent_optimiser_finds_nothing_closer(game: Game) -> None:
+def test_independent_optimiser_finds_nothing_closer(
+    game: Unicycles,
+) -> None:
     from scipy.optimize import differential_evolution
 
     found = map_starts(game, facing(4, 11, 11), 40.0, step=0.05)

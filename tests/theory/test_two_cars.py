@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from played_values import Player, by_table, play, towards
 from stepaside.core.errors import PlanError
-from stepaside.theory.unicycle import make_game, play_games
+from stepaside.theory.unicycle import Unicycles, play_games
 from stepaside.theory.value import (
     CarGame,
     ValueTable,
@@ -146,7 +146,7 @@ def test_optimal_evader_reaches_the_value_of_the_table(game: CarGame) -> None:
 def test_no_evader_keeps_more_than_the_table(angle: float) -> None:
     """Evaders of eq. (4) against eqs. (1)-(2), by another integrator."""
     states = drawn(0.3, 2.5)
-    game = make_game(1.0, 1.0, 1.0, 1.0, angle)
+    game = Unicycles(1.0, 1.0, 1.0, 1.0, angle)
     closest = play_games(game, states, tau).closest_distance
     bound = pursuit().value(car_poses(*states.T))
     assert (closest - bound).max() < 0.05

@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 from result_files import header, write_result
 
 from stepaside.core.poses import arc, rotate
-from stepaside.theory.unicycle import make_game, play_games
+from stepaside.theory.unicycle import Unicycles, play_games
 from stepaside.theory.value import (
     CarGame,
     ValueTable,
@@ -74,7 +74,7 @@ def compare(table: ValueTable, starts: Array) -> list[dict[str, Any]]:
     poses = car_poses(*starts.T)
     played = {"optimal": play_optimal(table, poses)}
     for name, (angle, law) in EVADERS.items():
-        game = make_game(1.0, 1.0, 1.0, 1.0, angle, law)
+        game = Unicycles(1.0, 1.0, 1.0, 1.0, angle, law)
         played[name] = play_games(game, starts, DURATION).closest_distance
     bound, best = table.value(poses), played["optimal"].mean()
     return [

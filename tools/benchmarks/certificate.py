@@ -11,8 +11,8 @@ import numpy as np
 from benchmark_options import ask
 from result_files import header, write_result
 
+from stepaside.theory.unicycle import RelativeStart, Unicycles
 from stepaside.theory.unicycle.certificate import certify
-from stepaside.theory.unicycle.unicycle_game import RelativeStart, make_game
 
 BOXES = {
     "any headings, 0.15-2 m": (0.15, 2.0, pi, pi),
@@ -41,7 +41,7 @@ def main() -> None:
         inside = np.abs(a) + np.abs(psi) < pi
         row["in the diamond"] = float(inside.mean())
         for rule in ("latched", "behind"):
-            game = make_game(0.1, 0.1, 0.2, 0.2, side_rule=rule)
+            game = Unicycles(0.1, 0.1, 0.2, 0.2, side_rule=rule)
             proofs = [certify(game, start) for start in starts]
             row[f"certain, {rule}"] = float(np.mean([p.holds for p in proofs]))
         rows.append(row)

@@ -34,7 +34,7 @@ from .tables import (
 from .terminal import json_option, print_json
 
 if TYPE_CHECKING:
-    from ..theory.unicycle.unicycle_game import Game, RelativeStart
+    from ..theory.unicycle import RelativeStart, Unicycles
 
 COMMANDS = {
     "game": "Play the game of FILE; the word may be left out.",
@@ -205,7 +205,9 @@ def _simulate(
     return run, result
 
 
-def _certify(game: "Game", start: "RelativeStart") -> dict[str, Any] | None:
+def _certify(
+    game: "Unicycles", start: "RelativeStart"
+) -> dict[str, Any] | None:
     """Return the certified closest approach; None where it is undefined."""
     from ..theory.unicycle.certificate import certify
 

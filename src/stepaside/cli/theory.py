@@ -247,13 +247,13 @@ def map(  # noqa: A001 (the command's name)
     from ..theory.unicycle.start_maps import find_worst_start, map_starts
 
     game = settings.game
-    unit = game.evader.speed / game.evader.gain
+    unit = game.evader_speed / game.evader_gain
     near, far = settings.nearest or 1.6 * unit, settings.farthest or 4.0 * unit
     if far < near:
         raise click.UsageError(
             f"farthest must be >= nearest, {near:g} [m], got {far:g} [m]"
         )
-    gain = min(game.pursuer.gain, game.evader.gain)
+    gain = min(game.pursuer_gain, game.evader_gain)
     duration = settings.duration or 30.0 / gain
     capture = settings.capture or 0.1 * unit
     axes = (

@@ -14,7 +14,8 @@ from ..strategies.evasion import Evasion
 from ..strategies.knowledge import Limits
 from ..strategies.registry import load_strategy
 from ..strategies.strategy import Strategy
-from ..theory.unicycle.unicycle_game import Game, RelativeStart, Unicycle
+from ..theory.unicycle.simulation import RelativeStart
+from ..theory.unicycle.unicycle_game import Unicycles
 from .floor_games import play_floor
 from .floor_world import FloorAgent, FloorRecorder, FloorWalk, FloorWorld
 from .game import GameInPlay, GameRules, Outcome
@@ -85,8 +86,7 @@ class StepGame:
     @classmethod
     def of_unicycles(
         cls,
-        pursuer: Unicycle,
-        evader: Unicycle,
+        game: Unicycles,
         period: float,
         duration: float,
         capture: float = 1e-6,
@@ -97,13 +97,13 @@ class StepGame:
         """
         check_positive(period, "period", "s")
         return cls(
-            evader.speed * period,
-            evader.speed,
-            evader.gain,
+            game.evader_speed * period,
+            game.evader_speed,
+            game.evader_gain,
             capture=capture,
             duration=duration,
-            pursuer_speed_ratio=pursuer.speed / evader.speed,
-            pursuer_gain_ratio=pursuer.gain / evader.gain,
+            pursuer_speed_ratio=game.pursuer_speed / game.evader_speed,
+            pursuer_gain_ratio=game.pursuer_gain / game.evader_gain,
         )
 
     @property
@@ -191,7 +191,7 @@ def play_strategies(
 
 
 def play_unicycles(
-    game: Game,
+    game: Unicycles,
     start: RelativeStart,
     names: tuple[str, str],
     times: tuple[float, float],
@@ -209,9 +209,7 @@ def play_unicycles(
         side_hysteresis=game.hysteresis,
     )
     pursuer, evader = (load_strategy(name, evasion) for name in names)
-    rules = StepGame.of_unicycles(
-        game.pursuer, game.evader, times[1], times[0], capture
-    )
+    rules = StepGame.of_unicycles(game, times[1], times[0], capture)
     return play_strategies(pursuer, evader, start.poses(), game=rules)
 
 

@@ -6,13 +6,8 @@ from math import pi
 from ..core.ranges import Range, positive
 from ..core.setting import CheckedSettings, setting
 from ..theory.unicycle.circles import settling_time
-from ..theory.unicycle.unicycle_game import (
-    Game,
-    RelativeStart,
-    SideRule,
-    TurningLaw,
-    make_game,
-)
+from ..theory.unicycle.simulation import RelativeStart
+from ..theory.unicycle.unicycle_game import LAWS, SIDE_RULES, Unicycles
 
 PAPER = ("pursuit", "evasion")  # strategies of pursuer and evader
 SHORT = 0.01  # decision period without sampling, in [s]
@@ -44,15 +39,15 @@ class UnicycleGameSettings(CheckedSettings):
         Range(0.0, pi, "rad", "the sign is given by the side"),
     )
     law: str = setting(
-        TurningLaw.PROPORTIONAL.value,
+        LAWS[0],
         "Turning law of the evader: eq. (4) or eq. (6)",
-        names=tuple(law.value for law in TurningLaw),
+        names=LAWS,
     )
     side_rule: str = setting(
-        SideRule.BEHIND.value,
+        SIDE_RULES[0],
         "Side of the line of sight to which the evader moves: the side "
         "behind it at every instant, or its initial side (latched)",
-        names=tuple(rule.value for rule in SideRule),
+        names=SIDE_RULES,
     )
     hysteresis: float = setting(
         0.0,
@@ -62,9 +57,9 @@ class UnicycleGameSettings(CheckedSettings):
     )
 
     @property
-    def game(self) -> Game:
+    def game(self) -> Unicycles:
         """The game of these settings."""
-        return make_game(
+        return Unicycles(
             self.pursuer_speed or self.speed,
             self.evader_speed or self.speed,
             self.pursuer_gain or self.gain,
@@ -120,8 +115,8 @@ class UnicycleSettings(UnicycleGameSettings):
     @property
     def start(self) -> RelativeStart:
         """Initial relative pose."""
-        evader = self.game.evader
-        distance = self.distance or 2.5 * evader.speed / evader.gain
+        unit = self.game.evader_speed / self.game.evader_gain
+        distance = self.distance or 2.5 * unit
         return RelativeStart(distance, self.aim, self.bearing)
 
     @property

@@ -14,16 +14,12 @@ from ..theory.unicycle.circles import Circle, circle_of, settling_time
 from ..theory.unicycle.simulation import (
     FittedCircle,
     PlayedGame,
+    RelativeStart,
     measure,
     simulate,
 )
 from ..theory.unicycle.start_maps import StartMap
-from ..theory.unicycle.unicycle_game import (
-    Game,
-    RelativeStart,
-    SideRule,
-    TurningLaw,
-)
+from ..theory.unicycle.unicycle_game import LAWS, Unicycles
 from .figure_style import (
     COLOURS,
     LEFT,
@@ -41,8 +37,8 @@ _FRACTIONS = (0.0, 0.12, 0.4, 1.0)  # of the time shown
 # Colours of Okabe and Ito, distinct with colour blindness, too.
 _COLOURS = ("#f0e442", "#0072b2", "#cc79a7", "#d55e00", "#009e73", "#56b4e9")
 _STYLES = {
-    TurningLaw.PROPORTIONAL: ("-", "o", LEFT),
-    TurningLaw.SATURATED: ("--", "s", RIGHT),
+    LAWS[0]: ("-", "o", LEFT),
+    LAWS[1]: ("--", "s", RIGHT),
 }
 
 
@@ -100,30 +96,23 @@ def _ticks(middle: float, half: float) -> Array:
     return ticks
 
 
-Vary = Callable[[Game, float], Game]  # returns the game with a value
-
-
-def _with_gain(game: Game, ratio: float) -> Game:
-    """Return the game with a ratio of the evader's to the pursuer's gain."""
-    evader = replace(game.evader, gain=ratio * game.pursuer.gain)
-    return replace(game, evader=evader)
-
-
-def _with_speed(game: Game, ratio: float) -> Game:
-    """Return the game with a ratio of the pursuer's to the evader's speed."""
-    pursuer = replace(game.pursuer, speed=ratio * game.evader.speed)
-    return replace(game, pursuer=pursuer)
-
-
 # Label, lowest and highest value of a parameter.
-_SWEEPS: tuple[tuple[str, float, float, Vary], ...] = (
+_SWEEPS: tuple[
+    tuple[str, float, float, Callable[[Unicycles, float], Unicycles]], ...
+] = (
     ("evasion angle [rad]", 0.15, 3.0, lambda g, x: replace(g, angle=x)),
-    ("evader's gain / pursuer's gain [1]", 0.4, 2.5, _with_gain),
-    ("pursuer's speed / evader's speed [1]", 0.4, 1.6, _with_speed),
+    (
+        *("evader's gain / pursuer's gain [1]", 0.4, 2.5),
+        lambda g, x: replace(g, evader_gain=x * g.pursuer_gain),
+    ),
+    (
+        *("pursuer's speed / evader's speed [1]", 0.4, 1.6),
+        lambda g, x: replace(g, pursuer_speed=x * g.evader_speed),
+    ),
 )
 
 
-def draw_sweep(game: Game, path: AnyPath) -> None:
+def draw_sweep(game: Unicycles, path: AnyPath) -> None:
     """Write radius and distance over angle, gain ratio and speed ratio.
 
     The parameters of the game are varied one at a time.
@@ -138,11 +127,11 @@ def draw_sweep(game: Game, path: AnyPath) -> None:
         gaps=(0.3, 0.2),
     )
     here = circle_of(game)
-    unit = game.evader.speed / game.evader.gain
+    unit = game.evader_speed / game.evader_gain
     high = 3.3 * here.distance_m if here.exists else 6.0 * unit
     for over, under, sweep in zip("abc", "def", _SWEEPS, strict=True):
         label, lowest, highest, vary = sweep
-        for law in TurningLaw:
+        for law in LAWS:
             line, mark, colour = _STYLES[law]
             own = replace(game, law=law)
             xs = np.linspace(lowest, highest, 200).tolist()
@@ -174,7 +163,7 @@ def draw_sweep(game: Game, path: AnyPath) -> None:
     save(figure, path)
 
 
-def simulate_circle(game: Game) -> FittedCircle | None:
+def simulate_circle(game: Unicycles) -> FittedCircle | None:
     """Return the circle at the end of a game that starts near it.
 
     None if it is not stable or the evader is captured.
@@ -188,7 +177,7 @@ def simulate_circle(game: Game) -> FittedCircle | None:
         circle.evader_error_rad - game.angle,
     )
     # With a latched side: near the circle the side rule has no effect.
-    kept = replace(game, side_rule=SideRule.LATCHED, hysteresis=0.0)
+    kept = replace(game, side_rule="latched", hysteresis=0.0)
     played = simulate(kept, start, settling_time(game), side=1)
     return None if played.captured else measure(played)
 

@@ -18,8 +18,8 @@ from ..games.settings_reader import read_game, settings_of
 from ..games.strategy_games import play_unicycles
 from ..games.unicycle_settings import UnicycleSettings
 from ..theory.unicycle.certificate import certify
-from ..theory.unicycle.simulation import simulate
-from ..theory.unicycle.unicycle_game import RelativeStart, make_game
+from ..theory.unicycle.simulation import RelativeStart, simulate
+from ..theory.unicycle.unicycle_game import Unicycles
 from .person_encounters import Encounter, play_encounter
 from .push_limit import PushTrial, play_push
 from .tabulation import Record, flat
@@ -67,7 +67,7 @@ def _evasion(run: Run) -> tuple[Any, Any]:
     if ends or not run.settings.is_of_the_paper:
         return closest, None  # it assumes permanent evasion
     try:
-        game = make_game(
+        game = Unicycles(
             gait.speed,
             gait.speed,
             gait.gain,

@@ -20,24 +20,24 @@ from ..planning import (
 )
 from ..planning.path import UnicycleTrajectory
 from ..theory.unicycle.circles import fit_circle, settling_time
-from ..theory.unicycle.simulation import PlayedGame, measure, simulate
-from ..theory.unicycle.unicycle_game import (
-    Game,
+from ..theory.unicycle.simulation import (
+    PlayedGame,
     RelativeStart,
-    TurningLaw,
-    Unicycle,
+    measure,
+    simulate,
 )
+from ..theory.unicycle.unicycle_game import Unicycles
 
-FIG_2 = Game(Unicycle(1.0, 0.5), Unicycle(1.0, 0.5))
+FIG_2 = Unicycles(1.0, 1.0, 0.5, 0.5)
 START = RelativeStart(5.0, 0.4, -0.2)
 ANGLES = tuple(np.radians([15.0, 30.0, 45.0, 60.0, 75.0, 90.0]).tolist())
 SMALL_ANGLE = 0.1  # evasion angle near "move back", in [rad]
-NAO = Game(Unicycle(0.1, 0.2), Unicycle(0.1, 0.2))
+NAO = Unicycles(0.1, 0.1, 0.2, 0.2)
 NAO_START = RelativeStart(1.0, 0.3, -0.1)
 STEP = 0.4  # path time of a step, in [s]
 
 
-def play(game: Game) -> PlayedGame:
+def play(game: Unicycles) -> PlayedGame:
     """Simulate a game until its last turn is the circle."""
     return simulate(game, START, settling_time(game))
 
@@ -71,7 +71,7 @@ def read_circle() -> dict[str, float]:
 
 def read_saturated() -> dict[str, float]:
     """Compare the saturated law (6) with the proportional one."""
-    saturated = measure(play(replace(FIG_2, law=TurningLaw.SATURATED)))
+    saturated = measure(play(replace(FIG_2, law="saturated")))
     radius = saturated.radius_evader_m
     return {
         "radius": radius,

@@ -26,8 +26,7 @@ from stepaside.strategies.learned import (
     dense_network,
     discrete_headings,
 )
-from stepaside.theory.unicycle import RelativeStart
-from stepaside.theory.unicycle.unicycle_game import Unicycle
+from stepaside.theory.unicycle import RelativeStart, Unicycles
 
 LIMITS = Limits(0.1, 0.2, 0.04, 0.4)
 KNOWN = Knowledge(0.0, 0.6, 1.0, LIMITS)
@@ -81,10 +80,10 @@ def file(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 def test_a_file_plays_steps_and_unicycles(file: Path) -> None:
     learned = load_strategy(str(file))
-    body = Unicycle(0.1, 0.2)
+    pair = Unicycles(0.1, 0.1, 0.2, 0.2)
     for game in (
         StepGame(duration=40.0),
-        StepGame.of_unicycles(body, body, 0.4, 40.0),
+        StepGame.of_unicycles(pair, 0.4, 40.0),
     ):
         played = play_strategies(Pursuit(), learned, START.poses(), game=game)
         back = play_strategies(

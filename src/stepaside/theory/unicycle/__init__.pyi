@@ -4,12 +4,9 @@ from .circles import circles_of as circles_of
 from .circles import find_circle as find_circle
 from .simulation import Outcomes as Outcomes
 from .simulation import PlayedGame as PlayedGame
+from .simulation import RelativeStart as RelativeStart
 from .simulation import play_games as play_games
 from .simulation import simulate as simulate
-from .unicycle_game import MOVE_ASIDE as MOVE_ASIDE
-from .unicycle_game import MOVE_BACK as MOVE_BACK
-from .unicycle_game import Game as Game
-from .unicycle_game import RelativeStart as RelativeStart
-from .unicycle_game import SideRule as SideRule
-from .unicycle_game import TurningLaw as TurningLaw
-from .unicycle_game import make_game as make_game
+from .unicycle_game import LAWS as LAWS
+from .unicycle_game import SIDE_RULES as SIDE_RULES
+from .unicycle_game import Unicycles as Unicycles

@@ -39,7 +39,8 @@ import numpy as np
 from ...core.errors import PlanError
 from ..laws import evasion_heading, side_behind
 from .circles import circle_of
-from .unicycle_game import Game, RelativeStart, check_side
+from .simulation import RelativeStart
+from .unicycle_game import Unicycles, check_side
 
 _FACTOR = 0.98  # ratio of |d| at successive knots of the integration
 _STOPS = 2000  # points on the boundary of the disc that contains the game
@@ -58,7 +59,9 @@ class Certificate:
     distance_m: float | None = None
 
 
-def certify(game: Game, start: RelativeStart, *, side: int = 0) -> Certificate:
+def certify(
+    game: Unicycles, start: RelativeStart, *, side: int = 0
+) -> Certificate:
     """Bound the closest approach of a game from below.
 
     Args:
@@ -67,13 +70,14 @@ def certify(game: Game, start: RelativeStart, *, side: int = 0) -> Certificate:
         start: Initial relative coordinates.
         side: Initial side, +1 or -1; 0 for the one behind the evader.
     """
-    if game.pursuer != game.evader or game.saturated or game.angle == 0.0:
+    vp, ve, kp, ke, alpha = game.numbers
+    if vp != ve or kp != ke or game.saturated or alpha == 0.0:
         raise PlanError(
             "the certificate needs equal speeds and gains, the proportional "
             f"law and an angle > 0 [rad], got {game}"
         )
     check_side(side)
-    alpha, radius = game.angle, circle_of(game).distance_m
+    radius = circle_of(game).distance_m
     r, a, psi = start.wrapped()
     if side == 0:
         side = side_behind(psi)
@@ -93,7 +97,9 @@ def certify(game: Game, start: RelativeStart, *, side: int = 0) -> Certificate:
     return Certificate(False)
 
 
-def stays_unwrapped(game: Game, pursuer_error: float, bearing: float) -> bool:
+def stays_unwrapped(
+    game: Unicycles, pursuer_error: float, bearing: float
+) -> bool:
     """Return whether no error of a game between equal players ever wraps.
 
     It is proved inside the diamond, for an evader with the side rule
@@ -109,10 +115,10 @@ def stays_unwrapped(game: Game, pursuer_error: float, bearing: float) -> bool:
 
 
 def _largest_spread(
-    spread: float, d: float, game: Game, radius: float
+    spread: float, d: float, game: Unicycles, radius: float
 ) -> float:
     """Return an upper sum of the comparison equation over the decay of d."""
-    speed, gain = game.pursuer.speed, game.pursuer.gain
+    speed, gain = game.pursuer_speed, game.pursuer_gain
     size, sign = abs(d), 1.0 if d > 0.0 else -1.0
     while size > _TAIL:
         smaller = _FACTOR * size
@@ -139,7 +145,7 @@ def largest_change(alpha: float, low: float, high: float) -> float:
     )
 
 
-def _unwrapped(game: Game, bound: float, radius: float, d: float) -> bool:
+def _unwrapped(game: Unicycles, bound: float, radius: float, d: float) -> bool:
     """Return whether a bound rules out that an error wraps.
 
     An error reaches pi only where the line of sight turns at a rate of k pi
@@ -148,10 +154,10 @@ def _unwrapped(game: Game, bound: float, radius: float, d: float) -> bool:
     tilt = asin(min(1.0, (radius - bound) / radius))
     if tilt + 0.5 * (game.angle + abs(d)) < pi:
         return True
-    return bound * game.evader.gain * pi > 2.0 * game.evader.speed
+    return bound * game.evader_gain * pi > 2.0 * game.evader_speed
 
 
-def _keeps_side(game: Game, bound: float, radius: float) -> bool:
+def _keeps_side(game: Unicycles, bound: float, radius: float) -> bool:
     """Return whether a bound rules out that the side changes.
 
     The side changes only where the line of sight, which then turns at
@@ -161,7 +167,7 @@ def _keeps_side(game: Game, bound: float, radius: float) -> bool:
     """
     if game.keeps_side:
         return True
-    speed, gain = game.evader.speed, game.evader.gain
+    speed, gain = game.evader_speed, game.evader_gain
     slowest = gain * min(game.angle, pi - game.angle)
     if game.hysteresis > 0.0 or slowest == 0.0:
         return False

@@ -20,7 +20,7 @@ from typing import Any
 import numpy as np
 
 from ...core.poses import Array, wrap_angle
-from .unicycle_game import Game, make_game
+from .unicycle_game import Unicycles
 
 _PIECES = 96  # intervals of the turning rate that are searched for roots
 _HALVINGS = 64  # of a bracket, down to rounding
@@ -73,7 +73,7 @@ class Circle:
         return -pi < self.bearing_rad < 0.0
 
 
-def circles_of(game: Game) -> tuple[Circle, ...]:
+def circles_of(game: Unicycles) -> tuple[Circle, ...]:
     r"""Find all equilibria of the relative motion allowed by the side rule.
 
     Circles are given for side +1, with errors in :math:`(-\pi, \pi]`; side
@@ -125,7 +125,7 @@ def circles_of(game: Game) -> tuple[Circle, ...]:
     return tuple(found)
 
 
-def circle_of(game: Game) -> Circle:
+def circle_of(game: Unicycles) -> Circle:
     """Find the main circle: the slowest with a positive rate at side +1.
 
     Under the side rule ``BEHIND`` its bearing is negative, without
@@ -140,13 +140,13 @@ def circle_of(game: Game) -> Circle:
 
 
 def find_circle(*values: Any, **named: Any) -> Circle:
-    """Find the main circle of the game of :func:`.make_game`."""
-    return circle_of(make_game(*values, **named))
+    """Find the main circle of the game of :func:`.Unicycles`."""
+    return circle_of(Unicycles(*values, **named))
 
 
-def settling_time(game: Game) -> float:
+def settling_time(game: Unicycles) -> float:
     """Return the duration after which the last turn is a circle, in [s]."""
-    gain = min(game.pursuer.gain, game.evader.gain)
+    gain = min(game.pursuer_gain, game.evader_gain)
     ends = [
         -log(PRECISION) * circle.time_constant_s
         + 2.0 * pi / abs(circle.turning_rate_rad_s)
@@ -169,7 +169,9 @@ def fit_circle(points: Array) -> tuple[Array, float]:
     return origin + (x, y), float(np.sqrt(rest + x * x + y * y))
 
 
-def relative_jacobian(game: Game, r: float, a: float, psi: float) -> Array:
+def relative_jacobian(
+    game: Unicycles, r: float, a: float, psi: float
+) -> Array:
     """Linearise the relative motion with the turning rates held.
 
     It is the derivative of the rates of (r, a, psi). Shape (3, 3).
@@ -186,7 +188,7 @@ def sorted_eigenvalues(values: Any) -> tuple[complex, ...]:
     return tuple(sorted(found, key=lambda s: (-s.real, -s.imag)))
 
 
-def _proportional(game: Game) -> Iterator[tuple[float, float, bool]]:
+def _proportional(game: Unicycles) -> Iterator[tuple[float, float, bool]]:
     """Find turning rates and errors of the evader at rest under (4).
 
     The rate of the distance is a sum of two sinusoids of the turning rate,
@@ -226,7 +228,7 @@ def _roots(
         yield 0.5 * (low + high)
 
 
-def _saturated(game: Game) -> Iterator[tuple[float, float, bool]]:
+def _saturated(game: Unicycles) -> Iterator[tuple[float, float, bool]]:
     """Find rests under (6): at full rate in either sense, or sliding.
 
     Where both coincide, it counts as one at full rate.

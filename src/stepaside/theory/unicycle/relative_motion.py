@@ -29,7 +29,7 @@ from ...core.compilation import (
     shared,
 )
 from .. import laws
-from .unicycle_game import Game
+from .unicycle_game import Unicycles
 
 prange = parallel_range()
 inlined(laws.wrap_once)  # called by evasion_heading
@@ -100,7 +100,7 @@ class GameState(NamedTuple):
     y: Any
 
 
-def rules_of(game: Game, capture_distance: float) -> Rules:
+def rules_of(game: Unicycles, capture_distance: float) -> Rules:
     """Return the parameters of a game and its capture distance as numbers."""
     return Rules(
         *game.numbers,

@@ -17,14 +17,14 @@ from .circles import (
     relative_jacobian,
     sorted_eigenvalues,
 )
-from .unicycle_game import Game
+from .unicycle_game import Unicycles
 
 # Longest delay in sample times: each adds two rows to an eigenvalue problem.
 MAX_DEPTH = 200
 NODES = 24  # intervals of a collocation
 
 
-def smooth_circle(game: Game) -> Circle:
+def smooth_circle(game: Unicycles) -> Circle:
     """Return the main circle; raise unless the law is smooth about it.
 
     A saturated evader that slides on it chatters about zero error instead.
@@ -42,7 +42,7 @@ def smooth_circle(game: Game) -> Circle:
     return circle
 
 
-def _linearised(game: Game) -> tuple[Array, Array, Array]:
+def _linearised(game: Unicycles) -> tuple[Array, Array, Array]:
     """Linearise the relative motion about the circle, and the laws.
 
     It returns derivatives of the rates of (r, a, psi) by the state (3, 3)
@@ -51,12 +51,12 @@ def _linearised(game: Game) -> tuple[Array, Array, Array]:
     """
     own = smooth_circle(game)
     place = own.distance_m, own.pursuer_error_rad, own.bearing_rad
-    gains = game.pursuer.gain, 0.0 if game.saturated else game.evader.gain
+    gains = game.pursuer_gain, 0.0 if game.saturated else game.evader_gain
     laws = np.diag([0.0, *gains])[1:]
     return relative_jacobian(game, *place), -np.eye(3)[:, 1:], laws
 
 
-def step_map(game: Game, sample_time: float, delay: float = 0.0) -> Array:
+def step_map(game: Unicycles, sample_time: float, delay: float = 0.0) -> Array:
     """Linearise one sampling period about the circle.
 
     Along the circle the relative state is constant, so the linearisation
@@ -95,7 +95,7 @@ def step_map(game: Game, sample_time: float, delay: float = 0.0) -> Array:
 
 
 def step_eigenvalues(
-    game: Game, sample_time: float, delay: float = 0.0
+    game: Unicycles, sample_time: float, delay: float = 0.0
 ) -> tuple[complex, ...]:
     """Return the eigenvalues of the step map, the largest modulus first."""
     values = np.linalg.eigvals(step_map(game, sample_time, delay))
@@ -103,7 +103,7 @@ def step_eigenvalues(
     return tuple(sorted(found, key=lambda z: (-abs(z), -z.imag)))
 
 
-def delayed_eigenvalues(game: Game, delay: float) -> tuple[complex, ...]:
+def delayed_eigenvalues(game: Unicycles, delay: float) -> tuple[complex, ...]:
     """Return the slowest eigenvalues of the law with a delay, in [1/s].
 
     There is no sampling. The history over one delay is collocated at
@@ -124,7 +124,7 @@ def delayed_eigenvalues(game: Game, delay: float) -> tuple[complex, ...]:
     return sorted_eigenvalues(np.linalg.eigvals(full))[:3]
 
 
-def growth_rate(game: Game, sample_time: float, delay: float) -> float:
+def growth_rate(game: Unicycles, sample_time: float, delay: float) -> float:
     """Return the rate at which the slowest deviation grows, in [1/s].
 
     It is negative where the circle is stable. A sample time of 0, in [s],
@@ -138,13 +138,13 @@ def growth_rate(game: Game, sample_time: float, delay: float) -> float:
     return smooth_circle(game).eigenvalues[0].real
 
 
-def largest_stable_sample_time(game: Game, delay: float = 0.0) -> float:
+def largest_stable_sample_time(game: Unicycles, delay: float = 0.0) -> float:
     """Return the sampling period, in [s], at which the circle loses stability.
 
     It is 0 if none is found to be stable with this delay, in [s], at a
     twentieth of which the search starts.
     """
-    gain = max(game.pursuer.gain, game.evader.gain)
+    gain = max(game.pursuer_gain, game.evader_gain)
     if growth_rate(game, 0.0, delay) >= 0.0:
         return 0.0
     return _first_crossing(
@@ -154,12 +154,12 @@ def largest_stable_sample_time(game: Game, delay: float = 0.0) -> float:
     )
 
 
-def largest_stable_delay(game: Game, sample_time: float = 0.0) -> float:
+def largest_stable_delay(game: Unicycles, sample_time: float = 0.0) -> float:
     """Return the delay, in [s], at which the circle loses stability.
 
     It is 0 if the circle is unstable without delay.
     """
-    gain = max(game.pursuer.gain, game.evader.gain)
+    gain = max(game.pursuer_gain, game.evader_gain)
     return _first_crossing(
         lambda delay: growth_rate(game, sample_time, delay), 0.0, 0.02 / gain
     )

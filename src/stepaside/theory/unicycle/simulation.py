@@ -8,16 +8,16 @@ Filippov's rule, so there is no chattering.
 
 from collections.abc import Callable
 from dataclasses import dataclass, field
-from math import inf, pi
+from math import atan2, cos, hypot, inf, pi, sin
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ...core.brief_repr import brief_repr
 from ...core.errors import PlanError, check_bearing, check_positive
-from ...core.poses import Array, wrap_angle, wrap_angles
+from ...core.poses import Array, Pose, wrap_angle, wrap_angles
 from .circles import Circle, circles_of, fit_circle
-from .unicycle_game import Game, RelativeStart, check_side
+from .unicycle_game import Unicycles, check_side
 
 # Step size times the larger gain, in [rad]: 0.05 s at 0.5 /s. Eight games of
 # 2,000 starts have the outcomes of a step of 0.0025 s, and closest approaches
@@ -29,13 +29,60 @@ ROWS = 4096  # of a record
 SAMPLES = 361  # of a path, to which a circle is fitted
 
 
+@dataclass(frozen=True, slots=True)
+class RelativeStart:
+    r"""Relative coordinates of two unicycles; see :mod:`.relative_motion`.
+
+    Attributes:
+        distance: Distance :math:`r`, in [m].
+        pursuer_error: Bearing :math:`a` of the evader in the pursuer's
+            frame, which is the error of (2), in [rad].
+        bearing: Bearing :math:`\psi` of the pursuer in the evader's frame,
+            in [rad]; zero if the evader faces the pursuer.
+    """
+
+    distance: float
+    pursuer_error: float = 0.0
+    bearing: float = 0.0
+
+    def __post_init__(self) -> None:
+        """Check the values."""
+        check_positive(self.distance, "distance", "m")
+        check_bearing(self.pursuer_error, "pursuer_error")
+        check_bearing(self.bearing, "bearing")
+
+    @classmethod
+    def from_world(cls, pursuer: Pose, evader: Pose) -> "RelativeStart":
+        """Compute relative coordinates of two poses in a common frame."""
+        dx, dy = evader.x - pursuer.x, evader.y - pursuer.y
+        sight = atan2(dy, dx)
+        return cls(
+            hypot(dx, dy),
+            wrap_angle(sight - pursuer.theta),
+            wrap_angle(sight + pi - evader.theta),
+        )
+
+    def wrapped(self) -> tuple[float, float, float]:
+        """Return the distance [m] and both angles in [-pi, pi] [rad]."""
+        a, psi = wrap_angle(self.pursuer_error), wrap_angle(self.bearing)
+        return self.distance, a, psi
+
+    def poses(self) -> tuple[Pose, Pose]:
+        """Return the poses of both in the initial frame of the pursuer."""
+        r, sight = self.distance, self.pursuer_error
+        turned = sight + pi - self.bearing
+        return Pose(0.0, 0.0, 0.0), Pose(
+            r * cos(sight), r * sin(sight), turned
+        )
+
+
 @dataclass(frozen=True)
 class PlayedGame:
     """Simulated game with dense output."""
 
     __repr__ = brief_repr
 
-    game: Game  # parameters of the game
+    game: Unicycles  # parameters of the game
     captured: bool  # whether the distance fell to the capture distance
     end_time: float  # time of capture or end of the game, in [s]
     closest_distance: float  # closest approach, in [m]
@@ -127,7 +174,7 @@ class FittedCircle:
 
 
 def simulate(
-    game: Game,
+    game: Unicycles,
     start: RelativeStart,
     duration: float,
     *,
@@ -176,7 +223,7 @@ def simulate(
 
 
 def play_games(
-    game: Game,
+    game: Unicycles,
     starts: ArrayLike,
     duration: float,
     *,
@@ -227,12 +274,12 @@ def play_games(
     )
 
 
-def accurate_step(game: Game) -> float:
+def accurate_step(game: Unicycles) -> float:
     """Return the step, in [s], that keeps closest approaches to 1e-7 m.
 
     At speeds of about 1 m/s.
     """
-    return STEP_TIMES_GAIN / max(game.pursuer.gain, game.evader.gain)
+    return STEP_TIMES_GAIN / max(game.pursuer_gain, game.evader_gain)
 
 
 def measure(run: PlayedGame) -> FittedCircle:
@@ -258,7 +305,11 @@ def measure(run: PlayedGame) -> FittedCircle:
 
 
 def _checked_step(
-    game: Game, duration: float, step: float | None, capture: float, side: int
+    game: Unicycles,
+    duration: float,
+    step: float | None,
+    capture: float,
+    side: int,
 ) -> float:
     """Check the options of a simulation; return its step, in [s]."""
     check_positive(duration, "duration", "s")

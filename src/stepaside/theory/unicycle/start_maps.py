@@ -7,8 +7,8 @@ import numpy as np
 
 from ...core.poses import Array
 from .circles import settling_time
-from .simulation import Outcomes, play_games
-from .unicycle_game import Game, RelativeStart
+from .simulation import Outcomes, RelativeStart, play_games
+from .unicycle_game import Unicycles
 
 _CANDIDATES = 4  # local minima of the grid that are refined
 _GAMES = 150  # of the refinement of one of them
@@ -32,7 +32,7 @@ class StartMap:
 
 
 def map_starts(
-    game: Game,
+    game: Unicycles,
     axes: tuple[Array, Array, Array],
     duration: float,
     **options: Any,
@@ -51,7 +51,7 @@ def map_starts(
 
 
 def find_worst_start(
-    game: Game, found: StartMap, duration: float, **options: Any
+    game: Unicycles, found: StartMap, duration: float, **options: Any
 ) -> tuple[RelativeStart, float]:
     """Search the start with the closest approach, in [m], within a map.
 
@@ -99,19 +99,19 @@ def find_worst_start(
     return RelativeStart(r, a, psi), worst
 
 
-def random_starts(game: Game, count: int, *, seed: int = 0) -> Array:
+def random_starts(game: Unicycles, count: int, *, seed: int = 0) -> Array:
     """Draw initial states r [m], a, psi [rad], uniformly. Shape (count, 3).
 
     Distances are 0.3 to 4 units, of the evader's speed over the
     smaller gain.
     """
-    unit = game.evader.speed / min(game.pursuer.gain, game.evader.gain)
+    unit = game.evader_speed / min(game.pursuer_gain, game.evader_gain)
     rng = np.random.default_rng(seed)
     r = rng.uniform(NEAREST * unit, FARTHEST * unit, count)
     return np.column_stack([r, rng.uniform(-np.pi, np.pi, (count, 2))])
 
 
-def find_basins(game: Game, starts: Array, **options: Any) -> Outcomes:
+def find_basins(game: Unicycles, starts: Array, **options: Any) -> Outcomes:
     """Play games that are long enough to reach all stable circles.
 
     Args:
@@ -119,7 +119,7 @@ def find_basins(game: Game, starts: Array, **options: Any) -> Outcomes:
         starts: Rows of r [m], a, psi [rad]. Shape (n, 3).
         options: Options of :func:`.play_games`.
     """
-    longest = _LONGEST / min(game.pursuer.gain, game.evader.gain)
+    longest = _LONGEST / min(game.pursuer_gain, game.evader_gain)
     return play_games(
         game, starts, min(settling_time(game), longest), **options
     )
