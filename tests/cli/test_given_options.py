@@ -15,9 +15,7 @@ from stepaside.cli.theory import PlanSettings
 from stepaside.core.entries import read_entries
 from stepaside.games.game_settings import duel
 from stepaside.games.game_settings import walk as make_walk
-from stepaside.games.settings_reader import (
-    dump_configuration,
-)
+from stepaside.games.settings_reader import dump_configuration
 from stepaside.sim.body_settings import BODIES
 from stepaside.sim.camera_settings import CLUTTER
 from stepaside.sim.push import Push

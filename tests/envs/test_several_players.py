@@ -9,8 +9,7 @@ import pytest
 
 from stepaside.core.errors import ConfigurationError
 from stepaside.envs import ParallelGame
-from stepaside.games.game_settings import GameSettings
-from stepaside.games.settings_reader import read_game
+from stepaside.games.game_settings import GameSettings, read_game
 
 AHEAD = np.array([0.0, 1.0], np.float32)
 STILL = np.array([0.0, 0.0], np.float32)

@@ -12,7 +12,7 @@ import stepaside as sa
 from flows.calls import stepaside
 from legs_robot import nao_on_legs
 from stepaside.games.game import play
-from stepaside.games.settings_reader import read_game
+from stepaside.games.game_settings import read_game
 from stepaside.robots.description import load_robot
 from stepaside.robots.head import load_head
 

@@ -19,7 +19,7 @@ from stepaside.fitting.legs_measurement import (
     run_tracking_walk,
     run_trial,
 )
-from stepaside.games.robot_settings import settings_from_description
+from stepaside.games.player_settings import settings_from_description
 from stepaside.robots.description import RobotDescription, load_robot
 from stepaside.sim.body_settings import BodySettings
 from stepaside.strategies.velocity_set import STILL, BodyVelocity

@@ -16,9 +16,8 @@ pytest.importorskip("onnxruntime")
 from stepaside.cli.main import main
 from stepaside.fitting.legs_measurement import LegsTrial, run_trial
 from stepaside.games.game import Outcome
-from stepaside.games.game_settings import duel
+from stepaside.games.game_settings import duel, read_game
 from stepaside.games.recorded_game import run_game
-from stepaside.games.settings_reader import read_game
 from stepaside.locomotion.control_settings import LegsSettings
 from stepaside.locomotion.policy.contract_reader import read_contract
 from stepaside.locomotion.policy.runner import PolicyNetwork

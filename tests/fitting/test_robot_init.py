@@ -20,10 +20,10 @@ from stepaside.fitting.motor_data import (
     gains_of,
 )
 from stepaside.games import duel, run_game
-from stepaside.games.robot_settings import (
+from stepaside.games.game_settings import read_game
+from stepaside.games.player_settings import (
     settings_from_description,
 )
-from stepaside.games.settings_reader import read_game
 from stepaside.robots.description import (
     FILE,
     RobotDescription,

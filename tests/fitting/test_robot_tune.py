@@ -19,7 +19,7 @@ from stepaside.fitting.robot_verification import (
     TrialPath,
     WalkTrialResult,
 )
-from stepaside.games.robot_settings import settings_from_description
+from stepaside.games.player_settings import settings_from_description
 from stepaside.robots.description import (
     FILE,
     RobotDescription,

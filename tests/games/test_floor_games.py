@@ -9,8 +9,8 @@ import pytest
 
 from stepaside.arena import Room, RoomRecipe, generate_room
 from stepaside.games import Outcome, StepGame, StrategyTrack, play_strategies
+from stepaside.games.game_settings import read_game
 from stepaside.games.recorded_game import run_game
-from stepaside.games.settings_reader import read_game
 from stepaside.strategies import Evasion, Pursuit, Strategy
 from stepaside.theory.unicycle import RelativeStart
 

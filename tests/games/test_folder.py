@@ -13,7 +13,7 @@ import pytest
 from stepaside.core.errors import ConfigurationError
 from stepaside.core.poses import Array
 from stepaside.games.game import Outcome
-from stepaside.games.game_settings import StartSettings
+from stepaside.games.game_settings import StartSettings, read_game
 from stepaside.games.game_settings import duel as make_duel
 from stepaside.games.recorded_game import repeat_game, run_game
 from stepaside.games.run import Run
@@ -23,7 +23,7 @@ from stepaside.games.run_archive import (
     load_run,
     write_run_files,
 )
-from stepaside.games.settings_reader import load_game, read_game
+from stepaside.games.settings_reader import load_game
 from stepaside.games.trajectory import Trajectory
 from stepaside.report.run_folder import write_run
 from stepaside.report.scene import RunScene

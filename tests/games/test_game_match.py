@@ -8,10 +8,9 @@ import numpy as np
 import pytest
 
 from stepaside.games.game import Outcome
-from stepaside.games.game_settings import GameSettings
+from stepaside.games.game_settings import GameSettings, read_game
 from stepaside.games.recorded_game import run_game
 from stepaside.games.run import Run
-from stepaside.games.settings_reader import read_game
 
 
 def game(*players: dict[str, Any], **entries: Any) -> GameSettings:

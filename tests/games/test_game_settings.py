@@ -18,14 +18,11 @@ from stepaside.games.game_settings import (
     GameSettings,
     StartSettings,
     duel,
-)
-from stepaside.games.game_starts import draw_start
-from stepaside.games.robot_settings import body_of_robot
-from stepaside.games.settings_reader import (
-    dump_configuration,
-    load_game,
     read_game,
 )
+from stepaside.games.game_starts import draw_start
+from stepaside.games.player_settings import body_of_robot
+from stepaside.games.settings_reader import dump_configuration, load_game
 from stepaside.planning import PRESETS, GaitSettings
 from stepaside.robots.description import load_robot
 from stepaside.sim.body_settings import BODIES
@@ -72,7 +69,7 @@ def test_a_setting_is_changed_of_the_game_of_all_or_of_one_player() -> None:
     assert made.pursuer.person.speed == 1.0 and made.robots == ("evader",)
     assert made.changed(evader={"strategy": ""}).evader.strategy == ""
     for changes, message in (
-        ({"weather": 1}, "unknown setting weather"),
+        ({"weather": 1}, "unknown entry weather"),
         ({"evader": {"mood": 1}}, "evader: .*mood"),
         ({"evader": {"strategy": "nobody"}}, "evader: strategy.*nobody"),
         ({"level": "steps"}, "game must be 'game' unless"),
@@ -98,7 +95,10 @@ def test_a_setting_is_changed_of_the_game_of_all_or_of_one_player() -> None:
         ({"evader": {"gait": {"stride": 30}}}, "here, evader: gait.stride"),
         ({"evader": {"person": {"speed": 1}}}, "person must be omitted"),
         ({"players": 3}, r"must be tables \[\[players\]\], got 3"),
-        ({"players": [{"role": "evader"}]}, "player 1 must have a name"),
+        (
+            {"players": [{"role": "evader"}]},
+            "player 1 must be a table with a name",
+        ),
         ({"recipe": {"discs": 3}}, "requires the seed of a random room"),
     ],
 )
@@ -218,6 +218,7 @@ def test_a_description_gives_gait_control_and_distances(
         },
     )
     made = read_game({"robot": robot}, base=duel(seed=5, duration=3.0))
+    assert made == duel(seed=5, duration=3.0, robot=robot)
     evader = made.evader
     assert (made.seed, made.duration) == (5, 3.0)
     assert evader.gait.stride == 0.03 and evader.gait.sole.front == 0.08

@@ -9,9 +9,8 @@ import pytest
 
 from stepaside.core.errors import ConfigurationError
 from stepaside.core.poses import wrap_angle
-from stepaside.games.game_settings import GameSettings
+from stepaside.games.game_settings import GameSettings, read_game
 from stepaside.games.game_starts import least_distance, with_starts
-from stepaside.games.settings_reader import read_game
 
 
 def game(*more: dict[str, Any], **entries: Any) -> GameSettings:

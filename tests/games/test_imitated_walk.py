@@ -14,9 +14,9 @@ from stepaside.control.sensor_sight import CameraSight
 from stepaside.core.poses import Pose
 from stepaside.games.game import Outcome
 from stepaside.games.game_settings import duel as make_duel
+from stepaside.games.game_settings import read_game
 from stepaside.games.players import RobotPlayer
 from stepaside.games.recorded_game import RecordedGame, run_game
-from stepaside.games.settings_reader import read_game
 from stepaside.sim.camera_settings import CameraSettings, ColourSettings
 from stepaside.sim.person_settings import PersonSettings
 

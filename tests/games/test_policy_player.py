@@ -9,13 +9,12 @@ pytest.importorskip("onnxruntime")
 
 from legs_robot import nao_on_legs
 from stepaside.games.game import play
-from stepaside.games.game_settings import GameSettings, duel
+from stepaside.games.game_settings import GameSettings, duel, read_game
 from stepaside.games.players import RobotPlayer
 from stepaside.games.recorded_game import (
     RecordedGame,
     run_game,
 )
-from stepaside.games.settings_reader import read_game
 from stepaside.locomotion.policy.policy_legs import PolicyWalk
 from stepaside.planning import Direction
 from stepaside.strategies import Intent, Knowledge

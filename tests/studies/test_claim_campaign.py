@@ -13,7 +13,7 @@ from click.testing import CliRunner
 
 from stepaside.cli.main import main
 from stepaside.core import worker_pool as workers
-from stepaside.games.robot_settings import LEGS_GAIT
+from stepaside.games.player_settings import LEGS_GAIT
 from stepaside.studies import claims as studied
 from stepaside.studies.claims import (
     ONCE,

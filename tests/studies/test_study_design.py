@@ -9,8 +9,7 @@ import pytest
 
 import stepaside as sa
 from stepaside.core.errors import ConfigurationError
-from stepaside.games.game_settings import duel
-from stepaside.games.settings_reader import read_game
+from stepaside.games.game_settings import duel, read_game
 from stepaside.sim.body_settings import BODIES
 from stepaside.strategies.table_cache import pursuit_bound
 from stepaside.studies import tournament

@@ -20,10 +20,9 @@ from result_files import header, write_result
 from resumable_jobs import finished, gather
 
 from stepaside.games.forecast import forecast
-from stepaside.games.game_settings import GameSettings, duel
+from stepaside.games.game_settings import GameSettings, duel, read_game
 from stepaside.games.player_settings import SENSING
 from stepaside.games.recorded_game import run_game
-from stepaside.games.settings_reader import read_game
 from stepaside.locomotion.control_settings import LegsSettings
 from stepaside.locomotion.policy.policy_legs import load_legs
 from stepaside.robots.description import load_robot

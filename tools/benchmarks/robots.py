@@ -18,9 +18,8 @@ from result_files import header, write_result
 
 from stepaside.fitting.derivation import derive, report_of
 from stepaside.fitting.description_writer import write_description
-from stepaside.games.game_settings import duel
+from stepaside.games.game_settings import duel, read_game
 from stepaside.games.recorded_game import run_game
-from stepaside.games.settings_reader import read_game
 from stepaside.robots.description import FILE
 
 SEED, DURATION = 7, 120.0

@@ -192,7 +192,7 @@ def measure(
 
     from ..core.worker_pool import worker_pool
     from ..fitting.legs_measurement import measure_legs
-    from ..games.robot_settings import (
+    from ..games.player_settings import (
         body_of_robot,
         settings_from_description,
     )

@@ -22,14 +22,9 @@ from ..core.setting import (
     entries_of,
     similar_paths,
 )
-from ..games.game_settings import GameSettings
-from ..games.settings_reader import (
-    entries_of_game,
-    load_settings,
-    nested,
-    read_game,
-    settings_of,
-)
+from ..games.game_settings import GameSettings, read_game
+from ..games.player_settings import nested, settings_of
+from ..games.settings_reader import entries_of_game, load_settings
 from .settings_text import commented
 from .terminal import write_result
 

@@ -10,7 +10,7 @@ import mujoco
 import numpy as np
 
 from ..core.errors import ModelError, ReachError
-from ..games.robot_settings import settings_from_description
+from ..games.player_settings import settings_from_description
 from ..planning import GaitSettings
 from ..robots.description import RobotDescription
 from ..robots.description_types import (

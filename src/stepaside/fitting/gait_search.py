@@ -16,7 +16,7 @@ from math import hypot, log
 from pathlib import Path
 from typing import Any, NamedTuple
 
-from ..games.robot_settings import settings_from_description
+from ..games.player_settings import settings_from_description
 from ..robots.description import LEAN_LIMIT, RobotDescription
 from ..robots.description_types import RobotGames
 from ..robots.tree_cache import digest_of

@@ -13,8 +13,8 @@ import numpy as np
 from ..core.errors import StepAsideError
 from ..games.game import Outcome, play
 from ..games.game_settings import walk
+from ..games.player_settings import settings_from_description
 from ..games.recorded_game import RecordedGame
-from ..games.robot_settings import settings_from_description
 from ..locomotion.control_settings import ControlSettings
 from ..locomotion.zmp.reference_table import initial_stance
 from ..robots.description import FILE, REMEDY, RobotDescription

@@ -5,20 +5,19 @@ from dataclasses import dataclass, fields, replace
 from math import pi
 from typing import Any
 
-from ..arena import NO_OBSTACLES, ObstacleSet, Room
+from .. import arena
+from ..arena import NO_OBSTACLES, ObstacleSet, Room, RoomRecipe, load_room
 from ..core.brief_repr import brief_repr
-from ..core.errors import ConfigurationError, check_within
+from ..core.entries import read_entries
+from ..core.errors import ConfigurationError, check_within, shown
 from ..core.player_identity import PlayerIdentity, Role
 from ..core.ranges import RUNTIME, SEEDS, Range
-from ..core.setting import check_settings, setting
+from ..core.setting import NONE, check_settings, setting
 from ..locomotion.control_settings import MapSettings
 from ..planning import GaitSettings
+from ..robots.description import load_robot
 from ..sim.body_settings import BODIES, BodySettings
-from ..sim.camera_settings import (
-    CameraSettings,
-    LidarSettings,
-    SceneSettings,
-)
+from ..sim.camera_settings import CameraSettings, LidarSettings, SceneSettings
 from ..sim.physics_settings import PhysicsSettings
 from ..sim.push import MOST_PUSHES, Push
 from ..strategies.registry import OF_EVASION
@@ -32,6 +31,10 @@ from .player_settings import (
     USED_BY,
     WALKER,
     PlayerSettings,
+    body_of_robot,
+    nested,
+    settings_of,
+    take_preset,
 )
 
 GAME_LEVELS = ("physics", "steps", "unicycle")
@@ -42,6 +45,8 @@ OF_ALL = (  # settings of players that a game may give for all
     *("person", "crowd"),
 )
 AT_MOST = "beyond, they never meet"
+COUNT = Range(1, MOST_PLAYERS, "1", "players of a game", whole=True)
+RECIPE = "recipe"  # entries of a random room
 
 
 @dataclass(frozen=True, slots=True)
@@ -198,30 +203,7 @@ class GameSettings:
         They are those of the game; of all players that use them, like
         ``gait``; or a dictionary for one player, by its name.
         """
-        listed = changes.pop("players", self.players)
-        rest, common, own = dict[str, Any](), dict[str, Any](), {}
-        for name, value in changes.items():
-            if name in OF_ALL:
-                common[name] = value
-            elif name in NOT_PLAYERS:
-                rest[name] = value
-            elif name in self.names:
-                own[name] = value
-            else:
-                raise ConfigurationError(
-                    f"unknown setting {name}; there are "
-                    f"{', '.join([*sorted(NOT_PLAYERS), *self.names])}"
-                )
-        players = []
-        for player in listed:
-            mine = dict(own.get(player.name, {}))
-            used = USED_BY[mine.get("body", player.body)]
-            shared = {k: v for k, v in common.items() if k in used}
-            try:
-                players.append(replace(player, **(shared | mine)))
-            except TypeError as error:
-                raise ConfigurationError(f"{player.name}: {error}") from error
-        return replace(self, **rest, players=tuple(players))
+        return read_game(nested(changes), base=self) if changes else self
 
     def with_players(
         self, changes: Mapping[str, Mapping[str, Any]]
@@ -478,3 +460,140 @@ def walk(
     own = PlayerSettings(WALKER, strategy=way, start=(0.0, 0.0, 0.0))
     made = GameSettings("walk", duration=20.0, players=(own,))
     return made.changed(**changes)
+
+
+STARTED_FROM = {"duel": duel, "walk": walk}  # what a file changes
+
+
+def read_game(
+    entries: Mapping[str, Any],
+    source: str = "",
+    *,
+    base: GameSettings | None = None,
+) -> GameSettings:
+    """Turn nested entries into the settings of a game.
+
+    Entries of ``[[players]]`` change what the robot of the player brings.
+    Entries that only players have, like ``gait``, hold for all that use them
+    and do not have their own, and a table named like a player changes this
+    player. ``body`` may be the name of a preset, and ``room`` a room file or
+    the seed of a room by ``recipe``.
+    """
+    left, before = dict(entries), source and f"{source}, "
+    if base is None and entries.get("game") in STARTED_FROM:
+        base = STARTED_FROM[entries["game"]]()
+    own = {p.name: p for p in base.players} if base else {}
+    tables = [(before + name, name, dict[str, Any]()) for name in own]
+    if (listed := left.pop("players", None)) is not None:
+        if not isinstance(listed, list):
+            raise ConfigurationError(
+                f"{before}players must be tables [[players]], got "
+                f"{shown(listed)}"
+            )
+        tables = [
+            (f"{before}player {number}, {each['name']}", each["name"], each)
+            for number, entry in enumerate(listed, start=1)
+            for each in _copies(entry, f"{before}player {number}")
+        ]
+    shared = {k: left.pop(k) for k in OF_ALL if k in left}
+    changes = []
+    for place, name, entry in tables:
+        player = own.get(name) or PlayerSettings(name)
+        mine = nested({} if name in NOT_PLAYERS else left.pop(name, {}), entry)
+        used = USED_BY.get(mine.get("body", player.body), set(OF_ALL))
+        common = {k: v for k, v in shared.items() if k in used}
+        where = place if mine else source
+        changes.append((where, player, nested(mine, common), mine))
+    if base is not None:
+        base = _with_distances(base, changes)
+    made = tuple(_player(*each) for each in changes)
+    if base is None:
+        base = GameSettings(players=made)
+    robots = [player.robot for player in made if player.body == "robot"]
+    if preset := take_preset(left, "body", BODIES):
+        body = body_of_robot((robots or ["nao"])[0], preset)
+        base = replace(base, body=body)
+    _make_room(left)
+    if made != base.players:
+        left["players"] = made
+    return read_entries(GameSettings, left, source, base=base)
+
+
+def _copies(entry: Any, source: str) -> list[dict[str, Any]]:
+    """Return an entry for each of ``count`` players alike, numbered."""
+    if not isinstance(entry, dict) or type(entry.get("name")) is not str:
+        raise ConfigurationError(
+            f"{source} must be a table with a name, got {entry!r:.80}"
+        )
+    rest = dict(entry)
+    if "count" not in rest:
+        return [rest]
+    count = rest.pop("count")
+    COUNT.check(count, f"{source}: count")
+    if count > 1 and "start" in rest:
+        raise ConfigurationError(
+            f"{source}: start must be omitted with count {count}, or all "
+            "would start at one place"
+        )
+    return [
+        rest | {"name": f"{rest['name']}-{number}"}
+        for number in range(1, count + 1)
+    ]
+
+
+def _with_distances(base: GameSettings, changes: list[Any]) -> GameSettings:
+    """Return a duel with the distances of the robots that entries name."""
+    given = [entries.get("robot") for _, _, entries, _ in changes]
+    if base.game != "duel" or not any(isinstance(x, str) for x in given):
+        return base
+    games = [
+        load_robot(entries.get("robot", player.robot)).game
+        for _, player, entries, _ in changes
+        if entries.get("body", player.body) == "robot"
+    ]
+    radius = max(game.safety_radius for game in games)
+    for at, (where, player, entries, mine) in enumerate(changes):
+        if player.name == EVADER:
+            own = {"evasion": {"safety_radius": radius}}
+            changes[at] = where, player, nested(entries, own), mine
+    start = replace(
+        base.start,
+        least=max(game.start_least for game in games),
+        near=max(game.start_near for game in games),
+        far=max(game.start_far for game in games),
+    )
+    return replace(base, start=start)
+
+
+def _player(
+    source: str,
+    base: PlayerSettings,
+    entries: Mapping[str, Any],
+    mine: Mapping[str, Any],
+) -> PlayerSettings:
+    """Return the settings of one player; those of its own must have effect."""
+    player: PlayerSettings = settings_of(
+        PlayerSettings, entries, source, base=base
+    )
+    for key in mine.keys() - USED_BY[player.body]:
+        if getattr(player, key) != getattr(base, key):
+            raise ConfigurationError(
+                f"{source}: {key} must be omitted with body {player.body!r}, "
+                "as it has no effect"
+            )
+    return player
+
+
+def _make_room(entries: dict[str, Any]) -> None:
+    """Put a room in place of its file or its seed."""
+    recipe, plan = entries.pop(RECIPE, None), entries.get("room")
+    if recipe is not None and type(plan) is not int:
+        got = "none" if plan is None else f"{plan}"
+        raise ConfigurationError(
+            f"{RECIPE} requires the seed of a random room as room, got {got}"
+        )
+    if type(plan) is int:
+        own = read_entries(RoomRecipe, recipe or {})
+        entries["room"] = arena.generate_room(own, plan)
+    elif isinstance(plan, str) and plan != NONE:
+        entries["room"] = load_room(plan)

@@ -1,10 +1,13 @@
 """Settings of one player, and what they imply where they are left open."""
 
 import re
+from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from math import pi
-from typing import Self
+from pathlib import Path
+from typing import Any, Self, TypeVar
 
+from ..core.entries import read_entries
 from ..core.errors import ConfigurationError
 from ..core.player_identity import PlayerIdentity, Role
 from ..core.poses import Pose
@@ -12,8 +15,8 @@ from ..core.ranges import Range
 from ..core.setting import REQUIRED, check_settings, setting
 from ..locomotion.control_settings import ControlSettings, LegsSettings
 from ..planning import PRESETS, GaitSettings
-from ..robots.description import load_robot
-from ..sim.body_settings import BodySettings
+from ..robots.description import FILE, RobotDescription, load_robot
+from ..sim.body_settings import BODIES, BodySettings
 from ..sim.person_settings import RADIUS, CrowdSettings, PersonSettings
 from ..sim.physics_settings import SightSettings
 from ..strategies import Evasion, load_strategy
@@ -48,6 +51,19 @@ USED_BY = {  # settings of a player that its kind of body uses
     "unicycle": ALWAYS | OF_TEMPLATE,
     "person": ALWAYS | {"goal", "draws_goal", "person", "crowd"},
 }
+
+
+# Template of learned legs: speed [m/s], gain [1/s], and 0.4 s from decision to
+# decision, in path time as in gait time. Their CoM is over the feet.
+LEGS_GAIT: Mapping[str, Any] = {
+    "speed": 0.5,
+    "gain": 0.4,
+    "stride": 0.2,
+    "single_support": 0.3,
+    "double_support": 0.1,
+    "zmp_forward": 0.0,
+}
+PRESET = ""  # name of a preset among the entries that change it
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -252,3 +268,126 @@ class PlayerSettings(RobotSettings):
         if not self.strategy and (self.goal or self.draws_goal):
             own = replace(self, strategy="goal")
         return own.resolved_as(self.role, body, person=person, walks=walks)
+
+
+def settings_from_description(description: RobotDescription) -> RobotSettings:
+    """Return robot, gait, control, legs and safety radius of a description."""
+    source = str(description.folder / FILE)
+    gait: dict[str, Any] = dict(description.gait)
+    network = description.locomotion.get("network", "")
+    if network:
+        network = str(description.path_of(network))
+        gait |= LEGS_GAIT
+    if description.sole:
+        gait["sole"] = dict(description.sole)
+    return RobotSettings(
+        robot=str(description.folder),
+        gait=read_entries(GaitSettings, gait, f"{source}, gait"),
+        control=read_entries(
+            ControlSettings, dict(description.control), f"{source}, control"
+        ),
+        legs=LegsSettings(network),
+        evasion=Evasion(safety_radius=description.game.safety_radius),
+    )
+
+
+def nested(
+    changes: Mapping[str, Any], below: Mapping[str, Any] | None = None
+) -> dict[str, Any]:
+    """Return nested entries with changes by name with dots.
+
+    A preset, like ``body = "hardware"``, below changes of its entries
+    becomes the entry with an empty name among them.
+    """
+    found = dict(below or {})
+    for name, value in changes.items():
+        head, dot, rest = name.partition(".")
+        if dot or isinstance(value, dict):
+            own = found.get(head, {})
+            own = own if isinstance(own, dict) else {PRESET: own}
+            found[head] = nested({rest: value} if dot else value, own)
+        else:
+            found[head] = value
+    return found
+
+
+def settings_of(
+    kind: type[Any],
+    entries: Mapping[str, Any],
+    source: str = "",
+    *,
+    base: Any = None,
+) -> Any:
+    """Return settings from nested entries.
+
+    ``robot`` and ``legs.network`` bring gait and control of the robot, and
+    ``gait`` may be the name of a preset.
+    """
+    left = dict(entries)
+    base = kind() if base is None else base
+    if isinstance(base, RobotSettings):
+        if isinstance(left.get("robot"), str):
+            base = _with_robot(base, left["robot"])
+        legs = left.get("legs", {})
+        if isinstance(legs, Mapping) and legs.get("network"):
+            base = replace(base, gait=replace(base.gait, **LEGS_GAIT))
+    if hasattr(base, "gait") and (
+        preset := take_preset(left, "gait", PRESETS)
+    ):
+        robot = getattr(base, "robot", "nao")
+        brought = settings_from_description(load_robot(robot)).gait
+        if brought != PRESETS["nao"]:
+            raise ConfigurationError(
+                f"gait {preset} requires a robot with NAO's gait: its lengths "
+                f"and times are NAO's, but {robot} has its own"
+            )
+        base = replace(base, gait=PRESETS[preset])
+    return read_entries(kind, left, source, base=base)
+
+
+R = TypeVar("R", bound=RobotSettings)
+
+
+def _with_robot(base: R, robot: str) -> R:
+    """Return settings with gait, control, legs and radius of a robot."""
+    own = settings_from_description(load_robot(robot))
+    control, radius = own.control, own.evasion.safety_radius
+    if not control.feedback:  # the robot needs none, but a body may
+        control = replace(control, method=None, feedback=None)
+    return replace(
+        base,
+        robot=robot,
+        gait=own.gait,
+        control=control,
+        legs=own.legs,
+        evasion=replace(base.evasion, safety_radius=radius),
+    )
+
+
+def take_preset(
+    entries: dict[str, Any], name: str, presets: Mapping[str, Any]
+) -> str:
+    """Return the preset that an entry names, which leaves its changes."""
+    given = entries.get(name)
+    changes = dict(given) if isinstance(given, Mapping) else {}
+    preset = changes.pop(PRESET, given)
+    if not isinstance(preset, str) or preset not in presets:
+        return ""
+    entries[name] = changes
+    return preset
+
+
+def body_of_robot(robot: str | Path, name: str) -> BodySettings:
+    """Return the body of a preset, with the errors of a robot.
+
+    The ideal body is that of all robots; in others the ``[body]`` of the
+    robot's description replaces values of NAO.
+    """
+    preset = BODIES[name]
+    description = load_robot(robot)
+    if name == "ideal" or not description.body:
+        return preset
+    source = f"{description.folder / FILE}, body"
+    return read_entries(
+        BodySettings, dict(description.body), source, base=preset
+    )

@@ -9,7 +9,7 @@ from matplotlib.patches import Polygon
 from scipy.spatial import ConvexHull, QhullError
 
 from ..core.poses import Array
-from ..games.robot_settings import settings_from_description
+from ..games.player_settings import settings_from_description
 from ..locomotion.zmp.reference_table import initial_stance
 from ..planning import Foot
 from ..planning.plan import sole_corners

@@ -12,13 +12,12 @@ from ..core.errors import ConfigurationError
 from ..core.poses import Array
 from ..games.forecast import circle_of_theory, convergence_time
 from ..games.game import GameInPlay, GameObserver, Outcome, play
-from ..games.game_settings import GameSettings, StartSettings, duel
+from ..games.game_settings import GameSettings, StartSettings, duel, read_game
 from ..games.physics_world import PhysicsWorld
 from ..games.player_settings import PLAYERS
 from ..games.players import RobotPlayer
 from ..games.recorded_game import RecordedGame, run_game
 from ..games.run import Run
-from ..games.settings_reader import read_game
 from ..games.strategy_games import StepGame, StrategyTrack
 from ..games.trajectory import angle_between, distance_between, last_third
 from ..planning import PRESETS, GaitSettings

@@ -16,7 +16,7 @@ import numpy as np
 
 from ..core.entries import load_entries, read_entries
 from ..core.errors import AnyPath, ConfigurationError, as_path, check_choice
-from ..games.settings_reader import nested
+from ..games.player_settings import nested
 from ..strategies.registry import file_of
 from .study import MOST_CASES, Study
 from .study_games import GAMES

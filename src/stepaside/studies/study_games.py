@@ -11,10 +11,10 @@ from ..core.errors import PlanError
 from ..core.player_identity import Role
 from ..core.poses import Pose
 from ..games.game import Outcome
-from ..games.game_settings import GameSettings, duel, walk
+from ..games.game_settings import GameSettings, duel, read_game, walk
+from ..games.player_settings import settings_of
 from ..games.recorded_game import run_game
 from ..games.run import Run
-from ..games.settings_reader import read_game, settings_of
 from ..games.strategy_games import play_unicycles
 from ..games.unicycle_settings import UnicycleSettings
 from ..theory.unicycle.certificate import certify
