@@ -258,6 +258,10 @@ def _read(
         base = read_game(file, source)
     elif isinstance(kind, GameSettings):
         base = read_game(file, source, base=kind)
+        if base.game != kind.game:
+            raise click.UsageError(
+                f"game must be {kind.game} in {source}, got {base.game}"
+            )
     entries = _entries_of(base)
     changes = changes_of(texts, entries)
     given = {*changes, *(["--config"] if config else [])}
