@@ -7,9 +7,8 @@ import sqlite3
 import sys
 from collections.abc import Iterator
 from contextlib import closing
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from pathlib import Path
-from signal import SIGINT, raise_signal
 from typing import Any
 
 import gymnasium
@@ -21,32 +20,10 @@ from expected.asking import GAME, answer, command, own_evader
 from legs_robot import nao_on_legs
 from stepaside.cli.tables import print_run
 from stepaside.envs import ParallelGame  # registers the environments, too
-from stepaside.games.game import play
-from stepaside.games.recorded_game import RecordedGame
 from stepaside.games.served_duel import serve_duel
 
 SHORT = sa.duel(duration=1.2, start=sa.StartSettings(distance=0.7))
 OPEN: dict[str, Any] = {"level": "unicycle", "arenas": 4, "duration": 8.0}
-
-
-@dataclass(frozen=True)
-class Own:
-    """Evader as a user writes it, which may press Ctrl-C."""
-
-    presses_at: float = 99.0
-    direction = sa.Direction.BACKWARD
-    saturated = False
-
-    def begin(self) -> None:
-        """Nothing to remember."""
-
-    def decide(
-        self, knowledge: sa.Knowledge, memory: None
-    ) -> tuple[sa.Intent, None]:
-        """Walk on a circle."""
-        if knowledge.time > self.presses_at:
-            raise_signal(SIGINT)
-        return sa.Intent(0.4), None
 
 
 @pytest.fixture
@@ -246,15 +223,6 @@ def test_strategies_of_two_files_of_one_name_can_be_pickled(
         made.append(sa.load_strategy(own_evader(mine, 0.1 + number)))
     again = [pickle.loads(pickle.dumps(each)) for each in made]
     assert [each.turn for each in again] == [0.1, 1.1]
-
-
-def test_duels_that_had_finished_survive_an_interruption() -> None:
-    pressing = {"evader": Own(presses_at=6.0)}
-    first = RecordedGame(SHORT)
-    second = RecordedGame(SHORT.changed(duration=9.0), strategies=pressing)
-    play(first, second)
-    assert first.run().outcome is sa.Outcome.COMPLETED
-    assert second.run().outcome is sa.Outcome.INTERRUPTED
 
 
 def test_a_study_in_python_shows_its_progress(

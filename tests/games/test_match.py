@@ -199,15 +199,6 @@ def test_an_interrupted_game_is_recorded_and_closed(at: int) -> None:
     np.testing.assert_allclose(recorder.times, [0.0, 0.02, 0.04, *rest])
 
 
-def test_an_interrupt_keeps_games_that_have_ended() -> None:
-    ended, _ = fake_game(0.0, 2.0, duration=2 * TICK)
-    going, world = fake_game(0.0, 2.0)
-    world.players[0].does[5] = raising(KeyboardInterrupt())
-    play(ended, going)
-    assert ended.outcome is Outcome.COMPLETED
-    assert going.outcome is Outcome.INTERRUPTED
-
-
 def test_a_contact_ends_a_game() -> None:
     game, world = fake_game(0.0, 0.5)
     world.contacts = ("a", "thing 0")

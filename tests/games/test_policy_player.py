@@ -13,7 +13,6 @@ from stepaside.games.game_settings import GameSettings, duel, read_game
 from stepaside.games.players import RobotPlayer
 from stepaside.games.recorded_game import (
     RecordedGame,
-    run_game,
 )
 from stepaside.locomotion.policy.policy_legs import PolicyWalk
 from stepaside.planning import Direction
@@ -29,27 +28,6 @@ def standing(tmp_path_factory: pytest.TempPathFactory) -> GameSettings:
         {"robot": str(folder)}, base=duel(duration=1.5, seed=3)
     )
     return replace(settings, start=replace(settings.start, distance=1.0))
-
-
-def test_duels_side_by_side_have_the_bits_of_each_alone(
-    standing: GameSettings,
-) -> None:
-    """Also when one ends before the others."""
-    many = [
-        replace(standing, seed=seed, duration=duration)
-        for seed, duration in ((1, 0.3), (2, 0.1), (3, 0.3))
-    ]
-    games = [RecordedGame(settings) for settings in many]
-    play(*games)
-    for game, settings in zip(games, many, strict=True):
-        run = game.run()
-        alone = run_game(settings)
-        assert run.settings == alone.settings
-        assert (run.outcome, run.message) == (alone.outcome, alone.message)
-        for name, track in alone.tracks.items():
-            found = run.tracks[name].qpos
-            assert track.qpos is not None and found is not None
-            assert np.array_equal(found, track.qpos)
 
 
 class Sidestepper:

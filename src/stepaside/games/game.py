@@ -122,7 +122,7 @@ class GameInPlay:
         captured_at: Time at which that first was at most the capture
             distance, in [s]; it ends a game only by its rules.
         goals_at: Time at which players reached their goals, in [s], by name.
-        wall_time: Share of the time that the computation took, in [s].
+        wall_time: Time that the computation took, in [s].
     """
 
     def __init__(
@@ -258,39 +258,30 @@ class GameInPlay:
 
 
 def play(
-    *games: GameInPlay, report: Callable[[Progress], None] | None = None
+    game: GameInPlay, report: Callable[[Progress], None] | None = None
 ) -> None:
-    """Play games side by side to their ends.
+    """Play a game to its end.
 
-    Each game has the same bits as when it is played alone. At any end,
-    including a KeyboardInterrupt, which interrupts those that still go on,
-    the observers keep the record of what was played, and the worlds are
-    closed. The progress of the first game is reported about five times a
-    second.
+    At any end, including a KeyboardInterrupt, the observers keep the record
+    of what was played, and the world is closed. Progress is reported about
+    five times a second.
     """
     began = reported = perf_counter()
     try:
         with DeferredInterrupt() as interrupt:
-            while playing := [game for game in games if game.ended is None]:
+            while game.ended is None:
                 interrupt.let_through()
-                for game in playing:
-                    game.tick()
-                if report is None or games[0].ended is not None:
-                    continue
-                now, time = perf_counter(), games[0].world.time
-                if now - reported > REPORT_PERIOD:
+                game.tick()
+                now, time = perf_counter(), game.world.time
+                if report and now - reported > REPORT_PERIOD:
                     reported, factor = now, time / (now - began)
-                    report(Progress(time, games[0].distance, factor))
+                    report(Progress(time, game.distance, factor))
     except KeyboardInterrupt:
-        for game in games:
-            if game.ended is None:
-                message = f"interrupted at {game.world.time:.2f} s"
-                game.ended = Ended(Outcome.INTERRUPTED, message)
+        if game.ended is None:
+            message = f"interrupted at {game.world.time:.2f} s"
+            game.ended = Ended(Outcome.INTERRUPTED, message)
     finally:
-        for game in games:
-            game.world.close()
-    share = (perf_counter() - began) / max(1, len(games))
-    for game in games:
-        game.wall_time = share
-        for observer in game.observers:
-            observer.ended(game)
+        game.world.close()
+    game.wall_time = perf_counter() - began
+    for observer in game.observers:
+        observer.ended(game)
