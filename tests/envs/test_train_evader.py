@@ -17,7 +17,7 @@ from stepaside.envs import VectorDuel
 from stepaside.games import StepGame
 from stepaside.planning import Direction
 from stepaside.strategies.learned import observe
-from stepaside.strategies.registry import trial_knowledge
+from stepaside.strategies.own_strategy import trial_knowledge
 
 RANDOM = np.random.default_rng(8)
 

@@ -17,8 +17,9 @@ from ..core.setting import CheckedSettings, setting
 from .evaluation import measure
 from .game import Outcome
 from .player_settings import MOST_PLAYERS, PLAYER_NAME
+from .record_check import check_record
 from .run import Run
-from .trajectory import Trajectory, check_record
+from .trajectory import Trajectory
 
 NOTED_GAP = 0.5  # without a pose, from which on a note says so, in [s]
 MOVING, STATIC = "/tf", "/tf_static"

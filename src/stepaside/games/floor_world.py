@@ -211,7 +211,8 @@ class FloorWalk(FloorMotion):
             return self.pose
         way, turn = self._left
         pose = self.pose.along_arc(share * way, share * turn)
-        if self._walls and not self.is_clear(pose, self._walls):
+        walls = self._walls
+        if walls is not NO_OBSTACLES and not self.is_clear(pose, walls):
             return Pose(self.pose.x, self.pose.y, pose.theta)
         return pose
 

@@ -29,9 +29,10 @@ from .evaluation import measure
 from .game import Outcome
 from .play_settings import PlaySettings
 from .player_settings import PLAYERS
+from .record_check import check_record
 from .run import Run
 from .summary import PlanningSummary, PlaySummary, StateChange, Summary
-from .trajectory import Trajectory, check_record
+from .trajectory import Trajectory
 
 PERIOD = 0.02  # approximate smallest period of the samples of a run, in [s]
 MAX_GAP = 10.0  # between ticks of one clock, in [s]

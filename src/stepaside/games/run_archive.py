@@ -20,6 +20,7 @@ from ..robots.description import known_robots
 from .game import Outcome
 from .game_settings import GAME_KINDS
 from .player_settings import MOST_PLAYERS, PLAYER_NAME
+from .record_check import check_record
 from .run import Run
 from .settings_reader import (
     ROBOTS,
@@ -28,7 +29,7 @@ from .settings_reader import (
     settings_entries,
 )
 from .summary import Summary
-from .trajectory import COLUMNS, Trajectory, check_record
+from .trajectory import COLUMNS, Trajectory
 
 if TYPE_CHECKING:
     from .play_settings import PlaySettings

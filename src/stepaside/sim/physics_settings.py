@@ -3,15 +3,14 @@
 from dataclasses import dataclass
 from math import inf, pi
 
-from ..core.errors import ConfigurationError
 from ..core.ranges import Range
-from ..core.setting import CheckedSettings, check_settings, setting
+from ..core.setting import CheckedSettings, setting
 
 INTEGRATORS = ("implicitfast", "discrete")  # of MuJoCo
 
 
 @dataclass(frozen=True, slots=True)
-class PhysicsSettings:
+class PhysicsSettings(CheckedSettings):
     """Settings of the physics, its time steps and the floor."""
 
     time_step: float = setting(
@@ -51,15 +50,6 @@ class PhysicsSettings:
         "Direction of steepest descent in the world",
         Range(-pi, pi, "rad", "half a turn"),
     )
-
-    def __post_init__(self) -> None:
-        check_settings(self)
-        ratio = self.tick / self.time_step
-        if round(ratio) < 1 or abs(ratio - round(ratio)) > 1e-9 * ratio:
-            raise ConfigurationError(
-                "tick must be a whole multiple of time_step, "
-                f"{self.time_step:g} [s], got {self.tick:g}"
-            )
 
 
 @dataclass(frozen=True, slots=True)

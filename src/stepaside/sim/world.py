@@ -8,6 +8,7 @@ import mujoco
 import numpy as np
 from numpy.typing import NDArray
 
+from ..core.errors import ConfigurationError
 from ..core.player_identity import Colour
 from ..core.poses import Pose
 from ..core.random_streams import named_generator
@@ -117,7 +118,13 @@ class World:
         for robot in robots.values():
             load_tree(robot)  # raises if model and description differ
         self.physics = physics
-        self._steps = round(physics.tick / physics.time_step)
+        ratio = physics.tick / physics.time_step
+        self._steps = round(ratio)
+        if self._steps < 1 or abs(self._steps - ratio) > 1e-9 * ratio:
+            raise ConfigurationError(
+                "tick must be a whole multiple of time_step, "
+                f"{physics.time_step:g} [s], got {physics.tick:g}"
+            )
         self.model = build_model(
             *(robots, physics, body, seed, furnish),
             rendered=rendered,

@@ -5,12 +5,14 @@ from math import cos, sin
 from typing import Any
 
 from ..arena import NO_OBSTACLES, ObstacleSet
+from ..core.errors import StrategyError
 from ..core.player_identity import PlayerIdentity
 from ..core.poses import Pose, wrap_angle
+from ..core.user_file import FAILURES
 from ..perception.measurement import Sighting
 from .knowledge import Intent, Knowledge, Limits, OtherPlayer
 from .opponent_track import OpponentTrack
-from .strategy import Strategy, evaluate_strategy
+from .strategy import Strategy, unicycle_intent
 
 ORIGIN = Pose(0.0, 0.0, 0.0)
 NEARER = 0.9  # relative distance from which another opponent is taken
@@ -148,3 +150,23 @@ def choose_opponent(
     if now is not None and candidates[nearest] > NEARER * now:
         return present
     return nearest
+
+
+def evaluate_strategy(
+    strategy: Strategy, knowledge: Knowledge, memory: Any
+) -> tuple[Intent, Any]:
+    """Evaluate one decision of a strategy, possibly user code.
+
+    A body velocity becomes the nearest intent of a unicycle, unless the legs
+    have a velocity set. Raises :class:`StrategyError` if it fails or exits.
+    """
+    try:
+        intent, memory = strategy.decide(knowledge, memory)
+    except FAILURES as error:
+        raise StrategyError(f"{type(error).__name__}: {error}") from error
+    if not isinstance(intent, Intent):
+        raise StrategyError(f"decide must return an Intent, got {intent!r}")
+    limits = knowledge.limits
+    if intent.velocity is not None and limits.velocities is None:
+        intent = unicycle_intent(intent, limits, strategy.direction)
+    return intent, memory

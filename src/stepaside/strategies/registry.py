@@ -7,10 +7,10 @@ is imported when the strategy is made.
 
 import re
 from ast import literal_eval
-from collections.abc import Iterable, Iterator, Mapping
-from dataclasses import fields, is_dataclass, replace
+from collections.abc import Iterable, Mapping
+from dataclasses import fields, replace
 from difflib import get_close_matches
-from math import inf, pi, radians
+from math import inf, radians
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -18,15 +18,11 @@ from .. import strategies
 from ..core.errors import (
     ConfigurationError,
     StepAsideError,
-    StrategyError,
-    shown,
 )
-from ..core.user_file import FAILURES, load_user_file
 from ..planning import Direction
 from .evasion import Evasion
-from .knowledge import Knowledge, Limits
 from .shield_settings import ShieldSettings
-from .strategy import Strategy, evaluate_strategy
+from .strategy import Strategy
 
 STRATEGIES: Mapping[str, tuple[str, Mapping[str, Any]]] = {
     "evasion": ("Evasion", {}),
@@ -74,7 +70,6 @@ STRATEGIES: Mapping[str, tuple[str, Mapping[str, Any]]] = {
 }
 """Class of each named strategy, and its arguments."""
 
-LIMITS = Limits(0.1, 0.2, 0.04, 0.547)  # of trial decisions
 OF_EVASION = ("evasion",)  # strategies that use settings of an Evasion
 OBJECT = "object "  # begins the text that records a strategy object
 _CALL = re.compile(
@@ -132,17 +127,23 @@ def load_strategy(
         ConfigurationError: If there is no such strategy, or it is invalid.
     """
     if not isinstance(name, str):
+        from .own_strategy import validate_strategy
+
         validate_strategy(name, describe_strategy(name))
         return name
     named = _parse(name)
     if named.file is None:
         return _make(named, evasion or Evasion())
+    from .own_strategy import create_strategy, validate_strategy
+
     if named.own is None:
         from .learned import load_learned_strategy
 
         made: Any = load_learned_strategy(named.file)
     else:
-        made = _create(named, named.file, named.own)
+        made = create_strategy(
+            *(named.file, named.own, named.arguments, named.name)
+        )
     validate_strategy(made, name)
     strategy: Strategy = made
     return strategy
@@ -231,81 +232,3 @@ def _make(named: _Named, evasion: Evasion, what: str = "strategy") -> Strategy:
     except (StepAsideError, TypeError) as error:
         raise ConfigurationError(f"{what} {named.name}: {error}") from error
     return strategy
-
-
-def _create(named: _Named, file: Path, name: str) -> Any:
-    """Return the strategy that a name in a file denotes, created if needed."""
-    given, where = named.arguments, f"strategy {named.name}"
-    loaded = load_user_file(str(file), where)
-    thing = getattr(loaded, name, None)
-    if thing is None:
-        own = [
-            key
-            for key, each in vars(loaded).items()
-            if getattr(each, "__module__", None) == loaded.__name__
-        ]
-        raise ConfigurationError(
-            f"{where}: the file has no {name}, but "
-            f"{', '.join(sorted(own)) or 'no strategy'}"
-        )
-    is_made = not isinstance(thing, type) and hasattr(thing, "decide")
-    if is_made and not given:
-        return thing
-    if not (callable(thing) or (is_made and is_dataclass(thing))):
-        raise ConfigurationError(
-            f"{where}: must be a strategy, or a class or function that makes "
-            f"one, got {shown(thing)}"
-        )
-    try:
-        return replace(thing, **given) if is_made else thing(**given)
-    except FAILURES as error:
-        listed = ", ".join(f"{key}={value!r}" for key, value in given.items())
-        raise ConfigurationError(
-            f"{where}: {name}({listed}) must make a strategy, got "
-            f"{type(error).__name__}: {error}"
-        ) from error
-
-
-def trial_knowledge() -> Iterator[Knowledge]:
-    """Yield the knowledge of a walker, from the first sighting on."""
-    yield Knowledge(0.0, 0.0, 2.0, LIMITS)
-    for i, bearing in enumerate((0.4, -0.4, pi, -pi)):
-        yield Knowledge(
-            *(0.5 * (i + 1), bearing, 1.5 - 0.4 * i, LIMITS, 0.1, 0.2, 0.05),
-            moving=i > 0,
-            velocity=(-0.3, 0.1),
-        )
-
-
-def validate_strategy(candidate: Any, name: str) -> None:
-    """Check by trial decisions that an object behaves as a strategy."""
-
-    def refuse(rule: str, got: object) -> ConfigurationError:
-        text = " ".join(str(got).split())
-        return ConfigurationError(f"strategy {name}: {rule}, got {text}")
-
-    for method in ("begin", "decide"):
-        if not callable(getattr(candidate, method, None)):
-            got = f"a {type(candidate).__name__} without"
-            raise refuse(f"must have a method {method}", got)
-    for key, kind in (("direction", Direction), ("saturated", bool)):
-        value = getattr(candidate, key, None)
-        if not isinstance(value, kind):
-            raise refuse(f"{key} must be a {kind.__name__}", repr(value))
-    rule = "begin() must return a memory"
-    try:
-        memory = candidate.begin()
-        rule = "decide(knowledge, memory) must return (Intent, memory)"
-        for knowledge in trial_knowledge():
-            one, memory_then = evaluate_strategy(candidate, knowledge, memory)
-            other, _ = evaluate_strategy(candidate, knowledge, memory)
-            if one != other:
-                rule = (
-                    "the same knowledge and memory must give the same intent"
-                )
-                raise StrategyError(f"{one} and then {other}")
-            memory = memory_then
-    except StrategyError as error:
-        raise refuse(rule, error) from error
-    except FAILURES as error:
-        raise refuse(rule, f"{type(error).__name__}: {error}") from error

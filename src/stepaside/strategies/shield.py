@@ -20,10 +20,11 @@ from ..theory.value import (
     solve_shield,
     sub_poses,
 )
+from .decision_maker import evaluate_strategy
 from .knowledge import ON_THE_SPOT, STAND, Intent, Knowledge, Limits
 from .opponent_track import OpponentTrack, SeenOpponent
 from .shield_settings import ShieldSettings
-from .strategy import Strategy, evaluate_strategy
+from .strategy import Strategy
 from .table_cache import cached
 from .velocity_set import BodyVelocity, greatest_velocity, response_share
 

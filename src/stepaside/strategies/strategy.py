@@ -4,9 +4,7 @@ from dataclasses import dataclass, replace
 from math import atan2, cos, hypot, pi
 from typing import Any, ClassVar, Protocol, runtime_checkable
 
-from ..core.errors import StrategyError
 from ..core.poses import wrap_angle
-from ..core.user_file import FAILURES
 from ..planning import Direction
 from .knowledge import ON_THE_SPOT, STAND, Intent, Knowledge, Limits
 
@@ -75,26 +73,6 @@ class StandStill(Walk):
 
     direction: Direction = Direction.BACKWARD
     speed_factor: float = 0.0
-
-
-def evaluate_strategy(
-    strategy: Strategy, knowledge: Knowledge, memory: Any
-) -> tuple[Intent, Any]:
-    """Evaluate one decision of a strategy, possibly user code.
-
-    A body velocity becomes the nearest intent of a unicycle, unless the legs
-    have a velocity set. Raises :class:`StrategyError` if it fails or exits.
-    """
-    try:
-        intent, memory = strategy.decide(knowledge, memory)
-    except FAILURES as error:
-        raise StrategyError(f"{type(error).__name__}: {error}") from error
-    if not isinstance(intent, Intent):
-        raise StrategyError(f"decide must return an Intent, got {intent!r}")
-    limits = knowledge.limits
-    if intent.velocity is not None and limits.velocities is None:
-        intent = unicycle_intent(intent, limits, strategy.direction)
-    return intent, memory
 
 
 def unicycle_intent(
