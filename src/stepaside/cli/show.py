@@ -33,7 +33,6 @@ from .terminal import (
 if TYPE_CHECKING:
     from ..games.game import Progress
     from ..games.run import Run
-    from ..report.export.recording import Recording
 
 PAGES, FILMS = (".html", ".htm"), (".mp4", ".gif")
 # With the library that writes each, if that needs one.
@@ -225,7 +224,7 @@ def _write(
     elif suffix in FILMS:
         more["pictures"] = _render(folders[0], path, film)
     else:
-        more["absent"] = _export(folders[0], path, repeat=repeat)
+        more["absent"] = _export(runs[0], path, repeat=repeat)
     files = (file for file in (path, *path.rglob("*")) if file.is_file())
     return {"bytes": sum(file.stat().st_size for file in files)} | more
 
@@ -244,13 +243,21 @@ def _render(run: Path, file: Path, film: FilmSettings) -> int:
         return write_film(run, file, film, bar.show)
 
 
-def _export(run: Path, folder: Path, *, repeat: bool) -> list[str]:
+def _export(run: "Run", folder: Path, *, repeat: bool) -> list[str]:
     """Write a run for other programs; return what is absent."""
+    from ..report.export.recording import recording_of
+
     kind = folder.suffix[1:]
     if FORMATS[folder.suffix]:  # a missing library is told before playing
         import_module(FORMATS[folder.suffix])
     has_signals = kind != "urdf"
-    recording = _recording(run.resolve(), repeats=repeat and has_signals)
+    with ProgressLine("repeat", unit="s simulated") as bar:
+
+        def report(progress: "Progress") -> None:
+            bar.show(progress.time)
+
+        repeats = repeat and has_signals
+        recording = recording_of(run, repeats=repeats, report=report)
     absent = recording.absent
     with (
         folder_draft(folder) as draft,
@@ -276,18 +283,6 @@ def _export(run: Path, folder: Path, *, repeat: bool) -> list[str]:
     for sentence in absent:
         echo(f"absent: {sentence}", err=True)
     return list(absent)
-
-
-def _recording(run: Path, *, repeats: bool) -> "Recording":
-    """Read a run, and play its game again with a progress bar."""
-    from ..report.export.recording import load_recording
-
-    with ProgressLine("repeat", unit="s simulated") as bar:
-
-        def report(progress: "Progress") -> None:
-            bar.show(progress.time)
-
-        return load_recording(run, repeats=repeats, report=report)
 
 
 def _print(

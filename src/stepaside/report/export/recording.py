@@ -13,7 +13,6 @@ from ...games.game import Progress
 from ...games.game_furnishing import colours_of_players
 from ...games.recorded_game import repeat_game
 from ...games.run import Run
-from ...games.run_archive import load_run
 from ...robots.description import RobotDescription, load_robot
 from ...robots.urdf_writer import urdf_of
 
@@ -62,25 +61,17 @@ class Recording:
             (folder / f"{name}.urdf").write_text(model.urdf, encoding="utf-8")
 
 
-def load_recording(
-    folder: Path, *, repeats: bool, report: Callable[[Progress], None]
+def recording_of(
+    run: Run, *, repeats: bool, report: Callable[[Progress], None]
 ) -> Recording:
-    """Read a run folder; if it ``repeats``, play its game for what it lacks.
-
-    Raises:
-        ConfigurationError: If the folder is not a valid run folder.
-    """
-    run = load_run(folder)
+    """Record a run; if it ``repeats``, play its game for what it lacks."""
     colours = colours_of_players(run.settings)
     models = {
         name: RobotModel.of(run.settings.player(name).robot, colours.get(name))
-        for name, track in run.tracks.items()
-        if track.qpos is not None
+        for name in run.robots
     }
     absent = [
         f"{name}: no joints, as it is no robot"
-        if name not in run.robots
-        else f"{name}: no joints, as none were recorded"
         for name in run.players
         if name not in models
     ]
