@@ -136,9 +136,13 @@ class ParallelGames(ParallelEnv[str, Row, Any]):
     def observe(self, name: str) -> Row:
         """Return the observation of a player."""
 
-    @abstractmethod
     def info(self) -> dict[str, Any]:
-        """Return what an environment says besides the observation."""
+        """Return closest approaches [m] by evader, time [s] and outcome."""
+        return {
+            "closest_m": self.closest(),
+            "time_s": self.game.world.time,
+            "outcome": self.outcome,
+        }
 
     def observation_space(self, agent: str) -> Space[Any]:
         """Return the space of observations of an agent, always the same."""
@@ -393,11 +397,9 @@ class ParallelDuel(ParallelGames):
 
     def info(self) -> dict[str, Any]:
         """Return closest approach, distance [m], time [s] and outcome."""
-        return {
+        return super().info() | {
             "closest_m": self.closest()["evader"],
             "distance_m": self.game.world.apart("evader", "pursuer"),
-            "time_s": self.game.world.time,
-            "outcome": self.outcome,
         }
 
 
@@ -474,14 +476,6 @@ class ParallelGame(ParallelGames):
                 values += _describe(known, other)
             found[: len(values)] = values
         return found
-
-    def info(self) -> dict[str, Any]:
-        """Return closest approaches [m] by evader, time [s] and outcome."""
-        return {
-            "closest_m": self.closest(),
-            "time_s": self.game.world.time,
-            "outcome": self.outcome,
-        }
 
 
 def learning(
