@@ -57,8 +57,6 @@ LEAN_GAIN = 0.97  # load ratio below which a greater lean is preferred
 GREATEST_BY_HIPS = 1.4
 GREATEST_BY_HEIGHT = 0.38
 LEAST_SPACING = 1.25  # foot spacing by twice the inner edge of the sole
-# Names of files and folders that do not name a robot.
-GENERIC_NAMES = "model models robot robots scene urdf mjcf xml".split()
 # Torque limits of a model are those at the joint, and its joints apply the
 # gains that they are sent; the lower values of NAO's hardware body are
 # assumptions about its motors and servos.
@@ -296,7 +294,7 @@ def _structure(
     reach = reach_of(analysis, standing, forward)
     return RobotDescription(
         folder=folder,
-        name=name_of(analysis),
+        name=analysis.path.stem.replace("_", " "),
         model=_relative_path(folder, analysis.path),
         torso=analysis.torso,
         left_foot=FEET[0],
@@ -330,17 +328,6 @@ def _sole_frame(analysis: ModelAnalysis, side: int) -> SoleFrame:
     mujoco.mju_mulQuat(turn, back, turn.copy())
     w, a, b, c = (turn.round(7) + 0.0).tolist()
     return SoleFrame(leg.foot, (x, y, z), (w, a, b, c))
-
-
-def name_of(analysis: ModelAnalysis) -> str:
-    """Return the name of a robot: of its file, or of a folder around it.
-
-    Names that do not name a robot, like ``model.xml``, are skipped.
-    """
-    path = analysis.path.resolve()
-    names = (path.stem, *(folder.name for folder in path.parents))
-    specific = (name for name in names if name.lower() not in GENERIC_NAMES)
-    return next(specific, "").replace("_", " ") or path.stem
 
 
 def _relative_path(folder: Path, path: Path) -> str:

@@ -83,15 +83,15 @@ class RobotSize:
 def gait_of(size: RobotSize, lengths: float = 1.0) -> dict[str, float]:
     """Return the gait entries of a description, in SI units."""
     z, time = size.com_height, size.time
-    stride = _round(lengths * STRIDE * z)
+    stride = rounded(lengths * STRIDE * z)
     back, front, *_ = size.sole
     return {
-        "speed": _round(stride / (PATH * time)),
-        "gain": _round(TURNING / time),
+        "speed": rounded(stride / (PATH * time)),
+        "gain": rounded(TURNING / time),
         "stride": stride,
-        "foot_spacing": _round(size.foot_spacing, 4),
-        "step_height": _round(lengths * STEP_HEIGHT * z),
-        **{name: _round(part * time) for name, part in SUPPORTS.items()},
+        "foot_spacing": rounded(size.foot_spacing, 4),
+        "step_height": rounded(lengths * STEP_HEIGHT * z),
+        **{name: rounded(part * time) for name, part in SUPPORTS.items()},
         "com_height": round(z, 4),
         "zmp_forward": round(0.45 * (front + back), 4),
     }
@@ -100,15 +100,15 @@ def gait_of(size: RobotSize, lengths: float = 1.0) -> dict[str, float]:
 def stabiliser_of(size: RobotSize) -> dict[str, float]:
     """Return the stabiliser entries of a description, in SI units."""
     z, time = size.com_height, size.time
-    lengths = {k: _round(v * z) for k, v in STABILISER_LENGTHS.items()}
-    rates = {k: _round(v / time) for k, v in STABILISER_RATES.items()}
+    lengths = {k: rounded(v * z) for k, v in STABILISER_LENGTHS.items()}
+    rates = {k: rounded(v / time) for k, v in STABILISER_RATES.items()}
     gap = size.foot_spacing - 2.0 * size.sole[3]  # of soles abreast
     return {
         **lengths,
         **rates,
-        "ankle_rate": _round(ANKLE_RATE * time),
-        "gap": _round(min(GAP * z, 0.5 * gap)),
-        "step_speed": _round(STEP_SPEED * size.speed),
+        "ankle_rate": rounded(ANKLE_RATE * time),
+        "gap": rounded(min(GAP * z, 0.5 * gap)),
+        "step_speed": rounded(STEP_SPEED * size.speed),
         "stride_gain": 0.0,
         "load_share": 1.0,
     }
@@ -119,17 +119,18 @@ def game_of_size(size: RobotSize, gait: dict[str, float]) -> RobotGames:
     circle = 4.0 * sqrt(0.5) * gait["speed"] / (pi / 2 * gait["gain"])
     least = max(START_LEAST * circle, 2.0 * size.reach)
     return RobotGames(
-        safety_radius=_round(max(SAFETY_RADIUS * circle, 1.2 * least)),
-        start_least=_round(least),
-        start_near=_round(max(START_NEAR * circle, 1.1 * least)),
-        start_far=_round(max(START_FAR * circle, 1.7 * least)),
-        push_unit=_round(PUSH * size.mass * size.speed),
-        force_unit=_round(INVERSE_NAO_MASS * size.mass),
-        length_unit=_round(INVERSE_NAO_HEIGHT * size.com_height),
+        safety_radius=rounded(max(SAFETY_RADIUS * circle, 1.2 * least)),
+        start_least=rounded(least),
+        start_near=rounded(max(START_NEAR * circle, 1.1 * least)),
+        start_far=rounded(max(START_FAR * circle, 1.7 * least)),
+        push_unit=rounded(PUSH * size.mass * size.speed),
+        force_unit=rounded(INVERSE_NAO_MASS * size.mass),
+        length_unit=rounded(INVERSE_NAO_HEIGHT * size.com_height),
     )
 
 
-def _round(value: float, digits: int = 3) -> float:
+def rounded(value: float, digits: int = 3) -> float:
+    """Return a value with so many significant digits."""
     return float(f"{value:.{digits}g}")
 
 

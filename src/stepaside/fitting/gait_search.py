@@ -23,6 +23,7 @@ from ..robots.tree_cache import digest_of
 from ..studies.study import Study, run_study
 from ..studies.tabulation import Record
 from .derivation import LEAST_SPACING
+from .gait_feasibility import rounded
 from .robot_verification import (
     FALLEN,
     PATHS,
@@ -115,7 +116,7 @@ class Candidate:
             "zmp_forward": zmp_forward,
         }
         changed: dict[str, float | str] = {
-            name: float(f"{v:.4g}") for name, v in values.items()
+            name: rounded(v, 4) for name, v in values.items()
         }
         if self.even:
             changed["swing_profile"] = "even"
@@ -123,8 +124,8 @@ class Candidate:
         servos = {
             name: replace(
                 gains,
-                stiffness=float(f"{self.stiffness * gains.stiffness:.3g}"),
-                damping=float(f"{self.stiffness * gains.damping:.3g}"),
+                stiffness=rounded(self.stiffness * gains.stiffness),
+                damping=rounded(self.stiffness * gains.damping),
             )
             for name, gains in own.overlay.servos.items()
         }

@@ -9,6 +9,7 @@ import numpy as np
 
 from ..core.constants import GRAVITY
 from ..robots.description_types import ServoGains
+from .gait_feasibility import rounded
 from .model_analysis import ModelAnalysis
 
 # Leg joints: stiffness by the toppling stiffness m g z of the pendulum,
@@ -150,10 +151,10 @@ def gains_of(
         if torque is None:
             torque = DEFAULT_TORQUE * stiffness / STIFFNESS
         gains[name] = ServoGains(
-            _round(stiffness),
-            _round(damping),
-            _round(torque),
-            0.0 if own > 0.2 * inertia else _round(inertia),
+            rounded(stiffness),
+            rounded(damping),
+            rounded(torque),
+            0.0 if own > 0.2 * inertia else rounded(inertia),
         )
     return gains
 
@@ -166,7 +167,3 @@ def followers_of(model: mujoco.MjModel) -> set[str]:
         for i in range(model.neq)
         if model.eq_type[i] == kind and model.eq_obj2id[i] >= 0
     }
-
-
-def _round(value: float) -> float:
-    return float(f"{value:.3g}")
