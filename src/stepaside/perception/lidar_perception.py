@@ -5,7 +5,7 @@ from math import atan2, cos, hypot, pi, sin
 import numpy as np
 
 from ..core.history import History
-from ..core.poses import Array, Pose, wrap_angle
+from ..core.poses import Array, Pose
 from ..robots.description import RobotDescription
 from ..robots.forward_kinematics import (
     ForwardKinematics,
@@ -64,15 +64,8 @@ class LidarPerception:
         track = self._selection.main(now, x, y)
         if track is None:
             return None
-        bearing = track.bearing_from(x, y, now) - torso.heading_in_odometry
-        return Sighting(
-            now,
-            wrap_angle(bearing),
-            track.distance_from(x, y, now),
-            track.number,
-            self._selection.settled(track, now, x, y),
-            track.deviation_at(now),
-        )
+        place = Pose(x, y, torso.heading_in_odometry)
+        return self._selection.sighting(track, now, place)
 
     def _process(self, scan: LidarScan) -> None:
         """Update the tracks with a scan."""

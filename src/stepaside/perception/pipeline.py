@@ -188,8 +188,8 @@ class Perception:
 
     def _select(self, now: float, body: BodyPose) -> None:
         """Select the opponent, and the target of the gaze."""
-        x, y, heading = body.pose_torso_in_odometry
-        self._heading = heading
+        pose = body.pose_torso_in_odometry
+        x, y, self._heading = pose
         main = self.selection.main(now, x, y)
         self.sighting = self.gaze_target = None
         self._watched = main is not None and main.is_watched(now)
@@ -197,27 +197,13 @@ class Perception:
             return
         chosen = self.selection.look(main, now, x, y)
         if chosen is not None:
-            seen = self._sighting_of(chosen, body, now)
+            seen = self.selection.sighting(chosen, now, pose)
             camera = camera_pose(body, self.top).position_in_odometry
             self.gaze_target = GazeTarget(
                 seen.bearing, seen.distance, chosen.height, float(camera[2])
             )
         if main is not None:
-            self.sighting = self._sighting_of(main, body, now)
-
-    def _sighting_of(
-        self, track: TargetTrack, body: BodyPose, now: float
-    ) -> Sighting:
-        """Return the sighting of a track at a time, in [s]."""
-        x, y, heading = body.pose_torso_in_odometry
-        return Sighting(
-            now,
-            wrap_angle(track.bearing_from(x, y, now) - heading),
-            track.distance_from(x, y, now),
-            self.selection.target_id(track),
-            self.selection.settled(track, now, x, y),
-            track.deviation_at(now),
-        )
+            self.sighting = self.selection.sighting(main, now, pose)
 
 
 def _take_colour(

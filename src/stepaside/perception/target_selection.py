@@ -3,6 +3,8 @@
 from collections.abc import Sequence
 from math import hypot
 
+from ..core.poses import Pose, wrap_angle
+from .measurement import Sighting
 from .track import MAX_GAP, TargetTrack, Tracker
 
 # Of every selection.
@@ -47,15 +49,15 @@ class TargetSelection:
                 return track
         return None
 
-    def settled(
-        self, track: TargetTrack, now: float, x: float, y: float
-    ) -> bool:
-        """Return whether a track is reliable enough to start moving."""
-        return True
-
-    def target_id(self, track: TargetTrack) -> int:
-        """Return the number of an opponent among several, else 0."""
-        return 0
+    def sighting(
+        self, track: TargetTrack, now: float, pose_in_odometry: Pose
+    ) -> Sighting:
+        """Return the sighting of a track from a pose of the torso."""
+        x, y, heading = pose_in_odometry
+        bearing = wrap_angle(track.bearing_from(x, y, now) - heading)
+        distance = track.distance_from(x, y, now)
+        spread = track.deviation_at(now)
+        return Sighting(now, bearing, distance, spread=spread)
 
 
 def recent_tracks(
@@ -133,7 +135,15 @@ class PeopleSelection(TargetSelection):
                 return track
         return None
 
-    def settled(
+    def sighting(
+        self, track: TargetTrack, now: float, pose_in_odometry: Pose
+    ) -> Sighting:
+        """Return the sighting of a track, with its number."""
+        seen = super().sighting(track, now, pose_in_odometry)
+        settled = self._is_settled(track, now, *pose_in_odometry[:2])
+        return seen._replace(target_id=track.number, settled=settled)
+
+    def _is_settled(
         self, track: TargetTrack, now: float, x: float, y: float
     ) -> bool:
         """Return whether a track was observed for long enough.
@@ -153,10 +163,6 @@ class PeopleSelection(TargetSelection):
         away, speed = track.distance_from(x, y, now), hypot(*track.velocity)
         soon = away - NEAR < SOON * speed
         return now - track.started_at < NEW and soon and least < NEAR
-
-    def target_id(self, track: TargetTrack) -> int:
-        """Return the number of the track."""
-        return track.number
 
 
 def closest_approach(

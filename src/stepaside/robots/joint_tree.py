@@ -78,25 +78,20 @@ def joint_tree(
         origin = place + axes @ frame.place
         placed.append((carrier, origin, axes @ np.array(frame.axes)))
     of_kept = [links[i] for i in kept]
+    held = {x: angle for x, angle in fixed.items() if x not in columns}
     return JointTree(
         np.array([-1, *(number[x.parent] for x in of_kept[1:])]),
         np.array([columns.get(x.joint, -1) for x in of_kept]),
         np.array([x.kind == HINGE for x in of_kept]),
         np.array([x.axis for x in of_kept]),
         np.array([x.origin for x in of_kept]),
-        np.array([x.zero - _fixed(x.joint, columns, fixed) for x in of_kept]),
+        np.array([x.zero - held.get(x.joint, 0.0) for x in of_kept]),
         masses,
         moments,
         np.array([carrier for carrier, _, _ in placed], dtype=np.int64),
         np.array([origin for _, origin, _ in placed]).reshape(-1, 3),
         np.array([axes for _, _, axes in placed]).reshape(-1, 3, 3),
     )
-
-
-def _fixed(
-    joint: str, columns: Mapping[str, int], fixed: Mapping[str, float]
-) -> float:
-    return 0.0 if joint in columns else fixed.get(joint, 0.0)
 
 
 @compiled
