@@ -3,7 +3,7 @@
 import errno
 import json
 import tomllib
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from dataclasses import fields, is_dataclass
 from enum import Enum
 from pathlib import Path
@@ -27,37 +27,23 @@ def load_entries(
     path: Path, error: type[StepAsideError] = ERROR
 ) -> dict[str, Any]:
     """Read the nested entries of a TOML file, or of one with suffix .json."""
+    read = json.loads if path.suffix.lower() == ".json" else tomllib.loads
     try:
         check_regular(path)
         with path.open("rb") as file:
             text = file.read(MAX_CHARACTERS + 1).decode("utf-8-sig")
+        if len(text) > MAX_CHARACTERS:
+            raise ValueError(f"more than {MAX_CHARACTERS} characters")
+        entries = read(text)
+    except RecursionError as cause:
+        raise error(f"{path} is nested too deep") from cause
     except (OSError, UnicodeDecodeError) as cause:
         reason = getattr(cause, "strerror", None) or str(cause)
         raise error(f"{path}: {reason.lower()}") from cause
-    read = json.loads if path.suffix.lower() == ".json" else tomllib.loads
-    return parse_entries(text, str(path), error, read)
-
-
-def parse_entries(
-    text: str,
-    source: str,
-    error: type[StepAsideError] = ERROR,
-    read: Callable[[str], Any] = tomllib.loads,
-) -> dict[str, Any]:
-    """Parse text, TOML by default, into nested entries.
-
-    The source is its origin, for messages.
-    """
-    if len(text) > MAX_CHARACTERS:
-        raise error(f"{source} must have at most {MAX_CHARACTERS} characters")
-    try:
-        entries = read(text)
-    except RecursionError as cause:
-        raise error(f"{source} is nested too deep") from cause
     except ValueError as cause:  # or an integer of too many digits
-        raise error(f"{source}: {cause}") from cause
+        raise error(f"{path}: {cause}") from cause
     if not isinstance(entries, dict):
-        raise error(f"{source} must hold one object, got {entries!r:.40}")
+        raise error(f"{path} must hold one object, got {entries!r:.40}")
     return entries
 
 
