@@ -12,10 +12,11 @@ import click
 
 from ..games.play_settings import ROS2, PlaySettings
 from .settings import refuse_settings, takes_settings
-from .terminal import json_option
+from .terminal import echo, json_option, print_json
 
 if TYPE_CHECKING:
     from ..drivers.joint_loop import JointLoop
+    from ..drivers.robot_check import AdapterFinding
     from ..drivers.velocity_loop import VelocityLoop
 
 UNUSED_BY_CHECK = (
@@ -24,6 +25,16 @@ UNUSED_BY_CHECK = (
 )
 TIME_IS_UP = "played long enough"
 INTERRUPTED = "interrupted"
+SILENCE = 3.0  # of the check before its guardian stops the robot, in [s]
+WALKS = (
+    "the robot will turn and walk for about 20 s, at most at half of its "
+    "limits: let it hang, or give it room; Ctrl-C stops it"
+)
+MOVES = (
+    "each joint of the robot will move by 0.1 rad and back, for about {} s: "
+    "let it hang in the air; Ctrl-C releases it"
+)
+PER_JOINT = 1.2  # duration of the check of a joint, in [s]
 
 
 NAMED = (
@@ -79,13 +90,11 @@ def play(
         format="stepaside: %(message)s", level=logging.INFO, stream=sys.stderr
     )
     if check:
-        from .play_check import check_adapter
-
         needed = "a play without --check"
         refuse_settings(UNUSED_BY_CHECK, needed)
         if record is not None:
             raise click.UsageError(f"record requires {needed}")
-        check_adapter(settings, as_json=as_json)
+        _check_adapter(settings, as_json=as_json)
         return
     if as_json:
         raise click.UsageError("--json requires --check")
@@ -190,3 +199,49 @@ def _run(
             if not (reason and loop.idle):
                 raise
             return reason  # it was about to rest, and is limp now
+
+
+def _check_adapter(settings: PlaySettings, *, as_json: bool) -> None:
+    """Check a robot; print a verdict per line; exit with 1 if one fails."""
+    if not settings.in_python:
+        raise click.UsageError(
+            "--check requires the address FILE.py:CLASS, got "
+            f"{settings.address!r}"
+        )
+    from ..drivers.guardian_process import fork_guardian
+    from ..drivers.joint_motion import motors_of
+    from ..drivers.robot import JointRobot
+    from ..drivers.robot_check import RobotCheck
+    from ..drivers.robot_loader import load_robot_class
+    from ..robots.description import load_robot
+
+    def note(finding: "AdapterFinding") -> None:
+        if not as_json:
+            text = finding.text
+            echo(f"{finding.verdict:<8} {finding.name:<17} {text}")
+
+    make = load_robot_class(settings.address)
+    robot, dry_run, motors = make(), settings.dry_run, None
+    if isinstance(robot, JointRobot):
+        motors = motors_of(robot, load_robot(settings.robot))
+        warning = MOVES.format(round(PER_JOINT * len(motors.names)))
+    else:
+        refuse_settings(("robot",), "a robot that is driven by its joints")
+        warning = WALKS
+    guardian = None
+    if not dry_run:
+        echo(f"stepaside: {warning}", err=True)
+        if robot.paced:
+            guardian = fork_guardian(make, robot, SILENCE)
+    check = RobotCheck(robot, motors, note, dry_run=dry_run, guardian=guardian)
+    try:
+        check.run()
+    finally:
+        if guardian is not None:
+            guardian.dismiss()
+    if as_json:
+        found = [each._asdict() for each in check.findings]
+        summary = {"robot": settings.address, "passes": check.passes}
+        print_json(summary | {"findings": found})
+    if not check.passes:
+        raise SystemExit(1)

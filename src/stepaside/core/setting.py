@@ -116,7 +116,7 @@ def setting(
     return made
 
 
-def settings_of(kind: type[Any]) -> Mapping[str, Setting]:
+def descriptions_of(kind: type[Any]) -> Mapping[str, Setting]:
     """Return the descriptions of a class of settings, by attribute."""
     found = {}
     for each in fields(kind):

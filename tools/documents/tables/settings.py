@@ -14,7 +14,7 @@ from stepaside.cli.theory import (
     StartMapSettings,
 )
 from stepaside.core.setting import Setting as Description
-from stepaside.core.setting import settings_of
+from stepaside.core.setting import descriptions_of
 from stepaside.games.game_settings import duel as make_duel
 from stepaside.games.play_settings import PlaySettings
 from stepaside.games.player_settings import PlayerSettings
@@ -104,7 +104,7 @@ def settings_of_commands(_: Any) -> str:
 def _table(found: Mapping[str, Setting]) -> str:
     rows = []
     for path, setting in found.items():
-        known = settings_of(setting.kind)[setting.name]
+        known = descriptions_of(setting.kind)[setting.name]
         option = OPTIONS.get(path, "")
         if known.range is not None:
             values, why = known.range.words, known.range.why

@@ -18,7 +18,7 @@ from typing import Any, NamedTuple, get_type_hints
 import numpy as np
 
 from ...core.errors import PolicyError
-from ...core.setting import EntryReader, settings_of
+from ...core.setting import EntryReader, descriptions_of
 from ...robots.description import RobotDescription
 from ...robots.tree_cache import load_tree
 from .contract import PER_JOINT, PolicyContract
@@ -410,7 +410,10 @@ def _examine(reading: ContractReading, robot: RobotJoints) -> None:
 
 def _read_fields(reading: ContractReading) -> list[str]:
     """Turn the values into those of a contract; return what does not fit."""
-    hints, known = get_type_hints(PolicyContract), settings_of(PolicyContract)
+    hints, known = (
+        get_type_hints(PolicyContract),
+        descriptions_of(PolicyContract),
+    )
     problems = []
     for name, value in list(reading.values.items()):
         source = reading.sources[name]

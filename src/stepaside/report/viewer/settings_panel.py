@@ -11,7 +11,7 @@ import viser
 
 from ...arena import Room, RoomRecipe, generate_room
 from ...core.errors import StepAsideError
-from ...core.setting import Setting, settings_of
+from ...core.setting import Setting, descriptions_of
 from ...games.game_settings import GameSettings, StartSettings, duel
 from ...games.player_settings import EVADER, EVASION
 from ...games.players import RobotPlayer
@@ -104,7 +104,7 @@ def leaves_of(
             yield from leaves_of(each, f"{path}{number}.", above)
         return
     above = (*above, settings)
-    for name, described in settings_of(type(settings)).items():
+    for name, described in descriptions_of(type(settings)).items():
         value, own = getattr(settings, name), f"{path}{name}"
         if own in UNUSED or isinstance(value, Room):
             continue
