@@ -8,8 +8,8 @@ import pytest
 from click.testing import CliRunner
 
 from stepaside.cli.main import main
-from stepaside.strategies.table_cache import pursuit_bound
 from stepaside.studies import load_study, tournament
+from stepaside.theory.value.two_cars import pursuit_bound
 
 PAGE = (Path(__file__).parents[2] / "docs" / "campaigns.md").read_text("utf-8")
 

@@ -19,9 +19,7 @@ from stepaside.strategies import (
     Pursuit,
     Strategy,
 )
-from stepaside.strategies import (
-    table_cache as tables,
-)
+from stepaside.theory.value import two_cars as tables
 
 NAO = Limits(0.1, 0.2, 0.04, 0.4)
 FACING = (Pose(0.0, 0.0, 0.6), Pose(1.0, 0.1, 3.3))

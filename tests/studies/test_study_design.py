@@ -11,9 +11,9 @@ import stepaside as sa
 from stepaside.core.errors import ConfigurationError
 from stepaside.games.game_settings import duel, read_game
 from stepaside.sim.body_settings import BODIES
-from stepaside.strategies.table_cache import pursuit_bound
 from stepaside.studies import tournament
 from stepaside.studies.study_design import PRESETS
+from stepaside.theory.value.two_cars import pursuit_bound
 
 
 @pytest.fixture(scope="module", autouse=True)

@@ -9,7 +9,6 @@ import pytest
 from stepaside.arena import RoomRecipe
 from stepaside.games import StepGame
 from stepaside.games.game import Outcome
-from stepaside.strategies import table_cache as tables
 from stepaside.studies import tournament as studied
 from stepaside.studies.tournament import (
     PairingSettings,
@@ -17,6 +16,7 @@ from stepaside.studies.tournament import (
     play_pairing,
     play_track,
 )
+from stepaside.theory.value import two_cars as tables
 
 SHORT = StepGame(duration=16.0)
 SETTINGS = PairingSettings(room=RoomRecipe(discs=1), game=SHORT, seed=3)

@@ -33,11 +33,6 @@ class Approach(NamedTuple):
         return cls(x + age * u, y + age * v, u, v)
 
     @property
-    def distance(self) -> float:
-        """Distance to the opponent, in [m]."""
-        return hypot(self.x, self.y)
-
-    @property
     def speed(self) -> float:
         """Speed of the opponent, in [m/s]."""
         return hypot(self.u, self.v)
@@ -75,8 +70,8 @@ def predict_clearance(
     The opponent keeps its velocity; the robot turns to a heading in its frame
     [rad] and walks backward, after a step if it stands.
     """
-    (x, y, u, v), theta, least = approach, 0.0, approach.distance
-    share, step = limits.share, limits.step_duration
+    (x, y, u, v), theta = approach, 0.0
+    share, step, least = limits.share, limits.step_duration, hypot(x, y)
     for i in range(HORIZON):
         dx, dy = step * u, step * v
         if i > 0 or not stands:

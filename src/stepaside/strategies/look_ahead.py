@@ -19,6 +19,7 @@ from ..core.compilation import compiled, copy_values, inlined
 from ..core.poses import Array
 from ..core.ranges import Range
 from ..core.setting import CheckedSettings, setting
+from ..theory.value.two_cars import pursuit_bound
 from .knowledge import ON_THE_SPOT, STAND, Intent, Knowledge
 from .opponent_track import OpponentTrack, track_of_steps
 from .search.step_motion import (
@@ -36,7 +37,6 @@ from .search.step_motion import (
     update_side,
 )
 from .strategy import BackwardStrategy
-from .table_cache import pursuit_bound
 
 PIECES = (2, 4, 8, 12, 16)  # steps with a constant turn
 TURNS = 7  # tried per piece, evenly spaced up to the largest

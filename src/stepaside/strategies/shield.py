@@ -20,12 +20,12 @@ from ..theory.value import (
     solve_shield,
     sub_poses,
 )
+from ..theory.value.table import cached
 from .decision_maker import evaluate_strategy
 from .knowledge import ON_THE_SPOT, STAND, Intent, Knowledge, Limits
 from .opponent_track import OpponentTrack, SeenOpponent
 from .shield_settings import ShieldSettings
 from .strategy import Strategy
-from .table_cache import cached
 from .velocity_set import BodyVelocity, greatest_velocity, response_share
 
 LOG = logging.getLogger(__name__)
@@ -230,16 +230,6 @@ class Course(NamedTuple):
     heading: float  # heading in the map [rad]
     error: float  # greatest error of the heading [rad]
 
-    def headings(self, known: float) -> list[float]:
-        """Return the heading, and others if its error is above a bound."""
-        if self.error <= known + 1e-9:
-            return [self.heading]
-        count = ceil(self.error / SPACING)
-        return [
-            self.heading + self.error * i / count
-            for i in range(-count, count + 1)
-        ]
-
 
 def observed_course(
     before: Course | None,
@@ -435,7 +425,8 @@ class ShieldedStrategy:
         if course is None or track is None or not model.certifies(table):
             # Unknown as yet; or contact can be forced from everywhere.
             return intent, memory._replace(held=None, guarded=False)
-        poses = relative_poses(own, track.rows[-1], course, model)
+        seen, known = track.rows[-1], model.heading_error
+        poses = relative_poses(own, seen, course, known)
         if intent.walks:
             follow = table.outcomes if moving else table.start_outcomes
             twist, duration = model.twist(intent)
@@ -448,7 +439,7 @@ class ShieldedStrategy:
                 error=min(pi, course.error + turn * model.halting)
             )
             value = table.halting_value(
-                relative_poses(own, track.rows[-1], unseen, model),
+                relative_poses(own, seen, unseen, known),
                 model.halting,
                 model.limits.stride,
             )
@@ -484,14 +475,16 @@ class ShieldedStrategy:
 
 
 def relative_poses(
-    own: Pose, seen: SeenOpponent, course: Course, model: ShieldModel
+    own: Pose, seen: SeenOpponent, course: Course, known: float
 ) -> Array:
     """Return the poses of the robot in the frame of the opponent. (n, 3).
 
-    One for each heading of an opponent whose heading is not known.
+    Several headings of the opponent count if its error is above a bound.
     """
-    rows = []
-    for heading in course.headings(model.heading_error):
+    rows, error = [], course.error
+    count = ceil(error / SPACING) if error > known + 1e-9 else 0
+    for i in range(-count, count + 1):
+        heading = course.heading + error * i / max(count, 1)
         opponent = Pose(seen.x, seen.y, heading)
         x, y, turned = opponent.inverse().compose(own)
         rows.append((x, y, wrap_angle(turned)))

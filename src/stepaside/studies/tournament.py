@@ -23,8 +23,8 @@ from ..games.strategy_games import StepGame, StrategyTrack, play_strategies
 from ..robots.description import load_robot
 from ..sim.outline_measurement import measure_outline
 from ..strategies import Pursuit, load_strategy
-from ..strategies.table_cache import pursuit_bound
 from ..theory.unicycle.circles import find_circle
+from ..theory.value.two_cars import pursuit_bound
 from .tabulation import Record
 
 EARLIEST_CAPTURE = 0.02  # with any heading capture ends no game, in [m]

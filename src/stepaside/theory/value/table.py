@@ -16,8 +16,11 @@ schemes that advance less than a cell at a time smooth them out.
 """
 
 from collections.abc import Callable, Mapping
+from contextlib import suppress
 from dataclasses import dataclass
+from hashlib import sha256
 from math import ceil, cos, inf, log, pi, sqrt, tau
+from pathlib import Path
 from time import perf_counter
 from typing import Any, NamedTuple
 from zipfile import BadZipFile
@@ -27,12 +30,14 @@ from numpy.typing import ArrayLike, NDArray
 
 from ...core.atomic_output import atomic_draft
 from ...core.brief_repr import brief_repr
+from ...core.compiled_cache import cache_folder
 from ...core.errors import AnyPath, PlanError, as_path, check_positive
 from ...core.poses import Array, arc
 from .outcomes import PoseGrid, choose_all, look_up_all, relax
 
 ARRAYS = ("values", "after", "motions", "answers", "change", "seconds")
 UNREADABLE = (OSError, EOFError, KeyError, ValueError, TypeError, BadZipFile)
+FORMAT = 8  # of the files in the cache folder
 TIE = 1e-3  # weight of the value after a period where it decides nothing
 PARTS = 4  # of a period, in which the distance is measured
 MOST = 600  # periods
@@ -121,12 +126,7 @@ class ValueTable:
 
     def save(self, path: AnyPath) -> None:
         """Write the table to one ``.npz`` file."""
-        with (
-            atomic_draft(as_path(path, "path")) as draft,
-            draft.open("wb") as file,
-        ):
-            arrays: dict[str, Any] = dict(self.arrays())
-            np.savez_compressed(file, **arrays)
+        _write(as_path(path, "path"), self.arrays())
 
     def arrays(self) -> dict[str, Array]:
         """Return all that the table consists of, by name."""
@@ -154,6 +154,27 @@ def load_table(path: AnyPath) -> ValueTable:
         raise PlanError(
             f"{path} is not a valid table of a game: {error}"
         ) from error
+
+
+def _write(path: Path, arrays: Mapping[str, Any]) -> None:
+    with atomic_draft(path) as draft, draft.open("wb") as file:
+        np.savez_compressed(file, **arrays)
+
+
+def cached(
+    name: str, key: object, solve: Callable[[], Mapping[str, Array]]
+) -> Mapping[str, Array]:
+    """Return arrays from the cache folder by their key, or solve them."""
+    digest = sha256(repr((FORMAT, key)).encode()).hexdigest()
+    file = cache_folder() / f"{name}-{digest[:16]}.npz"
+    try:
+        with np.load(file) as saved:
+            return dict(saved)
+    except UNREADABLE:
+        found = solve()
+    with suppress(OSError):  # the cache only saves time
+        _write(file, found)
+    return found
 
 
 class PursuerLaw(NamedTuple):

@@ -23,6 +23,7 @@ States between both halves, up to their crossing, can be captured.
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from functools import lru_cache
 from math import ceil, pi, tau
 
 import numpy as np
@@ -35,6 +36,7 @@ from .table import (
     MOST,
     PursuerLaw,
     ValueTable,
+    cached,
     solve_game,
     sub_poses,
     turning,
@@ -45,6 +47,7 @@ HELD = 0.5  # turn of the quicker car in a period, in [rad]
 CELLS_HELD = 2.0  # that the distance changes by in a period, at least
 STILL = 1e-3  # change in a period that counts as none, in units of length
 POINTS = 60  # on each piece of a barrier
+FAR = 4.5  # of the game against eqs. (1)-(2), in v/k
 ANGLES = 18  # between the motions, over (0, pi], on a barrier
 
 
@@ -169,6 +172,16 @@ def solve_cars(
         periods=periods,
         progress=progress,
     )
+
+
+@lru_cache(maxsize=8)
+def pursuit_bound(cells: int) -> ValueTable:
+    """Load or solve the bound against (1)-(2), of unit speed and gain."""
+    game = CarGame(1.0, 1.0, pursuer_gain=1.0)
+    arrays = cached(
+        "pursuit", cells, lambda: solve_cars(game, FAR, cells).arrays()
+    )
+    return ValueTable.from_arrays(arrays)
 
 
 def car_poses(
