@@ -228,10 +228,10 @@ def test_strategies_of_two_files_of_one_name_can_be_pickled(
 def test_a_study_in_python_shows_its_progress(
     capfd: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    """On a terminal a bar, as the commands do."""
+    """On a terminal, as the commands do."""
     monkeypatch.setattr(sys.stderr, "isatty", lambda: True, raising=False)
     sa.run_study(sa.make_study("duel", {"duration": 0.2}))
-    assert "1/1" in capfd.readouterr().err
+    assert "1 of 1 cases" in capfd.readouterr().err
 
 
 def test_a_study_of_too_many_cases_is_refused(tmp_path: Path) -> None:
