@@ -9,8 +9,9 @@ import pytest
 
 from stepaside.core.errors import ConfigurationError
 from stepaside.core.poses import wrap_angle
+from stepaside.games.drawn_starts import least_distance
 from stepaside.games.game_settings import GameSettings, read_game
-from stepaside.games.game_starts import least_distance, with_starts
+from stepaside.games.game_starts import with_starts
 
 
 def game(*more: dict[str, Any], **entries: Any) -> GameSettings:

@@ -18,11 +18,11 @@ from stepaside.planning import (
     ManeuverPlan,
     ManeuverPlanner,
 )
-from stepaside.planning.maneuver import steady_plan
 from stepaside.planning.push_bound import (
     FootReach,
     held_regions,
     push_bound,
+    steady_plan,
 )
 
 SAMPLES = 8  # in each phase

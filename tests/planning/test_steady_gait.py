@@ -5,7 +5,8 @@ import pytest
 
 from reference_plans import plan_of
 from stepaside.planning import Direction, Foot, GaitSettings, ManeuverPlanner
-from stepaside.planning.maneuver import landing_state, steady_plan
+from stepaside.planning.maneuver import landing_state
+from stepaside.planning.push_bound import steady_plan
 
 GAIT = GaitSettings()
 

@@ -16,7 +16,7 @@ from stepaside.planning import (
     TemplateDrive,
 )
 from stepaside.planning.gait_settings import SwingProfile
-from stepaside.planning.maneuver import steady_plan
+from stepaside.planning.push_bound import steady_plan
 
 FAST = PRESETS["fast"]
 TINY = 1e-4  # between samples of a derivative, in [s]

@@ -13,12 +13,12 @@ from stepaside.planning import (
     GaitSettings,
     ManeuverPlanner,
 )
-from stepaside.planning.maneuver import steady_plan
 from stepaside.planning.path import (
     path_samples,
     poses_on_path,
     progress_by_time,
 )
+from stepaside.planning.push_bound import steady_plan
 
 GAIT = GaitSettings()
 STEP = GAIT.step_duration

@@ -27,7 +27,8 @@ from ..core.convex import convex_hull, half_planes
 from ..core.errors import check_within
 from ..core.poses import Array, Pose
 from .gait_settings import GaitSettings
-from .path import Foot
+from .maneuver import CenterState, ManeuverPlanner, landing_state
+from .path import Direction, Foot
 from .plan import ManeuverPlan, sole_corners
 
 
@@ -139,3 +140,41 @@ def _sum(a: Array, b: Array) -> Array:
     """Return the Minkowski sum of two polygons, one of positive area."""
     total: Array = (a[:, None] + b[None]).reshape(-1, 2)
     return convex_hull(total)
+
+
+def steady_plan(
+    planner: ManeuverPlanner,
+    bearing: float,
+    direction: Direction,
+    *,
+    first_foot: Foot,
+) -> ManeuverPlan:
+    """Return the plan of a steady walk with a constant bearing.
+
+    The map from one landing to the next is affine; its periodic state is the
+    fixed point of two steps. The bearing is in the frame of each foot.
+    """
+
+    def plan_from(
+        state: np.ndarray, foot: Foot, swing_start: Pose | None = None
+    ) -> ManeuverPlan:
+        x, y, u, v = state.tolist()
+        return planner.plan(
+            bearing,
+            direction,
+            first_foot=foot,
+            state=CenterState((x, y), (u, v)),
+            swing_start=swing_start,
+        )
+
+    def recur(state: np.ndarray) -> np.ndarray:
+        for foot in (first_foot, first_foot.other):
+            state = np.ravel(landing_state(plan_from(state, foot)))
+        return state
+
+    origin, unit = recur(np.zeros(4)), np.eye(4)
+    columns = [recur(each) - origin for each in unit]
+    state = np.linalg.solve(unit - np.column_stack(columns), origin)
+    before = plan_from(state, first_foot.other)
+    left_behind = Pose(*before.placements[2].tolist()).inverse()
+    return plan_from(state, first_foot, left_behind)

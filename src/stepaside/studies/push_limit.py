@@ -11,8 +11,7 @@ from ..games.game_settings import GameSettings
 from ..games.player_settings import WALKER
 from ..games.recorded_game import run_game
 from ..planning import Foot, ManeuverPlanner
-from ..planning.maneuver import steady_plan
-from ..planning.push_bound import FootReach, push_bound
+from ..planning.push_bound import FootReach, push_bound, steady_plan
 from ..robots.description import load_robot
 from ..robots.forward_kinematics import ForwardKinematics
 from ..sim.push import Push
