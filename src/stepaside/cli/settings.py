@@ -6,7 +6,7 @@ such as ``--body``, single settings.
 
 import tomllib
 from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
-from dataclasses import fields, is_dataclass
+from dataclasses import is_dataclass
 from functools import partial, wraps
 from math import degrees
 from operator import attrgetter
@@ -85,7 +85,6 @@ def takes_settings(
     named: Sequence[str],
     kind: Any,
     *,
-    aside: Collection[str] = (),
     config: Decorator = config_option,
 ) -> Decorator:
     """Add options of settings, ``--set``, ``--config`` and ``--settings``.
@@ -93,7 +92,6 @@ def takes_settings(
     Args:
         named: Paths of settings with an option of their own.
         kind: Class of the argument ``settings``, or the game that they change.
-        aside: Entries of a file that belong to other commands.
         config: Option, or argument, of the file.
     """
     entries = _entries_of(kind)
@@ -107,7 +105,7 @@ def takes_settings(
                 for text in _texts(values.pop(_argument(path)))
             ]
             texts += [set_pair(text) for text in values.pop("sets")]
-            settings = _read(kind, texts, values.pop("config"), aside)
+            settings = _read(kind, texts, values.pop("config"))
             if values.pop("lists"):
                 return write_result(_commented(settings))
             return function(settings=settings, **values)
@@ -250,7 +248,6 @@ def _read(
     kind: Any,
     texts: Sequence[tuple[str, str]],
     config: Path | None,
-    aside: Collection[str],
 ) -> Any:
     """Return the settings of a command from options and file."""
     file = {} if config is None else load_settings(config)
@@ -272,9 +269,7 @@ def _read(
     if isinstance(base, GameSettings):
         settings = read_game(nested(changes), base=base)
     else:
-        ignored = {*aside} - {field.name for field in fields(kind)}
-        known = nested(nested(changes), file)
-        chosen = {k: v for k, v in known.items() if k not in ignored}
+        chosen = nested(nested(changes), file)
         settings = settings_of(kind, chosen, source if not changes else "")
     if hasattr(settings, "resolved"):
         settings = settings.resolved()

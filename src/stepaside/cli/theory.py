@@ -2,7 +2,7 @@
 
 from collections.abc import Sequence
 from contextlib import suppress
-from dataclasses import dataclass, fields
+from dataclasses import dataclass
 from math import degrees, pi
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -14,7 +14,6 @@ from ..core.errors import PlanError
 from ..core.progress import ProgressLine
 from ..core.ranges import SEEDS, Range, positive
 from ..core.setting import CheckedSettings, setting
-from ..games.game_settings import OF_ALL, GameSettings
 from ..games.unicycle_settings import UnicycleGameSettings
 from ..planning import PRESETS, Direction, Foot, GaitSettings
 from ..report.result_labels import CIRCLES
@@ -359,23 +358,17 @@ class PlanSettings(CheckedSettings, error=PlanError):
     )
 
 
-# Entries of games, which the file of a plan may contain; players have gaits.
-ENTRIES_OF_GAMES = {
-    *(*OF_ALL, *(each.name for each in fields(GameSettings))),
-} - {"players"}
-
 NAMED_OF_PLAN = ("role", "bearing", "steps", "first_foot", "saturated", "gait")
 
 
 @click.command("plan")
-@takes_settings(NAMED_OF_PLAN, PlanSettings, aside=ENTRIES_OF_GAMES)
+@takes_settings(NAMED_OF_PLAN, PlanSettings)
 @figure_option()
 @json_option
 def plan(settings: PlanSettings, figure: Path | None, as_json: bool) -> None:
     """Plan one maneuver from standing: path, footsteps, ZMP and CoM.
 
-    --role and --bearing are required. The gait may come from the file of a
-    game that gives one to all its players.
+    --role and --bearing are required.
     """
     from ..planning import ManeuverPlanner, TemplateDrive
 

@@ -238,20 +238,20 @@ def cross(
 
 
 @inlined
-def margin_after(
+def is_before(
     time: float,
     event: int,
     state: GameState,
     piece: SmoothPiece,
     rules: Rules,
-) -> float:
-    """Return the margin to an event after a time; negative beyond it."""
+) -> bool:
+    """Return whether an event is yet to come after a time."""
     then = rk4(state, time, piece, rules)
     if event == EDGE:
-        return edge_margin(then, piece, rules)
+        return edge_margin(then, piece, rules) > 0.0
     if event == CAPTURE:
-        return float(then.r - rules.capture_distance)
-    return float(-rates_of(then, piece, rules).r)
+        return bool(then.r > rules.capture_distance)
+    return bool(rates_of(then, piece, rules).r < 0.0)
 
 
 @shared
@@ -262,38 +262,24 @@ def time_of(
     piece: SmoothPiece,
     rules: Rules,
 ) -> float:
-    """Return the time within a step at which a margin reaches zero, in [s].
+    """Return the time of an event within a step, in [s], by bisection.
 
-    The root is found by the Illinois variant of false position. A game that
-    starts on an edge may first enter the piece and then leave it.
+    A game that starts on an edge may first enter the piece and then leave it.
     """
-    short = 0.0
-    above = margin_after(short, event, state, piece, rules)
-    for halvings in range(1, 49):
-        if above > 0.0:
+    early, late = 0.0, step
+    for halvings in range(49):
+        if is_before(early, event, state, piece, rules):
             break
-        short = step * 0.5**halvings
-        above = margin_after(short, event, state, piece, rules)
-    if above <= 0.0:
-        return 0.0
-    long, moved_last = step, 0
-    below = margin_after(long, event, state, piece, rules)
+        early = step * 0.5 ** (halvings + 1)
     for _ in range(60):
-        middle = (short * below - long * above) / (below - above)
-        if not short < middle < long:
+        middle = 0.5 * (early + late)
+        if not early < middle < late:
             break
-        m = margin_after(middle, event, state, piece, rules)
-        if abs(m) < 1e-15:
-            return middle
-        if m > 0.0:
-            short, above = middle, m
-            below *= 0.5 if moved_last == 1 else 1.0
-            moved_last = 1
+        if is_before(middle, event, state, piece, rules):
+            early = middle
         else:
-            long, below = middle, m
-            above *= 0.5 if moved_last == -1 else 1.0
-            moved_last = -1
-    return long
+            late = middle
+    return late if is_before(early, event, state, piece, rules) else 0.0
 
 
 @shared
