@@ -297,7 +297,7 @@ class PhysicsWorld(World):
             pushes = pushes_by_robot(settings.pushes, settings.robots)
             for robot in self._walkers:
                 if pushes[robot.name]:
-                    robot.push(*pushes[robot.name])
+                    robot.robot.push(*pushes[robot.name])
         self._has_things = settings.room is not None or bool(
             settings.scene.things
         )

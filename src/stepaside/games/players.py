@@ -7,11 +7,10 @@ import numpy as np
 from ..control.scheme import ControlScheme
 from ..core.errors import PolicyError
 from ..core.poses import Pose
-from ..locomotion.locomotion import Phase, StepStarted
+from ..locomotion.locomotion import Phase
 from ..locomotion.maneuver_walk import ManeuverWalk
 from ..planning import Foot
 from ..sim.ground_truth import GroundTruth, TrueStance
-from ..sim.push import Push, ScheduledPush
 from ..sim.simulated_robot import SimulatedRobot
 
 if TYPE_CHECKING:
@@ -99,16 +98,6 @@ class RobotPlayer(Player):
         robot.write(targets)
 
     @property
-    def pushes(self) -> tuple[ScheduledPush, ...]:
-        """Pushes that have been applied or scheduled."""
-        return self.robot.pushes
-
-    @property
-    def begun(self) -> StepStarted | None:
-        """Step begun at the last tick, if any."""
-        return self.walk.begun
-
-    @property
     def is_moving(self) -> bool:
         """Whether it has left its standing state."""
         return self.walk.phase is not Phase.STANDING
@@ -177,7 +166,3 @@ class RobotPlayer(Player):
             "estimate": estimate,
             "dcm": (x + u / eta, y + v / eta),
         }
-
-    def push(self, *pushes: Push) -> None:
-        """Schedule pushes of the torso, now or later."""
-        self.robot.push(*pushes)

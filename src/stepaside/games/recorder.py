@@ -50,22 +50,23 @@ class PlayerRecord:
         player, walk = self._player, self._player.maneuvers
         if not isinstance(player, RobotPlayer):
             return
-        if player.begun is not None:
-            self.begun.append(player.begun)
+        begun = player.walk.begun
+        if begun is not None:
+            self.begun.append(begun)
         if not self._closely:
             return
         if walk is not None and walk.balance.solved is not None:
             self.solved.append(walk.balance.solved)
-        if walk is not None and player.begun is not None:
+        if walk is not None and begun is not None:
             frame = player.frame.compose(walk.plan_frame)
             self._plans += [
                 (
-                    player.begun.started,
+                    begun.started,
                     float(number),
                     float(step.foot.value),
                     *frame.compose(Pose(step.x, step.y, step.theta)),
                 )
-                for number, step in enumerate(player.begun.plan.footsteps)
+                for number, step in enumerate(begun.plan.footsteps)
             ]
         for percept in player.robot.eyes.exposed if player.robot.eyes else ():
             if isinstance(percept, ColourImage | DepthImage):
@@ -87,8 +88,8 @@ class PlayerRecord:
         player, numbers = self._player, self._numbers[:count]
         if player.frame is not None:
             arrays["landings"] = self._landings(player.frame)
-        if isinstance(player, RobotPlayer) and player.pushes:
-            arrays["pushes"] = np.array(player.pushes)
+        if isinstance(player, RobotPlayer) and player.robot.pushes:
+            arrays["pushes"] = np.array(player.robot.pushes)
         if self._plans:
             arrays["plans"] = np.array(self._plans)
         keys = dict.fromkeys(key for row in numbers for key in row)

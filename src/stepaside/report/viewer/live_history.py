@@ -102,10 +102,11 @@ class LiveHistory(GameObserver):
         for player in game.world.players:
             if not isinstance(player, RobotPlayer):
                 continue
-            odometry = true_odometry(player) if player.begun else None
-            if player.begun is not None and odometry is not None:
-                pose = odometry.compose(player.begun.landing)
-                row = np.array([player.begun.foot.value, *pose])
+            begun = player.walk.begun
+            odometry = true_odometry(player) if begun else None
+            if begun is not None and odometry is not None:
+                pose = odometry.compose(begun.landing)
+                row = np.array([begun.foot.value, *pose])
                 new = deque[Array](maxlen=MAX_STEPS)
                 self.steps.setdefault(player.name, new).append(row)
             if player.perception is None:

@@ -42,8 +42,8 @@ def live_overlays(session: LiveSession) -> list[SceneLines]:
             now = session.world.time
             found += _walk_lines(name, walk, [*steps], frame, now)
         if isinstance(player, RobotPlayer):
-            pushes = np.array(player.pushes[-MAX_PUSHES:]).reshape(-1, 6)
-            found.append(push_arrows(name, pushes))
+            pushes = np.array(player.robot.pushes[-MAX_PUSHES:])
+            found.append(push_arrows(name, pushes.reshape(-1, 6)))
     for (layer, name), points in session.history.traces.items():
         found.append(SceneLines(layer, name, polyline(np.array(points))))
     for name, radius in session.played.safety_radii.items():

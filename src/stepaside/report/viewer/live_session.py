@@ -189,7 +189,7 @@ class LiveSession:
             raise ConfigurationError(
                 f"only a robot can be pushed, got {player}"
             )
-        self.call(lambda: robot.push(push))
+        self.call(lambda: robot.robot.push(push))
 
     def save(self, parent: Path) -> Path:
         """Write the game so far into a new run folder, and return that.
