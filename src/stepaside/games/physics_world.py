@@ -480,15 +480,14 @@ class PhysicsWorld(World):
 
         They are sampled after a number of control ticks.
         """
-        found = {}
-        for own in self.players if self._senses else ():
-            assert self._senses is not None
-            if isinstance(own, RobotPlayer):
-                settings = self._settings.player(own.name)
-                found[own.name] = self._senses.evaluator_of(
-                    own.robot, settings, self._truths, every
-                )
-        return {name: own for name, own in found.items() if own is not None}
+        found, senses = {}, self._senses
+        for own in self._walkers if senses else ():
+            assert senses is not None
+            settings = self._settings.player(own.name)
+            seen = (own.robot, settings, self._truths, every)
+            if (evaluator := senses.evaluator_of(*seen)) is not None:
+                found[own.name] = evaluator
+        return found
 
     @property
     def renderer(self) -> str:
