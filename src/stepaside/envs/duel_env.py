@@ -30,7 +30,6 @@ from .environment_settings import (
     SEEDS,
     STRIDE,
     EnvironmentSettings,
-    IntentActions,
     direction_of,
     observation_space,
 )
@@ -276,8 +275,7 @@ class VectorDuel(VectorEnv[Row, Any, Any]):
         )
         self._intents = np.zeros((number, 2, 2))
         self._seeds: Integers | None = None  # of the present episodes
-        self._actions = IntentActions(given)
-        self.single_action_space = self._actions.space
+        self.single_action_space = given.action_space()
         self.single_observation_space = observation_space(given.terms)
         self.action_space = batch_space(self.single_action_space, number)
         self.observation_space = batch_space(
@@ -320,7 +318,7 @@ class VectorDuel(VectorEnv[Row, Any, Any]):
         if self._seeds is None:
             raise PlanError("reset the environment first: no episode is on")
         rows, state, rules = (
-            self._actions.rows(actions),
+            self.settings.intents(actions),
             self._state,
             self._rules,
         )

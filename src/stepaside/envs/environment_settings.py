@@ -2,6 +2,7 @@
 
 from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
+from functools import cached_property
 from math import pi
 from typing import Any
 
@@ -165,32 +166,31 @@ class EnvironmentSettings:
             direction_of(role), self.sensed_terms, self.action_headings
         )
 
+    def action_space(self) -> Space[Any]:
+        """Return a space of actions.
 
-class IntentActions:
-    """Actions of one environment, and the intents that they mean.
+        A continuous action is a heading, in [-pi, pi] [rad], in the frame of
+        the player, and a speed factor, in [0, 1]; 0 stands. A discrete one is
+        one of evenly spaced headings at full speed, or, the last, to stand.
+        """
+        headings = self.action_headings
+        return Discrete(len(headings)) if headings else box(LOW, HIGH)
 
-    A continuous action is a heading, in [-pi, pi] [rad], in the frame of the
-    player, and a speed factor, in [0, 1]; 0 stands. Values beyond are
-    limited. A discrete action is one of evenly spaced headings at full
-    speed, or, the last, to stand.
-    """
+    @cached_property
+    def _discrete(self) -> Array:
+        """Heading [rad] and speed factor of each discrete action. (n, 2)."""
+        rows = [(h or 0.0, h is not None) for h in self.action_headings]
+        return np.array(rows, np.float64)
 
-    def __init__(self, settings: EnvironmentSettings) -> None:
-        headings = settings.action_headings
-        self.space: Space[Any] = box(LOW, HIGH)
-        if headings:
-            self.space = Discrete(len(headings))
-        self._rows = np.array(
-            [(h or 0.0, h is not None) for h in headings], np.float64
-        )
-
-    def rows(self, actions: Any) -> Array:
+    def intents(self, actions: Any) -> Array:
         """Return headings [rad] and speed factors of actions. Shape (n, 2).
+
+        Numbers beyond their ranges are limited.
 
         Raises:
             PlanError: If the actions are not in the space.
         """
-        values, count = np.array(actions), len(self._rows)
+        values, count = np.array(actions), len(self._discrete)
         if count:
             right = values.ndim == 1 and values.dtype.kind in "iu"
             right = right and bool(((values >= 0) & (values < count)).all())
@@ -203,7 +203,7 @@ class IntentActions:
                 f"an action must be {wanted}, got {shown(values.tolist())}"
             )
         if count:
-            found: Array = self._rows[values]
+            found: Array = self._discrete[values]
             return found
         return np.clip(values.astype(np.float64), LOW, HIGH)
 

@@ -40,7 +40,6 @@ from .environment_settings import (
     SEEDS,
     STRIDE,
     EnvironmentSettings,
-    IntentActions,
     box,
     direction_of,
     observation_space,
@@ -121,7 +120,8 @@ class ParallelGames(ParallelEnv[str, Row, Any]):
         self.render_mode = render_mode
         self.possible_agents, self.agents = list(roles), list[str]()
         self._roles, self._units = roles, units
-        self._actions = {name: IntentActions(choice) for name in roles}
+        self._choice = choice
+        self._actions = {name: choice.action_space() for name in roles}
         self._observed = {name: box(space.low, space.high) for name in roles}
         self._seed: int | None = None
         self._game: GameInPlay | None = None
@@ -150,7 +150,7 @@ class ParallelGames(ParallelEnv[str, Row, Any]):
 
     def action_space(self, agent: str) -> Space[Any]:
         """Return the space of actions of an agent, always the same."""
-        return self._actions[agent].space
+        return self._actions[agent]
 
     def reset(
         self, seed: int | None = None, options: dict[str, Any] | None = None
@@ -219,8 +219,7 @@ class ParallelGames(ParallelEnv[str, Row, Any]):
                     f"actions must have one of the {name}, got those of "
                     f"{', '.join(actions) or 'no agent'}"
                 )
-            row = self._actions[name].rows([actions[name]])[0]
-            heading, speed = row.tolist()
+            heading, speed = self._choice.intents([actions[name]])[0].tolist()
             self._held[name].intent = (
                 Intent(heading, speed) if speed > 0.0 else STAND
             )
