@@ -17,6 +17,8 @@ AnyPath = str | os.PathLike[str]
 # Outside this range cubes and ratios may overflow a double; no length, time
 # or rate of a robot lies there.
 LARGEST, LEAST = 1e12, 1e-12
+# Of code of users, whose sys.exit() must not end the program.
+FAILURES = (Exception, SystemExit)
 
 
 class StepAsideError(Exception):

@@ -10,11 +10,9 @@ from importlib.util import spec_from_file_location
 from pathlib import Path
 from types import CodeType, ModuleType
 
-from .errors import ConfigurationError
+from .errors import FAILURES, ConfigurationError
 
 FILE_AND_NAME = re.compile(r"(?P<file>.+\.py):(?P<name>[^:]*)", re.DOTALL)
-# sys.exit() in user code must not end the program.
-FAILURES = (Exception, SystemExit)
 # Files are modules of this one by their path, so that other processes can
 # import what a pickle names.
 __path__: list[str] = []

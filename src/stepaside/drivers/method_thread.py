@@ -8,8 +8,7 @@ from threading import Thread
 from time import monotonic, sleep
 from typing import Any, TypeVar
 
-from ..core.errors import ConfigurationError, StepAsideError
-from ..core.user_file import FAILURES
+from ..core.errors import FAILURES, ConfigurationError, StepAsideError
 
 OPEN_TIMEOUT = 15.0  # for open(), in [s]
 SIMULATOR_TIMEOUT = 60.0  # for open() of a simulator that may be busy, in [s]

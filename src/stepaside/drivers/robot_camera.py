@@ -9,11 +9,10 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from ..core.errors import shown
+from ..core.errors import FAILURES, shown
 from ..core.history import History
 from ..core.poses import Pose, wrap_angle
 from ..core.rotations import rotation
-from ..core.user_file import FAILURES
 from ..perception.body_pose import BodyPose
 from ..perception.camera_model import CameraModel
 from ..perception.images import ColourImage

@@ -6,8 +6,8 @@ from importlib.metadata import entry_points
 from math import isfinite, pi
 from typing import Any, NamedTuple
 
-from ..core.errors import ConfigurationError, shown
-from ..core.user_file import FAILURES, FILE_AND_NAME, load_user_file
+from ..core.errors import FAILURES, ConfigurationError, shown
+from ..core.user_file import FILE_AND_NAME, load_user_file
 from ..perception.camera_model import CameraModel
 from ..robots.description import RobotDescription, load_robot
 from .robot import (

@@ -6,9 +6,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ..core.errors import shown
+from ..core.errors import FAILURES, shown
 from ..core.poses import Array, Pose, wrap_angle
-from ..core.user_file import FAILURES
 from ..perception.measurement import RobotState, RobotStatus, Sighting
 from .joint_motion import Motors
 from .method_thread import SessionLost

@@ -5,10 +5,9 @@ from math import cos, sin
 from typing import Any
 
 from ..arena import NO_OBSTACLES, ObstacleSet
-from ..core.errors import StrategyError
+from ..core.errors import FAILURES, StrategyError
 from ..core.player_identity import PlayerIdentity
 from ..core.poses import Pose, wrap_angle
-from ..core.user_file import FAILURES
 from ..perception.measurement import Sighting
 from .knowledge import Intent, Knowledge, Limits, OtherPlayer
 from .opponent_track import OpponentTrack

@@ -6,8 +6,8 @@ from math import pi
 from pathlib import Path
 from typing import Any
 
-from ..core.errors import ConfigurationError, StrategyError, shown
-from ..core.user_file import FAILURES, load_user_file
+from ..core.errors import FAILURES, ConfigurationError, StrategyError, shown
+from ..core.user_file import load_user_file
 from ..planning import Direction
 from .decision_maker import evaluate_strategy
 from .knowledge import Knowledge, Limits
