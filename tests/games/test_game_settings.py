@@ -90,7 +90,7 @@ def test_a_setting_is_changed_of_the_game_of_all_or_of_one_player() -> None:
         ({"physics": {"friction": float("nan")}}, "physics.friction .*nan"),
         ({"pushes": [{"impulse": -1}]}, "pushes 1.impulse .*pushes 1.time"),
         ({"seed": -1, "duration": 0}, "seed must .*; duration must"),
-        ({"physics": {"tick": 0.0031}}, "physics: tick must be a whole"),
+        ({"physics": {"tick": 0.0031}}, "physics.tick must be a whole"),
         ({"gait": {"stride": 30}}, "here: gait.stride must lie in"),
         ({"evader": {"gait": {"stride": 30}}}, "here, evader: gait.stride"),
         ({"evader": {"person": {"speed": 1}}}, "person must be omitted"),

@@ -196,6 +196,12 @@ class GameSettings:
                     f"{push.player!r}"
                 )
         check_senses(self)
+        tick, step = self.physics.tick, self.physics.time_step
+        if tick < 0.5 * step or abs(tick / step - round(tick / step)) > 1e-9:
+            raise ConfigurationError(
+                "physics.tick must be a whole multiple of physics.time_step, "
+                f"{step:g} [s], got {tick:g}"
+            )
 
     def changed(self, **changes: Any) -> "GameSettings":
         """Return the game with other settings.
