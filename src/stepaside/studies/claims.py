@@ -3,7 +3,7 @@
 import tomllib
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import asdict, dataclass
-from functools import cache, partial
+from functools import cache
 from math import isfinite, nan
 from pathlib import Path
 from typing import Any, NamedTuple
@@ -134,13 +134,12 @@ def claim_study(seeds: Sequence[int], legs: str = "") -> Study[ClaimTrial]:
     network = ""
     if legs:
         own = games.legs_settings(legs, 0).evader.legs
-        network = digest_of(Path(own.network))
-    return Study("claims", trials, run_trial, partial(_key, network))
+        network = f"/{digest_of(Path(own.network))}"
 
+    def key_of(trial: ClaimTrial) -> str:
+        return f"{trial.job}/{trial.seed}{network if trial.legs else ''}"
 
-def _key(network: str, trial: ClaimTrial) -> str:
-    own = f"/{network}" if trial.legs else ""
-    return f"{trial.job}/{trial.seed}{own}"
+    return Study("claims", trials, run_trial, key_of)
 
 
 def run_trial(trial: ClaimTrial) -> Record:

@@ -28,9 +28,7 @@ from .tournament import (
     PairingSettings,
     bound_of,
     clearance,
-    outcome_of,
     play_track,
-    players_touched,
 )
 
 
@@ -516,9 +514,12 @@ def read_room(
 ) -> dict[str, float]:
     """Read contacts, clearance [m] and free time [s] of a duel in a room."""
     least = [clear(run, name) for name in PLAYERS]
-    clean = run.outcome is Outcome.COMPLETED or players_touched(run)
+    whole = run.outcome is Outcome.COMPLETED
+    met = run.outcome is Outcome.CONTACT
+    met &= set(run.summary.touched) == set(PLAYERS)
+    free = whole and run.summary.captured_at_s is None
     return {
-        "touched": float(not clean),
+        "touched": float(not whole and not met),
         "clear": min(inf if k is None else k for k in least),
-        "free": run.duration if outcome_of(run) is Outcome.COMPLETED else 0.0,
+        "free": run.duration if free else 0.0,
     }

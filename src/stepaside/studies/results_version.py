@@ -1,7 +1,7 @@
 """Version of all results, raised by hand when a game turns out otherwise."""
 
 from functools import cache
-from importlib.metadata import PackageNotFoundError, version
+from importlib.metadata import version
 
 from .. import __version__
 
@@ -16,12 +16,6 @@ LIBRARIES = ("mujoco", "numba", "numpy", "scipy")
 
 
 @cache
-def library_versions() -> dict[str, str | None]:
+def library_versions() -> dict[str, str]:
     """Return the versions of this package and of its libraries, by name."""
-    found: dict[str, str | None] = {"stepaside": __version__}
-    for name in LIBRARIES:
-        try:
-            found[name] = version(name)
-        except PackageNotFoundError:
-            found[name] = None
-    return found
+    return {"stepaside": __version__} | {x: version(x) for x in LIBRARIES}

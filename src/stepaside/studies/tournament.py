@@ -17,7 +17,6 @@ from ..core.poses import Array, Pose, rotate
 from ..core.setting import check_settings, setting
 from ..games.floor_world import PARTS
 from ..games.game import Outcome
-from ..games.player_settings import PLAYERS
 from ..games.run import Run
 from ..games.strategy_games import StepGame, StrategyTrack, play_strategies
 from ..robots.description import load_robot
@@ -148,25 +147,6 @@ def circle_distance(game: StepGame, pursuer: str) -> float | None:
         "proportional",
     )
     return float(circle.distance_m) if circle.exists else None
-
-
-def players_touched(run: Run) -> bool:
-    """Return whether a duel ended with contact between its two players."""
-    contact = run.outcome is Outcome.CONTACT
-    return contact and set(run.summary.touched) == set(PLAYERS)
-
-
-def outcome_of(run: Run) -> Outcome:
-    """Return the outcome of a duel as that of a tournament game.
-
-    It is captured if the distance was at most the capture distance at any
-    time; a contact with an obstacle is told apart from one of the players.
-    """
-    if run.summary.captured_at_s is not None:
-        return Outcome.CAPTURED
-    if run.outcome is Outcome.CONTACT and not players_touched(run):
-        return Outcome.TOUCHED
-    return run.outcome
 
 
 def clearance(run: Run, name: str) -> float | None:
