@@ -15,7 +15,7 @@ from stepaside.core.poses import Array
 from stepaside.games.game import Outcome
 from stepaside.games.game_settings import StartSettings, read_game
 from stepaside.games.game_settings import duel as make_duel
-from stepaside.games.recorded_game import repeat_game, run_game
+from stepaside.games.recorded_game import run_game
 from stepaside.games.run import Run
 from stepaside.games.run_archive import (
     SUMMARY,
@@ -25,6 +25,7 @@ from stepaside.games.run_archive import (
 )
 from stepaside.games.settings_reader import load_game
 from stepaside.games.trajectory import Trajectory
+from stepaside.report.export.recording import repeat_game
 from stepaside.report.run_folder import write_run
 from stepaside.report.scene import RunScene
 from stepaside.robots.description import load_robot

@@ -17,7 +17,6 @@ from ..core.setting import CheckedSettings, setting
 from .evaluation import measure
 from .game import Outcome
 from .player_settings import MOST_PLAYERS, PLAYER_NAME
-from .record_check import check_record
 from .run import Run
 from .trajectory import Trajectory
 
@@ -117,7 +116,6 @@ def import_experiment(bag: Path, words: tuple[str, ...]) -> Run:
         if gap > NOTED_GAP:
             notes.append(f"{player} has no pose for {gap:.2f} s; interpolated")
     elapsed, world = times - times[0], next(iter(worlds.values()))
-    check_record(elapsed, tracks, bag.name)
     run = Run(
         name=bag.stem or bag.name,
         settings=ExperimentSettings(bag.name, words, world),

@@ -29,7 +29,6 @@ from .evaluation import measure
 from .game import Outcome
 from .play_settings import PlaySettings
 from .player_settings import PLAYERS
-from .record_check import check_record
 from .run import Run
 from .summary import PlanningSummary, PlaySummary, StateChange, Summary
 from .trajectory import Trajectory
@@ -125,7 +124,6 @@ def run_of_play(
     if other is not None:
         both = tracks | {settings.other: other}
         tracks = {player: both[player] for player in PLAYERS}
-    check_record(times, tracks, name)
     run = Run(
         name=name,
         settings=settings,

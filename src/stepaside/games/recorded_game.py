@@ -6,8 +6,6 @@ from math import inf
 from types import MappingProxyType
 from typing import TYPE_CHECKING, Any
 
-import numpy as np
-
 from ..robots.description import RobotDescription
 from ..strategies import Strategy
 from ..strategies.registry import describe_strategy
@@ -199,35 +197,3 @@ def run_game(
     game = RecordedGame(settings, strategies=strategies)
     play(game, report=report)
     return game.run()
-
-
-def repeat_game(run: Run, report: Report | None = None) -> tuple[Run, str]:
-    """Play a game again for the signals that its run folder lacks.
-
-    Returns:
-        The run with all signals; or as it is, and the reason, if the game
-        differed from its run or cannot be repeated.
-
-    Raises:
-        StepAsideError: If the settings cannot be met on this computer, for
-            example for want of a renderer.
-        KeyboardInterrupt: If it was interrupted.
-    """
-    if not isinstance(run.settings, GameSettings) or not run.robots:
-        return run, f"a {run.game} cannot be repeated"
-    game = RecordedGame(run.settings, closely=True)
-    game.rules = replace(game.rules, duration=run.duration)
-    play(game, report=report)
-    again = game.run().uninterrupted()
-    for name in run.robots:
-        then, now = run.tracks[name].qpos, again.tracks[name].qpos
-        if then is None or now is None:
-            return run, f"{name} has no recorded joint angles"
-        if not np.array_equal(again.times, run.times) or not np.array_equal(
-            then, now
-        ):
-            return run, (
-                f"played again, {name} moved differently: its commands came "
-                "from elsewhere, or this computer calculates differently"
-            )
-    return replace(run, tracks=again.tracks), ""

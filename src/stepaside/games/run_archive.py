@@ -1,6 +1,7 @@
 """Run folders: a recorded game on disk."""
 
 import json
+from collections.abc import Mapping
 from dataclasses import dataclass
 from hashlib import sha256
 from importlib import import_module
@@ -20,7 +21,6 @@ from ..robots.description import known_robots
 from .game import Outcome
 from .game_settings import GAME_KINDS
 from .player_settings import MOST_PLAYERS, PLAYER_NAME
-from .record_check import check_record
 from .run import Run
 from .settings_reader import (
     ROBOTS,
@@ -29,7 +29,7 @@ from .settings_reader import (
     settings_entries,
 )
 from .summary import Summary
-from .trajectory import COLUMNS, Trajectory
+from .trajectory import COLUMNS, MAY_LACK, OF_EVENTS, Trajectory
 
 if TYPE_CHECKING:
     from .play_settings import PlaySettings
@@ -108,6 +108,7 @@ def complete_play(
     from .play_conversion import run_of_play
 
     run = run_of_play(folder, settings, outcome, message)
+    check_record(run.times, run.tracks, run.name)
     write_run_files(folder, run)
     write_checksums(folder)
     return run
@@ -136,6 +137,7 @@ def load_run(folder: AnyPath, game: str | None = None) -> Run:
             run = run_of_play(folder, settings)
         else:
             run = _load_complete_run(folder)
+        check_record(run.times, run.tracks, run.name)
     except ConfigurationError:
         raise
     except READ_ERRORS as error:
@@ -216,19 +218,60 @@ def read_record(
         if array in known:
             player, key = known[array]
             rows[player][key] = values
-    times = arrays["times_s"]
     tracks = {player: Trajectory(**own) for player, own in rows.items()}
-    check_record(times, tracks, name)
     return Run(
         name=name,
         settings=settings,
         outcome=Outcome(about.outcome),
         message=about.message,
         duration=about.duration_s,
-        times=times,
+        times=arrays["times_s"],
         tracks=tracks,
         summary=summary,
     )
+
+
+def check_record(
+    times: Array, tracks: Mapping[str, Trajectory], run: str
+) -> None:
+    """Check times, and shapes and values of trajectories.
+
+    Raises:
+        ConfigurationError: If times do not increase, an array has another
+            shape, or a value is not finite.
+    """
+    if times.ndim != 1 or len(times) == 0:
+        raise ConfigurationError(
+            f"times_s of run {run} must be a row of at least one time [s], "
+            f"got shape {times.shape}"
+        )
+    _check_values(times, "times_s", run)
+    if times[0] < 0.0 or not np.all(np.diff(times) > 0.0):
+        raise ConfigurationError(
+            f"times_s of run {run} must be >= 0 and increase [s]"
+        )
+    for player, track in tracks.items():
+        for key, array in track.arrays().items():
+            shape = array.shape if array.ndim == 2 else (-1, 0)
+            rows = shape[0] if key in OF_EVENTS else len(times)
+            least = 7 if key == "qpos" else 0
+            width = len(COLUMNS[key]) or max(least, shape[1])
+            if shape != (rows, width):
+                raise ConfigurationError(
+                    f"{player}_{key} of run {run} must have shape "
+                    f"({rows}, {width}), got {array.shape}"
+                )
+            _check_values(array, f"{player}_{key}", run, key in MAY_LACK)
+
+
+def _check_values(
+    array: Array, name: str, run: str, may_lack: bool = False
+) -> None:
+    valid = np.isfinite(array)
+    if may_lack:
+        valid |= np.isnan(array)
+    if not valid.all():
+        raise ConfigurationError(f"{name} of run {run} must be finite numbers")
 
 
 def write_checksums(folder: Path) -> None:

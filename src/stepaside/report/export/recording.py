@@ -1,7 +1,7 @@
 """Recording of a run for other programs, in no particular format."""
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 import mujoco
@@ -9,9 +9,10 @@ import numpy as np
 
 from ...core.player_identity import Colour
 from ...core.poses import Array
-from ...games.game import Progress
+from ...games.game import Progress, play
 from ...games.game_furnishing import colours_of_players
-from ...games.recorded_game import repeat_game
+from ...games.game_settings import GameSettings
+from ...games.recorded_game import RecordedGame
 from ...games.run import Run
 from ...robots.description import RobotDescription, load_robot
 from ...robots.urdf_writer import urdf_of
@@ -83,6 +84,40 @@ def recording_of(
         run, reason = repeat_game(run, report)
         absent += [f"{BEYOND}: {reason}"] if reason else []
     return Recording(run, models, tuple(absent))
+
+
+def repeat_game(
+    run: Run, report: Callable[[Progress], None] | None = None
+) -> tuple[Run, str]:
+    """Play a game again for the signals that its run folder lacks.
+
+    Returns:
+        The run with all signals; or as it is, and the reason, if the game
+        differed from its run or cannot be repeated.
+
+    Raises:
+        StepAsideError: If the settings cannot be met on this computer, for
+            example for want of a renderer.
+        KeyboardInterrupt: If it was interrupted.
+    """
+    if not isinstance(run.settings, GameSettings) or not run.robots:
+        return run, f"a {run.game} cannot be repeated"
+    game = RecordedGame(run.settings, closely=True)
+    game.rules = replace(game.rules, duration=run.duration)
+    play(game, report=report)
+    again = game.run().uninterrupted()
+    for name in run.robots:
+        then, now = run.tracks[name].qpos, again.tracks[name].qpos
+        if then is None or now is None:
+            return run, f"{name} has no recorded joint angles"
+        if not np.array_equal(again.times, run.times) or not np.array_equal(
+            then, now
+        ):
+            return run, (
+                f"played again, {name} moved differently: its commands came "
+                "from elsewhere, or this computer calculates differently"
+            )
+    return replace(run, tracks=again.tracks), ""
 
 
 def _foot_sites(description: RobotDescription, model: mujoco.MjModel) -> Array:
