@@ -196,6 +196,8 @@ SURPLUS = 0.02  # value of clearance beyond what is enough, per metre
 UNSEEN = 0.3
 MOST = 100.0
 POSITIVE = Range(0.0, 1e9, "m", "a length", above=True, also=(inf,))
+TIME = Range(0.0, MOST, "s", "a time ahead")
+GAIN = Range(0.0, MOST, "m", "a distance")
 NO_FEINT = np.zeros(1)
 FEINTS = np.array([0.0, 1.0, -1.0])
 
@@ -242,17 +244,13 @@ class DashEvasion(BackwardStrategy, CheckedSettings):
         1.8,
         "A standing robot begins if the opponent could be nearer than the "
         "clearance within this time",
-        Range(0.0, MOST, "s", "a time ahead", above=True),
+        TIME,
     )
     effort: float = setting(
-        EFFORT,
-        "Gain for which a robot walks instead of standing",
-        Range(0.0, MOST, "m", "a distance"),
+        EFFORT, "Gain for which a robot walks instead of standing", GAIN
     )
     change: float = setting(
-        0.3,
-        "Half the gain for which the opposite dash is better",
-        Range(0.0, MOST, "m", "a distance"),
+        0.3, "Half the gain for which the opposite dash is better", GAIN
     )
     doubt: float = setting(
         inf,
@@ -264,7 +262,7 @@ class DashEvasion(BackwardStrategy, CheckedSettings):
         0.0,
         "Time in which the opponent could be within the clearance, from "
         "which on dashes are compared",
-        Range(0.0, MOST, "s", "a time ahead"),
+        TIME,
     )
 
     def begin(self) -> DashMemory:

@@ -12,6 +12,10 @@ from ..theory import laws
 from .knowledge import STAND, Intent, Knowledge, Limits
 
 Trigger = Literal["distance", "time"]
+SAFETY = Range(
+    1e-3, 1e9, "m", "below a millimetre there is contact; 1e9 m means always"
+)
+RELEASE = Range(1e-3, 1e9, "m", "and above safety_radius", also=(inf,))
 RELEASE_RATIO = 1.25  # release clearance over trigger clearance
 STILL = 0.05  # speed below which the opponent counts as still, in [m/s]
 HORIZON = 24  # steps of the prediction that chooses a side
@@ -138,18 +142,13 @@ class Evasion:
     safety_radius: float = setting(
         0.8,
         "Distance at which evasion begins {unit}, with the trigger distance",
-        Range(
-            1e-3,
-            1e9,
-            "m",
-            "below a millimetre there is contact; 1e9 m means always",
-        ),
+        SAFETY,
         needs=("evasion.trigger", "distance"),
     )
     release_distance: float = setting(
         inf,
         "Distance at which evasion ends",
-        Range(1e-3, 1e9, "m", "and above safety_radius", also=(inf,)),
+        RELEASE,
         words={"never": inf},
         needs=("evasion.trigger", "distance"),
     )

@@ -10,11 +10,13 @@ from ..core.errors import (
 )
 from ..core.player_identity import PlayerIdentity
 from ..core.poses import ALL_AROUND, Pose, Sector, wrap_angle
+from ..core.ranges import Range
 from ..planning import GaitSettings
 from ..planning.gait_settings import stride_share
 from .velocity_set import STILL, BodyVelocity, VelocitySet
 
 FASTEST = 100.0  # desired velocity; more is an error, in [m/s] and [rad/s]
+BODY = Range(0.0, 10.0, "m", "a body has a radius", above=True)
 MAX_HEADING = 0.5 * pi  # desired heading of the sharpest turn, in [rad]
 
 

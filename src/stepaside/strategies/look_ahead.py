@@ -20,7 +20,7 @@ from ..core.poses import Array
 from ..core.ranges import Range
 from ..core.setting import CheckedSettings, setting
 from ..theory.value.two_cars import pursuit_bound
-from .knowledge import ON_THE_SPOT, STAND, Intent, Knowledge
+from .knowledge import BODY, ON_THE_SPOT, STAND, Intent, Knowledge
 from .opponent_track import OpponentTrack, track_of_steps
 from .search.step_motion import (
     PAPERS,
@@ -86,9 +86,7 @@ class LookAhead(BackwardStrategy, CheckedSettings):
         Range(0.0, 1e9, "m", "it keeps a distance", above=True, also=(inf,)),
     )
     body_radius: float = setting(
-        0.2,
-        "Least distance of the own centre to obstacles",
-        Range(0.0, 10.0, "m", "the size of a body"),
+        0.2, "Least distance of the own centre to obstacles", BODY
     )
     safety_radius: float = setting(
         inf,

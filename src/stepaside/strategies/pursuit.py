@@ -14,7 +14,7 @@ from ..core.ranges import SEEDS, Range
 from ..core.setting import CheckedSettings, setting
 from ..planning import Direction
 from ..theory import laws
-from .knowledge import STAND, Intent, Knowledge, Limits
+from .knowledge import BODY, STAND, Intent, Knowledge, Limits
 from .opponent_track import OpponentTrack, track_of_steps
 
 FREE_STRIDES = 3.0  # straight ahead that allow turning by (2)
@@ -43,9 +43,7 @@ class Pursuit(CheckedSettings):
     direction: ClassVar = Direction.FORWARD
     saturated: bool = setting(False, "Turn by eq. (6) instead of eq. (8)")
     body_radius: float = setting(
-        BODY_RADIUS,
-        "Clearance of the path from obstacles",
-        Range(0.0, 10.0, "m", "a body has a radius", above=True),
+        BODY_RADIUS, "Clearance of the path from obstacles", BODY
     )
     gain: float = setting(
         1.0,

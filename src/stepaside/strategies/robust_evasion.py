@@ -12,7 +12,7 @@ from ..core.constants import CAPTURE_DISTANCE
 from ..core.poses import Array, Pose, wrap_angle
 from ..core.ranges import Range
 from ..core.setting import CheckedSettings, setting
-from .knowledge import ON_THE_SPOT, Intent, Knowledge
+from .knowledge import BODY, ON_THE_SPOT, Intent, Knowledge
 from .search.beam_search import BeamRules, beam_search, play_moves
 from .search.step_motion import (
     PursuerModel,
@@ -216,9 +216,7 @@ class RobustEvasion(BackwardStrategy, CheckedSettings):
         Range(0.0, 100.0, "m", "a distance", above=True),
     )
     body_radius: float = setting(
-        0.2,
-        "Least distance of the own centre to obstacles",
-        Range(0.0, 10.0, "m", "a body has a radius", above=True),
+        0.2, "Least distance of the own centre to obstacles", BODY
     )
 
     def begin(self) -> RobustMemory:

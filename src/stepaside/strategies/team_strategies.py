@@ -12,7 +12,7 @@ from ..core.poses import Array, Pose, wrap_angle
 from ..core.ranges import Range
 from ..core.setting import check_settings, setting
 from ..theory import laws
-from .evasion import check_release
+from .evasion import RELEASE, SAFETY, check_release
 from .knowledge import STAND, Intent, Knowledge
 from .pursuit import Pursuit, PursuitMemory
 from .search.step_motion import (
@@ -28,6 +28,8 @@ from .velocity_set import BodyVelocity, VelocitySet, greatest_velocity
 APART = 0.7  # from teammates from which pursuers turn away, in [m]
 TOO_NEAR = 0.45  # to a teammate ahead at which a pursuer halts, in [m]
 BESIDE = -0.6  # cosine of the bearing from which a teammate is behind
+SPREAD = pi / 2  # from the middle of a pincer to its outermost pursuers, [rad]
+NEAR = 0.7  # from which they head straight for the evader, in [m]
 Point = tuple[float, float]
 
 
@@ -84,30 +86,14 @@ class AssignedPursuit(Pursuit):
 
 @dataclass(frozen=True, slots=True)
 class Pincer(Pursuit):
-    """Pursuer that approaches from one side while teammates take others.
-
-    It aims beside the evader, by an angle seen from there, and straight at
-    it from near by.
-    """
-
-    spread: float = setting(
-        pi / 2,
-        "Angle from the middle of the team to its outermost pursuers, seen "
-        "from the evader",
-        Range(0.0, pi, "rad", "half a turn"),
-    )
-    near: float = setting(
-        0.7,
-        "Distance from which it heads straight for the evader",
-        Range(0.0, 100.0, "m", "beyond, they never meet"),
-    )
+    """Pursuer that approaches from one side while teammates take others."""
 
     def decide(
         self, knowledge: Knowledge, memory: PursuitMemory
     ) -> tuple[Intent, PursuitMemory]:
         """Head for a point beside the evader, or for the evader itself."""
         hunters = fellows_of(knowledge)
-        if len(hunters) > 1 and knowledge.distance > self.near:
+        if len(hunters) > 1 and knowledge.distance > NEAR:
             u, v = knowledge.position
             x, y = np.mean(list(hunters.values()), axis=0).tolist()
             middle = atan2(y - v, x - u)
@@ -118,7 +104,7 @@ class Pincer(Pursuit):
             own = knowledge.identity.name if knowledge.identity else ""
             ordered = sorted(sides, key=lambda name: (sides[name], name))
             share = 2.0 * ordered.index(own) / (len(ordered) - 1) - 1.0
-            angle = middle + self.spread * share
+            angle = middle + SPREAD * share
             out = 0.6 * knowledge.distance
             knowledge = knowledge.towards(
                 u + out * cos(angle), v + out * sin(angle)
@@ -188,14 +174,10 @@ class TeamEvasion(BackwardStrategy):
     """
 
     safety_radius: float = setting(
-        0.8,
-        "Distance of the nearest pursuer at which evasion begins",
-        Range(1e-3, 1e9, "m", "below a millimetre there is contact"),
+        0.8, "Distance of the nearest pursuer at which evasion begins", SAFETY
     )
     release_distance: float = setting(
-        inf,
-        "Distance of the nearest pursuer at which evasion ends",
-        Range(1e-3, 1e9, "m", "and above safety_radius", also=(inf,)),
+        inf, "Distance of the nearest pursuer at which evasion ends", RELEASE
     )
 
     def __post_init__(self) -> None:
@@ -279,6 +261,7 @@ REACTION = 0.5  # in which legs follow a new velocity, in [s]
 WALL_WEIGHT = 20.0  # of a missing metre of clearance from walls, in [rad]
 LOOKS = 5  # points along a heading at which walls are looked up
 SOON = 2.5  # time to a predicted contact at which it halts, in [s]
+FREE = Range(0.0, 10.0, "m", "beyond, no way is free")
 
 
 @dataclass(frozen=True, slots=True)
@@ -294,16 +277,8 @@ class GoalWalk(Pursuit):
     goal: tuple[float, ...] = setting(
         (), "Goal (x, y) in the frame of the map [m]; none stands"
     )
-    clearance: float = setting(
-        0.8,
-        "Distance that it keeps from others",
-        Range(0.0, 10.0, "m", "beyond, no way is free"),
-    )
-    contact: float = setting(
-        0.45,
-        "Distance that counts as contact",
-        Range(0.0, 10.0, "m", "the bodies have a width"),
-    )
+    clearance: float = setting(0.8, "Distance that it keeps from others", FREE)
+    contact: float = setting(0.45, "Distance that counts as contact", FREE)
 
     def decide(
         self, knowledge: Knowledge, memory: PursuitMemory
