@@ -22,26 +22,6 @@ def state_of(posture: np.ndarray) -> tuple[mujoco.MjModel, mujoco.MjData]:
     return model, data
 
 
-def test_standing_posture_meets_the_reference() -> None:
-    kinematics = LegKinematics(load_robot("nao"), tick=0.004)
-    targets = kinematics.stand(STANCE)
-    assert targets.shape == (len(kinematics.joint_names),)
-    model, data = state_of(kinematics.posture)
-    np.testing.assert_allclose(data.subtree_com[1], STANCE.com, atol=2e-4)
-    for site, foot in (
-        ("l_sole_center", STANCE.left_foot),
-        ("r_sole_center", STANCE.right_foot),
-    ):
-        place = data.site(site).xpos
-        np.testing.assert_allclose(place, foot[:3], atol=2e-4)
-        frame = data.site(site).xmat.reshape(3, 3)
-        np.testing.assert_allclose(frame, np.eye(3), atol=5e-4)
-    assert data.body("torso").xmat[8] == pytest.approx(1.0, abs=1e-6)
-    left, right = data.joint("LHipYawPitch"), data.joint("RHipYawPitch")
-    assert left.qpos[0] == right.qpos[0]
-    assert model.nu == targets.size
-
-
 def test_walk_is_tracked_within_a_tenth_of_a_millimeter() -> None:
     """One damped step a tick, at the bearing of the circle, 45 degrees."""
     from stepaside.core.poses import Pose
