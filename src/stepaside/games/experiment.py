@@ -9,7 +9,6 @@ from typing import Any, ClassVar
 
 import numpy as np
 
-from ..core.brief_repr import brief_repr
 from ..core.errors import ConfigurationError
 from ..core.poses import Array
 from ..core.rotations import rotation_of
@@ -39,8 +38,6 @@ class ExperimentSettings(CheckedSettings):
 
     game: ClassVar[str] = "experiment"
     cycle: ClassVar[float] = 1.0  # over which figures average the sway [s]
-    __repr__ = brief_repr
-
     source: str = setting("", "Name of the recording")
     frames: tuple[str, ...] = setting(
         (), "Players, as NAME=FRAME or NAME=/TOPIC"

@@ -7,7 +7,6 @@ from typing import Any
 
 from .. import arena
 from ..arena import NO_OBSTACLES, ObstacleSet, Room, RoomRecipe, load_room
-from ..core.brief_repr import brief_repr
 from ..core.entries import read_entries
 from ..core.errors import ConfigurationError, check_within, shown
 from ..core.player_identity import PlayerIdentity, Role
@@ -113,8 +112,6 @@ class StartSettings:
 @dataclass(frozen=True, slots=True)
 class GameSettings:
     """Settings of a game of any number of players."""
-
-    __repr__ = brief_repr
 
     game: str = setting(
         "game",

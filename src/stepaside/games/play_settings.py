@@ -4,7 +4,6 @@ import re
 from dataclasses import dataclass
 from typing import ClassVar, Self
 
-from ..core.brief_repr import brief_repr
 from ..core.errors import ConfigurationError
 from ..core.ranges import Range, positive
 from ..core.setting import check_settings, setting
@@ -23,8 +22,6 @@ class PlaySettings(RobotSettings):
     """Settings of one player at one robot, and the connection to it."""
 
     game: ClassVar[str] = "play"
-    __repr__ = brief_repr
-
     role: str = setting(EVADER, "Role of the player", names=PLAYERS)
     address: str = setting("", "Address of the robot")
     senses: str = setting(

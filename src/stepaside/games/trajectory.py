@@ -7,7 +7,6 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ..core.brief_repr import brief_repr
 from ..core.poses import Array, wrap_angles
 
 if TYPE_CHECKING:
@@ -35,8 +34,6 @@ class Trajectory:
     repeated. Then they are true, without sensor errors; those of a play are
     measurements.
     """
-
-    __repr__ = brief_repr
 
     com: Array = table("x_m", "y_m", "z_m")
     torso: Array = table(*POSE)  # origin and heading

@@ -7,7 +7,6 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ..core.brief_repr import brief_repr
 from ..core.convex import convex_hull, half_planes
 from ..core.errors import PlanError, shown
 from ..core.poses import Array, Pose
@@ -73,8 +72,6 @@ class ManeuverPlan:
 
     The plan frame is the frame of the support foot of the first step.
     """
-
-    __repr__ = brief_repr
 
     schedule: Schedule  # timing, with its constant maps
     bearing: float  # desired heading [rad]

@@ -9,7 +9,6 @@ from os.path import normpath
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from ..core.brief_repr import brief_repr
 from ..core.entries import load_entries, read_entries
 from ..core.errors import AnyPath, ModelError, as_path
 from ..core.player_identity import Colour
@@ -35,8 +34,6 @@ REMEDY = "`stepaside robot init` writes an overlay that adds what is missing"
 @dataclass(frozen=True, slots=True)
 class RobotDescription:
     """Description of a humanoid robot: its folder, and its ``robot.toml``."""
-
-    __repr__ = brief_repr
 
     folder: Path
     name: str = setting(REQUIRED, "Display name")

@@ -9,8 +9,6 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import NamedTuple
 
-from ..core.brief_repr import brief_repr
-
 HINGE, SLIDE = "hinge", "slide"
 UNLIMITED = 1e6  # limit of joints without limits, in [rad] or [m]
 Triple = tuple[float, float, float]
@@ -67,8 +65,6 @@ NAO_SIZE = BodySize()
 @dataclass(frozen=True, slots=True, eq=False)
 class RobotTree:
     """Links, frames and motors of one robot."""
-
-    __repr__ = brief_repr
 
     # the torso, then a link for each joint, parents first
     links: tuple[Link, ...]

@@ -13,7 +13,6 @@ from math import atan2, cos, hypot, inf, pi, sin
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ...core.brief_repr import brief_repr
 from ...core.errors import PlanError, check_bearing, check_positive
 from ...core.poses import Array, Pose, wrap_angle, wrap_angles
 from .circles import Circle, circles_of, fit_circle
@@ -80,8 +79,6 @@ class RelativeStart:
 class PlayedGame:
     """Simulated game with dense output."""
 
-    __repr__ = brief_repr
-
     game: Unicycles  # parameters of the game
     captured: bool  # whether the distance fell to the capture distance
     end_time: float  # time of capture or end of the game, in [s]
@@ -134,8 +131,6 @@ class PlayedGame:
 @dataclass(frozen=True, slots=True)
 class Outcomes:
     """Outcomes of many games; every array has shape (n,)."""
-
-    __repr__ = brief_repr
 
     closest_distance: Array  # closest approach of each game, in [m]
     closest_time: Array  # time of the closest approach, in [s]

@@ -16,7 +16,6 @@ from math import ceil, pi, tau
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ...core.brief_repr import brief_repr
 from ...core.errors import check_positive
 from ...core.poses import Array, rotate
 from .chauffeur import guaranteed_distance
@@ -153,8 +152,6 @@ class ShieldTable:
     # begins, in [s].
     response: float
     wait: float  # time until a standing robot decides again, in [s]
-
-    __repr__ = brief_repr
 
     @property
     def grid(self) -> PoseGrid:

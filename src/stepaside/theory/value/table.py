@@ -29,7 +29,6 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ...core.atomic_output import atomic_draft
-from ...core.brief_repr import brief_repr
 from ...core.compiled_cache import cache_folder
 from ...core.errors import AnyPath, PlanError, as_path, check_positive
 from ...core.poses import Array, arc
@@ -59,8 +58,6 @@ class ValueTable:
     grid: PoseGrid  # of the poses
     change: float  # how much a value still fell over the last period, in [m]
     seconds: float  # computing time, in [s]
-
-    __repr__ = brief_repr
 
     def value(self, poses: ArrayLike) -> Array:
         """Return the distances that the robot can keep, in [m]."""
