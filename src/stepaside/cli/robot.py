@@ -282,7 +282,7 @@ def _search(
 def _to_json(rated: "RatedCandidate") -> dict[str, Any]:
     return {
         "unsteadiness": rated.unsteadiness,
-        "changes": rated.candidate.to_json(),
+        "changes": rated.candidate._asdict(),
         "walks": list(rated.walks),
     }
 
@@ -290,10 +290,10 @@ def _to_json(rated: "RatedCandidate") -> dict[str, Any]:
 def _comment_lines(tuned: "SearchResult") -> list[str]:
     """Return the measurements as lines of a comment."""
     before, best = tuned.before, tuned.best
-    was = before.candidate.to_json()
+    was = before.candidate._asdict()
     changes = [
         f"{name} {value:g}"
-        for name, value in best.candidate.to_json().items()
+        for name, value in best.candidate._asdict().items()
         if value != was[name]
     ]
     return [

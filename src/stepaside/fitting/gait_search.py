@@ -9,7 +9,7 @@ first, until its first fall or until it cannot beat the best one.
 import json
 from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures import Executor
-from dataclasses import asdict, dataclass, replace
+from dataclasses import asdict, replace
 from functools import partial
 from hashlib import sha256
 from math import hypot, log
@@ -52,17 +52,15 @@ CHOICES: dict[str, tuple[float, ...]] = {
     "height": (0.98, 0.95),
     "even": (0.0, 1.0),
 }
-NEUTRAL_ZERO = ("feedback", "zmp", "lean", "even")  # others are factors
 # Greatest distance of the ZMP reference from the middle of the sole, by its
 # length.
 GREATEST_ZMP_SHIFT = 0.35
 
 
-@dataclass(frozen=True, slots=True)
-class Candidate:
+class Candidate(NamedTuple):
     """Changes to a robot description."""
 
-    feedback: float  # 1 with feedback, 0 without
+    feedback: float = 0.0  # 1 with feedback, 0 without
     stiffness: float = 1.0  # factor on the gains of all servos
     times: float = 1.0  # factor on single and double support durations
     stride: float = 1.0  # factor on stride and speed
@@ -86,11 +84,9 @@ class Candidate:
     def neighbours(self) -> Iterator["Candidate"]:
         """Yield the candidates that differ in one change."""
         for name, values in CHOICES.items():
-            present = getattr(self, name)
-            neutral = 0.0 if name in NEUTRAL_ZERO else 1.0
-            others = (*values, neutral) if neutral not in values else values
-            for value in [each for each in others if each != present]:
-                yield replace(self, **{name: value})
+            for value in dict.fromkeys((*values, getattr(UNCHANGED, name))):
+                if value != getattr(self, name):
+                    yield self._replace(**{name: value})
 
     def applied(self, own: RobotDescription) -> RobotDescription | None:
         """Return the changed description; None if it is not feasible."""
@@ -138,9 +134,8 @@ class Candidate:
             overlay=replace(own.overlay, servos=servos),
         )
 
-    def to_json(self) -> dict[str, float]:
-        """Return the changes by name."""
-        return asdict(self)
+
+UNCHANGED = Candidate()
 
 
 class RatedCandidate(NamedTuple):
@@ -177,7 +172,7 @@ def search_gait(
     digest = _digest_of(own)
 
     def key_of(candidate: Candidate) -> str:
-        return json.dumps([digest, candidate.to_json()], sort_keys=True)
+        return json.dumps([digest, candidate._asdict()], sort_keys=True)
 
     def rate(candidates: Sequence[Candidate], bound: float, of: int) -> None:
         """Rate candidates, each until its score exceeds a bound."""
