@@ -151,8 +151,8 @@ def test_options_switch_off_flags_of_a_file(file: Path) -> None:
         "--set body.torque_speed=false "
         "--set control.feedback=false --set control.method=closed-form "
         "--set scene.things=none "
-        "--set evasion.release_distance=never "
-        "--distance drawn --set sight.rate=every-tick"
+        "--set evasion.release_distance=inf "
+        "--distance none --set sight.rate=inf"
     )
     assert found == duel().resolved()
     clutter = settings(

@@ -154,10 +154,9 @@ def _default(entry: Entry) -> str:
     described, value = entry.described, entry.default
     if described.default_text:
         return described.default_text
-    for named in (described.words, described.presets):
-        for name, meant in (named or {}).items():
-            if value == meant and value is not None:
-                return str(name)
+    for name, meant in (described.presets or {}).items():
+        if value == meant:
+            return str(name)
     if value in (None, (), "", False, REQUIRED):
         return ""
     if described.range and described.range.unit == "rad":

@@ -57,8 +57,6 @@ class Setting:
     names: tuple[str, ...] = ()  # permitted texts; empty if any is
     # Values by the name that an option takes instead.
     presets: Mapping[Any, Any] | None = None
-    # Special values by their word on the command line.
-    words: Mapping[str, Any] | None = None
     # What the help shows as default instead of the value.
     default_text: str = ""
     # Path and value of another setting without which this one, or this
@@ -79,10 +77,9 @@ class Setting:
         return text.replace("{unit}", f"[{self.range.unit}]") + "."
 
     def meant(self, text: str) -> Any:
-        """Return the value of a word, a preset or an angle with its unit."""
-        for named in (self.words, self.presets):
-            if named is not None and text in named:
-                return named[text]
+        """Return the value of a preset or of an angle with its unit."""
+        if self.presets is not None and text in self.presets:
+            return self.presets[text]
         if self.range is not None and self.range.unit == "rad":
             for unit, factor in ANGLES.items():
                 if text.endswith(unit):

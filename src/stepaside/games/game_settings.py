@@ -65,21 +65,18 @@ class StartSettings:
             "at ``least``, or they touch; farther, they never meet",
             also=(None,),
         ),
-        words={"drawn": None},
     )
     pursuer_offset: float | None = setting(
         None,
         "Heading of the pursuer relative to its line of sight to the evader "
         "{unit}, drawn up to a right angle to either side",
         Range(-pi, pi, "rad", "half a turn", also=(None,)),
-        words={"drawn": None},
     )
     evader_offset: float | None = setting(
         None,
         "Heading of the evader relative to its line of sight to the pursuer "
         "{unit}, drawn up to 30 degrees to either side",
         Range(-pi, pi, "rad", "half a turn", also=(None,)),
-        words={"drawn": None},
     )
     least: float = setting(
         0.4,

@@ -69,7 +69,6 @@ class GaitSettings:
         "Longest displacement of the outer foot in a turn {unit}; sharper "
         "turns shorten the stride; none never shortens it",
         Range(1e-4, 10.0, "m", WIDE, also=(None,)),
-        words={"none": None},
     )
     foot_spacing: float = setting(
         0.1,

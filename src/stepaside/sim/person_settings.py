@@ -82,13 +82,11 @@ class PersonSettings:
         inf,
         "Path length after which the person halts",
         Range(0.0, 100.0, "m", "the longest walk", also=(inf,)),
-        words={"never": inf},
     )
     turn_after: float = setting(
         inf,
         "Path length after which the person turns once",
         Range(0.0, 100.0, "m", "the longest walk", also=(inf,)),
-        words={"never": inf},
     )
     turn: float = setting(
         0.5 * pi,

@@ -81,5 +81,4 @@ class SightSettings(CheckedSettings):
             "from one in a walk to many in a tick",
             also=(inf,),
         ),
-        words={"every-tick": inf},
     )

@@ -149,7 +149,6 @@ class Evasion:
         inf,
         "Distance at which evasion ends",
         RELEASE,
-        words={"never": inf},
         needs=("evasion.trigger", "distance"),
     )
     side_hysteresis: float = setting(
