@@ -24,6 +24,7 @@ import numpy as np
 from ...core.compilation import (
     compiled,
     compiled_parallel,
+    copy_values,
     inlined,
     parallel_range,
     shared,
@@ -44,12 +45,12 @@ SLACK = 1e-12  # margin below which an edge has been crossed
 NEAR = 0.02  # tolerance of being on a circle: 2 % and 0.02 rad
 TURN_PER_STEP = 0.04  # longest step, in distances per sum of the speeds
 EDGE, CLOSEST, CAPTURE = 0, 1, 2  # events within a step
+EVERY = 128  # steps from one row of a record to the next, without an edge
 # Columns of a game that is played: time, state, mode and number of edges
-# passed, which are recorded; closest approach and its time, the time of
-# capture, -1 for none, the last time off all circles, and the number of the
-# circle that it is on, -1 for none.
+# passed; closest approach and its time, the time of capture, -1 for none, the
+# last time off all circles, and the number of the circle that it is on, -1
+# for none.
 TIME, SIDE, BRANCH, PASSED = 0, 7, 8, 9
-RECORDED = 10
 LEAST, WHEN, CAPTURED, SETTLED, CIRCLE = 10, 11, 12, 13, 14
 COLUMNS = 15
 
@@ -314,20 +315,21 @@ def play_on(
 ) -> int:
     """Play a game to a time, or until a record is full; return its length.
 
-    Each step begins with a row of the record, unless this has no rows.
-    Circles are rows of r [m], a, psi [rad] at side +1. Shape (m, 3).
+    A record has copies of the game after some steps, and after each edge; one
+    without rows is never full. Circles are rows of r [m], a, psi [rad] at
+    side +1. Shape (m, 3).
     """
     state = GameState(game[1], game[2], game[3], game[4], game[5], game[6])
     mode = Mode(int(game[SIDE]), int(game[BRANCH]))
     speeds = rules.pursuer_speed + rules.evader_speed
-    count, now = 0, game[TIME]
+    count, since, passed, now = 0, 0, -1.0, game[TIME]
     while now < end and game[CAPTURED] < 0.0:
-        if len(record):
+        if len(record) and (since == EVERY or passed != game[PASSED]):
             if count == len(record):
                 break
-            for n in range(RECORDED):
-                record[count, n] = game[n]
-            count += 1
+            copy_values(game, record[count])
+            count, since, passed = count + 1, 0, game[PASSED]
+        since += 1
         piece = piece_of(mode, rules)
         part = min(step, end - now, TURN_PER_STEP * state.r / speeds)
         then = rk4(state, part, piece, rules)

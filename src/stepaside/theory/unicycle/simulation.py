@@ -88,7 +88,7 @@ class PlayedGame:
     switches: tuple[float, ...]
     sides: tuple[int, ...]  # side at the start and after each switch
     circle: Circle | None  # that it ends on, to 2 % and 0.02 rad
-    _rows: Array = field(repr=False)  # at the begins of steps, and at the end
+    _rows: Array = field(repr=False)  # some states of it, see relative_motion
 
     def states(self, times: ArrayLike) -> Array:
         """Evaluate the states at times between 0 and ``end_time``, in [s].
@@ -100,18 +100,14 @@ class PlayedGame:
         """
         from . import relative_motion as motion  # imports Numba
 
-        rules = motion.rules_of(self.game, 0.0)
+        rules, step = motion.rules_of(self.game, 0.0), accurate_step(self.game)
         queries = np.atleast_1d(np.asarray(times, dtype=np.float64))
         index = np.searchsorted(self._rows[:, 0], queries, side="right")
         rows = self._rows[np.maximum(index - 1, 0)]
-        found = np.empty((len(queries), 6))
-        modes = rows[:, [motion.SIDE, motion.BRANCH]]
-        for mode in np.unique(modes, axis=0):
-            own = (modes == mode).all(axis=1)
-            piece = motion.piece_of(motion.Mode(*mode), rules)
-            state = motion.GameState(*rows[own, 1:7].T)
-            later = queries[own] - rows[own, 0]
-            found[own] = np.transpose(motion.rk4(state, later, piece, rules))
+        nothing, circles = rows[:0], np.empty((0, 3))
+        for row, time in zip(rows, queries, strict=True):
+            motion.play_on(row, circles, step, time, rules, nothing)
+        found: Array = rows[:, 1:7]
         return found
 
     def poses(self, times: ArrayLike) -> tuple[Array, Array]:
@@ -195,13 +191,14 @@ def simulate(
     circles = circles_of(game)
     played = np.zeros(motion.COLUMNS)
     motion.begin(played, start.wrapped(), side or 0, rules)
-    record, parts = np.empty((ROWS, motion.RECORDED)), []
+    record, parts = np.empty((ROWS, motion.COLUMNS)), []
     while played[0] < duration and played[motion.CAPTURED] < 0.0:
         count = motion.play_on(
             played, _rows_of(circles), step, float(duration), rules, record
         )
         parts.append(record[:count].copy())
-    rows = np.vstack([*parts, played[: motion.RECORDED]])
+    rows = np.vstack([*parts, played])
+    rows[:, motion.CAPTURED] = -1.0  # they can be played on
     passed = np.flatnonzero(np.diff(rows[:, motion.PASSED])) + 1
     on = int(played[motion.CIRCLE])
     return PlayedGame(
@@ -248,7 +245,7 @@ def play_games(
     rules = motion.rules_of(game, capture_distance)
     circles, end = _rows_of(circles_of(game)), float(duration)
     played = np.zeros((len(states), motion.COLUMNS))
-    nothing = np.empty((0, motion.RECORDED))
+    nothing = np.empty((0, motion.COLUMNS))
     for first in range(0, len(states), CHUNK):
         part, own = (each[first : first + CHUNK] for each in (played, states))
         motion.play_all(part, own, side, circles, step, end, rules, nothing)
