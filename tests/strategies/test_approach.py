@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 
 from stepaside.planning import PRESETS
 from stepaside.strategies import Evasion, EvasionMemory, Knowledge, Limits
-from stepaside.strategies.evasion import Approach, predict_clearance
+from stepaside.strategies.approach import Approach
 from stepaside.strategies.knowledge import MAX_HEADING
 
 FAST = PRESETS["fast"]
@@ -75,22 +75,22 @@ def test_a_swift_heading_corrects_the_largest_possible_error(
 
 def test_a_side_step_gains_room_and_more_from_farther_away() -> None:
     rooms = [
-        predict_clearance(
-            Approach(x, 0.0, -1.0, 0.0), LIMITS, pi / 2, stands=True
+        Approach(x, 0.0, -1.0, 0.0).predicted_clearance(
+            LIMITS, pi / 2, stands=True
         )
         for x in (1.0, 2.0, 3.0, 4.0)
     ]
     assert rooms == sorted(rooms) and rooms[0] < 0.1 and rooms[-1] > 0.7
     # As long as theory's unicycle, but for whole steps.
     both = [
-        predict_clearance(
-            Approach(3.0, 0.0, -1.0, 0.0), LIMITS, a, stands=True
+        Approach(3.0, 0.0, -1.0, 0.0).predicted_clearance(
+            LIMITS, a, stands=True
         )
         for a in (pi / 2, -pi / 2)
     ]
     assert both[0] == pytest.approx(both[1])
-    moving = predict_clearance(
-        Approach(3.0, 0.0, -1.0, 0.0), LIMITS, pi / 2, stands=False
+    moving = Approach(3.0, 0.0, -1.0, 0.0).predicted_clearance(
+        LIMITS, pi / 2, stands=False
     )
     assert moving > rooms[2]
 
@@ -124,8 +124,7 @@ def test_it_steps_to_the_side_that_leaves_more_room(
     """The heading turns so that the back points there."""
     _, memory = TIMED.decide(coming(3.0, 1.0, bearing, miss), TIMED.begin())
     room = {
-        side: predict_clearance(
-            Approach.of(coming(3.0, 1.0, bearing, miss)),
+        side: Approach.of(coming(3.0, 1.0, bearing, miss)).predicted_clearance(
             LIMITS,
             Approach.of(coming(3.0, 1.0, bearing, miss)).origin
             + side * pi / 2,
