@@ -58,8 +58,8 @@ class Approach(NamedTuple):
     ) -> float:
         """Predict the least distance to an opponent from now on, in [m].
 
-        The opponent keeps its velocity; the robot turns to a heading in its frame
-        [rad] and walks backward, after a step if it stands.
+        The opponent keeps its velocity; the robot turns to a heading in its
+        frame [rad] and walks backward, after a step if it stands.
         """
         (x, y, u, v), theta = self, 0.0
         share, step, least = limits.share, limits.step_duration, hypot(x, y)
