@@ -17,7 +17,7 @@ from stepaside.games.recorded_game import run_game
 from stepaside.games.run import Run
 from stepaside.games.trajectory import Trajectory, whole_cycles
 from stepaside.report.film_captions import describe_state
-from stepaside.report.overlays import overlays_of
+from stepaside.report.overlays import circle_of, overlays_of
 from stepaside.report.replay_page import write_page
 from stepaside.report.scene import RunScene
 from stepaside.report.visual_geoms import visual_geoms_of
@@ -108,7 +108,7 @@ def test_a_page_tells_what_the_run_tells(tmp_path: Path) -> None:
         np.testing.assert_allclose(
             shown[key], values[chosen], atol=size + 1e-9
         )
-    assert run.theory is not None and run.circle is not None
+    assert run.theory is not None and circle_of(run) is not None
     assert shown["theory"] == list(run.theory)
     assert shown["safety"] == 0.8
     both = np.concatenate(

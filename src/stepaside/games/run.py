@@ -4,7 +4,6 @@ from collections.abc import Mapping
 from dataclasses import asdict, dataclass
 from functools import cached_property
 from itertools import combinations, product
-from math import isfinite
 from typing import Any
 
 import numpy as np
@@ -69,16 +68,6 @@ class Run:
         """Kind of game: "duel", "game", "walk", "play" or "experiment"."""
         kind: str = self.settings.game
         return kind
-
-    @property
-    def title(self) -> str:
-        """Title, for figures and pages."""
-        settings = self.settings
-        if self.game == "play":
-            return f"Play of the {settings.role} over {settings.language}"
-        if self.game == "experiment":
-            return f"Experiment {settings.source}"
-        return f"{self.game.capitalize()}, seed {settings.seed}"
 
     @property
     def players(self) -> tuple[str, ...]:
@@ -163,12 +152,6 @@ class Run:
         return self.tracks[one], self.tracks[other]
 
     @property
-    def lines_of_sight(self) -> tuple[tuple[str, str], ...]:
-        """Names of each pursuer and evader, or of any two players alone."""
-        alone = self.opponents if len(self.players) == 2 else ()
-        return self.facing or alone
-
-    @property
     def distance(self) -> Array:
         """Smallest distance between opponents' reference points, in [m].
 
@@ -213,32 +196,6 @@ class Run:
             return None
         angle = own.relative_orientation_deg or 0.0
         return own.radius_m, own.distance_m or 0.0, angle
-
-    @property
-    def circle(self) -> tuple[float, float, float] | None:
-        """Center (x, y) and radius of the circle in the world, in [m].
-
-        It is that of theory, centered where the players walked in the end;
-        None if they did not converge to it.
-        """
-        theory, since = self.theory, self.summary.converged_at_s
-        if theory is None or since is None:
-            return None
-        tail = self.times >= since
-        paths = [
-            t.unicycle[tail, :2].mean(axis=0) for t in self.tracks.values()
-        ]
-        x, y = np.mean(paths, axis=0).tolist()
-        return x, y, theory[0]
-
-    @property
-    def safety_areas(self) -> dict[str, float]:
-        """Radius of the safety area of each player that has one, in [m]."""
-        settings = self.settings
-        radii = getattr(settings, "safety_radii", {})
-        if getattr(settings, "role", "") == EVADER:
-            radii = {EVADER: settings.evasion.area}
-        return {name: r for name, r in radii.items() if isfinite(r)}
 
     @property
     def plan(self) -> Room | None:

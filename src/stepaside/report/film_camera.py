@@ -15,7 +15,7 @@ from scipy.ndimage import gaussian_filter1d, maximum_filter1d
 from ..core.poses import Array
 from ..games.run import Run
 from ..sim.room_furnishing import HEIGHT as WALL_HEIGHT
-from .overlays import ring
+from .overlays import circle_of, ring
 from .scene import wall_corners
 
 AZIMUTH, ELEVATION = 60.0, -32.0  # of the fixed and following view, in [deg]
@@ -147,8 +147,9 @@ class FilmCamera:
             tops = wall_corners(self._run.plan)
             height = np.full(len(tops), WALL_HEIGHT)
             found.append(np.column_stack([tops, height]))
-        if chosen == slice(None) and self._run.circle is not None:
-            edge = ring(*self._run.circle)[:, 0]
+        circle = circle_of(self._run) if chosen == slice(None) else None
+        if circle is not None:
+            edge = ring(*circle)[:, 0]
             found.append(np.column_stack([edge, np.zeros(len(edge))]))
         return framing(np.concatenate(found), view, *self._lens)
 

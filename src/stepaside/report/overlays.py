@@ -4,13 +4,14 @@ Films, pages, bags and top views draw the same lines, each in its own way.
 """
 
 from collections.abc import Mapping
-from math import atan2, inf
+from math import atan2, inf, isfinite
 from typing import NamedTuple
 
 import mujoco
 import numpy as np
 
 from ..core.poses import Array
+from ..games.player_settings import EVADER
 from ..games.run import Run
 from ..planning import Foot, SoleRectangle
 from ..planning.plan import sole_corners
@@ -177,6 +178,30 @@ def push_arrows(player: str, pushes: Array) -> SceneLines:
     return SceneLines("pushes", player, segments, times, PUSH_SHOWN)
 
 
+def circle_of(run: Run) -> tuple[float, float, float] | None:
+    """Return center (x, y) and radius of the circle of a run, in [m].
+
+    It is that of theory, centered where the players walked in the end;
+    None if they did not converge to it.
+    """
+    theory, since = run.theory, run.summary.converged_at_s
+    if theory is None or since is None:
+        return None
+    tail = run.times >= since
+    paths = [t.unicycle[tail, :2].mean(axis=0) for t in run.tracks.values()]
+    x, y = np.mean(paths, axis=0).tolist()
+    return x, y, theory[0]
+
+
+def safety_areas(run: Run) -> dict[str, float]:
+    """Return the radius of each player's safety area, in [m], by name."""
+    settings = run.settings
+    radii = getattr(settings, "safety_radii", {})
+    if getattr(settings, "role", "") == EVADER:
+        radii = {EVADER: settings.evasion.area}
+    return {name: r for name, r in radii.items() if isfinite(r)}
+
+
 def overlays_of(run: Run, every: int = 1) -> list[SceneLines]:
     """Return all that lies over the scene of a run.
 
@@ -204,10 +229,11 @@ def overlays_of(run: Run, every: int = 1) -> list[SceneLines]:
             found.append(SceneLines("footsteps", name, outlines, landed_at))
         if track.pushes is not None:
             found.append(push_arrows(name, track.pushes))
-    found += [safety_ring(*area) for area in run.safety_areas.items()]
-    found += [line_of_sight(*pair) for pair in run.lines_of_sight]
-    if run.circle is not None:
-        found.append(theory_ring(*run.circle))
+    found += [safety_ring(*area) for area in safety_areas(run).items()]
+    pairs = run.facing or (run.opponents if len(run.players) == 2 else ())
+    found += [line_of_sight(*pair) for pair in pairs]
+    if (circle := circle_of(run)) is not None:
+        found.append(theory_ring(*circle))
     return found
 
 

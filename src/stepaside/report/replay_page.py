@@ -17,7 +17,7 @@ from ..core.poses import Array
 from ..games.run import Run
 from ..games.trajectory import whole_cycles
 from .film_captions import describe_state
-from .overlays import LAYERS, overlays_of
+from .overlays import LAYERS, overlays_of, safety_areas
 from .palette import PALETTES, colours_in
 from .scene import RunScene, wall_corners
 from .text_escaping import fill_page
@@ -163,7 +163,7 @@ def page_data(run: Run) -> dict[str, Any]:
             for name, values in measured.items()
         },
         "theory": run.theory,
-        "safety": next(iter(run.safety_areas.values()), None),
+        "safety": next(iter(safety_areas(run).values()), None),
         "messages": distinct,
         "message_index": [distinct.index(text) for text in messages],
         "center": np.round(0.5 * (low + high), 3).tolist(),

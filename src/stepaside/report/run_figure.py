@@ -28,6 +28,7 @@ from .figure_style import (
     panels,
     save,
 )
+from .overlays import safety_areas
 from .palette import markers_of
 from .plan_view import MARKED, draw_paths, draw_pushes, draw_snapshots
 from .text_escaping import for_figure
@@ -50,7 +51,7 @@ def draw_run(run: Run, file: AnyPath) -> None:
         rows,
         11.0,
         heights,
-        title=f"{run.title}: {for_figure(run.message)}",
+        title=f"{_title(run)}: {for_figure(run.message)}",
         legend=lines,
         right=0.95,
     )
@@ -68,6 +69,16 @@ def draw_run(run: Run, file: AnyPath) -> None:
     for letter, draw in drawn.items():
         draw(axes[letter])
     save(figure, file)
+
+
+def _title(run: Run) -> str:
+    """Return the title of a run."""
+    settings = run.settings
+    if run.game == "play":
+        return f"Play of the {settings.role} over {settings.language}"
+    if run.game == "experiment":
+        return f"Experiment {settings.source}"
+    return f"{run.game.capitalize()}, seed {settings.seed}"
 
 
 def _layout_of(run: Run) -> tuple[list[str], list[float], dict[str, Draw]]:
@@ -131,7 +142,7 @@ def _draw_measure(run: Run, axes: Any, *, angle: bool) -> None:
     mean = whole_cycles(values, times, run.settings.cycle)
     axes.plot(times, mean, color=MEAN, lw=1.6, label="mean over a gait cycle")
     level = theory and theory[2 if angle else 1]
-    areas = () if angle else run.safety_areas.items()
+    areas = () if angle else safety_areas(run).items()
     for name, radius in areas:
         # The label of the higher line is above it, the other below.
         va = "bottom" if level is not None and level <= radius else "top"
@@ -310,7 +321,7 @@ def _draw_sightings(run: Run, name: str, column: int, axes: Any) -> None:
         values = sight[:, 2] if column == 2 else np.degrees(sight[:, 1])
         axes.plot(sight[:, 0], values, color=MEAN, lw=1.2)
     if column == 2:
-        for radius in run.safety_areas.values():
+        for radius in safety_areas(run).values():
             text = f"safety radius\n{radius:.3g} m"
             mark_level(axes, radius, text, THEORY, ":")
         axes.set_title("sightings of the opponent; grey lines: state changes")
