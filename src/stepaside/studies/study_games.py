@@ -1,7 +1,7 @@
 """Games that a study can play: settings from entries, and flat records."""
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, fields
+from dataclasses import fields
 from math import isfinite
 from typing import Any, NamedTuple
 
@@ -82,31 +82,6 @@ def _evasion(run: Run) -> tuple[Any, Any]:
     return closest, certificate.distance_m if certificate.holds else None
 
 
-@dataclass(frozen=True)
-class TeamGame:
-    """A game, with one strategy for all of a role; empty for their own."""
-
-    game: GameSettings
-    pursuers: str = ""
-    evaders: str = ""
-
-    @property
-    def settings(self) -> GameSettings:
-        """Settings of the game with these strategies."""
-        names = {Role.PURSUER: self.pursuers, Role.EVADER: self.evaders}
-        return self.game.with_players(
-            {
-                own.name: {"strategy": names[Role(own.role)]}
-                for own in self.game.players
-                if own.decides and names.get(Role(own.role))
-            }
-        )
-
-    def __post_init__(self) -> None:
-        """Validate the strategies."""
-        _ = self.settings
-
-
 class StudyGame(NamedTuple):
     """Game that a study can play."""
 
@@ -117,10 +92,24 @@ class StudyGame(NamedTuple):
     own: type[Any] | None = None
 
     def settings_of(self, entries: Mapping[str, Any]) -> Any:
-        """Return settings from nested entries; see :func:`.read_game`."""
+        """Return settings from nested entries; see :func:`.read_game`.
+
+        In a game of many, ``pursuers`` and ``evaders`` are the strategy of
+        all of a role.
+        """
         rest, source = dict(entries), "the settings"
         if isinstance(self.base, type):
             return settings_of(self.base, rest, source)
+        if self.base is None:
+            teams = {role: rest.pop(f"{role}s", "") for role in Role}
+            made = read_game(rest, source)
+            return made.with_players(
+                {
+                    own.name: {"strategy": teams[Role(own.role)]}
+                    for own in made.players
+                    if own.decides and teams[Role(own.role)]
+                }
+            )
         if self.own is None:
             return read_game(rest, source, base=self.base)
         names = [each.name for each in fields(self.own)[1:]]
@@ -163,13 +152,13 @@ def _play_unicycles(settings: UnicycleSettings) -> Record:
     }
 
 
-def _play_game(trial: TeamGame) -> Record:
+def _play_game(settings: GameSettings) -> Record:
     """Play a game of any number of players; return its record.
 
     For robots among people the measures of crowd navigation have their name
     in front.
     """
-    run = run_game(trial.settings).uninterrupted()
+    run = run_game(settings).uninterrupted()
     summary = run.summary
     record: Record = {
         "outcome": run.outcome.value,
@@ -208,10 +197,7 @@ GAMES: Mapping[str, StudyGame] = {
         Encounter,
     ),
     "game": StudyGame(
-        None,
-        _play_game,
-        ("captured", "contact", "fell", "closest_m"),
-        TeamGame,
+        None, _play_game, ("captured", "contact", "fell", "closest_m")
     ),
     "tournament": StudyGame(
         PairingSettings,
