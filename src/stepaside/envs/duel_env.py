@@ -80,10 +80,7 @@ class DuelEnv(gymnasium.Env[Row, Any]):
         settings: Settings of the environment.
     """
 
-    metadata: ClassVar[dict[str, Any]] = {  # type: ignore[misc]
-        "render_modes": ["rgb_array"],
-        "render_fps": 10,
-    }
+    metadata: ClassVar = ParallelDuel.metadata  # type: ignore[misc]
 
     def __init__(
         self,

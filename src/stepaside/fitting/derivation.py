@@ -2,7 +2,7 @@
 
 import os
 from collections.abc import Mapping
-from dataclasses import asdict, dataclass, replace
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
@@ -353,10 +353,6 @@ def report_of(derived: DerivedDescription) -> dict[str, Any]:
         "legs": [list(leg.joints) for leg in analysis.legs],
         "gait": dict(own.gait),
         "lengths_share": round(derived.lengths, 3),
-        "zmp_share": derived.zmp_offset,
-        "lean_rad": own.lean,
-        "torque_share": round(derived.loads.usual, 3),
-        "game": asdict(own.game),
         "coupled": sorted(followers_of(analysis.model)),
         "omitted_meshes": len(analysis.missing),
         "missing_values": {
