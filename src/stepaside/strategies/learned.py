@@ -232,24 +232,6 @@ def open_network(content: bytes) -> OpenNetwork:
     return OpenNetwork(session, port.name, KINDS[port.type], *port.shape[:1])
 
 
-def read_network(path: Path) -> bytes:
-    """Return the content of an ONNX file, with weights that lie beside it."""
-    check_readable(path)
-    content = path.read_bytes()
-    try:
-        if EXTERNAL in content:
-            import onnx
-
-            try:
-                content = onnx.load(path).SerializeToString()
-            except Exception as error:  # of several libraries
-                raise PolicyError(" ".join(str(error).split())) from error
-        open_network(content)
-    except PolicyError as error:
-        raise PolicyError(f"{path} is not an ONNX network: {error}") from error
-    return content
-
-
 def dense_network(
     layers: Sequence[tuple[Tensor, Tensor]], *, activation: str = "Relu"
 ) -> bytes:
@@ -345,9 +327,17 @@ class LearnedStrategy:
 
 
 def load_learned_strategy(file: Path) -> LearnedStrategy:
-    """Load a strategy from an ONNX file."""
+    """Load a strategy from an ONNX file, with weights that lie beside it."""
     try:
-        network = read_network(file)
+        check_readable(file)
+        network = file.read_bytes()
+        if EXTERNAL in network:
+            import onnx
+
+            try:
+                network = onnx.load(file).SerializeToString()
+            except Exception as error:  # of several libraries
+                raise PolicyError(" ".join(str(error).split())) from error
         metadata = open_network(network).session.get_modelmeta()
         contract = contract_of(metadata.custom_metadata_map)
         return LearnedStrategy(network, contract, file.name)
