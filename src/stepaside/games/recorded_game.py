@@ -18,7 +18,6 @@ from .game_settings import GameSettings
 from .game_starts import with_starts
 from .physics_world import PhysicsWorld
 from .player_settings import EVADER, WALKER
-from .players import RobotPlayer
 from .recorder import Recorder
 from .run import Run
 from .summary import PerceptionSummary
@@ -163,13 +162,7 @@ class RecordedGame(GameInPlay):
             from .walk_evaluation import summarise_walk
 
             walker = world.player(WALKER)
-            assert isinstance(walker, RobotPlayer)
-            pusher = walker.robot.pusher
-            found["walking"] = replace(
-                summarise_walk(run, recorder.solved),
-                adapted_steps=walker.scheme.walk.balance.adapted,
-                push_impulse_n_s=pusher.impulse if pusher else (0.0, 0.0),
-            )
+            found["walking"] = summarise_walk(run, walker, recorder.solved)
         return found
 
 

@@ -1,11 +1,11 @@
 """Recorder of a game in physics: one trajectory per player."""
 
 from collections.abc import Iterator
-from dataclasses import fields, is_dataclass
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 
+from ..core.entries import to_entries
 from ..core.poses import Array, Pose
 from ..locomotion.locomotion import StepStarted
 from ..perception.images import ColourImage, DepthImage
@@ -196,13 +196,7 @@ def strategy_numbers(player: RobotPlayer) -> Iterator[tuple[str, float]]:
         yield "sighting_distance_m", sighting.distance
     if walk is not None and walk.plan is not None:
         yield "desired_heading_rad", walk.plan.bearing
-    entries: dict[str, Any] = {}
-    if hasattr(memory, "_asdict"):
-        entries = memory._asdict()
-    elif is_dataclass(memory):
-        entries = {
-            own.name: getattr(memory, own.name) for own in fields(memory)
-        }
-    for name, value in entries.items():
+    entries = to_entries(memory)
+    for name, value in entries.items() if isinstance(entries, dict) else ():
         if isinstance(value, bool | int | float):
             yield f"memory_{name}", float(value)

@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ..core.poses import Array
+from .players import Player, RobotPlayer
 from .run import Run
 from .summary import SolverSummary, WalkingSummary
 from .trajectory import OF_EVENTS, Trajectory
@@ -62,9 +63,12 @@ def _turned(frames: Array, vectors: Array) -> Array:
     return np.column_stack([c * x + s * y, c * y - s * x])
 
 
-def summarise_walk(run: Run, solved: "Sequence[MpcResult]") -> WalkingSummary:
+def summarise_walk(
+    run: Run, walker: Player, solved: "Sequence[MpcResult]"
+) -> WalkingSummary:
     """Compute the summary of a walk; with the results of its MPC, if any."""
-    solver = None
+    assert isinstance(walker, RobotPlayer)
+    pusher, solver = walker.robot.pusher, None
     if solved:
         spent = 1e6 * np.array([answer.time for answer in solved])
         solver = SolverSummary(
@@ -83,7 +87,12 @@ def summarise_walk(run: Run, solved: "Sequence[MpcResult]") -> WalkingSummary:
     walking = walking_of(
         run.times[mask], Trajectory(**rows), run.settings.cycle
     )
-    return replace(walking, solver=solver)
+    return replace(
+        walking,
+        adapted_steps=walker.scheme.walk.balance.adapted,
+        push_impulse_n_s=pusher.impulse if pusher else (0.0, 0.0),
+        solver=solver,
+    )
 
 
 def walking_of(
