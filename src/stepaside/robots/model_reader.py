@@ -6,24 +6,9 @@ from xml.etree import ElementTree
 
 import mujoco
 
-# Elements that do not describe the robot. MuJoCo drops some of their
-# attributes between versions and then rejects files that still have them.
-SETTINGS_ELEMENTS = frozenset(
-    {
-        "compiler",
-        "flag",
-        "global",
-        "headlight",
-        "map",
-        "option",
-        "quality",
-        "rgba",
-        "scale",
-        "size",
-        "statistic",
-        "visual",
-    }
-)
+# Neither these elements nor those below describe the robot. MuJoCo drops some
+# of their attributes between versions and then rejects files that have them.
+SETTINGS = ("compiler", "option", "size", "statistic", "visual")
 SUFFIXES = (".xml", ".urdf")  # that MuJoCo accepts for model files
 UNKNOWN_ATTRIBUTE = re.compile(
     r"unrecognized attribute: '(\w+)'\s+Element '(\w+)'", re.DOTALL
@@ -65,12 +50,15 @@ def _read_text(path: Path, root: ElementTree.Element) -> mujoco.MjSpec:
 def _read_outdated(path: Path, error: ValueError) -> mujoco.MjSpec:
     """Read a file without the attributes that MuJoCo rejects, one by one."""
     root = _root_of(path)
+    tops = [top for kind in SETTINGS for top in root.iter(kind)]
+    elements = [element for top in tops for element in top.iter()]
     while True:
         found = UNKNOWN_ATTRIBUTE.search(str(error))
-        if found is None or found[2] not in SETTINGS_ELEMENTS:
+        if found is None or found[2] not in {x.tag for x in elements}:
             raise error
-        for element in root.iter(found[2]):
-            element.attrib.pop(found[1], None)
+        for element in elements:
+            if element.tag == found[2]:
+                element.attrib.pop(found[1], None)
         try:
             return _read_text(path, root)
         except ValueError as other:

@@ -104,15 +104,12 @@ class _UrdfWriter:
             limits = {"lower": link.low, "upper": link.high}
             if link.high >= UNLIMITED:
                 limits = {}
-            kind, position, axes = (
-                "prismatic",
-                np.array(link.origin),
-                np.eye(3),
-            )
+            position, axes = np.array(link.origin), np.eye(3)
             if link.kind == HINGE:
                 kind = "revolute" if limits else "continuous"
                 axes = rotation_about(link.axis, -link.zero)
             else:
+                kind = "prismatic"
                 position -= link.zero * np.array(link.axis)
             parent = self._names[link.parent]
             joint = self._join(link.joint, kind, parent, child, position, axes)
