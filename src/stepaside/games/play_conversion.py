@@ -118,7 +118,9 @@ def run_of_play(
     """Convert the rows of a player into a run."""
     name, rows = folder.resolve().name, read_played(folder)
     times, found = rows.times[rows.sampled], sightings_in(rows)
-    own = _own(rows, settings, sight_table(found))
+    lost, unknown = np.isnan(found[:, 1]), np.full((len(found), 2), np.nan)
+    sight = np.column_stack([found[:, 0], found[:, 2:], unknown, lost])
+    own = _own(rows, settings, sight)
     other = opponent_trajectory(found, times, own.unicycle)
     tracks = {settings.role: own}
     if other is not None:
@@ -159,6 +161,8 @@ def _summary(rows: PlayedRows, run: Run) -> Summary:
     walking = rows.columns["state"] == list(states).index(states.WALKING)
     passed = np.diff(rows.times, prepend=0.0)
     walked = float(passed[walking].sum())
+    rank = np.cumsum(walking)  # the last third of walking
+    late = walking & (rank > 2 * rank[-1] // 3)
     sightings = rows.columns["sighting"]
     seen = ~np.isnan(sightings[:, 0])
     planning = None
@@ -171,19 +175,11 @@ def _summary(rows: PlayedRows, run: Run) -> Summary:
             median_us=float(np.median(spent)) if len(spent) else None,
         )
     return replace(
-        measure(run, _last_third(walking)[rows.sampled]),
+        measure(run, late[rows.sampled]),
         min_distance_m=float(sightings[seen, 2].min()) if seen.any() else None,
         planning=planning,
         play=PlaySummary(walked, rows.changes),
     )
-
-
-def _last_third(walking: Array) -> NDArray[np.bool_]:
-    """Return a mask of the rows in the last third of walking."""
-    at = np.flatnonzero(walking)
-    late = np.zeros(len(walking), dtype=bool)
-    late[at[2 * len(at) // 3 :]] = True
-    return late
 
 
 def sightings_in(rows: PlayedRows) -> Array:
@@ -205,13 +201,6 @@ def sightings_in(rows: PlayedRows) -> Array:
     return np.column_stack(
         [rows.times[chosen], taken[chosen], sightings[chosen, 1:]]
     )
-
-
-def sight_table(found: Array) -> Array:
-    """Return ``sight`` of a trajectory from sightings, the truth unknown."""
-    unknown = np.full((len(found), 2), np.nan)
-    lost = np.isnan(found[:, 1]).astype(float)
-    return np.column_stack([found[:, 0], found[:, 2:], unknown, lost])
 
 
 def opponent_trajectory(
@@ -259,17 +248,14 @@ class OdometryPath:
     def __init__(
         self, rows: PlayedRows, description: RobotDescription, tilts: Array
     ) -> None:
-        """Take the rows of a player that commanded joints.
-
-        With roll and pitch of the torso in each row, in [rad].
-
-        Raises:
-            ConfigurationError: If the number of joints differs.
-        """
+        """Take rows, and roll and pitch of the torso in each, in [rad]."""
         self._rows, self._columns = rows, rows.columns
         self._forward = ForwardKinematics(description)
         tree = self._forward.tree
-        self._tree, self._standing = tree, description.standing
+        self._tree = tree
+        self._moved, self._fixed = tree.moved_by(
+            tree.motors, description.standing
+        )
         joints = rows.columns["joint_positions"].shape[1]
         if joints != len(tree.motors):
             raise ConfigurationError(
@@ -355,11 +341,8 @@ class OdometryPath:
     def _qpos(self, row: int, body: SpatialTorsoPose) -> Array:
         """Return position and quaternion of the torso, then all joints."""
         measured = self._columns["joint_positions"][row].tolist()
-        known = dict(self._standing)
-        known |= dict(zip(self._tree.motors, measured, strict=True))
-        for follower, leader in self._tree.followers.items():
-            known[follower] = known.get(leader, 0.0)
-        joints = [known.get(name, 0.0) for name in self._tree.joints]
+        known = {n: measured[i] for n, i in self._moved.items()} | self._fixed
+        joints = [known[name] for name in self._tree.joints]
         roll, pitch = self._tilts[row].tolist()
         quaternion = quaternion_of(roll, pitch, body.heading_in_odometry)
         return np.array([*body.position_in_odometry, *quaternion, *joints])
