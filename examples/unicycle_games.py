@@ -30,10 +30,10 @@ print(
 )
 
 start = RelativeStart(1.0, 0.3, 0.4)  # distance [m], both bearings [rad]
-certificate = certify(game, start)
+certified = certify(game, start)
 run = simulate(game, start, 60.0)
-assert certificate.distance_m is not None
-print(f"certified closest approach {certificate.distance_m:.3f} m,")
+assert certified is not None
+print(f"certified closest approach {certified:.3f} m,")
 print(f"played                     {run.closest_distance:.3f} m")
 
 draw = np.random.default_rng(1)

@@ -172,13 +172,12 @@ def test_map_of_a_faster_pursuer_has_both_circles(tmp_path: Path) -> None:
 def test_certified_distance_is_shown_only_where_it_holds() -> None:
     words = "--speed 1 --gain 1 --distance 1.57 --aim 0.31 --bearing"
     held = loads(unicycles, f"{words} -1.05")
-    assert held["certified"]["holds"]
-    assert 0 < held["certified"]["distance_m"] <= held["closest_distance_m"]
+    assert 0 < held["certified_m"] <= held["closest_distance_m"]
     assert "certified distance" in run(unicycles, f"{words} -1.05").output
     other = loads(unicycles, f"{words} 2.5")
-    assert other["certified"] == {"holds": False, "distance_m": None}
+    assert other["certified_m"] is None
     assert "certified distance" not in run(unicycles, f"{words} 2.5").output
-    assert loads(unicycles, FAST)["certified"] is None
+    assert loads(unicycles, FAST)["certified_m"] is None
 
 
 def test_unknown_strategy_is_refused() -> None:

@@ -59,8 +59,8 @@ def test_a_certificate_bounds_what_is_played() -> None:
     off = hypot(1.0 * cos(half) - goal.distance, 1.0 * sin(half))
     plain = goal.distance - off - speed / gain * abs(lead)
     found = sa.certify(game, start)
-    assert found.distance_m is not None and found.holds
-    assert plain < found.distance_m <= closest
+    assert found is not None
+    assert plain < found <= closest
     played = sa.simulate(game, start, 150.0)
     assert played.closest_distance == pytest.approx(closest, abs=1e-5)
     many = sa.play_games(game, [(1.0, 0.3, -0.4)], 150.0)

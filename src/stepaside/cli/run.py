@@ -1,6 +1,7 @@
 """``stepaside run``: a game file, a walk, unicycles or a room."""
 
 import json
+from contextlib import suppress
 from dataclasses import asdict
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -34,7 +35,7 @@ from .tables import (
 from .terminal import json_option, print_json
 
 if TYPE_CHECKING:
-    from ..theory.unicycle import RelativeStart, Unicycles
+    from ..theory.unicycle import RelativeStart
 
 COMMANDS = {
     "game": "Play the game of FILE; the word may be left out.",
@@ -150,8 +151,13 @@ def unicycles(
         )
     run: Any = None
     if names is None:
+        from ..theory.unicycle.certificate import certify
+
         run, measured = _simulate(settings, start)
-        result |= measured | {"certified": _certify(game, start)}
+        result |= measured | {"certified_m": None}
+        # It is for equal players that do not move straight back.
+        with suppress(PlanError):
+            result["certified_m"] = certify(game, start)
     else:
         result |= _play_named(settings, names)
     if names is None or names == PAPER:
@@ -205,20 +211,6 @@ def _simulate(
     return run, result
 
 
-def _certify(
-    game: "Unicycles", start: "RelativeStart"
-) -> dict[str, Any] | None:
-    """Return the certified closest approach; None where it is undefined."""
-    from ..theory.unicycle.certificate import certify
-
-    try:
-        found = certify(game, start)
-    except PlanError:  # unequal players, the saturated law or moving back
-        return None
-    entries: dict[str, Any] = plain(found)
-    return entries
-
-
 def _play_named(
     settings: UnicycleSettings, names: tuple[str, str]
 ) -> dict[str, Any]:
@@ -268,10 +260,9 @@ def _print_unicycles(result: dict[str, Any]) -> None:
     if circle is not None:
         name = CIRCLES[circle["direction"]]
         rows.append(("ended on", f"the {name} circle"))
-    certified = result.get("certified")
-    if certified is not None and certified["holds"]:
-        text = f">= {certified['distance_m']:.6g} m"
-        rows.append(("certified distance", text))
+    certified = result.get("certified_m")
+    if certified is not None:
+        rows.append(("certified distance", f">= {certified:.6g} m"))
     ends = ("captured", "end_time_s", "closest_distance_m")
     print_table([*rows, *table_rows(result, ends)])
 

@@ -76,10 +76,9 @@ def _evasion(run: Run) -> tuple[Any, Any]:
             "saturated" if strategy.saturated else "proportional",
             side_rule="latched",
         )
-        certificate = certify(game, start)
+        return closest, certify(game, start)
     except PlanError:  # the certificate does not cover this game
         return closest, None
-    return closest, certificate.distance_m if certificate.holds else None
 
 
 class StudyGame(NamedTuple):

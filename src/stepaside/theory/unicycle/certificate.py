@@ -31,7 +31,6 @@ Proofs in ``docs/unicycles.md``.
 """
 
 from cmath import exp
-from dataclasses import dataclass
 from math import asin, log, pi, sin
 
 import numpy as np
@@ -47,22 +46,13 @@ _STOPS = 2000  # points on the boundary of the disc that contains the game
 _TAIL = 1e-6  # |d| below which the remainder is at most v |d| / k, in [rad]
 
 
-@dataclass(frozen=True, slots=True)
-class Certificate:
-    """Certified lower bound of the distance of one game."""
-
-    # Whether a bound is proved for this initial state: it is positive, no
-    # error wraps and no side changes. The game then converges to the circle.
-    holds: bool
-    # Lower bound of the distance at all times, in [m]; None if nothing is
-    # proved.
-    distance_m: float | None = None
-
-
 def certify(
     game: Unicycles, start: RelativeStart, *, side: int = 0
-) -> Certificate:
-    """Bound the closest approach of a game from below.
+) -> float | None:
+    """Bound the distance at all times of a game from below, in [m].
+
+    A game with a bound converges to the circle. None if none is proved: a
+    bound is positive, no error wraps and no side changes.
 
     Args:
         game: Parameters, with equal speeds and gains, the proportional law,
@@ -83,7 +73,7 @@ def certify(
         side = side_behind(psi)
     a, psi = side * a, side * psi
     if psi > 0.0 and not game.keeps_side:
-        return Certificate(False)  # the side changes immediately
+        return None  # the side changes immediately
     b = evasion_heading(psi, 1, alpha)
     d, x = a - b, 0.5 * (a + b - alpha)
     spread = abs(r * exp(1j * x) - radius)
@@ -93,8 +83,8 @@ def certify(
         game, bound, radius, d
     )
     if bound > 0.0 and unwrapped and _keeps_side(game, bound, radius):
-        return Certificate(True, bound)
-    return Certificate(False)
+        return bound
+    return None
 
 
 def stays_unwrapped(
