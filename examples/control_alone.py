@@ -16,12 +16,13 @@ from time import perf_counter  # noqa: E402
 import numpy as np  # noqa: E402
 
 from stepaside import (  # noqa: E402
+    ControlScheme,
     ControlSettings,
     Evasion,
     GaitSettings,
     RobotState,
     Sighting,
-    build_scheme,
+    build_walk,
     load_robot,
 )
 
@@ -29,9 +30,10 @@ TICK = 0.004  # [s]
 at_rest = np.array([0.0, 0.0, 9.81])  # specific force, in [m/s^2]
 forces = np.full(8, 6.5)  # at the corners of the soles, in [N]
 
-controller = build_scheme(
-    Evasion(), load_robot("nao"), GaitSettings(), ControlSettings(), tick=TICK
+walk = build_walk(
+    load_robot("nao"), GaitSettings(), ControlSettings(), tick=TICK
 )
+controller = ControlScheme(Evasion(), walk)
 spent, worst = 0.0, 0.0
 for tick in range(2500):
     now = tick * TICK

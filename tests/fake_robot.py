@@ -7,9 +7,8 @@ from typing import Any
 import numpy as np
 
 from stepaside.control.scheme import ControlScheme
-from stepaside.control.sight_sources import MeasuredSight, SightSource
-from stepaside.control.strategy_runner import StrategyRunner
-from stepaside.core.poses import Array, Pose
+from stepaside.control.sight_sources import SightSource
+from stepaside.core.poses import ALL_AROUND, Array, Pose
 from stepaside.locomotion.locomotion import Phase, StepStarted
 from stepaside.locomotion.maneuver_walk import ManeuverWalk
 from stepaside.locomotion.zmp.open_loop import OpenLoop
@@ -137,11 +136,8 @@ def scheme_of(
     """Return a scheme whose legs walk by maneuvers."""
     guard = walk.get("guard")
     surroundings = None if guard is None else guard.surroundings
-    return ControlScheme(
-        StrategyRunner(strategy, gait, surroundings),
-        ManeuverWalk(gait, legs, tick=tick, **walk),
-        MeasuredSight() if senses is None else senses,
-    )
+    made = ManeuverWalk(gait, legs, tick=tick, **walk)
+    return ControlScheme(strategy, made, senses, surroundings)
 
 
 def walk_of(scheme: ControlScheme) -> ManeuverWalk:
@@ -215,7 +211,7 @@ class FakePerception:
     """Sees what it is told and turns the head."""
 
     def __init__(self) -> None:
-        self.head = SimpleNamespace(turning=0.0)
+        self.head, self.views = SimpleNamespace(turning=0.0), ALL_AROUND
         self.seen: Sighting | None = None
         self.stood: list[tuple[Pose, bool]] = []
         self.tilts: list[tuple[float, float]] = []

@@ -9,7 +9,7 @@ from importlib import import_module
 
 from fake_body import FakeBody
 from fake_robot import FakeStrategy
-from stepaside.control.scheme import build_scheme
+from stepaside.control.scheme import ControlScheme, build_walk
 from stepaside.locomotion.control_settings import ControlSettings
 from stepaside.planning import GaitSettings
 from stepaside.robots.description import load_robot
@@ -48,7 +48,8 @@ def play(feedback: bool) -> dict[str, object]:
     control = ControlSettings()
     if feedback:
         control = ControlSettings(method="measured", feedback=True)
-    scheme = build_scheme(FakeStrategy(), nao, gait, control, tick=TICK)
+    walk = build_walk(nao, gait, control, tick=TICK)
+    scheme = ControlScheme(FakeStrategy(), walk)
     body = FakeBody(scheme.joint_targets, 9.81 * forward.mass, TICK)
     phases = [scheme.phase.value]
     for tick in range(2200):

@@ -1,5 +1,5 @@
 from .control import ControlScheme as ControlScheme
-from .control.scheme import build_scheme as build_scheme
+from .control.scheme import build_walk as build_walk
 from .core.errors import StepAsideError as StepAsideError
 from .core.poses import Pose as Pose
 from .drivers.robot import CameraImage as CameraImage
@@ -94,7 +94,7 @@ __all__ = [
     "VelocityLimits",
     "VelocityRobot",
     "__version__",
-    "build_scheme",
+    "build_walk",
     "certify",
     "draw_plan",
     "draw_run",

@@ -37,7 +37,7 @@ def test_excessive_velocity_is_scaled_on_the_same_path(
     forward: float, turn: float
 ) -> None:
     speed, rate = velocity_limits(GAIT)
-    strategy = CommandedVelocity(GAIT, None)
+    strategy = CommandedVelocity(GAIT)
     strategy.command = BodyVelocity(forward, 0.2, turn)
     v, lateral, w = strategy.velocity
     assert v * turn == pytest.approx(w * forward) and lateral == 0.0
@@ -51,7 +51,7 @@ def test_half_the_speed_halves_the_stride_not_the_turn(
     sign: float,
 ) -> None:
     speed, _ = velocity_limits(GAIT)
-    strategy = CommandedVelocity(GAIT, None)
+    strategy = CommandedVelocity(GAIT)
     walk = step(strategy, sign * 0.5 * speed, 0.1, moving=False)
     assert strategy.direction.value == sign
     assert walk.speed_factor == pytest.approx(0.5)
@@ -60,7 +60,7 @@ def test_half_the_speed_halves_the_stride_not_the_turn(
 
 
 def test_turning_in_place_keeps_position_and_direction() -> None:
-    strategy = CommandedVelocity(GAIT, None)
+    strategy = CommandedVelocity(GAIT)
     step(strategy, -0.05, 0.0, moving=False)
     walk = step(strategy, 0.0, -0.2, moving=True)
     assert strategy.direction is BACKWARD and walk.heading < 0.0
@@ -68,7 +68,7 @@ def test_turning_in_place_keeps_position_and_direction() -> None:
 
 
 def test_reversal_halts_first() -> None:
-    strategy = CommandedVelocity(GAIT, None)
+    strategy = CommandedVelocity(GAIT)
     assert not step(strategy, 0.0, 0.0, moving=False).walks
     assert step(strategy, -0.05, 0.0, moving=False).walks
     assert not step(strategy, 0.05, 0.0, moving=True).walks

@@ -8,6 +8,7 @@ from ..locomotion.locomotion import (
     MotionRequest,
     Phase,
     StepStarted,
+    Surroundings,
 )
 from ..locomotion.maneuver_walk import ManeuverWalk
 from ..locomotion.zmp.open_loop import LoadFeedforward, OpenLoop
@@ -40,14 +41,23 @@ class ControlScheme:
 
     def __init__(
         self,
-        decisions: StrategyRunner,
+        strategy: Strategy,
         locomotion: "ManeuverWalk | PolicyWalk",
-        senses: SightSource,
+        senses: SightSource | None = None,
+        surroundings: Surroundings | None = None,
     ) -> None:
-        self.decisions, self.locomotion = decisions, locomotion
-        self.senses = senses
+        """Combine its parts; by default measurements bring the sightings."""
+        self.senses = senses = senses or MeasuredSight()
+        self.locomotion = locomotion
+        self.decisions = StrategyRunner(
+            strategy,
+            locomotion.gait,
+            surroundings,
+            None if locomotion.maneuvers else locomotion.velocities,
+            senses.views,
+        )
         self.sighting: Sighting | None = None
-        decisions.templates.note(0.0, locomotion.pose)
+        self.decisions.templates.note(0.0, locomotion.pose)
         self._delayed = locomotion.heading_delay > 0.0
         self._coasted: float | None = None  # since the last update, until [s]
 
@@ -139,49 +149,6 @@ class ControlScheme:
         return targets
 
 
-def build_scheme(
-    strategy: Strategy,
-    description: RobotDescription,
-    gait: GaitSettings,
-    control: ControlSettings,
-    *,
-    tick: float,
-    delay: float = 0.0,
-    senses: SightSource | None = None,
-    clearance: "ClearanceSetup | None" = None,
-) -> ControlScheme:
-    """Build the control scheme of one robot that walks by maneuvers.
-
-    Args:
-        strategy: Strategy of the player.
-        description: Robot description.
-        gait: Gait.
-        control: Control settings.
-        tick: Control period, in [s].
-        delay: Time from a command to the motion, in [s].
-        senses: Source of sightings; by default those that measurements
-            bring.
-        clearance: Known obstacles and required clearance, if any.
-
-    Raises:
-        ReachError: If the standing posture of the gait is out of reach.
-    """
-    senses = senses or MeasuredSight()
-    walk = build_walk(
-        *(description, gait, control),
-        tick=tick,
-        delay=delay,
-        clearance=clearance,
-        forward=senses.forward,
-    )
-    decisions = StrategyRunner(
-        strategy,
-        gait,
-        None if clearance is None else clearance.surroundings,
-    )
-    return ControlScheme(decisions, walk, senses)
-
-
 def build_walk(
     description: RobotDescription,
     gait: GaitSettings,
@@ -192,9 +159,13 @@ def build_walk(
     clearance: "ClearanceSetup | None" = None,
     forward: "ForwardKinematics | None" = None,
 ) -> ManeuverWalk:
-    """Build the walk by maneuvers of one robot; see :func:`build_scheme`.
+    """Build the walk by maneuvers of one robot.
 
-    ``forward`` are the kinematics of the measured body; built if not given.
+    The delay is the time from a command to the motion, in [s]; ``forward``
+    are the kinematics of the measured body, built if not given.
+
+    Raises:
+        ReachError: If the standing posture of the gait is out of reach.
     """
     legs = LegKinematics(description, tick=tick)
     loads = None

@@ -5,10 +5,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ..control.scheme import ControlScheme, build_scheme
+from ..control.scheme import ControlScheme, build_walk
 from ..control.sensor_sight import CameraSight
-from ..control.sight_sources import MeasuredSight, SightSource
-from ..control.strategy_runner import StrategyRunner
 from ..core.errors import ConfigurationError, ModelError
 from ..core.poses import Array
 from ..locomotion.control_settings import ControlSettings, LegsSettings
@@ -49,7 +47,7 @@ def scheme_factory(
         load_legs(walks_by, description, tick=tick)  # refuses before a walk
 
     def make(strategy: Strategy) -> ControlScheme:
-        senses: SightSource | None = None
+        senses: CameraSight | None = None
         if detector is not None:
             from ..perception.pipeline import build_perception
             from ..robots.head import load_head
@@ -60,18 +58,14 @@ def scheme_factory(
             senses = CameraSight(perception, tick=tick)
         if isinstance(walks_by, LegsSettings):
             legs = load_legs(walks_by, description, tick=tick)
-            walk = PolicyWalk(legs, gait)
-            runner = StrategyRunner(strategy, gait, velocities=walk.velocities)
-            return ControlScheme(runner, walk, senses or MeasuredSight())
-        return build_scheme(
-            strategy,
-            description,
-            gait,
-            walks_by,
+            return ControlScheme(strategy, PolicyWalk(legs, gait), senses)
+        walk = build_walk(
+            *(description, gait, walks_by),
             tick=tick,
             delay=delay_ticks * tick,
-            senses=senses,
+            forward=None if senses is None else senses.forward,
         )
+        return ControlScheme(strategy, walk, senses)
 
     return make
 

@@ -10,7 +10,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ..control.scheme import ControlScheme, build_scheme
+from ..control.scheme import ControlScheme, build_walk
 from ..control.sight_sources import MeasuredSight
 from ..core.constants import GRAVITY
 from ..core.poses import Array
@@ -250,15 +250,11 @@ def _scheme(
     description: RobotDescription, gait: GaitSettings, direction: Direction
 ) -> ControlScheme:
     """Build an open-loop control scheme without joint speed limits."""
-    unlimited = dict.fromkeys(description.speed_limits, NO_LIMIT)
-    return build_scheme(
-        Walk(0.0, direction),
-        replace(description, speed_limits=unlimited),
-        gait,
-        OPEN_LOOP,
-        tick=TICK,
-        senses=MeasuredSight(Sighting(0.0, 0.0, inf)),
-    )
+    limits = dict.fromkeys(description.speed_limits, NO_LIMIT)
+    unlimited = replace(description, speed_limits=limits)
+    walk = build_walk(unlimited, gait, OPEN_LOOP, tick=TICK)
+    senses = MeasuredSight(Sighting(0.0, 0.0, inf))
+    return ControlScheme(Walk(0.0, direction), walk, senses)
 
 
 def _walk(scheme: ControlScheme, gait: GaitSettings) -> Iterator[Array]:

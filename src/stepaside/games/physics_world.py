@@ -16,7 +16,6 @@ from ..control.sight_sources import (
     SightOfPlayers,
     SightSource,
 )
-from ..control.strategy_runner import StrategyRunner
 from ..core.errors import ConfigurationError
 from ..core.poses import Pose
 from ..core.random_streams import named_generator
@@ -56,7 +55,6 @@ if TYPE_CHECKING:
 
 
 ORIGIN = Pose(0.0, 0.0, 0.0)
-NOWHERE = Sighting(0.0, 0.0, inf)  # without an opponent
 
 
 class RobotSetup(NamedTuple):
@@ -147,27 +145,15 @@ def place_robot(
             forward=source.forward,
         )
         robot = setup.place(world, walk.kinematics)
-    velocities = None if walk.maneuvers else walk.velocities
-    start = setup.start
     if strategy is None:
-        from .velocity_walker import CommandedVelocity, VelocityWalker
+        from .velocity_walker import VelocityWalker
 
-        source = MeasuredSight(NOWHERE)
-        runner = StrategyRunner(
-            CommandedVelocity(own.gait, velocities),
-            own.gait,
-            velocities=velocities,
-        )
-        scheme = ControlScheme(runner, walk, source)
-        return VelocityWalker(robot, scheme, start, setup.description)
-    runner = StrategyRunner(
-        with_body_radius(strategy, setup),
-        own.gait,
-        known and known.surroundings,
-        velocities=velocities,
-        views=source.views,
+        return VelocityWalker(robot, walk, setup.start, setup.description)
+    strategy = with_body_radius(strategy, setup)
+    scheme = ControlScheme(
+        strategy, walk, source, known and known.surroundings
     )
-    return RobotPlayer(robot, ControlScheme(runner, walk, source), start)
+    return RobotPlayer(robot, scheme, setup.start)
 
 
 def with_body_radius(strategy: Strategy, setup: RobotSetup) -> Strategy:
@@ -451,7 +437,7 @@ class PhysicsWorld(World):
                 eyes=Lidar(self, own.name, torso, lidar, settings.seed),
             )
         if len(settings.players) == 1:
-            source = MeasuredSight(NOWHERE)
+            source = MeasuredSight(Sighting(0.0, 0.0, inf))
             return setup._replace(source=source)
         truths = self._truths
         sights = tuple(

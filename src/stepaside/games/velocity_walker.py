@@ -1,12 +1,13 @@
 """Robots that walk at velocities that another process commands."""
 
 import logging
-from math import pi
+from math import inf, pi
 from typing import TYPE_CHECKING
 
 from ..control.scheme import ControlScheme
+from ..control.sight_sources import MeasuredSight
 from ..core.poses import Pose, wrap_angle
-from ..locomotion.maneuver_walk import velocity_limits
+from ..locomotion.maneuver_walk import ManeuverWalk, velocity_limits
 from ..perception.images import ColourImage
 from ..perception.measurement import RobotState, Sighting
 from ..planning import Direction, Foot, GaitSettings
@@ -19,6 +20,7 @@ from .players import RobotPlayer
 
 if TYPE_CHECKING:
     from ..drivers.ros2_server import BodyPlace
+    from ..locomotion.policy.policy_legs import PolicyWalk
 
 log = logging.getLogger(__name__)
 
@@ -38,7 +40,9 @@ class CommandedVelocity:
 
     saturated = False
 
-    def __init__(self, gait: GaitSettings, legs: VelocitySet | None) -> None:
+    def __init__(
+        self, gait: GaitSettings, legs: VelocitySet | None = None
+    ) -> None:
         """Stand, on learned legs or by maneuvers of a gait."""
         self._limits, self._legs = velocity_limits(gait), legs
         self.direction, self.command = Direction.FORWARD, STILL
@@ -86,17 +90,19 @@ class VelocityWalker(RobotPlayer):
     def __init__(
         self,
         robot: SimulatedRobot,
-        scheme: ControlScheme,
+        walk: "ManeuverWalk | PolicyWalk",
         frame: Pose,
         description: RobotDescription,
     ) -> None:
-        """Combine a robot and its controller."""
+        """Combine a robot and its walk."""
+        legs = None if walk.maneuvers else walk.velocities
+        self._strategy = CommandedVelocity(walk.gait, legs)
+        # It walks without sightings.
+        senses = MeasuredSight(Sighting(0.0, 0.0, inf))
+        scheme = ControlScheme(self._strategy, walk, senses)
         super().__init__(robot, scheme, frame)
         self.description = description
-        strategy = scheme.decisions.strategy
-        assert isinstance(strategy, CommandedVelocity)
-        self._strategy = strategy
-        scheme.decisions.headings.note(0.0, self.walk.torso_heading)
+        scheme.decisions.headings.note(0.0, walk.torso_heading)
         self._forward = ForwardKinematics(description)
         self._image: ColourImage | None = None
         self._measured: tuple[int, RobotState] | None = None
