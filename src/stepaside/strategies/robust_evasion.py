@@ -27,14 +27,9 @@ from .strategy import BackwardStrategy
 # The paper's pursuer with other gains, the last of them turning by the whole
 # bearing, and pursuers with another target.
 MODELS = (
-    PursuerModel(),
-    PursuerModel(1.5),
-    PursuerModel(2.0),
-    PursuerModel(3.0),
-    PursuerModel(4.0),
-    PursuerModel(12.5),
-    PursuerModel(1.0, pull=1.0),
-    PursuerModel(1.0, lead=0.5),
+    *map(PursuerModel, (1.0, 1.5, 2.0, 3.0, 4.0, 12.5)),
+    PursuerModel(pull=1.0),
+    PursuerModel(lead=0.5),
 )
 DANGEROUS = (6, 3, 0, 5, 4)  # models to search until they are ruled out
 SHARPNESS = 5.0  # with which the weight of a model falls with the square of

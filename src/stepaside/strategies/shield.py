@@ -254,9 +254,7 @@ def observed_course(
     before_it = last.time - window + 1e-6
     earlier = [row for row in seen if row.time <= before_it]
     if not earlier:
-        if before is None:
-            return None
-        return Course(
+        return before and Course(
             last.time, before.heading, min(pi, before.error + turned)
         )
     time, x, y, _ = earlier[-1]

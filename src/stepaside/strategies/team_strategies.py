@@ -2,6 +2,7 @@
 
 from dataclasses import dataclass, replace
 from functools import lru_cache
+from itertools import product
 from math import atan2, cos, dist, hypot, inf, pi, sin
 from typing import Any
 
@@ -225,10 +226,8 @@ def pursuers_of(knowledge: Knowledge) -> Array:
 def candidate_turns(largest: float) -> Array:
     """Return turns [rad] of each step of all candidates."""
     even = np.linspace(-largest, largest, TURNS)
-    grid = np.meshgrid(*[even] * len(PIECES), indexing="ij")
-    pieces = np.stack(grid, axis=-1).reshape(-1, len(PIECES))
-    turns: Array = np.repeat(pieces, PIECES, axis=1)
-    return turns
+    pieces = list(product(even, repeat=len(PIECES)))
+    return np.repeat(pieces, PIECES, axis=1)
 
 
 @compiled
