@@ -73,14 +73,10 @@ class AssignedPursuit(Pursuit):
         if evaders:
             hunters, own = fellows_of(knowledge), knowledge.identity
             assert own is not None
-            costs = np.array(
-                [
-                    [dist(place, other.position) for other in evaders]
-                    for place in hunters.values()
-                ]
-            )
+            places = [other.position for other in evaders]
+            ways = [[dist(p, q) for q in places] for p in hunters.values()]
             row = list(hunters).index(own.name)
-            knowledge = knowledge.about(evaders[assign(costs)[row]])
+            knowledge = knowledge.about(evaders[assign(np.array(ways))[row]])
         intent, memory = Pursuit.decide(self, knowledge, memory)
         return keep_apart(knowledge, intent), memory
 
