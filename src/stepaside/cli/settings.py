@@ -16,6 +16,7 @@ from typing import Any, get_args, get_origin
 
 import click
 
+from ..arena import RoomRecipe
 from ..core.entries import to_entries
 from ..core.setting import (
     NONE,
@@ -25,9 +26,15 @@ from ..core.setting import (
     entries_of,
     similar_paths,
 )
-from ..games.game_settings import GameSettings, read_game
-from ..games.player_settings import nested, settings_of
-from ..games.settings_reader import entries_of_game, load_settings
+from ..games.game_settings import (
+    NOT_PLAYERS,
+    OF_ALL,
+    RECIPE,
+    GameSettings,
+    read_game,
+)
+from ..games.player_settings import PlayerSettings, nested, settings_of
+from ..games.settings_reader import load_settings
 from .terminal import write_result
 
 lists_option = click.option(
@@ -121,8 +128,16 @@ def takes_settings(
 
 
 def _entries_of(kind: Any) -> Mapping[str, Entry]:
-    is_game = isinstance(kind, GameSettings)
-    return entries_of_game(kind) if is_game else entries_of(kind)
+    """Return every setting of a class, or of a game, by its path."""
+    if not isinstance(kind, GameSettings):
+        return entries_of(kind)
+    game, own = entries_of(GameSettings), entries_of(PlayerSettings)
+    common = {k: v for k, v in own.items() if _head(k) in OF_ALL}
+    found = {k: v for k, v in game.items() if k != "players"} | common
+    for name in kind.names:
+        if name not in NOT_PLAYERS:
+            found |= entries_of(PlayerSettings, name)
+    return found | entries_of(RoomRecipe, RECIPE)
 
 
 def flag_of(path: str) -> str:

@@ -1,22 +1,13 @@
-"""Files of settings: read, listed by path, and written."""
+"""Files of settings, read and written."""
 
 from collections.abc import Callable
 from typing import Any
 
 import tomli_w
 
-from ..arena import RoomRecipe
 from ..core.entries import load_entries, to_entries
 from ..core.errors import AnyPath, as_path
-from ..core.setting import Entry, entries_of
-from .game_settings import (
-    NOT_PLAYERS,
-    OF_ALL,
-    RECIPE,
-    GameSettings,
-    read_game,
-)
-from .player_settings import PlayerSettings
+from .game_settings import GameSettings, read_game
 
 ROBOTS = "robots"  # folder of descriptions and networks in a run folder
 
@@ -29,17 +20,6 @@ def load_game(path: AnyPath, **changes: Any) -> GameSettings:
             invalid, or a robot does not exist.
     """
     return read_game(load_settings(path), str(path)).changed(**changes)
-
-
-def entries_of_game(base: GameSettings) -> dict[str, Entry]:
-    """Return every setting of a game and its players by its path."""
-    game, own = entries_of(GameSettings), entries_of(PlayerSettings)
-    common = {k: v for k, v in own.items() if k.partition(".")[0] in OF_ALL}
-    found = {k: v for k, v in game.items() if k != "players"} | common
-    for name in base.names:
-        if name not in NOT_PLAYERS:
-            found |= entries_of(PlayerSettings, name)
-    return found | entries_of(RoomRecipe, RECIPE)
 
 
 def load_settings(path: AnyPath) -> dict[str, Any]:
