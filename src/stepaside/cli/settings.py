@@ -6,23 +6,19 @@ such as ``--body``, single settings.
 
 import tomllib
 from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
-from dataclasses import is_dataclass
 from functools import partial, wraps
 from math import degrees
 from operator import attrgetter
 from pathlib import Path
-from textwrap import wrap
 from typing import Any, get_args, get_origin
 
 import click
 
 from ..arena import RoomRecipe
-from ..core.entries import to_entries
 from ..core.setting import (
     NONE,
     REQUIRED,
     Entry,
-    descriptions_of,
     entries_of,
     similar_paths,
 )
@@ -84,7 +80,6 @@ IMPLY: Mapping[str, tuple[str, ...]] = {
     "pursuer.body": ("evasion.trigger",),
 }
 """Entries of a file that an option leaves open again, as it implies them."""
-WIDTH = 76  # characters of a comment
 GIVEN = "stepaside.given"  # of a context: given settings, and --config
 
 
@@ -114,7 +109,9 @@ def takes_settings(
             texts += [set_pair(text) for text in values.pop("sets")]
             settings = _read(kind, texts, values.pop("config"))
             if values.pop("lists"):
-                return write_result(_commented(settings))
+                from .settings_text import commented
+
+                return write_result(commented(settings))
             return function(settings=settings, **values)
 
         result: Callable[..., Any] = command
@@ -361,45 +358,3 @@ def refuse_settings(beginnings: tuple[str, ...], requirement: str) -> None:
     for path in sorted(given):
         if path.startswith(beginnings):
             raise click.UsageError(f"{path} requires {requirement}")
-
-
-def _commented(settings: Any) -> str:
-    """Return a configuration in TOML with a comment above each entry."""
-    summary = f"# {(type(settings).__doc__ or '').splitlines()[0]}"
-    return "\n".join([summary, *_lines(settings, ())]) + "\n"
-
-
-def _lines(settings: Any, section: tuple[str, ...]) -> list[str]:
-    """Return the entries of a section, then its subsections."""
-    lines, subsections = [], []
-    for name, each in descriptions_of(type(settings)).items():
-        value = getattr(settings, name)
-        comment = "\n".join(
-            f"# {line}" for line in wrap(each.full_text, WIDTH)
-        )
-        path = (*section, name)
-        if isinstance(value, tuple) and value and is_dataclass(value[0]):
-            for one in value:
-                subsections += ["", comment, f"[[{'.'.join(path)}]]"]
-                subsections += _lines(one, path)
-        elif is_dataclass(value):
-            subsections += ["", comment, f"[{'.'.join(path)}]"]
-            subsections += _lines(value, path)
-        elif value is None:
-            lines += [comment, f"# {name} ="]
-        else:
-            lines += [comment, f"{name} = {_inline(value)}"]
-    return lines + subsections
-
-
-def _inline(value: Any) -> str:
-    """Return a value as one line of TOML."""
-    import tomli_w
-
-    value = to_entries(value)
-    if isinstance(value, dict):
-        pairs = (f"{name} = {_inline(each)}" for name, each in value.items())
-        return f"{{ {', '.join(pairs)} }}"
-    if isinstance(value, list):
-        return f"[{', '.join(map(_inline, value))}]"
-    return tomli_w.dumps({"x": value}).removeprefix("x = ").strip()
