@@ -209,23 +209,19 @@ class PlayerSettings(RobotSettings):
                 "player name must be lower case letters, digits and hyphens, "
                 f"at most 32, got {self.name!r:.40}"
             )
-        prefix = f"{self.name}: "
-        check_settings(self, prefix=prefix)
+        check_settings(self)
         if self.strategy:
-            check_strategy_name(
-                self.strategy, f"{prefix}strategy", recorded=True
-            )
+            check_strategy_name(self.strategy, recorded=True)
         for name, count in (("start", 3), ("goal", 2)):
             values = getattr(self, name)
             if len(values) not in (0, count):
                 raise ConfigurationError(
-                    f"{prefix}{name} must have {count} numbers, got "
-                    f"{len(values)}"
+                    f"{name} must have {count} numbers, got {len(values)}"
                 )
             for value, allowed in zip(
                 values, (POSITION, POSITION, TURN), strict=False
             ):
-                allowed.check(value, f"{prefix}{name}")
+                allowed.check(value, name)
 
     @property
     def identity(self) -> PlayerIdentity:
