@@ -147,14 +147,14 @@ class RobotDescription:
 
     def spec(self, colour: Colour | None = None) -> mujoco.MjSpec:
         """Return the editable model with its overlay, and a colour."""
-        from .model_reader import read_model
+        import mujoco
 
-        try:
+        try:  # MuJoCo does not find includes of a relative path
+            spec = mujoco.MjSpec.from_file(str(self.path.resolve()))
+        except ValueError:  # as of another version
+            from .model_reader import read_model
+
             spec = read_model(self.path)
-        except ValueError as error:
-            raise ModelError(
-                f"{self.path} is not a MuJoCo model: {error}"
-            ) from error
         if self.overlay != NO_OVERLAY:
             from .model_overlay import put_overlay
 

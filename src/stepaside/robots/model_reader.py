@@ -6,6 +6,8 @@ from xml.etree import ElementTree
 
 import mujoco
 
+from ..core.errors import ModelError
+
 # Neither these elements nor those below describe the robot. MuJoCo drops some
 # of their attributes between versions and then rejects files that have them.
 SETTINGS = ("compiler", "option", "size", "statistic", "visual")
@@ -16,19 +18,22 @@ UNKNOWN_ATTRIBUTE = re.compile(
 
 
 def read_model(path: Path) -> mujoco.MjSpec:
-    """Read an MJCF or URDF file as an editable model, or ValueError.
+    """Read an MJCF or URDF file as an editable model.
 
     Attributes of physics and rendering that MuJoCo lacks are ignored.
     """
     path = path.resolve()  # MuJoCo does not find includes of a relative path
     try:
-        if path.suffix in SUFFIXES:
-            return mujoco.MjSpec.from_file(str(path))
-        return _read_text(path, _root_of(path))
+        try:
+            if path.suffix in SUFFIXES:
+                return mujoco.MjSpec.from_file(str(path))
+            return _read_text(path, _root_of(path))
+        except ValueError as error:
+            if UNKNOWN_ATTRIBUTE.search(str(error)) is None:
+                raise
+            return _read_outdated(path, error)
     except ValueError as error:
-        if UNKNOWN_ATTRIBUTE.search(str(error)) is None:
-            raise
-        return _read_outdated(path, error)
+        raise ModelError(f"{path} is not a MuJoCo model: {error}") from error
 
 
 def _root_of(path: Path) -> ElementTree.Element:
