@@ -94,6 +94,7 @@ def test_a_setting_is_changed_of_the_game_of_all_or_of_one_player() -> None:
         ({"gait": {"stride": 30}}, "here: gait.stride must lie in"),
         ({"evader": {"gait": {"stride": 30}}}, "here, evader: gait.stride"),
         ({"evader": {"person": {"speed": 1}}}, "person must be omitted"),
+        ({"evader": "wary"}, "here, evader must be a table, got 'wary'"),
         ({"players": 3}, r"must be tables \[\[players\]\], got 3"),
         (
             {"players": [{"role": "evader"}]},

@@ -10,7 +10,7 @@ import pytest
 from stepaside.core.errors import ConfigurationError
 from stepaside.core.poses import wrap_angle
 from stepaside.games.drawn_starts import least_distance
-from stepaside.games.game_settings import GameSettings, read_game
+from stepaside.games.game_settings import GameSettings, duel, read_game
 from stepaside.games.game_starts import with_starts
 
 
@@ -88,3 +88,23 @@ def test_goals_and_bodies_in_walls_are_refused() -> None:
     leaning = {"name": "leaning", "start": [1.95, 0.0, 0.0]}
     with pytest.raises(ConfigurationError, match="start of leaning must be"):
         with_starts(game(leaning, room=room))
+
+
+def test_a_start_beside_that_of_a_duel_is_refused() -> None:
+    for room in (None, 5):
+        made = with_starts(duel(room=room))
+        assert with_starts(made) == made
+        for name in ("pursuer", "evader"):
+            own = duel(room=room, **{name: {"start": (0.1, 0.0, 0.0)}})
+            with pytest.raises(ConfigurationError, match=f"{name}: start"):
+                with_starts(own)
+
+
+def test_a_floor_without_a_free_place_is_told() -> None:
+    alone: dict[str, Any] = {
+        "players": [{"name": "solo"}],
+        "room": {"width": 1, "depth": 1},
+    }
+    alone["room"]["obstacles"] = [{"x": 0, "y": 0, "radius": 0.3}]
+    with pytest.raises(ConfigurationError, match="no such place"):
+        with_starts(read_game(alone))

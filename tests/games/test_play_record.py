@@ -6,7 +6,9 @@ from typing import Any
 
 import numpy as np
 import pytest
+from click.testing import CliRunner
 
+from stepaside.cli.main import main
 from stepaside.core.errors import ConfigurationError
 from stepaside.core.poses import Array, Pose, wrap_angle
 from stepaside.drivers.play_log import PlayLog, PlayTick, joint_row
@@ -120,6 +122,19 @@ def test_the_replayed_path_is_the_true_one_up_to_slip(
     assert off[:, 7:][:, coupled].max() < 1e-3  # a little play in physics
     assert np.delete(off[:, 7:], coupled, axis=1).max() < 1e-6
     assert off[:, 2].max() < 0.01
+
+
+@pytest.mark.parametrize(
+    "name", ["play.html", "play.png", "csv.csv", "u.urdf"]
+)
+def test_a_play_by_joints_is_shown(
+    walked: Walked, tmp_path: Path, name: str
+) -> None:
+    file = str(tmp_path / name)
+    words = ["show", str(walked.folder), "-o", file, "--no-open"]
+    shown = CliRunner().invoke(main, words)
+    assert shown.exit_code == 0, shown.output
+    assert (tmp_path / name).exists()
 
 
 def test_a_truncated_record_is_replayed_to_its_end(

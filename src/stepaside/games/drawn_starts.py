@@ -170,9 +170,10 @@ def _draw_place(
             continue
         if all(dist((x, y), place) >= least for place, least in keep):
             return float(x), float(y)
+    least = max((least for _, least in keep), default=0.0)
     raise ConfigurationError(
-        f"{what} must be at least {max(least for _, least in keep):g} [m] "
-        f"away from {len(keep)} places, and there is no such place"
+        f"{what} must be at least {least:g} [m] away from {len(keep)} places "
+        f"and {WALL_MARGIN:g} [m] from walls, and there is no such place"
     )
 
 

@@ -499,7 +499,12 @@ def read_game(
     changes = []
     for place, name, entry in tables:
         player = own.get(name) or PlayerSettings(name)
-        mine = nested({} if name in NOT_PLAYERS else left.pop(name, {}), entry)
+        given = {} if name in NOT_PLAYERS else left.pop(name, {})
+        if not isinstance(given, Mapping):
+            raise ConfigurationError(
+                f"{before}{name} must be a table, got {shown(given)}"
+            )
+        mine = nested(given, entry)
         used = USED_BY.get(mine.get("body", player.body), set(OF_ALL))
         common = {k: v for k, v in shared.items() if k in used}
         where = place if mine else source

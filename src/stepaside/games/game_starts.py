@@ -2,7 +2,7 @@
 
 from collections.abc import Mapping
 from dataclasses import replace
-from math import pi, radians
+from math import dist, pi, radians
 
 from .. import arena
 from ..core.errors import ConfigurationError
@@ -12,6 +12,7 @@ from .game_settings import GameSettings, StartSettings
 from .player_settings import PLAYERS
 
 SLOW_SPEED = 0.15  # up to which a person begins a duel nearby, in [m/s]
+SAME = 1e-6  # distance of equal poses, in [m] and [rad]
 LEAD_TIME = 5.0  # extra distance of a faster person over its speed, in [s]
 
 
@@ -34,19 +35,15 @@ def _with_start_of_duel(settings: GameSettings) -> GameSettings:
     """Return a duel with its start, and poses by it or by its room."""
     room, start = settings.room, settings.start
     if room is None:
-        if start.distance is None and settings.evader.start:
-            raise ConfigurationError(
-                "evader: start must be omitted in a duel, whose start is start"
-            )
-        start = draw_start(settings)
-        assert start.distance is not None
-        assert start.pursuer_offset is not None
-        assert start.evader_offset is not None
+        drawn = draw_start(settings)
+        assert drawn.distance is not None
+        assert drawn.pursuer_offset is not None
+        assert drawn.evader_offset is not None
         poses = (
-            Pose(0.0, 0.0, start.pursuer_offset),
-            Pose(start.distance, 0.0, pi + start.evader_offset),
+            Pose(0.0, 0.0, drawn.pursuer_offset),
+            Pose(drawn.distance, 0.0, pi + drawn.evader_offset),
         )
-        settings = replace(settings, start=start)
+        settings = replace(settings, start=drawn)
     else:
         for name in ("distance", "pursuer_offset", "evader_offset"):
             if getattr(start, name) is not None:
@@ -62,6 +59,13 @@ def _with_start_of_duel(settings: GameSettings) -> GameSettings:
         x, y, theta = poses[0]
         poses = Pose(x, y, theta - pi), poses[1]
     named = dict(zip(PLAYERS, poses, strict=True))
+    # Settings with nothing left open give a distance, or the poses of a room.
+    for each in settings.players if room or not start.distance else ():
+        if each.start and dist(each.start, named[each.name]) > SAME:
+            raise ConfigurationError(
+                f"{each.name}: start must be omitted in a duel, whose start "
+                "is start, or that of its room"
+            )
     return _placed(settings, named, {}).resolved()
 
 

@@ -151,6 +151,10 @@ class PlaySettings(RobotSettings):
         """Role of the opponent."""
         return PURSUER if self.role == EVADER else EVADER
 
+    def player(self, name: str) -> Self:
+        """Return the settings of a player's robot: both have the same."""
+        return self
+
     def resolved(self) -> Self:
         """Return the settings with nothing left open."""
         return self.resolved_as(self.role)

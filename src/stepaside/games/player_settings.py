@@ -132,7 +132,7 @@ class RobotSettings:
         fast = self.gait.is_fast
         if feedback is False and method in ("measured", "mpc"):
             raise ConfigurationError(
-                f"method {method!r} needs feedback = true, got false"
+                f"control.method {method!r} needs feedback = true, got false"
             )
         if feedback is None:  # plans from the measured state need it, too
             planned = method in (None, "closed-form")

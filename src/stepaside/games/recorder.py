@@ -172,7 +172,7 @@ class Recorder(GameObserver):
             if step.planning_time is not None
         )
         median, late = (
-            times[int(share * (len(times) - 1))] if times else None
+            times[round(share * (len(times) - 1))] if times else None
             for share in (0.5, 0.99)
         )
         return PlanningSummary(
