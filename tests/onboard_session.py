@@ -23,7 +23,7 @@ WITH_MUJOCO = [
     f"stepaside.robots.{name}"
     for name in (
         *("geom_points", "tree_compiler", "model_overlay"),
-        *("model_reader", "urdf_writer"),
+        *("model_reader", "outdated_model", "urdf_writer"),
     )
 ]
 

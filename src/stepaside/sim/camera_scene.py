@@ -8,7 +8,8 @@ import numpy as np
 from ..robots.description import load_robot
 from ..robots.head import HeadDescription, load_head
 from .camera_settings import SceneSettings
-from .floor import add_geom, add_tiles
+from .floor import add_tiles
+from .solid_geoms import add_geom
 
 HIDDEN = 3  # geom group that only the cameras of robots render
 HALF_WALL_HEIGHT = 1.2  # in [m]

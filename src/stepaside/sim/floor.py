@@ -1,8 +1,7 @@
-"""Floor of the simulated world, and geoms that rest on it."""
+"""Floor of the simulated world."""
 
 from collections.abc import Sequence
 from math import cos, sin
-from typing import Any
 
 import mujoco
 import numpy as np
@@ -10,9 +9,6 @@ import numpy as np
 from .physics_settings import PhysicsSettings
 
 FLOOR_BIT = 1  # contact type of floor, walls and obstacles
-HALF_SIDE = 4.0  # of an uneven floor, in [m]
-GRAIN = 0.1  # spacing of independent heights of an uneven floor, in [m]
-CELLS = 2  # grid cells per grain
 TONES = (0.86, 0.86, 0.84), (0.80, 0.80, 0.78)
 
 
@@ -22,30 +18,6 @@ def tilt_gravity(spec: mujoco.MjSpec, physics: PhysicsSettings) -> None:
     g = float(np.linalg.norm(spec.option.gravity))
     down = physics.slope_direction
     spec.option.gravity = [g * s * cos(down), g * s * sin(down), -g * c]
-
-
-def add_geom(
-    body: mujoco.MjsBody,
-    kind: str,
-    size: Sequence[float],
-    colour: Sequence[float],
-    *,
-    at: Sequence[float] = (0.0, 0.0, 0.0),
-    yaw: float = 0.0,
-    bit: int = FLOOR_BIT,
-    **more: Any,
-) -> None:
-    """Add a geom, with sizes as in MuJoCo [m] and a yaw [rad] in its body."""
-    body.add_geom(
-        type=getattr(mujoco.mjtGeom, f"mjGEOM_{kind}"),
-        size=[*size, *(0.0,) * (3 - len(size))],
-        rgba=list(colour),
-        pos=list(at),
-        quat=[cos(0.5 * yaw), 0.0, 0.0, sin(0.5 * yaw)],
-        contype=bit,
-        conaffinity=0,
-        **more,
-    )
 
 
 def add_tiles(
@@ -93,7 +65,9 @@ def add_floor(
     )
     uneven = physics.unevenness > 0.0
     if uneven:
-        _add_heights(spec, physics.unevenness, generator)
+        from .uneven_floor import add_heights
+
+        add_heights(spec, physics.unevenness, generator)
     spec.worldbody.add_geom(
         name="floor",
         type=(
@@ -113,22 +87,4 @@ def add_floor(
         dir=[0.2, 0.3, -1],
         type=mujoco.mjtLightType.mjLIGHT_DIRECTIONAL,
         castshadow=True,
-    )
-
-
-def _add_heights(
-    spec: mujoco.MjSpec, unevenness: float, generator: np.random.Generator
-) -> None:
-    """Add a height field, random at every grain and linear in between."""
-    from scipy.ndimage import zoom  # slow to import, rarely needed
-
-    grains = round(2.0 * HALF_SIDE / GRAIN) + 1
-    coarse = generator.uniform(0.0, 1.0, (grains, grains))
-    heights = np.clip(zoom(coarse, CELLS, order=1), 0.0, 1.0)
-    spec.add_hfield(
-        name="floor",
-        size=[HALF_SIDE, HALF_SIDE, unevenness, 0.1],
-        nrow=heights.shape[0],
-        ncol=heights.shape[1],
-        userdata=heights.astype(np.float32).ravel().tolist(),
     )

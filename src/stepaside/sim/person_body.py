@@ -7,8 +7,9 @@ import mujoco
 from ..core.player_identity import Colour
 from ..core.poses import Pose
 from ..core.rotations import quaternion_of
-from .floor import FLOOR_BIT, add_geom
+from .floor import FLOOR_BIT
 from .ground_truth import FloorTruth
+from .solid_geoms import add_geom
 from .world import COLOURS, CONTACT_BITS, World
 
 SKIN = (0.85, 0.68, 0.56, 1.0)

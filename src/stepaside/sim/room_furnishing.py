@@ -6,7 +6,7 @@ import mujoco
 import numpy as np
 
 from ..arena import Box, Disc, Obstacle, Room
-from .floor import add_geom
+from .solid_geoms import add_geom
 
 HEIGHT = 0.6  # of all obstacles, a little above a NAO's head, in [m]
 GREY = (0.54, 0.56, 0.60, 1.0)
