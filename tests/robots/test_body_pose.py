@@ -13,6 +13,7 @@ from stepaside.robots.description import load_robot
 from stepaside.robots.description_types import FOOT_FORCES
 from stepaside.robots.forward_kinematics import ForwardKinematics
 from stepaside.robots.head import load_head
+from stepaside.robots.tree_compiler import coupled_joints
 
 NAO = load_robot("nao")
 TILT, HEADING = (0.06, -0.11), 2.7  # roll and pitch; yaw, in [rad]
@@ -44,7 +45,7 @@ def bent() -> tuple[mujoco.MjModel, mujoco.MjData, Array]:
         low, high = model.joint(name).range
         angles[i] = low + (high - low) * generator.uniform(0.3, 0.7)
         data.joint(name).qpos[0] = angles[i]
-    for follower, leader in NAO.coupled_joints(model).items():
+    for follower, leader in coupled_joints(model, "nao").items():
         data.joint(follower).qpos[0] = data.joint(leader).qpos[0]
     mujoco.mj_forward(model, data)
     return model, data, angles

@@ -12,6 +12,7 @@ from stepaside.robots.description import load_robot
 from stepaside.robots.joint_loads import LegLoads
 from stepaside.robots.leg_kinematics import BodyReference, LegKinematics
 from stepaside.robots.tree_cache import load_tree
+from stepaside.robots.tree_compiler import coupled_joints
 
 NAO = load_robot("nao")
 GAIT = GaitSettings()
@@ -89,7 +90,7 @@ def by_mujoco(
     found = []
     for name in load_tree(NAO).motors:
         total = borne[model.joint(name).dofadr[0]]
-        for follower, leader in NAO.coupled_joints(model).items():
+        for follower, leader in coupled_joints(model, "nao").items():
             if leader == name:
                 total += borne[model.joint(follower).dofadr[0]]
         found.append(total if name in NAO.legs else 0.0)

@@ -82,6 +82,8 @@ def show(name: str, mjcf: bool, stores: bool, as_json: bool) -> None:
 
         echo(f"wrote {store_tree(description)}", err=True)
         return
+    from ..robots.tree_compiler import coupled_joints
+
     model = description.compile()
     facts = {
         "name": description.name,
@@ -89,7 +91,7 @@ def show(name: str, mjcf: bool, stores: bool, as_json: bool) -> None:
         "links": int(model.nbody - 1),
         "hinges": int(model.njnt - 1),
         "motors": int(model.nu),
-        "coupled": description.coupled_joints(model),
+        "coupled": coupled_joints(model, description.name),
         "folder": str(description.folder),
     }
     print_json(facts) if as_json else print_table(result_rows(facts))

@@ -19,7 +19,6 @@ from ..sim.body_settings import BODIES, BodySettings
 from ..sim.camera_settings import CameraSettings, LidarSettings, SceneSettings
 from ..sim.physics_settings import PhysicsSettings
 from ..sim.push import MOST_PUSHES, Push
-from ..strategies.registry import OF_EVASION
 from .player_settings import (
     EVADER,
     EVASION,
@@ -228,17 +227,6 @@ class GameSettings:
         """Return the settings of the player with a name."""
         return {p.name: p for p in self.players}[name]
 
-    def people_around(self, own: PlayerSettings) -> dict[str, bool]:
-        """Return all people by name, and whether they walk with a player.
-
-        People who share a named team walk as a group.
-        """
-        return {
-            p.name: p.team == own.team != "" and p is not own
-            for p in self.players
-            if p.body == "person"
-        }
-
     @property
     def names(self) -> tuple[str, ...]:
         """Names of the players, in the order in which they act."""
@@ -295,18 +283,6 @@ class GameSettings:
         """
         names = [own.target] if own.target else [*self.opponents_of(own.name)]
         return [self.player(name) for name in names]
-
-    @property
-    def safety_radii(self) -> dict[str, float]:
-        """Safety radius of each player that has one, in [m], by name.
-
-        They belong to the paper's evasion strategy and its variants.
-        """
-        return {
-            p.name: p.evasion.area
-            for p in self.resolved().players
-            if p.decides and p.strategy in OF_EVASION
-        }
 
     @property
     def maps_room(self) -> bool:

@@ -71,7 +71,12 @@ def walk_of(
         target = _target_of(settings, own)
         walk = walk_on_path(settings, own)
         return FloorPerson(walk, lambda seen: seen[target][:2], period)
-    people = settings.people_around(own)
+    # Whether they walk with it: who shares a named team is a group.
+    people = {
+        p.name: p.team == own.team != "" and p is not own
+        for p in settings.players
+        if p.body == "person"
+    }
     bodies = {
         p.name: (p.name in people, p.radius, people.get(p.name, False))
         for p in settings.players

@@ -11,11 +11,13 @@ import mujoco
 import numpy as np
 
 from ..core.poses import Array
+from ..games.game_settings import GameSettings
 from ..games.player_settings import EVADER
 from ..games.run import Run
 from ..planning import Foot, SoleRectangle
 from ..planning.plan import sole_corners
 from ..robots.description import load_robot
+from ..strategies.registry import OF_EVASION
 from .palette import PALETTES
 
 
@@ -196,10 +198,21 @@ def circle_of(run: Run) -> tuple[float, float, float] | None:
 def safety_areas(run: Run) -> dict[str, float]:
     """Return the radius of each player's safety area, in [m], by name."""
     settings = run.settings
-    radii = getattr(settings, "safety_radii", {})
-    if getattr(settings, "role", "") == EVADER:
-        radii = {EVADER: settings.evasion.area}
-    return {name: r for name, r in radii.items() if isfinite(r)}
+    if isinstance(settings, GameSettings):
+        return safety_radii(settings)
+    if getattr(settings, "role", "") != EVADER:
+        return {}
+    radius = settings.evasion.area
+    return {EVADER: radius} if isfinite(radius) else {}
+
+
+def safety_radii(settings: GameSettings) -> dict[str, float]:
+    """Return finite safety radii of the paper's evaders, in [m], by name."""
+    return {
+        p.name: p.evasion.area
+        for p in settings.resolved().players
+        if p.decides and p.strategy in OF_EVASION and isfinite(p.evasion.area)
+    }
 
 
 def overlays_of(run: Run, every: int = 1) -> list[SceneLines]:

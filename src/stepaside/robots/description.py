@@ -221,25 +221,6 @@ class RobotDescription:
             motors.add(joint)
         return motors
 
-    def coupled_joints(self, model: mujoco.MjModel) -> dict[str, str]:
-        """Return the joints that share a motor, as follower to leader."""
-        import mujoco
-
-        coupled = {}
-        for i in range(model.neq):
-            if model.eq_type[i] != mujoco.mjtEq.mjEQ_JOINT:
-                continue
-            follower = model.joint(model.eq_obj1id[i]).name
-            leader = model.joint(model.eq_obj2id[i]).name
-            if model.eq_data[i, :5].tolist() != [0.0, 1.0, 0.0, 0.0, 0.0]:
-                raise ModelError(
-                    f"joints {follower} and {leader} of {self.name} must be "
-                    "coupled with polycoef 0 1 0 0 0, "
-                    f"got {model.eq_data[i, :5].tolist()}"
-                )
-            coupled[follower] = leader
-        return coupled
-
     def check(
         self,
         bodies: Collection[str],

@@ -10,7 +10,7 @@ from ..core.errors import ModelError, ReachError
 from ..core.poses import Array
 from ..core.rotations import quaternion_of
 from .description import RobotDescription
-from .joint_tree import joint_tree, place_frames
+from .joint_tree import joint_tree
 from .newton_step import (
     BASE,
     FIXED_ROWS,
@@ -28,9 +28,6 @@ STAND_STEP = 0.3  # joint motion per iteration while standing, in [rad]
 ITERATIONS = 60  # of a standing posture
 TOLERANCE = 1e-4  # residual at which a posture counts as reached
 GREATEST_ERROR = 0.5  # residual that is refused, in [m] or [rad]
-# Search of CoM heights: relative step before bisection, resolution of the ends
-# [m], and least height that is tried, relative to the standing angles.
-HEIGHT_STEP, RESOLUTION, LEAST_HEIGHT = 0.05, 2e-4, 0.1
 ROWS = (
     *(f"left foot {c}" for c in ("x", "y", "z", "roll", "pitch", "yaw")),
     *(f"right foot {c}" for c in ("x", "y", "z", "roll", "pitch", "yaw")),
@@ -85,7 +82,7 @@ class LegKinematics:
         self._moved, self._still = columns, fixed
         self._columns = np.array([columns.get(x, -1) for x in motors])
         self._fixed = np.array([fixed.get(x, 0.0) for x in motors])
-        self._standing = np.array([standing.get(x, 0.0) for x in free], float)
+        self.standing = np.array([standing.get(x, 0.0) for x in free], float)
         limits = []
         for name in free:
             link, own = tree.links[tree.link_of(name)], speeds[name]
@@ -97,7 +94,7 @@ class LegKinematics:
         self._stand_limits[:, 3] = STAND_STEP
         n = len(free)
         self.state = np.zeros(n + STATE)
-        self.state[:n] = self._standing
+        self.state[:n] = self.standing
         # Legs with independent hip yaws have one more unknown than the other
         # rows: the torso heading is a row then.
         self.error = np.zeros(FIXED_ROWS + (n + BASE > FIXED_ROWS))
@@ -158,10 +155,12 @@ class LegKinematics:
         Raises:
             ReachError: If the legs cannot reach it; names the worst row.
         """
-        state, self.error[:] = self._posture_of(reference)
+        state, self.error[:] = self.posture_of(reference)
         if state is None:
             worst = int(np.argmax(np.abs(self.error)))
-            least, greatest = self.com_heights(reference)
+            from .com_heights import com_heights
+
+            least, greatest = com_heights(self, reference)
             heights = f"{least:.3f} m to {greatest:.3f} m"
             if greatest == 0.0:
                 heights = "no height at all"
@@ -175,44 +174,13 @@ class LegKinematics:
         self.state = state
         return self.joint_targets
 
-    def com_heights(self, reference: BodyReference) -> tuple[float, float]:
-        """Return least and greatest CoM height [m] over the feet, or zeros."""
-        x, y, _ = reference.com
-
-        def reaches(height: float) -> bool:
-            asked = reference._replace(com=(x, y, height))
-            return self._posture_of(asked)[0] is not None
-
-        # Height of the CoM over the soles at the standing angles.
-        com, soles, axes = np.empty(3), np.empty((2, 3)), np.empty((2, 3, 3))
-        place_frames(self.links, self._standing, com, soles, axes)
-        natural = float(com[2] - soles[:, 2].max())
-        begin = natural
-        while not reaches(begin):
-            begin *= 1.0 - HEIGHT_STEP
-            if begin < LEAST_HEIGHT * natural:
-                return 0.0, 0.0
-        ends = []
-        for factor in (1.0 - HEIGHT_STEP, 1.0 + HEIGHT_STEP):
-            inside, outside = begin, factor * begin
-            while reaches(outside) and outside > LEAST_HEIGHT * natural:
-                inside, outside = outside, factor * outside
-            while abs(outside - inside) > RESOLUTION:
-                middle = 0.5 * (inside + outside)
-                if reaches(middle):
-                    inside = middle
-                else:
-                    outside = middle
-            ends.append(inside)
-        return ends[0], ends[1]
-
-    def _posture_of(
+    def posture_of(
         self, reference: BodyReference
     ) -> tuple[Array | None, Array]:
         """Return state, None if out of reach, and residuals of a posture."""
         n, lean = len(self.free), self.description.lean
         states, errors = np.zeros((2, n + STATE)), np.empty_like(self.error)
-        states[1, :n] = self._standing
+        states[1, :n] = self.standing
         states[1, n : n + BASE] = *reference.com, reference.heading
         row = np.array([reference.row()], dtype=np.float64)
         for _ in range(ITERATIONS):

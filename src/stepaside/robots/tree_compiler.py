@@ -84,7 +84,7 @@ def compile_tree(description: RobotDescription) -> RobotTree:
         },
         tuple(model.joint(i).name for i in model.actuator_trnid[:, 0]),
         tuple(_servo(model, i) for i in range(model.nu)),
-        description.coupled_joints(model),
+        coupled_joints(model, description.name),
         _size_of(model, description),
     )
 
@@ -146,3 +146,21 @@ def _clean(numbers: Array) -> Triple:
     """Round to remove the noise of rotations."""
     x, y, z = (np.round(numbers, DECIMALS) + 0.0).tolist()
     return x, y, z
+
+
+def coupled_joints(model: mujoco.MjModel, robot: str) -> dict[str, str]:
+    """Return the joints that share a motor, as follower to leader."""
+    coupled = {}
+    for i in range(model.neq):
+        if model.eq_type[i] != mujoco.mjtEq.mjEQ_JOINT:
+            continue
+        follower = model.joint(model.eq_obj1id[i]).name
+        leader = model.joint(model.eq_obj2id[i]).name
+        if model.eq_data[i, :5].tolist() != [0.0, 1.0, 0.0, 0.0, 0.0]:
+            raise ModelError(
+                f"joints {follower} and {leader} of {robot} must be coupled "
+                "with polycoef 0 1 0 0 0, "
+                f"got {model.eq_data[i, :5].tolist()}"
+            )
+        coupled[follower] = leader
+    return coupled

@@ -18,6 +18,7 @@ from ..overlays import (
     line_of_sight,
     polyline,
     push_arrows,
+    safety_radii,
     safety_ring,
     soles,
     theory_ring,
@@ -46,9 +47,8 @@ def live_overlays(session: LiveSession) -> list[SceneLines]:
             found.append(push_arrows(name, pushes.reshape(-1, 6)))
     for (layer, name), points in session.history.traces.items():
         found.append(SceneLines(layer, name, polyline(np.array(points))))
-    for name, radius in session.played.safety_radii.items():
-        if np.isfinite(radius):
-            found.append(safety_ring(name, radius))
+    for name, radius in safety_radii(session.played).items():
+        found.append(safety_ring(name, radius))
     found += [line_of_sight(*pair) for pair in session.opponents]
     return found + circle_through(session, places)
 
