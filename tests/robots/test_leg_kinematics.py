@@ -8,7 +8,6 @@ import pytest
 
 from stepaside.core.poses import Array
 from stepaside.core.rotations import rotation
-from stepaside.robots.com_heights import com_heights
 from stepaside.robots.description import load_robot
 from stepaside.robots.leg_kinematics import ROWS, BodyReference, LegKinematics
 
@@ -158,7 +157,7 @@ def test_joint_limits_hold_in_every_stance() -> None:
     """Room to a limit in one posture is none in the next."""
     kinematics = LegKinematics(NAO, tick=TICK)
     x, y, _ = STANCE.com
-    _, high = com_heights(kinematics, STANCE)
+    _, high = kinematics.com_heights(STANCE)
     kinematics.stand(STANCE)
     for _ in range(5):
         kinematics.track(STANCE)
@@ -171,7 +170,7 @@ def test_joint_limits_hold_in_every_stance() -> None:
 def test_the_range_of_heights_moves_nothing() -> None:
     kinematics = LegKinematics(NAO, tick=TICK)
     before = kinematics.stand(STANCE)
-    lowest, highest = com_heights(kinematics, STANCE)
+    lowest, highest = kinematics.com_heights(STANCE)
     assert lowest < STANCE.com[2] < highest
     np.testing.assert_array_equal(kinematics.joint_targets, before)
     np.testing.assert_allclose(kinematics.track(STANCE), before, atol=1e-5)

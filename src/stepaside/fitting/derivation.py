@@ -12,7 +12,6 @@ import numpy as np
 from ..core.errors import ModelError, ReachError
 from ..games.player_settings import settings_from_description
 from ..planning import GaitSettings
-from ..robots.com_heights import com_heights
 from ..robots.description import RobotDescription
 from ..robots.description_types import (
     Overlay,
@@ -229,7 +228,7 @@ def _reachable_heights(
         (forward, 0.0, 1.0), (0.0, half, 0.0, 0.0), (0.0, -half, 0.0, 0.0)
     )
     kinematics = LegKinematics(description, tick=TICK)
-    lowest, highest = com_heights(kinematics, stance)
+    lowest, highest = kinematics.com_heights(stance)
     if highest == 0.0:
         try:
             kinematics.stand(stance)

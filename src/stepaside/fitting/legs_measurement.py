@@ -12,8 +12,9 @@ import numpy as np
 from ..core.errors import PolicyError
 from ..core.poses import Array, Pose
 from ..core.random_streams import named_generator
-from ..games.physics_world import RobotSetup, policy_physics
+from ..games.physics_world import RobotSetup
 from ..games.player_settings import PlayerSettings
+from ..games.policy_physics import policy_physics
 from ..locomotion.control_settings import LegsSettings
 from ..locomotion.policy.contract import CommandRanges
 from ..locomotion.policy.policy_legs import PolicyLegs, load_policy
@@ -101,7 +102,8 @@ def _walk(
     gait = GaitSettings(zmp_forward=0.0)
     own = PlayerSettings("robot", gait=gait, legs=trial.legs)
     setup = RobotSetup(own, description, seed=trial.seed)
-    physics = policy_physics(PhysicsSettings(), trial.body, [setup])
+    walked = [(trial.legs, description)]
+    physics = policy_physics(PhysicsSettings(), trial.body, walked)
     setup = setup._replace(body=at_tick(trial.body, physics.tick))
     world = World({"robot": description}, physics, trial.body, trial.seed)
     legs = PolicyLegs(

@@ -17,7 +17,6 @@ from ..games.player_settings import settings_from_description
 from ..games.recorded_game import RecordedGame
 from ..locomotion.control_settings import ControlSettings
 from ..locomotion.zmp.reference_table import initial_stance
-from ..robots.com_heights import com_heights
 from ..robots.description import FILE, REMEDY, RobotDescription
 from ..robots.forward_kinematics import ForwardKinematics
 from ..robots.leg_kinematics import LegKinematics
@@ -310,7 +309,7 @@ def _reach(description: RobotDescription) -> Finding:
     stance = initial_stance(gait)
     legs = LegKinematics(description, tick=TICK)
     legs.stand(stance)
-    _, highest = com_heights(legs, stance)
+    _, highest = legs.com_heights(stance)
     far = highest - gait.com_height >= LEAST_REACH_MARGIN * highest
     return f"CoM at {gait.com_height:.3f} of {highest:.3f} m", far
 

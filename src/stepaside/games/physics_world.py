@@ -1,6 +1,6 @@
 """World of a game in physics, with its players."""
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Mapping
 from dataclasses import is_dataclass, replace
 from functools import partial
 from itertools import combinations
@@ -169,30 +169,6 @@ def with_body_radius(strategy: Strategy, setup: RobotSetup) -> Strategy:
         return strategy
     enlarged: Strategy = replace(strategy, body_radius=radius)
     return enlarged
-
-
-def policy_physics(
-    physics: PhysicsSettings, body: BodySettings, robots: Iterable[RobotSetup]
-) -> PhysicsSettings:
-    """Return physics settings whose tick is the period of the policies.
-
-    With an ideal body nothing happens between two evaluations of a policy:
-    the actuators apply its gains at every time step. One with delays or
-    sensor errors keeps its tick.
-    """
-    from ..locomotion.policy.policy_legs import load_policy
-
-    if body.has_sensor_errors or not body.has_ideal_servos:
-        return physics
-    periods = {
-        load_policy(r.own.legs, r.description)[0].period for r in robots
-    }
-    if len(periods) != 1:
-        return physics
-    steps = periods.pop() / physics.time_step
-    if round(steps) < 1 or abs(steps - round(steps)) > 1e-6:
-        return physics
-    return replace(physics, tick=round(steps) * physics.time_step)
 
 
 class PhysicsWorld(World):
@@ -510,4 +486,7 @@ def _physics_of(
         return replace(settings.physics, tick=cycle or settings.physics.tick)
     if settings.sensing_by("cameras") or not all(walking):
         return settings.physics  # heads move between decisions of the policy
-    return policy_physics(settings.physics, settings.body, setups.values())
+    from .policy_physics import policy_physics
+
+    legs = [(each.own.legs, each.description) for each in setups.values()]
+    return policy_physics(settings.physics, settings.body, legs)

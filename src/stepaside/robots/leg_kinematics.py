@@ -10,7 +10,7 @@ from ..core.errors import ModelError, ReachError
 from ..core.poses import Array
 from ..core.rotations import quaternion_of
 from .description import RobotDescription
-from .joint_tree import joint_tree
+from .joint_tree import joint_tree, place_frames
 from .newton_step import (
     BASE,
     FIXED_ROWS,
@@ -82,7 +82,7 @@ class LegKinematics:
         self._moved, self._still = columns, fixed
         self._columns = np.array([columns.get(x, -1) for x in motors])
         self._fixed = np.array([fixed.get(x, 0.0) for x in motors])
-        self.standing = np.array([standing.get(x, 0.0) for x in free], float)
+        self._standing = np.array([standing.get(x, 0.0) for x in free], float)
         limits = []
         for name in free:
             link, own = tree.links[tree.link_of(name)], speeds[name]
@@ -94,7 +94,7 @@ class LegKinematics:
         self._stand_limits[:, 3] = STAND_STEP
         n = len(free)
         self.state = np.zeros(n + STATE)
-        self.state[:n] = self.standing
+        self.state[:n] = self._standing
         # Legs with independent hip yaws have one more unknown than the other
         # rows: the torso heading is a row then.
         self.error = np.zeros(FIXED_ROWS + (n + BASE > FIXED_ROWS))
@@ -155,12 +155,10 @@ class LegKinematics:
         Raises:
             ReachError: If the legs cannot reach it; names the worst row.
         """
-        state, self.error[:] = self.posture_of(reference)
+        state, self.error[:] = self._posture_of(reference)
         if state is None:
             worst = int(np.argmax(np.abs(self.error)))
-            from .com_heights import com_heights
-
-            least, greatest = com_heights(self, reference)
+            least, greatest = self.com_heights(reference)
             heights = f"{least:.3f} m to {greatest:.3f} m"
             if greatest == 0.0:
                 heights = "no height at all"
@@ -174,13 +172,28 @@ class LegKinematics:
         self.state = state
         return self.joint_targets
 
-    def posture_of(
+    def com_heights(self, reference: BodyReference) -> tuple[float, float]:
+        """Return least and greatest CoM height [m] over the feet, or zeros."""
+        from .com_heights import search_heights
+
+        x, y, _ = reference.com
+        com, soles, axes = np.empty(3), np.empty((2, 3)), np.empty((2, 3, 3))
+        place_frames(self.links, self._standing, com, soles, axes)
+        return search_heights(
+            lambda z: (
+                self._posture_of(reference._replace(com=(x, y, z)))[0]
+                is not None
+            ),
+            float(com[2] - soles[:, 2].max()),
+        )
+
+    def _posture_of(
         self, reference: BodyReference
     ) -> tuple[Array | None, Array]:
         """Return state, None if out of reach, and residuals of a posture."""
         n, lean = len(self.free), self.description.lean
         states, errors = np.zeros((2, n + STATE)), np.empty_like(self.error)
-        states[1, :n] = self.standing
+        states[1, :n] = self._standing
         states[1, n : n + BASE] = *reference.com, reference.heading
         row = np.array([reference.row()], dtype=np.float64)
         for _ in range(ITERATIONS):
