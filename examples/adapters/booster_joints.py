@@ -1,6 +1,6 @@
-"""Booster K1 driven by its joints, for ``stepaside play --robot``.
+"""Booster K1 driven by its joints, for ``stepaside play``.
 
-A walking policy moves the legs (``--legs``). Needs ``pip install
+A walking policy moves the legs (``legs.network``). Needs ``pip install
 booster-robotics-sdk-python``, and a description of the K1 with joints in the
 names below. Not tested on a robot: hang it up first.
 """

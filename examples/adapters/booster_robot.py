@@ -1,4 +1,4 @@
-"""Booster T1 or K1 in its walking mode, for ``stepaside play --robot``.
+"""Booster T1 or K1 in its walking mode, for ``stepaside play``.
 
 Needs ``pip install booster-robotics-sdk-python``. Not tested on a robot.
 """

@@ -1,7 +1,7 @@
-"""Unitree G1 in its walking mode, for ``stepaside play --robot``.
+"""Unitree G1 in its walking mode, for ``stepaside play``.
 
 Needs ``unitree_sdk2py``, which pins CycloneDDS 0.10: install it in an
-environment of its own, without the extra ``ros2``. For an H1 replace ``g1``
+environment of its own, without the extra ``robot``. For an H1 replace ``g1``
 by ``h1``. Not tested on a robot.
 """
 

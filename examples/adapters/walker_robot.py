@@ -1,4 +1,4 @@
-"""Robot of ``walker_sdk``, for ``stepaside play --robot``."""
+"""Robot of ``walker_sdk``, for ``stepaside play``."""
 
 import os
 
