@@ -41,21 +41,23 @@ def test_inertias_in_wrong_units_are_replaced_by_typical_ones(
     """One of masses 20 m away tells that those of 0.3 m are wrong, too."""
 
     def model(worst: float) -> mujoco.MjSpec:
-        rows = [how.format(moment) for moment in (worst, 0.1, 1e-4)]
+        rows = [how.format(moment) for moment in (worst, 0.1, 0.1, 1e-4)]
         return mujoco.MjSpec.from_string(
             "<mujoco><worldbody><body name='torso'><freejoint/>"
             f"<inertial mass='1' pos='0 0 0' {rows[0]}/>"
-            "<body name='thigh' pos='0 0 -0.1'><joint name='hip'/>"
+            "<body name='hip' pos='0 0 -0.1'><joint name='roll'/>"
             f"<inertial mass='1' pos='0 0 0' {rows[1]}/>"
-            "<body name='shank' pos='0 0 -0.2'><joint name='knee'/>"
+            "<body name='thigh'><joint name='pitch'/>"
             f"<inertial mass='1' pos='0 0 0' {rows[2]}/>"
-            "</body></body></body></worldbody></mujoco>"
+            "<body name='shank' pos='0 0 -0.2'><joint name='knee'/>"
+            f"<inertial mass='1' pos='0 0 0' {rows[3]}/>"
+            "</body></body></body></body></worldbody></mujoco>"
         )
 
     spec = model(400.0)
     repair_inertias(spec)
     moments = spec.compile().body_inertia[1:, 0]
-    np.testing.assert_allclose(moments, [0.0016, 0.0064, 1e-4])
+    np.testing.assert_allclose(moments, [0.0016, 0.0016, 0.0064, 1e-4])
     spec = model(0.3)  # large for such a robot, but who knows
     repair_inertias(spec)
     np.testing.assert_allclose(spec.compile().body_inertia[2], 0.1)

@@ -354,9 +354,11 @@ def _shrink_inertias(spec: mujoco.MjSpec) -> None:
     longest = 0.0
     for body in spec.bodies:  # parents come before their children
         above = body.parent.name if body.parent else ""
-        # To the farthest child; for a tip as long as the link above it.
+        # To the farthest child; for a tip, or a link of crossing axes, as long
+        # as the link above it.
         below = [float(np.linalg.norm(child.pos)) for child in body.bodies]
-        lengths[body.name] = max(below, default=lengths.get(above, 0.0))
+        own = max(below, default=0.0)
+        lengths[body.name] = own or lengths.get(above, 0.0)
         if above in depths:
             depths[body.name] = depths[above] + float(np.linalg.norm(body.pos))
             longest = max(longest, depths[body.name])

@@ -244,7 +244,7 @@ class DashEvasion(BackwardStrategy, CheckedSettings):
         1.8,
         "A standing robot begins if the opponent could be nearer than the "
         "clearance within this time",
-        TIME,
+        Range(0.0, MOST, "s", "a time ahead", above=True),
     )
     effort: float = setting(
         EFFORT, "Gain for which a robot walks instead of standing", GAIN
