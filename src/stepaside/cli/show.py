@@ -311,4 +311,5 @@ def _print(
             left=(0, 1),
         )
     for path, entry in written.items():
-        echo(f"{visible(path)} ({entry['bytes'] / 1e6:.2f} MB)")
+        folder = "/" * Path(path).is_dir()
+        echo(f"{visible(path)}{folder} ({entry['bytes'] / 1e6:.2f} MB)")

@@ -157,7 +157,8 @@ def print_run(run: "Run", more: dict[str, int] | None = None) -> None:
         begin = 2.0 / 3.0 * run.duration
         if since is not None and since > begin:
             rows.append(("means", f"measured from {begin:.1f} s on"))
-        rows.append(("expected", theory["words"] or "-"))
+        if words := theory["words"]:
+            rows.append(("expected", words))
     radii = {
         "pursuer": {"radius_m": theory.get("radius_pursuer_m")},
         "evader": {"radius_m": theory.get("radius_m")},

@@ -66,7 +66,7 @@ class ProgressLine:
             words = [f"{100.0 * done / total:.0f} %"]
             if self._unit:
                 words.append(f"{done:.0f} of {total:.0f} {self._unit}")
-            if done > reused:
+            if done - reused > 0.01 * total:
                 rest = (total - done) * elapsed / (done - reused)
                 times.append(f"about {rest:.0f} s left")
         words += [text] if text else []

@@ -188,6 +188,11 @@ class GameSettings:
                     f"push player must be one of {', '.join(robots)}, got "
                     f"{push.player!r}"
                 )
+            if push.time >= self.duration:
+                raise ConfigurationError(
+                    "push time must be less than the duration, "
+                    f"{self.duration:g} [s], got {push.time:g}"
+                )
         check_senses(self)
         tick, step = self.physics.tick, self.physics.time_step
         if tick < 0.5 * step or abs(tick / step - round(tick / step)) > 1e-9:

@@ -82,10 +82,12 @@ def _draw_curve(axis: Any, curve: Curve, colour: str, marker: str) -> None:
         return
     at, middle, below, above = zip(*points, strict=True)
     axis.errorbar(at, middle, (below, above), capsize=3, **look)
+    if isinstance(at[0], str):
+        axis.margins(x=0.5 / max(len(at) - 1, 1))
 
 
 def draw_study(rows: Rows, by: Sequence[str], path: AnyPath) -> None:
-    """Draw means or shares with 95 % intervals.
+    """Draw means, or shares of true or of the first text, with intervals.
 
     The axis is the first numeric value of ``by``, else the last one; there
     is a line for each combination of the others. Rows are those of
@@ -95,28 +97,36 @@ def draw_study(rows: Rows, by: Sequence[str], path: AnyPath) -> None:
     numeric = [n for n in by if isinstance(rows[0][n], int | float)]
     axis = (numeric or list(by[-1:]) or ["number"])[0]
     lines: dict[str, list[tuple[Any, float, float, float]]] = {}
+    found = [row[value] for row in rows if row[value]]
+    shares = any("mean" not in each for each in found)
+    text = next(iter(found[0])) if shares and "share" not in found[0] else ""
     for row in rows:
         name = ", ".join(str(row[n]) for n in by if n != axis)
-        if (point := _point(value, row[value])) is not None:
+        if (point := _point(value, row, text)) is not None:
             at = in_unit(axis, row[axis]) if numeric else str(row[axis])
             lines.setdefault(name, []).append((at, *point))
     look = {} if numeric else {"ls": "none"}
     curves = [Curve(name, points, look) for name, points in lines.items()]
-    shares = any(row[value] and "mean" not in row[value] for row in rows)
-    y = f"{label_of(value)} [%]" if shares else label_of(value, unit=True)
+    share = f"{text or label_of(value)} [%]"
+    y = share if shares else label_of(value, unit=True)
     x = label_of(axis, unit=True)
-    draw_curves({"": curves}, x, y, path, size=(5.4, 3.0))
+    names = "" if numeric else "".join({str(row[axis]) for row in rows})
+    size = max(5.4, 0.09 * len(names)), 3.0  # names stand side by side
+    draw_curves({"": curves}, x, y, path, size=size)
 
 
-def _point(name: str, found: Any) -> tuple[float, float, float] | None:
-    """Return the middle and both ends of the interval of a value."""
-    if found is None:
+def _point(
+    name: str, row: Mapping[str, Any], text: str
+) -> tuple[float, float, float] | None:
+    """Return the middle of a value, and how far its interval extends."""
+    if (found := row[name]) is None:
         return None
     if "mean" in found:
         mean, half = (in_unit(name, found[key]) for key in ("mean", "half"))
         return mean, half, half
-    if "share" not in found:  # of a text: the share of its first value
-        found = next(iter(found.values()))
+    if text:
+        none = 3.8415 / (row["number"] + 3.8415)  # Wilson's, for no record
+        found = found.get(text, {"share": 0.0, "low": 0.0, "high": none})
     share, low, high = (100.0 * found[n] for n in ("share", "low", "high"))
     return share, share - low, high - share
 
