@@ -11,6 +11,7 @@ import pytest
 import stepaside as sa
 from flows.calls import stepaside
 from legs_robot import nao_on_legs
+from stepaside.fitting.robot_verification import PATHS, walk_trial
 from stepaside.games.game import play
 from stepaside.games.game_settings import read_game
 from stepaside.robots.description import load_robot
@@ -151,3 +152,13 @@ def test_velocities_of_a_hardware_body_are_those_of_its_encoders(
     steps = read.joint_velocities * tick / step
     np.testing.assert_allclose(steps, np.rint(steps), atol=1e-6)
     assert not np.isin(read.joint_velocities, duel.in_physics.data.qvel).all()
+
+
+def test_walks_of_a_check_are_planned_on_learned_legs_too(
+    tmp_path: Path,
+) -> None:
+    robot = load_robot(nao_on_legs(tmp_path / "nao"))
+    walked = walk_trial(robot, PATHS[0], feedback=False)
+    assert walked.lasted > 0.05 and "walker" in walked.message
+    with pytest.raises(sa.StepAsideError, match="empty in a walk"):
+        sa.walk(robot=str(robot.folder))

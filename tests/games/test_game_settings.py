@@ -79,6 +79,9 @@ def test_a_setting_is_changed_of_the_game_of_all_or_of_one_player() -> None:
             made.changed(**changes)
 
 
+WALKER = [{"name": "walker"}]
+
+
 @pytest.mark.parametrize(
     ("entries", "message"),
     [
@@ -95,6 +98,10 @@ def test_a_setting_is_changed_of_the_game_of_all_or_of_one_player() -> None:
         ({"evader": {"gait": {"stride": 30}}}, "here, evader: gait.stride"),
         ({"evader": {"person": {"speed": 1}}}, "person must be omitted"),
         ({"evader": "wary"}, "here, evader must be a table, got 'wary'"),
+        (
+            {"game": "walk", "legs": {"network": "x.onnx"}, "players": WALKER},
+            "legs.network must be empty in a walk",
+        ),
         ({"players": 3}, r"must be tables \[\[players\]\], got 3"),
         (
             {"players": [{"role": "evader"}]},

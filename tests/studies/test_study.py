@@ -5,6 +5,7 @@ import signal
 import sqlite3
 from collections.abc import Callable
 from concurrent.futures import Executor, Future, ThreadPoolExecutor
+from contextlib import closing
 from functools import partial
 from pathlib import Path
 from typing import Any
@@ -139,6 +140,13 @@ def test_a_foreign_file_is_refused(tmp_path: Path, content: bytes) -> None:
     (tmp_path / FILE).write_bytes(content * 100)
     with pytest.raises(ConfigurationError, match="must be a SQLite file"):
         run_study(study_of(), tmp_path / FILE)
+
+
+def test_a_part_of_another_database_is_refused(tmp_path: Path) -> None:
+    with closing(sqlite3.connect(tmp_path / "other.sqlite")) as base, base:
+        base.execute("CREATE TABLE others (name TEXT)")
+    with pytest.raises(ConfigurationError, match="no such table: records"):
+        merge_results([tmp_path / "other.sqlite"], tmp_path / FILE)
 
 
 def test_progress_is_shown_from_python(

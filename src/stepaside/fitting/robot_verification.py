@@ -15,7 +15,7 @@ from ..games.game import Outcome, play
 from ..games.game_settings import walk
 from ..games.player_settings import settings_from_description
 from ..games.recorded_game import RecordedGame
-from ..locomotion.control_settings import ControlSettings
+from ..locomotion.control_settings import ControlSettings, LegsSettings
 from ..locomotion.zmp.reference_table import initial_stance
 from ..robots.description import FILE, REMEDY, RobotDescription
 from ..robots.forward_kinematics import ForwardKinematics
@@ -122,6 +122,7 @@ def walk_trial(
         backward=path.backward,
         duration=duration,
         robot=str(description.folder),
+        legs=LegsSettings(),  # steps are planned, also of one with a network
         gait=gait,
         control=control_with(own.control, feedback),
     ).resolved()

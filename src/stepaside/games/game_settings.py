@@ -178,6 +178,11 @@ class GameSettings:
                 f"{', '.join(f'{p.name} ({p.body})' for p in self.players)} "
                 f"at level {self.level}"
             )
+        if self.game == "walk" and (network := self.players[0].legs.network):
+            raise ConfigurationError(
+                "legs.network must be empty in a walk, which compares steps "
+                f"with their plans, got {network!r}"
+            )
         if self.level == "physics":
             MOST_ROBOTS.check(len(robots), "number of robots")
         if self.pushes and not robots:

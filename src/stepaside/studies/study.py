@@ -242,7 +242,7 @@ def merge_results(parts: Iterable[AnyPath], file: AnyPath) -> int:
     with closing(_opened(whole)) as base:
         columns = dict.fromkeys(_columns_of(base))
         for part in files:
-            with _using(part):
+            with _using(part, reads=True):
                 base.execute("ATTACH ? AS part", [f"{part}"])
                 columns |= dict.fromkeys(_columns_of(base, "part"))
                 with _using(whole), base:
@@ -260,7 +260,10 @@ def _count(file: Path) -> int:
     """Return the number of records in a file; 0 if it does not exist."""
     if not file.is_file():
         return 0
-    with _using(file), closing(sqlite3.connect(file, BUSY)) as base:
+    with (
+        _using(file, reads=True),
+        closing(sqlite3.connect(file, BUSY)) as base,
+    ):
         (number,) = base.execute("SELECT COUNT(*) FROM records").fetchone()
     return int(number)
 
@@ -296,17 +299,18 @@ def _make_table(base: sqlite3.Connection, columns: Iterable[str]) -> None:
 
 
 @contextmanager
-def _using(file: Path | None) -> Iterator[None]:
+def _using(file: Path | None, *, reads: bool = False) -> Iterator[None]:
     """Raise errors of a file of records as those of this package."""
     try:
         yield
-    except (sqlite3.OperationalError, OSError) as error:
+    except (sqlite3.DatabaseError, OSError) as error:
+        if reads or type(error) is sqlite3.DatabaseError:  # no database
+            raise ConfigurationError(
+                f"{file} must be a SQLite file with records of a study: "
+                f"{error}"
+            ) from error
         raise OutputError(
             f"{file or 'a temporary file'} could not be written: {error}"
-        ) from error
-    except sqlite3.DatabaseError as error:
-        raise ConfigurationError(
-            f"{file} must be a SQLite file with records of a study: {error}"
         ) from error
 
 
