@@ -22,8 +22,7 @@ run
 # %% [markdown]
 # ## Read the result
 #
-# A run is a value: settings, outcome, arrays, summary; a notebook shows its
-# summary. Lengths are in [m],
+# A run is a value: settings, outcome, arrays, summary. Lengths are in [m],
 # angles in [rad], times in [s].
 
 # %%
