@@ -91,6 +91,15 @@ class Lost(Timid):
         raise RuntimeError("no memory")
 
 
+class Stray(Forgetful):
+    @property
+    def direction(self):
+        raise RuntimeError("where")
+
+    def begin(self):
+        return None
+
+
 timid = Timid(0.25)
 
 
@@ -220,14 +229,15 @@ def test_names_and_arguments_are_refused_by_rule(
         ("Forgetful", "must have a method begin, got a Forgetful without"),
         ("vague", "saturated must be a bool, got 1"),
         ("Lost", r"begin\(\) must return a memory, got RuntimeError: no mem"),
+        ("Stray", "direction must be a Direction, got RuntimeError: where"),
         ("picky", r"picky\(\) must make a strategy, got TypeError"),
         ("NUMBER", "must be a strategy, or a class or function.*got 3"),
         ("Nobody", "the file has no Nobody, but .*Timid"),
         ("Path", "the file has no Path"),
         (
             "None_",
-            "but Broken, Forgetful, Lost, Moody, Mute, Timid, Wild, picky, "
-            "quick, sideways, timid, vague$",
+            "but Broken, Forgetful, Lost, Moody, Mute, Stray, Timid, Wild, "
+            "picky, quick, sideways, timid, vague$",
         ),
     ],
 )

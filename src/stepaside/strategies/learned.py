@@ -229,7 +229,9 @@ def open_network(content: bytes) -> OpenNetwork:
             f"{', '.join(kinds)}"
         )
     (port,) = session.get_inputs()
-    return OpenNetwork(session, port.name, KINDS[port.type], *port.shape[:1])
+    return OpenNetwork(
+        session, port.name, KINDS[port.type], next(iter(port.shape), None)
+    )
 
 
 def dense_network(

@@ -75,12 +75,14 @@ def validate_strategy(candidate: Any, name: str) -> None:
         if not callable(getattr(candidate, method, None)):
             got = f"a {type(candidate).__name__} without"
             raise refuse(f"must have a method {method}", got)
-    for key, kind in (("direction", Direction), ("saturated", bool)):
-        value = getattr(candidate, key, None)
-        if not isinstance(value, kind):
-            raise refuse(f"{key} must be a {kind.__name__}", repr(value))
-    rule = "begin() must return a memory"
+    rule = ""
     try:
+        for key, kind in (("direction", Direction), ("saturated", bool)):
+            rule = f"{key} must be a {kind.__name__}"
+            value = getattr(candidate, key, None)
+            if not isinstance(value, kind):
+                raise StrategyError(repr(value))
+        rule = "begin() must return a memory"
         memory = candidate.begin()
         rule = "decide(knowledge, memory) must return (Intent, memory)"
         for knowledge in trial_knowledge():

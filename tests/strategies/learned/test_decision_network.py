@@ -87,6 +87,17 @@ def test_the_reason_of_the_runtime_is_told(tmp_path: Path) -> None:
     assert "\n" not in str(told.value)
 
 
+def test_a_network_of_one_number_is_refused(tmp_path: Path) -> None:
+    text = "s (float x) => (float y) { y = Identity(x) }"
+    model = onnx.parser.parse_model(
+        f'<ir_version: 8, opset_import: ["": 17]> {text}'
+    )
+    onnx.helper.set_model_props(model, CONTRACT.metadata())
+    onnx.save(model, tmp_path / "a.onnx")
+    with pytest.raises(ConfigurationError, match="cannot run with 6 observed"):
+        load_strategy(str(tmp_path / "a.onnx"))
+
+
 @pytest.mark.parametrize("share", [0.0, 0.2, 0.6])
 def test_a_file_that_ends_early_is_refused(
     share: float, tmp_path: Path
