@@ -25,6 +25,7 @@ class ProgressLine:
         """Start at zero."""
         self.n: float = 0  # finished work
         self._name, self._total, self._unit = name, total, unit
+        self._text, self._reused = "", 0.0
         self._changes = not quiet and sys.stderr.isatty()
         self._began = self._printed = monotonic()
 
@@ -34,7 +35,8 @@ class ProgressLine:
 
     def __exit__(self, *error: object) -> None:
         """Leave the last line on a terminal."""
-        if self._changes and self._printed > self._began:
+        if self._changes and self.n:
+            self._print()
             print(file=sys.stderr, flush=True)
 
     def update(self, more: float = 1) -> None:
@@ -55,21 +57,26 @@ class ProgressLine:
         was reused took no time.
         """
         self.n, self._total = done, total or self._total
-        now = monotonic()
-        if now - self._printed < (SHOWN_PERIOD if self._changes else PERIOD):
-            return
-        self._printed = now
-        elapsed = now - self._began
+        self._text, self._reused = text, reused
+        period = SHOWN_PERIOD if self._changes else PERIOD
+        if monotonic() - self._printed >= period:
+            self._print()
+
+    def _print(self) -> None:
+        done, total = self.n, self._total
+        self._printed = monotonic()
+        elapsed = self._printed - self._began
         words = [f"{done:.0f} {self._unit}".rstrip()]
         times = [f"{elapsed:.0f} s so far"]
-        if total := self._total:
+        if total:
             words = [f"{100.0 * done / total:.0f} %"]
             if self._unit:
                 words.append(f"{done:.0f} of {total:.0f} {self._unit}")
-            if done - reused > 0.01 * total:
-                rest = (total - done) * elapsed / (done - reused)
+            fresh = done - self._reused
+            if done < total and fresh > 0.01 * total:
+                rest = (total - done) * elapsed / fresh
                 times.append(f"about {rest:.0f} s left")
-        words += [text] if text else []
+        words += [self._text] if self._text else []
         line = f"stepaside: {self._name}: {', '.join(words)}; "
         line += ", ".join(times)
         # On a terminal it begins anew, and the rest of the line is erased.
