@@ -56,7 +56,7 @@ COLUMNS = 15
 
 
 class Rules(NamedTuple):
-    """Parameters of a game as plain numbers; see :class:`.Game`."""
+    """Parameters of a game as plain numbers; see :class:`.Unicycles`."""
 
     pursuer_speed: float
     evader_speed: float
