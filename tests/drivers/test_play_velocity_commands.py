@@ -42,7 +42,7 @@ def refused(capsys: pytest.CaptureFixture[str], *words: str) -> str:
         ("play lola:x --set legs.network=x.onnx", "a robot that takes gains"),
         ("serve", "issing option '--ros2'"),
         ("serve --ros2 referee=/e", "each player once"),
-        ("play nowhere.py:Robot", "there is no file nowhere.py"),
+        ("play nowhere.py:Robot", "/nowhere.py"),
         ("play ros2:/x --check", "--check requires the address FILE.py"),
         ("play ros2:/x --json", "--json requires --check"),
         (

@@ -60,7 +60,7 @@ def load_user_file(path: str, where: str) -> ModuleType:
     """
     file = Path(path).expanduser().resolve()
     if not file.is_file():
-        raise ConfigurationError(f"{where}: there is no file {path}")
+        raise ConfigurationError(f"{where}: there is no file {file}")
     module = f"{__name__}.{file.as_posix().replace('.', _DOT)}"
     before = sys.modules.pop(module, None)
     try:

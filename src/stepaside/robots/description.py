@@ -270,7 +270,8 @@ def load_robot(robot: AnyPath) -> RobotDescription:
     if not (folder / FILE).is_file():
         raise ModelError(
             f"robot must be one of {', '.join(known_robots())} or a folder "
-            f"with a {FILE}, got {str(robot)!r}"
+            f"with a {FILE} (stepaside robot init MODEL writes one), got "
+            f"{str(robot)!r}"
         )
     file = folder / FILE
     entries = load_entries(file, ModelError)
