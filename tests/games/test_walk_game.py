@@ -84,6 +84,7 @@ def test_an_ideal_body_walks_and_estimates_as_planned() -> None:
     assert summary["yaw_ratio"] == pytest.approx(1.0, abs=0.015)
     assert summary["slip_per_step_m"] < 0.0004
     assert planning["min_zmp_margin_m"] > 0.034
+    assert planning["p99_us"] > planning["median_us"] > 0.0
     assert summary["tilt_max_deg"] < 0.6
     check_rms(summary["tracking"], com=0.0008, zmp=0.016)
     errors = summary["estimation"]

@@ -282,13 +282,13 @@ class VectorDuel(VectorEnv[Row, Any, Any]):
     def reset(
         self,
         *,
-        seed: int | Sequence[int] | None = None,
+        seed: int | Sequence[int | None] | None = None,
         options: dict[str, Any] | None = None,
     ) -> tuple[Row, dict[str, Any]]:
         """Begin an episode of all games; options are not used.
 
         An integer as seed gives game i that many plus i; None continues with
-        the next episodes.
+        the next episodes. The seed of a game is drawn if it is None.
         """
         number = self.num_envs
         if isinstance(seed, int | np.integer):
@@ -298,7 +298,11 @@ class VectorDuel(VectorEnv[Row, Any, Any]):
                 raise PlanError(
                     f"there must be {number} seeds, got {len(seed)}"
                 )
-            self._seeds = np.array([one % SEEDS for one in seed])
+            drawn = self.np_random.integers(SEEDS, size=number).tolist()
+            given = zip(seed, drawn, strict=True)
+            self._seeds = np.array(
+                [new if one is None else one % SEEDS for one, new in given]
+            )
         elif self._seeds is None:
             self._seeds = self.np_random.integers(SEEDS, size=number)
         else:
