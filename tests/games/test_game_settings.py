@@ -21,7 +21,7 @@ from stepaside.games.game_settings import (
     read_game,
 )
 from stepaside.games.game_starts import draw_start
-from stepaside.games.player_settings import body_of_robot
+from stepaside.games.robot_bodies import body_of_robot
 from stepaside.games.settings_reader import dump_configuration, load_game
 from stepaside.planning import PRESETS, GaitSettings
 from stepaside.robots.description import load_robot

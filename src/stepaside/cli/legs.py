@@ -193,9 +193,9 @@ def measure(
     from ..core.worker_pool import worker_pool
     from ..fitting.legs_measurement import measure_legs
     from ..games.player_settings import (
-        body_of_robot,
         settings_from_description,
     )
+    from ..games.robot_bodies import body_of_robot
     from ..locomotion.control_settings import LegsSettings
     from ..locomotion.policy.velocity_response import (
         response_entries,

@@ -29,7 +29,6 @@ from .player_settings import (
     USED_BY,
     WALKER,
     PlayerSettings,
-    body_of_robot,
     nested,
     settings_of,
     take_preset,
@@ -502,6 +501,8 @@ def read_game(
         base = GameSettings(players=made)
     robots = [player.robot for player in made if player.body == "robot"]
     if preset := take_preset(left, "body", BODIES):
+        from .robot_bodies import body_of_robot
+
         body = body_of_robot((robots or ["nao"])[0], preset)
         base = replace(base, body=body)
     _make_room(left)

@@ -4,7 +4,6 @@ import re
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from math import pi
-from pathlib import Path
 from typing import Any, Self, TypeVar
 
 from ..core.entries import read_entries
@@ -16,7 +15,7 @@ from ..core.setting import REQUIRED, check_settings, setting
 from ..locomotion.control_settings import ControlSettings, LegsSettings
 from ..planning import PRESETS, GaitSettings
 from ..robots.description import FILE, RobotDescription, load_robot
-from ..sim.body_settings import BODIES, BodySettings
+from ..sim.body_settings import BodySettings
 from ..sim.person_settings import RADIUS, CrowdSettings, PersonSettings
 from ..sim.physics_settings import SightSettings
 from ..strategies import Evasion, load_strategy
@@ -371,19 +370,3 @@ def take_preset(
         return ""
     entries[name] = changes
     return preset
-
-
-def body_of_robot(robot: str | Path, name: str) -> BodySettings:
-    """Return the body of a preset, with the errors of a robot.
-
-    The ideal body is that of all robots; in others the ``[body]`` of the
-    robot's description replaces values of NAO.
-    """
-    preset = BODIES[name]
-    description = load_robot(robot)
-    if name == "ideal" or not description.body:
-        return preset
-    source = f"{description.folder / FILE}, body"
-    return read_entries(
-        BodySettings, dict(description.body), source, base=preset
-    )
