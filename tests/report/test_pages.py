@@ -269,7 +269,8 @@ def hostile_run(folder: Path, run: Path, text: str) -> Path:
     (there / "checksums.txt").unlink(missing_ok=True)
     if text.isprintable():
         own = load_run(run, "duel").settings
-        settings = own.changed(pursuer={"person": PersonSettings(path=text)})
+        person = {"body": "person", "person": PersonSettings(path=text)}
+        settings = own.changed(pursuer=person)
         (there / "configuration.toml").write_text(
             dump_configuration(settings), encoding="utf-8"
         )
