@@ -3,7 +3,6 @@
 from collections.abc import Mapping
 from dataclasses import is_dataclass, replace
 from functools import partial
-from itertools import combinations
 from math import inf
 from types import MappingProxyType
 from typing import TYPE_CHECKING, NamedTuple
@@ -260,13 +259,6 @@ class PhysicsWorld(World):
             for robot in self._walkers:
                 if pushes[robot.name]:
                     robot.robot.push(*pushes[robot.name])
-        self._has_things = settings.room is not None or bool(
-            settings.scene.things
-        )
-        self._pairs = [
-            (one.truth, other.truth, one.truth.reach + other.truth.reach)
-            for one, other in combinations(self.players, 2)
-        ]
         self.acting = ""
         self.started_at: float | None = None
         self.first_moves: dict[str, float] = {}
@@ -318,14 +310,8 @@ class PhysicsWorld(World):
 
     def touching(self) -> tuple[str, ...]:
         """Return the names of bodies in contact, after the first step."""
-        near = self.ticks and (
-            self._has_things
-            or any(
-                torsos_apart(one, other) < reach
-                for one, other, reach in self._pairs
-            )
-        )
-        return super().touching() if near and self.robots_touch() else ()
+        touches = self.ticks and self.robots_touch()
+        return super().touching() if touches else ()
 
     def close(self) -> None:
         """Close the cameras."""

@@ -1,5 +1,6 @@
 """Recorder of a game in physics: one trajectory per player."""
 
+from array import array
 from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
@@ -28,7 +29,7 @@ class PlayerRecord:
         """Begin an empty record; see :class:`Recorder`."""
         self._player, self._closely = player, closely
         self._widths: dict[str, int] = {}
-        self._rows: list[Array] = []
+        self._values = array("d")  # of all samples, one after the other
         self._numbers: list[dict[str, float]] = []
         self._plans: list[tuple[float, ...]] = []
         self._images: list[ColourImage | DepthImage] = []
@@ -39,9 +40,15 @@ class PlayerRecord:
         """Sample the present state."""
         player = self._player
         found = player.sample(closely=self._closely)
-        if not self._rows:
+        if not self._widths:
             self._widths = {name: np.size(own) for name, own in found.items()}
-        self._rows.append(np.hstack([*found.values()]))
+        for own in found.values():
+            if isinstance(own, np.ndarray):
+                self._values.extend(own.tolist())
+            elif isinstance(own, tuple):
+                self._values.extend(own)
+            else:
+                self._values.append(own)
         if self._closely and isinstance(player, RobotPlayer):
             self._numbers.append(dict(strategy_numbers(player)))
 
@@ -76,7 +83,7 @@ class PlayerRecord:
     def track(self, count: int) -> Trajectory:
         """Return the trajectory of the first samples."""
         ends = np.cumsum([*self._widths.values()])
-        rows = np.array(self._rows[:count])
+        rows = np.array(self._values).reshape(-1, ends[-1])[:count]
         parts = np.split(rows, ends[:-1], axis=1)
         arrays = dict(zip(self._widths, parts, strict=True))
         for name in ("place", "torso"):
