@@ -49,11 +49,10 @@ python:
 
 # Another Python, as in make other PYTHON=python3.13: the wheel with nothing
 # optional, and tests that need no more and take milliseconds.
-OTHER := cli/test_main cli/test_options core/test_errors core/test_signal_handling \
-	core/test_ranges games/test_configuration_file games/test_match \
-	planning/test_footsteps planning/test_path planning/test_plan \
-	planning/test_swing planning/test_zmp robots/test_description \
-	robots/test_kinematics theory/test_laws
+OTHER := tests/cli/test_main.py tests/cli/test_options.py tests/core \
+	tests/games/test_game_settings.py tests/games/test_match.py \
+	tests/planning tests/robots/test_description.py \
+	tests/robots/test_kinematics.py tests/theory/test_laws.py
 other: other-setup other-test
 
 other-setup:
@@ -62,8 +61,7 @@ other-setup:
 		hypothesis pytest pytest-timeout pytest-xdist
 
 other-test:
-	.venv-other/bin/python -m pytest --numprocesses auto \
-		$(OTHER:%=tests/%.py)
+	.venv-other/bin/python -m pytest --numprocesses auto $(OTHER)
 
 # The wheel, installed with nothing optional: commands work, or say what lacks.
 wheel: setup
