@@ -6,6 +6,7 @@ PYTHON ?= $(firstword $(foreach version,$(SUPPORTED),$(call works,$(version))))
 VENV := .venv
 BIN := $(VENV)/bin
 STAMP := $(VENV)/.installed
+PLAYS := $(VENV)/.plays
 INSTALL := -m pip install --disable-pip-version-check --no-warn-script-location \
 	--root-user-action=ignore --constraint constraints.txt
 
@@ -15,17 +16,25 @@ INSTALL := -m pip install --disable-pip-version-check --no-warn-script-location 
 
 setup: $(STAMP)
 
-$(STAMP): pyproject.toml constraints.txt
-	@test -x $(BIN)/python || test -n "$(PYTHON)" || { echo "stepaside needs \
+$(BIN)/python:
+	@test -n "$(PYTHON)" || { echo "stepaside needs \
 	Python 3.13, 3.12 or 3.11 with venv, as python3.13 and so on on the path; \
 	or make PYTHON=/path/to/python" >&2; exit 1; }
-	@test -x $(BIN)/python || echo "making $(VENV) with $(PYTHON)"
-	@test -x $(BIN)/python || $(PYTHON) -m venv $(VENV)
+	@echo "making $(VENV) with $(PYTHON)"
+	@$(PYTHON) -m venv $(VENV)
+
+$(STAMP): pyproject.toml constraints.txt | $(BIN)/python
 	@echo "installing what pyproject.toml names into $(VENV): some minutes"
 	$(BIN)/python $(INSTALL) --editable ".[dev]"
-	touch $(STAMP)
+	touch $(PLAYS) $(STAMP)
 
-duel: setup
+# What a duel needs: the package without extras, and no tools of developers.
+$(PLAYS): pyproject.toml constraints.txt | $(BIN)/python
+	@echo "installing planner, physics and figures into $(VENV): a minute"
+	$(BIN)/python $(INSTALL) --editable .
+	touch $(PLAYS)
+
+duel: $(PLAYS)
 	$(BIN)/stepaside duel
 
 # What Python compiled is kept, whatever the shell says: tests start a hundred

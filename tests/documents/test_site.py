@@ -43,6 +43,7 @@ def test_broken_links_of_a_site_are_found(tmp_path: Path) -> None:
     (tmp_path / "index.html").write_text(
         '<a href="sub/page.html#good">1</a><a href="sub/page.html#bad">2</a>'
         '<a href="https://example.org/gone">3</a><img src="gone.png">'
+        '<script src="https://example.org/set.js"></script>'
     )
     (tmp_path / "sub/page.html").write_text(
         '<p id="good"></p><a href="../index.html">4</a><a href="#good">5</a>'
@@ -50,4 +51,5 @@ def test_broken_links_of_a_site_are_found(tmp_path: Path) -> None:
     assert site_links.broken_links(tmp_path) == [
         "index.html: sub/page.html#bad: no such anchor",
         "index.html: gone.png: no such file",
+        "index.html: https://example.org/set.js: needs a network",
     ]

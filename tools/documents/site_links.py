@@ -1,10 +1,13 @@
 """Check the links of a built site: every file and every anchor exists.
 
+What a page loads, such as scripts, must be of the site too, so that it is
+read without a network.
+
 ``make docs`` runs this::
 
     python -m tools.documents.site_links build/site
 
-Addresses of other sites are not visited.
+Links to other sites are not visited.
 """
 
 import sys
@@ -22,6 +25,7 @@ class PageLinks(HTMLParser):
 
     Attributes:
         links: Addresses that the page names.
+        loaded: Those that a browser loads with the page.
         anchors: Its anchors.
     """
 
@@ -29,6 +33,7 @@ class PageLinks(HTMLParser):
         """Read a page."""
         super().__init__()
         self.links: list[str] = []
+        self.loaded: set[str] = set()
         self.anchors: set[str] = set()
         self.feed(text)
 
@@ -39,6 +44,8 @@ class PageLinks(HTMLParser):
         for name, value in attrs:
             if value and name in LINKS:
                 self.links.append(value)
+                if tag != "a":
+                    self.loaded.add(value)
             elif value and name in ("id", "name"):
                 self.anchors.add(value)
 
@@ -67,8 +74,10 @@ def broken_links(site: Path) -> list[str]:
 def complaint(page: Path, link: str) -> str:
     """Return why a link of a page leads nowhere; empty if it is good."""
     parts = urlsplit(link)
-    if parts.scheme or parts.netloc:
+    if parts.scheme == "data":
         return ""
+    if parts.scheme or parts.netloc:
+        return "needs a network" if link in read(page).loaded else ""
     file = page
     if parts.path:
         file = (page.parent / unquote(parts.path)).resolve()
