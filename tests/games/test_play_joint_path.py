@@ -90,3 +90,10 @@ def test_the_zmp_is_the_center_of_the_foot_forces(foot: Foot) -> None:
         assert track.zmp is not None
         wanted = forces @ np.array(places) / forces.sum()
         np.testing.assert_allclose(track.zmp[0], wanted, atol=1e-6)
+
+
+def test_a_robot_without_foot_sensors_has_no_forces_on_record() -> None:
+    """What is read back must be finite."""
+    track = believed(np.full(8, np.nan))
+    assert track.foot_forces is None
+    assert np.isnan(track.zmp).all()

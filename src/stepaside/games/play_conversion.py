@@ -291,14 +291,14 @@ class OdometryPath:
         arrays: dict[str, Any] = {
             name: np.array(values) for name, values in rows.items()
         }
-        for name in references:
-            if np.isnan(arrays[name]).all():  # learned legs have none
+        for name in ("gyro", "accelerometer", "foot_forces"):
+            arrays[name] = columns[name][self._rows.sampled]
+        for name in (*references, "foot_forces"):
+            if np.isnan(arrays[name]).all():  # learned legs need none
                 del arrays[name]
         for name in ("place", "torso"):
             arrays[name][:, 2] = np.unwrap(arrays[name][:, 2])
         arrays["qpos"] = arrays["qpos"].astype(np.float32)
-        for name in ("gyro", "accelerometer", "foot_forces"):
-            arrays[name] = columns[name][self._rows.sampled]
         return Trajectory(
             **arrays, landings=self._landings(frames), sight=sight
         )
