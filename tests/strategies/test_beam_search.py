@@ -5,17 +5,15 @@ from math import inf, pi
 import numpy as np
 import pytest
 
-from stepaside.arena import NO_OBSTACLES, Room
+from stepaside.arena import NO_OBSTACLES, ObstacleSet, Room
 from stepaside.core.poses import Pose
 from stepaside.games import StepGame, play_strategies
 from stepaside.strategies import Pursuit, Strategy
 from stepaside.strategies.robust_evasion import actions_of
-from stepaside.strategies.search.beam_search import (
-    BeamRules,
-    beam_search,
-    play_moves,
-)
+from stepaside.strategies.search.beam_search import BeamRules, beam_search
+from stepaside.strategies.search.rollout import ENOUGH, Objective, roll_out
 from stepaside.strategies.search.step_motion import (
+    PlayerPair,
     PursuerModel,
     StepRules,
     pair_of,
@@ -23,9 +21,22 @@ from stepaside.strategies.search.step_motion import (
 )
 
 STEP = StepRules(0.04, 0.08, 0.08 * pi)
-RULES = BeamRules(STEP, 0.35, 0.2, 60, 50)
+RULES = BeamRules(60, 50)
 MODEL, SHARP = PursuerModel(), PursuerModel(12.5)
-START = np.array([0.5, 0.2, 0.3, -0.5, -0.1, 0.9])
+START = pair_of((0.5, 0.2, 0.3), (-0.5, -0.1, 0.9))
+ROOM = Room(3.0, 3.0).solid_set
+
+
+def objective(obstacles: ObstacleSet) -> Objective:
+    return Objective(STEP, obstacles.packed, 0.2, capture=0.35)
+
+
+def survive(
+    start: PlayerPair, moves: np.ndarray, obstacles: ObstacleSet = ROOM
+) -> tuple[float, int]:
+    """Return the least distance of moves, and the steps that they survive."""
+    number, aims = len(moves), objective(obstacles)
+    return roll_out(start, ENOUGH, moves, number, -inf, SHARP, aims)[1:]
 
 
 @pytest.mark.parametrize(
@@ -57,33 +68,26 @@ def test_model_walks_as_the_strategy_does(
 
 
 def test_path_survives_as_long_as_it_says() -> None:
-    packed = Room(3.0, 3.0).solid_set.packed
     actions = actions_of(STEP.largest)
-    path = beam_search(START, actions, SHARP, packed, RULES)
-    steps, least = play_moves(START, actions[path], SHARP, packed, RULES)
+    path = beam_search(START, actions, SHARP, objective(ROOM), RULES)
+    least, steps = survive(START, actions[path])
     assert steps == len(path) == RULES.horizon
-    assert RULES.capture < least < 0.8
+    assert 0.35 < least < ENOUGH
 
 
 def test_evader_that_is_too_near_to_a_wall_may_only_leave_it() -> None:
-    wall = Room(3.0, 3.0).solid_set.packed
-    inside = np.array([-1.32, 0.0, 0.0, 1.0, 0.0, pi])
+    inside = pair_of((-1.32, 0.0, 0.0), (1.0, 0.0, pi))
     into, out = np.array([[0.0, 1.0]]), np.array([[0.0, -1.0]])
     turn = np.array([[0.25, 0.0]])
-    played = [
-        play_moves(inside, moves, SHARP, wall, RULES)[0]
-        for moves in (into, out, turn)
-    ]
+    played = [survive(inside, moves)[1] for moves in (into, out, turn)]
     assert played == [0, 1, 1]
 
 
 def test_captured_and_touching_moves_do_not_survive() -> None:
-    near = np.array([0.3, 0.0, 0.0, -0.06, 0.0, 0.0])
+    near = pair_of((0.3, 0.0, 0.0), (-0.06, 0.0, 0.0))
     walk_into = np.array([[0.0, 0.0]])
-    none = NO_OBSTACLES.packed
-    assert play_moves(near, walk_into, SHARP, none, RULES)[0] == 0
-    wall = Room(3.0, 3.0).solid_set.packed
-    beside = np.array([-1.29, 0.0, 0.0, 1.0, 0.0, pi])
+    assert survive(near, walk_into, NO_OBSTACLES) == (ENOUGH, 0)
+    beside = pair_of((-1.29, 0.0, 0.0), (1.0, 0.0, pi))
     back = np.array([[0.0, 1.0]])
-    assert play_moves(beside, back, SHARP, wall, RULES)[0] == 0
-    assert play_moves(beside, back, SHARP, none, RULES)[0] == 1
+    assert survive(beside, back)[1] == 0
+    assert survive(beside, back, NO_OBSTACLES)[1] == 1

@@ -23,10 +23,8 @@ from stepaside.strategies.robust_evasion import (
     RobustMemory,
     actions_of,
 )
-from stepaside.strategies.search.beam_search import (
-    BeamRules,
-    beam_search,
-)
+from stepaside.strategies.search.beam_search import BeamRules, beam_search
+from stepaside.strategies.search.rollout import Objective
 from stepaside.strategies.search.step_motion import (
     PursuerModel,
     StepRules,
@@ -36,7 +34,6 @@ from stepaside.strategies.search.step_motion import (
 from stepaside.studies.tournament import PairingSettings
 
 STEPS = StepRules(0.04, 0.08, 0.08 * pi)
-RULES = BeamRules(STEPS, 0.35, 0.2, 1, 1)
 LIMITS = Limits(0.1, 0.2, 0.04, 0.4)
 
 
@@ -217,11 +214,11 @@ def test_sharp_pursuer_needs_0_8_of_the_time_of_an_offline_search() -> None:
     """The search knows the pursuer; the evader has to find it out."""
     room, (pursuer, evader) = arena(1000)
     path = beam_search(
-        np.array([*evader, *pursuer]),
+        pair_of(evader, pursuer),
         actions_of(STEPS.largest),
         PursuerModel(12.5),
-        room.solid_set.packed,
-        RULES._replace(width=1000, horizon=450),
+        Objective(STEPS, room.solid_set.packed, 0.2, capture=0.35),
+        BeamRules(1000, 450),
     )
     sharp = Pursuit(gain=inf)
     online = survival(RobustEvasion(), sharp, 1000, 180.0)

@@ -16,16 +16,17 @@ from stepaside.arena import (
 from stepaside.core.poses import Pose
 from stepaside.planning import Direction
 from stepaside.planning.path import UnicycleTrajectory
+from stepaside.strategies.knowledge import ON_THE_SPOT
 from stepaside.strategies.look_ahead import (
     BLINDNESS,
     HORIZON,
+    LAW,
     PIECES,
     SIGHT,
-    Aims,
     even_turns,
-    judge,
     look_ahead,
 )
+from stepaside.strategies.search.rollout import Objective, judge
 from stepaside.strategies.search.step_motion import (
     PlayerPair,
     PursuerModel,
@@ -66,47 +67,52 @@ def test_a_step_is_the_arc_of_both_unicycles(
         np.testing.assert_allclose(got, (after.x, after.y, c, s), atol=1e-9)
 
 
-AIMS = Aims(
-    even_turns(7, RULES.largest), 0.8, 0.205, 60.0, 1e-6, RULES, PACKED
+TURNS, GAIN = even_turns(7, RULES.largest), 1e-6
+AIMS = Objective(
+    RULES, PACKED, 0.205, penalty=60.0, blindness=BLINDNESS, sight=SIGHT
 )
 
 
-def walked(both: PlayerPair, turns: Any, spot: int) -> float:
+def search(both: PlayerPair, plan: Any) -> Any:
+    return look_ahead(both, np.reshape(plan, (-1, 2)), TURNS, GAIN, AIMS)
+
+
+def walked(both: PlayerPair, moves: Any) -> float:
     """Return the score of a maneuver, step by step."""
     score = AIMS.enough
-    for n, turn in enumerate(turns):
-        both = step_both(both, turn, 0.05 if n < spot else 1.0)
-        score = judge(both, score, AIMS)
+    for turn, pace in moves:
+        both = step_both(both, turn, pace)
+        score, _, _ = judge(both, score, 0.0, 0.0, AIMS)
     return score
 
 
 @pytest.mark.parametrize("seed", range(8))
-def test_the_maneuver_found_has_its_score_and_beats_others(seed: int) -> None:
+def test_the_maneuver_found_beats_others(seed: int) -> None:
     """The law, random sequences, and a given plan, on which it improves."""
     random = np.random.default_rng(seed)
     evader = Pose(*random.uniform([-1, -1, -pi], [1, 1, pi]).tolist())
     pursuer = Pose(*random.uniform([-1, -1, -pi], [1, 1, pi]).tolist())
     both = place(evader, pursuer)
-    found = look_ahead(both, np.zeros(0), 0, AIMS)
-    assert walked(both, found.turns, found.spot) == pytest.approx(
-        found.score, abs=1e-9
-    )
+    found = search(both, ())
+    score = walked(both, found)
     for _ in range(30):
-        plan = np.repeat(random.choice(AIMS.turns, len(PIECES)), PIECES)
-        given = look_ahead(both, plan, 0, AIMS)
-        law = given.turns[len(plan) :]
-        assert len(law) == HORIZON - len(plan) + given.spot
-        assert given.score >= found.score - 1e-6
-    kept = look_ahead(both, found.turns, found.spot, AIMS)
-    assert kept.score >= found.score - 1e-9
+        turns = np.repeat(random.choice(TURNS, len(PIECES)), PIECES)
+        plan = np.stack([turns, np.ones(len(turns))], axis=1)
+        given = search(both, plan)
+        spots = int(np.sum(given[:, 1] == ON_THE_SPOT))
+        assert len(given[len(plan) :]) == LAW + spots
+        assert score >= walked(both, plan) - 1e-6
+        assert walked(both, given) >= score - 1e-6
+    assert walked(both, search(both, found)[:HORIZON]) >= score - 1e-9
 
 
 def test_in_a_corner_it_turns_on_the_spot_first() -> None:
     corner = place(Pose(1.25, 1.25, -pi * 0.75), Pose(0.75, 0.75, pi / 4))
-    found = look_ahead(corner, np.zeros(0), 0, AIMS)
-    assert found.spot > 0 and found.spot % 2 == 0
-    assert len(found.turns) == HORIZON + found.spot
-    assert set(np.abs(found.turns[: found.spot])) == {RULES.largest}
+    found = search(corner, ())
+    spot = int(np.argmax(found[:, 1] == 1.0))
+    assert spot > 0 and spot % 2 == 0
+    assert len(found) == HORIZON + spot and (found[spot:, 1] == 1.0).all()
+    assert set(np.abs(found[:spot, 0])) == {RULES.largest}
 
 
 def test_missing_clearance_and_lost_sight_are_penalised() -> None:
@@ -115,7 +121,7 @@ def test_missing_clearance_and_lost_sight_are_penalised() -> None:
     disc = ObstacleSet((Disc(x, y, radius),)).packed
 
     def judged(both: PlayerPair, packed: Any) -> float:
-        return judge(both, 0.9, AIMS._replace(packed=packed))
+        return judge(both, 0.9, 0.0, 0.0, AIMS._replace(packed=packed))[0]
 
     near = both._replace(
         ex=x + radius + 0.195, ey=y, px=x + radius + 1.195, py=y

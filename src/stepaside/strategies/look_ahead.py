@@ -9,38 +9,36 @@ no sequence is good, it also tries sequences behind turns on the spot.
 
 from dataclasses import dataclass
 from functools import lru_cache
-from math import atan2, cos, hypot, inf, pi, radians, sin
+from math import atan2, cos, hypot, inf, radians, sin
 from typing import Any, NamedTuple
 
 import numpy as np
 
-from ..arena.obstacles import PackedObstacles, clearance_at
-from ..core.compilation import compiled, copy_values, inlined
+from ..core.compilation import compiled, inlined
 from ..core.poses import Array
 from ..core.ranges import Range
 from ..core.setting import CheckedSettings, setting
 from ..theory.value.two_cars import pursuit_bound
 from .knowledge import BODY, ON_THE_SPOT, STAND, Intent, Knowledge
 from .opponent_track import OpponentTrack, track_of_steps
+from .search.rollout import Objective, roll_out
 from .search.step_motion import (
     PAPERS,
     PlayerPair,
     StepRules,
-    evader_bearing,
-    evasion_heading,
     fit_heading,
     pair_in,
     pair_of,
     step_both,
     step_rules,
     store,
-    update_side,
 )
 from .strategy import BackwardStrategy
 
 PIECES = (2, 4, 8, 12, 16)  # steps with a constant turn
 TURNS = 7  # tried per piece, evenly spaced up to the largest
-HORIZON = 52  # steps of a maneuver: the pieces, and ten of the law
+LAW = 10  # steps of the law behind the pieces
+HORIZON = sum(PIECES) + LAW  # steps of a maneuver
 SPOTS = 12  # steps on the spot before the first piece; 12.5 of the sharpest
 # make half a turn
 MOST = 40_000  # rolled-out steps after which no further maneuver is begun
@@ -62,9 +60,8 @@ class LookAheadMemory(NamedTuple):
 
     evading: bool = False
     track: OpponentTrack | None = None  # of the pursuer
-    plan: tuple[float, ...] = ()  # turns of the planned steps [rad]
+    moves: Array = np.empty((0, 2))  # turn [rad], speed factor of its plan
     planned: float = 0.0  # time of the first of them [s]
-    spot: int = 0  # number of initial steps that turn on the spot
 
 
 @dataclass(frozen=True, slots=True)
@@ -122,34 +119,31 @@ class LookAhead(BackwardStrategy, CheckedSettings):
         made = round((knowledge.time - memory.planned) / limits.step_duration)
         made = max(0, made)
         map_error = max(knowledge.map_error, GAIN)
-        aims = Aims(
-            even_turns(TURNS, rules.largest),
-            self.enough,
-            self.body_radius + MARGIN,
-            min(PENALTY, MAP_ERROR_COST / map_error),
-            map_error,
-            rules,
-            knowledge.obstacles_in_map.packed,
-        )
-        best = look_ahead(
+        moves = look_ahead(
             both,
-            np.array(memory.plan[made:], dtype=np.float64),
-            max(0, memory.spot - made),
-            aims,
+            memory.moves[made:],
+            even_turns(TURNS, rules.largest),
+            map_error,
+            Objective(
+                rules,
+                knowledge.obstacles_in_map.packed,
+                self.body_radius + MARGIN,
+                self.enough,
+                penalty=min(PENALTY, MAP_ERROR_COST / map_error),
+                blindness=BLINDNESS,
+                sight=SIGHT,
+            ),
         )
-        turn = float(best.turns[0])
-        heading = turn / rules.share
+        turn, pace = moves[0].tolist()
         after = step_both(both, turn, 1.0, PAPERS, rules)
         now, then = knowledge.obstacles_in_map.clearance(
             [(both.ex, both.ey), (after.ex, after.ey)]
         )
-        if not best.spot and then < min(self.body_radius, now):
+        if pace == 1.0 and then < min(self.body_radius, now):
             # A turn on the spot needs no room; standing would block for good.
-            return Intent(heading, ON_THE_SPOT), LookAheadMemory(True, track)
-        ahead = tuple(best.turns[: best.spot + sum(PIECES)].tolist())
-        intent = Intent(heading, ON_THE_SPOT if best.spot else 1.0)
-        return intent, LookAheadMemory(
-            True, track, ahead, knowledge.time, best.spot
+            moves, pace = memory.moves[:0], ON_THE_SPOT
+        return Intent(turn / rules.share, pace), LookAheadMemory(
+            True, track, moves[:-LAW], knowledge.time
         )
 
 
@@ -203,68 +197,21 @@ def open_turn(
     return float(turns[pursuit_bound(cells).value(poses).argmax()])
 
 
-class Aims(NamedTuple):
-    """Turns that a search tries, and the objective that ranks maneuvers."""
+@inlined
+def copy_moves(source: Any, target: Any) -> None:
+    """Copy the moves of a maneuver, (n, 2)."""
+    for n in range(len(source)):
+        target[n, 0], target[n, 1] = source[n, 0], source[n, 1]
+
+
+class ManeuverSearch(NamedTuple):
+    """Maneuvers that are tried, and the best so far."""
 
     turns: Any  # per step of a piece [rad], the preferred ones first
-    enough: float  # distance to the pursuer beyond which no more is gained
-    clearance: float  # that the own centre requires [m]
-    penalty: float  # of missing clearance, in [m] per [m]
     gain: float  # over the present maneuver that replaces it [m]
-    rules: StepRules
-    packed: PackedObstacles
-
-
-class BestManeuver(NamedTuple):
-    """Result of the search."""
-
-    score: float  # in [m]
-    turns: Any  # of each step [rad], those of the law included
-    spot: int  # number of initial steps that turn on the spot
-
-
-@inlined
-def judge(both: PlayerPair, score: float, aims: Aims) -> float:
-    """Return the score after one more step."""
-    dx, dy = both.px - both.ex, both.py - both.ey
-    reward = min((dx * dx + dy * dy) ** 0.5, aims.enough)
-    if reward < score:
-        score = reward
-    clear = clearance_at(aims.packed, both.ex, both.ey, aims.clearance)
-    psi = abs(evader_bearing(both))
-    if psi > SIGHT:
-        score = min(score, reward - BLINDNESS * (psi - SIGHT))
-    if clear < aims.clearance:
-        score = min(score, reward - aims.penalty * (aims.clearance - clear))
-    return score
-
-
-@compiled
-def roll_out(
-    both: PlayerPair,
-    score: float,
-    turns: Any,
-    given: int,
-    spot: int,
-    worst: float,
-    aims: Aims,
-) -> tuple[PlayerPair, float, int]:
-    """Roll out given turns, then the law; return state, score and steps.
-
-    It ends at a score that is no better than the worst.
-    """
-    rules, side = aims.rules, 0
-    for n in range(len(turns)):
-        if n >= given:
-            psi = evader_bearing(both)
-            side = update_side(side, psi, pi)
-            turns[n] = rules.share * evasion_heading(psi, side, 0.5 * pi)
-        pace = ON_THE_SPOT if n < spot else 1.0
-        both = step_both(both, turns[n], pace, PAPERS, rules)
-        score = judge(both, score, aims)
-        if score <= worst:
-            return both, score, n + 1
-    return both, score, len(turns)
+    objective: Objective
+    chosen: Any  # moves of the best maneuver. (n, 2)
+    work: Any  # moves of the one that is tried. (n, 2)
 
 
 @compiled
@@ -274,16 +221,15 @@ def descend(
     first: int,
     made: int,
     best: float,
-    aims: Aims,
-    chosen: Any,
-    work: Any,
+    search: ManeuverSearch,
 ) -> tuple[float, int]:
     """Descend the tree of pieces; return best score and steps rolled out.
 
-    The root has a state, a score, and a number of steps before it, whose turns
-    are in ``work``; better turns than the best are written to ``chosen``.
+    The root has a state, a score, and a number of moves before it, which are
+    those of the search; better moves than the best are stored there.
     """
-    tried, last, level = aims.turns, len(PIECES) - 1, 0
+    turns, objective, work = search.turns, search.objective, search.work
+    last, level = len(PIECES) - 1, 0
     index = np.zeros(len(PIECES), dtype=np.int64)
     begins = np.zeros(len(PIECES), dtype=np.int64)
     scores = np.zeros(len(PIECES))
@@ -291,33 +237,40 @@ def descend(
     scores[0], begins[0] = start, first
     store(both, states[0])
     while level >= 0 and made < MOST:
-        if index[level] == len(tried):
+        if index[level] == len(turns):
             level -= 1
             continue
-        at, worst = begins[level], best + aims.gain
-        piece = work[at : at + PIECES[level]]
-        for n in range(len(piece)):
-            piece[n] = tried[index[level]]
+        at, worst = begins[level], best + search.gain
+        moves = work[at : at + PIECES[level]]
+        for n in range(len(moves)):
+            moves[n, 0], moves[n, 1] = turns[index[level]], 1.0
         index[level] += 1
-        here, score = pair_in(states[level]), scores[level]
-        here, score, more = roll_out(
-            here, score, piece, len(piece), 0, worst, aims
+        here, score, walked = roll_out(
+            pair_in(states[level]),
+            scores[level],
+            moves,
+            len(moves),
+            worst,
+            PAPERS,
+            objective,
         )
-        made += more
-        if score <= worst:
+        made += min(walked + 1, len(moves))
+        if walked < len(moves):
             continue
-        at += len(piece)
+        at += walked
         if level < last:
             level += 1
             index[level], begins[level], scores[level] = 0, at, score
             store(here, states[level])
             continue
-        rest = work[at : first + HORIZON]
-        here, score, more = roll_out(here, score, rest, 0, 0, worst, aims)
-        made += more
-        if score > worst:
+        moves = work[at : first + HORIZON]
+        _, score, walked = roll_out(
+            here, score, moves, 0, worst, PAPERS, objective
+        )
+        made += min(walked + 1, len(moves))
+        if walked == len(moves):
             best = score
-            copy_values(work, chosen)
+            copy_moves(work, search.chosen)
             if best >= start:
                 break
     return best, made
@@ -325,47 +278,51 @@ def descend(
 
 @compiled
 def look_ahead(
-    both: PlayerPair, plan: Any, planned: int, aims: Aims
-) -> BestManeuver:
-    """Find the best maneuver among obstacles.
+    both: PlayerPair, plan: Any, turns: Any, gain: float, objective: Objective
+) -> Any:
+    """Return the moves of the best maneuver among obstacles, (n, 2).
 
     The law alone is tried first, then the rest of the plan, and then every
-    sequence of pieces; a tie keeps the plan.
+    sequence of pieces of some turns [rad], the preferred ones first. A plan
+    gives way to what is better by a gain [m].
     """
-    chosen, work = np.zeros(HORIZON + SPOTS), np.zeros(HORIZON + SPOTS)
-    start, best, spot, made = aims.enough, -inf, 0, 0
+    chosen, work = np.zeros((HORIZON + SPOTS, 2)), np.zeros((HORIZON, 2))
+    chosen[:, 1] = 1.0
+    start, best, spot, made = objective.enough, -inf, 0, 0
     for given in (0, min(len(plan), HORIZON)):
-        copy_values(plan[:given], work)
-        worst, begins = best - aims.gain, min(planned, given)
-        _, score, more = roll_out(
-            both, start, work[:HORIZON], given, begins, worst, aims
+        copy_moves(plan[:given], work)
+        _, score, walked = roll_out(
+            both, start, work, given, best - gain, PAPERS, objective
         )
-        made += more
-        if score > worst:
-            best, spot = score, begins
-            copy_values(work, chosen)
+        made += min(walked + 1, HORIZON)
+        if walked == HORIZON:
+            best = score
+            copy_moves(work, chosen)
+    while chosen[spot, 1] < 1.0:
+        spot += 1
     if best >= start:
-        return BestManeuver(best, chosen[: HORIZON + spot], spot)
-    found, made = descend(both, start, ROOT, made, best, aims, chosen, work)
+        return chosen[: HORIZON + spot]
+    work = np.zeros_like(chosen)
+    search = ManeuverSearch(turns, gain, objective, chosen, work)
+    found, made = descend(both, start, ROOT, made, best, search)
     if found > best:
         best, spot = found, 0
     if best < TIGHT:
         for side in (-1.0, 1.0):
             here, score = both, start
             for n in range(SPOTS):
-                work[n] = side * aims.rules.largest
-                worst, turn = best + aims.gain, work[n : n + 1]
-                here, score, more = roll_out(
-                    here, score, turn, 1, 1, worst, aims
+                move = work[n : n + 1]
+                move[0, 0] = side * objective.rules.largest
+                move[0, 1] = ON_THE_SPOT
+                here, score, walked = roll_out(
+                    here, score, move, 1, best + gain, PAPERS, objective
                 )
-                made += more
-                if score <= worst:
+                made += 1
+                if walked == 0:
                     break
                 if n % 2 == 0:
                     continue
-                found, made = descend(
-                    here, score, n + 1, made, best, aims, chosen, work
-                )
+                found, made = descend(here, score, n + 1, made, best, search)
                 if found > best:
                     best, spot = found, n + 1
-    return BestManeuver(best, chosen[: HORIZON + spot], spot)
+    return chosen[: HORIZON + spot]

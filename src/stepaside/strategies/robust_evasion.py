@@ -2,19 +2,21 @@
 
 from dataclasses import dataclass
 from functools import lru_cache
-from math import atan2, cos, hypot, sin
+from math import atan2, cos, hypot, inf, sin
 from typing import NamedTuple
 
 import numpy as np
 
-from ..arena.obstacles import PackedObstacles
 from ..core.constants import CAPTURE_DISTANCE
 from ..core.poses import Array, Pose, wrap_angle
 from ..core.ranges import Range
 from ..core.setting import CheckedSettings, setting
 from .knowledge import BODY, ON_THE_SPOT, Intent, Knowledge
-from .search.beam_search import BeamRules, beam_search, play_moves
+from .opponent_track import LEAST, OpponentTrack
+from .search.beam_search import BeamRules, beam_search
+from .search.rollout import ENOUGH, Objective, roll_out
 from .search.step_motion import (
+    PlayerPair,
     PursuerModel,
     StepRules,
     fit_heading,
@@ -64,8 +66,9 @@ SWAYING_SIGHT = FitRules(6, 4, 1.2)
 class ModelFit(NamedTuple):
     """Fit of every model to the observed motion."""
 
-    seen: Array = np.zeros(6)  # own pose, pursuer [m], time [steps]
-    # last observations, a step apart, without sway
+    # last positions, at times in steps
+    track: OpponentTrack = OpponentTrack(1.0, GAP, LEAST)
+    # these a step apart, without sway
     # (:func:`~.search.step_motion.fit_heading`). (n, 6)
     path: Array = np.empty((0, 6))
     poses: tuple[tuple[float, float, float], ...] = ()  # at the end of it
@@ -90,24 +93,22 @@ class ModelFit(NamedTuple):
         of walking bodies alternate with their sway from step to step: then the
         path is that of the mean of two, half a step earlier.
         """
-        begun, passed = bool(self.poses), time - self.seen[5]
-        if begun and passed < 0.75:
+        if self.poses and time - self.track.rows[-1].time < LEAST:
             return self
-        follows = begun and passed <= GAP
-        seen = np.array([*own, *position, time])
+        track = self.track.note(time, position, own)
         fitting = SWAYING_SIGHT if sways else EXACT_SIGHT
-        now = self._replace(seen=seen, fitting=fitting)
-        point = seen
-        if sways:
-            point = 0.5 * (self.seen + seen)
-            point[2] = own.theta - 0.5 * wrap_angle(own.theta - self.seen[2])
+        now = self._replace(track=track, fitting=fitting)
+        point, follows = np.array([*own, *position, time]), len(track.rows) > 1
+        if follows and sways:
+            at, x, y, pose = track.rows[-2]
+            point = 0.5 * (np.array([*pose, x, y, at]) + point)
+            point[2] = own.theta - 0.5 * wrap_angle(own.theta - pose.theta)
         path = self.path if follows else self.path[:0]
         if not len(path):
-            known = follows or not sways
-            x, y = (point if known else seen)[3:5].tolist()
-            pose = x, y, atan2(own.y - y, own.x - x)
-            path = point[None] if known else path
-            return now._replace(path=path, poses=(pose,) * len(MODELS))
+            x, y = point[3:5].tolist()
+            faces = x, y, atan2(own.y - y, own.x - x)
+            path = point[None] if follows or not sways else path
+            return now._replace(path=path, poses=(faces,) * len(MODELS))
         if hypot(*(point - path[-1])[3:5]) < LEAST_MOTION * rules.stride:
             return now._replace(path=np.array([*path[:-1], point]))
         path = np.array([*path[1 - fitting.window :], point])
@@ -225,9 +226,10 @@ class RobustEvasion(BackwardStrategy, CheckedSettings):
         limits, own = knowledge.limits, knowledge.pose_in_map
         walks = knowledge.step_start_in_map is not None
         steps, sight = step_rules(limits), own.theta + knowledge.bearing
-        if walks:
+        rows = memory.fit.track.rows
+        if walks and rows:
             most = steps.largest
-            turned = wrap_angle(own.theta - float(memory.fit.seen[2]))
+            turned = wrap_angle(own.theta - rows[-1].own.theta)
             sight -= TORSO_LAG * min(max(turned, -most), most)
         position = (
             own.x + knowledge.distance * cos(sight),
@@ -287,12 +289,17 @@ class RobustEvasion(BackwardStrategy, CheckedSettings):
             clearance += WALL_SWAY
         return PlannedGame(
             models,
-            [np.array([*begins, *pose]) for pose in poses],
+            [pair_of(begins, pose) for pose in poses],
             weights,
             len(assumed),
             kept,
-            knowledge.obstacles_in_map.packed,
-            BeamRules(steps, capture, clearance, self.width, horizon, caution),
+            Objective(
+                steps,
+                knowledge.obstacles_in_map.packed,
+                clearance,
+                capture=capture,
+            ),
+            BeamRules(self.width, horizon, caution),
         )
 
 
@@ -300,20 +307,21 @@ class PlannedGame(NamedTuple):
     """Game against every model that is plausible, from what has been seen."""
 
     models: tuple[PursuerModel, ...]  # those that are searched first
-    starts: list[Array]  # both poses by each model. (6,) each
+    starts: list[PlayerPair]  # both poses by each model
     weights: Array  # weight of each, one in all. (n,)
     searched: int  # number of models that are searched
     kept: float  # steps by which a new plan must survive longer
-    packed: PackedObstacles  # obstacles
-    rules: BeamRules  # rules of the games, and size of the search
+    objective: Objective  # that every plan must meet
+    rules: BeamRules  # size of the search
 
     def outcome(self, moves: Array) -> tuple[float, float]:
         """Return the mean steps that moves survive, and the least distance."""
+        number, objective = len(moves), self.objective
         played = [
-            play_moves(start, moves, model, self.packed, self.rules)
+            roll_out(start, ENOUGH, moves, number, -inf, model, objective)[1:]
             for start, model in zip(self.starts, self.models, strict=True)
         ]
-        steps, least = np.array(played).T
+        least, steps = np.array(played).T
         return float(self.weights @ steps), float(least.min())
 
     def plan(self, rest: Array) -> tuple[Array, float]:
@@ -322,14 +330,14 @@ class PlannedGame(NamedTuple):
         The rest of the last plan is compared with those found. Moves are turn
         [rad] and speed factor of each step, (n, 2).
         """
-        rules, candidates = self.rules, []
-        actions = actions_of(rules.step.largest)
+        rules, objective, candidates = self.rules, self.objective, []
+        actions = actions_of(objective.rules.largest)
         for n in range(self.searched):
             start, model = self.starts[n], self.models[n]
-            path = beam_search(start, actions, model, self.packed, rules)
+            path = beam_search(start, actions, model, objective, rules)
             if len(path) < rules.horizon:
                 wide = rules._replace(width=WIDER * rules.width)
-                path = beam_search(start, actions, model, self.packed, wide)
+                path = beam_search(start, actions, model, objective, wide)
             candidates.append(actions[path])
         outcomes = [self.outcome(moves) for moves in candidates]
         found = max(outcomes)

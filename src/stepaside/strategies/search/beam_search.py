@@ -6,23 +6,18 @@ best goes on, then the others, by rank. The last that remains has survived
 longest.
 """
 
-from math import cos, pi, sin, sqrt
+from math import cos, inf, pi, sin, sqrt
 from typing import Any, NamedTuple
 
 import numpy as np
 
-from ...arena.obstacles import PackedObstacles, clearance_at
-from ...core.compilation import (
-    compiled,
-    compiled_loop,
-    copy_values,
-    inlined,
-)
+from ...arena.obstacles import clearance_at
+from ...core.compilation import compiled, compiled_loop, inlined
+from .rollout import ENOUGH, Objective, judge, required
 from .step_motion import (
+    PlayerPair,
     PursuerModel,
-    StepRules,
     pair_in,
-    pair_of,
     pursue,
     store,
     walk_arc,
@@ -33,23 +28,15 @@ HEADINGS = 16  # sectors that count as alike
 BETWEEN = 0.41421356  # tangent of the angle of a sector
 BESIDE = 0.2  # worth of the pursuer's bearing, in [m] per [rad]
 CLEAR = 0.3  # worth of clearance, in [m] per [m], and the most that counts
-SLOW = 0.1  # speed factor of a turn on the spot, or less
-ON_SPOT_SLACK = 0.004  # of clearance that turns on the spot may use, in [m]
-LEAVING = 0.002  # clearance that an evader gains that leaves an obstacle, in
-# [m]; an arc bulges by 0.0013
 FARTHEST = 1.5  # distance beyond which no more is gained, in [m]
-ENOUGH = 0.8  # least distance of a game beyond which no more counts, in [m]
 GRAIN = 1e-3  # of ranks that count as equal, in [m]
 BEST = FARTHEST + BESIDE * pi + CLEAR * CLEAR + 3.0 * ENOUGH  # rank, in [m]
 GRAINS = int(BEST / GRAIN) + 2
 
 
 class BeamRules(NamedTuple):
-    """Rules of the games, and size of the search."""
+    """Size of the search, and rank of its states."""
 
-    step: StepRules  # rules of a step
-    capture: float  # capture distance [m]
-    clearance: float  # least clearance of the evader's centre [m]
     width: int  # number of states that go on
     horizon: int  # number of steps
     caution: float = 0.0  # worth of the least distance [m] per [m]
@@ -58,9 +45,7 @@ class BeamRules(NamedTuple):
 class Successors(NamedTuple):
     """Successors of the states of a beam: n rows."""
 
-    # Positions [m] and heading vectors of the evader, and the least distance
-    # so far [m]. (n, 5)
-    poses: Any
+    poses: Any  # positions [m], headings of the evader, score [m]. (n, 5)
     ranks: Any  # [m]
     keys: Any  # which nearly equal states have in common
     origins: Any  # numbers of the state and of the action. (n, 2)
@@ -83,13 +68,16 @@ def arc_cosine(value: float) -> float:
 
 @inlined
 def action_arcs(actions: Any, stride: float) -> Any:
-    """Return way ahead and to the left [m], cosine and sine of each turn."""
-    arcs = np.empty((len(actions), 4))
+    """Return way ahead and to the left [m], cosine and sine of each turn.
+
+    The last column has the speed factor.
+    """
+    arcs = np.empty((len(actions), 5))
     for k in range(len(actions)):
-        turn, way = actions[k, 0], -stride * actions[k, 1]
-        x, y, _, _ = walk_arc(0.0, 0.0, 1.0, 0.0, way, turn)
+        turn, pace = actions[k, 0], actions[k, 1]
+        x, y, _, _ = walk_arc(0.0, 0.0, 1.0, 0.0, -stride * pace, turn)
         arcs[k, 0], arcs[k, 1] = x, y
-        arcs[k, 2], arcs[k, 3] = cos(turn), sin(turn)
+        arcs[k, 2], arcs[k, 3], arcs[k, 4] = cos(turn), sin(turn), pace
     return arcs
 
 
@@ -109,83 +97,59 @@ def sector_of(c: float, s: float) -> int:
     return sector + (1 if min(u, v) > BETWEEN * max(u, v) else 0)
 
 
-@inlined
-def expand(
-    states: Any,
-    b: int,
-    arcs: Any,
-    model: PursuerModel,
-    packed: PackedObstacles,
-    rules: BeamRules,
-    new: Successors,
-    made: int,
-) -> int:
-    """Add the successors of a state to those made; return the number of all.
-
-    States hold both players (:class:`.PlayerPair`) and the least distance so
-    far, in [m]; the pursuer is advanced by one step. The rank of a successor
-    is its worth: far away, beside the pursuer, clear; with caution, never
-    near.
-    """
-    state = states[b]
-    both = pair_in(state)
-    ex, ey, forward, leftward = both.ex, both.ey, both.ec, both.es
-    px, py, ahead, left = pursue(both, model, rules.step)
-    state[4], state[5], state[6], state[7] = px, py, ahead, left
-    # An evader that is too near to an obstacle may turn, or leave it.
-    enough = rules.clearance + CLEAR
-    near = clearance_at(packed, ex, ey, enough) - rules.clearance
-    walking, turning = 0.0, -ON_SPOT_SLACK
-    if near < turning:
-        walking, turning = min(near + LEAVING, 0.0), near
-    chased = cell_of(px, 1.0 / PURSUER_CELL) * 8191
-    chased = (chased + cell_of(py, 1.0 / PURSUER_CELL)) * 8191
-    for k in range(len(arcs)):
-        x = ex + forward * arcs[k, 0] - leftward * arcs[k, 1]
-        y = ey + leftward * arcs[k, 0] + forward * arcs[k, 1]
-        dx, dy = x - px, y - py
-        square = dx * dx + dy * dy
-        if square <= rules.capture * rules.capture:
-            continue
-        clear = clearance_at(packed, x, y, enough) - rules.clearance
-        walks = abs(arcs[k, 0]) > SLOW * rules.step.stride
-        if clear < (walking if walks else turning):
-            continue
-        away = sqrt(square)
-        aim = arc_cosine((ahead * dx + left * dy) / away)
-        new.poses[made, 0], new.poses[made, 1] = x, y
-        c = forward * arcs[k, 2] - leftward * arcs[k, 3]
-        s = leftward * arcs[k, 2] + forward * arcs[k, 3]
-        new.poses[made, 2], new.poses[made, 3] = c, s
-        least = min(away, state[8])
-        new.poses[made, 4] = least
-        new.ranks[made] = (
-            min(away, FARTHEST)
-            + BESIDE * aim
-            + CLEAR * min(clear, CLEAR)
-            + rules.caution * least
-        )
-        new.origins[made, 0], new.origins[made, 1] = b, k
-        key = (chased + cell_of(x, 1.0 / EVADER_CELL)) * 8191
-        key = (key + cell_of(y, 1.0 / EVADER_CELL)) * HEADINGS
-        new.keys[made] = key + sector_of(c, s)
-        made += 1
-    return made
-
-
 @compiled_loop
 def expand_beam(
     beam: Any,
     arcs: Any,
     model: PursuerModel,
-    packed: PackedObstacles,
-    rules: BeamRules,
+    objective: Objective,
+    caution: float,
     new: Successors,
 ) -> int:
-    """Write the successors of all states; return their number."""
-    made = 0
+    """Write the successors of all states; return their number.
+
+    States hold both players (:class:`.PlayerPair`) and the score so far; the
+    pursuer is advanced by one step. The rank of a successor is its worth: far
+    away, beside the pursuer, clear; with caution, never near.
+    """
+    made, reach = 0, objective.clearance + CLEAR
     for b in range(len(beam)):
-        made = expand(beam, b, arcs, model, packed, rules, new, made)
+        state = beam[b]
+        both = pair_in(state)
+        ex, ey, forward, leftward = both.ex, both.ey, both.ec, both.es
+        px, py, ahead, left = pursue(both, model, objective.rules)
+        state[4], state[5], state[6], state[7] = px, py, ahead, left
+        near = clearance_at(objective.packed, ex, ey, reach)
+        near -= objective.clearance
+        chased = cell_of(px, 1.0 / PURSUER_CELL) * 8191
+        chased = (chased + cell_of(py, 1.0 / PURSUER_CELL)) * 8191
+        for k in range(len(arcs)):
+            x = ex + forward * arcs[k, 0] - leftward * arcs[k, 1]
+            y = ey + leftward * arcs[k, 0] + forward * arcs[k, 1]
+            c = forward * arcs[k, 2] - leftward * arcs[k, 3]
+            s = leftward * arcs[k, 2] + forward * arcs[k, 3]
+            after = PlayerPair(x, y, c, s, px, py, ahead, left)
+            least = required(near, arcs[k, 4])
+            score, away, clear = judge(
+                after, state[8], least, CLEAR, objective
+            )
+            if score == -inf:
+                continue
+            aim = arc_cosine((ahead * (x - px) + left * (y - py)) / away)
+            new.poses[made, 0], new.poses[made, 1] = x, y
+            new.poses[made, 2], new.poses[made, 3] = c, s
+            new.poses[made, 4] = score
+            new.ranks[made] = (
+                min(away, FARTHEST)
+                + BESIDE * aim
+                + CLEAR * min(clear, CLEAR)
+                + caution * score
+            )
+            new.origins[made, 0], new.origins[made, 1] = b, k
+            key = (chased + cell_of(x, 1.0 / EVADER_CELL)) * 8191
+            key = (key + cell_of(y, 1.0 / EVADER_CELL)) * HEADINGS
+            new.keys[made] = key + sector_of(c, s)
+            made += 1
     return made
 
 
@@ -261,19 +225,19 @@ def successors(number: int) -> Successors:
 
 @compiled
 def beam_search(
-    start: Any,
+    both: PlayerPair,
     actions: Any,
     model: PursuerModel,
-    packed: PackedObstacles,
+    objective: Objective,
     rules: BeamRules,
 ) -> Any:
     """Return the numbers of the actions of the game that survives longest.
 
-    The start has the poses of evader and pursuer in a frame whose origin is
-    the centre of the room, (6,); actions are turn [rad] and speed factor,
-    (k, 2). They are fewer than the horizon if no state of the beam survives.
+    Positions are those in a frame whose origin is the centre of the room;
+    actions are turn [rad] and speed factor, (k, 2). They are fewer than the
+    horizon if no state of the beam survives.
     """
-    arcs = action_arcs(actions, rules.step.stride)
+    arcs = action_arcs(actions, objective.rules.stride)
     width, horizon = rules.width, rules.horizon
     new, beams = successors(width * len(arcs)), np.zeros((2, width, 9))
     chosen = np.zeros((horizon, width, 2), dtype=np.int32)
@@ -281,12 +245,14 @@ def beam_search(
     while places < 2 * width:
         places *= 2
     table = np.zeros(places, dtype=np.int64)
-    store(pair_of(start[:3], start[3:]), beams[0, 0])
-    beams[0, 0, 8] = ENOUGH
+    store(both, beams[0, 0])
+    beams[0, 0, 8] = objective.enough
     count, steps = 1, 0
     while steps < horizon:
         old, beam = beams[steps % 2], beams[(steps + 1) % 2]
-        made = expand_beam(old[:count], arcs, model, packed, rules, new)
+        made = expand_beam(
+            old[:count], arcs, model, objective, rules.caution, new
+        )
         if made == 0:
             break
         count = select_best(new, made, old, beam, table, chosen[steps])
@@ -296,28 +262,3 @@ def beam_search(
         path[n] = chosen[n, b, 1]
         b = chosen[n, b, 0]
     return path
-
-
-@compiled
-def play_moves(
-    start: Any,
-    moves: Any,
-    model: PursuerModel,
-    packed: PackedObstacles,
-    rules: BeamRules,
-) -> tuple[int, float]:
-    """Return the steps that moves survive, and their least distance [m].
-
-    Moves are turn [rad] and speed factor of each step, (n, 2); the distance is
-    at most 0.8 m.
-    """
-    arcs = action_arcs(moves, rules.step.stride)
-    states, new = np.full((1, 9), ENOUGH), successors(1)
-    store(pair_of(start[:3], start[3:]), states[0])
-    for n in range(len(moves)):
-        arc = arcs[n : n + 1]
-        if not expand(states, 0, arc, model, packed, rules, new, 0):
-            return n, states[0, 8]
-        copy_values(new.poses[0, :4], states[0])
-        states[0, 8] = new.poses[0, 4]
-    return len(moves), states[0, 8]
