@@ -31,6 +31,7 @@ from .knowledge import STAND, Intent, Knowledge, Limits
 
 Tensor = NDArray[Any]
 FORMAT = "1"
+LEAST, GREATEST = np.array([(-pi, 0.0), (pi, 1.0)])  # heading [rad], speed
 HEADINGS = 15  # of discrete actions
 FARTHEST = 8.0  # v/k
 FASTEST = 4.0  # in v, and in k
@@ -308,12 +309,11 @@ class LearnedStrategy:
         if not np.isfinite(outputs).all():
             column = int(np.argwhere(~np.isfinite(outputs))[0][1])
             raise PolicyError(f"output {column} of {self.name} must be finite")
-        rows: Array = outputs.astype(np.float64)
         if self.contract.headings:
             table = [(h or 0.0, h is not None) for h in self.contract.headings]
-            rows = np.array(table, np.float64)[rows.argmax(axis=1)]
+            rows: Array = np.array(table, np.float64)[outputs.argmax(axis=1)]
         else:
-            rows = np.clip(rows, (-pi, 0.0), (pi, 1.0))
+            rows = np.minimum(np.maximum(outputs, LEAST), GREATEST)
         return rows
 
     def save(self, path: AnyPath) -> None:
