@@ -22,6 +22,7 @@ from stepaside.locomotion.policy.runner import (
     BodyMotion,
     PolicyNetwork,
     PolicyRunner,
+    TensorShape,
 )
 
 Term = ObservationTerm
@@ -231,9 +232,38 @@ def test_an_output_that_is_not_finite_is_named(
     file = write_policy(
         tmp_path / "a.onnx", np.zeros((3, 3)), np.array([0.0, value, 0.0])
     )
-    runner = Walker(CONTRACT, PolicyNetwork(file))
     with pytest.raises(PolicyError, match="output 1 .* must be finite"):
-        runner.update(body(), STILL)
+        PolicyNetwork(file)
+
+
+def test_an_output_that_grows_beyond_reason_ends_a_walk(
+    tmp_path: Path,
+) -> None:
+    file = write_policy(tmp_path / "a.onnx", np.eye(3), np.zeros(3))
+    network = PolicyNetwork(file)
+    with pytest.raises(PolicyError, match="output 1 .* must be finite"):
+        network.evaluate(np.array([0.0, 2e4, 0.0]), ())
+
+
+@pytest.mark.parametrize("shape", [[3, 1], [3], [None, 3], [3, None]])
+def test_the_width_is_the_axis_with_values(shape: list[int | None]) -> None:
+    assert TensorShape("obs", tuple(shape)).width == 3
+
+
+def test_an_action_is_found_by_its_name(tmp_path: Path) -> None:
+    """An estimate of the value of a state may come before it."""
+    onnx = pytest.importorskip("onnx")
+    file = write_policy(tmp_path / "a.onnx", np.eye(3), np.zeros(3))
+    model = onnx.load(file)
+    model.graph.node.append(
+        onnx.helper.make_node("ReduceSum", ["obs"], ["value"], keepdims=1)
+    )
+    real = onnx.TensorProto.FLOAT
+    value = onnx.helper.make_tensor_value_info("value", real, [1, 1])
+    model.graph.output.insert(0, value)
+    onnx.save(model, file)
+    action, _ = PolicyNetwork(file).evaluate(np.array([1.0, 2.0, 3.0]), ())
+    np.testing.assert_array_equal(action, [1.0, 2.0, 3.0])
 
 
 def test_a_file_that_is_no_network_is_refused(tmp_path: Path) -> None:

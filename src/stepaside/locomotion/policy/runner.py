@@ -36,8 +36,9 @@ class TensorShape(NamedTuple):
 
     @property
     def width(self) -> int | None:
-        """Size of the last axis."""
-        return self.shape[-1] if self.shape else None
+        """Size of the only axis with more than one value, else the last."""
+        known = [size for size in self.shape if size not in (None, 1)]
+        return known[0] if len(known) == 1 else self.shape[-1]
 
     def __str__(self) -> str:
         """Return name and shape, as in a message."""
@@ -105,6 +106,7 @@ class PolicyNetwork:
                 f"legs: {self.path} cannot run for one walker: "
                 + " ".join(str(error).split())
             ) from error
+        self._check(once[0].ravel())
         width = once[0].size
         self.action = self.action._replace(shape=(1, width))
         return any(
@@ -196,6 +198,8 @@ def _pair_ports(
     ]
     rest = [x for x in inputs if x not in [given for given, _ in named]]
     free = [x for x in outputs if x not in [out for _, out in named]]
+    rest.sort(key=lambda port: "obs" not in port.name.lower())
+    free.sort(key=lambda port: "action" not in port.name.lower())
     if not (rest and free):
         raise PolicyError(
             f"legs: {path} must have an observation and an action beside its "
