@@ -1,5 +1,6 @@
 """``stepaside robot legs``: inspect and measure walking policies."""
 
+from collections.abc import Iterable
 from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -236,8 +237,8 @@ def measure(
             ("command", "delivered [m/s, m/s, rad/s]", "fell at [s]"),
             [
                 (
-                    _numbers(trial["command"]),
-                    _numbers(trial["delivered"]),
+                    _numbers(trial["command"].values()),
+                    _numbers(trial["delivered"].values()),
                     _numbers([trial["fell_at_s"]]),
                 )
                 for trial in facts["trials"]
@@ -279,5 +280,5 @@ def measurement_facts(result: "LegsMeasurement") -> dict[str, Any]:
     return facts
 
 
-def _numbers(values: list[float | None]) -> str:
+def _numbers(values: Iterable[float | None]) -> str:
     return " ".join("-" if x is None else f"{x:7.3f}" for x in values)
