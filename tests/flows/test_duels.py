@@ -244,11 +244,17 @@ def test_a_run_opens_from_another_folder(
     assert len(refused.err.splitlines()) == 1 and "renamed" in refused.err
 
 
+@pytest.mark.parametrize("model", ["model.xml", "../published/model.xml"])
 def test_a_run_of_an_own_humanoid_opens_from_another_folder(
-    tmp_path: Path,
+    model: str, tmp_path: Path
 ) -> None:
-    described = Path(sa.__file__).parent / "robots" / "nao"
-    shutil.copytree(described, tmp_path / "own")
+    own, described = tmp_path / "own", Path(sa.__file__).parent / "robots/nao"
+    shutil.copytree(described, own)
+    (tmp_path / "published").mkdir()
+    (own / "model.xml").rename(own / model)
+    text = (own / "robot.toml").read_text()
+    changed = text.replace('"model.xml"', f'"{model}"')
+    (own / "robot.toml").write_text(changed)
     stepaside(
         *(
             "run",

@@ -17,7 +17,7 @@ import tomli_w
 from ..core.entries import load_entries, read_entries
 from ..core.errors import AnyPath, ConfigurationError, as_path
 from ..core.poses import Array
-from ..robots.description import known_robots
+from ..robots.description import FILE, known_robots
 from .game import Outcome
 from .game_settings import GAME_KINDS
 from .player_settings import MOST_PLAYERS, PLAYER_NAME
@@ -90,11 +90,22 @@ def _keep_robots(entries: Any, folder: Path) -> None:
             target.parent.mkdir(exist_ok=True)
             if source.is_dir():
                 copytree(source, target, symlinks=False)
+                _find_model(source, target)
             else:
                 copy(source, target)
         return kept[source]
 
     replace_files(entries, keep)
+
+
+def _find_model(source: Path, copied: Path) -> None:
+    """Name the model of a copied description, wherever it lies."""
+    file = copied / FILE
+    model = load_entries(source / FILE).get("model", "")
+    if not (copied / model).exists():
+        found = json.dumps(str((source / model).resolve()))
+        text = file.read_text("utf-8").replace(json.dumps(model), found, 1)
+        file.write_text(text, "utf-8")
 
 
 def complete_play(
