@@ -90,10 +90,6 @@ def test_the_reference_has_environments_and_games(name: str) -> None:
     assert re.search(rf"^\.\. auto\w+:: .*\b{name}$", text, re.MULTILINE)
 
 
-@pytest.mark.xfail(
-    strict=True,
-    reason="no page says how a network from torch gets its metadata",
-)
 def test_a_page_says_how_a_network_gets_its_metadata() -> None:
     assert ".metadata()" in pages()
 
@@ -102,14 +98,14 @@ def test_a_page_says_how_stable_baselines_learns() -> None:
     assert "stable_baselines3" in pages()
 
 
-@pytest.mark.xfail(
-    strict=True,
-    reason="the recipe for ROS 2 does not publish the other's pose",
-)
 def test_the_recipe_for_ros_2_publishes_the_pose_of_the_other() -> None:
-    recipe = (DOCS / "robots-real.md").read_text("utf-8")
-    blocks = "".join(re.findall(r"```\w*\n(.*?)```", recipe, re.DOTALL))
-    assert re.search(r"ros2 (topic pub|run) .*(detections|odom)", blocks)
+    recipe = (DOCS / "recipe-people.md").read_text("utf-8")
+    (detector,) = re.findall(r"```python\n(.*?)```", recipe, re.DOTALL)
+    (topic,) = re.findall(
+        r'create_publisher\(PoseArray, "/g1/(.*?)"', detector
+    )
+    assert f"/{topic}` | " in (DOCS / "robots-real.md").read_text("utf-8")
+    assert "play ros2:/g1 " in recipe
 
 
 def test_one_duel_needs_no_tools_of_developers() -> None:
