@@ -169,6 +169,15 @@ def test_an_ideal_duel_loads_neither_cameras_nor_vision() -> None:
     subprocess.run([sys.executable, "-c", code], check=True)
 
 
+def test_the_live_page_loads_no_vision() -> None:
+    pytest.importorskip("viser")
+    code = (
+        "import sys; import stepaside.report.viewer.live_page;"
+        "assert 'cv2' not in sys.modules"
+    )
+    subprocess.run([sys.executable, "-c", code], check=True)
+
+
 def test_settings_load_no_heavy_library() -> None:
     """Help and configurations need no physics."""
     code = (

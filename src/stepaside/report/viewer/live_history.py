@@ -2,6 +2,7 @@
 
 from collections import deque
 from math import degrees, inf, nan
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -12,8 +13,10 @@ from ...games.player_settings import PLAYERS
 from ...games.players import Player, RobotPlayer
 from ...games.recorded_game import RecordedGame
 from ...games.trajectory import angle_between
-from ...perception.pipeline import FrameReport
 from ...planning import Foot
+
+if TYPE_CHECKING:  # vision is an extra of its own
+    from ...perception.pipeline import FrameReport
 
 PERIOD = 0.1  # between samples, in [s]
 MAX_RECORDED = 600.0  # simulated time that is recorded, in [s]

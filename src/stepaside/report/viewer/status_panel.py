@@ -1,6 +1,7 @@
 """Status of a live game: its state as text, plots over time, camera images."""
 
 from math import degrees, tan
+from typing import TYPE_CHECKING
 
 import numpy as np
 import viser
@@ -10,10 +11,12 @@ from ...core.poses import Array
 from ...games.players import Player, RobotPlayer
 from ...locomotion.locomotion import Phase
 from ...perception.images import ColourImage, Pixels
-from ...perception.pipeline import FrameReport
 from ..palette import PALETTES
 from ..text_escaping import for_markdown
 from .live_session import LiveSession
+
+if TYPE_CHECKING:  # vision is an extra of its own
+    from ...perception.pipeline import FrameReport
 
 PADDING = (12, 12, 0, 0)  # for the last tick labels, in [pixels]
 LAST = 1e6  # order of elements below all others
@@ -125,7 +128,7 @@ class Plots:
         )
 
 
-def camera_picture(report: FrameReport) -> Pixels:
+def camera_picture(report: "FrameReport") -> Pixels:
     """Return an enlarged image with a line in every detected direction.
 
     Depth is shown as brightness, missing values are black. Shape (height,
