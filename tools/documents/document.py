@@ -10,8 +10,9 @@ from .store import ROOT, Store
 
 def documents() -> list[Path]:
     """Return README and all pages of docs/ that no study writes."""
-    pages = [ROOT / "README.md", *(ROOT / "docs").glob("*.md")]
-    return sorted([*pages, ROOT / "docs" / "results" / "README.md"])
+    pages = [*(ROOT / "docs").glob("*.md")]
+    pages += [*(ROOT / "docs" / "results").glob("*.md")]
+    return sorted([ROOT / "README.md", *pages])
 
 
 def parts_of(text: str, store: Store) -> list[Part]:
