@@ -10,8 +10,8 @@ PLAYS := $(VENV)/.plays
 INSTALL := -m pip install --disable-pip-version-check --no-warn-script-location \
 	--root-user-action=ignore --constraint constraints.txt
 
-.PHONY: setup duel test types suite python other other-setup other-test mutate \
-	bench figures docs docs-run docs-setup wheel release clean constraints \
+.PHONY: setup duel test test-slow types suite python other other-setup \
+	other-test mutate bench figures docs docs-run docs-setup wheel release clean constraints \
 	ros2-peers test-ament test-export test-rcss
 
 setup: $(STAMP)
@@ -50,7 +50,12 @@ types:
 	$(BIN)/mypy
 
 suite:
-	$(BIN)/pytest --numprocesses auto
+	$(BIN)/pytest --numprocesses auto -m "not slow"
+
+# What takes over a second of processor time each, and no flow needs.
+test-slow: export PYTHONDONTWRITEBYTECODE :=
+test-slow: setup
+	$(BIN)/pytest --numprocesses auto -m slow
 
 # The Python that the next environment is made with.
 python:

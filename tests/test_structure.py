@@ -209,3 +209,9 @@ def test_games_have_one_loop_one_judge_and_one_arc() -> None:
         assert [f for f, read in texts.items() if text in read] == [wanted]
     played = [f for f, read in texts.items() if "DeferredInterrupt()" in read]
     assert played == ["games/game.py"]
+
+
+def test_make_test_leaves_out_no_flow() -> None:
+    flows = Path(__file__).parent / "flows"
+    for file in flows.glob("*.py"):
+        assert "mark.slow" not in file.read_text(encoding="utf-8"), file

@@ -75,6 +75,7 @@ def is_large(value: str) -> bool:
         return False
 
 
+@pytest.mark.slow
 @pytest.mark.usefixtures("without_work")
 @settings(
     max_examples=80, suppress_health_check=[*HealthCheck], derandomize=True

@@ -93,6 +93,7 @@ def test_commands_are_declared_without_heavy_imports() -> None:
     subprocess.run([sys.executable, "-c", code], check=True)
 
 
+@pytest.mark.slow
 def test_duel_without_figure_imports_no_plotting() -> None:
     """They would double the import time; Numba needs a part of SciPy."""
     code = """if True:

@@ -12,8 +12,9 @@ from stepaside.games import game
 
 pytestmark = pytest.mark.usefixtures("blank_figures", "inline_workers")
 
+DUEL = "duel --duration 1"
 TABLES = [
-    "duel --duration 1",
+    DUEL,
     "run walk --duration 20",
     "theory plan --role evader --bearing 0.3",
     "run unicycles --speed 0.1 --gain 0.2",
@@ -24,8 +25,11 @@ TABLES = [
     "theory bound --grid 16 --set horizon=0.1",
     "theory bound --grid 16 --set horizon=0.1 --against any",
     "theory bound --against person --evader-speed 0.6 --grid 16",
-    "study tournament --set seed=0:1 --set game.duration=1 "
-    "--set evader=evasion --workers 1",
+    pytest.param(
+        "study tournament --set seed=0:1 --set game.duration=1 "
+        "--set evader=evasion --workers 1",
+        marks=pytest.mark.slow,
+    ),
     "run room --discs 2 --doors 1",
     "robot nao",
 ]
@@ -67,7 +71,7 @@ def test_tables_show_no_raw_keys(words: str, progress_lines: None) -> None:
     assert not re.findall(r"\b(?:True|False|None)\b", table), shown.stdout
 
 
-@pytest.mark.parametrize("words", ["run walk --duration 9", TABLES[0]])
+@pytest.mark.parametrize("words", ["run walk --duration 9", DUEL])
 def test_progress_is_not_among_json(words: str, progress_lines: None) -> None:
     assert shown_by(f"{words} --json").stdout.startswith("{")
 

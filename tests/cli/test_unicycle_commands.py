@@ -139,6 +139,7 @@ FAST = "--set pursuer_speed=2 --set evader_speed=1 "
 FAST += "--set pursuer_gain=1 --set evader_gain=4"
 
 
+@pytest.mark.slow
 def test_circle_lists_main_and_reversed_with_their_basins() -> None:
     found = loads(circle, f"{FAST} --angle 90deg")
     main, other = found["circles"]

@@ -111,6 +111,7 @@ def clearance(room: Room, corners: Array) -> float:
     )
 
 
+@pytest.mark.slow
 def test_any_intent_keeps_the_robot_clear_of_obstacles() -> None:
     """Foot by foot, tick by tick, through every step and every halt."""
     least, phases = [], set()
@@ -137,6 +138,7 @@ def test_any_intent_keeps_the_robot_clear_of_obstacles() -> None:
     assert min(least) < MARGIN + 0.01
 
 
+@pytest.mark.slow
 def test_an_accepted_step_and_its_halt_keep_clear() -> None:
     """The halt after each accepted step, from the step's own end."""
     random = np.random.default_rng(3)

@@ -54,6 +54,7 @@ def run(folder: Path, cache: Path) -> tuple[str, str]:
     return done.stdout.strip(), done.stderr
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("kind", CALLEES)
 def test_a_changed_callee_is_compiled_again(kind: str, tmp_path: Path) -> None:
     """The file of the function that is kept has not changed."""
@@ -85,6 +86,7 @@ def first(pair: Pair) -> float:
 """
 
 
+@pytest.mark.slow
 def test_functions_of_a_record_are_compiled_again_when_its_fields_move(
     tmp_path: Path,
 ) -> None:
@@ -103,6 +105,7 @@ def test_functions_of_a_record_are_compiled_again_when_its_fields_move(
     assert said == "1" and "compiling" in told
 
 
+@pytest.mark.slow
 def test_without_a_folder_to_write_to_it_compiles_and_says_so(
     tmp_path: Path,
 ) -> None:

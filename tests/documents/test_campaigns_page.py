@@ -18,6 +18,7 @@ def blocks(language: str) -> list[str]:
     return re.findall(rf"```{language}\n(.*?)```", PAGE, flags=re.DOTALL)
 
 
+@pytest.mark.slow
 def test_queries_of_a_tournament_run(
     tmp_path: Path,
     monkeypatch: pytest.MonkeyPatch,

@@ -8,15 +8,11 @@ import subprocess
 import sys
 from collections.abc import Callable, Iterator
 from pathlib import Path
-from time import monotonic, sleep
 from typing import Any
 
 import pytest
 
-from stepaside.drivers import watchdog
-from stepaside.drivers.robot_camera import (
-    SILENCE as CAMERA,
-)
+from flows.running import until
 
 ADAPTERS = Path(__file__).parents[2] / "examples" / "adapters"
 ROBOT = f"{ADAPTERS / 'walker_robot.py'}:WalkerRobot"
@@ -26,7 +22,6 @@ TEMPLATE = (
     "--set evasion.safety_radius=5"
 ).split()
 LONGEST = 60.0  # for what takes seconds on an idle machine, in [s]
-SLACK = 1.0  # of a busy machine, in [s]
 SEEING = f"{ADAPTERS / 'seeing_robot.py'}:SeeingRobot"
 TIMEOUT = 0.6  # after which this robot stops by itself, in [s]
 
@@ -102,15 +97,6 @@ def test_the_page_prints_the_example() -> None:
     assert f"```python\n{code}```" in page.read_text(encoding="utf-8")
 
 
-def until(done: Callable[[], bool]) -> float:
-    """Wait, and return how long, in [s]."""
-    began = monotonic()
-    while not done():
-        assert monotonic() - began < LONGEST
-        sleep(0.01)
-    return monotonic() - began
-
-
 @pytest.mark.parametrize("lost", ["states", "both"])
 def test_it_stops_when_its_network_fails_and_walks_on_afterwards(
     lost: str, start: Callable[..., Any]
@@ -118,12 +104,12 @@ def test_it_stops_when_its_network_fails_and_walks_on_afterwards(
     """If commands are lost, too, the robot has to stop by itself."""
     both = lost == "both"
     walker = start(*(["--timeout", str(TIMEOUT)] if both else []))
-    play = start("--duration", "30", of=walker)
+    play = start(of=walker)
     until(walker.moves)
     kinds = ["states", "commands"] if both else ["states"]
-    walker.send(call="lose", **{"for": dict.fromkeys(kinds, 2.0)})
-    within = TIMEOUT if both else watchdog.SILENCE
-    assert until(lambda: not walker.moves()) < within + SLACK
+    walker.send(call="lose", **{"for": dict.fromkeys(kinds, LONGEST)})
+    until(lambda: not walker.moves())
+    walker.send(call="lose", **{"for": dict.fromkeys(kinds, 0.0)})
     until(walker.moves)
     play.send_signal(signal.SIGINT)
     said = play.communicate(timeout=LONGEST)[1]
@@ -138,8 +124,9 @@ def test_a_robot_with_a_camera_walks_while_it_sees_its_opponent(
     walker = start()
     play = start("--sensing", "cameras", of=walker, robot=SEEING)
     until(walker.moves)
-    walker.send(call="lose", **{"for": {"images": 2.0}})
-    assert until(lambda: not walker.moves()) < CAMERA + SLACK
+    walker.send(call="lose", **{"for": {"images": LONGEST}})
+    until(lambda: not walker.moves())
+    walker.send(call="lose", **{"for": {"images": 0.0}})
     until(walker.moves)
     play.send_signal(signal.SIGINT)
     said = play.communicate(timeout=LONGEST)[1]

@@ -132,6 +132,7 @@ class GainsRobot(JointRobot):
     release = halt
 
 
+@pytest.mark.slow
 def test_a_policy_walks_a_robot_that_takes_targets_and_gains(
     tmp_path: Path,
 ) -> None:

@@ -36,7 +36,7 @@ from velocity_fakes import SimulatedUnicycle, until
 
 MOUNT = CameraMount(0.1, 0.0, 1.2)
 PIXELS = np.zeros((120, 160, 3), np.uint8)
-SLACK = 20.0  # of a busy machine, in [s]
+LONGEST = 60.0  # for what takes milliseconds, in [s]
 
 
 def image(time: float = 5.0, **changes: Any) -> CameraImage:
@@ -63,7 +63,7 @@ def taken(
 ) -> list[CameraImage]:
     """The images that arrive until something is so."""
     found: list[CameraImage] = []
-    deadline = monotonic() + SLACK
+    deadline = monotonic() + LONGEST
     while not done(found):
         assert monotonic() < deadline
         got = camera.take(5.0)
@@ -128,11 +128,10 @@ def test_what_is_no_image_ends_the_session(got: Any) -> None:
 def test_an_image_that_blocks_hinders_the_robot() -> None:
     stuck = Event()
     robot = Filming(image())
-    robot.image = lambda: image() if stuck.wait(SLACK) else None  # type: ignore[method-assign]
+    robot.image = lambda: image() if stuck.wait() else None  # type: ignore[method-assign]
     camera = RobotCamera(robot, needs_mount=True)
     camera.take(5.0)
-    sleep(0.3)
-    assert "image() has not returned for" in camera.hindrance
+    until(lambda: "image() has not returned for" in camera.hindrance)
     stuck.set()
     assert taken(camera, bool)
 
@@ -141,11 +140,7 @@ def test_silence_hinders_the_robot() -> None:
     robot = Filming(image())
     camera = RobotCamera(robot, needs_mount=True)
     assert taken(camera, bool)
-    deadline = monotonic() + SLACK
-    while not camera.hindrance:
-        camera.take(5.0)
-        assert monotonic() < deadline
-        sleep(0.01)
+    until(lambda: camera.take(5.0) or camera.hindrance)
     assert "image() returned no new image for" in camera.hindrance
 
 
@@ -160,20 +155,21 @@ class Video(Filming):
 
 
 def test_times_of_a_camera_apart_are_those_of_this_computer() -> None:
-    taken_at = monotonic() - 0.2
-    video = Video(image(taken_at, mount=None, focal_y=141.0))
+    began = monotonic()
+    video = Video()
+    video.image = lambda: image(  # type: ignore[method-assign]
+        monotonic() - 0.2, mount=None, focal_y=141.0
+    )
     camera = RobotCamera(video, apart=True)
-    (got,) = taken(camera, bool)
+    got = taken(camera, bool)[0]
     assert got.mount is None
-    assert got.time == pytest.approx(5.0 - 0.2, abs=0.1)
+    late = monotonic() - began
+    assert 5.0 - 0.2 - late <= got.time <= 5.0 - 0.2
     seen = colour_image(got)
     assert seen.time == got.time
     assert seen.camera == CameraModel(160, 120, 140.0, 141.0)
     camera.close()
-    deadline = monotonic() + SLACK
-    while not video.closed:
-        assert monotonic() < deadline
-        sleep(0.002)
+    until(lambda: video.closed)
 
 
 def test_the_head_follows_the_opponent_and_sightings_are_true(
@@ -206,29 +202,36 @@ def test_the_head_follows_the_opponent_and_sightings_are_true(
     session = RobotSession(robot)
     camera = RobotCamera(robot, needs_mount=True)
     sight = PosedSight(session, camera, perception, turns_head=True)
-    end = monotonic() + 4.0
-    report, hindered = None, set()
-    while monotonic() < end:
+
+    def bearing() -> float:
+        dx, dy = np.subtract(walker.person, walker.pose[:2])
+        return wrap_angle(atan2(dy, dx) - walker.pose[2])
+
+    def followed(turn: float) -> bool:
+        """Whether head and sighting are where the opponent is."""
         sleep(PERIOD)
-        new = session.listen(0.05)
-        if new is not None:
-            report = sight.see(new)
-            hindered.add(report.hindrance.partition(" for ")[0])
-        session.command(partial(robot.command, -0.1, 0.0, 0.3))
-    (x, y, heading), (px, py) = walker.pose, walker.person
-    yaw = walker.head[0]
+        new = session.listen(LONGEST)
+        assert new is not None
+        report = sight.see(new)
+        session.command(partial(robot.command, 0.0, 0.0, turn))
+        seen, away = report.sighting, bearing()
+        far = hypot(*np.subtract(walker.person, walker.pose[:2]))
+        return (
+            seen is not None
+            and not report.hindrance
+            and abs(walker.head[0] - away) < 0.1
+            and abs(seen.bearing - away) < 0.1
+            and abs(seen.distance - far) < 0.15
+        )
+
+    while bearing() > -0.7:
+        followed(0.3)
+    until(lambda: followed(0.0))
+    assert bearing() < -0.6  # it has turned away, and looks back
     camera.close()
     session.close()
     walker.socket.close()
-    thread.join(SLACK)
-    assert report is not None and report.sighting is not None
-    dx, dy = px - x, py - y
-    bearing = wrap_angle(atan2(dy, dx) - heading)
-    assert bearing < -0.6  # it has turned away, and looks back
-    assert yaw == pytest.approx(bearing, abs=0.15)
-    assert report.sighting.bearing == pytest.approx(bearing, abs=0.1)
-    assert report.sighting.distance == pytest.approx(hypot(dx, dy), abs=0.15)
-    assert hindered <= {"", "image() returned no new image"}
+    thread.join(LONGEST)
 
 
 MODEL = CameraModel(320, 240, 272.0, 272.0)
@@ -258,10 +261,11 @@ def test_a_film_stands_for_a_camera(tmp_path: Path) -> None:
     writer.release()
     camera = VideoCamera(film, MODEL, latency=0.03)
     for _ in range(30):
+        began = monotonic()
         image = camera.image()
         assert image is not None
+        assert began <= image.time + 0.03 <= monotonic()
         check(image, 25.0)
-        assert -1.0 < image.time - monotonic() <= -0.03
     assert camera.image() is None
     camera.close()
 

@@ -13,14 +13,15 @@ import pytest
 
 from stepaside.core.errors import ConfigurationError
 from stepaside.core.poses import Pose
+from stepaside.drivers import method_thread, robot_session
 from stepaside.drivers.guardian_process import Guardian
 from stepaside.drivers.method_thread import BLOCKED, SessionLost
 from stepaside.drivers.robot import JointRobot, VelocityLimits, VelocityRobot
 from stepaside.drivers.robot_reports import plain_report
-from stepaside.drivers.robot_session import UNHALTED, RobotSession
+from stepaside.drivers.robot_session import RobotSession
 from stepaside.perception.measurement import RobotState
 
-SLACK = 1.0  # of a busy machine, in [s]
+LONGEST = 60.0  # for what takes milliseconds, in [s]
 WALK = (-0.2, 0.1, 0.4)
 
 
@@ -71,18 +72,17 @@ def stuck() -> Iterator[Event]:
     event.set()
 
 
-def until(done: Callable[[], Any]) -> float:
-    """Wait, and return how long, in [s]."""
-    began = monotonic()
+def until(done: Callable[[], Any]) -> None:
+    """Wait for something that is true."""
+    end = monotonic() + LONGEST
     while not done():
-        assert monotonic() - began < 20.0
+        assert monotonic() < end
         sleep(0.005)
-    return monotonic() - began
 
 
 def driven(
     session: RobotSession, robot: ScriptedRobot, done: Callable[[], Any]
-) -> float:
+) -> None:
     """Run a control that wants to walk, and halts without a report."""
 
     def tick() -> Any:
@@ -92,7 +92,7 @@ def driven(
             session.command(partial(robot.command, *WALK))
         return done()
 
-    return until(tick)
+    until(tick)
 
 
 def test_a_session_calls_each_method_in_turn() -> None:
@@ -222,11 +222,10 @@ def test_a_method_that_blocks_halts_the_robot_beside_it(
     driven(session, robot, lambda: WALK in robot.calls)
     before = len(robot.calls)
     if method == "listen":
-        robot.hears = lambda: (stuck.wait(20.0), robot.state())[1]
+        robot.hears = lambda: (stuck.wait(), robot.state())[1]
     else:
-        robot.obeys = lambda: stuck.wait(20.0)
-    took = driven(session, robot, lambda: "stop" in robot.calls[before:])
-    assert took < BLOCKED + SLACK
+        robot.obeys = lambda: stuck.wait()
+    driven(session, robot, lambda: "stop" in robot.calls[before:])
     assert f"{method}() of ScriptedRobot has not returned" in caplog.text
     with pytest.raises(SessionLost, match="has not returned"):
         session.check_blocked()
@@ -236,35 +235,36 @@ def test_a_method_that_blocks_halts_the_robot_beside_it(
     session.close()
 
 
-@pytest.mark.parametrize("late", [0.5 * BLOCKED, 20.0])
+@pytest.mark.parametrize("returns", [True, False])
 def test_a_robot_is_halted_after_a_command_that_returns_late(
-    late: float, stuck: Event
+    returns: bool, stuck: Event, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """Also one that closes at once after it was told to halt."""
     robot, begun = ScriptedRobot(), Event()
+    if returns:
+        monkeypatch.setattr(robot_session, "BLOCKED", LONGEST)
+        monkeypatch.setattr(method_thread, "BLOCKED", LONGEST)
 
     def obey() -> None:
         begun.set()
-        stuck.wait(late)
+        stuck.wait(0.1 if returns else None)
 
     robot.obeys = obey
     session = RobotSession(robot)
     session.command(partial(robot.command, *WALK))
-    assert begun.wait(20.0)
+    assert begun.wait(LONGEST)
     session.halt()
     session.close(halts=False)
-    returned = [WALK, "stop", "close"] if late < BLOCKED else ["stop"]
+    returned = [WALK, "stop", "close"] if returns else ["stop"]
     assert robot.calls == ["open", *returned]
 
 
 def test_a_robot_that_cannot_be_halted_ends_the_session(stuck: Event) -> None:
     robot = ScriptedRobot()
     session = RobotSession(robot)
-    robot.hears = robot.stops = lambda: stuck.wait(20.0)
-    began = monotonic()
+    robot.hears = robot.stops = lambda: stuck.wait()
     with pytest.raises(SessionLost, match=r"listen\(\).*neither has stop"):
         driven(session, robot, lambda: False)
-    assert monotonic() - began < BLOCKED + UNHALTED + SLACK
     with pytest.raises(SessionLost, match=r"stop\(\) .* did not return"):
         session.close()
 
@@ -317,16 +317,16 @@ def test_the_guardian_watches_until_a_late_command_has_returned(
 
     def obey() -> None:
         begun.set()
-        stuck.wait(20.0)
+        stuck.wait(LONGEST)
 
     robot.obeys = obey
     session.command(partial(robot.command, *WALK))
-    assert begun.wait(20.0)
+    assert begun.wait(LONGEST)
     session.halt()
     session.halt()
     assert guardian.told == ["hold"] * 3
     stuck.set()
-    assert session.listen(20.0) is not None  # after the methods before
+    assert session.listen(LONGEST) is not None  # after the methods before
     assert "stop" in robot.calls
     session.halt()
     session.close()

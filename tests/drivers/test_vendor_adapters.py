@@ -89,10 +89,11 @@ def test_a_booster_walks_and_stands_by_its_client(
     session = RobotSession(booster())
     session.run("prepare", 20.0)
     assert session.listen(0.05) is None
+    began = monotonic()
     sdk.handlers[-1](SimpleNamespace(x=1.0, y=2.0, theta=0.3))
     report = session.listen(1.0)
     assert report is not None and report.pose == Pose(1.0, 2.0, 0.3)
-    assert abs(report.time - monotonic()) < 5.0
+    assert began <= report.time <= monotonic()
     session.command(partial(session.robot.command, *WALK))
     sdk.waits_for(("Move", *WALK))
     session.halt()
@@ -147,9 +148,10 @@ def test_a_unitree_walks_by_velocities_that_time_out(
     sdk.waits_for(("SetVelocity", *WALK, 0.6))
     assert not session.robot.keeps_walking
     if code:
-        sleep(0.1)
         with pytest.raises(SessionLost, match="SetVelocity returned 3104"):
-            session.command(partial(session.robot.command, *WALK))
+            while True:
+                session.command(partial(session.robot.command, *WALK))
+                sleep(0.01)
         with pytest.raises(SessionLost, match=r"stop\(\) of UnitreeRobot"):
             session.close()
         return

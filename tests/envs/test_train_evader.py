@@ -112,6 +112,7 @@ def games(**changes: object) -> VectorDuel:
     return VectorDuel(64, role="pursuer", **settings | changes)  # type: ignore[arg-type]
 
 
+@pytest.mark.slow
 def test_a_pursuer_learns_to_approach_a_standing_evader() -> None:
     settings = OptimisationSettings(
         updates=12, steps=50, batch=1024, hidden=(32,), rate=3e-3

@@ -113,6 +113,7 @@ start = [2.0, 0.0, 3.14159]
     assert met["collisions"] == 1 and not met["success"]
 
 
+@pytest.mark.slow
 def test_the_closest_approach_of_a_team_game_is_that_of_opponents(
     tmp_path: Path,
 ) -> None:
@@ -202,6 +203,7 @@ def test_discrete_headings_are_evenly_spaced_on_the_circle(
     np.testing.assert_allclose(turns, 2.0 * np.pi / number)
 
 
+@pytest.mark.slow
 def test_a_parameter_of_an_own_strategy_is_an_axis(tmp_path: Path) -> None:
     own = own_evader(tmp_path / "own.py")
     study = tmp_path / "study.toml"
@@ -254,6 +256,7 @@ def test_a_file_without_records_is_not_merged(tmp_path: Path) -> None:
     assert not whole.exists()
 
 
+@pytest.mark.slow
 def test_games_are_written_to_any_path(file: Path, tmp_path: Path) -> None:
     output = tmp_path / "out\udcff.sqlite"  # a byte that is not UTF-8
     words = ("study", file, "--set", "seed=0:2", "--output", output)

@@ -22,7 +22,7 @@ import stepaside as sa
 from flows.forking import run_forked
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
-TIMEOUT = 280.0  # [s], for what hangs
+TIMEOUT = 850.0  # [s], for what hangs
 
 
 class Output(NamedTuple):

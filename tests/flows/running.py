@@ -7,7 +7,7 @@ from threading import Thread
 from time import monotonic, sleep
 from typing import Any
 
-LONGEST = 60.0  # [s], for what takes seconds on an idle machine
+LONGEST = 300.0  # [s], for what takes seconds on an idle machine
 
 
 def until(done: Callable[[], Any], longest: float = LONGEST) -> Any:

@@ -8,6 +8,7 @@ from stepaside.games.game_settings import StartSettings
 from stepaside.strategies import Evasion
 
 
+@pytest.mark.slow
 def test_evader_stands_until_its_safety_area_is_entered() -> None:
     start = StartSettings(1.2, 0.0, 0.0)
     result = run_game(duel(duration=12.0, start=start))
@@ -19,6 +20,7 @@ def test_evader_stands_until_its_safety_area_is_entered() -> None:
     assert np.abs(evader[: at - 1, :2] - evader[0, :2]).max() < 0.005
 
 
+@pytest.mark.slow
 def test_released_evader_comes_to_rest() -> None:
     """The pursuer first heads away, and the distance grows."""
     settings = duel(

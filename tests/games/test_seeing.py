@@ -43,6 +43,7 @@ def perception_of(walker: RobotPlayer) -> Perception:
     return walker.scheme.senses.perception
 
 
+@pytest.mark.slow
 def test_the_pursuer_finds_an_opponent_outside_its_view() -> None:
     """It begins facing away, scans, and does not halt."""
     start = StartSettings(1.3, radians(-88.0), 0.0)
@@ -69,6 +70,7 @@ def test_the_pursuer_finds_an_opponent_outside_its_view() -> None:
     assert true_bearing[-1] < true_bearing[found] - radians(20.0)
 
 
+@pytest.mark.slow
 def test_a_person_nearby_is_one_track_and_not_lost() -> None:
     """Two legs that swing, the trunk above the view."""
     person = PersonSettings("steer", 0.073, 0.146)
@@ -103,6 +105,7 @@ BEHIND = SEEING.changed(
 )
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("rear", [False, True])
 def test_a_rear_camera_shows_a_person_behind(rear: bool) -> None:
     cameras = replace(RAYS, rear_camera=rear)

@@ -66,6 +66,7 @@ def check_recovery(result: Run, heading: float) -> None:
     assert walked == pytest.approx(4.0 * SPEED, rel=0.08)
 
 
+@pytest.mark.slow
 def test_an_ideal_body_walks_and_estimates_as_planned() -> None:
     """Limits are about 1.5 times the measured errors, a mm or so."""
     result = run_game(
@@ -93,6 +94,7 @@ def test_an_ideal_body_walks_and_estimates_as_planned() -> None:
         assert errors[name] < 0.005
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("backward", [False, True])
 def test_a_hardware_like_body_walks_and_turns_as_planned(
     backward: bool,
@@ -134,6 +136,7 @@ def test_feedback_survives_sideways_pushes(phase: float, side: float) -> None:
     )
 
 
+@pytest.mark.slow
 def test_a_walk_is_repeated_to_the_bit_only_with_its_seed() -> None:
     settings = walk(
         seed=5,

@@ -108,6 +108,7 @@ def test_it_knows_the_map_in_its_own_odometry() -> None:
     assert free.heading != pytest.approx(one.heading, abs=0.1)
 
 
+@pytest.mark.slow
 def test_the_optimal_evader_maximises_its_table() -> None:
     """Even a coarse table: its value is reached, moving aside is worse."""
     unit, cells = 0.5, 24

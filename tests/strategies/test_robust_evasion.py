@@ -206,6 +206,7 @@ def survival(
     return float(track.times[-1])
 
 
+@pytest.mark.slow
 def test_herding_is_survived_in_a_room() -> None:
     assert survival(RobustEvasion(), Pursuit(pull=1.0), 1000, 90.0) > 89.0
 

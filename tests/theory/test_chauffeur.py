@@ -1,5 +1,6 @@
 """Test the chauffeur's game: closed forms, grids and simulated games."""
 
+from functools import partial
 from math import asin, cos, pi, sqrt
 
 import numpy as np
@@ -16,6 +17,7 @@ from stepaside.theory.value.chauffeur import guaranteed_distance
 
 RATIO = 0.643
 CELLS = 60
+SLOW = partial(pytest.param, marks=pytest.mark.slow)
 
 
 def game_of(ratio: float, radius: float = 1.0) -> ChauffeurGame:
@@ -68,7 +70,7 @@ def _closing_time(capture: float) -> float:
     return float(t[np.argmax(side <= 0.0)])
 
 
-@pytest.mark.parametrize("ratio", [0.36, 0.5, 0.643, 0.8, 0.95])
+@pytest.mark.parametrize("ratio", [0.36, 0.5, 0.643, SLOW(0.8), SLOW(0.95)])
 def test_grid_agrees_with_the_closed_form(ratio: float) -> None:
     """In both regimes; the solver knows the formula only as a cap."""
     found = solve_chauffeur(game_of(ratio), CELLS).grid.outside

@@ -22,6 +22,7 @@ from stepaside.theory.value.chauffeur import guaranteed_distance
 SPEED = 0.6  # of the robot, by that of the person
 PERIOD = 0.25  # in turning radii per speed of the person
 CLOSED = guaranteed_distance(SPEED)
+pytestmark = pytest.mark.slow  # tables of seconds
 
 
 def omnidirectional(loss: float = 0.0, speed: float = SPEED) -> ShieldGame:
