@@ -1,7 +1,4 @@
-"""What was once wrong with models of robots, and what still is.
-
-Each that still is wrong is expected to fail until it is mended.
-"""
+"""What was once wrong with models of robots."""
 
 import re
 from dataclasses import replace
@@ -49,15 +46,7 @@ LIMITS = 'lower="-0.9" upper="0.9"'
         (('<mass value="', '<mass value="-'), "mass"),
         (('lower="-', 'lower="9'), "limit"),
         ((LIMITS, 'lower="-52" upper="52"'), "limit"),
-        pytest.param(
-            (LIMITS, 'lower="0" upper="0"'),
-            "limit",
-            marks=pytest.mark.xfail(
-                strict=True,
-                raises=AssertionError,
-                reason="limits of 0 are taken for none",
-            ),
-        ),
+        ((LIMITS, 'lower="0" upper="0"'), "limit"),
     ],
 )
 def test_impossible_values_of_a_model_are_refused_by_name(

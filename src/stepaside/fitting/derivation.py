@@ -120,7 +120,8 @@ def derive(
     torques = plausible_torques(
         published_torques(published), analysis.mass, analysis.length
     )
-    speeds = published_speeds(model)
+    own = {name for leg in analysis.legs for name in leg.joints}
+    speeds = published_speeds(model, own)
     sole = shared_sole(analysis)
     servos = gains_of(analysis, torques, 0.9 * analysis.length)
     description = _structure(

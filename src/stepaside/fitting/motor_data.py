@@ -1,13 +1,14 @@
 """Torques, speeds and servo gains of a published model's joints."""
 
 import re
-from collections.abc import Mapping
+from collections.abc import Container, Mapping
 from pathlib import Path
 
 import mujoco
 import numpy as np
 
 from ..core.constants import GRAVITY
+from ..core.errors import ModelError
 from ..robots.description_types import ServoGains
 from .gait_feasibility import rounded
 from .model_analysis import ModelAnalysis
@@ -32,6 +33,13 @@ IMPLAUSIBLE_SPEED = 100.0  # in [rad/s]
 DEFAULT_SPEED = 12.0  # unpublished speed limit, in [rad/s]
 KEYS = "knees_bent", "stand", "standing", "home"  # of a standing robot
 NAME = re.compile(r"""\bname\s*=\s*["']([^"']*)["']""")
+# MuJoCo takes limits of 0 for none.
+ZERO = r"""\b%s\s*=\s*["'][-+0. ]*["']"""
+FIXED = re.compile(
+    r"""\btype\s*=\s*["'](?:revolute|prismatic)["'].*<limit\b"""
+    rf"(?=[^>]*{ZERO % 'lower'})(?=[^>]*{ZERO % 'upper'})",
+    re.DOTALL,
+)
 SPEED = re.compile(r"""\bvelocity\s*=\s*["']\s*(\d+\.?\d*|\.\d+)\s*["']""")
 
 
@@ -96,16 +104,24 @@ def plausible_torques(
     return {name: high for name, high in torques.items() if high < greatest}
 
 
-def published_speeds(path: Path) -> dict[str, float]:
+def published_speeds(path: Path, legs: Container[str]) -> dict[str, float]:
     """Return the plausible speed limits in a URDF, by joint, in [rad/s].
 
     MuJoCo reads more than XML allows, so the file is not parsed as XML.
+
+    Raises:
+        ModelError: If a leg joint has the limits 0 and 0.
     """
     text = path.read_text(encoding="utf-8", errors="replace")
     text = re.sub(r"<!--.*?-->", "", text, flags=re.DOTALL)
     found = {}
     for joint in re.findall(r"<joint\b[^>]*[^/]>.*?</joint>", text, re.DOTALL):
         name, speed = NAME.search(joint), SPEED.search(joint)
+        if name and name[1] in legs and FIXED.search(joint):
+            raise ModelError(
+                f"{path}: the upper limit of {name[1]!r} must be above the "
+                "lower one, got 0 to 0"
+            )
         if name and speed and 0.0 < float(speed[1]) < IMPLAUSIBLE_SPEED:
             found[name[1]] = float(speed[1])
     return found
