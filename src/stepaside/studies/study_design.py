@@ -29,6 +29,7 @@ OWN = re.compile(r'"([^"]+\.(?:py:[^"]+|onnx))"')  # file of a strategy
 SPACING = {"first", "last", "number"}  # of evenly spaced values
 RANGE = re.compile(r"(\d+):(\d+)")  # of seeds, without its end
 SEEDS_OF_A_GAME = "0:20"  # of a game file
+ENCODER = json.JSONEncoder(sort_keys=True, ensure_ascii=False)
 
 Case = Mapping[str, Any]
 """Varied settings by name with dots; the name of each variant."""
@@ -42,19 +43,25 @@ class Cases(Sequence[Case]):
 
     def __init__(self, axes: Sequence[tuple[str, Sequence[Any]]]) -> None:
         """Make the product of axes; values without a name are settings."""
-        self.axes = axes
+        self.axes, self._places, self._number = axes, list[Any](), 1
+        for name, values in reversed(axes):
+            self._places.insert(0, (name, values, self._number))
+            self._number *= len(values)
 
     def __len__(self) -> int:
         """Return the number of cases."""
-        return prod(len(values) for _, values in self.axes)
+        return self._number
 
     def __getitem__(self, at: Any) -> Any:
         """Return the case of a number."""
-        number, chosen = range(len(self))[at], list[Case]()
-        for name, values in reversed(self.axes):
-            number, i = divmod(number, len(values))
-            chosen.append({name: values[i]} if name else values[i])
-        return {k: v for case in reversed(chosen) for k, v in case.items()}
+        number, case = range(self._number)[at], dict[str, Any]()
+        for name, values, stride in self._places:
+            value = values[number // stride % len(values)]
+            if name:
+                case[name] = value
+            else:
+                case.update(value)
+        return case
 
 
 class _Design(NamedTuple):
@@ -305,7 +312,7 @@ def _check(design: _Design, cases: Cases) -> None:
 def _json(value: Any) -> str:
     """Return a value of a record, or of its key, as JSON."""
     try:
-        return json.dumps(value, sort_keys=True, ensure_ascii=False)
+        return ENCODER.encode(value)
     except TypeError as error:
         raise ConfigurationError(
             "values that vary or are stored must be numbers, texts or "
