@@ -11,13 +11,15 @@ from stepaside.games import StepGame, play_strategies
 from stepaside.strategies import Pursuit, Strategy
 from stepaside.strategies.robust_evasion import actions_of
 from stepaside.strategies.search.beam_search import BeamRules, beam_search
-from stepaside.strategies.search.rollout import ENOUGH, Objective, roll_out
 from stepaside.strategies.search.step_motion import (
+    ENOUGH,
+    Objective,
     PlayerPair,
     PursuerModel,
     StepRules,
     pair_of,
     pursue,
+    roll_out,
 )
 
 STEP = StepRules(0.04, 0.08, 0.08 * pi)

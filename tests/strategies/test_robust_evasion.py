@@ -24,8 +24,8 @@ from stepaside.strategies.robust_evasion import (
     actions_of,
 )
 from stepaside.strategies.search.beam_search import BeamRules, beam_search
-from stepaside.strategies.search.rollout import Objective
 from stepaside.strategies.search.step_motion import (
+    Objective,
     PursuerModel,
     StepRules,
     pair_of,

@@ -26,11 +26,12 @@ from stepaside.strategies.look_ahead import (
     even_turns,
     look_ahead,
 )
-from stepaside.strategies.search.rollout import Objective, judge
 from stepaside.strategies.search.step_motion import (
+    Objective,
     PlayerPair,
     PursuerModel,
     StepRules,
+    judge,
     pair_of,
 )
 from stepaside.strategies.search.step_motion import step_both as step

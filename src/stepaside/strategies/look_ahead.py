@@ -21,14 +21,15 @@ from ..core.setting import CheckedSettings, setting
 from ..theory.value.two_cars import pursuit_bound
 from .knowledge import BODY, ON_THE_SPOT, STAND, Intent, Knowledge
 from .opponent_track import OpponentTrack, track_of_steps
-from .search.rollout import Objective, roll_out
 from .search.step_motion import (
     PAPERS,
+    Objective,
     PlayerPair,
     StepRules,
     fit_heading,
     pair_in,
     pair_of,
+    roll_out,
     step_both,
     step_rules,
     store,

@@ -14,14 +14,16 @@ from ..core.setting import CheckedSettings, setting
 from .knowledge import BODY, ON_THE_SPOT, Intent, Knowledge
 from .opponent_track import LEAST, OpponentTrack
 from .search.beam_search import BeamRules, beam_search
-from .search.rollout import ENOUGH, Objective, roll_out
 from .search.step_motion import (
+    ENOUGH,
+    Objective,
     PlayerPair,
     PursuerModel,
     StepRules,
     fit_heading,
     pair_of,
     pursuer_turn,
+    roll_out,
     step_rules,
 )
 from .strategy import BackwardStrategy

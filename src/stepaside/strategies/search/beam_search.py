@@ -13,12 +13,15 @@ import numpy as np
 
 from ...arena.obstacles import clearance_at
 from ...core.compilation import compiled, compiled_loop, inlined
-from .rollout import ENOUGH, Objective, judge, required
 from .step_motion import (
+    ENOUGH,
+    Objective,
     PlayerPair,
     PursuerModel,
+    judge,
     pair_in,
     pursue,
+    required,
     store,
     walk_arc,
 )

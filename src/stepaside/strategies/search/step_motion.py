@@ -1,23 +1,31 @@
-"""Motion of both players in one step, and the fit of a pursuer, compiled.
+"""Steps of both players, their score, and the fit of a pursuer, compiled.
 
 The pursuer turns as :class:`~stepaside.strategies.Pursuit` does. Headings are
-unit vectors to save trigonometric functions.
+unit vectors to save trigonometric functions. The score of the evader is its
+least distance to the pursuer, less penalties, and never increases along a
+rollout: so that is left as soon as it is no better than the best so far.
 """
 
-from math import atan2, cos, hypot, pi, sin, sqrt
+from math import atan2, cos, hypot, inf, pi, sin, sqrt
 from typing import Any, NamedTuple
 
 import numpy as np
 
+from ...arena.obstacles import PackedObstacles, clearance_at
 from ...core.compilation import compiled, inlined
 from ...theory import laws
-from ..knowledge import Limits
+from ..knowledge import ON_THE_SPOT, Limits
 
 inlined(laws.wrap_once)  # called by evasion_heading
 inlined(laws.side_behind)  # called by update_side
 evasion_heading = inlined(laws.evasion_heading)
 update_side = inlined(laws.update_side)
 
+ENOUGH = 0.8  # distance beyond which no more is gained, in [m]
+SLOW = 2.0 * ON_THE_SPOT  # speed factor of a turn on the spot, or less
+ON_SPOT_SLACK = 0.004  # of clearance that turns on the spot may use, in [m]
+LEAVING = 0.002  # clearance that an evader gains that leaves an obstacle, in
+# [m]; an arc bulges by 0.0013
 ITERATIONS = 4  # of Gauss-Newton; without noise the error is below 1e-9 m
 DIFFERENCE = 1e-4  # of the headings that give the derivative, in [rad]
 
@@ -162,6 +170,100 @@ def step_both(
     x, y, c, s = walk_arc(both.ex, both.ey, both.ec, both.es, way, turn)
     u, v, p, q = pursue(both, model, rules)
     return PlayerPair(x, y, c, s, u, v, p, q)
+
+
+class Objective(NamedTuple):
+    """Score of a step; -inf once the game is lost."""
+
+    rules: StepRules
+    packed: PackedObstacles
+    clearance: float  # that the own centre requires [m]
+    enough: float = ENOUGH  # distance beyond which no more is gained [m]
+    capture: float = 0.0  # distance at which the game is lost [m]
+    # of missing clearance, in [m] per [m]; infinite: the game is lost
+    penalty: float = inf
+    # cost of a bearing beyond sight, in [m] per [rad], and sight [rad]
+    blindness: float = 0.0
+    sight: float = pi
+
+
+@inlined
+def required(near: float, pace: float) -> float:
+    """Return what a step must keep of the clearance beyond the required, [m].
+
+    An evader that is too near to an obstacle may turn on the spot, or leave.
+    """
+    turning = -ON_SPOT_SLACK
+    if abs(pace) <= SLOW:
+        return min(near, turning)
+    return min(near + LEAVING, 0.0) if near < turning else 0.0
+
+
+@inlined
+def judge(
+    both: PlayerPair,
+    score: float,
+    least: float,
+    reach: float,
+    objective: Objective,
+) -> tuple[float, float, float]:
+    """Return the score after one more step, the distance and the clearance.
+
+    The clearance, in [m], is that beyond the required; it must be ``least``,
+    and is known up to ``reach``.
+    """
+    dx, dy = both.px - both.ex, both.py - both.ey
+    away = sqrt(dx * dx + dy * dy)
+    if away <= objective.capture:
+        return -inf, away, 0.0
+    reward = min(away, objective.enough)
+    score = min(score, reward)
+    enough = objective.clearance + reach
+    clear = clearance_at(objective.packed, both.ex, both.ey, enough)
+    clear -= objective.clearance
+    if objective.blindness > 0.0:
+        unseen = abs(evader_bearing(both)) - objective.sight
+        if unseen > 0.0:
+            score = min(score, reward - objective.blindness * unseen)
+    if clear < least:
+        score = min(score, reward - objective.penalty * (least - clear))
+    return score, away, clear
+
+
+@compiled
+def roll_out(
+    both: PlayerPair,
+    score: float,
+    moves: Any,
+    given: int,
+    worst: float,
+    model: PursuerModel,
+    objective: Objective,
+) -> tuple[PlayerPair, float, int]:
+    """Roll out given moves, then the law of Sec. II-B.
+
+    Moves are turn [rad] and speed factor of each step, (n, 2); those of the
+    law are written. Returns state and score after the steps before the score
+    would be no better than the worst, and their number.
+    """
+    rules, side, least = objective.rules, 0, 0.0
+    for n in range(len(moves)):
+        if n >= given:
+            psi = evader_bearing(both)
+            side = update_side(side, psi, pi)
+            moves[n, 0] = rules.share * evasion_heading(psi, side, 0.5 * pi)
+            moves[n, 1] = 1.0
+        if objective.penalty == inf:
+            near = clearance_at(
+                objective.packed, both.ex, both.ey, objective.clearance
+            )
+            least = required(near - objective.clearance, moves[n, 1])
+        after = step_both(both, moves[n, 0], moves[n, 1], model, rules)
+        later, _, _ = judge(after, score, least, 0.0, objective)
+        if later <= worst:
+            return both, score, n
+        both, score = after, later
+    return both, score, len(moves)
 
 
 @inlined
