@@ -70,7 +70,7 @@ def test_a_step_is_the_arc_of_both_unicycles(
 
 TURNS, GAIN = even_turns(7, RULES.largest), 1e-6
 AIMS = Objective(
-    RULES, PACKED, 0.205, penalty=60.0, blindness=BLINDNESS, sight=SIGHT
+    RULES, PACKED, 0.205, penalty=60.0, blindness=BLINDNESS, sight=cos(SIGHT)
 )
 
 
@@ -83,7 +83,7 @@ def walked(both: PlayerPair, moves: Any) -> float:
     score = AIMS.enough
     for turn, pace in moves:
         both = step_both(both, turn, pace)
-        score, _, _ = judge(both, score, 0.0, 0.0, AIMS)
+        score, _, _ = judge(both, score, 0.0, -1.0, AIMS)
     return score
 
 
@@ -122,7 +122,7 @@ def test_missing_clearance_and_lost_sight_are_penalised() -> None:
     disc = ObstacleSet((Disc(x, y, radius),)).packed
 
     def judged(both: PlayerPair, packed: Any) -> float:
-        return judge(both, 0.9, 0.0, 0.0, AIMS._replace(packed=packed))[0]
+        return judge(both, 0.9, 0.0, -1.0, AIMS._replace(packed=packed))[0]
 
     near = both._replace(
         ex=x + radius + 0.195, ey=y, px=x + radius + 1.195, py=y

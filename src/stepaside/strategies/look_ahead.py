@@ -132,7 +132,7 @@ class LookAhead(BackwardStrategy, CheckedSettings):
                 self.enough,
                 penalty=min(PENALTY, MAP_ERROR_COST / map_error),
                 blindness=BLINDNESS,
-                sight=SIGHT,
+                sight=cos(SIGHT),
             ),
         )
         turn, pace = moves[0].tolist()

@@ -14,6 +14,7 @@ import numpy as np
 from ...arena.obstacles import clearance_at
 from ...core.compilation import compiled, compiled_loop, inlined
 from .step_motion import (
+    CLEAR,
     ENOUGH,
     Objective,
     PlayerPair,
@@ -30,10 +31,10 @@ EVADER_CELL, PURSUER_CELL = 0.08, 0.12  # that count as alike, in [m]
 HEADINGS = 16  # sectors that count as alike
 BETWEEN = 0.41421356  # tangent of the angle of a sector
 BESIDE = 0.2  # worth of the pursuer's bearing, in [m] per [rad]
-CLEAR = 0.3  # worth of clearance, in [m] per [m], and the most that counts
+CLEARER = 0.3  # worth of clearance, in [m] per [m]
 FARTHEST = 1.5  # distance beyond which no more is gained, in [m]
 GRAIN = 1e-3  # of ranks that count as equal, in [m]
-BEST = FARTHEST + BESIDE * pi + CLEAR * CLEAR + 3.0 * ENOUGH  # rank, in [m]
+BEST = FARTHEST + BESIDE * pi + CLEARER * CLEAR + 3.0 * ENOUGH  # rank, [m]
 GRAINS = int(BEST / GRAIN) + 2
 
 
@@ -133,9 +134,7 @@ def expand_beam(
             s = leftward * arcs[k, 2] + forward * arcs[k, 3]
             after = PlayerPair(x, y, c, s, px, py, ahead, left)
             least = required(near, arcs[k, 4])
-            score, away, clear = judge(
-                after, state[8], least, CLEAR, objective
-            )
+            score, away, clear = judge(after, state[8], least, -inf, objective)
             if score == -inf:
                 continue
             aim = arc_cosine((ahead * (x - px) + left * (y - py)) / away)
@@ -145,7 +144,7 @@ def expand_beam(
             new.ranks[made] = (
                 min(away, FARTHEST)
                 + BESIDE * aim
-                + CLEAR * min(clear, CLEAR)
+                + CLEARER * min(clear, CLEAR)
                 + caution * score
             )
             new.origins[made, 0], new.origins[made, 1] = b, k

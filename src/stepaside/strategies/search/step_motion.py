@@ -6,7 +6,7 @@ least distance to the pursuer, less penalties, and never increases along a
 rollout: so that is left as soon as it is no better than the best so far.
 """
 
-from math import atan2, cos, hypot, inf, pi, sin, sqrt
+from math import acos, atan2, cos, hypot, inf, pi, sin, sqrt
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -22,6 +22,7 @@ evasion_heading = inlined(laws.evasion_heading)
 update_side = inlined(laws.update_side)
 
 ENOUGH = 0.8  # distance beyond which no more is gained, in [m]
+CLEAR = 0.3  # clearance beyond the required that counts, in [m]
 SLOW = 2.0 * ON_THE_SPOT  # speed factor of a turn on the spot, or less
 ON_SPOT_SLACK = 0.004  # of clearance that turns on the spot may use, in [m]
 LEAVING = 0.002  # clearance that an evader gains that leaves an obstacle, in
@@ -182,9 +183,9 @@ class Objective(NamedTuple):
     capture: float = 0.0  # distance at which the game is lost [m]
     # of missing clearance, in [m] per [m]; infinite: the game is lost
     penalty: float = inf
-    # cost of a bearing beyond sight, in [m] per [rad], and sight [rad]
+    # cost of a bearing beyond sight, in [m] per [rad], and cosine of sight
     blindness: float = 0.0
-    sight: float = pi
+    sight: float = -1.0
 
 
 @inlined
@@ -204,27 +205,27 @@ def judge(
     both: PlayerPair,
     score: float,
     least: float,
-    reach: float,
+    known: float,
     objective: Objective,
 ) -> tuple[float, float, float]:
     """Return the score after one more step, the distance and the clearance.
 
-    The clearance, in [m], is that beyond the required; it must be ``least``,
-    and is known up to ``reach``.
+    The clearance, in [m], is that beyond the required: it must be ``least``,
+    is at least ``known``, and counts up to 0.3 m.
     """
     dx, dy = both.px - both.ex, both.py - both.ey
-    away = sqrt(dx * dx + dy * dy)
+    away, clear = sqrt(dx * dx + dy * dy), known
     if away <= objective.capture:
-        return -inf, away, 0.0
+        return -inf, away, clear
     reward = min(away, objective.enough)
     score = min(score, reward)
-    enough = objective.clearance + reach
-    clear = clearance_at(objective.packed, both.ex, both.ey, enough)
-    clear -= objective.clearance
-    if objective.blindness > 0.0:
-        unseen = abs(evader_bearing(both)) - objective.sight
-        if unseen > 0.0:
-            score = min(score, reward - objective.blindness * unseen)
+    if known < least:
+        reach = objective.clearance + CLEAR
+        clear = clearance_at(objective.packed, both.ex, both.ey, reach)
+        clear -= objective.clearance
+    if both.ec * dx + both.es * dy < objective.sight * away:
+        unseen = abs(evader_bearing(both)) - acos(objective.sight)
+        score = min(score, reward - objective.blindness * unseen)
     if clear < least:
         score = min(score, reward - objective.penalty * (least - clear))
     return score, away, clear
@@ -246,7 +247,12 @@ def roll_out(
     law are written. Returns state and score after the steps before the score
     would be no better than the worst, and their number.
     """
-    rules, side, least = objective.rules, 0, 0.0
+    rules, side, least, clear = objective.rules, 0, 0.0, -inf
+    if objective.penalty == inf:
+        clear = clearance_at(
+            objective.packed, both.ex, both.ey, objective.clearance
+        )
+        clear -= objective.clearance
     for n in range(len(moves)):
         if n >= given:
             psi = evader_bearing(both)
@@ -254,12 +260,10 @@ def roll_out(
             moves[n, 0] = rules.share * evasion_heading(psi, side, 0.5 * pi)
             moves[n, 1] = 1.0
         if objective.penalty == inf:
-            near = clearance_at(
-                objective.packed, both.ex, both.ey, objective.clearance
-            )
-            least = required(near - objective.clearance, moves[n, 1])
+            least = required(clear, moves[n, 1])
         after = step_both(both, moves[n, 0], moves[n, 1], model, rules)
-        later, _, _ = judge(after, score, least, 0.0, objective)
+        known = clear - rules.stride
+        later, _, clear = judge(after, score, least, known, objective)
         if later <= worst:
             return both, score, n
         both, score = after, later
