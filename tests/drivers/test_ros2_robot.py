@@ -252,21 +252,21 @@ def test_the_opponent_may_be_given_in_any_frame_that_tf_connects(
     assert distance == pytest.approx(hypot(left, ahead))
 
 
-def test_an_optical_frame_that_tf_does_not_know_hinders_for_a_while(
-    peer: Peer, robot: Ros2Robot
+@pytest.mark.parametrize("frame", ["camera_optical_frame", "map"])
+def test_a_frame_that_tf_does_not_know_hinders_for_a_while(
+    peer: Peer, robot: Ros2Robot, frame: str
 ) -> None:
     peer.publish(
         "/it/other",
         "geometry_msgs/msg/PointStamped",
         lambda: make(
             "geometry_msgs/PointStamped",
-            *(header(peer.time, "camera_optical_frame"), point(0.0, 0.0, 2.0)),
+            *(header(peer.time, frame), point(0.0, 0.0, 2.0)),
         ),
     )
     report = until(lambda: (r := heard(peer, robot)).hindrance and r)
     assert report.hindrance == (
-        "other are in camera_optical_frame, which tf does not connect with "
-        "base or odom"
+        f"other are in {frame}, which tf does not connect with base or odom"
     )
     assert report.sighting is None
     peer.tells = lambda: None

@@ -181,6 +181,14 @@ def test_a_terminal_that_hung_up_does_not_end_the_walk() -> None:
     StatusLine(HungUp()).note(played(FakeWalker(REPORTS), 1)[0])
 
 
+def test_the_status_line_has_the_time_since_the_first_report() -> None:
+    stream = io.StringIO()
+    line = StatusLine(stream)
+    for tick in played(FakeWalker(REPORTS), 3):
+        line.note(tick._replace(time=1.7e9 + tick.time))
+    assert stream.getvalue().startswith("    0.0 s ")
+
+
 def test_leaving_slows_down_and_then_rests() -> None:
     robot = FakeWalker(REPORTS)
     playing = playing_of(robot)

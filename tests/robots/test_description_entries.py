@@ -80,6 +80,7 @@ def told(folder: Path, name: str, value: Any) -> str:
         ("standing.knee", "bent", "[rad], got 'bent'"),
         ("standing.knee", True, "standing.knee must lie in [-100, 100] [rad]"),
         ("standing.knee", float("nan"), "[rad], got nan"),
+        ("standing.knee", 120, "[rad] (120deg for degrees), got 120"),
         ("speed_limits.knee", 0.0, "speed_limits.knee must lie in (0, 1e+06]"),
         ("working_limits.knee", [1, 1], "[low, high] with low < high [rad]"),
         ("working_limits.knee", [1], "working_limits.knee must have 2"),

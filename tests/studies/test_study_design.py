@@ -105,6 +105,7 @@ def test_a_function_of_ones_own_is_a_game() -> None:
         ({"grid": {"body": ["nobodys"]}}, "body must be one of ideal"),
         ({"grid": {"seed": []}}, "at least one"),
         ({"game": "chess"}, "game must be one of duel"),
+        ({"game": "walks"}, "did you mean walk?"),
     ],
 )
 def test_a_bad_study_is_refused_before_it_plays(

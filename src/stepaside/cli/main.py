@@ -3,14 +3,13 @@
 import re
 import sys
 from collections.abc import Mapping
-from difflib import get_close_matches
 from importlib import import_module
 from typing import Any, NoReturn
 
 import click
 
 from .. import __version__
-from ..core.errors import StepAsideError
+from ..core.errors import StepAsideError, nearest_hint
 from ..core.extras import install_hint
 from ..core.signal_handling import interrupted_status, interruptible
 
@@ -72,9 +71,8 @@ class LazyGroup(click.Group):
     ) -> click.Command | None:
         """Import and return one command, or None if it does not exist."""
         if cmd_name not in self._lazy:
-            near = get_close_matches(cmd_name, self._lazy, 1)
-            if near:
-                ctx.fail(f"no command {cmd_name!r}; did you mean {near[0]}?")
+            if hint := nearest_hint(cmd_name, self._lazy):
+                ctx.fail(f"no command {cmd_name!r}{hint}")
             return None
         module = import_module(f"stepaside.cli.{self._modules[cmd_name]}")
         command: click.Command = getattr(module, cmd_name)

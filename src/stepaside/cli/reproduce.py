@@ -88,6 +88,8 @@ def reproduce(
             echo(f"  {row['verdict']:<6} {row['section']:<13} {row['claim']}")
         held = sum(row["verdict"] == "holds" for row in rows)
         echo(f"\n{held} of {len(rows)} hold")
+    if not runs:
+        echo("  skipped the claims on games in physics: --runs 0", err=as_json)
     if not legs_robot:
         echo(SKIPPED, err=as_json)
     try:

@@ -130,8 +130,10 @@ def init(
     that the model does not contain are marked ASK in the description: search
     for it and fill them in.
     """
+    from ..core.setting import entries_of
     from ..fitting.derivation import derive, report_of
     from ..fitting.description_writer import write_description
+    from ..planning import GaitSettings
     from ..robots.description import FILE, load_robot
 
     folder = output or Path(model.stem)
@@ -149,7 +151,14 @@ def init(
         load_robot(folder)
     except (StepAsideError, OSError) as error:
         failed = error
-    print_json(facts) if as_json else print_table(result_rows(facts))
+    if as_json:
+        print_json(facts)
+    else:
+        gait = {}
+        for name, value in facts["gait"].items():
+            known = entries_of(GaitSettings)[name].described.range
+            gait[name] = f"{value} {known.unit if known else ''}"
+        print_table(result_rows(facts | {"gait": gait}))
     if failed is not None:
         raise failed
     if not as_json:

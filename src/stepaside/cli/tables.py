@@ -83,9 +83,10 @@ def result_rows(result: Row, digits: int = 4) -> list[tuple[str, str]]:
     rows = []
     for name, value in result.items():
         if isinstance(value, Mapping):
-            inner = result_rows(value, digits)
+            inner, unit = result_rows(value, digits), unit_of(name)
             rows += [
-                (f"{label_of(name)}: {each}", text) for each, text in inner
+                (f"{label_of(name)}: {each}", f"{text} {unit}".strip())
+                for each, text in inner
             ]
         elif not isinstance(value, list | tuple):
             rows.append((label_of(name), format_value(name, value, digits)))

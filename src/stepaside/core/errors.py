@@ -4,6 +4,7 @@ import os
 import sys
 from collections.abc import Collection
 from contextlib import suppress
+from difflib import get_close_matches
 from math import tau
 from numbers import Integral, Real
 from pathlib import Path
@@ -124,7 +125,14 @@ def check_choice(value: Any, names: Collection[str], what: str) -> None:
     if value not in names:
         raise ConfigurationError(
             f"{what} must be one of {', '.join(names)}, got {value!r:.40}"
+            f"{nearest_hint(str(value), names)}"
         )
+
+
+def nearest_hint(name: str, known: Collection[str]) -> str:
+    """Return the end of a message that names what may have been meant."""
+    near = get_close_matches(name, known, 1)
+    return f"; did you mean {near[0]}?" if near else ""
 
 
 def check_finite(value: float, name: str, unit: str) -> None:

@@ -73,7 +73,7 @@ class ProgressLine:
             if self._unit:
                 words.append(f"{done:.0f} of {total:.0f} {self._unit}")
             fresh = done - self._reused
-            if done < total and fresh > 0.01 * total:
+            if done < total and fresh > 0.05 * total:
                 rest = (total - done) * elapsed / fresh
                 times.append(f"about {rest:.0f} s left")
         words += [self._text] if self._text else []

@@ -18,7 +18,7 @@ from dataclasses import (
 from difflib import get_close_matches
 from enum import Enum
 from functools import cache
-from math import isfinite, radians
+from math import isfinite, radians, tau
 from pathlib import Path
 from types import NoneType, UnionType
 from typing import (
@@ -34,7 +34,13 @@ from typing import (
     get_type_hints,
 )
 
-from .errors import ConfigurationError, StepAsideError, as_number, shown
+from .errors import (
+    ConfigurationError,
+    StepAsideError,
+    as_number,
+    nearest_hint,
+    shown,
+)
 from .ranges import Range
 
 T = TypeVar("T")
@@ -219,19 +225,18 @@ class EntryReader:
         if isinstance(value, str):
             value = described.meant(value)
             if described.presets is not None and isinstance(value, str):
-                rule = f"be one of {', '.join(described.presets)}"
-                return self._note(path, rule, value)
+                return self._note_choice(path, described.presets, value)
         if origin in (Union, UnionType):
             return self._read_any(value, args, path, described, base)
         if origin is Literal or described.names:
             names = described.names or args
             if isinstance(value, str) and value in names:
                 return value
-            return self._note(path, f"be one of {', '.join(names)}", value)
+            return self._note_choice(path, names, value)
         if isinstance(value, Mapping) and hasattr(hint, "from_entries"):
             return self._read_by(hint.from_entries, value, path)
-        if isinstance(value, str) and hasattr(hint, "from_text"):
-            return self._read_by(hint.from_text, value, path)
+        if isinstance(value, str | float) and hasattr(hint, "from_text"):
+            return self._read_by(hint.from_text, str(value), path)
         if is_dataclass(hint) or hasattr(hint, "_fields"):
             return self.read_table(value, hint, path, base)
         if origin in (tuple, list):
@@ -285,6 +290,12 @@ class EntryReader:
 
     def _note(self, path: str, rule: str, value: Any) -> None:
         self.problems.append(f"{path} must {rule}, got {shown(value)}")
+
+    def _note_choice(
+        self, path: str, names: Collection[Any], value: Any
+    ) -> None:
+        self._note(path, f"be one of {', '.join(names)}", value)
+        self.problems[-1] += nearest_hint(str(value), names)
 
     def _note_unknown(
         self, value: Mapping[str, Any], kind: Any, path: str
@@ -384,6 +395,8 @@ class EntryReader:
         number = as_number(value, whole=kind is int)
         if range is not None:
             fits, rule = range.holds(value), range.rule
+            if range.unit == "rad" and tau < abs(number or 0.0) <= 360.0:
+                rule += f" ({number:g}deg for degrees)"
         else:
             fits = number is not None and isfinite(number)
             rule = "be an integer" if kind is int else "be a finite number"

@@ -188,8 +188,8 @@ def columns_in(data: bytes, columns: Mapping[str, int]) -> dict[str, Array]:
     return {name: rows[name] for name in columns}
 
 
-def status_text(tick: PlayTick) -> str:
-    """Return one line about a tick."""
+def status_text(tick: PlayTick, begin: float) -> str:
+    """Return one line about a tick, with the time since ``begin``."""
     sighting = tick.sighting
     opponent = "opponent not detected"
     if sighting is not None:
@@ -197,7 +197,7 @@ def status_text(tick: PlayTick) -> str:
             f"opponent at {sighting.distance:.2f} m, "
             f"{degrees(sighting.bearing):+.0f} deg"
         )
-    return f"{tick.time:7.1f} s  {tick.words}, {opponent}"
+    return f"{tick.time - begin:7.1f} s  {tick.words}, {opponent}"
 
 
 class StatusLine:
@@ -215,10 +215,12 @@ class StatusLine:
         self._is_terminal = stream.isatty()
         self._written = -PERIOD
         self._last: tuple[Enum, str] | None = None
+        self._begin: float | None = None  # time of the first report [s]
 
     def note(self, tick: PlayTick) -> None:
         """Show a tick, if the status changed or an update is due."""
         now = self._clock()
+        self._begin = self._begin or tick.time  # 0 before the first report
         kind = tick.state, _NUMBER.sub("", tick.reason)
         changed = kind != self._last
         if not changed and not self._is_terminal:
@@ -226,7 +228,7 @@ class StatusLine:
         if not changed and now - self._written < PERIOD:
             return
         self._last, self._written = kind, now
-        text = status_text(tick)
+        text = status_text(tick, self._begin)
         if self._is_terminal:
             text = f"\r{text:<79.120}" + ("\n" if changed else "")
         else:

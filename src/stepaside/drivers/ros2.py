@@ -350,8 +350,7 @@ class Ros2Robot(VelocityRobot):
             if root == ancestor:
                 ancestor, turn = fixed, np.linalg.inv(own) @ turn
         if ancestor not in (fixed, base):
-            if frame.endswith(("optical", "optical_frame")):
-                # There, x is to the right and y down.
+            if frame and not frame.rpartition("/")[2].startswith("base"):
                 self._faulty = row.name
                 self._fault_ends = self._stamp + FAULT_AGE
                 self._fault = (
@@ -359,7 +358,7 @@ class Ros2Robot(VelocityRobot):
                     f"with {base} or {fixed}"
                 )
                 return
-            turn = np.eye(4)  # the robot's own by another name
+            turn = np.eye(4)  # the robot's own, by a name like base_link
         if point is None:
             return
         time = seconds(message.header.stamp)

@@ -36,6 +36,7 @@ GREATEST_STEP_LOAD = 0.95  # of a torque limit in a step
 # Unsteadiness up to which the circle is within 5 % of theory.
 ACCURATE = 0.35
 TUNE = "`stepaside robot tune` searches for a"
+FEEDBACK = "feedback = true in [control], with which it walks"
 
 
 class TrialPath(NamedTuple):
@@ -202,6 +203,10 @@ def check_robot(
         fed = feedback is described
         own = [each for each in walks if each.feedback is fed]
         found.append(_steadiness(own, described=described))
+    open_loop, fed_back = found[-2:]
+    if not feedback and fed_back.verdict == "pass" and open_loop.hint:
+        hint = f"set {FEEDBACK}; or {open_loop.hint}"
+        found[-2] = open_loop._replace(hint=hint)
     return VerificationReport(found, walks, feedback)
 
 

@@ -8,13 +8,13 @@ HEAD = """# Every claim of the paper, measured
 `stepaside reproduce` wrote this page. A row says what the paper claims, as it
 should read, and at which level it was measured; the last column says how the
 text reads otherwise. Units are in brackets.
-
+"""
+IN_PHYSICS = """
 In physics, {runs} duels from random starts give mean, standard deviation and,
 in brackets, the least and the greatest. An equality holds if the mean is
 within the tolerance and every run within twice the tolerance; an inequality
 if every run is on its side. A run without such a value, as after a fall,
 makes its row fail.
-
 """
 MADE = """## How this page was made
 
@@ -37,8 +37,9 @@ def markdown_page(
         made: First seed, number of runs, results version, libraries.
     """
     held = sum(row["verdict"] == "holds" for row in rows)
+    physics = IN_PHYSICS.format(runs=made["runs"]) if made["runs"] else ""
     lines = [
-        HEAD.format(runs=made["runs"]) + f"{held} of {len(rows)} hold.",
+        HEAD + physics + f"\n{held} of {len(rows)} hold.",
         "",
         _line(COLUMNS),
         "|" + "---|" * len(COLUMNS),

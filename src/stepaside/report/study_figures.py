@@ -112,7 +112,10 @@ def draw_study(rows: Rows, by: Sequence[str], path: AnyPath) -> None:
     x = label_of(axis, unit=True)
     names = "" if numeric else "".join({str(row[axis]) for row in rows})
     size = max(5.4, 0.09 * len(names)), 3.0  # names stand side by side
-    draw_curves({"": curves}, x, y, path, size=size)
+    sizes = {row["number"] for row in rows}
+    games = "-".join(f"{n}" for n in sorted({min(sizes), max(sizes)}))
+    title = f"95 % intervals over {games} games" if max(sizes) > 1 else ""
+    draw_curves({title: curves}, x, y, path, size=size)
 
 
 def _point(

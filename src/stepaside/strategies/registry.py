@@ -7,18 +7,14 @@ is imported when the strategy is made.
 
 import re
 from ast import literal_eval
-from collections.abc import Iterable, Mapping
+from collections.abc import Mapping
 from dataclasses import fields, replace
-from difflib import get_close_matches
 from math import inf, radians
 from pathlib import Path
 from typing import Any, NamedTuple
 
 from .. import strategies
-from ..core.errors import (
-    ConfigurationError,
-    StepAsideError,
-)
+from ..core.errors import ConfigurationError, StepAsideError, nearest_hint
 from ..planning import Direction
 from .evasion import Evasion
 from .shield_settings import ShieldSettings
@@ -192,14 +188,8 @@ def _parse(text: str, what: str = "strategy") -> _Named:
         return _Named(name, arguments, file, own)
     raise ConfigurationError(
         f"{what} must be one of {', '.join(STRATEGIES)}, FILE.py:NAME or "
-        f"FILE.onnx, got {text!r:.80}{_hint(name, STRATEGIES)}"
+        f"FILE.onnx, got {text!r:.80}{nearest_hint(name, STRATEGIES)}"
     )
-
-
-def _hint(name: str, known: Iterable[str]) -> str:
-    """Return the end of a message that names what may have been meant."""
-    near = get_close_matches(name, known, 1)
-    return f"; did you mean {near[0]}?" if near else ""
 
 
 def _value(text: str) -> Any:
@@ -223,7 +213,8 @@ def _make(named: _Named, evasion: Evasion, what: str = "strategy") -> Strategy:
         if key not in known:
             raise ConfigurationError(
                 f"{what} {named.name} must have arguments of "
-                f"{', '.join(known) or 'none'}, got {key!r}{_hint(key, known)}"
+                f"{', '.join(known) or 'none'}, got {key!r}"
+                f"{nearest_hint(key, known)}"
             )
     try:
         if named.name in OF_EVASION:

@@ -15,7 +15,13 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from ..core.entries import load_entries, read_entries
-from ..core.errors import AnyPath, ConfigurationError, as_path, check_choice
+from ..core.errors import (
+    AnyPath,
+    ConfigurationError,
+    as_path,
+    check_choice,
+    nearest_hint,
+)
 from ..games.player_settings import nested
 from ..strategies.registry import file_of
 from .study import MOST_CASES, Study
@@ -203,7 +209,7 @@ def load_study(file: AnyPath, sets: Sequence[str] = ()) -> Study[Case]:
         presets = sorted(each.stem for each in PRESETS.glob("*.toml"))
         raise ConfigurationError(
             f"a study must be a file or one of {', '.join(presets)}, got "
-            f"{str(given)!r:.80}"
+            f"{str(given)!r:.80}{nearest_hint(str(given), presets)}"
         )
     entries = load_entries(file)
     if "game" not in entries and "players" in entries:

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 from scipy.special import stdtrit
 
-from ..core.errors import ConfigurationError
+from ..core.errors import ConfigurationError, check_choice
 
 Record = dict[str, Any]
 """Measured values of one case by name, as values for JSON."""
@@ -41,9 +41,7 @@ def tabulate(
     for name in (*by, *values):
         if groups and not any(name in r for g in groups.values() for r in g):
             names = dict.fromkeys(n for g in groups.values() for n in g[0])
-            raise ConfigurationError(
-                f"value must be one of {', '.join(names)}, got {name!r:.40}"
-            )
+            check_choice(name, names, "by" if name in by else "value")
     return [
         {name: group[0].get(name) for name in by}
         | {"number": len(group)}
