@@ -148,7 +148,7 @@ def be_the_robot(checkout: Path, listen: str) -> None:
 class HeadSwing:
     """Control that swings the head, from a stance of straight joints."""
 
-    sighting = begun = state = None
+    sighting = begun = state = maneuvers = None
     pose = (0.0, 0.0, 0.0)
 
     def __init__(self, motors: Any) -> None:
