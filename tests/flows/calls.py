@@ -388,16 +388,6 @@ def serve_ros2(
     )
 
 
-def play_lola(
-    path: Path, *, duration: float, record: Path
-) -> subprocess.Popen[str]:
-    """Start to control the joints of a NAO V6, as evader."""
-    return start_stepaside(
-        *("play", f"lola:{path}", "--role", "evader"),
-        *("--duration", duration, "--record", record),
-    )
-
-
 def play_own(
     robot: str,
     *words: object,

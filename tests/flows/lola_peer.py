@@ -6,7 +6,6 @@ foot sensors in [kg].
 """
 
 import socket
-import struct
 from pathlib import Path
 from threading import Thread
 from typing import Any
@@ -58,16 +57,38 @@ def listening(path: Path) -> socket.socket:
     return made
 
 
+# Our robot on LoLA, with a detector that sees the opponent at one place.
+SEEING = """
+import stepaside as sa
+from stepaside.drivers.lola import LolaRobot
+
+class Seeing(LolaRobot):
+    def __init__(self):
+        super().__init__({path!r})
+
+    def listen(self):
+        state = super().listen()
+        if state is None:
+            return None
+        sighting = sa.Sighting(state.time, {bearing}, {distance})
+        return state._replace(sighting=sighting)
+"""
+
+
 class LolaRobot:
     """A NAO whose joints are where they are told to be.
 
-    It presses its own chest button once it holds still, and sees its
-    opponent at one place.
+    It presses its own chest button once it holds still. ``client`` is the
+    address for ``play`` of a robot that sees its opponent at one place.
     """
 
     def __init__(self, path: Path, bearing: float, distance: float) -> None:
-        self._bearing, self._distance = bearing, distance
-        self._sight = listening(path.with_name(f"{path.name}.ideal-sight"))
+        file = path.with_name("seeing.py")
+        text = SEEING.format(
+            path=str(path), bearing=bearing, distance=distance
+        )
+        file.write_text(text, encoding="utf-8")
+        self.client = f"{file}:Seeing"
         self._socket = listening(path)
         self.position = [0.0] * 25
         self.moved = 0.0  # way of its legs since its button was pressed
@@ -78,25 +99,20 @@ class LolaRobot:
         self._thread.start()
 
     def _run(self) -> None:
-        with self._socket, self._sight:
+        with self._socket:
             link, _ = self._socket.accept()
-            sight, _ = self._sight.accept()
-            with link, sight:
+            with link:
                 try:
-                    self._serve(link, sight)
+                    self._serve(link)
                 except OSError:  # the client has gone
                     pass
 
-    def _serve(self, link: socket.socket, sight: socket.socket) -> None:
+    def _serve(self, link: socket.socket) -> None:
         link.settimeout(LONGEST)
         answers, still = msgpack.Unpacker(), 0
         while True:
             press = 300 <= still < 310 and not self._pressed
             touch = [float(press)] + [0.0] * 13
-            place = self._bearing, self._distance
-            sight.sendall(
-                struct.pack("<4sIddd", b"SGHT", self.number, 0.0, *place)
-            )
             link.sendall(
                 frame_of(
                     self.number,

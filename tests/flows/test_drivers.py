@@ -11,7 +11,6 @@ import pytest
 from flows.calls import (
     load_run,
     measure_bag,
-    play_lola,
     play_own,
     play_ros2,
     serve_ros2,
@@ -224,7 +223,7 @@ def test_a_robot_on_lola_walks_the_papers_gait(
 
     robot = LolaRobot(tmp_path / "e", BEARING, 0.7)
     folder = tmp_path / "run"
-    play = start(play_lola(tmp_path / "e", duration=8.0, record=folder))
+    play = start(play_own(robot.client, duration=8.0, record=folder))
     assert play.end() == 0, play.said
     assert robot.moved > 1.0
     check_evasion(load_run(folder))

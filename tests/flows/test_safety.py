@@ -10,7 +10,7 @@ from typing import Any
 
 import pytest
 
-from flows.calls import play_lola, play_own, play_ros2
+from flows.calls import play_own, play_ros2
 from flows.running import Running, until
 
 OPPONENT = (1.0, 0.4)  # in the robot's frame, in [m]
@@ -195,9 +195,7 @@ def test_a_walk_on_joints_stops_when_its_sensors_freeze(
     from flows.lola_peer import LolaRobot
 
     robot = LolaRobot(tmp_path / "e", 0.4, 0.7)
-    play = start(
-        play_lola(tmp_path / "e", duration=60.0, record=tmp_path / "r")
-    )
+    play = start(play_own(robot.client, duration=60.0))
     until(lambda: robot.moved > 1.0)
     assert "stopping" not in play.said
     robot.faults = {"Accelerometer": [0.0, 0.0, -9.8]}

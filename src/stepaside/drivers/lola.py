@@ -1,18 +1,14 @@
 """NAO V6 over LoLA: joint targets every 12 ms.
 
 Frames are MessagePack maps. Published facts and their sources are in
-docs/nao.md. A simulated robot may offer ground truth beside its socket: 32
-bytes a sighting, at the same path with the suffix ``.ideal-sight``.
+docs/nao.md.
 """
 
-import logging
 import select
 import socket
-import struct
 from collections.abc import Callable
 from contextlib import suppress
 from functools import partial
-from math import isfinite
 from time import sleep
 from typing import Any
 
@@ -20,7 +16,7 @@ import numpy as np
 
 from ..core.errors import ConfigurationError
 from ..core.poses import Array
-from ..perception.measurement import RobotState, RobotStatus, Sighting
+from ..perception.measurement import RobotState, RobotStatus
 from .robot import JointRobot, JointTargets
 from .robot_loader import RobotRequest
 from .safety import SafetyState
@@ -33,13 +29,10 @@ except ImportError as error:
     ) from error
 
 PATH = "/tmp/robocup"  # socket of every NAO V6
-SIGHT_SUFFIX = ".ideal-sight"
-SIGHT = struct.Struct("<4sIddd")  # letters, frame, age [s], bearing, distance
 LOCK_STEP = "stepaside-lockstep-0"  # serial number of a robot that waits
 FRAME = 896  # of a sensor frame, in bytes
 TICK = 0.012  # [s]
 LOW = 0.05  # stiffness from which a robot goes limp at once
-log = logging.getLogger(__name__)
 JOINTS = tuple(
     (
         "HeadYaw HeadPitch LShoulderPitch LShoulderRoll LElbowYaw LElbowRoll "
@@ -100,20 +93,17 @@ class LolaRobot(JointRobot):
         self._lights: dict[str, list[float]] = {}
 
     def open(self) -> None:
-        """Connect, and to the line of sight of a simulated robot."""
+        """Connect."""
+        self._socket = socket.socket(socket.AF_UNIX)
         try:
-            self._socket = _connected(self._path)
+            self._socket.connect(self._path)
         except OSError as error:
+            self._socket.close()
             raise ConnectionError(
                 f"no robot listens at {self._path}: {error}"
             ) from error
-        self._sight: socket.socket | None = None
-        with suppress(OSError):
-            self._sight = _connected(f"{self._path}{SIGHT_SUFFIX}")
-            log.warning("uses the ideal line of sight of %s", self._path)
-        self._buffer, self._sights = bytearray(), bytearray()
+        self._buffer = bytearray()
         self._count, self._answered = -1, True
-        self._seen: Sighting | None = None
         self._last: tuple[float, Array] | None = None  # time and angles
         self._stiffness: list[float] | None = None  # that was commanded
         self._early = self._newest(5.0)
@@ -148,7 +138,6 @@ class LolaRobot(JointRobot):
             np.array(frame["Gyroscope"]),
             -np.array(frame["Accelerometer"]),
             GRAVITY * np.array(frame["FSR"]),
-            self._newest_sight(),
             joint_velocities=(angles - old) / (now - then),
             tilt=(roll, pitch),
             status=RobotStatus(
@@ -202,8 +191,6 @@ class LolaRobot(JointRobot):
     def close(self) -> None:
         """Disconnect."""
         self._socket.close()
-        if self._sight is not None:
-            self._sight.close()
 
     def _newest(self, patience: float) -> dict[str, Any] | None:
         """Return the newest frame that has arrived, if it is undamaged."""
@@ -224,34 +211,11 @@ class LolaRobot(JointRobot):
             return None
         return frame if isinstance(frame, dict) else None
 
-    def _newest_sight(self) -> Sighting | None:
-        """Return the newest sighting of a simulated robot's true opponent."""
-        if self._sight is not None:
-            with suppress(BlockingIOError):
-                self._sights += self._sight.recv(1 << 16, socket.MSG_DONTWAIT)
-        while len(self._sights) >= SIGHT.size:
-            _, frame, age, bearing, distance = SIGHT.unpack_from(self._sights)
-            del self._sights[: SIGHT.size]
-            if isfinite(age):
-                now = frame * TICK - age
-                self._seen = Sighting(now, bearing, distance)
-        return self._seen
-
     def _send(self, values: dict[str, Any]) -> None:
         self._answered = True
         data = msgpack.packb(self._lights | values, use_single_float=True)
         if self._socket.send(data, socket.MSG_DONTWAIT) < len(data):
             raise ConnectionError("the robot does not read")
-
-
-def _connected(path: str) -> socket.socket:
-    made = socket.socket(socket.AF_UNIX)
-    try:
-        made.connect(path)
-    except OSError:
-        made.close()
-        raise
-    return made
 
 
 def make_robot(request: RobotRequest) -> Callable[[], LolaRobot]:
