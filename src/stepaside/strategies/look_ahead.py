@@ -19,7 +19,7 @@ from ..core.poses import Array
 from ..core.ranges import Range
 from ..core.setting import CheckedSettings, setting
 from ..theory.value.two_cars import pursuit_bound
-from .knowledge import BODY, ON_THE_SPOT, STAND, Intent, Knowledge
+from .knowledge import BODY, ON_THE_SPOT, Intent, Knowledge
 from .opponent_track import OpponentTrack, track_of_steps
 from .search.step_motion import (
     PAPERS,
@@ -59,7 +59,6 @@ ROOT: Any = np.int64(0)  # a literal would compile a version of its own
 class LookAheadMemory(NamedTuple):
     """Memory of a predictive evader."""
 
-    evading: bool = False
     track: OpponentTrack | None = None  # of the pursuer
     moves: Array = np.empty((0, 2))  # turn [rad], speed factor of its plan
     planned: float = 0.0  # time of the first of them [s]
@@ -86,11 +85,6 @@ class LookAhead(BackwardStrategy, CheckedSettings):
     body_radius: float = setting(
         0.2, "Least distance of the own centre to obstacles", BODY
     )
-    safety_radius: float = setting(
-        inf,
-        "Distance at which evasion begins",
-        Range(0.0, 1e9, "m", "inf: always", above=True, also=(inf,)),
-    )
     cells: int = setting(
         64,
         "Cells along each axis of the value table of an open floor",
@@ -107,16 +101,13 @@ class LookAhead(BackwardStrategy, CheckedSettings):
     ) -> tuple[Intent, LookAheadMemory]:
         """Begin the maneuver with the largest closest approach."""
         track = track_of_steps(memory.track, knowledge)
-        near = knowledge.distance < self.safety_radius
-        if not (memory.evading or near):
-            return STAND, LookAheadMemory(False, track)
         limits = knowledge.limits
         rules = step_rules(limits)
         both = poses_at_step(track, knowledge, rules)
         if not (self.obstacles and knowledge.obstacles_in_map):
             unit = limits.speed / limits.gain
             turn = open_turn(both, rules, unit, self.cells)
-            return Intent(turn / rules.share), LookAheadMemory(True, track)
+            return Intent(turn / rules.share), LookAheadMemory(track)
         made = round((knowledge.time - memory.planned) / limits.step_duration)
         made = max(0, made)
         map_error = max(knowledge.map_error, GAIN)
@@ -144,7 +135,7 @@ class LookAhead(BackwardStrategy, CheckedSettings):
             # A turn on the spot needs no room; standing would block for good.
             moves, pace = memory.moves[:0], ON_THE_SPOT
         return Intent(turn / rules.share, pace), LookAheadMemory(
-            True, track, moves[:-LAW], knowledge.time
+            track, moves[:-LAW], knowledge.time
         )
 
 
