@@ -76,14 +76,14 @@ def test_progress_is_not_among_json(words: str, progress_lines: None) -> None:
     assert shown_by(f"{words} --json").stdout.startswith("{")
 
 
-def test_readme_names_every_extra() -> None:
+def test_the_page_of_installation_names_every_extra() -> None:
     import tomllib
 
     root = Path(__file__).parents[2]
     project = tomllib.loads((root / "pyproject.toml").read_text())["project"]
-    readme = (root / "README.md").read_text()
+    page = (root / "docs/installation.md").read_text()
     for extra, needs in project["optional-dependencies"].items():
-        (row,) = re.findall(rf"(?m)^\| `{extra}` \|.*$", readme)
+        (row,) = re.findall(rf"(?m)^\| `{extra}` \|.*$", page)
         for need in needs:
             name = re.split(r"[><=;\[ ]", need)[0]
             assert name in row or "everything" in row, (extra, name)
