@@ -44,6 +44,7 @@ exclude_patterns = ["images/README.md", "tutorials/*.py"]
 html_theme = "furo"
 html_static_path = ["_static"]
 html_css_files = ["site.css"]
+html_search_scorer = str(Path(__file__).parent / "_static/search_scores.js")
 html_title = f"stepaside {version}"
 html_theme_options = {
     "light_css_variables": {

@@ -1,0 +1,23 @@
+// Guides before recipes and tutorials, these before everything else.
+const GUIDES = new Set(
+  ("viewer python strategies learning robots legs connect-your-robot " +
+    "connect-joints robots-real nao-real obstacles people campaigns " +
+    "configuration export walking sensing bound shield evading person games " +
+    "unicycles robot-safety how-it-works installation").split(" "));
+
+var Scorer = {
+  score: ([page, title, anchor, description, score]) => {
+    const whole = anchor ? 0 : 4;
+    if (GUIDES.has(page)) return score + 20 + whole;
+    const near = /^(recipe-|tutorials\/)/.test(page);
+    return near ? score + 8 + whole : score;
+  },
+  objNameMatch: 4,
+  objPartialMatch: 2,
+  objPrio: {0: 3, 1: 1, 2: -5},
+  objPrioDefault: 0,
+  title: 15,
+  partialTitle: 7,
+  term: 5,
+  partialTerm: 2,
+};
