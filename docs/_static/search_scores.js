@@ -4,10 +4,13 @@ const GUIDES = new Set(
     "connect-joints robots-real nao-real obstacles people campaigns " +
     "configuration export walking sensing bound shield evading person games " +
     "unicycles robot-safety how-it-works installation").split(" "));
+// Pages of what others mention in a heading too.
+const SUBJECTS = new Set(["sensing", "strategies", "walking"]);
 
 var Scorer = {
   score: ([page, title, anchor, description, score]) => {
     const whole = anchor ? 0 : 4;
+    if (SUBJECTS.has(page)) return score + 22 + whole;
     if (GUIDES.has(page)) return score + 20 + whole;
     const near = /^(recipe-|tutorials\/)/.test(page);
     return near ? score + 8 + whole : score;

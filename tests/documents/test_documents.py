@@ -37,6 +37,7 @@ NOT_MEASURED = {
     ("docs/robots-real.md", "topic"),
     ("docs/robot-safety.md", "event"),
     ("docs/code.md", "package"),
+    ("docs/code.md", "to change"),
     ("docs/learning.md", "environment"),
     ("docs/learning.md", "setting"),
     ("docs/legs-contract.md", "entry"),
@@ -166,3 +167,15 @@ def test_a_result_names_the_command_that_makes_it_again(name: str) -> None:
         from stepaside.cli.main import COMMANDS
 
         assert program == "stepaside" and words[0] in COMMANDS
+
+
+def test_every_place_to_change_exists() -> None:
+    page = (ROOT / "docs" / "code.md").read_text(encoding="utf-8")
+    table = page.split("## Where to change")[1].split("\n## ")[0]
+    places = re.findall(r"`(\w+/[\w/]+\.\w+)`", table)
+    assert len(places) >= 14
+    for place in places:
+        assert (ROOT / "src" / "stepaside" / place).exists(), place
+    for name, place in re.findall(r"`(_\w+)` in `(\S+)`", table):
+        text = (ROOT / "src" / "stepaside" / place).read_text("utf-8")
+        assert f"def {name}(" in text, (name, place)
