@@ -172,7 +172,7 @@ def test_a_result_names_the_command_that_makes_it_again(name: str) -> None:
 def test_every_place_to_change_exists() -> None:
     page = (ROOT / "docs" / "code.md").read_text(encoding="utf-8")
     table = page.split("## Where to change")[1].split("\n## ")[0]
-    places = re.findall(r"`(\w+/[\w/]+\.\w+)`", table)
+    places = re.findall(r"`([a-z]+/[a-z0-9_/]+\.\w+)`", table)
     assert len(places) >= 14
     for place in places:
         assert (ROOT / "src" / "stepaside" / place).exists(), place
