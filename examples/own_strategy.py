@@ -9,7 +9,6 @@ from math import pi
 
 import stepaside as sa
 from stepaside import strategies as st
-from stepaside.games import StepGame, play_strategies
 
 
 @dataclass(frozen=True)
@@ -34,20 +33,14 @@ class BackAndAside:
 
 def main(duration: float) -> None:
     """Compare it with moving aside, with unicycles and with humanoids."""
-    # In path time: a step lasts 0.4 s of it, and 0.547 s.
-    rules = StepGame(duration=0.4 / 0.547 * duration)
-    at = sa.RelativeStart(0.9, 0.3, -0.2).poses()
     start = sa.StartSettings(0.9, -0.3, 0.2)
     settings = sa.duel(duration=duration, start=start)
     names = {"aside": "evasion", "own": f"{__file__}:BackAndAside"}
+    levels = {"unicycles": "steps", "humanoids": "physics"}
     for label, name in names.items():
-        evader = st.load_strategy(name)
-        game = play_strategies(st.Pursuit(), evader, at, game=rules)
-        duel = sa.run_game(settings.changed(evader={"strategy": name}))
-        for bodies, closest, path in (
-            ("unicycles", game.closest_distance, game.evader),
-            ("humanoids", duel.summary.min_distance_m, duel.evader.torso),
-        ):
+        for bodies, level in levels.items():
+            duel = sa.run_game(settings.changed(evader=name, level=level))
+            closest, path = duel.summary.min_distance_m, duel.evader.torso
             moved = (path - path[0])[:, :2]
             floor = (moved**2).sum(axis=1).max() ** 0.5
             print(f"{label} {bodies}: closest approach "

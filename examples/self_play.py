@@ -20,7 +20,7 @@ from train_evader import (
 )
 
 from stepaside.envs import VectorDuel
-from stepaside.games import StepGame
+from stepaside.games import duel
 from stepaside.strategies import Strategy, load_strategy
 
 FIRST = {"evader": "pursuit", "pursuer": "evasion"}  # opponents
@@ -34,8 +34,8 @@ def games_against(opponent: Strategy, role: str) -> VectorDuel:
         opponent=opponent,
         level="steps",
         any_heading=True,
-        game=StepGame(capture=0.02),
-        duration=40.0,
+        duel=duel(capture=0.02),
+        duration=55.0,
         action="discrete",
         full_state=True,
     )

@@ -25,7 +25,7 @@ from numpy.typing import NDArray
 
 from stepaside.arena import RoomRecipe
 from stepaside.envs import VectorDuel
-from stepaside.games import StepGame
+from stepaside.games import duel
 from stepaside.strategies.learned import LearnedStrategy, dense_network
 from stepaside.studies import load_study, run_study
 
@@ -415,7 +415,10 @@ def main(floor: str, updates: int) -> None:
         level="steps",
         room=ROOMS[floor],
         any_heading=is_open,
-        game=StepGame(capture=0.02 if is_open else 0.35),
+        duration=82.0,
+        duel=duel(
+            capture=0.02 if is_open else 0.35, pursuers_pass=not is_open
+        ),
         first_arena=1000,  # those before are for the rating
         action="discrete",
         full_state=True,

@@ -31,31 +31,24 @@ class BackAndAside(Evasion):
 # %% [markdown]
 # ## With unicycles
 #
-# The same rules without legs: both players are unicycles at 0.1 m/s that
-# decide every 0.4 s. A game of one minute takes milliseconds.
-
-# %%
-from stepaside import Pursuit, RelativeStart
-from stepaside.games import StepGame, play_strategies
-
-rules = StepGame(duration=60.0)
-start = RelativeStart(0.7, 0.3, -0.2).poses()
-games = {
-    "paper": play_strategies(Pursuit(), Evasion(), start, game=rules),
-    "own": play_strategies(Pursuit(), BackAndAside(), start, game=rules),
-}
-for name, game in games.items():
-    print(f"{name}: closest approach {game.closest_distance:.3f} m")
-
-# %% [markdown]
-# ## With humanoids
-#
-# The strategy object stands beside the settings.
+# The same duel without legs: both players are unicycles that decide once per
+# step, every 0.55 s. A game of one minute takes milliseconds.
 
 # %%
 from stepaside import StartSettings, duel, run_game
 
-settings = duel(duration=40.0, start=StartSettings(0.7, -0.3, 0.2))
+settings = duel(duration=60.0, start=StartSettings(0.7, -0.3, 0.2))
+for name, evader in {"paper": Evasion(), "own": BackAndAside()}.items():
+    steps = settings.changed(level="steps")
+    game = run_game(steps, strategies={"evader": evader})
+    print(f"{name}: closest approach {game.distance.min():.3f} m")
+
+# %% [markdown]
+# ## With humanoids
+#
+# The same settings with the level that they have by default.
+
+# %%
 own = run_game(settings, strategies={"evader": BackAndAside()})
 print(f"closest approach {own.summary.min_distance_m:.3f} m")
 

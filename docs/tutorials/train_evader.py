@@ -35,7 +35,7 @@ print(f"walked straight back: closest approach {info['closest_m']:.3f} m")
 
 # %%
 from stepaside.envs import VectorDuel
-from stepaside.games import StepGame
+from stepaside.games import duel
 from train_evader import (
     OptimisationSettings,
     PolicyOptimiser,
@@ -47,7 +47,7 @@ games = VectorDuel(
     role="evader",
     level="steps",
     any_heading=True,
-    game=StepGame(capture=0.02),
+    duel=duel(capture=0.02),
     action="discrete",
     full_state=True,
 )

@@ -26,7 +26,7 @@ TABLES = [
     "theory bound --grid 16 --set horizon=0.1 --against any",
     "theory bound --against person --evader-speed 0.6 --grid 16",
     pytest.param(
-        "study tournament --set seed=0:1 --set game.duration=1 "
+        "study tournament --set seed=0:1 --set duration=1 "
         "--set evader=evasion --workers 1",
         marks=pytest.mark.slow,
     ),

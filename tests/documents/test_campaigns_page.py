@@ -29,7 +29,7 @@ def test_queries_of_a_tournament_run(
     monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path))
     monkeypatch.setattr(tournament, "CELLS", 16)
     pursuit_bound.cache_clear()
-    line = "study tournament --set seed=0:2 --set game.duration=4"
+    line = "study tournament --set seed=0:2 --set duration=5.47"
     words = [*line.split(), "--workers", "1", "--output", "games.sqlite"]
     answer = CliRunner().invoke(
         main, [*words, "--set", "evader=optimal,robust"]

@@ -16,7 +16,6 @@ from stepaside.arena import RoomRecipe
 from stepaside.core.errors import ConfigurationError, PlanError
 from stepaside.envs import IDS, DuelEnv, ParallelDuel, VectorDuel
 from stepaside.envs.environment_settings import EnvironmentSettings
-from stepaside.games import StepGame
 from stepaside.games import duel as make_duel
 from stepaside.strategies import (
     Evasion,
@@ -28,7 +27,7 @@ from stepaside.strategies import (
 from stepaside.strategies.learned import dense_network
 from stepaside.theory.unicycle import RelativeStart
 
-ROOM = {"room": RoomRecipe(discs=2), "arenas": 8}
+ROOM: dict[str, Any] = {"room": RoomRecipe(discs=2), "arenas": 8}
 SHORT: dict[str, Any] = {"arenas": 8, "duration": 8.0}
 VARIANTS: list[dict[str, Any]] = [
     {"level": "unicycle", **SHORT},
@@ -130,8 +129,15 @@ def test_a_law_that_the_kernel_does_not_know_is_refused() -> None:
         word = f"got a {type(opponent).__name__}; others"
         with pytest.raises(ConfigurationError, match=word):
             VectorDuel(role="pursuer", opponent=opponent)
-    with pytest.raises(ConfigurationError, match="speed_ratio .* must be 1"):
-        VectorDuel(role="evader", game=StepGame(pursuer_speed_ratio=1.5))
+    for changes, word in (
+        ({"pursuer": {"gait": {"speed": 0.15}}}, "gaits of duel must be"),
+        ({"gait": {"outer_stride": 0.05}}, "without outer_stride"),
+        ({"gait": {"gain": 2.0}}, "turns of duel.evader.gait must be"),
+    ):
+        with pytest.raises(ConfigurationError, match=word):
+            VectorDuel(role="evader", level="steps", duel=make_duel(**changes))
+    with pytest.raises(ConfigurationError, match="pursuers_pass must be true"):
+        VectorDuel(role="evader", duel=make_duel(), **ROOM)
 
 
 def test_contact_with_an_obstacle_counts_as_no_distance() -> None:

@@ -14,7 +14,7 @@ from train_evader import (
 )
 
 from stepaside.envs import VectorDuel
-from stepaside.games import StepGame
+from stepaside.games import duel
 from stepaside.planning import Direction
 from stepaside.strategies.learned import observe
 from stepaside.strategies.own_strategy import trial_knowledge
@@ -103,9 +103,9 @@ def games(**changes: object) -> VectorDuel:
         "level": "steps",
         "any_heading": True,
         "opponent": "stand",
-        "duration": 20.0,
+        "duration": 50 * 0.547,
         "arenas": 64,
-        "game": StepGame(capture=0.1),
+        "duel": duel(capture=0.1),
         "action": "discrete",
         "full_state": True,
     }

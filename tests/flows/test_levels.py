@@ -145,7 +145,7 @@ def test_an_episode_is_the_game_of_the_tournament() -> None:
     (row,) = calls.rows_of(
         "tournament",
         *calls.changes(level="steps", floor="open", seed="3:4"),
-        *calls.changes(evader=ASIDE, pursuer="pursuit", game__duration=60),
+        *calls.changes(evader=ASIDE, pursuer="pursuit", duration=60),
     )
     goal = circle()
     assert row["number"] == 1 and row["survived"]["share"] == 1.0

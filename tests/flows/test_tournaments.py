@@ -29,7 +29,7 @@ def test_a_tournament_tells_how_each_game_ended() -> None:
     rows = calls.rows_of(
         "tournament",
         *calls.changes(evader=[STILL, STRAIGHT, ASIDE], seed="0:3"),
-        *calls.changes(game__duration=60),
+        *calls.changes(duration=60),
     )
     still, straight, aside = rows
     assert [row["evader"] for row in rows] == [STILL, STRAIGHT, ASIDE]

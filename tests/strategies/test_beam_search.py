@@ -5,9 +5,9 @@ from math import inf, pi
 import numpy as np
 import pytest
 
+from floor_duels import play_steps
 from stepaside.arena import NO_OBSTACLES, ObstacleSet, Room
 from stepaside.core.poses import Pose
-from stepaside.games import StepGame, play_strategies
 from stepaside.strategies import Pursuit, Strategy
 from stepaside.strategies.robust_evasion import actions_of
 from stepaside.strategies.search.beam_search import BeamRules, beam_search
@@ -58,10 +58,8 @@ def test_model_walks_as_the_strategy_does(
     from stepaside.strategies import Evasion
 
     starts = Pose(-0.5, -0.1, 0.9), Pose(0.5, 0.2, 0.3)
-    game = StepGame(duration=16.0, capture=1e-3)
-    track = play_strategies(
-        pursuer, Evasion(safety_radius=1e6), starts, game=game
-    )
+    evader = Evasion(safety_radius=1e6)
+    track = play_steps(pursuer, evader, starts, 40, capture=1e-3)
     for before, own, after in zip(
         track.pursuer, track.evader, track.pursuer[1:], strict=False
     ):

@@ -7,10 +7,11 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from floor_duels import play_steps
 from stepaside.arena import Disc, ObstacleSet, Room, RoomRecipe, generate_room
 from stepaside.core.compiled_cache import cache_folder
 from stepaside.core.poses import Pose
-from stepaside.games import Outcome, StepGame, play_strategies
+from stepaside.games import Outcome
 from stepaside.strategies import (
     Evasion,
     Knowledge,
@@ -23,7 +24,7 @@ from stepaside.theory.value import two_cars as tables
 
 NAO = Limits(0.1, 0.2, 0.04, 0.4)
 FACING = (Pose(0.0, 0.0, 0.6), Pose(1.0, 0.1, 3.3))
-SHORT = StepGame(duration=30.0)
+SHORT = 75  # steps
 ASIDE = Evasion(safety_radius=100.0, side_hysteresis=0.0)
 
 
@@ -42,17 +43,14 @@ def know(
 def test_in_a_room_it_survives_where_moving_aside_touches(seed: int) -> None:
     room = generate_room(RoomRecipe(discs=3), seed)
     assert room.starts is not None
-    game = StepGame(duration=60.0)
 
     def play(evader: Strategy) -> Outcome:
         assert room.starts is not None
-        track = play_strategies(
-            Pursuit(), evader, room.starts, room=room, game=game
-        )
+        track = play_steps(Pursuit(), evader, room.starts, 150, room=room)
         if track.outcome is Outcome.COMPLETED:
-            assert len(track.distances) == game.count + 1
-            assert track.distances.min() > game.capture
-            assert track.clearances.min() >= game.body_radius
+            assert len(track.distances) == 150 + 1
+            assert track.distances.min() > 0.35
+            assert track.clearances.min() >= 0.2
         return track.outcome
 
     assert play(ASIDE) is Outcome.TOUCHED
@@ -63,13 +61,7 @@ def test_with_its_back_in_a_corner_it_turns_before_it_walks() -> None:
     """Every sequence of steps from here is caught within 17."""
     room = generate_room(RoomRecipe(), 314)
     assert room.starts is not None
-    track = play_strategies(
-        Pursuit(),
-        LookAhead(),
-        room.starts,
-        room=room,
-        game=StepGame(duration=16.0),
-    )
+    track = play_steps(Pursuit(), LookAhead(), room.starts, 40, room=room)
     assert track.outcome is Outcome.COMPLETED
 
 
@@ -77,11 +69,9 @@ def test_it_rather_stands_than_touches() -> None:
     """Its back is at a disc, and backward is the only way it has."""
     room = Room(obstacles=(Disc(0.5, 0.0, 0.29),))
     starts = (Pose(-1.0, 0.0, 0.0), Pose(0.0, 0.0, pi))
-    track = play_strategies(
-        Pursuit(), LookAhead(), starts, room=room, game=SHORT
-    )
+    track = play_steps(Pursuit(), LookAhead(), starts, SHORT, room=room)
     assert track.clearances.min() >= 0.2
-    alone = play_strategies(Pursuit(), ASIDE, starts, room=room, game=SHORT)
+    alone = play_steps(Pursuit(), ASIDE, starts, SHORT, room=room)
     assert alone.outcome is Outcome.TOUCHED
 
 
@@ -132,7 +122,7 @@ def test_the_optimal_evader_maximises_its_table() -> None:
             (kept, LookAhead(cells=cells, obstacles=False)),
             (aside, ASIDE),
         ):
-            track = play_strategies(Pursuit(), mind, starts, game=SHORT)
+            track = play_steps(Pursuit(), mind, starts, SHORT)
             found.append(float(track.distances.min()))
     assert np.mean(kept) >= 0.97 * np.mean(promised)
     assert np.max(np.subtract(kept, promised)) < 0.02

@@ -7,8 +7,8 @@ from typing import Any
 import numpy as np
 import pytest
 
+from floor_duels import play_steps
 from stepaside.core.poses import Pose, wrap_angle
-from stepaside.games import StepGame, play_strategies
 from stepaside.strategies import (
     Evasion,
     Knowledge,
@@ -97,11 +97,11 @@ def test_a_sharp_pursuer_turns_by_the_clipped_bearing(bearing: float) -> None:
 
 def test_greater_gains_end_on_the_closer_circle_of_theory() -> None:
     """Closed form beside games: 2 v sin(w / kp) / w, w = a / (1/kp + 1/ke)."""
-    game = StepGame(duration=300.0, capture=0.01)
     for ratio in (1.5, 2.0, 3.0):
         rate = 0.5 * pi / (1.0 / (0.2 * ratio) + 1.0 / 0.2)
         theory = 0.2 * sin(rate / (0.2 * ratio)) / rate
-        track = play_strategies(Pursuit(gain=ratio), ASIDE, START, game=game)
+        pursuer = Pursuit(gain=ratio)
+        track = play_steps(pursuer, ASIDE, START, 750, capture=0.01)
         assert track.distances[-1] == pytest.approx(theory, rel=0.01)
 
 

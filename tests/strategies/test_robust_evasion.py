@@ -7,9 +7,10 @@ from math import atan2, cos, hypot, inf, pi, sin
 import numpy as np
 import pytest
 
-from stepaside.arena import Disc, Room
+from floor_duels import STEP, play_steps
+from stepaside.arena import Disc, Room, RoomRecipe, generate_room
 from stepaside.core.poses import Pose, wrap_angle
-from stepaside.games import StepGame, play_strategies
+from stepaside.games import Outcome
 from stepaside.strategies import (
     Knowledge,
     Limits,
@@ -31,14 +32,15 @@ from stepaside.strategies.search.step_motion import (
     pair_of,
     pursuer_turn,
 )
-from stepaside.studies.tournament import PairingSettings
 
 STEPS = StepRules(0.04, 0.08, 0.08 * pi)
 LIMITS = Limits(0.1, 0.2, 0.04, 0.4)
 
 
 def arena(seed: int) -> tuple[Room, tuple[Pose, Pose]]:
-    return PairingSettings(seed=seed).arena()
+    room = generate_room(RoomRecipe(), seed)
+    assert room.starts is not None
+    return room, room.starts
 
 
 @pytest.mark.parametrize("number", range(len(MODELS)))
@@ -198,17 +200,16 @@ def test_plan_is_searched_again_when_the_pursuer_departs_from_it() -> None:
 
 
 def survival(
-    evader: Strategy, pursuer: Strategy, seed: int, duration: float
-) -> float:
+    evader: Strategy, pursuer: Strategy, seed: int, steps: int
+) -> int:
     room, starts = arena(seed)
-    game = StepGame(duration=duration)
-    track = play_strategies(pursuer, evader, starts, room=room, game=game)
-    return float(track.times[-1])
+    track = play_steps(pursuer, evader, starts, steps, room=room)
+    return round(float(track.times[-1]) / STEP)
 
 
 @pytest.mark.slow
 def test_herding_is_survived_in_a_room() -> None:
-    assert survival(RobustEvasion(), Pursuit(pull=1.0), 1000, 90.0) > 89.0
+    assert survival(RobustEvasion(), Pursuit(pull=1.0), 1000, 225) == 225
 
 
 def test_sharp_pursuer_needs_0_8_of_the_time_of_an_offline_search() -> None:
@@ -222,16 +223,16 @@ def test_sharp_pursuer_needs_0_8_of_the_time_of_an_offline_search() -> None:
         BeamRules(1000, 450),
     )
     sharp = Pursuit(gain=inf)
-    online = survival(RobustEvasion(), sharp, 1000, 180.0)
-    assert 0.8 * 0.4 * len(path) < online < 180.0
+    online = survival(RobustEvasion(), sharp, 1000, 450)
+    assert 0.8 * len(path) < online < 450
 
 
 def test_faster_pursuer_of_the_paper_is_survived_on_an_open_floor() -> None:
-    settings = PairingSettings(floor="open", seed=1002)
-    game = StepGame(pursuer_speed_ratio=1.1, duration=90.0)
-    _, starts = settings.arena()
-    track = play_strategies(Pursuit(), RobustEvasion(), starts, game=game)
-    assert not track.captured
+    starts = generate_room(RoomRecipe(None, None), 1002).starts
+    assert starts is not None
+    faster = {"gait": {"speed": 0.11, "stride": 0.044}}
+    track = play_steps(Pursuit(), RobustEvasion(), starts, 225, pursuer=faster)
+    assert track.outcome is Outcome.COMPLETED
 
 
 def test_walker_that_is_nearer_than_the_capture_distance_still_flees() -> None:

@@ -8,9 +8,9 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from floor_duels import play_steps
 from stepaside.arena import Box, Disc, Obstacle, ObstacleSet, Polygon, Room
 from stepaside.core.poses import Pose, wrap_angle
-from stepaside.games import StepGame, play_strategies
 from stepaside.games.floor_world import FloorAgent
 from stepaside.games.strategy_games import PAIR
 from stepaside.strategies import (
@@ -116,7 +116,6 @@ def test_a_game_in_steps_has_no_preferred_direction(name: str) -> None:
     chases = strategy.direction.value > 0
     both = (strategy, STRATEGIES["evasion"])
     players = both if chases else (STRATEGIES["pursuit"], strategy)
-    game = StepGame(duration=4.0)
     starts = Pose(0.1, 0.2, 0.5), Pose(0.9, 0.4, 2.4)
     obstacles = (Disc(0.8, -0.7, 0.2), Box(-0.5, 0.9, 0.4, 0.3, 0.4))
     tracks = []
@@ -124,9 +123,7 @@ def test_a_game_in_steps_has_no_preferred_direction(name: str) -> None:
         solids = tuple(moved(solid, frame) for solid in obstacles)
         begin = frame.compose(starts[0]), frame.compose(starts[1])
         tracks.append(
-            play_strategies(
-                *players, begin, room=Room(None, None, solids), game=game
-            )
+            play_steps(*players, begin, 10, room=Room(None, None, solids))
         )
     one, two = tracks
     assert one.outcome == two.outcome

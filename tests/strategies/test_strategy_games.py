@@ -8,11 +8,13 @@ import pytest
 
 from sampled_unicycles import play_sampled
 from stepaside.core.poses import wrap_angle
-from stepaside.games import StepGame, StrategyTrack, play_strategies
+from stepaside.games import Outcome, StrategyTrack
+from stepaside.games.strategy_games import play_unicycles
 from stepaside.strategies import (
     Evasion,
     Pursuit,
     StandStill,
+    Strategy,
 )
 from stepaside.theory.unicycle import (
     RelativeStart,
@@ -25,16 +27,14 @@ ALWAYS = Evasion(safety_radius=1e9, side_hysteresis=0.0)
 
 
 def play(
-    pursuer: object = None, evader: object = None, **changes: object
+    evader: Strategy = ALWAYS,
+    start: RelativeStart = START,
+    duration: float = 10.0,
+    capture: float = 1e-6,
 ) -> StrategyTrack:
-    """Play the players of the paper, or others."""
-    options = {"period": 0.2, "duration": 10.0}
-    return play_strategies(
-        pursuer or Pursuit(),  # type: ignore[arg-type]
-        evader or ALWAYS,  # type: ignore[arg-type]
-        changes.pop("start", START).poses(),  # type: ignore[attr-defined]
-        game=StepGame.of_unicycles(FIG_2, **(options | changes)),  # type: ignore[arg-type]
-    )
+    """Play the paper's pursuer against an evader, sampled every 0.2 s."""
+    both, times = (Pursuit(), evader), (duration, 0.2)
+    return play_unicycles(FIG_2, start, both, times, capture)
 
 
 @pytest.mark.parametrize("angle", [0.0, 1.0, pi / 2, 2.5])
@@ -44,12 +44,7 @@ def test_strategies_of_the_paper_are_its_sampled_game(
 ) -> None:
     """Two programs that share the laws alone."""
     start = replace(START, bearing=bearing)
-    run = play_strategies(
-        Pursuit(),
-        replace(ALWAYS, angle=angle),
-        start.poses(),
-        game=StepGame.of_unicycles(FIG_2, 0.2, 10.0),
-    )
+    run = play(replace(ALWAYS, angle=angle), start)
     game = Unicycles(1.0, 1.0, 0.5, 0.5, angle)
     _, _, pursuer, evader = play_sampled(game, start, 10.0, 0.2)
     np.testing.assert_allclose(run.pursuer, pursuer, atol=1e-9)
@@ -77,12 +72,13 @@ def test_an_evader_stands_until_the_other_is_in_its_safety_area() -> None:
     still = (run.evader == run.evader[0]).all(axis=1)
     first = int(np.argmin(still))
     assert still[:first].all() and 1.2 < run.distances[first] < 1.5
-    assert not run.captured
+    assert run.outcome is Outcome.COMPLETED
 
 
 def test_one_that_stands_is_captured_and_the_game_ends() -> None:
     run = play(evader=StandStill(), start=RelativeStart(2.5), capture=0.15)
-    assert run.captured and run.closest_distance == run.distances[-1] <= 0.15
+    assert run.outcome is Outcome.CAPTURED
+    assert run.closest_distance == run.distances[-1] <= 0.15
     assert len(run.times) == len(run.pursuer) == len(run.evader)
     assert 2.3 < run.times[-1] < 3.0
     assert play(capture=2.6).times.tolist() == [0.0]
@@ -90,12 +86,7 @@ def test_one_that_stands_is_captured_and_the_game_ends() -> None:
 
 def test_a_mirrored_game_is_the_mirror_image() -> None:
     games = [
-        play_strategies(
-            Pursuit(),
-            ALWAYS,
-            RelativeStart(2.5, sign * 0.3, sign * -0.2).poses(),
-            game=StepGame.of_unicycles(FIG_2, 0.2, 10.0),
-        )
+        play(start=RelativeStart(2.5, sign * 0.3, sign * -0.2))
         for sign in (1.0, -1.0)
     ]
     mirror = np.array([1.0, -1.0, -1.0])

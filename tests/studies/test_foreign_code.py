@@ -106,7 +106,7 @@ def test_what_a_strategy_prints_is_not_among_json(tmp_path: Path) -> None:
 def test_what_workers_print_is_not_among_json(tmp_path: Path) -> None:
     name = strategy(tmp_path, decide="print('noise', flush=True)")
     words = ["study", "tournament", "--workers", "2", "--json"]
-    for change in (f"evader={name}", "seed=1:3", "game.duration=1"):
+    for change in (f"evader={name}", "seed=1:3", "duration=1"):
         words += ["--set", change]
     found = command(*words)
     assert found.returncode == 0, found.stderr

@@ -27,7 +27,7 @@ GAMES: dict[str, tuple[str, str, list[float]]] = {
     ),
     "tournament": (
         "closest_m",
-        "game.duration = 30.0\nroom.discs = 3",
+        "duration = 41.025\npursuers_pass = true\nroom.discs = 3",
         [0.747292303, 0.781406943, 0.46711146],
     ),
     "unicycles": (

@@ -173,7 +173,7 @@ def test_an_unknown_study_is_refused_with_those_that_exist() -> None:
 
 
 def test_a_tournament_is_stored_as_a_table(tmp_path: Path) -> None:
-    changes = ["evader=optimal,evasion", "seed=0:2", "game.duration=4"]
+    changes = ["evader=optimal,evasion", "seed=0:2", "duration=5.47"]
     file = tmp_path / "games.sqlite"
     run = sa.run_study(sa.load_study("tournament", changes), file)
     (optimal, evasion) = run.table()

@@ -1,16 +1,16 @@
 """Test games of tournaments, and their records."""
 
-from dataclasses import replace
 from math import pi, sin
 from typing import Any
 
 import pytest
 
+from floor_duels import STEP
 from stepaside.arena import RoomRecipe
-from stepaside.games import StepGame
 from stepaside.games.game import Outcome
 from stepaside.studies import tournament as studied
 from stepaside.studies.tournament import (
+    TOURNAMENT,
     PairingSettings,
     circle_distance,
     play_pairing,
@@ -18,8 +18,8 @@ from stepaside.studies.tournament import (
 )
 from stepaside.theory.value import two_cars as tables
 
-SHORT = StepGame(duration=16.0)
-SETTINGS = PairingSettings(room=RoomRecipe(discs=1), game=SHORT, seed=3)
+SHORT = TOURNAMENT.changed(duration=40 * STEP, seed=3, pursuers_pass=True)
+SETTINGS = PairingSettings(SHORT, room=RoomRecipe(discs=1))
 
 
 @pytest.fixture(scope="module", autouse=True)
@@ -40,7 +40,7 @@ def test_a_record_is_what_the_game_was() -> None:
     assert record["outcome"] == "completed"
     assert track.outcome is Outcome.COMPLETED
     assert record["closest_m"] == track.distances.min()
-    assert record["survived_s"] == pytest.approx(16.0)
+    assert record["survived_s"] == pytest.approx(40 * STEP)
     assert record["clearance_m"] == pytest.approx(
         room.clearance(track.evader[:, :2]).min()
     )
@@ -51,20 +51,22 @@ def test_a_record_is_what_the_game_was() -> None:
 @pytest.mark.parametrize("ratio", [0.5, 1.7, 2.9])
 def test_the_circle_of_a_gain_balances_both_players(ratio: float) -> None:
     """V cos a = v cos u, and both turn at the rate of the line of sight."""
-    game = replace(SHORT, speed=0.3, gain=0.7)
+    gait = {"speed": 0.3, "gain": 0.7}
+    game = SHORT.changed(gait=gait, pursuer=f"pursuit(gain={ratio})")
     pursuer_gain = ratio * 0.7
     a = 0.5 * pi / (1.0 + pursuer_gain / 0.7)  # a + b = alpha, kp a = ke b
     distance = 2.0 * 0.3 * sin(a) / (pursuer_gain * a)
-    found = circle_distance(game, f"pursuit(gain={ratio})")
-    assert found == pytest.approx(distance)
+    assert circle_distance(game) == pytest.approx(distance)
 
 
 def test_sharp_and_herding_capture_a_survivor_of_the_papers_pursuer() -> None:
     """In rooms of 3 m, look-ahead: each survives pure, few the others."""
-    settings = replace(SETTINGS, room=RoomRecipe(), game=StepGame())
+    game = TOURNAMENT.changed(pursuers_pass=True)
     survived = {
         pursuer: [
-            play_track(replace(settings, pursuer=pursuer, seed=seed)).outcome
+            play_track(
+                PairingSettings(game.changed(pursuer=pursuer, seed=seed))
+            ).outcome
             for seed in range(1000, 1004)
         ].count(Outcome.COMPLETED)
         for pursuer in ("pursuit", "sharp", "herding")

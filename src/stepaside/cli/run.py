@@ -218,6 +218,7 @@ def _play_named(
     import numpy as np
 
     from ..core.poses import wrap_angle
+    from ..games.game import Outcome
     from ..games.strategy_games import play_unicycles
     from ..strategies.registry import OF_EVASION
     from ..theory.unicycle.circles import fit_circle
@@ -236,7 +237,7 @@ def _play_named(
     return {
         "pursuer_strategy": names[0],
         "evader_strategy": names[1],
-        "captured": run.captured,
+        "captured": run.outcome is Outcome.CAPTURED,
         "end_time_s": float(run.times[-1]),
         "closest_distance_m": run.closest_distance,
         "distance_m": float(run.distances[-1]),

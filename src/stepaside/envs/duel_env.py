@@ -18,9 +18,11 @@ from ..core.errors import (
     check_within,
     shown,
 )
+from ..games.floor_games import MARGIN
+from ..games.floor_world import PARTS
 from ..games.player_settings import PLAYERS
-from ..games.strategy_games import StepGame
 from ..strategies.evasion import Evasion
+from ..strategies.knowledge import limits_of
 from ..strategies.learned import LearnedStrategy
 from ..strategies.pursuit import Pursuit
 from ..strategies.registry import load_strategy
@@ -136,30 +138,35 @@ class DuelEnv(gymnasium.Env[Row, Any]):
         self._both.close()
 
 
-def rules_of(game: StepGame) -> BatchRules:
-    """Return the rules of a game as numbers."""
-    parts, share = game.decisions, game.gain * game.period
-    if pi * share / parts > LARGEST_TURN:
+def rules_of(settings: EnvironmentSettings) -> BatchRules:
+    """Return the rules of an environment as numbers, in path time."""
+    game, own = settings.game, settings.duel.evader
+    parts, limits = PARTS[settings.level], limits_of(own.gait)
+    if pi * limits.share / parts > LARGEST_TURN:
         raise ConfigurationError(
-            "turns of game.gain must be at most "
+            "turns of duel.evader.gait must be at most "
             f"{LARGEST_TURN * parts:g} [rad] for many games, got "
-            f"{pi * share:g}"
+            f"{pi * limits.share:g}"
         )
-    if game.limits[0] != game.limits[1]:
+    if limits.outer_stride or limits != limits_of(game.pursuer.gait):
         raise ConfigurationError(
-            "game.pursuer_speed_ratio and game.pursuer_gain_ratio must be 1 "
-            "for many games"
+            "gaits of duel must be equal, without outer_stride, for many games"
+        )
+    if settings.room is not None and not game.pursuers_pass:
+        raise ConfigurationError(
+            "duel.pursuers_pass must be true in rooms of many games, whose "
+            "pursuers know no obstacles"
         )
     return BatchRules(
-        game.stride / parts,
-        share,
+        limits.stride / parts,
+        limits.share,
         float(parts),
-        game.period / parts,
-        game.speed,
-        game.gain,
+        own.gait.path_interval / parts,
+        limits.speed,
+        limits.gain,
         game.capture,
-        game.body_radius,
-        game.count,
+        own.radius + MARGIN,
+        round(game.duration / settings.period),
         # Of strategies.opponent_track, in decisions.
         floor(2.25 * parts + 1e-9),
         ceil(0.75 * parts + 1e-9),
@@ -242,7 +249,7 @@ class VectorDuel(VectorEnv[Row, Any, Any]):
         check_within(num_envs, 1, 1_000_000, "num_envs", "1", error)
         self.num_envs = number = int(num_envs)
         self._own, self._other = (0, 1) if role == "pursuer" else (1, 0)
-        self._rules = rules = rules_of(given.step_game)
+        self._rules = rules = rules_of(given)
         (strategy,) = load_opponent(opponent, role).values()
         self._opponent = (
             strategy

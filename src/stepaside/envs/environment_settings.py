@@ -1,7 +1,7 @@
 """Settings, arenas, observations and actions of learning environments."""
 
 from collections.abc import Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, replace
 from functools import cached_property
 from math import pi
 from typing import Any
@@ -30,7 +30,6 @@ from ..games.floor_world import PARTS
 from ..games.game_settings import GameSettings
 from ..games.game_settings import duel as make_duel
 from ..games.player_settings import PLAYERS
-from ..games.strategy_games import StepGame
 from ..planning import Direction
 from ..strategies.learned import (
     FULL_STATE_TERMS,
@@ -46,6 +45,7 @@ SEEDS = 2**31
 # Arenas between one episode and the next of the same seed: a prime that
 # divides no usual number of arenas, so that all of them come.
 STRIDE = 7919
+DUEL = make_duel(pursuers_pass=True)
 LOW, HIGH = (-pi, 0.0), (pi, 1.0)  # of a continuous action
 
 
@@ -65,14 +65,13 @@ class EnvironmentSettings:
     # Begin with any headings, on an open floor without physics; otherwise
     # the pursuer within 90, the evader within 30 degrees of facing the other.
     any_heading: bool = False
-    duration: float = 60.0  # path time of an episode, in physics its time [s]
+    duration: float = 60.0  # of an episode [s]
     full_state: bool = False  # also observe FULL_STATE_TERMS
     action: str = "continuous"  # heading and speed factor; or "discrete"
     headings: int = HEADINGS  # of discrete actions; one more stands
-    # Rules without physics; the level sets its decisions.
-    game: StepGame = field(default_factory=StepGame)
-    # Robots, bodies, sensing, people and learned legs in physics.
-    duel: GameSettings = field(default_factory=make_duel)
+    # Robots and gaits; bodies, sensing and people in physics, else the capture
+    # distance. Level and duration are those above.
+    duel: GameSettings = DUEL
 
     def __post_init__(self) -> None:
         """Validate names, ranges and combinations."""
@@ -96,11 +95,8 @@ class EnvironmentSettings:
             for name in ("full_state", "any_heading"):
                 if getattr(self, name):
                     raise error(f"{name} must be false at level physics")
-        elif self.game.solid_pursuer:
-            raise error(
-                "game.solid_pursuer must be false: pursuers of "
-                "environments pass through obstacles"
-            )
+        elif self.duel.room is not None:
+            raise error("duel.room must be given as room without physics")
 
     def draw_arenas(self) -> tuple[list[Room], list[tuple[Pose, Pose]]]:
         """Draw rooms, and starts of pursuer and evader, without physics.
@@ -131,11 +127,22 @@ class EnvironmentSettings:
         return rooms, starts
 
     @property
-    def step_game(self) -> StepGame:
-        """Rules of the game at levels "unicycle" and "steps"."""
-        return replace(
-            self.game, duration=self.duration, decisions=PARTS[self.level]
-        )
+    def game(self) -> GameSettings:
+        """The game of an episode, but for its seed or its arena.
+
+        Without physics it lasts a whole number of decisions.
+        """
+        duration = self.duration
+        if self.level != "physics":
+            period = self.period
+            duration = max(1, round(duration / period)) * period
+        return replace(self.duel, level=self.level, duration=duration)
+
+    @property
+    def period(self) -> float:
+        """Duration of a step of the environment, in [s]."""
+        step = self.duel.evader.gait.step_duration
+        return step / PARTS.get(self.level, 1)
 
     @property
     def sensed_terms(self) -> tuple[str, ...]:

@@ -21,6 +21,7 @@ from ..core.errors import (
     check_choice,
     check_within,
 )
+from ..games.floor_games import floor_of, rules_of
 from ..games.floor_world import FloorWorld
 from ..games.game import GameInPlay, Outcome
 from ..games.game_settings import GameSettings
@@ -339,20 +340,17 @@ class ParallelDuel(ParallelGames):
         self.settings = given = EnvironmentSettings(**settings)
         self._strategies = dict(opponents or {})
         roles = {n: n for n in PLAYERS if n not in self._strategies}
-        if given.level == "physics":
-            body = given.duel.pursuer.body
-            if body != "robot" and "pursuer" in roles:
-                raise ConfigurationError(
-                    "duel.pursuer.body must be robot if the pursuer learns, "
-                    f"got {body!r}"
-                )
-            gait = given.duel.player(next(iter(roles), "evader")).gait
-            self.period = given.duel.evader.gait.step_duration
-            unit = gait.speed / gait.gain
-        else:
-            rules = given.step_game
-            self.period = rules.period / rules.decisions
-            unit = rules.speed / rules.gain
+        body = given.duel.pursuer.body
+        if body != "robot" and (
+            "pursuer" in roles or given.level != "physics"
+        ):
+            raise ConfigurationError(
+                "duel.pursuer.body must be robot without physics, and if the "
+                f"pursuer learns, got {body!r}"
+            )
+        gait = given.duel.player(next(iter(roles), "evader")).gait
+        self.period, unit = given.period, gait.speed / gait.gain
+        if given.level != "physics":
             self._rooms, self._starts = given.draw_arenas()
         units, space = dict.fromkeys(roles, unit), observation_space
         super().__init__(roles, units, given, space(given.terms), render_mode)
@@ -363,12 +361,12 @@ class ParallelDuel(ParallelGames):
         """Return the game of an episode, and its room."""
         given, played = self.settings, {**self._strategies, **held}
         if given.level != "physics":
-            index, rules = seed % len(self._rooms), given.step_game
-            pair, room = (played["pursuer"], played["evader"]), self._rooms
-            world = rules.world(pair, self._starts[index], room[index])
-            return GameInPlay(world, rules.rules), room[index]
-        seed = (given.first_arena + seed) % SEEDS
-        duel = replace(given.duel, seed=seed, duration=given.duration)
+            index = seed % len(self._rooms)
+            room = self._rooms[index]
+            duel = replace(given.game, room=room)
+            duel = duel.started_at(self._starts[index])
+            return GameInPlay(floor_of(duel, played), rules_of(duel)), room
+        duel = replace(given.game, seed=(given.first_arena + seed) % SEEDS)
         robots = {n: s for n, s in played.items() if n in duel.robots}
         game = RecordedGame(duel, strategies=robots, recorded=False)
         return game, duel.room

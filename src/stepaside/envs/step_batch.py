@@ -1,4 +1,4 @@
-"""Many games of :class:`~stepaside.games.StepGame` in compiled loops.
+"""Many duels of unicycles in compiled loops.
 
 A player follows the paper's law, stands, or is given its intents from
 outside, as in learning.
@@ -53,12 +53,12 @@ class BatchState(NamedTuple):
 
 
 class BatchRules(NamedTuple):
-    """Rules of a step game, as numbers."""
+    """Rules of a game without bodies, as numbers."""
 
     stride: float  # between two decisions [m]
     share: float  # turn of a step per desired heading, kappa
     parts: float  # decisions per step
-    period: float  # between two decisions [s]
+    period: float  # between two decisions [s] of path time
     speed: float  # of the template [m/s]
     gain: float  # of the steering [1/s]
     capture: float  # distance [m]

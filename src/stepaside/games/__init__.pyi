@@ -6,9 +6,7 @@ from .player_settings import PlayerSettings as PlayerSettings
 from .recorded_game import RecordedGame as RecordedGame
 from .recorded_game import run_game as run_game
 from .run import Run as Run
-from .strategy_games import StepGame as StepGame
 from .strategy_games import StrategyTrack as StrategyTrack
-from .strategy_games import play_strategies as play_strategies
 
 __all__ = [
     "GameSettings",
@@ -16,10 +14,8 @@ __all__ = [
     "PlayerSettings",
     "RecordedGame",
     "Run",
-    "StepGame",
     "StrategyTrack",
     "duel",
-    "play_strategies",
     "run_game",
     "walk",
 ]

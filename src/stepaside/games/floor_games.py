@@ -6,7 +6,6 @@ from types import MappingProxyType
 
 from .. import strategies
 from ..arena import NO_OBSTACLES
-from ..core.constants import CAPTURE_DISTANCE
 from ..core.errors import StrategyError
 from ..core.player_identity import Role
 from ..core.poses import Pose
@@ -82,7 +81,7 @@ def rules_of(settings: GameSettings) -> GameRules:
     In physics a game goes on after a capture: contact ends it.
     """
     goals = {p.name: p.goal for p in settings.players if p.goal and p.decides}
-    capture = 0.0 if settings.level == "physics" else CAPTURE_DISTANCE
+    capture = 0.0 if settings.level == "physics" else settings.capture
     return GameRules(settings.duration, capture, settings.identities, goals)
 
 
@@ -104,7 +103,17 @@ def motion_of(
     physics = settings.level == "physics"
     assert pose is not None
     if own.decides:
-        agent = _agent_of(settings, own, given, velocities)
+        passes = own.role == Role.PURSUER and settings.pursuers_pass
+        agent = FloorAgent(
+            strategy_of(own, given=given),
+            limits_of(own.gait, velocities),
+            own.identity,
+            list(settings.identities.values()),
+            target=own.target,
+            obstacles=solids
+            if settings.knows_room and not passes
+            else NO_OBSTACLES,
+        )
         if velocities is not None and own.body == "robot":
             return FloorPoint(agent, pose, own.gait, period)
         return FloorWalk(
@@ -113,7 +122,9 @@ def motion_of(
             parts=PARTS.get(settings.level, 1),
             delay=own.gait.start_support if physics else 0.0,
             alert=period if physics else None,
-            walls=solids if own.role == Role.PURSUER else NO_OBSTACLES,
+            walls=solids
+            if own.role == Role.PURSUER and not passes
+            else NO_OBSTACLES,
             radius=own.radius + MARGIN,
         )
     from .people import walk_of
@@ -143,20 +154,3 @@ def strategy_of(
             body_radius=player.radius + MARGIN,
         )
     return shielded(strategy, player.shield)
-
-
-def _agent_of(
-    settings: GameSettings,
-    own: PlayerSettings,
-    given: Strategy | None,
-    velocities: VelocitySet | None,
-) -> FloorAgent:
-    """Return the strategy of a template, which knows the room."""
-    return FloorAgent(
-        strategy_of(own, given=given),
-        limits_of(own.gait, velocities),
-        own.identity,
-        list(settings.identities.values()),
-        target=own.target,
-        obstacles=settings.solids if settings.knows_room else NO_OBSTACLES,
-    )

@@ -1,15 +1,17 @@
 """Settings of a game: equal settings repeat it exactly."""
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, fields, replace
 from math import pi
 from typing import Any
 
 from .. import arena
 from ..arena import NO_OBSTACLES, ObstacleSet, Room, RoomRecipe, load_room
+from ..core.constants import CAPTURE_DISTANCE
 from ..core.entries import read_entries
 from ..core.errors import ConfigurationError, check_within, shown
 from ..core.player_identity import PlayerIdentity, Role
+from ..core.poses import Pose
 from ..core.ranges import RUNTIME, SEEDS, Range
 from ..core.setting import NONE, check_settings, setting
 from ..locomotion.control_settings import MapSettings
@@ -24,6 +26,7 @@ from .player_settings import (
     EVASION,
     MOST_PLAYERS,
     PLAYERS,
+    PRESET,
     PURSUER,
     PURSUIT,
     USED_BY,
@@ -122,6 +125,17 @@ class GameSettings:
         "steps, or unicycles that decide continuously",
         names=GAME_LEVELS,
     )
+    capture: float = setting(
+        CAPTURE_DISTANCE,
+        "Distance between opponents that ends a game without bodies",
+        Range(1e-6, 100.0, "m", AT_MOST),
+    )
+    pursuers_pass: bool = setting(
+        False,
+        "Pursuers without bodies pass through walls and obstacles, and know "
+        "none",
+        needs=("room", ""),
+    )
     start: StartSettings = setting(
         StartSettings(near=0.8, far=2.0), "Initial poses that are drawn"
     )
@@ -167,15 +181,17 @@ class GameSettings:
         bodies = {p.body for p in self.players}
         if names and (
             self.names != names
-            or self.level != "physics"
             or bodies - {"robot", "person"}
             or names[-1] not in robots
         ):
             raise ConfigurationError(
-                f"game must be 'game' unless {' and '.join(names)} play in "
-                f"physics, the last one as a robot, got {self.game!r} of "
-                f"{', '.join(f'{p.name} ({p.body})' for p in self.players)} "
-                f"at level {self.level}"
+                f"game must be 'game' unless {' and '.join(names)} play, the "
+                f"last one as a robot, got {self.game!r} of "
+                f"{', '.join(f'{p.name} ({p.body})' for p in self.players)}"
+            )
+        if self.game == "walk" and self.level != "physics":
+            raise ConfigurationError(
+                f"level of a walk must be physics, got {self.level!r}"
             )
         if self.game == "walk" and (network := self.players[0].legs.network):
             raise ConfigurationError(
@@ -221,6 +237,14 @@ class GameSettings:
             replace(own, **changes.get(own.name, {})) for own in self.players
         )
         return replace(self, players=players)
+
+    def started_at(self, poses: Iterable[Pose]) -> "GameSettings":
+        """Return the game with initial poses of the players, in order."""
+        starts = {
+            own.name: {"start": tuple(map(float, pose))}
+            for own, pose in zip(self.players, poses, strict=True)
+        }
+        return self.with_players(starts)
 
     @property
     def knows_room(self) -> bool:
@@ -422,7 +446,7 @@ def duel(**changes: Any) -> GameSettings:
     Args:
         changes: Differences from a default duel of two NAO; see
             :meth:`GameSettings.changed`. For example
-            ``duel(seed=2, evader={"strategy": "look-ahead"})``.
+            ``duel(seed=2, evader="look-ahead")``.
     """
     players = tuple(PlayerSettings(name, name) for name in PLAYERS)
     made = GameSettings("duel", start=StartSettings(), players=players)
@@ -461,8 +485,8 @@ def read_game(
     Entries of ``[[players]]`` change what the robot of the player brings.
     Entries that only players have, like ``gait``, hold for all that use them
     and do not have their own, and a table named like a player changes this
-    player. ``body`` may be the name of a preset, and ``room`` a room file or
-    the seed of a room by ``recipe``.
+    player; a text instead is its strategy. ``body`` may be the name of a
+    preset, and ``room`` a room file or the seed of a room by ``recipe``.
     """
     left, before = dict(entries), source and f"{source}, "
     if base is None and entries.get("game") in STARTED_FROM:
@@ -485,11 +509,16 @@ def read_game(
     for place, name, entry in tables:
         player = own.get(name) or PlayerSettings(name)
         given = {} if name in NOT_PLAYERS else left.pop(name, {})
+        if isinstance(given, str):
+            given = {PRESET: given}
         if not isinstance(given, Mapping):
             raise ConfigurationError(
-                f"{before}{name} must be a table, got {shown(given)}"
+                f"{before}{name} must be a table or the name of a strategy, "
+                f"got {shown(given)}"
             )
         mine = nested(given, entry)
+        if PRESET in mine:
+            mine.setdefault("strategy", mine.pop(PRESET))
         used = USED_BY.get(mine.get("body", player.body), set(OF_ALL))
         common = {k: v for k, v in shared.items() if k in used}
         where = place if mine else source

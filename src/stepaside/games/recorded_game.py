@@ -141,8 +141,20 @@ class RecordedGame(GameInPlay):
             fallen=list(self.fallen),
             players=players,
             **(self._in_physics(run) if settings.level == "physics" else {}),
+            **(
+                evaluate_duel(run, self._triggered(run))
+                if run.game == "duel"
+                else {}
+            ),
         )
         return replace(run, summary=summary)
+
+    def _triggered(self, run: Run) -> float | None:
+        """Return when the evader of a duel first moved, in [s]."""
+        if isinstance(self.world, PhysicsWorld):
+            return self.world.first_moves.get(EVADER)
+        moved = (run.evader.com != run.evader.com[0]).any(axis=1)
+        return float(run.times[moved.argmax() - 1]) if moved.any() else None
 
     def _in_physics(self, run: Run) -> dict[str, Any]:
         """Return what the summary of a game in physics has beside others."""
@@ -156,8 +168,6 @@ class RecordedGame(GameInPlay):
             )
             rate = detected / in_view if in_view else None
             found["sight"] = PerceptionSummary(world.renderer, rate, false)
-        if run.game == "duel":
-            found |= evaluate_duel(run, world.first_moves.get(EVADER))
         if run.game == "walk":
             from .walk_evaluation import summarise_walk
 

@@ -10,15 +10,16 @@ import numpy as np
 from ..arena import RoomRecipe, generate_room
 from ..core.errors import ConfigurationError
 from ..core.poses import Array
+from ..games.floor_games import MARGIN
 from ..games.forecast import circle_of_theory, convergence_time
 from ..games.game import GameInPlay, GameObserver, Outcome, play
 from ..games.game_settings import GameSettings, StartSettings, duel, read_game
 from ..games.physics_world import PhysicsWorld
-from ..games.player_settings import PLAYERS
+from ..games.player_settings import PLAYERS, PURSUIT
 from ..games.players import RobotPlayer
 from ..games.recorded_game import RecordedGame, run_game
 from ..games.run import Run
-from ..games.strategy_games import StepGame, StrategyTrack
+from ..games.strategy_games import StrategyTrack
 from ..games.trajectory import angle_between, distance_between, last_third
 from ..planning import PRESETS, GaitSettings
 from ..theory.unicycle.circles import fit_circle
@@ -442,13 +443,15 @@ def measure_legs(robot: str, seed: int) -> dict[str, float]:
 
 
 DURATION = 40.0  # of the duels in rooms, in [s]
-GAMES_PER_SEED = 5  # of each evader in each setting
-GAME = StepGame(duration=120.0)
-PAIRINGS = {
-    "open": PairingSettings(floor="open", game=GAME),
-    "room": PairingSettings(room=RoomRecipe(discs=3), game=GAME),
-}
 AHEAD = "look-ahead"
+GAMES_PER_SEED = 5  # of each evader in each setting
+GAME = duel(level="steps", duration=164.1, pursuer=PURSUIT, evader=AHEAD)
+PAIRINGS = {
+    "open": PairingSettings(GAME, "open"),
+    "room": PairingSettings(
+        replace(GAME, pursuers_pass=True), room=RoomRecipe(discs=3)
+    ),
+}
 
 Tracks = tuple[StrategyTrack, ...]
 """Games of one evader, from the initial poses of a seed each."""
@@ -460,7 +463,12 @@ def measure_evading(seed: int) -> dict[str, float]:
     return read_evading(
         {
             (where, evader): tuple(
-                play_track(replace(pairing, evader=evader, seed=each))
+                play_track(
+                    replace(
+                        pairing,
+                        game=pairing.game.changed(seed=each, evader=evader),
+                    )
+                )
                 for each in seeds
             )
             for where, pairing in PAIRINGS.items()
@@ -473,7 +481,8 @@ def read_evading(games: Mapping[tuple[str, str], Tracks]) -> dict[str, float]:
     """Compare evaders, by floor and name, on the open floor and in rooms."""
     ahead = games["room", AHEAD]
     bounds = [
-        bound_of(g.pursuer[0], g.evader[0], GAME) for g in games["open", AHEAD]
+        bound_of(g.pursuer[0], g.evader[0], GAME.evader.gait)
+        for g in games["open", AHEAD]
     ]
     closest = {
         evader: np.mean([g.distances.min() for g in games["open", evader]])
@@ -490,7 +499,7 @@ def read_evading(games: Mapping[tuple[str, str], Tracks]) -> dict[str, float]:
         "best": float(closest[AHEAD] / np.mean(bounds)),
         "survives": float(survived[AHEAD]),
         "clear": float(min(g.clearances.min() for g in ahead))
-        - GAME.body_radius,
+        - (GAME.evader.radius + MARGIN),
         "aside": float(survived[AHEAD] - survived[ASIDE]),
         "decision": 1e3 * float(np.mean([g.decision for g in ahead])),
     }

@@ -23,7 +23,7 @@ from ..theory.unicycle.unicycle_game import Unicycles
 from .person_encounters import Encounter, play_encounter
 from .push_limit import PushTrial, play_push
 from .tabulation import Record, flat
-from .tournament import PairingSettings, play_pairing
+from .tournament import TOURNAMENT, PairingSettings, play_pairing
 
 BEFORE = 2.0 / 3.0  # of a duel; means are taken over the rest
 
@@ -199,9 +199,10 @@ GAMES: Mapping[str, StudyGame] = {
         None, _play_game, ("captured", "contact", "fell", "closest_m")
     ),
     "tournament": StudyGame(
-        PairingSettings,
+        TOURNAMENT,
         play_pairing,
         ("survived", "captured", "touched_obstacle", "closest_m"),
+        PairingSettings,
     ),
     "unicycles": StudyGame(
         UnicycleSettings, _play_unicycles, ("outcome", "closest_m")

@@ -13,12 +13,16 @@ from ..arena import (
     draw_any_start,
     generate_room,
 )
+from ..core.errors import ConfigurationError
 from ..core.poses import Array, Pose, rotate
 from ..core.setting import check_settings, setting
-from ..games.floor_world import PARTS
+from ..games.floor_games import floor_of, play_floor, rules_of
 from ..games.game import Outcome
+from ..games.game_settings import GameSettings, duel
+from ..games.player_settings import PLAYERS, PURSUIT
 from ..games.run import Run
-from ..games.strategy_games import StepGame, StrategyTrack, play_strategies
+from ..games.strategy_games import StrategyTrack, track_of
+from ..planning import GaitSettings
 from ..robots.description import load_robot
 from ..sim.outline_measurement import measure_outline
 from ..strategies import Pursuit, load_strategy
@@ -33,14 +37,9 @@ CELLS = 64  # of the value table of the bound
 
 @dataclass(frozen=True)
 class PairingSettings:
-    """Settings of one game of a tournament."""
+    """Settings of one game of a tournament, and its floor."""
 
-    evader: str = "look-ahead"  # name of the evader
-    pursuer: str = "pursuit"  # name of the pursuer
-    seed: int = 0  # seed of the room and of the initial poses
-    level: str = setting(
-        "steps", "Level; a unicycle decides eight times", names=tuple(PARTS)
-    )
+    game: GameSettings  # its seed is that of the room and the initial poses
     floor: str = setting(
         "room",
         "Floor: open without walls, with the starts of duels, or with any "
@@ -48,39 +47,52 @@ class PairingSettings:
         names=("room", "open", "any heading"),
     )
     room: RoomRecipe = field(default_factory=RoomRecipe)
-    game: StepGame = field(default_factory=StepGame)
 
     def __post_init__(self) -> None:
         """Validate the settings."""
         check_settings(self)
-        load_strategy(self.evader)
-        load_strategy(self.pursuer)
-
-    @property
-    def rules(self) -> StepGame:
-        """Rules of the game on its floor."""
-        if self.floor == "any heading":
-            return replace(self.game, capture=EARLIEST_CAPTURE)
-        return self.game
+        if self.game.level == "physics":
+            raise ConfigurationError(
+                "level must be steps or unicycle in a tournament, got physics"
+            )
+        for name in PLAYERS:
+            load_strategy(self.game.player(name).strategy)
 
     def arena(self) -> tuple[Room, tuple[Pose, Pose]]:
         """Return the room, and the initial poses of pursuer and evader."""
+        seed = self.game.seed
         if self.floor == "any heading":
-            return OPEN_FLOOR, draw_any_start(self.seed)
+            return OPEN_FLOOR, draw_any_start(seed)
         recipe = self.room
         if self.floor == "open":
             recipe = replace(recipe, width=None, depth=None)
-        room = generate_room(recipe, self.seed)
+        room = generate_room(recipe, seed)
         assert room.starts is not None
         return room, room.starts
+
+    @property
+    def played(self) -> GameSettings:
+        """The game on its floor, from its initial poses."""
+        room, starts = self.arena()
+        capture = self.game.capture
+        if self.floor == "any heading":
+            capture = EARLIEST_CAPTURE
+        game = replace(self.game, room=room, capture=capture)
+        return game.started_at(starts)
+
+
+TOURNAMENT = duel(
+    level="steps",
+    duration=246.15,  # 450 steps
+    evader="look-ahead",
+    pursuer=PURSUIT,
+)
 
 
 def play_track(settings: PairingSettings) -> StrategyTrack:
     """Play one game at level "steps" or "unicycle"; return its track."""
-    evader, pursuer = map(load_strategy, (settings.evader, settings.pursuer))
-    room, starts = settings.arena()
-    game = replace(settings.rules, decisions=PARTS[settings.level])
-    return play_strategies(pursuer, evader, starts, room=room, game=game)
+    game = settings.played
+    return track_of(*play_floor(floor_of(game), rules_of(game)), game.room)
 
 
 def play_pairing(settings: PairingSettings) -> Record:
@@ -91,15 +103,14 @@ def play_pairing(settings: PairingSettings) -> Record:
     ``reached_m`` the closest approach, 0 after contact with an obstacle, and
     ``regret_m`` their difference.
     """
-    track, game = play_track(settings), settings.rules
+    track, game = play_track(settings), settings.game
     outcome, closest = track.outcome, track.closest_distance
-    bound = bound_of(track.pursuer[0], track.evader[0], game)
+    bound = bound_of(track.pursuer[0], track.evader[0], game.evader.gait)
     reached = 0.0 if outcome is Outcome.TOUCHED else closest
-    seconds = (len(track.distances) - 1) * game.period / PARTS[settings.level]
     clear, ways = track.clearances.min(), np.diff(track.evader, axis=0)
     return {
         "outcome": outcome.value,
-        "survived_s": seconds,
+        "survived_s": float(track.times[-1]),
         "closest_m": closest,
         "bound_m": bound,
         "clearance_m": float(clear) if isfinite(clear) else None,
@@ -112,13 +123,16 @@ def play_pairing(settings: PairingSettings) -> Record:
         "of_bound": closest / bound,
         "reached_m": reached,
         "regret_m": bound - reached,
-        "circle_m": circle_distance(game, settings.pursuer),
+        "circle_m": circle_distance(game),
     }
 
 
-def bound_of(pursuer: Array, evader: Array, game: StepGame) -> float:
-    """Return the closest approach under optimal play on an open floor, [m]."""
-    unit, heading = game.speed / game.gain, pursuer[2]
+def bound_of(pursuer: Array, evader: Array, gait: GaitSettings) -> float:
+    """Return the closest approach under optimal play on an open floor, [m].
+
+    Both have a gait, and stand at their initial poses.
+    """
+    unit, heading = gait.speed / gait.gain, pursuer[2]
     x, y = (evader[:2] - pursuer[:2]) / unit
     x, y = rotate(x, y, -heading)
     # The evader walks backwards.
@@ -126,23 +140,24 @@ def bound_of(pursuer: Array, evader: Array, game: StepGame) -> float:
     return unit * float(value)
 
 
-def circle_distance(game: StepGame, pursuer: str) -> float | None:
+def circle_distance(game: GameSettings) -> float | None:
     """Return the distance on the paper's circle for a pursuer, in [m].
 
-    The evader moves aside, with the gain of the game. None for a pursuer that
-    does not steer by eq. (2), or of another speed.
+    The evader moves aside. None for a pursuer that does not steer by eq. (2),
+    or of another speed.
     """
-    strategy = load_strategy(pursuer)
-    if not isinstance(strategy, Pursuit) or game.pursuer_speed_ratio != 1.0:
+    strategy = load_strategy(game.pursuer.strategy)
+    own, other = game.pursuer.gait, game.evader.gait
+    if not isinstance(strategy, Pursuit) or own.speed != other.speed:
         return None
     ratio = strategy.gain
     if ratio == inf or strategy != Pursuit(gain=ratio):
         return None
     circle = find_circle(
-        game.speed,
-        game.speed,
-        ratio * game.gain,
-        game.gain,
+        own.speed,
+        other.speed,
+        ratio * own.gain,
+        other.gain,
         0.5 * pi,
         "proportional",
     )

@@ -7,8 +7,10 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from floor_duels import play_steps
 from stepaside.core.errors import ConfigurationError, PolicyError
-from stepaside.games import StepGame, play_strategies
+from stepaside.games import StrategyTrack
+from stepaside.games.strategy_games import play_unicycles
 from stepaside.planning import Direction
 from stepaside.strategies import (
     STAND,
@@ -17,6 +19,7 @@ from stepaside.strategies import (
     Knowledge,
     Limits,
     Pursuit,
+    Strategy,
     load_strategy,
 )
 from stepaside.strategies.learned import (
@@ -81,20 +84,21 @@ def file(tmp_path_factory: pytest.TempPathFactory) -> Path:
 def test_a_file_plays_steps_and_unicycles(file: Path) -> None:
     learned = load_strategy(str(file))
     pair = Unicycles(0.1, 0.1, 0.2, 0.2)
-    for game in (
-        StepGame(duration=40.0),
-        StepGame.of_unicycles(pair, 0.4, 40.0),
-    ):
-        played = play_strategies(Pursuit(), learned, START.poses(), game=game)
-        back = play_strategies(
-            Pursuit(),
-            Evasion(0.0, safety_radius=1e6),
-            START.poses(),
-            game=game,
-        )
-        aside = play_strategies(
-            Pursuit(), Evasion(safety_radius=1e6), START.poses(), game=game
-        )
+    evaders = (
+        learned,
+        Evasion(0.0, safety_radius=1e6),
+        Evasion(safety_radius=1e6),
+    )
+
+    def of_steps(evader: Strategy) -> StrategyTrack:
+        return play_steps(Pursuit(), evader, START.poses(), 100)
+
+    def of_unicycles(evader: Strategy) -> StrategyTrack:
+        both = Pursuit(), evader
+        return play_unicycles(pair, START, both, (40.0, 0.4), 0.35)
+
+    for play in (of_steps, of_unicycles):
+        played, back, aside = map(play, evaders)
         assert played.closest_distance > aside.closest_distance
         assert played.closest_distance == pytest.approx(
             back.closest_distance, abs=0.02
