@@ -5,10 +5,9 @@ from typing import Any
 
 from stepaside.arena import Room
 from stepaside.core.poses import Pose
-from stepaside.games import StrategyTrack, duel
-from stepaside.games.floor_games import floor_of, play_floor, rules_of
-from stepaside.games.strategy_games import track_of
+from stepaside.games import duel
 from stepaside.strategies import Strategy
+from stepaside.studies.tournament import StrategyTrack, record_steps
 
 STEP = 0.547  # duration of a step of NAO, in [s]
 
@@ -37,5 +36,4 @@ def play_steps(
         }
     )
     game = replace(game, room=room).started_at(starts)
-    world = floor_of(game, {"pursuer": pursuer, "evader": evader})
-    return track_of(*play_floor(world, rules_of(game)), room)
+    return record_steps(game, {"pursuer": pursuer, "evader": evader})

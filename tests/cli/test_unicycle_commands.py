@@ -83,12 +83,6 @@ def test_simulation_reaches_the_closed_form(words: str) -> None:
         assert played[name] == pytest.approx(theory[name], abs=1e-3), name
 
 
-def test_sampled_simulation_reaches_the_closed_form() -> None:
-    played = loads(unicycles, "--speed 0.1 --gain 0.2 --set sample_time=0.4")
-    for name in {*COMPARED} - {"turning_rate_rad_s"}:
-        assert played[name] == pytest.approx(played["theory"][name], abs=1e-3)
-
-
 def test_map_names_the_worst_start() -> None:
     found = loads(map_command, MAP)
     assert found["games"] == 50
@@ -179,17 +173,3 @@ def test_certified_distance_is_shown_only_where_it_holds() -> None:
     assert other["certified_m"] is None
     assert "certified distance" not in run(unicycles, f"{words} 2.5").output
     assert loads(unicycles, FAST)["certified_m"] is None
-
-
-def test_unknown_strategy_is_refused() -> None:
-    for words, message in (
-        ("--strategy dance", "strategy must be one of evasion"),
-        ("--strategy no.py:Nobody", "no file"),
-        (
-            "--strategy stand --figure x.png",
-            "requires the strategies of the paper",
-        ),
-    ):
-        result = CliRunner().invoke(unicycles, words.split())
-        assert result.exit_code != 0
-        assert message in result.output + str(result.exception)

@@ -204,8 +204,8 @@ def test_a_parameter_of_an_own_strategy_is_an_axis(tmp_path: Path) -> None:
     study = tmp_path / "study.toml"
     names = [f"{own}(turn={turn})" for turn in (0.4, 0.8)]
     study.write_text(
-        'game = "unicycles"\n[grid]\nevader_strategy = '
-        f"{json.dumps(names)}\n[settings]\nduration = 1.0\n"
+        'game = "duel"\n[grid]\nevader = '
+        f'{json.dumps(names)}\n[settings]\nlevel = "steps"\nduration = 1.0\n'
     )
     assert len(answer("study", study)["rows"]) == 2
 

@@ -156,41 +156,23 @@ def arena_duel(**settings: Any) -> Any:
 # Games of many, levels, strategies, studies and environments.
 
 
-def unicycles_of(
+def duel_of(
     evader: object,
     *,
     distance: float,
-    aim: float = 0.0,
-    bearing: float = 0.0,
     duration: float,
+    level: str = "physics",
+    offsets: tuple[float, float] = (0.0, 0.0),
 ) -> Any:
-    """Let a unicycle pursue a strategy, both at 0.1 m/s and 0.2 1/s.
+    """Let NAO pursue a strategy, each by its offset [rad] off the other.
 
-    Both decide every 0.4 s.
+    Return the summary.
     """
     return stepaside(
-        *(
-            "run",
-            "unicycles",
-            "--speed",
-            0.1,
-            "--gain",
-            0.2,
-            "--distance",
-            distance,
-        ),
-        *("--set", "sample_time=0.4"),
-        *("--aim", aim, "--bearing", bearing, "--duration", duration),
-        *("--strategy", evader, "--json"),
-    ).json
-
-
-def duel_of(evader: object, *, distance: float, duration: float) -> Any:
-    """Let NAO pursue a strategy from straight ahead; return the summary."""
-    return stepaside(
         *("duel", "--strategy", evader, "--distance", distance, "--json"),
-        *("--set", "start.pursuer_offset=0", "--set", "start.evader_offset=0"),
-        *("--duration", duration),
+        *("--set", f"start.pursuer_offset={offsets[0]}"),
+        *("--set", f"start.evader_offset={offsets[1]}"),
+        *("--set", f"level={level}", "--duration", duration),
     ).json
 
 
@@ -339,13 +321,13 @@ def duel_environment(**settings: Any) -> Any:
 
 
 def game_environment(file: Path, level: str) -> Any:
-    """Return the PettingZoo environment of a game file, by 0.4 s a step."""
+    """Return the PettingZoo environment of a game file."""
     from dataclasses import replace
 
     from stepaside.envs import ParallelGame
 
     game = ParallelGame(file).settings
-    return ParallelGame(replace(game, level=level), period=0.4)
+    return ParallelGame(replace(game, level=level))
 
 
 # Robots, legs, drivers and safety.

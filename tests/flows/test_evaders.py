@@ -58,19 +58,31 @@ def network(
     return file
 
 
+def steps_of(
+    evader: object, steps: int, offsets: tuple[float, float] = (0.0, 0.0)
+) -> Any:
+    """Play a number of steps of unicycles that are 1 m apart at first."""
+    return calls.duel_of(
+        evader,
+        distance=1.0,
+        duration=steps * STEP,
+        level="steps",
+        offsets=offsets,
+    )
+
+
 def test_an_own_file_plays_as_a_unicycle() -> None:
     """Straight away at half the speed, so the gap closes at the other."""
-    game = calls.unicycles_of(own("HalfBack"), distance=1.0, duration=6.0)
-    expected = 1.0 - 0.5 * SPEED * 6.0
-    assert game["distance_m"] == pytest.approx(expected, abs=1e-6)
-    assert game["closest_distance_m"] == pytest.approx(expected, abs=1e-6)
+    game = steps_of(own("HalfBack"), 15)
+    expected = 1.0 - 0.5 * 15 * STRIDE
+    assert game["min_distance_m"] == pytest.approx(expected, abs=1e-6)
 
 
 def test_an_own_file_remembers_what_it_returns() -> None:
-    """After five decisions of 0.4 s it stands, and the pursuer comes on."""
-    game = calls.unicycles_of(own("FiveSteps"), distance=1.0, duration=6.0)
-    expected = 1.0 - SPEED * (6.0 - 5 * STRIDE / SPEED)
-    assert game["distance_m"] == pytest.approx(expected, abs=1e-6)
+    """After five decisions it stands, and the pursuer comes on."""
+    game = steps_of(own("FiveSteps"), 15)
+    expected = 1.0 - STRIDE * (15 - 5)
+    assert game["min_distance_m"] == pytest.approx(expected, abs=1e-6)
 
 
 def test_an_own_object_plays_what_its_file_plays() -> None:
@@ -99,9 +111,9 @@ def test_a_network_chooses_among_headings(tmp_path: Path) -> None:
         [0.8 / unit, 0.0],
         [0.0, None],
     )
-    game = calls.unicycles_of(file, distance=1.0, duration=12.0)
-    assert 0.8 - STRIDE - 1e-6 <= game["distance_m"] <= 0.8 + 1e-9
-    assert game["closest_distance_m"] == pytest.approx(game["distance_m"])
+    game = steps_of(file, 30)
+    assert 0.8 - STRIDE - 1e-6 <= game["min_distance_m"] <= 0.8 + 1e-9
+    assert game["distance_m"] == pytest.approx(game["min_distance_m"])
 
 
 def test_a_network_of_two_outputs_is_the_file_of_the_same_law(
@@ -114,12 +126,12 @@ def test_a_network_of_two_outputs_is_the_file_of_the_same_law(
         [0.0, 0.5],
         [],
     )
-    start: dict[str, Any] = {"aim": 0.6, "bearing": -1.2, "duration": 6.0}
-    learned = calls.unicycles_of(file, distance=1.0, **start)
-    written = calls.unicycles_of(own("HalfBack"), distance=1.0, **start)
-    for key in ("distance_m", "floor_used_evader_m"):
-        assert learned[key] == pytest.approx(written[key], abs=1e-5)
-    assert abs(learned["distance_m"] - 0.7) > 0.01  # not the straight one
+    learned = steps_of(file, 15, (-0.6, 1.2))
+    written = steps_of(own("HalfBack"), 15, (-0.6, 1.2))
+    for key in ("min_distance_m", "distance_m", "relative_orientation_deg"):
+        assert learned[key] == pytest.approx(written[key], abs=1e-3)
+    # Not the straight one.
+    assert abs(learned["min_distance_m"] - 0.7) > 0.01
 
 
 def test_a_rating_compares_by_the_same_games() -> None:

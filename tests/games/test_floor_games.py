@@ -1,5 +1,7 @@
 """Test games without bodies: the same duel from every door, and its laws."""
 
+import json
+import runpy
 from dataclasses import replace
 from math import pi, sin
 from typing import Any
@@ -12,6 +14,7 @@ from stepaside.arena import Disc, Room, RoomRecipe, generate_room
 from stepaside.core.poses import Pose
 from stepaside.games import GameSettings, Outcome, duel, run_game
 from stepaside.games.game_settings import read_game
+from tools.documents.store import ROOT
 
 LEVELS = ("steps", "unicycle")
 
@@ -89,3 +92,37 @@ def test_a_pursuer_goes_around_a_disc_unless_it_passes(passes: bool) -> None:
     assert run.outcome is Outcome.CAPTURED
     nearest = room.clearance(run.pursuer.unicycle[:, :2]).min()
     assert nearest < 0.0 if passes else 0.2 - 1e-9 <= nearest < 0.4
+
+
+DOORS = runpy.run_path(str(ROOT / "tools/benchmarks/doors.py"))["DOORS"]
+STORED = json.loads((ROOT / "docs/results/doors.json").read_text())["rows"]
+
+
+@pytest.mark.parametrize("door", DOORS)
+@pytest.mark.parametrize("level", LEVELS)
+def test_a_duel_is_the_documented_one_from_every_door(
+    level: str, door: str
+) -> None:
+    for row in STORED:
+        if (row["level"], row["door"]) != (level, door):
+            continue
+        found = DOORS[door](level, room=row["room"])
+        assert found["outcome"] == row["outcome"]
+        for name in ("time_s", "distance_m", "closest_m"):
+            assert found[name] == pytest.approx(row[name], rel=1e-5, abs=1e-9)
+
+
+@pytest.mark.parametrize("room", [False, True])
+@pytest.mark.parametrize("level", [*LEVELS, "physics"])
+def test_documented_doors_of_a_level_agree(level: str, room: bool) -> None:
+    """But for the environment in physics, whose actions come late."""
+    rows = [
+        row
+        for row in STORED
+        if (row["level"], row["room"]) == (level, room)
+        and (level, row["door"]) != ("physics", "environment")
+    ]
+    assert len(rows) == 4 - (level == "physics")
+    assert len({row["outcome"] for row in rows}) == 1
+    for name in ("time_s", "distance_m"):
+        assert np.ptp([row[name] for row in rows]) < 1e-3

@@ -19,6 +19,7 @@ from stepaside.games.game_settings import (
     StartSettings,
     duel,
     read_game,
+    walk,
 )
 from stepaside.games.game_starts import draw_start
 from stepaside.games.robot_bodies import body_of_robot
@@ -72,11 +73,14 @@ def test_a_setting_is_changed_of_the_game_of_all_or_of_one_player() -> None:
         ({"weather": 1}, "unknown entry weather"),
         ({"evader": {"mood": 1}}, "evader: .*mood"),
         ({"evader": {"strategy": "nobody"}}, "evader: strategy.*nobody"),
-        ({"level": "steps"}, "game must be 'game' unless"),
+        ({"evader": "nobody"}, "evader: strategy.*nobody"),
         ({"evader": {"body": "person"}}, "the last one as a robot"),
     ):
         with pytest.raises(ConfigurationError, match=message):
             made.changed(**changes)
+    assert made.changed(evader="stand").evader.strategy == "stand"
+    with pytest.raises(ConfigurationError, match="level of a walk must be"):
+        walk(level="steps")
 
 
 WALKER = [{"name": "walker"}]
@@ -97,7 +101,8 @@ WALKER = [{"name": "walker"}]
         ({"gait": {"stride": 30}}, "here: gait.stride must lie in"),
         ({"evader": {"gait": {"stride": 30}}}, "here, evader: gait.stride"),
         ({"evader": {"person": {"speed": 1}}}, "person must be omitted"),
-        ({"evader": "wary"}, "here, evader must be a table, got 'wary'"),
+        ({"evader": 3}, "here, evader must be a table or the .*, got 3"),
+        ({"evader": "brave"}, "here, evader: strategy must be one of"),
         (
             {"game": "walk", "legs": {"network": "x.onnx"}, "players": WALKER},
             "legs.network must be empty in a walk",

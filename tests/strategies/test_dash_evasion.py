@@ -7,10 +7,9 @@ import numpy as np
 import pytest
 
 from stepaside.core.poses import ALL_AROUND, Sector
-from stepaside.games import StrategyTrack, duel
+from stepaside.games import duel
 from stepaside.games.floor_games import floor_of, play_floor
 from stepaside.games.game import GameRules
-from stepaside.games.strategy_games import track_of
 from stepaside.planning import GaitSettings
 from stepaside.sim.person_settings import PersonSettings
 from stepaside.strategies import (
@@ -21,6 +20,7 @@ from stepaside.strategies import (
     load_strategy,
 )
 from stepaside.strategies.velocity_set import AxisValues, VelocitySet
+from stepaside.studies.tournament import StrategyTrack, track_of
 
 LEGS = VelocitySet(
     (-0.7, 0.7), (-0.35, 0.35), (-0.9, 0.9), AxisValues(0.3, 0.4, 0.1)

@@ -11,8 +11,8 @@ from hypothesis import strategies as st
 from floor_duels import play_steps
 from stepaside.arena import Box, Disc, Obstacle, ObstacleSet, Polygon, Room
 from stepaside.core.poses import Pose, wrap_angle
+from stepaside.games import duel
 from stepaside.games.floor_world import FloorAgent
-from stepaside.games.strategy_games import PAIR
 from stepaside.strategies import (
     Evasion,
     Intent,
@@ -155,11 +155,12 @@ def test_a_player_knows_the_opponents_velocity_in_its_own_frame(
 ) -> None:
     """Of the other on the floor, however the own body moves and turns."""
     strategy: Any = Noting()
+    pair = duel().identities
     agent = FloorAgent(
         strategy,
         LIMITS,
-        PAIR["evader"],
-        list(PAIR.values()),
+        pair["evader"],
+        list(pair.values()),
         obstacles=ObstacleSet(SOLIDS),
     )
     moving = False

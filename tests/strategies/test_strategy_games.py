@@ -6,16 +6,17 @@ from math import pi, sin
 import numpy as np
 import pytest
 
+from floor_duels import STEP, play_steps
 from sampled_unicycles import play_sampled
 from stepaside.core.poses import wrap_angle
-from stepaside.games import Outcome, StrategyTrack
-from stepaside.games.strategy_games import play_unicycles
+from stepaside.games import Outcome
 from stepaside.strategies import (
     Evasion,
     Pursuit,
     StandStill,
     Strategy,
 )
+from stepaside.studies.tournament import StrategyTrack
 from stepaside.theory.unicycle import (
     RelativeStart,
     Unicycles,
@@ -26,15 +27,20 @@ START = RelativeStart(2.5, 0.3, -0.2)
 ALWAYS = Evasion(safety_radius=1e9, side_hysteresis=0.0)
 
 
+# As in FIG_2, with a sample time of 0.2 s of path time.
+GAIT = {"speed": 1.0, "gain": 0.5, "stride": 0.2}
+
+
 def play(
     evader: Strategy = ALWAYS,
     start: RelativeStart = START,
-    duration: float = 10.0,
+    steps: int = 50,
     capture: float = 1e-6,
 ) -> StrategyTrack:
-    """Play the paper's pursuer against an evader, sampled every 0.2 s."""
-    both, times = (Pursuit(), evader), (duration, 0.2)
-    return play_unicycles(FIG_2, start, both, times, capture)
+    """Play the paper's pursuer against an evader."""
+    return play_steps(
+        Pursuit(), evader, start.poses(), steps, gait=GAIT, capture=capture
+    )
 
 
 @pytest.mark.parametrize("angle", [0.0, 1.0, pi / 2, 2.5])
@@ -49,12 +55,12 @@ def test_strategies_of_the_paper_are_its_sampled_game(
     _, _, pursuer, evader = play_sampled(game, start, 10.0, 0.2)
     np.testing.assert_allclose(run.pursuer, pursuer, atol=1e-9)
     np.testing.assert_allclose(run.evader, evader, atol=1e-9)
-    np.testing.assert_allclose(run.times[-1], 10.0, atol=1e-12)
+    np.testing.assert_allclose(run.times[-1], 50 * STEP, atol=1e-9)
 
 
 def test_they_end_on_the_circle_of_the_theory() -> None:
     """Sec. 3: r = 4 v sin(alpha / 2) / (k alpha), headings pi/2 apart."""
-    run = play(duration=120.0)
+    run = play(steps=600)
     expected = 4.0 * sin(pi / 4.0) / (0.5 * pi / 2.0)
     assert run.distances[-1] == pytest.approx(expected, rel=1e-3)
     apart = wrap_angle(float(run.evader[-1, 2] - run.pursuer[-1, 2]))
@@ -63,7 +69,7 @@ def test_they_end_on_the_circle_of_the_theory() -> None:
 
 def test_a_saturated_evader_ends_on_a_circle_of_radius_v_over_k() -> None:
     """Sec. 4, eq. (6): r = 2 v sin(1) / k."""
-    run = play(evader=replace(ALWAYS, saturated=True), duration=120.0)
+    run = play(evader=replace(ALWAYS, saturated=True), steps=600)
     assert run.distances[-1] == pytest.approx(2.0 * sin(1.0) / 0.5, rel=0.01)
 
 
@@ -80,7 +86,7 @@ def test_one_that_stands_is_captured_and_the_game_ends() -> None:
     assert run.outcome is Outcome.CAPTURED
     assert run.closest_distance == run.distances[-1] <= 0.15
     assert len(run.times) == len(run.pursuer) == len(run.evader)
-    assert 2.3 < run.times[-1] < 3.0
+    assert 2.3 < run.times[-1] * 0.2 / STEP < 3.0
     assert play(capture=2.6).times.tolist() == [0.0]
 
 

@@ -11,7 +11,6 @@ import numpy as np
 import pytest
 
 from stepaside.core.poses import Array
-from stepaside.games.strategy_games import play_unicycles
 from stepaside.planning import (
     Direction,
     ManeuverPlan,
@@ -22,6 +21,7 @@ from stepaside.planning.path import UnicycleTrajectory, place_footsteps
 from stepaside.planning.plan import PlanSamples
 from stepaside.studies import theory_claims
 from stepaside.studies.claims import ONCE, load_claims
+from stepaside.studies.tournament import StrategyTrack, record_steps
 from stepaside.theory.unicycle.simulation import PlayedGame
 from stepaside.theory.unicycle.unicycle_game import Unicycles
 
@@ -29,13 +29,18 @@ Patch = Callable[[pytest.MonkeyPatch], None]
 Pair = tuple[Array, Array]
 
 play = cache(theory_claims.play)  # each game is simulated once for all faults
-sampled = cache(play_unicycles)
+
+
+@cache
+def sampled() -> StrategyTrack:
+    start = theory_claims.NAO_START.poses()
+    return record_steps(theory_claims.SAMPLED.started_at(start))
 
 
 @pytest.fixture(autouse=True)
 def games_once(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(theory_claims, "play", play)
-    monkeypatch.setattr(theory_claims, "play_unicycles", sampled)
+    monkeypatch.setattr(theory_claims, "record_steps", lambda *_: sampled())
 
 
 def seen_as(
@@ -78,12 +83,12 @@ def sampled_as(change: Callable[[Array, Array], Pair]) -> Patch:
     """Falsify the poses of the sampled game."""
 
     def patch(monkeypatch: pytest.MonkeyPatch) -> None:
-        def false(*args: Any) -> Any:
-            run = sampled(*args)
+        def false(*_: Any) -> Any:
+            run = sampled()
             pursuer, evader = change(run.pursuer.copy(), run.evader.copy())
             return run._replace(pursuer=pursuer, evader=evader)
 
-        monkeypatch.setattr(theory_claims, "play_unicycles", false)
+        monkeypatch.setattr(theory_claims, "record_steps", false)
 
     return patch
 

@@ -7,11 +7,11 @@ from typing import Any
 import numpy as np
 import pytest
 
-from stepaside.games import Outcome, StrategyTrack
+from stepaside.games import Outcome
 from stepaside.studies import game_claims as read
 from stepaside.studies.claims import Claim, load_claims
 from stepaside.studies.game_claims import DURATION
-from stepaside.studies.tournament import ASIDE
+from stepaside.studies.tournament import ASIDE, StrategyTrack
 
 BEST = 1.0  # bound of all starts, in [m]
 Games = dict[tuple[str, str], tuple[StrategyTrack, ...]]

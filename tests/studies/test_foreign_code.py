@@ -93,11 +93,11 @@ def test_what_a_strategy_prints_is_not_among_json(tmp_path: Path) -> None:
     code = "; ".join(PRINTS)
     name = strategy(tmp_path, **dict.fromkeys(PLACES, code))
     found = command(
-        *("run", "unicycles", "--duration", "0.1", "--json"),
+        *("duel", "--set", "level=steps", "--duration", "0.1", "--json"),
         *("--strategy", name),
     )
     assert found.returncode == 0, found.stderr
-    assert json.loads(found.stdout)["evader_strategy"] == name
+    assert json.loads(found.stdout)["outcome"] == "completed"
     assert found.stdout.count("\n") == 1
     for kind, _ in enumerate(PRINTS):
         assert f"noise{kind}" in found.stderr
@@ -116,15 +116,15 @@ def test_what_workers_print_is_not_among_json(tmp_path: Path) -> None:
 
 def test_json_goes_out_where_standard_error_is_closed(tmp_path: Path) -> None:
     name = strategy(tmp_path, decide="print('noise')")
-    line = [sys.executable, "-m", "stepaside", "run", "unicycles", "--json"]
-    line += ["--duration", "0.1", "--strategy", name]
+    line = [sys.executable, "-m", "stepaside", "duel", "--json", "--set"]
+    line += ["level=steps", "--duration", "0.1", "--strategy", name]
     found = subprocess.run(
         ["sh", "-c", '"$@" 2>&-', "sh", *line],
         stdout=subprocess.PIPE,
         text=True,
         timeout=100,
     )
-    assert json.loads(found.stdout)["evader_strategy"] == name
+    assert json.loads(found.stdout)["outcome"] == "completed"
 
 
 MODELS = (

@@ -35,8 +35,8 @@ from stepaside.games.floor_world import (
     FloorWorld,
 )
 from stepaside.games.game import GameRules
+from stepaside.games.game_settings import duel
 from stepaside.games.people import FloorPerson
-from stepaside.games.strategy_games import PAIR
 from stepaside.locomotion.control_settings import LegsSettings
 from stepaside.locomotion.policy.policy_legs import load_legs
 from stepaside.planning import Direction, GaitSettings
@@ -241,7 +241,8 @@ def play(robot: MappedRobot, kind: str, start: Pose, seed: int) -> float:
     person = Pose(-robot.shield.speed * straight, 0.0, 0.0)
     chaser = Chaser(kind, robot.shield, person, seed, straight)
     limits = limits_of(robot.gait, robot.legs)
-    agent = FloorAgent(strategy, limits, PAIR["evader"], list(PAIR.values()))
+    pair = duel().identities
+    agent = FloorAgent(strategy, limits, pair["evader"], list(pair.values()))
     own: FloorMotion
     if robot.legs is not None:
         own = FloorPoint(agent, start, robot.gait, robot.step)
@@ -250,7 +251,7 @@ def play(robot: MappedRobot, kind: str, start: Pose, seed: int) -> float:
         own = FloorWalk(agent, start, delay=late, alert=robot.step)
     other = FloorPerson(chaser, lambda seen: seen["evader"][:2], robot.step)
     world = FloorWorld({"pursuer": other, "evader": own})
-    rules = GameRules(robot.duration, identities=PAIR)
+    rules = GameRules(robot.duration, identities=pair)
     game, _ = play_floor(world, rules)
     return game.closest["evader", "pursuer"]
 

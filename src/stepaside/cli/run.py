@@ -13,7 +13,7 @@ from ..core.entries import to_entries
 from ..core.errors import PlanError
 from ..games.game_settings import GameSettings
 from ..games.game_settings import walk as make_walk
-from ..games.unicycle_settings import PAPER, UnicycleSettings
+from ..games.unicycle_settings import UnicycleSettings
 from ..report.result_labels import CIRCLES, label_of
 from .main import LazyGroup
 from .options import (
@@ -117,7 +117,7 @@ def walk(
 
 NAMED_OF_UNICYCLES = (
     *("speed", "gain", "angle", "law", "distance"),
-    *("aim", "bearing", "duration", "evader_strategy"),
+    *("aim", "bearing", "duration"),
 )
 COMPARED = (
     "radius_pursuer_m",
@@ -137,43 +137,25 @@ def unicycles(
     settings: UnicycleSettings, figure: Path | None, as_json: bool
 ) -> None:
     """Simulate one game of two unicycles and compare it with theory."""
-    game, start, names = settings.game, settings.start, settings.strategies
+    from ..theory.unicycle.certificate import certify
+    from ..theory.unicycle.circles import circle_of
+
+    game, start = settings.game, settings.start
+    run, measured = _simulate(settings, start)
     result: dict[str, Any] = {
         "start": asdict(start),
         "capture_distance_m": settings.capture,
-        "sample_time_s": settings.sample_time,
         "game": to_entries(game),
+        **measured,
+        "certified_m": None,
     }
-    if figure is not None and names is not None:
-        raise click.UsageError(
-            "--figure requires the strategies of the paper, without "
-            "sample_time"
-        )
-    run: Any = None
-    if names is None:
-        from ..theory.unicycle.certificate import certify
-
-        run, measured = _simulate(settings, start)
-        result |= measured | {"certified_m": None}
-        # It is for equal players that do not move straight back.
-        with suppress(PlanError):
-            result["certified_m"] = certify(game, start)
-    else:
-        result |= _play_named(settings, names)
-    if names is None or names == PAPER:
-        from ..theory.unicycle.circles import circle_of
-
-        theory = plain(circle_of(game))
-        named = ("exists", *COMPARED, "time_constant_s")
-        result["theory"] = {name: theory[name] for name in named}
-    if as_json:
-        print_json(result)
-    elif "theory" in result:
-        _print_unicycles(result)
-    else:
-        aside = ("game", "start")
-        shown = {k: v for k, v in result.items() if k not in aside}
-        print_table(result_rows(shown))
+    # It is for equal players that do not move straight back.
+    with suppress(PlanError):
+        result["certified_m"] = certify(game, start)
+    theory = plain(circle_of(game))
+    named = ("exists", *COMPARED, "time_constant_s")
+    result["theory"] = {name: theory[name] for name in named}
+    print_json(result) if as_json else _print_unicycles(result)
     if figure is not None:
         from ..report.unicycle_figures import draw_game
 
@@ -209,44 +191,6 @@ def _simulate(
             "stable": run.circle.stable,
         }
     return run, result
-
-
-def _play_named(
-    settings: UnicycleSettings, names: tuple[str, str]
-) -> dict[str, Any]:
-    """Simulate a game of any two strategies."""
-    import numpy as np
-
-    from ..core.poses import wrap_angle
-    from ..games.game import Outcome
-    from ..games.strategy_games import play_unicycles
-    from ..strategies.registry import OF_EVASION
-    from ..theory.unicycle.circles import fit_circle
-
-    if not set(names) & set(OF_EVASION):
-        refuse_settings(
-            ("angle", "law", "side_rule", "hysteresis"),
-            f"the strategy {' or '.join(OF_EVASION)}, got {names[1]}",
-        )
-    times, capture = (settings.time, settings.period), settings.capture
-    run = play_unicycles(settings.game, settings.start, names, times, capture)
-    paths = run.pursuer, run.evader
-    radii = [fit_circle(p[-len(p) // 5 :, :2])[1] for p in paths]
-    fled = (run.evader - run.evader[0])[:, :2]
-    heading = float(run.pursuer[-1, 2] - run.evader[-1, 2])
-    return {
-        "pursuer_strategy": names[0],
-        "evader_strategy": names[1],
-        "captured": run.outcome is Outcome.CAPTURED,
-        "end_time_s": float(run.times[-1]),
-        "closest_distance_m": run.closest_distance,
-        "distance_m": float(run.distances[-1]),
-        "radius_pursuer_m": radii[0],
-        "radius_evader_m": radii[1],
-        "headings_apart_rad": abs(wrap_angle(heading)),
-        "motions_apart_rad": abs(wrap_angle(heading + np.pi)),
-        "floor_used_evader_m": float(np.hypot(*fled.T).max()),
-    }
 
 
 def _print_unicycles(result: dict[str, Any]) -> None:

@@ -68,7 +68,6 @@ MEANINGS = {
 """Short meanings of options, by path; --settings has the long ones."""
 FLAGS = {
     "senses": "--sensing",
-    "evader_strategy": "--strategy",
     "pursuer.body": "--pursuer",
     "pushes": "--push",
 }

@@ -56,10 +56,9 @@ class EnvironmentSettings:
     # "unicycle", with eight decisions per step, "steps", or "physics", two
     # simulated humanoids
     level: str = "unicycle"
-    # None for an open floor; in physics `duel.room` instead
-    room: Room | RoomRecipe | None = None
+    room: Room | RoomRecipe | None = None  # None for an open floor
     # Different rooms and starts, of which an episode takes one, and seed of
-    # the first; in physics each episode has a seed of its own.
+    # the first; in physics each episode has a seed, and room, of its own.
     arenas: int = 256
     first_arena: int = 0
     # Begin with any headings, on an open floor without physics; otherwise
@@ -89,14 +88,17 @@ class EnvironmentSettings:
             )
         if self.any_heading and self.room is not None:
             raise error("any_heading must be false in a room, got true")
-        if self.level == "physics":
-            if self.room is not None:
-                raise error("room must be given as duel.room at level physics")
-            for name in ("full_state", "any_heading"):
-                if getattr(self, name):
-                    raise error(f"{name} must be false at level physics")
-        elif self.duel.room is not None:
-            raise error("duel.room must be given as room without physics")
+        if self.duel.room is not None:
+            raise error("duel.room must be given as room")
+        for name in ("full_state", "any_heading"):
+            if self.level == "physics" and getattr(self, name):
+                raise error(f"{name} must be false at level physics")
+
+    def room_of(self, seed: int) -> Room | None:
+        """Return the room of a seed; None on an open floor."""
+        if isinstance(self.room, RoomRecipe):
+            return generate_room(self.room, seed)
+        return self.room
 
     def draw_arenas(self) -> tuple[list[Room], list[tuple[Pose, Pose]]]:
         """Draw rooms, and starts of pursuer and evader, without physics.
@@ -106,14 +108,9 @@ class EnvironmentSettings:
         Raises:
             ConfigurationError: If a room has no space, or moving boxes.
         """
-        first, room = int(self.first_arena), self.room
+        first = int(self.first_arena)
         seeds = range(first, first + int(self.arenas))
-        rooms = [
-            generate_room(room, seed)
-            if isinstance(room, RoomRecipe)
-            else room or OPEN_FLOOR
-            for seed in seeds
-        ]
+        rooms = [self.room_of(seed) or OPEN_FLOOR for seed in seeds]
         if any(each.moving for each in rooms):
             raise ConfigurationError(
                 "room must have no moving boxes at this level"
@@ -147,11 +144,10 @@ class EnvironmentSettings:
     @property
     def sensed_terms(self) -> tuple[str, ...]:
         """Terms of the observation that a strategy can have, too."""
-        room = self.duel.room if self.level == "physics" else self.room
         return tuple(
             name
             for name in SENSED_TERMS
-            if name != "clearances" or room is not None
+            if name != "clearances" or self.room is not None
         )
 
     @property

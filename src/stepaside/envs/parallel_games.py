@@ -366,7 +366,8 @@ class ParallelDuel(ParallelGames):
             duel = replace(given.game, room=room)
             duel = duel.started_at(self._starts[index])
             return GameInPlay(floor_of(duel, played), rules_of(duel)), room
-        duel = replace(given.game, seed=(given.first_arena + seed) % SEEDS)
+        seed = (given.first_arena + seed) % SEEDS
+        duel = replace(given.game, seed=seed, room=given.room_of(seed))
         robots = {n: s for n, s in played.items() if n in duel.robots}
         game = RecordedGame(duel, strategies=robots, recorded=False)
         return game, duel.room

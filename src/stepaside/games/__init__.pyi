@@ -6,7 +6,6 @@ from .player_settings import PlayerSettings as PlayerSettings
 from .recorded_game import RecordedGame as RecordedGame
 from .recorded_game import run_game as run_game
 from .run import Run as Run
-from .strategy_games import StrategyTrack as StrategyTrack
 
 __all__ = [
     "GameSettings",
@@ -14,7 +13,6 @@ __all__ = [
     "PlayerSettings",
     "RecordedGame",
     "Run",
-    "StrategyTrack",
     "duel",
     "run_game",
     "walk",

@@ -21,10 +21,8 @@ WALL_MARGIN = 0.3  # clearance of a start from walls and obstacles, in [m]
 Spot = tuple[tuple[float, ...], float]  # place, and least distance, in [m]
 
 
-def draw_starts(
-    settings: GameSettings,
-) -> tuple[dict[str, Pose], dict[str, tuple[float, ...]]]:
-    """Return initial poses and goals, drawn where they are omitted.
+def draw_starts(settings: GameSettings) -> GameSettings:
+    """Return the game with initial poses and goals, drawn where omitted.
 
     Positions are drawn from the seed, then headings: pursuers look up to a
     right angle beside their opponent, evaders up to 30 degrees beside theirs,
@@ -57,21 +55,17 @@ def draw_starts(
         else:
             heading = _draw_heading(settings, player, poses, generator)
         poses[player.name] = Pose(x, y, heading)
-    placed = settings.with_players(
-        {
-            own.name: {
-                "start": tuple(map(float, poses[own.name])),
-                "goal": goals.get(own.name, own.goal),
-            }
-            for own in settings.players
-        }
-    )
+    placed = settings.with_players({n: {"goal": g} for n, g in goals.items()})
+    placed = placed.started_at([poses[name] for name in placed.names])
     for player in placed.players:
         if player.body == "person" and player.name not in goals:
             poses[player.name] = walk_on_path(placed, player).pose
-    for name, (x, y, theta) in poses.items():
-        poses[name] = Pose(x, y, wrap_angle(theta))
-    return poses, goals
+    return placed.started_at(
+        [
+            Pose(x, y, wrap_angle(theta))
+            for x, y, theta in map(poses.__getitem__, placed.names)
+        ]
+    )
 
 
 def _given_pose(player: PlayerSettings) -> Pose | None:

@@ -2,23 +2,15 @@
 
 from itertools import combinations
 from math import isfinite
-from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ..core.constants import CAPTURE_DISTANCE
 from ..core.poses import Array
-from ..sim.person_settings import RADIUS
 from ..theory.unicycle.circles import fit_circle
-from .game import GameInPlay, Outcome
 from .run import Run
-from .summary import (
-    CrowdSummary,
-    PairSummary,
-    PlayerSummary,
-    Summary,
-)
+from .summary import PairSummary, PlayerSummary, Summary
 from .trajectory import (
     angle_between,
     cycle_mean,
@@ -27,7 +19,6 @@ from .trajectory import (
 )
 
 MIN_TURN = 0.5  # of a path to which a circle can be fitted, in [rad]
-INTRUSIONS = (0.45, 1.2)  # of crowd navigation: intimate and personal, [m]
 
 
 def measure(run: Run, late: NDArray[np.bool_] | None = None) -> Summary:
@@ -89,36 +80,4 @@ def _player(run: Run, name: str, late: NDArray[np.bool_]) -> PlayerSummary:
     return PlayerSummary(
         path_m=float(np.hypot(*np.diff(path, axis=1)).sum()),
         radius_m=radius if radius is not None and isfinite(radius) else None,
-    )
-
-
-def crowd_of(run: Run, game: GameInPlay, own: Any) -> CrowdSummary | None:
-    """Measure the encounter of a robot with people; None without any."""
-    people = [p.name for p in run.settings.players if p.body == "person"]
-    if run.game != "game" or not own.decides or not people:
-        return None
-    poses, times = run.tracks[own.name].unicycle, run.times
-    apart = np.array(
-        [distance_between(poses, run.tracks[p].unicycle) for p in people]
-    )
-    if run.settings.level == "physics" and own.body == "robot":
-        collisions = int(own.name in game.touched)
-    else:
-        touching = apart < own.radius + RADIUS
-        begins = np.diff(touching.astype(int), axis=1, prepend=0) > 0
-        collisions = int(np.count_nonzero(begins))
-    nearest = apart.min(axis=0)
-    period = float(times[1] - times[0]) if len(times) > 1 else 0.0
-    intimate, personal = (
-        period * int(np.count_nonzero(nearest < limit)) for limit in INTRUSIONS
-    )
-    completed = run.outcome is Outcome.COMPLETED
-    reached = own.name in game.goals_at if own.goal else completed
-    harmed = collisions or own.name in (*game.touched, *game.fallen)
-    return CrowdSummary(
-        people=len(people),
-        success=reached and not harmed,
-        collisions=collisions,
-        intimate_s=intimate,
-        personal_s=personal,
     )

@@ -240,11 +240,8 @@ class GameSettings:
 
     def started_at(self, poses: Iterable[Pose]) -> "GameSettings":
         """Return the game with initial poses of the players, in order."""
-        starts = {
-            own.name: {"start": tuple(map(float, pose))}
-            for own, pose in zip(self.players, poses, strict=True)
-        }
-        return self.with_players(starts)
+        starts = [{"start": tuple(map(float, pose))} for pose in poses]
+        return self.with_players(dict(zip(self.names, starts, strict=True)))
 
     @property
     def knows_room(self) -> bool:

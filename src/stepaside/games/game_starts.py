@@ -1,6 +1,5 @@
 """Initial poses of the players of a game."""
 
-from collections.abc import Mapping
 from dataclasses import replace
 from math import dist, pi, radians
 
@@ -9,7 +8,6 @@ from ..core.errors import ConfigurationError
 from ..core.poses import Pose
 from ..core.random_streams import named_generator
 from .game_settings import GameSettings, StartSettings
-from .player_settings import PLAYERS
 
 SLOW_SPEED = 0.15  # up to which a person begins a duel nearby, in [m/s]
 SAME = 1e-6  # distance of equal poses, in [m] and [rad]
@@ -19,16 +17,15 @@ LEAD_TIME = 5.0  # extra distance of a faster person over its speed, in [s]
 def with_starts(settings: GameSettings) -> GameSettings:
     """Return the settings of the same game with nothing left open.
 
-    All starts are filled in, and what the settings imply. In a duel they are
-    those of ``start``, or of its room, which gets them; otherwise see
-    :func:`.drawn_starts.draw_starts`.
+    All starts and goals are filled in, and what the settings imply. In a duel
+    starts are those of ``start``, or of its room, which gets them; otherwise
+    see :func:`.drawn_starts.draw_starts`.
     """
     if settings.game == "duel":
         return _with_start_of_duel(settings)
     from .drawn_starts import draw_starts
 
-    poses, goals = draw_starts(settings)
-    return _placed(settings, poses, goals).resolved()
+    return draw_starts(settings).resolved()
 
 
 def _with_start_of_duel(settings: GameSettings) -> GameSettings:
@@ -58,15 +55,15 @@ def _with_start_of_duel(settings: GameSettings) -> GameSettings:
     if own.body == "person" and own.person.backward:  # it looks away
         x, y, theta = poses[0]
         poses = Pose(x, y, theta - pi), poses[1]
-    named = dict(zip(PLAYERS, poses, strict=True))
     # Settings with nothing left open give a distance, or the poses of a room.
-    for each in settings.players if room or not start.distance else ():
-        if each.start and dist(each.start, named[each.name]) > SAME:
+    for each, pose in zip(settings.players, poses, strict=True):
+        moved = each.start and (room or not start.distance)
+        if moved and dist(each.start, pose) > SAME:
             raise ConfigurationError(
                 f"{each.name}: start must be omitted in a duel, whose start "
                 "is start, or that of its room"
             )
-    return _placed(settings, named, {}).resolved()
+    return settings.started_at(poses).resolved()
 
 
 def draw_start(settings: GameSettings) -> StartSettings:
@@ -85,19 +82,3 @@ def draw_start(settings: GameSettings) -> StartSettings:
     }
     missing = {k: v for k, v in drawn.items() if getattr(start, k) is None}
     return replace(start, **missing)
-
-
-def _placed(
-    settings: GameSettings,
-    poses: Mapping[str, Pose],
-    goals: Mapping[str, tuple[float, ...]],
-) -> GameSettings:
-    """Return a game with all starts and goals."""
-    places = {
-        own.name: {
-            "start": tuple(map(float, poses[own.name])),
-            "goal": goals.get(own.name, own.goal),
-        }
-        for own in settings.players
-    }
-    return settings.with_players(places)

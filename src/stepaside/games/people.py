@@ -4,18 +4,26 @@ from collections.abc import Callable
 from math import pi
 from typing import Any, Protocol
 
+import numpy as np
+
 from ..core.errors import ConfigurationError
 from ..core.poses import Pose
 from ..sim.crowd_motion import CrowdMotion, Neighbour
 from ..sim.ground_truth import FloorTruth
 from ..sim.person_body import PersonBody, pose_template
 from ..sim.person_motion import PersonMotion
+from ..sim.person_settings import RADIUS
 from ..sim.world import World
 from .floor_world import AT_ONCE, PERIOD, FloorMotion, Seen
+from .game import GameInPlay, Outcome
 from .game_settings import GameSettings
 from .player_settings import PlayerSettings
 from .players import Player
+from .run import Run
+from .summary import CrowdSummary
+from .trajectory import distance_between
 
+INTRUSIONS = (0.45, 1.2)  # of crowd navigation: intimate and personal, [m]
 MARKER_HEIGHT = 0.27  # that stands for the CoM of a marker, in [m]
 MARKER_REACH = 0.1  # of a marker, which touches nothing, in [m]
 
@@ -166,3 +174,40 @@ class FloorPlayer(Player):
             motion.decide(motion.due, seen)
         motion.advance(until)
         self._body.move(motion.pose)
+
+
+def crowds_of(run: Run, game: GameInPlay) -> dict[str, CrowdSummary]:
+    """Measure the encounter of each robot with people, by name."""
+    people, times = (
+        [run.tracks[name].unicycle for name in run.persons],
+        run.times,
+    )
+    period = float(times[1] - times[0]) if len(times) > 1 else 0.0
+    found = {}
+    for own in run.settings.players:
+        if not own.decides:
+            continue
+        poses = run.tracks[own.name].unicycle
+        apart = np.array([distance_between(poses, each) for each in people])
+        if run.settings.level == "physics" and own.body == "robot":
+            collisions = int(own.name in game.touched)
+        else:
+            touching = apart < own.radius + RADIUS
+            begins = np.diff(touching.astype(int), axis=1, prepend=0) > 0
+            collisions = int(np.count_nonzero(begins))
+        nearest = apart.min(axis=0)
+        intimate, personal = (
+            period * int(np.count_nonzero(nearest < limit))
+            for limit in INTRUSIONS
+        )
+        completed = run.outcome is Outcome.COMPLETED
+        reached = own.name in game.goals_at if own.goal else completed
+        harmed = collisions or own.name in (*game.touched, *game.fallen)
+        found[own.name] = CrowdSummary(
+            people=len(people),
+            success=reached and not harmed,
+            collisions=collisions,
+            intimate_s=intimate,
+            personal_s=personal,
+        )
+    return found

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 from ..robots.description import RobotDescription
 from ..strategies import Strategy
 from ..strategies.registry import describe_strategy
-from .evaluation import crowd_of, measure
+from .evaluation import measure
 from .floor_games import floor_of, rules_of
 from .floor_world import PERIOD, FloorRecorder, FloorWorld
 from .forecast import evaluate_duel
@@ -20,7 +20,7 @@ from .physics_world import PhysicsWorld
 from .player_settings import EVADER, WALKER
 from .recorder import Recorder
 from .run import Run
-from .summary import PerceptionSummary
+from .summary import CrowdSummary, PerceptionSummary
 
 if TYPE_CHECKING:
     from .camera_senses import SightEvaluator
@@ -122,7 +122,11 @@ class RecordedGame(GameInPlay):
             times=self.recorder.times,
             tracks=tracks,
         )
-        summary = measure(run)
+        summary, crowds = measure(run), dict[str, CrowdSummary]()
+        if run.game == "game" and run.persons:
+            from .people import crowds_of
+
+            crowds = crowds_of(run, self)
         players = {
             own.name: replace(
                 summary.players[own.name],
@@ -130,7 +134,7 @@ class RecordedGame(GameInPlay):
                 sight=self.sights[own.name].summary()
                 if own.name in self.sights
                 else None,
-                crowd=crowd_of(run, self, own),
+                crowd=crowds.get(own.name),
             )
             for own in settings.players
         }

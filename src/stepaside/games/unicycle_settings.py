@@ -9,9 +9,6 @@ from ..theory.unicycle.circles import settling_time
 from ..theory.unicycle.simulation import RelativeStart
 from ..theory.unicycle.unicycle_game import LAWS, SIDE_RULES, Unicycles
 
-PAPER = ("pursuit", "evasion")  # strategies of pursuer and evader
-SHORT = 0.01  # decision period without sampling, in [s]
-
 
 @dataclass(frozen=True, slots=True)
 class UnicycleGameSettings(CheckedSettings):
@@ -97,19 +94,8 @@ class UnicycleSettings(UnicycleGameSettings):
         positive("s", None),
         default_text="until the game has settled",
     )
-    sample_time: float = setting(
-        0.0,
-        "Sampling period; turning rates are constant in between",
-        positive("s", 0.0),
-    )
     capture: float = setting(
         1e-6, "Capture distance, which ends the game", positive("m")
-    )
-    evader_strategy: str = setting(
-        "", "Strategy of the evader", default_text="evasion"
-    )
-    pursuer_strategy: str = setting(
-        "", "Strategy of the pursuer", default_text="pursuit"
     )
 
     @property
@@ -123,16 +109,3 @@ class UnicycleSettings(UnicycleGameSettings):
     def time(self) -> float:
         """Simulated time, in [s]."""
         return self.duration or settling_time(self.game)
-
-    @property
-    def strategies(self) -> tuple[str, str] | None:
-        """Strategies of pursuer and evader; None for the paper's ODE."""
-        pursuer, evader = self.pursuer_strategy, self.evader_strategy
-        if not (pursuer or evader or self.sample_time):
-            return None
-        return pursuer or PAPER[0], evader or PAPER[1]
-
-    @property
-    def period(self) -> float:
-        """Decision period of strategies, in [s]; short without sampling."""
-        return self.sample_time or SHORT

@@ -19,7 +19,6 @@ from ..games.player_settings import PLAYERS, PURSUIT
 from ..games.players import RobotPlayer
 from ..games.recorded_game import RecordedGame, run_game
 from ..games.run import Run
-from ..games.strategy_games import StrategyTrack
 from ..games.trajectory import angle_between, distance_between, last_third
 from ..planning import PRESETS, GaitSettings
 from ..theory.unicycle.circles import fit_circle
@@ -27,6 +26,7 @@ from .theory_claims import most_deviating
 from .tournament import (
     ASIDE,
     PairingSettings,
+    StrategyTrack,
     bound_of,
     clearance,
     play_track,

@@ -15,7 +15,6 @@ from ..games.game_settings import GameSettings, duel, read_game, walk
 from ..games.player_settings import settings_of
 from ..games.recorded_game import run_game
 from ..games.run import Run
-from ..games.strategy_games import play_unicycles
 from ..games.unicycle_settings import UnicycleSettings
 from ..theory.unicycle.certificate import certify
 from ..theory.unicycle.simulation import RelativeStart, simulate
@@ -127,27 +126,18 @@ def _play_walk(settings: GameSettings) -> Record:
 
 
 def _play_unicycles(settings: UnicycleSettings) -> Record:
-    game, start, names = settings.game, settings.start, settings.strategies
-    if names is None:
-        played = simulate(
-            game, start, settings.time, capture_distance=settings.capture
-        )
-        outcome = "captured" if played.captured else "completed"
-        ended, closest = played.end_time, played.closest_distance
-        nearest = played.closest_time
-        distance = played.states([ended])[0, 0]
-    else:
-        times = settings.time, settings.period
-        track = play_unicycles(game, start, names, times, settings.capture)
-        outcome, closest = track.outcome.value, track.closest_distance
-        nearest = track.times[track.distances.argmin()]
-        ended, distance = track.times[-1], track.distances[-1]
+    played = simulate(
+        settings.game,
+        settings.start,
+        settings.time,
+        capture_distance=settings.capture,
+    )
     return {
-        "outcome": outcome,
-        "duration_s": float(ended),
-        "closest_m": closest,
-        "closest_at_s": float(nearest),
-        "distance_m": float(distance),
+        "outcome": "captured" if played.captured else "completed",
+        "duration_s": played.end_time,
+        "closest_m": played.closest_distance,
+        "closest_at_s": played.closest_time,
+        "distance_m": float(played.states([played.end_time])[0, 0]),
     }
 
 

@@ -8,8 +8,8 @@ from time import process_time
 import numpy as np
 
 from ..core.poses import Array, rotate, wrap_angle, wrap_angles
-from ..games.strategy_games import play_unicycles
-from ..games.unicycle_settings import PAPER
+from ..games.game_settings import duel
+from ..games.player_settings import EVASION, PURSUIT
 from ..planning import (
     CenterState,
     Direction,
@@ -27,6 +27,7 @@ from ..theory.unicycle.simulation import (
     simulate,
 )
 from ..theory.unicycle.unicycle_game import Unicycles
+from .tournament import record_steps
 
 FIG_2 = Unicycles(1.0, 1.0, 0.5, 0.5)
 START = RelativeStart(5.0, 0.4, -0.2)
@@ -34,7 +35,14 @@ ANGLES = tuple(np.radians([15.0, 30.0, 45.0, 60.0, 75.0, 90.0]).tolist())
 SMALL_ANGLE = 0.1  # evasion angle near "move back", in [rad]
 NAO = Unicycles(0.1, 0.1, 0.2, 0.2)
 NAO_START = RelativeStart(1.0, 0.3, -0.1)
-STEP = 0.4  # path time of a step, in [s]
+ALWAYS = {"safety_radius": 100.0, "side_hysteresis": 0.0}
+SAMPLED = duel(
+    level="steps",
+    duration=547.0,  # 1000 steps
+    capture=1e-6,
+    pursuer=PURSUIT,
+    evader={"strategy": EVASION, "evasion": ALWAYS},
+)
 
 
 def play(game: Unicycles) -> PlayedGame:
@@ -113,7 +121,7 @@ def _deviation_from_sight(pursuer: Array, evader: Array) -> float:
 
 def read_sampled() -> dict[str, float]:
     """Measure the circle of Sec. IV with turning rates held between steps."""
-    run = play_unicycles(NAO, NAO_START, PAPER, (400.0, STEP), 1e-6)
+    run = record_steps(SAMPLED.started_at(NAO_START.poses()))
     turns = np.diff(run.pursuer[-200:, 2])
     last = max(2, round(2.0 * pi / max(abs(float(turns[-1])), 1e-3)))
     difference = run.evader[-1] - run.pursuer[-1]

@@ -1,7 +1,10 @@
 """Games of a tournament: an evader against a pursuer, without physics."""
 
+from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 from math import inf, isfinite, pi
+from types import MappingProxyType
+from typing import NamedTuple
 
 import numpy as np
 
@@ -17,15 +20,15 @@ from ..core.errors import ConfigurationError
 from ..core.poses import Array, Pose, rotate
 from ..core.setting import check_settings, setting
 from ..games.floor_games import floor_of, play_floor, rules_of
-from ..games.game import Outcome
+from ..games.floor_world import FloorRecorder, FloorWalk
+from ..games.game import GameInPlay, Outcome
 from ..games.game_settings import GameSettings, duel
 from ..games.player_settings import PLAYERS, PURSUIT
 from ..games.run import Run
-from ..games.strategy_games import StrategyTrack, track_of
 from ..planning import GaitSettings
 from ..robots.description import load_robot
 from ..sim.outline_measurement import measure_outline
-from ..strategies import Pursuit, load_strategy
+from ..strategies import Pursuit, Strategy, load_strategy
 from ..theory.unicycle.circles import find_circle
 from ..theory.value.two_cars import pursuit_bound
 from .tabulation import Record
@@ -81,6 +84,32 @@ class PairingSettings:
         return game.started_at(starts)
 
 
+class StrategyTrack(NamedTuple):
+    """Recorded game of pursuer and evader, one pose at each decision."""
+
+    outcome: Outcome  # of the game
+    times: Array  # of the poses, from the start on [s]. (n,)
+    pursuer: Array  # poses x [m], y [m], theta [rad]. (n, 3)
+    evader: Array  # likewise. (n, 3)
+    clearances: Array  # of the evader's centre [m]. (n,)
+    # mean processor time of a decision of the evader, without the first one,
+    # which loads code [s]
+    decision: float
+    longest_decision: float  # likewise
+
+    @property
+    def distances(self) -> Array:
+        """Distance between the two, in [m]. Shape (n,)."""
+        apart = self.evader - self.pursuer
+        found: Array = np.hypot(apart[:, 0], apart[:, 1])
+        return found
+
+    @property
+    def closest_distance(self) -> float:
+        """Least recorded distance, in [m]."""
+        return float(self.distances.min())
+
+
 TOURNAMENT = duel(
     level="steps",
     duration=246.15,  # 450 steps
@@ -91,8 +120,37 @@ TOURNAMENT = duel(
 
 def play_track(settings: PairingSettings) -> StrategyTrack:
     """Play one game at level "steps" or "unicycle"; return its track."""
-    game = settings.played
-    return track_of(*play_floor(floor_of(game), rules_of(game)), game.room)
+    return record_steps(settings.played)
+
+
+def record_steps(
+    game: GameSettings,
+    strategies: Mapping[str, Strategy] = MappingProxyType({}),
+) -> StrategyTrack:
+    """Play a duel without bodies; return a pose at each decision.
+
+    Strategies as objects replace those of the settings, by player.
+    """
+    world = floor_of(game, strategies)
+    return track_of(*play_floor(world, rules_of(game)), game.room)
+
+
+def track_of(
+    game: GameInPlay, recorder: FloorRecorder, room: Room | None = None
+) -> StrategyTrack:
+    """Return the record of a finished game of pursuer and evader."""
+    assert game.outcome is not None
+    poses, evades = recorder.poses(), recorder.world.motions["evader"]
+    times = evades.decision_times if isinstance(evades, FloorWalk) else []
+    return StrategyTrack(
+        game.outcome,
+        recorder.times,
+        poses["pursuer"],
+        poses["evader"],
+        (room or OPEN_FLOOR).clearance(poses["evader"][:, :2]),
+        float(np.mean(times[1:] or times or [0.0])),
+        max(times[1:], default=0.0),
+    )
 
 
 def play_pairing(settings: PairingSettings) -> Record:

@@ -9,8 +9,6 @@ import pytest
 
 from floor_duels import play_steps
 from stepaside.core.errors import ConfigurationError, PolicyError
-from stepaside.games import StrategyTrack
-from stepaside.games.strategy_games import play_unicycles
 from stepaside.planning import Direction
 from stepaside.strategies import (
     STAND,
@@ -19,7 +17,6 @@ from stepaside.strategies import (
     Knowledge,
     Limits,
     Pursuit,
-    Strategy,
     load_strategy,
 )
 from stepaside.strategies.learned import (
@@ -29,7 +26,7 @@ from stepaside.strategies.learned import (
     dense_network,
     discrete_headings,
 )
-from stepaside.theory.unicycle import RelativeStart, Unicycles
+from stepaside.theory.unicycle import RelativeStart
 
 LIMITS = Limits(0.1, 0.2, 0.04, 0.4)
 KNOWN = Knowledge(0.0, 0.6, 1.0, LIMITS)
@@ -83,22 +80,16 @@ def file(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 def test_a_file_plays_steps_and_unicycles(file: Path) -> None:
     learned = load_strategy(str(file))
-    pair = Unicycles(0.1, 0.1, 0.2, 0.2)
     evaders = (
         learned,
         Evasion(0.0, safety_radius=1e6),
         Evasion(safety_radius=1e6),
     )
-
-    def of_steps(evader: Strategy) -> StrategyTrack:
-        return play_steps(Pursuit(), evader, START.poses(), 100)
-
-    def of_unicycles(evader: Strategy) -> StrategyTrack:
-        both = Pursuit(), evader
-        return play_unicycles(pair, START, both, (40.0, 0.4), 0.35)
-
-    for play in (of_steps, of_unicycles):
-        played, back, aside = map(play, evaders)
+    for level in ("steps", "unicycle"):
+        played, back, aside = (
+            play_steps(Pursuit(), evader, START.poses(), 100, level=level)
+            for evader in evaders
+        )
         assert played.closest_distance > aside.closest_distance
         assert played.closest_distance == pytest.approx(
             back.closest_distance, abs=0.02

@@ -34,6 +34,7 @@ TABLES: dict[str, Callable[..., str]] = {
     "shield-maps": bounds.shield_maps,
     "evading-opponents": room_evaders.opponents,
     "opponent-ladder": room_evaders.ladder,
+    "doors": games_of_many.doors,
     "environments": learning.environments,
     "fast-walks": walking.fast_walks,
     "headlines": benchmark.headlines,

@@ -33,6 +33,21 @@ def teams(result: Result) -> str:
     return table(head, rows)
 
 
+def doors(result: Result) -> str:
+    """List how one duel goes on at each level from each door."""
+    cells: dict[str, dict[str, str]] = {}
+    for row in result["rows"]:
+        own, door = cells.setdefault(row["level"], {}), row["door"]
+        if row["room"]:
+            own[door] += f"; `{row['outcome']}` {row['time_s']:.2f}"
+        else:
+            own[door] = f"{row['closest_m']:.3f}, {row['distance_m']:.3f}"
+    heads = ("level", *next(iter(cells.values())))
+    return table(
+        heads, [(f"`{level}`", *own.values()) for level, own in cells.items()]
+    )
+
+
 def crowds(*results: Result) -> str:
     """List how robots cross a room among people, a row for each result."""
     head = (

@@ -1,0 +1,157 @@
+"""Play one duel, and one in a room, at every level from every door.
+
+The doors are Python, a game file, a tournament and the environment of both
+players, whose actions are those of the strategies::
+
+    python tools/benchmarks/doors.py
+"""
+
+from dataclasses import asdict, replace
+from pathlib import Path
+from tempfile import TemporaryDirectory
+from typing import Any
+
+from stepaside.arena import Room, RoomRecipe, generate_room
+from stepaside.core.poses import Pose
+from stepaside.envs import ParallelDuel
+from stepaside.games import GameSettings, duel, run_game
+from stepaside.games.settings_reader import dump_configuration, load_game
+from stepaside.strategies import load_strategy
+from stepaside.studies.tournament import (
+    PairingSettings,
+    play_track,
+    record_steps,
+)
+from stepaside.theory.unicycle import RelativeStart
+
+LEVELS = ("steps", "unicycle", "physics")
+DURATION = 110 * 0.547  # of a duel, whole steps, in [s]
+STRATEGIES = {"pursuer": "pursuit", "evader": "evasion(safety_radius=100)"}
+STARTS = RelativeStart(1.0, 0.3, -0.2).poses()
+RECIPE, SEED = RoomRecipe(discs=3), 3  # of the room
+
+Row = dict[str, Any]
+
+
+def settings_of(level: str, *, room: bool) -> GameSettings:
+    """Return the duel, or the one in a room."""
+    start = {"distance": 1.0, "pursuer_offset": -0.3, "evader_offset": 0.2}
+    game = duel(
+        level=level,
+        duration=DURATION,
+        pursuer=STRATEGIES["pursuer"],
+        evader=STRATEGIES["evader"],
+        **({} if room else {"start": start}),
+    )
+    return replace(game, room=generate_room(RECIPE, SEED)) if room else game
+
+
+def from_python(level: str, *, room: bool) -> Row:
+    """Play the settings."""
+    return row_of(run_game(settings_of(level, room=room)))
+
+
+def from_file(level: str, *, room: bool) -> Row:
+    """Play a game file of two players."""
+    game = settings_of(level, room=room)
+    starts = game.room.starts if game.room else STARTS
+    assert starts is not None
+    game = replace(game.started_at(starts), game="game")
+    with TemporaryDirectory() as folder:
+        file = Path(folder) / "game.toml"
+        file.write_text(dump_configuration(game))
+        return row_of(run_game(load_game(file)))
+
+
+def row_of(run: Any) -> Row:
+    """Return outcome, end [s], last distance and closest approach [m]."""
+    distance = run.distance
+    return {
+        "outcome": run.outcome.value,
+        "time_s": run.duration,
+        "distance_m": float(distance[-1]),
+        "closest_m": float(distance.min()),
+    }
+
+
+def from_tournament(level: str, *, room: bool) -> Row:
+    """Play as a tournament does; in physics as a study of duels."""
+    game = settings_of(level, room=room)
+    if level == "physics":
+        return from_python(level, room=room)
+    if room:
+        game = game.changed(seed=SEED)
+        track = play_track(PairingSettings(game, room=RECIPE))
+    else:
+        track = record_steps(game.started_at(STARTS))
+    return {
+        "outcome": track.outcome.value,
+        "time_s": float(track.times[-1]),
+        "distance_m": float(track.distances[-1]),
+        "closest_m": track.closest_distance,
+    }
+
+
+def from_environment(level: str, *, room: bool) -> Row:
+    """Play an episode; a decision is the action of its knowledge."""
+    game = settings_of(level, room=room)
+    plan = game.room
+    if level != "physics" and plan is None:
+        plan = Room(starts=STARTS)
+    env = ParallelDuel(
+        level=level,
+        duration=DURATION,
+        room=plan,
+        arenas=1,
+        duel=replace(game, room=None),
+    )
+    minds = {name: load_strategy(n) for name, n in STRATEGIES.items()}
+    memories = {name: mind.begin() for name, mind in minds.items()}
+    _, infos = env.reset(seed=game.seed)
+    while env.agents:
+        actions = {}
+        for name, mind in minds.items():
+            known = env.known(name)
+            assert known is not None
+            intent, memories[name] = mind.decide(known, memories[name])
+            actions[name] = (intent.heading, intent.speed_factor)
+        *_, infos = env.step(actions)
+    info, world = infos["evader"], env.game.world
+    poses: dict[str, Pose] = dict(world.states())
+    apart = RelativeStart.from_world(poses["pursuer"], poses["evader"])
+    return {
+        "outcome": env.game.outcome.value if env.game.outcome else "",
+        "time_s": info["time_s"],
+        "distance_m": apart.distance,
+        "closest_m": info["closest_m"],
+    }
+
+
+DOORS = {
+    "Python": from_python,
+    "game file": from_file,
+    "tournament": from_tournament,
+    "environment": from_environment,
+}
+
+
+def main() -> None:
+    """Play all, and write the results."""
+    from benchmark_options import ask
+    from result_files import header, write_result
+
+    output = ask(__doc__, "doors.json").parse_args().output
+    rows = [
+        {"level": level, "door": door, "room": room, **play(level, room=room)}
+        for room in (False, True)
+        for level in LEVELS
+        for door, play in DOORS.items()
+    ]
+    head = header({"duration_s": DURATION, "recipe": asdict(RECIPE)})
+    write_result(output, head, rows=rows)
+    for row in rows:
+        print(row)
+
+
+if __name__ == "__main__":
+    main()
