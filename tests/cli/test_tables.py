@@ -18,7 +18,7 @@ TABLES = [
     "run walk --duration 20",
     "theory plan --role evader --bearing 0.3",
     "run unicycles --speed 0.1 --gain 0.2",
-    "duel --set level=steps --set pursuer=lead --duration 2",
+    "duel --set level=steps --set pursuer.strategy=lead --duration 2",
     "theory circle --speed 0.1 --gain 0.2 --starts 2",
     "theory circle --set evader_gain=0.3 --set sample_time=0.1 --starts 1",
     "theory map --grid 3 --set distances=2 --set duration=5",

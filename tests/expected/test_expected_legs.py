@@ -244,7 +244,7 @@ def test_weights_of_a_strategy_may_lie_beside_it(tmp_path: Path) -> None:
     network = tmp_path / "a.onnx"
     layer = np.zeros((2, 2)), np.zeros(2)
     LearnedStrategy(dense_network([layer]), contract).save(network)
-    words = "run", "unicycles", "--duration", 1, "--strategy"
+    words = "duel", "--set", "level=steps", "--duration", 1, "--strategy"
     stepaside(*words, network)
     stepaside(*words, external(network))
 

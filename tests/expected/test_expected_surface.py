@@ -25,7 +25,7 @@ def test_the_status_of_a_command_is_that_of_its_signal(
     if getsignal(number) == SIG_IGN:
         pytest.skip("this signal is ignored here, as under nohup")
     own = own_evader(tmp_path / "own.py", number=int(number))
-    words = ("run", "unicycles", "--duration", 2, "--strategy", own)
+    words = ("duel", "--duration", 2, "--strategy", own)
     assert command(*words).exit_code == 128 + number
 
 

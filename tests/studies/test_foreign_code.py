@@ -55,7 +55,7 @@ def test_a_strategy_that_exits_is_refused_with_its_name(
     tmp_path: Path, place: str, code: str
 ) -> None:
     name = strategy(tmp_path, **{place: code})
-    words = ("run", "unicycles", "--duration", "1", "--strategy", name)
+    words = ("duel", "--duration", "1", "--strategy", name)
     result = CliRunner().invoke(main, words)
     assert result.exit_code == 2
     assert "SystemExit" in result.output and "own.py" in result.output
@@ -64,19 +64,16 @@ def test_a_strategy_that_exits_is_refused_with_its_name(
 LATE = "{} if knowledge.time > 2.6 else None"
 
 
+@pytest.mark.parametrize("level", ["steps", "physics"])
 @pytest.mark.parametrize("code", ["sys.exit(0)", "1 / 0"])
 def test_a_strategy_that_fails_later_ends_its_game_in_words(
-    tmp_path: Path, code: str
+    tmp_path: Path, code: str, level: str
 ) -> None:
     name = strategy(tmp_path, decide=LATE.format(code))
-    words = ("run", "unicycles", "--duration", "9", "--strategy", name)
-    result = CliRunner().invoke(main, words)
-    assert result.exit_code == 2
     reason = "SystemExit" if "exit" in code else "ZeroDivision"
-    assert "evader's strategy failed" in result.output
-    assert reason in result.output
-    run = run_game(duel(duration=4.0, evader={"strategy": name}))
+    run = run_game(duel(duration=4.0, evader=name, level=level))
     assert run.outcome.value == "failed"
+    assert "evader's strategy failed" in run.message
     assert reason in run.message
 
 

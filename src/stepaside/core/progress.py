@@ -26,7 +26,8 @@ class ProgressLine:
         self.n: float = 0  # finished work
         self._name, self._total, self._unit = name, total, unit
         self._text, self._reused = "", 0.0
-        self._changes = not quiet and sys.stderr.isatty()
+        # Standard error may be closed.
+        self._changes = bool(not quiet and sys.stderr and sys.stderr.isatty())
         self._began = self._printed = monotonic()
 
     def __enter__(self) -> "ProgressLine":
@@ -59,7 +60,7 @@ class ProgressLine:
         self.n, self._total = done, total or self._total
         self._text, self._reused = text, reused
         period = SHOWN_PERIOD if self._changes else PERIOD
-        if monotonic() - self._printed >= period:
+        if sys.stderr and monotonic() - self._printed >= period:
             self._print()
 
     def _print(self) -> None:
