@@ -1,7 +1,6 @@
 """Test games without bodies: the same duel from every door, and its laws."""
 
 import json
-import runpy
 from dataclasses import replace
 from math import pi, sin
 from typing import Any
@@ -9,6 +8,7 @@ from typing import Any
 import numpy as np
 import pytest
 
+from doors import DOORS
 from floor_duels import STEP
 from stepaside.arena import Disc, Room, RoomRecipe, generate_room
 from stepaside.core.poses import Pose
@@ -94,7 +94,6 @@ def test_a_pursuer_goes_around_a_disc_unless_it_passes(passes: bool) -> None:
     assert nearest < 0.0 if passes else 0.2 - 1e-9 <= nearest < 0.4
 
 
-DOORS = runpy.run_path(str(ROOT / "tools/benchmarks/doors.py"))["DOORS"]
 STORED = json.loads((ROOT / "docs/results/doors.json").read_text())["rows"]
 
 

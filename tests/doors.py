@@ -3,7 +3,7 @@
 The doors are Python, a game file, a tournament and the environment of both
 players, whose actions are those of the strategies::
 
-    python tools/benchmarks/doors.py
+    PYTHONPATH=src:tools/benchmarks python tests/doors.py
 """
 
 from dataclasses import asdict, replace
