@@ -70,6 +70,8 @@ def worker_pool(workers: int | None = None) -> WorkerPool:
     when the parent was killed. By default there is one for each core.
     """
     os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
+    # After Ctrl-C, semaphores are left to Python's tracker, which would warn.
+    os.environ.setdefault("PYTHONWARNINGS", "ignore:resource_tracker")
     return WorkerPool(workers, get_context("spawn"), initializer=_begin)
 
 
