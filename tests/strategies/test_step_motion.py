@@ -1,6 +1,6 @@
 """Test one step, clearance, and the search over turning sequences."""
 
-from math import cos, pi, sin
+from math import cos, inf, pi, sin
 from typing import Any
 
 import numpy as np
@@ -33,6 +33,8 @@ from stepaside.strategies.search.step_motion import (
     StepRules,
     judge,
     pair_of,
+    required,
+    roll_out,
 )
 from stepaside.strategies.search.step_motion import step_both as step
 
@@ -87,13 +89,43 @@ def walked(both: PlayerPair, moves: Any) -> float:
     return score
 
 
+def random_pair(random: np.random.Generator) -> PlayerPair:
+    evader = Pose(*random.uniform([-1, -1, -pi], [1, 1, pi]).tolist())
+    pursuer = Pose(*random.uniform([-1, -1, -pi], [1, 1, pi]).tolist())
+    return place(evader, pursuer)
+
+
+@pytest.mark.parametrize("penalty", [60.0, inf])
+def test_a_rollout_scores_every_step_and_ends_when_it_is_lost(
+    penalty: float,
+) -> None:
+    """Clearances that it does not measure again are large enough."""
+    random, lost = np.random.default_rng(2), 0
+    aims = AIMS._replace(penalty=penalty, capture=0.05)
+    for _ in range(200):
+        both = random_pair(random)
+        turns = np.repeat(random.choice(TURNS, 5), 8)
+        moves = np.stack([turns, random.choice([0.05, 1.0], 40)], axis=1)
+        found = roll_out(both, 0.8, moves, 40, -inf, MODEL, aims)[1:]
+        score, n = 0.8, 0
+        _, _, clear = judge(both, score, inf, -inf, aims)
+        for n, (turn, pace) in enumerate(moves, 1):
+            least = required(clear, pace) if penalty == inf else 0.0
+            both = step_both(both, turn, pace)
+            later, _, clear = judge(both, score, least, -inf, aims)
+            if later == -inf:
+                n, lost = n - 1, lost + 1
+                break
+            score = later
+        assert found == (pytest.approx(score, abs=1e-12), n)
+    assert (lost > 50) == (penalty == inf)
+
+
 @pytest.mark.parametrize("seed", range(8))
 def test_the_maneuver_found_beats_others(seed: int) -> None:
     """The law, random sequences, and a given plan, on which it improves."""
     random = np.random.default_rng(seed)
-    evader = Pose(*random.uniform([-1, -1, -pi], [1, 1, pi]).tolist())
-    pursuer = Pose(*random.uniform([-1, -1, -pi], [1, 1, pi]).tolist())
-    both = place(evader, pursuer)
+    both = random_pair(random)
     found = search(both, ())
     score = walked(both, found)
     for _ in range(30):
