@@ -30,16 +30,14 @@ LEAST_TIME = 5.0  # on the circle at the end, in [s]
 def circle_of_theory(settings: GameSettings) -> Circle:
     """Compute the circle that the unicycles of a duel converge to.
 
-    It does not exist where the game differs from that of the paper; see
-    :func:`missing_circle_reason`. Its rates are in real time.
+    It does not exist where the game differs from that of the paper. Its rates
+    are in real time.
     """
-    if missing_circle_reason(settings):
-        return Circle(exists=False)
-    return _circle_of(settings.resolved())
+    return circle_or_reason(settings)[0]
 
 
-def missing_circle_reason(settings: GameSettings) -> str:
-    """Return why the unicycles of a duel reach no circle; empty if they do."""
+def circle_or_reason(settings: GameSettings) -> tuple[Circle, str]:
+    """Return the circle, and why there is none; empty if there is one."""
     settings = settings.resolved()
     strategy, circle = settings.evader.evasion, _circle_of(settings)
     ends, person = strategy.release_distance, settings.pursuer.person
@@ -64,7 +62,8 @@ def missing_circle_reason(settings: GameSettings) -> str:
         f"{circle.distance_m:.3f} m wide": not circle.distance_m < ends,
     }
     found = (f"no circle: {why}" for why, holds in reasons.items() if holds)
-    return next(found, "")
+    reason = next(found, "")
+    return Circle(exists=False) if reason else circle, reason
 
 
 def _circle_of(settings: GameSettings) -> Circle:
@@ -131,8 +130,8 @@ def forecast(settings: GameSettings) -> TheorySummary:
     distance at which bodies cannot overlap: below it, contact depends on
     their headings.
     """
-    circle = circle_of_theory(settings)
-    found = TheorySummary(words=missing_circle_reason(settings))
+    circle, reason = circle_or_reason(settings)
+    found = TheorySummary(words=reason)
     if circle.exists:
         found = TheorySummary(
             radius_m=circle.radius_evader_m,

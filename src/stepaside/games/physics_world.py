@@ -262,6 +262,7 @@ class PhysicsWorld(World):
         self.acting = ""
         self.started_at: float | None = None
         self.first_moves: dict[str, float] = {}
+        self._resting = [*self.players]
 
     def player(self, name: str) -> Player:
         """Return the player with a name.
@@ -300,8 +301,9 @@ class PhysicsWorld(World):
         super().step()
         if self.started_at is None:
             return
-        for player in self.players:
-            if player.name not in self.first_moves and player.is_moving:
+        for player in self._resting[:]:
+            if player.is_moving:
+                self._resting.remove(player)
                 self.first_moves[player.name] = self.time
 
     def fallen(self) -> tuple[str, ...]:

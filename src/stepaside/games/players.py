@@ -55,7 +55,8 @@ class Player:
     def sample(self, *, closely: bool) -> dict[str, Any]:
         """Return its present motion, by name in a trajectory.
 
-        Closely with all that is measured of it.
+        Closely with all that is measured of it. References of centers are in
+        its odometry.
         """
         return {
             "com": self.truth.position_com_in_world,
@@ -124,8 +125,7 @@ class RobotPlayer(Player):
         found |= {"zmp": robot.measured_zmp(), "qpos": robot.posture}
         if walk is not None:
             x, y, u, v = walk.planned_centers
-            found["com_reference"] = self._in_world(x, y)
-            found["zmp_reference"] = self._in_world(u, v)
+            found |= {"com_reference": (x, y), "zmp_reference": (u, v)}
         if not closely:
             return found
         stance = robot.stance

@@ -44,7 +44,7 @@ class PlayerRecord:
             self._widths = {name: np.size(own) for name, own in found.items()}
         for own in found.values():
             if isinstance(own, np.ndarray):
-                self._values.extend(own.tolist())
+                self._values.frombytes(own.tobytes())
             elif isinstance(own, tuple):
                 self._values.extend(own)
             else:
@@ -95,6 +95,8 @@ class PlayerRecord:
         player, numbers = self._player, self._numbers[:count]
         if player.frame is not None:
             arrays["landings"] = self._landings(player.frame)
+            for name in arrays.keys() & {"com_reference", "zmp_reference"}:
+                arrays[name] = player.frame.transform_points(arrays[name])
         if isinstance(player, RobotPlayer) and player.robot.pushes:
             arrays["pushes"] = np.array(player.robot.pushes)
         if self._plans:

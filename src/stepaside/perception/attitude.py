@@ -19,28 +19,29 @@ def attitude_step(
     turning: Array,
     gyro: Array,
     force: Array,
-    acceleration: Array,
     gains: Array,
+    ahead: float,
+    left: float,
+    duration: float,
 ) -> None:
     """Update direction, bias, rate and turn; see :class:`AttitudeFilter`.
 
     The known acceleration is along the heading and to the left; ``gains`` are
-    the time step and the gains of direction and bias.
+    those of direction and bias.
     """
     x, y, z = up[0], up[1], up[2]
     p, q = gyro[0] - bias[0], gyro[1] - bias[1]
     r = gyro[2] if gyro[2] == gyro[2] else 0.0  # a gyro with two axes
     cp = max(sqrt(y * y + z * z), 1e-9)
     sr, cr, sp = y / cp, z / cp, -x
-    ax, ay = acceleration[0], acceleration[1]
-    fx = (force[0] - cp * ax) / GRAVITY
-    fy = (force[1] - sr * sp * ax - cr * ay) / GRAVITY
-    fz = (force[2] - cr * sp * ax + sr * ay) / GRAVITY
+    fx = (force[0] - cp * ahead) / GRAVITY
+    fy = (force[1] - sr * sp * ahead - cr * left) / GRAVITY
+    fz = (force[2] - cr * sp * ahead + sr * left) / GRAVITY
     felt = force[0] ** 2 + force[1] ** 2 + force[2] ** 2
     seen = 1.0 if felt > 1.0 else 0.0  # not in free fall
     ex, ey, ez = fy * z - fz * y, fz * x - fx * z, fx * y - fy * x
-    duration, correction = gains[0], seen * gains[1]
-    share = seen * duration * gains[2]
+    correction = seen * gains[0]
+    share = seen * duration * gains[1]
     bias[0] -= share * ex
     bias[1] -= share * ey
     a, b, c = p + correction * ex, q + correction * ey, r + correction * ez
@@ -79,14 +80,14 @@ class AttitudeFilter:
         upright and moves at once.
         """
         self._calibration = calibration
-        self.gains = correction, bias_correction
+        self.gains = np.array([correction, bias_correction])
         self.up, self.turning = np.array([0.0, 0.0, 1.0]), np.zeros(1)
         self._bias, self._rate = np.zeros(2), np.zeros(3)
-        self._readings = np.zeros(3), np.zeros(3), np.zeros(2)
-        self._given = np.array([0.0, *self.gains])
+        self._gyro, self._force = np.zeros(3), np.zeros(3)
         self._step = bound(
             *(attitude_step, self.up, self._bias, self._rate, self.turning),
-            *(*self._readings, self._given),
+            *(self._gyro, self._force, self.gains),
+            more=(0.0, 0.0, 0.0),
         )
         self._time_standing = 0.0
         self._sum, self._count = np.zeros(5), 0
@@ -145,7 +146,5 @@ class AttitudeFilter:
         if not self.ready:
             self._calibrate(gyro, specific_force, duration)
             return
-        felt, force, known = self._readings
-        felt[:], force[:], known[:] = gyro, specific_force, acceleration
-        self._given[0], self._given[1:] = duration, self.gains
-        self._step()
+        self._gyro[:], self._force[:] = gyro, specific_force
+        self._step(*acceleration, duration)

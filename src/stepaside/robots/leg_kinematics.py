@@ -80,8 +80,11 @@ class LegKinematics:
         # Links that the legs move, with the frames of both soles.
         self.links = joint_tree(tree, columns, fixed, soles)
         self._moved, self._still = columns, fixed
-        self._columns = np.array([columns.get(x, -1) for x in motors])
-        self._fixed = np.array([fixed.get(x, 0.0) for x in motors])
+        # Motors of other joints, their angles, and columns of all motors.
+        still = [i for i, name in enumerate(motors) if name not in columns]
+        self._still_motors = np.array(still, dtype=np.int64)
+        self._fixed = np.array([fixed.get(motors[i], 0.0) for i in still])
+        self._columns = np.array([columns.get(name, 0) for name in motors])
         self._standing = np.array([standing.get(x, 0.0) for x in free], float)
         limits = []
         for name in free:
@@ -100,10 +103,12 @@ class LegKinematics:
         self.error = np.zeros(FIXED_ROWS + (n + BASE > FIXED_ROWS))
         self._check_rank()
         self._states: LegStates
+        # Reference of one tick, and the states before and after it.
+        self._row, self._pair = np.zeros((1, 15)), np.zeros((2, n + STATE))
         self._steps = bound(
             *(newton_steps, self.links, np.array(limits, dtype=np.float64)),
             *(description.lean, True, GREATEST_ERROR),
-            more=(np.zeros((1, 15)), np.zeros((2, n + STATE)), self.error),
+            more=(self._row, self._pair, self.error),
         )
 
     def _check_rank(self) -> None:
@@ -128,8 +133,9 @@ class LegKinematics:
 
     def _targets(self, states: Array) -> Array:
         """Return the joint targets of states. Shape (..., joints)."""
-        moved = states[..., self._columns]
-        return np.where(self._columns < 0, self._fixed, moved)
+        targets: Array = states.take(self._columns, axis=-1)
+        targets[..., self._still_motors] = self._fixed
+        return targets
 
     @property
     def posture(self) -> Array:
@@ -216,14 +222,23 @@ class LegKinematics:
         Raises:
             ReachError: If a residual is too large; names the worst row.
         """
-        rows = np.array([reference.row()], dtype=np.float64)
-        targets: Array = self.track_rows(rows).targets[0]
-        return targets
+        self._row[0], self._pair[0] = reference.row(), self.state
+        self._follow(self._row, self._pair)
+        self.state = self._pair[1].copy()
+        return self.joint_targets
 
     def track_rows(self, references: Array) -> LegStates:
         """Track rows (ticks, 15) up to one out of reach; see :meth:`track`."""
         rows = np.empty((len(references) + 1, self.state.size))
         rows[0] = self.state
+        count = self._follow(references, rows)
+        targets = self._targets(rows[1 : count + 1])
+        self._states = LegStates(rows[: count + 1], targets)
+        self.rewind(count)
+        return self._states
+
+    def _follow(self, references: Array, rows: Array) -> int:
+        """Set the states after the first; return how many are in reach."""
         count = self._steps(references, rows, self.error)
         if count == 0:
             worst = int(np.argmax(np.abs(self.error)))
@@ -232,10 +247,7 @@ class LegKinematics:
                 f"off by {self.error[worst]:.3f}, more than "
                 f"{GREATEST_ERROR:g} [m, rad]"
             )
-        targets = self._targets(rows[1 : count + 1])
-        self._states = LegStates(rows[: count + 1], targets)
-        self.rewind(count)
-        return self._states
+        return count
 
     def rewind(self, ticks: int) -> None:
         """Return to the posture after the first ``ticks`` of the last rows."""

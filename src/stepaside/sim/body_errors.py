@@ -2,12 +2,70 @@
 
 from collections import deque
 from collections.abc import Iterator
+from math import atan2, sqrt
 
 import mujoco
 import numpy as np
 
+from ..core.compilation import bound, compiled
 from ..core.poses import Array
 from .body_settings import BodySettings
+
+
+@compiled
+def integrate_motion(
+    quaternion: Array,
+    velocity: Array,
+    spin: Array,
+    place: Array,
+    gravity: Array,
+    last: Array,
+    means: Array,
+    now: float,
+) -> None:
+    """Set mean rate, mean specific force and rate; see :class:`StrapdownImu`.
+
+    ``means`` (3, 3) are in the frame of the torso. ``last`` are time,
+    quaternion, axes and velocity of the IMU of the last call, with a negative
+    time before the first.
+    """
+    w, x, y, z = quaternion[0], quaternion[1], quaternion[2], quaternion[3]
+    axes = np.empty((3, 3))
+    axes[0, 0], axes[0, 1] = 1.0 - 2.0 * (y * y + z * z), 2.0 * (x * y - w * z)
+    axes[0, 2], axes[1, 0] = 2.0 * (x * z + w * y), 2.0 * (x * y + w * z)
+    axes[1, 1], axes[1, 2] = 1.0 - 2.0 * (x * x + z * z), 2.0 * (y * z - w * x)
+    axes[2, 0], axes[2, 1] = 2.0 * (x * z - w * y), 2.0 * (y * z + w * x)
+    axes[2, 2] = 1.0 - 2.0 * (x * x + y * y)
+    u = spin[1] * place[2] - spin[2] * place[1]
+    v = spin[2] * place[0] - spin[0] * place[2]
+    h = spin[0] * place[1] - spin[1] * place[0]
+    for k in range(3):
+        means[0, k] = means[2, k] = spin[k]
+        means[1, k] = 0.0
+    passed = now - last[0]
+    moved = last[0] >= 0.0 and passed > 0.0
+    if moved:
+        a, b, c, d = last[1], last[2], last[3], last[4]
+        cosine = a * w + b * x + c * y + d * z
+        side = -1.0 if cosine < 0.0 else 1.0
+        turn_x = side * (a * x - b * w - c * z + d * y)
+        turn_y = side * (a * y + b * z - c * w - d * x)
+        turn_z = side * (a * z - b * y + c * x - d * w)
+        sine = sqrt(turn_x * turn_x + turn_y * turn_y + turn_z * turn_z)
+        half = atan2(sine, side * cosine)
+        rate = 2.0 * (half / sine if sine > 0.0 else 1.0) / passed
+        means[0, 0], means[0, 1] = rate * turn_x, rate * turn_y
+        means[0, 2] = rate * turn_z
+    for i in range(3):
+        own = velocity[i] + axes[i, 0] * u + axes[i, 1] * v + axes[i, 2] * h
+        change = (own - last[14 + i]) / passed if moved else 0.0
+        for k in range(3):
+            before = last[5 + 3 * i + k] if moved else axes[i, k]
+            between = 0.5 * (before + axes[i, k])
+            means[1, k] += (change - gravity[i]) * between
+            last[5 + 3 * i + k] = axes[i, k]
+        last[14 + i] = own
+    last[0], last[1], last[2], last[3], last[4] = now, w, x, y, z
 
 
 class StrapdownImu:
@@ -22,38 +80,28 @@ class StrapdownImu:
     ) -> None:
         joint = model.body_jntadr[root]
         at, dof = model.jnt_qposadr[joint], model.jnt_dofadr[joint]
-        self._data, self._gravity = data, model.opt.gravity.copy()
-        self._quaternion = data.qpos[at + 3 : at + 7]  # views
-        self._velocity = data.qvel[dof : dof + 3]
-        self._spin = data.qvel[dof + 3 : dof + 6]
-        x, y, z = model.site_pos[site].tolist()
-        self._lever = np.array([[0.0, z, -y], [-z, 0.0, x], [y, -x, 0.0]])
+        self._data, self._means = data, np.zeros((3, 3))
         mount = np.zeros(9)
         mujoco.mju_quat2Mat(mount, model.site_quat[site])
         self._mount = mount.reshape(3, 3)
-        self._last: tuple[float, Array, Array, Array] | None = None
+        last = np.zeros(17)
+        last[0] = -1.0
+        self._integrate = bound(
+            integrate_motion,
+            *(data.qpos[at + 3 : at + 7], data.qvel[dof : dof + 3]),
+            *(data.qvel[dof + 3 : dof + 6], model.site_pos[site].copy()),
+            *(model.opt.gravity.copy(), last, self._means),
+            more=(0.0,),
+        )
 
     def read(self) -> tuple[Array, Array, Array]:
         """Return mean rate and specific force since the last call, and rate.
 
         They are in the frame of the IMU, in [rad/s] and [m/s^2].
         """
-        now, quaternion = self._data.time, self._quaternion.copy()
-        frame = np.empty(9)
-        mujoco.mju_quat2Mat(frame, quaternion)
-        axes, rate = frame.reshape(3, 3), self._spin.copy()
-        velocity = self._velocity + axes @ (self._lever @ rate)
-        mean, force = rate, -self._gravity @ axes
-        if self._last is not None and now > self._last[0]:
-            then, before, axes_before, velocity_before = self._last
-            turn, passed = np.empty(3), now - then
-            mujoco.mju_subQuat(turn, quaternion, before)
-            mean = turn / passed
-            change = (velocity - velocity_before) / passed - self._gravity
-            force = 0.5 * (change @ (axes_before + axes))
-        self._last = now, quaternion, axes, velocity
-        mount = self._mount
-        return mean @ mount, force @ mount, rate @ mount
+        self._integrate(self._data.time)
+        mean, force, latest = self._means.dot(self._mount)
+        return mean, force, latest
 
 
 BLOCK = 64  # readings whose noise is drawn together

@@ -252,12 +252,12 @@ class SimulatedRobot:
     def measured_zmp(self) -> tuple[float, float]:
         """Return the centre of pressure in the world, [m]; NaN in flight."""
         forces = self.foot_forces
-        total = forces.sum()
+        total = sum(forces.tolist())
         if not total > 0.0:
             return nan, nan
         corners = self.world.data.site_xpos[self._corner_sites]
-        x, y, _ = (forces @ corners / total).tolist()
-        return x, y
+        x, y, _ = forces.dot(corners).tolist()
+        return x / total, y / total
 
     def signals(self, joint_targets: Array) -> dict[str, Array]:
         """Return exact sensors and efforts, by name in a record.

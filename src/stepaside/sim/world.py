@@ -132,7 +132,7 @@ class World:
         )
         self.data = mujoco.MjData(self.model)
         self.before_step: list[Callable[[float], None]] = []
-        self.ticks = 0
+        self.ticks, self.time = 0, 0.0  # simulated time [s]
         self._waiting = self._robots = len(robots)
         roots = [
             self.model.body(f"{name}/{robot.torso}").id
@@ -147,11 +147,6 @@ class World:
             )
         self._owner_of_geom = owner[self.model.geom_bodyid]
 
-    @property
-    def time(self) -> float:
-        """Simulated time, in [s], from the number of ticks."""
-        return self.ticks * self.physics.tick
-
     def advance(self) -> None:
         """Count a robot as done; step when all of them are."""
         self._waiting -= 1
@@ -161,20 +156,14 @@ class World:
 
     def step(self) -> None:
         """Advance by one control tick, whose last step computes sensors."""
-        model, data, steps = self.model, self.data, self._steps
-        if self.before_step:
-            now, time_step = self.time, self.physics.time_step
-            for step in range(steps):
-                for call in self.before_step:
-                    call(now + step * time_step)
-                mujoco.mj_step(model, data)
-        else:
-            if steps > 1:
-                model.opt.disableflags = NO_SENSORS
-                mujoco.mj_step(model, data, nstep=steps - 1)
-                model.opt.disableflags = 0
+        model, data, last = self.model, self.data, self._steps - 1
+        for step in range(self._steps):
+            for call in self.before_step:
+                call(self.time + step * self.physics.time_step)
+            model.opt.disableflags = 0 if step == last else NO_SENSORS
             mujoco.mj_step(model, data)
         self.ticks += 1
+        self.time = self.ticks * self.physics.tick
 
     def robots_touch(self) -> bool:
         """Return whether robots touch each other or an object."""

@@ -110,7 +110,7 @@ class GravityFilter(AttitudeFilter):
     def take(self, gyro: Array, specific_force: Array) -> None:
         """Update the direction with one reading; see :meth:`update`."""
         if self.knows:
-            self.gains = CORRECTION, BIAS_CORRECTION
+            self.gains[:] = CORRECTION, BIAS_CORRECTION
         self._time += self._duration
         turn = self.turning.item(0)
         ahead, left = self._velocity[:2].tolist()
