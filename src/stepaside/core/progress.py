@@ -29,6 +29,7 @@ class ProgressLine:
         # Standard error may be closed.
         self._changes = bool(not quiet and sys.stderr and sys.stderr.isatty())
         self._began = self._printed = monotonic()
+        self._first = self._began, 0.0  # time and work of the first report
 
     def __enter__(self) -> "ProgressLine":
         """Return the display; print nothing yet."""
@@ -59,6 +60,8 @@ class ProgressLine:
         """
         self.n, self._total = done, total or self._total
         self._text, self._reused = text, reused
+        if self._first[1] == 0.0 < done - reused:
+            self._first = monotonic(), done - reused
         period = SHOWN_PERIOD if self._changes else PERIOD
         if sys.stderr and monotonic() - self._printed >= period:
             self._print()
@@ -74,8 +77,11 @@ class ProgressLine:
             if self._unit:
                 words.append(f"{done:.0f} of {total:.0f} {self._unit}")
             fresh = done - self._reused
-            if done < total and fresh > 0.05 * total:
-                rest = (total - done) * elapsed / fresh
+            # Before the first report it may be compiling.
+            began, before = self._first
+            if done < total and fresh > max(before, 0.05 * total):
+                rest = (total - done) * (self._printed - began)
+                rest /= fresh - before
                 times.append(f"about {rest:.0f} s left")
         words += [self._text] if self._text else []
         line = f"stepaside: {self._name}: {', '.join(words)}; "

@@ -132,7 +132,7 @@ class RobotPlayer(Player):
         found |= robot.signals(self.scheme.joint_targets) | {
             "velocity": stance.velocity,
             "tilt": stance.tilt,
-            "phase": list(Phase).index(self.scheme.phase),
+            "phase": (list(Phase).index(self.scheme.phase),),
         }
         return found if walk is None else found | self._walk(walk, stance)
 
@@ -162,7 +162,7 @@ class RobotPlayer(Player):
             if foot is Foot.LEFT
             else stance.right_sole,
             "support": (foot.value, single, *frame.compose(step.support)),
-            "heading_reference": walk.balance.planned_heading + frame.theta,
+            "heading_reference": (walk.balance.planned_heading + frame.theta,),
             "estimate": estimate,
             "dcm": (x + u / eta, y + v / eta),
         }

@@ -45,10 +45,8 @@ class PlayerRecord:
         for own in found.values():
             if isinstance(own, np.ndarray):
                 self._values.frombytes(own.tobytes())
-            elif isinstance(own, tuple):
-                self._values.extend(own)
             else:
-                self._values.append(own)
+                self._values.extend(own)
         if self._closely and isinstance(player, RobotPlayer):
             self._numbers.append(dict(strategy_numbers(player)))
 

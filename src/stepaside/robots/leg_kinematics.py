@@ -80,11 +80,9 @@ class LegKinematics:
         # Links that the legs move, with the frames of both soles.
         self.links = joint_tree(tree, columns, fixed, soles)
         self._moved, self._still = columns, fixed
-        # Motors of other joints, their angles, and columns of all motors.
-        still = [i for i, name in enumerate(motors) if name not in columns]
-        self._still_motors = np.array(still, dtype=np.int64)
-        self._fixed = np.array([fixed.get(motors[i], 0.0) for i in still])
-        self._columns = np.array([columns.get(name, 0) for name in motors])
+        self._columns = np.array([columns.get(x, -1) for x in motors])
+        self._fixed = np.array([fixed.get(x, 0.0) for x in motors])
+        self._still_motors = self._columns < 0
         self._standing = np.array([standing.get(x, 0.0) for x in free], float)
         limits = []
         for name in free:
@@ -134,7 +132,7 @@ class LegKinematics:
     def _targets(self, states: Array) -> Array:
         """Return the joint targets of states. Shape (..., joints)."""
         targets: Array = states.take(self._columns, axis=-1)
-        targets[..., self._still_motors] = self._fixed
+        np.copyto(targets, self._fixed, where=self._still_motors)
         return targets
 
     @property

@@ -28,8 +28,7 @@ class FloorTruth:
     @property
     def position_com_in_world(self) -> Array:
         """Position at the height of the CoM, in [m]. Shape (3,)."""
-        x, y, _ = self.pose
-        return np.array([x, y, self._height], dtype=np.float64)
+        return np.array([*self.pose[:2], self._height], np.float64)
 
     @property
     def position_torso_in_world(self) -> tuple[float, float]:
