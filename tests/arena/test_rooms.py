@@ -27,7 +27,7 @@ from stepaside.arena import (
 from stepaside.cli.main import main
 from stepaside.core.entries import read_entries, to_entries
 from stepaside.core.errors import ConfigurationError
-from stepaside.core.poses import wrap_angle
+from stepaside.core.poses import Pose, wrap_angle
 
 PILLAR = Room(4.0, 2.0, (Disc(0.0, 0.0, 0.3),))
 
@@ -190,3 +190,10 @@ def test_invalid_file_is_refused_in_one_line(
         room = load_room(file)
         assert room.starts is not None
         check_initial_poses(room, room.starts)
+
+
+def test_starts_are_limited_as_places_and_as_bearings() -> None:
+    far, turned = Pose(20.0, -20.0, 0.0), Pose(0.0, 0.0, 20.0)
+    assert Room(starts=(far, far)).starts == (far, far)
+    with pytest.raises(ConfigurationError, match="start theta must lie"):
+        Room(starts=(far, turned))

@@ -12,6 +12,8 @@ from stepaside.cli.main import main
 from stepaside.cli.run import unicycles
 from stepaside.cli.theory import circle
 from stepaside.cli.theory import map as map_command
+from stepaside.theory.unicycle import start_maps
+from stepaside.theory.unicycle.start_maps import random_starts
 
 COMPARED = (
     "radius_pursuer_m",
@@ -173,3 +175,15 @@ def test_certified_distance_is_shown_only_where_it_holds() -> None:
     assert other["certified_m"] is None
     assert "certified distance" not in run(unicycles, f"{words} 2.5").output
     assert loads(unicycles, FAST)["certified_m"] is None
+
+
+def test_starts_are_drawn_by_the_seed(monkeypatch: pytest.MonkeyPatch) -> None:
+    seeds: list[int] = []
+
+    def noted(game: Any, count: int, *, seed: int) -> Any:
+        seeds.append(seed)
+        return random_starts(game, count, seed=seed)
+
+    monkeypatch.setattr(start_maps, "random_starts", noted)
+    loads(circle, "--speed 0.1 --gain 0.2 --starts 2 --set seed=7")
+    assert seeds == [7]

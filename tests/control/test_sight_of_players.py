@@ -169,3 +169,13 @@ def test_roles_oppose_and_teams_join() -> None:
     if known is not None:
         towards = known.towards(-1.0, 0.0)
         assert (towards.bearing, towards.distance) == (pi, 1.0)
+
+
+def test_players_are_numbered_from_one_in_the_order_of_their_sightings() -> (
+    None
+):
+    sight, step = SightOfPlayers(EVADER), SimpleNamespace()
+    one, two = HUNTERS
+    for seen, number in ((at(one, 1.0), 1), (at(two, 0.2), 2)):
+        got = sight.see(measure(seen), step, None)  # type: ignore[arg-type]
+        assert got is not None and got.target_id == number

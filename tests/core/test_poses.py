@@ -7,7 +7,15 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from stepaside.core.poses import Pose, arc, rotate, wrap_angle, wrap_angles
+from stepaside.core.poses import (
+    Pose,
+    Sector,
+    arc,
+    in_sectors,
+    rotate,
+    wrap_angle,
+    wrap_angles,
+)
 
 NUMBERS = st.floats(-10.0, 10.0)
 POSES = st.builds(Pose, NUMBERS, NUMBERS, NUMBERS)
@@ -78,3 +86,10 @@ def test_arcs_follow_one_another_as_their_sum() -> None:
     many = arc(np.zeros(3), [0.1, 0.2, 0.3], np.zeros((4, 1)))
     assert many.shape == (4, 3, 3)
     np.testing.assert_allclose(rotate(1.0, 0.0, np.pi / 2), (0, 1), atol=1e-15)
+
+
+def test_a_sector_is_around_its_middle_also_beyond_half_a_turn() -> None:
+    sectors = (Sector(1.0, 0.2), Sector(pi, 0.1))
+    angles = [1.1, 0.7, -1.0, pi - 0.05, -pi + 0.05, 1.0 + tau]
+    inside = [True, False, False, True, True, True]
+    assert in_sectors(sectors, angles).tolist() == inside

@@ -69,6 +69,13 @@ def test_a_limit_that_lets_nothing_through_is_refused(
         VelocityLimits(**{name: value})
 
 
+@pytest.mark.parametrize("name", ["acceleration", "turn_acceleration"])
+def test_an_acceleration_without_a_limit_is_refused(name: str) -> None:
+    with pytest.raises(ConfigurationError, match=f"{name} must be finite"):
+        VelocityLimits(**{name: inf})
+    assert VelocityLimits(forward=inf).forward == inf
+
+
 SPEED = st.floats(-2.0, 2.0)
 WANTED = st.builds(BodyVelocity, SPEED, SPEED, SPEED)
 

@@ -1,6 +1,7 @@
 """Test what is derived from a model as a vendor publishes it."""
 
 from collections.abc import Callable
+from dataclasses import replace
 from pathlib import Path
 
 import mujoco
@@ -190,6 +191,9 @@ def test_equal_shapes_walk_alike() -> None:
     for name in ("safety_radius", "start_near", "start_far", "start_least"):
         expected = times * getattr(near, name)
         assert getattr(far, name) == pytest.approx(expected, rel=0.01)
+    wide = game_of_size(replace(small, reach=2.0), one)
+    assert wide.start_least == pytest.approx(4.0)  # or they would touch
+    assert wide.start_least < wide.start_near < wide.safety_radius
 
 
 def test_a_robot_of_other_size_plays_by_its_own_distances(

@@ -205,3 +205,11 @@ def test_a_contact_ends_a_game() -> None:
     assert game.tick() is Outcome.CONTACT
     assert game.message == "a and thing 0 touched at 0.00 s"
     assert game.touched == ("a", "thing 0") and game.fallen == ()
+
+
+def test_a_game_that_begins_with_a_fall_is_over() -> None:
+    game, world = fake_game(0.0, 0.5)
+    assert game.ended is None
+    world.fell, world.ticks = ("a",), 1
+    over = GameInPlay(world, game.rules, ())
+    assert over.ended is not None and over.fallen == ("a",)

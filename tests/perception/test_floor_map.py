@@ -77,6 +77,15 @@ def test_obstacles_are_mapped_at_their_positions() -> None:
         assert off.max() < 1.5 * CELL  # and nothing else
 
 
+def test_each_cell_is_whole_on_the_map() -> None:
+    seen = looked(FloorMap(), (Disc(1.2, 0.3, 0.15),))
+    polygons, cells = seen.occupied(), seen.occupied_cells()
+    corners = 0.49 * CELL * np.array([[1, 1], [1, -1], [-1, 1], [-1, -1]])
+    points = (cells[:, None] + corners).reshape(-1, 2)
+    clearance = np.min([p.clearance(points) for p in polygons], axis=0)
+    assert clearance.max() <= 1e-9
+
+
 def test_cells_of_a_moved_obstacle_are_cleared() -> None:
     seen = looked(FloorMap(), (Disc(1.2, 0.3, 0.15),), times=4)
     assert seen.occupied()

@@ -58,6 +58,7 @@ def test_both_robots_are_in_the_image_over_the_panel_of_a_phone(
     places = [np.array([1.0, 2.0]), np.array([1.0, 2.0]) + way]
     walls = wall_corners(None)
     eye, target = overview(aspect, FOV, places, walls, top=top)
+    assert eye[2] > 0.6
     for place in places:
         for height in (0.0, 0.6):
             point = np.array([*place, height])
@@ -100,6 +101,7 @@ def test_the_circle_of_theory_goes_through_both_players(
     session: LiveSession,
 ) -> None:
     passed(session, 0.1)
+    assert session.names == ("pursuer", "evader")
     assert "**standing**: evader" in page_text(session)
     drawn = {own.layer for own in live_overlays(session)}
     assert "theoretical circle" not in drawn  # the evader stands

@@ -13,6 +13,7 @@ from stepaside.report.overlays import (
     footsteps_in,
     overlays_of,
     push_arrows,
+    safety_ring,
 )
 from stepaside.report.scene import RunScene
 from stepaside.sim.body_settings import BODIES
@@ -36,6 +37,13 @@ def test_an_arrow_is_shown_for_a_second_along_its_push() -> None:
     for one, other in barbs:
         own = one + other - tip  # the end that is not the tip
         assert (own - tip) @ (start - tip) > 0.0
+
+
+def test_the_ring_of_a_safety_radius_has_it() -> None:
+    ring = safety_ring("a", 0.7)
+    away = np.hypot(ring.segments[..., 0], ring.segments[..., 1])
+    np.testing.assert_allclose(away, 0.7)
+    assert ring.follows == ("a",)
 
 
 def test_a_path_grows_and_forgets_what_is_older_than_the_trail(

@@ -2,6 +2,7 @@
 
 from pathlib import Path
 
+import numpy as np
 import pytest
 
 from stepaside.core.errors import ModelError
@@ -65,3 +66,15 @@ def test_wrong_description_is_refused_by_name(
     folder = copy_of_nao(tmp_path, **{old: new})
     with pytest.raises(ModelError, match=message):
         load_robot(folder).compile()
+
+
+def test_a_colour_is_that_of_the_accent_alone() -> None:
+    plain, painted = NAO.compile(), NAO.compile((0.1, 0.9, 0.2, 1.0))
+    accent = painted.material(NAO.accent).id
+    assert painted.mat_rgba[accent].tolist() == pytest.approx(
+        [0.1, 0.9, 0.2, 1.0]
+    )
+    others = np.arange(plain.nmat) != accent
+    np.testing.assert_array_equal(
+        painted.mat_rgba[others], plain.mat_rgba[others]
+    )

@@ -134,6 +134,13 @@ def test_invalid_rows_are_refused(
         read_path(recorded(tmp_path, lines))
 
 
+def test_columns_of_a_recorded_walk_are_named(tmp_path: Path) -> None:
+    file = tmp_path / "walk.csv"
+    file.write_text("x,y,time\n0,0,0\n1,1,1\n")
+    with pytest.raises(ConfigurationError, match="first line must be time,x"):
+        read_path(file)
+
+
 @pytest.mark.parametrize("path", ["straight", "steer"])
 @pytest.mark.parametrize("reaction", ["none", "regular"])
 def test_a_person_stays_in_its_room(path: str, reaction: str) -> None:

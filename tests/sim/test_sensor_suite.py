@@ -171,3 +171,20 @@ def test_the_rear_camera_looks_backward_from_the_torso() -> None:
     assert first.depths[30, 53] == pytest.approx(2.0 - 0.075, abs=0.05)
     # Above the box there is nothing; the other box lies ahead.
     assert first.depths[0].max() == 0.0
+
+
+@pytest.mark.parametrize(("near", "far"), [(0.5, 1.2), (2.0, 4.0)])
+def test_a_depth_is_within_the_range_of_its_camera(
+    near: float, far: float
+) -> None:
+    """The box at 1.6 m is seen neither by one nor by the other."""
+    depth = replace(PLAIN.depth, near=near, far=far)
+    eyes = eyes_of(replace(PLAIN, depth=depth))
+    images = [
+        percept.depths
+        for tick in range(60)
+        for percept in eyes.read(tick * TICK)
+        if isinstance(percept, DepthImage)
+    ]
+    seen = images[0][images[0] > 0.0]
+    assert ((seen >= near) & (seen <= far)).all()

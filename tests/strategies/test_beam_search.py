@@ -10,7 +10,11 @@ from stepaside.arena import NO_OBSTACLES, ObstacleSet, Room
 from stepaside.core.poses import Pose
 from stepaside.strategies import Pursuit, Strategy
 from stepaside.strategies.robust_evasion import actions_of
-from stepaside.strategies.search.beam_search import BeamRules, beam_search
+from stepaside.strategies.search.beam_search import (
+    BeamRules,
+    arc_cosine,
+    beam_search,
+)
 from stepaside.strategies.search.step_motion import (
     ENOUGH,
     Objective,
@@ -91,3 +95,8 @@ def test_captured_and_touching_moves_do_not_survive() -> None:
     back = np.array([[0.0, 1.0]])
     assert survive(beside, back)[1] == 0
     assert survive(beside, back, NO_OBSTACLES)[1] == 1
+
+
+def test_the_arc_cosine_is_that_of_both_half_planes() -> None:
+    for angle in np.linspace(0.0, np.pi, 50):
+        assert arc_cosine(np.cos(angle)) == pytest.approx(angle, abs=7e-5)

@@ -1,12 +1,17 @@
 """Test the track of the opponent."""
 
+from dataclasses import replace
 from itertools import pairwise
 from math import cos, pi, sin
 
 import pytest
 
 from stepaside.core.poses import Pose
-from stepaside.strategies.opponent_track import OpponentTrack
+from stepaside.strategies import Knowledge, Limits
+from stepaside.strategies.opponent_track import (
+    OpponentTrack,
+    track_of_steps,
+)
 
 STEP = 0.5
 OWN = Pose(1.0, -2.0, 0.3)
@@ -70,3 +75,16 @@ def test_a_track_by_steps_keeps_those_of_the_steps() -> None:
     assert times[-1] == pytest.approx(399 * 0.004)
     assert all(0.299 <= b - a < 0.31 for a, b in pairwise(times[:-1]))
     assert track.course == pytest.approx(pi)
+
+
+@pytest.mark.parametrize(("spread", "share"), [(1e-6, 1.0), (10.0, 0.0)])
+def test_an_exact_sighting_counts_and_a_vague_one_does_not(
+    spread: float, share: float
+) -> None:
+    """Beside the position that is predicted, here that of before."""
+    limits = Limits(0.1, 0.2, 0.04, STEP)
+    here = Knowledge(0.0, 0.0, 1.0, limits, pose_in_map=Pose(0.0, 0.0, 0.0))
+    track = track_of_steps(None, here)
+    later = replace(here, time=STEP, distance=2.0, spread=spread)
+    row = track_of_steps(track, later).rows[-1]
+    assert row.x == pytest.approx(1.0 + share, abs=1e-3)

@@ -6,6 +6,7 @@ from concurrent.futures import ThreadPoolExecutor
 from dataclasses import replace
 from math import degrees, pi, sqrt
 from pathlib import Path
+from types import SimpleNamespace
 from typing import Any
 
 import pytest
@@ -15,7 +16,9 @@ from stepaside.cli.main import main
 from stepaside.core import worker_pool as workers
 from stepaside.games.player_settings import LEGS_GAIT
 from stepaside.studies import claims as studied
+from stepaside.studies import game_claims
 from stepaside.studies.claims import (
+    LEGS,
     ONCE,
     SEEDED,
     Claim,
@@ -245,3 +248,15 @@ def test_interrupt_ends_with_status_130(
     bench.stop_at = 1
     assert reproduce().exit_code == 130
     assert not (tmp_path / "claims.json").exists()
+
+
+def test_only_the_trial_of_legs_has_their_robot(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    network = tmp_path / "walk.onnx"
+    network.write_bytes(b"network")
+    legs = SimpleNamespace(network=str(network))
+    settings = SimpleNamespace(evader=SimpleNamespace(legs=legs))
+    monkeypatch.setattr(game_claims, "legs_settings", lambda *_: settings)
+    trials = claim_study([3], "robot").cases
+    assert [trial.job for trial in trials if trial.legs] == [LEGS]

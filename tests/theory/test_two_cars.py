@@ -15,10 +15,12 @@ from stepaside.core.errors import PlanError
 from stepaside.theory.unicycle import Unicycles, play_games
 from stepaside.theory.value import (
     CarGame,
+    PoseGrid,
     ValueTable,
     load_table,
     solve_cars,
 )
+from stepaside.theory.value.outcomes import cubic_cell
 from stepaside.theory.value.two_cars import (
     barrier_poses,
     barrier_slice,
@@ -240,3 +242,25 @@ def test_unreadable_table_is_refused_in_one_line(
     with pytest.raises(PlanError, match="not a valid table of a game") as why:
         load_table(path)
     assert "\n" not in str(why.value)
+
+
+def test_cars_are_identical_by_speed_and_turn() -> None:
+    assert CARS.identical
+    assert not replace(CARS, evader_speed=0.9).identical
+    assert not replace(CARS, evader_turn=0.9).identical
+
+
+def test_cubics_of_a_cell_reproduce_a_plane() -> None:
+    grid = PoseGrid(0.0, 1.0, 6, 6, 1, right=-2.0)
+    x, y, _ = grid.axes()
+    values = (2.0 * x[:, None] - 3.0 * y)[:, :, None]
+    for s, t in ((0.0, 0.0), (0.3, 0.7), (0.9, 0.2)):
+        found = cubic_cell(values, 2, 2, s, t, grid)
+        assert found == pytest.approx(2.0 * (2.0 + s) - 3.0 * t)
+
+
+@pytest.mark.parametrize("name", ["pursuer_speed", "evader_speed"])
+def test_unicycles_that_stand_are_refused(name: str) -> None:
+    speeds = {"pursuer_speed": 1.0, "evader_speed": 1.0, name: 0.0}
+    with pytest.raises(PlanError, match=f"{name} must be finite and > 0"):
+        Unicycles(**speeds, pursuer_gain=1.0, evader_gain=1.0)
