@@ -1,6 +1,6 @@
 """Test the guard against obstacles with arbitrary intents."""
 
-from math import pi
+from math import cos, pi, sin
 from typing import Any
 
 import numpy as np
@@ -294,3 +294,17 @@ def test_a_measured_pose_corrects_odometry() -> None:
     around.note(blind._replace(pose_in_room=place), body)
     found = around.pose_odometry_in_map.compose(Pose(0.3, 0.1, 0.2))
     np.testing.assert_allclose(found, place, atol=1e-12)
+
+
+def test_the_body_has_the_heading_of_its_feet() -> None:
+    plan = ManeuverPlanner(GAIT).plan(
+        1.0, Direction.BACKWARD, first_foot=Foot.LEFT, standing=True
+    )
+    placed = OUTLINE.along(plan, Pose(0.0, 0.0, 0.0), "all")[:, : len(TRUNK)]
+    turned = TRUNK - TRUNK.mean(axis=0)
+    last = plan.placements[-1][2]
+    for theta, shape in ((0.0, placed[0]), (last, placed[-1])):
+        c, s = cos(theta), sin(theta)
+        np.testing.assert_allclose(
+            shape - shape.mean(axis=0), turned @ [[c, s], [-s, c]], atol=0.02
+        )

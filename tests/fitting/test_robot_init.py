@@ -11,6 +11,7 @@ from click.testing import CliRunner
 
 import vendor_humanoid as stranger
 from stepaside.cli.main import main
+from stepaside.fitting import derivation
 from stepaside.fitting.derivation import DerivedDescription, derive
 from stepaside.fitting.description_writer import write_description
 from stepaside.fitting.gait_feasibility import RobotSize, gait_of, game_of_size
@@ -234,6 +235,7 @@ def test_a_robot_of_other_size_plays_by_its_own_distances(
     assert run.distance[0] >= settings.start.near - 1e-3
 
 
+@pytest.mark.slow
 def test_weak_ankles_get_a_gentler_gait(tmp_path: Path) -> None:
     """The ZMP is nearer to them, servos give way, and feedback holds."""
     model = stranger.mjcf(tmp_path)
@@ -254,3 +256,19 @@ def test_weak_ankles_get_a_gentler_gait(tmp_path: Path) -> None:
     servos = robot.overlay.servos
     assert servos["near_tip"].stiffness < servos["near_bend"].stiffness
     assert "for the ankle torques" in write_description(found)
+
+
+def test_a_lower_com_is_tried_down_to_the_lowest_in_reach(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    """Of legs that are the faster the more they are bent."""
+    monkeypatch.setattr(derivation, "with_gait", lambda _, gait: (gait,))
+    monkeypatch.setattr(
+        derivation, "feasible_lengths", lambda gait: -10 * gait["com_height"]
+    )
+    size = RobotSize(0.5, 5.0, 0.1, (-0.05, 0.1, 0.04, 0.04), 0.2)
+    found, lengths = derivation.choose_com_height(
+        load_robot("nao"), size, 0.455
+    )
+    assert 0.455 <= found.com_height < 0.465
+    assert lengths == pytest.approx(-10 * found.com_height)

@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 
 import vendor_humanoid as stranger
+from stepaside.core.errors import ModelError
 from stepaside.fitting.derivation import (
     derive,
 )
@@ -206,3 +207,12 @@ def test_a_toe_is_part_of_its_foot(tmp_path: Path) -> None:
     assert left.joints == tuple(f"near_{part[0]}" for part in stranger.LEG)
     assert right.foot == "far_lean_link"
     assert left.outline[1] == pytest.approx(0.15)
+
+
+@pytest.mark.parametrize(("x", "y"), [(0.2, 0.0), (0.0, 0.2)])
+def test_a_sole_beside_its_ankle_is_refused(
+    x: float, y: float, tmp_path: Path
+) -> None:
+    box = f'<geom type="box" size="0.06 0.03 0.01" pos="{x} {y} -0.04"/>'
+    with pytest.raises(ModelError, match="must be under its ankle"):
+        feet(edited(tmp_path, shaped(box)))

@@ -32,6 +32,7 @@ def test_a_person_that_passes_outside_triggers_nothing() -> None:
     assert summary.min_distance_m == pytest.approx(theory, abs=0.05)
 
 
+@pytest.mark.slow
 def test_a_slow_person_is_evaded_close_to_theory() -> None:
     """The robot loses the person's path until its first step lands."""
     result = run_game(duel_with(PersonSettings("steer", 0.073, 0.146), 40.0))

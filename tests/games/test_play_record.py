@@ -101,13 +101,15 @@ def walked(tmp_path_factory: pytest.TempPathFactory) -> Walked:
     return Walked(tmp_path_factory.mktemp("plays") / "play")
 
 
+@pytest.mark.slow
 def test_the_replayed_path_is_the_true_one_up_to_slip(
     walked: Walked,
 ) -> None:
     run, frame = walked.run, walked.frame.inverse()
     true = walked.true[:: round(float(run.times[1]) / 0.012)]
     assert len(run.times) in (len(true), len(true) + 1)
-    planning = run.summary.planning
+    planning, least = run.summary.planning, run.summary.min_distance_m
+    assert least is not None and 0.5 < least < 0.75
     assert planning is not None and planning.steps >= 4
     for own, (seen, _, _) in zip(run.evader.torso, true, strict=False):
         wanted = frame.compose(seen)

@@ -1,11 +1,15 @@
 """Test how people react to others: forces, and reactions to robots."""
 
 from math import atan2, cos, hypot, pi, sin
+from types import SimpleNamespace
+from typing import Any
 
 import pytest
 
+from stepaside.arena import NO_OBSTACLES
 from stepaside.core.errors import ConfigurationError
 from stepaside.core.poses import Pose
+from stepaside.games.people import walk_of
 from stepaside.sim.crowd_motion import (
     NOTICES,
     CrowdMotion,
@@ -110,3 +114,25 @@ def test_reactions_need_a_straight_path() -> None:
         PersonSettings("straight", reaction="curious", halt_after=1.0)
     with pytest.raises(ConfigurationError, match="reaction"):
         PersonSettings("straight", reaction="angry")
+
+
+def test_a_person_in_a_game_walks_around_a_robot_that_stands() -> None:
+    robot = SimpleNamespace(name="robot", body="robot", team="", radius=0.3)
+    own = SimpleNamespace(
+        **{"name": "guest", "body": "person", "team": "", "radius": 0.25},
+        crowd=CrowdSettings(1.2),
+        goal=(6.0, 0.0),
+        pose=Pose(-3.0, 0.0, 0.0),
+    )
+    settings: Any = SimpleNamespace(players=[robot, own], solids=NO_OBSTACLES)
+    stands = Pose(2.0, 0.05, 0.0)
+    walk, gaps = walk_of(settings, own, STEP), []  # type: ignore[arg-type]
+    for i in range(400):
+        walk.decide(i * STEP, {"robot": stands})
+        before = walk.pose.x
+        walk.advance((i + 0.5) * STEP)
+        half = walk.pose.x - before
+        walk.advance((i + 1) * STEP)
+        assert walk.pose.x - before == pytest.approx(2.0 * half, abs=1e-9)
+        gaps.append(hypot(walk.pose.x - stands.x, walk.pose.y - stands.y))
+    assert min(gaps) > 0.4 and walk.pose.x > 4.0

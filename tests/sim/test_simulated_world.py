@@ -72,8 +72,10 @@ def test_steps_are_the_same_one_by_one_and_together() -> None:
         world = World({"evader": NAO}, PhysicsSettings(tick=0.006))
         world.data.qpos[2] = 0.4
         world.before_step += calls
+        assert world.time == 0.0
         for _ in range(5):
             world.advance()
+        assert world.time == pytest.approx(0.03)
         states.append(world.data.qpos.copy())
     np.testing.assert_array_equal(*states)
 

@@ -261,6 +261,6 @@ def test_cubics_of_a_cell_reproduce_a_plane() -> None:
 
 @pytest.mark.parametrize("name", ["pursuer_speed", "evader_speed"])
 def test_unicycles_that_stand_are_refused(name: str) -> None:
-    speeds = {"pursuer_speed": 1.0, "evader_speed": 1.0, name: 0.0}
+    speeds: Any = {"pursuer_speed": 1.0, "evader_speed": 1.0, name: 0.0}
     with pytest.raises(PlanError, match=f"{name} must be finite and > 0"):
         Unicycles(**speeds, pursuer_gain=1.0, evader_gain=1.0)
