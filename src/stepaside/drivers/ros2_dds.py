@@ -202,11 +202,12 @@ class DdsParticipant:
         Programs that are not are neither heard nor named anywhere.
         """
         where = "the network" if self._beyond else "this machine only"
+        negation = " not" if self._beyond else ""
         return (
             f"searched domain {self._number} of {where}: ROS 2 programs must "
-            f"have ROS_DOMAIN_ID={self._number} and, as network says, "
+            f"have ROS_DOMAIN_ID={self._number} and{negation} "
             "ROS_AUTOMATIC_DISCOVERY_RANGE=LOCALHOST (Humble: "
-            "ROS_LOCALHOST_ONLY=1) or not"
+            "ROS_LOCALHOST_ONLY=1)"
         )
 
     def writer(
