@@ -7,7 +7,6 @@ from typing import Any
 import qi
 
 FALLEN, BUTTON = "robotHasFallen", "ChestButtonPressed"
-SIGHT = "Stepaside/IdealSight"  # age [s], bearing [rad], distance [m]
 SERVICES = "ALMotion", "ALMemory", "ALRobotPosture", "ALVideoDevice"
 REST = (0.0, 0.0, 0.0)
 

@@ -13,7 +13,7 @@ pytest.importorskip("qi")
 import qi  # noqa: E402
 
 from flows.running import Running, until  # noqa: E402
-from naoqi_peer import BUTTON, FALLEN, SIGHT, Services, serve  # noqa: E402
+from naoqi_peer import BUTTON, FALLEN, Services, serve  # noqa: E402
 from stepaside import Outcome, load_run  # noqa: E402
 
 pytestmark = pytest.mark.xdist_group("naoqi")
@@ -28,17 +28,44 @@ def application() -> object:
 @pytest.fixture
 def robot() -> Iterator[Services]:
     session, services = serve()
-    services.values[SIGHT] = [0.0, 0.5, 2.0]
     yield services
     services.silent = False
     session.close()
 
 
-def play(robot: Services, *words: str) -> subprocess.Popen[str]:
+# The robot with a detector that sees the opponent at one place.
+SEEING = """
+import stepaside as sa
+from stepaside.drivers.naoqi import NaoqiRobot
+from stepaside.perception.camera_model import CameraModel
+
+class Seeing(NaoqiRobot):
+    limits = sa.VelocityLimits(forward=0.3, backward=0.3, turn=1.0)
+
+    def __init__(self):
+        super().__init__({url!r}, CameraModel(4, 2, 3.0, 3.0), 0.05)
+
+    def listen(self):
+        report = super().listen()
+        if report is None:
+            return None
+        return report._replace(sighting=sa.Sighting(report.time, 0.5, 2.0))
+"""
+
+
+@pytest.fixture
+def seeing(robot: Services, tmp_path: Path) -> str:
+    """Address of the robot that sees its opponent."""
+    file = tmp_path / "seeing.py"
+    file.write_text(SEEING.format(url=robot.url), encoding="utf-8")
+    return f"{file}:Seeing"
+
+
+def play(address: str, *words: str) -> subprocess.Popen[str]:
     """Play the pursuer on the robot, in a process of its own."""
     command = [sys.executable, "-m", "stepaside", "play", "--role", "pursuer"]
     return subprocess.Popen(
-        [*command, f"naoqi:{robot.url}", *words],
+        [*command, address, *words],
         stdout=subprocess.PIPE,
         stderr=subprocess.PIPE,
         text=True,
@@ -51,10 +78,10 @@ def ended(player: subprocess.Popen[str]) -> str:
 
 
 def test_a_pursuer_turns_to_the_opponent_and_rests_at_the_end(
-    robot: Services, tmp_path: Path
+    robot: Services, seeing: str, tmp_path: Path
 ) -> None:
     folder = tmp_path / "record"
-    player = play(robot, "--duration", "1.5", "--record", str(folder))
+    player = play(seeing, "--duration", "1.5", "--record", str(folder))
     said = ended(player)
     assert player.returncode == 0, said
     assert robot.calls[0] == "wakeUp"
@@ -63,13 +90,22 @@ def test_a_pursuer_turns_to_the_opponent_and_rests_at_the_end(
     assert max(robot.moves) == pytest.approx((0.1, 0.0, 0.2 * 0.5))
     run = load_run(folder, "play")
     assert run.outcome is Outcome.COMPLETED
-    assert run.settings.language == "naoqi"
+
+
+def test_a_robot_that_sees_nothing_is_woken_up_and_stands(
+    robot: Services,
+) -> None:
+    player = Running(play(f"naoqi:{robot.url}"))
+    player.until_said("opponent not detected")
+    assert player.interrupt() == 0
+    assert (robot.calls[0], robot.calls[-1]) == ("wakeUp", "rest")
+    assert not any(any(move) for move in robot.moves)
 
 
 def test_a_robot_whose_controller_is_killed_is_stopped(
-    robot: Services,
+    robot: Services, seeing: str
 ) -> None:
-    player = play(robot)
+    player = play(seeing)
     until(lambda: robot.moves)
     os.kill(player.pid, signal.SIGKILL)
     player.wait()
@@ -79,9 +115,9 @@ def test_a_robot_whose_controller_is_killed_is_stopped(
 
 @pytest.mark.parametrize(("name", "value"), [(FALLEN, 1), (BUTTON, 1.0)])
 def test_a_fall_and_the_chest_button_stop_the_robot(
-    robot: Services, name: str, value: float
+    robot: Services, seeing: str, name: str, value: float
 ) -> None:
-    player = play(robot)
+    player = play(seeing)
     until(lambda: robot.moves)
     robot.values[name] = value
     until(lambda: robot.velocity == (0.0, 0.0, 0.0))
@@ -90,13 +126,15 @@ def test_a_fall_and_the_chest_button_stop_the_robot(
     assert robot.calls[-1] == "rest"
 
 
-def test_a_silent_robot_is_stopped_and_named(robot: Services) -> None:
-    player = Running(play(robot))
+def test_a_silent_robot_is_stopped_and_named(
+    robot: Services, seeing: str
+) -> None:
+    player = Running(play(seeing))
     until(lambda: any(robot.velocity))
-    assert "no odometry" not in player.said
+    assert "no reports" not in player.said
     robot.silent = True
     until(lambda: not any(robot.velocity))
-    player.until_said("no odometry")
+    player.until_said("no reports of listen()")
     robot.silent = False
     until(lambda: any(robot.velocity))  # and on again
     assert player.interrupt() == 0

@@ -19,7 +19,7 @@ import numpy as np
 from ..core.errors import ConfigurationError
 from ..core.poses import Pose
 from ..perception.camera_model import CameraModel
-from ..perception.measurement import RobotState, Sighting
+from ..perception.measurement import RobotState
 from .method_thread import SessionLost
 from .robot import (
     CameraImage,
@@ -48,9 +48,7 @@ PERIOD, PATIENCE = 0.05, 0.1  # of the queries of the state, in [s]
 REPEAT = 0.25  # after which an unchanged velocity is sent again, in [s]
 STAND, STAND_UP_SPEED = "StandInit", 0.4  # and fraction of the maximum speed
 HEAD, HEAD_SPEED = ("HeadYaw", "HeadPitch"), 0.3
-# The last key is that of a simulated robot: age [s], bearing [rad] and
-# distance [m] of the true opponent.
-KEYS = ["robotHasFallen", "ChestButtonPressed", "Stepaside/IdealSight"]
+KEYS = ["robotHasFallen", "ChestButtonPressed"]
 TOP, RGB, FRAME_ROBOT = 0, 11, 2  # camera, colour space, frame on the floor
 SIZES = {160: 0, 320: 1, 640: 2, 1280: 3}  # resolutions, by columns
 TRACEBACK = "\n\nAt:\n"  # begins the traceback in errors of Python services
@@ -120,7 +118,6 @@ class NaoqiRobot(VelocityRobot):
         self._velocity = (0.0, 0.0, 0.0)
         self._watching: Any = None
         self._stamp: Any = None  # of the newest image
-        self._is_ideal_logged = False
 
     def open(self) -> None:
         """Connect to ALMotion and ALMemory."""
@@ -158,13 +155,9 @@ class NaoqiRobot(VelocityRobot):
         if not all(each.answered(end - monotonic()) for each in self._queries):
             return None
         queries, self._queries = self._queries, []
-        (x, y, theta), (fallen, pressed, sight) = (
-            each.answer() for each in queries
-        )
-        now = monotonic()
+        (x, y, theta), (fallen, pressed) = (each.answer() for each in queries)
         return RobotState(
-            now,
-            sighting=self._sighting(sight, now),
+            monotonic(),
             pose=Pose(x, y, theta),
             hindrance=self._hindrance(bool(fallen), bool(pressed)),
         )
@@ -297,16 +290,6 @@ class NaoqiRobot(VelocityRobot):
         if released:
             self._paused = not self._paused
         return "chest button" if self._paused or pressed else ""
-
-    def _sighting(self, value: Any, now: float) -> Sighting | None:
-        """Return the true sighting of a simulated robot, if there is one."""
-        if not isinstance(value, list | tuple) or len(value) != 3:
-            return None
-        if not self._is_ideal_logged:
-            self._is_ideal_logged = True
-            log.warning("uses the ideal line of sight of the robot")
-        age, bearing, distance = (float(entry) for entry in value)
-        return Sighting(now - age, bearing, distance)
 
 
 def make_robot(request: RobotRequest) -> Callable[[], NaoqiRobot]:
