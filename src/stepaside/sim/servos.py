@@ -117,8 +117,8 @@ class Servos:
         self._full = self._range[:, 1] * (body.efficiency * body.stiffness)
         self._no_load = speed_limits if body.torque_speed else np.inf
         self._stall, self._slope = np.zeros(count), np.zeros(count)
-        # Before the backlash, which is of the present angle: MuJoCo would delay
-        # both, by which a joint with 1 degree is up to 2.6 mrad elsewhere.
+        # Before the backlash, which is of the present angle: MuJoCo would
+        # delay both, and with 1 degree a joint is up to 2.6 mrad elsewhere.
         self._pending: deque[Array] = deque()
         self._delay = body.delay_cycles
         # Time since the targets, period of the physics, control period.
