@@ -50,3 +50,11 @@ def test_the_interval_of_a_mean_is_students(number: int) -> None:
 def test_an_unknown_value_is_refused_with_those_that_exist() -> None:
     with pytest.raises(ConfigurationError, match="who, outcome.*'speed'"):
         tabulate(RECORDS, ["who"], ["speed"])
+
+
+@pytest.mark.parametrize("number", [1, 20, 63, 800])
+def test_the_interval_of_a_share_holds_the_share(number: int) -> None:
+    """To the last bit: bars of figures must not have negative lengths."""
+    for count in range(number + 1):
+        row = share_of(count, number)
+        assert 0.0 <= row["low"] <= row["share"] <= row["high"] <= 1.0

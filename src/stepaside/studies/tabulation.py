@@ -99,7 +99,9 @@ def wilson_interval(count: int, number: int) -> tuple[float, float]:
     middle = (share + z * z / (2 * n)) / (1 + z * z / n)
     half = z / (1 + z * z / n)
     half *= sqrt(share * (1 - share) / n + z * z / (4 * n * n))
-    return max(0.0, middle - half), min(1.0, middle + half)
+    # by rounding an end may miss the share, where that is 0 or 1
+    low, high = min(middle - half, share), max(middle + half, share)
+    return max(0.0, low), min(1.0, high)
 
 
 def flat(record: Mapping[str, Any]) -> Record:
