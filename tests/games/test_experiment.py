@@ -132,6 +132,7 @@ def replay(*words: object) -> Result:
     return CliRunner().invoke(main, ["show", *map(str, words)])
 
 
+@pytest.mark.slow
 def test_a_duel_that_is_exported_and_imported_has_the_same_circle(
     tmp_path: Path,
 ) -> None:

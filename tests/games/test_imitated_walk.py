@@ -26,6 +26,7 @@ def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
     return nao_on_imitated_walk(tmp_path_factory.mktemp("imitated") / "nao")
 
 
+@pytest.mark.slow
 def test_two_robots_pursue_and_evade_on_policies(folder: Path) -> None:
     settings = read_game(
         {"robot": str(folder)}, base=make_duel(duration=12.0, seed=3)

@@ -130,6 +130,7 @@ def test_transforms_and_urdf_agree_in_programs_of_others(
         np.testing.assert_allclose(ours, theirs, atol=1e-4)
 
 
+@pytest.mark.slow
 def test_images_travel_with_their_calibration(folder: Path) -> None:
     cv2 = pytest.importorskip("cv2", reason="OpenCV is not installed")
     bag = bag_of(folder)
