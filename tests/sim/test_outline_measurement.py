@@ -2,6 +2,7 @@
 
 import mujoco
 import numpy as np
+import pytest
 
 from fake_robot import GAIT
 from stepaside.arena import BODY_RADIUS
@@ -11,7 +12,11 @@ from stepaside.games.game_settings import duel as make_duel
 from stepaside.games.players import RobotPlayer
 from stepaside.games.recorded_game import RecordedGame
 from stepaside.robots.description import load_robot
-from stepaside.sim.outline_measurement import measure_outline
+from stepaside.sim.outline_measurement import (
+    extents,
+    measure_outline,
+    solid_geoms,
+)
 
 NAO = measure_outline(load_robot("nao"), GAIT)
 ANGLES = np.arange(64) * (2.0 * np.pi / 64)
@@ -19,7 +24,7 @@ AROUND = np.stack([np.cos(ANGLES), np.sin(ANGLES)], axis=-1)
 
 
 def reach_of(duel: RecordedGame, name: str) -> Array:
-    """How far the boxes of all that can collide reach, along 64 ways."""
+    """How far all that can collide reaches, along 64 ways."""
     model, data = duel.in_physics.model, duel.in_physics.data
     most = np.full(len(AROUND), -np.inf)
     root = model.body(f"{name}/torso").rootid[0]
@@ -27,17 +32,14 @@ def reach_of(duel: RecordedGame, name: str) -> Array:
         body = model.geom_bodyid[geom]
         if model.body_rootid[body] != root or not model.geom_contype[geom]:
             continue
-        x, y, z = model.geom_aabb[geom, 3:]
-        centre = model.geom_aabb[geom, :3]
+        axes, kind = data.geom_xmat[geom].reshape(3, 3), model.geom_type[geom]
+        size, bulge = model.geom_size[geom].copy(), 0.0
+        if kind != mujoco.mjtGeom.mjGEOM_BOX:  # ends of a capsule, or centre
+            bulge = size[0]
+            capsule = kind == mujoco.mjtGeom.mjGEOM_CAPSULE
+            size[:] = 0.0, 0.0, size[1] if capsule else 0.0
         signs = np.array(np.meshgrid(*[[-1, 1]] * 3)).reshape(3, -1).T
-        if model.geom_type[geom] == mujoco.mjtGeom.mjGEOM_SPHERE:
-            corners = data.geom_xpos[geom] + 0.0 * signs
-            bulge = x
-        else:
-            axes = data.geom_xmat[geom].reshape(3, 3)
-            corners = data.geom_xpos[geom]
-            corners = corners + (centre + signs * (x, y, z)) @ axes.T
-            bulge = 0.0
+        corners = data.geom_xpos[geom] + signs * size @ axes.T
         found = (corners[:, :2] @ AROUND.T).max(axis=0) + bulge
         most = np.maximum(most, found)
     return most
@@ -52,6 +54,35 @@ def test_a_nao_is_as_wide_as_its_arms_and_as_long_as_its_trunk() -> None:
     mirrored = right * [1, -1]
     np.testing.assert_allclose(mirrored.max(axis=0), left.max(axis=0))
     np.testing.assert_allclose(mirrored.min(axis=0), left.min(axis=0))
+
+
+def test_shapes_reach_as_far_as_their_surfaces() -> None:
+    """Tilted shapes of all kinds, against distances that MuJoCo measures."""
+    spec = mujoco.MjSpec()
+    body = spec.worldbody.add_body(pos=[0.3, -0.2, 0.5])
+    rotation = [0.9, 0.3, -0.2, 0.25]
+    for kind in ("SPHERE", "CAPSULE", "CYLINDER", "ELLIPSOID", "BOX"):
+        body.add_geom(
+            type=getattr(mujoco.mjtGeom, f"mjGEOM_{kind}"),
+            size=[0.1, 0.2, 0.15],
+            quat=rotation,
+        )
+    far, half = 4.0, 0.5
+    wall = spec.worldbody.add_body(mocap=True)
+    wall.add_geom(type=mujoco.mjtGeom.mjGEOM_BOX, size=[half, 9.0, 9.0])
+    model = spec.compile()
+    data = mujoco.MjData(model)
+    geoms = solid_geoms(model, 1)
+    assert len(geoms) == 5
+    for angle in (0.0, 0.7, 2.0, 4.4):
+        way = np.array([np.cos(angle), np.sin(angle), 0.0])
+        data.mocap_pos[0] = far * way
+        data.mocap_quat[0] = [np.cos(angle / 2), 0.0, 0.0, np.sin(angle / 2)]
+        mujoco.mj_forward(model, data)
+        found = extents(model, data, geoms, way[None])[:, 0]
+        for geom, reach in zip(geoms, found, strict=True):
+            gap = mujoco.mj_geomDistance(model, data, geom, 5, 9.0, None)
+            assert far - half - gap == pytest.approx(reach, abs=1e-4)
 
 
 def test_a_walking_body_stays_within_its_outline_by_the_margin() -> None:
