@@ -489,26 +489,18 @@ def evade_person_on_legs(
     return folder
 
 
-def shielded_duel(*, contact: float, shield: bool) -> Any:
+def shielded_duel(*, shield: bool) -> Any:
     """Let a slow person steer at a robot that would stand."""
-    words: tuple[object, ...] = ("--duration", 20, "--json")
+    words: tuple[object, ...] = ("--duration", 12, "--json")
     if shield:
         words += ("--set", "evader.shield.enabled=true")
-        words += ("--set", "evader.shield.speed=0.09")
+        words += ("--set", "evader.shield.speed=0.06")
         words += ("--set", "evader.shield.turning_radius=6")
-        words += ("--set", f"evader.shield.contact={contact}")
     return stepaside(
-        *("duel", "--pursuer", "person", "--set", "person.speed=0.09"),
+        *("duel", "--pursuer", "person", "--set", "person.speed=0.06"),
         *("--set", "person.gain=10", "--set", "person.turning_radius=6"),
-        *(
-            "--set",
-            "start.pursuer_offset=0",
-            "--distance",
-            1.3,
-            "--strategy",
-            "stand",
-        ),
-        *words,
+        *("--set", "start.pursuer_offset=0", "--distance", 0.95),
+        *("--strategy", "stand", *words),
     ).json
 
 

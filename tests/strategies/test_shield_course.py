@@ -1,71 +1,114 @@
 """Test the heading that a shield reckons with."""
 
-from math import cos, pi, sin
+from math import asin, cos, pi, sin, sqrt
 
 import numpy as np
 import pytest
 
 from stepaside.core.poses import wrap_angle
+from stepaside.strategies.observed_course import (
+    ChordModel,
+    Course,
+    observed_course,
+    tried_headings,
+)
 from stepaside.strategies.opponent_track import SeenOpponent
-from stepaside.strategies.shield import Course, observed_course
 
-Trace = tuple[tuple[float, float, float], ...]
-
-WINDOW, TURN, SPEED = 0.5, 0.2, 1.0  # [s], [rad/s] and [m/s]
-KNOWN = TURN * WINDOW
+ERROR, SPEED, RADIUS, STEP = 0.003, 0.35, 8.0, 0.32
+MODEL = ChordModel(ERROR, SPEED, RADIUS, STEP)
+TURN = SPEED / RADIUS
 
 
-def observe(before: Course | None, trace: Trace) -> Course | None:
-    """Return the heading after the last of exact sightings."""
-    seen = [SeenOpponent(*row) for row in trace]
-    return observed_course(before, seen, WINDOW, (TURN, 0.0), KNOWN)
+def seen_on(
+    seed: int, *, bends: bool
+) -> list[tuple[SeenOpponent, tuple[float, float]]]:
+    """Return sightings of a person, each with heading and pace then.
+
+    The person changes its pace, stops, and turns: within the radius at any
+    pace, or, unless it only ``bends``, at any pace at the greatest rate.
+    """
+    random, parts = np.random.default_rng(seed), 20
+    x = y = time = 0.0
+    theta, pace, side = float(random.uniform(-pi, pi)), 1.0, 1.0
+    found = []
+    for i in range(400 * parts):
+        if i % parts == 0:
+            off = ERROR * np.exp(1j * random.uniform(-pi, pi))
+            row = SeenOpponent(time, x + off.real, y + off.imag)
+            found.append((row, (theta, pace)))
+        if random.random() < 0.01:
+            pace = float(random.choice([0.0, 0.1, 0.4, 1.0, 1.0]))
+            side = float(random.choice([-1.0, 0.0, 1.0]))
+        tick = STEP / parts
+        theta += side * (pace if bends else 1.0) * TURN * tick
+        x += SPEED * pace * cos(theta) * tick
+        y += SPEED * pace * sin(theta) * tick
+        time += tick
+    return found
 
 
-def test_heading_is_unknown_until_a_window_has_passed() -> None:
-    assert observe(None, ((0.0, 0.0, 0.0), (0.4, 0.4, 0.0))) is None
-    course = observe(None, ((0.0, 0.0, 0.0), (0.5, 0.0, 0.5)))
-    assert course is not None
-    assert course.heading == pytest.approx(0.5 * pi)
-    assert course.error == pytest.approx(KNOWN)
-
-
-@pytest.mark.parametrize("seed", range(20))
-def test_observed_heading_turns_as_a_person_and_stays_near_it(
+@pytest.mark.parametrize("seed", range(10))
+def test_heading_is_within_its_bound_of_who_keeps_to_the_radius(
     seed: int,
 ) -> None:
-    """The lemma of docs/shield.md, for people who change pace and turn."""
-    random, parts = np.random.default_rng(seed), 50
-    x = y = theta = time = 0.0
+    """At any pace, after any pause; and it turns no faster than the person."""
+    rows: tuple[SeenOpponent, ...] = ()
     course: Course | None = None
-    trace: Trace = ((0.0, 0.0, 0.0),)
-    for _ in range(60):
-        pace, rate = random.choice([0.05, 0.3, 1.0]), random.choice([-1, 0, 1])
-        for _ in range(parts):
-            tick = WINDOW / parts
-            theta += TURN * rate * tick
-            x += SPEED * pace * cos(theta) * tick
-            y += SPEED * pace * sin(theta) * tick
-            if random.random() < 0.02:
-                pace, rate = random.random(), random.choice([-1, 1])
-        time += WINDOW
-        trace = (*trace[-3:], (time, x, y))
-        before, course = course, observe(course, trace)
-        assert course is not None and course.error == pytest.approx(KNOWN)
-        assert abs(wrap_angle(course.heading - theta)) <= KNOWN + 1e-9
-        if before is not None:
-            moved = abs(wrap_angle(course.heading - before.heading))
-            assert moved <= TURN * WINDOW + 1e-9
+    known = 0
+    for row, (theta, _) in seen_on(seed, bends=True):
+        rows, before = MODEL.note(rows, row), course
+        course = observed_course(course, rows, MODEL)
+        assert abs(wrap_angle(course.heading - theta)) <= course.error + 1e-9
+        if before is not None and before.error <= MODEL.bound:
+            known += 1
+            assert course.error == MODEL.bound
+            turned = abs(wrap_angle(course.heading - before.heading))
+            assert turned <= TURN * (course.time - before.time) + 1e-9
+    assert known > 300
+    assert len(rows) < 40
 
 
-def test_heading_is_known_after_a_time_without_sightings() -> None:
-    """A robot that halts sees nothing: the person may have turned."""
-    before = Course(1.0, 0.4, 0.1)
-    course = observed_course(
-        before, [SeenOpponent(3.0, 0.0, 0.0)], 0.3, (0.2, 0.0), 0.05
+@pytest.mark.parametrize("seed", range(10))
+def test_heading_is_within_its_spread_of_who_turns_on_the_spot(
+    seed: int,
+) -> None:
+    rows: tuple[SeenOpponent, ...] = ()
+    course: Course | None = None
+    beyond = 0
+    for row, (theta, _) in seen_on(seed, bends=False):
+        rows = MODEL.note(rows, row)
+        course = observed_course(course, rows, MODEL)
+        off = abs(wrap_angle(course.heading - theta))
+        assert off <= course.spread + 1e-9
+        beyond += off > course.error
+    assert beyond > 0  # who turns on the spot is not within the first bound
+
+
+def test_bound_is_that_of_the_best_chord() -> None:
+    """No method is better than 2 sqrt(e / R); sightings cost a little more."""
+    least = 2.0 * sqrt(ERROR / RADIUS)
+    assert MODEL.best == pytest.approx(2.0 * sqrt(ERROR * RADIUS))
+    assert least < MODEL.bound < 1.2 * least
+    exact = MODEL._replace(error=0.0)
+    assert exact.bound == pytest.approx(
+        asin(0.5 * SPEED * STEP / RADIUS), rel=0.05
     )
-    assert course is not None and course.heading == 0.4
-    assert course.error == pytest.approx(0.1 + 0.2 * 2.0)
-    long = observed_course(
-        before, [SeenOpponent(99.0, 0.0, 0.0)], 0.3, (0.2, 0.0), 0.05
-    )
-    assert long is not None and long.error == pi
+
+
+def test_heading_is_unknown_at_first_and_after_a_long_absence() -> None:
+    row = SeenOpponent(1.0, 0.0, 0.0)
+    course = observed_course(None, [row], MODEL)
+    assert course.error == course.spread == pi
+    before = Course(1.0, 0.4, 0.1, 0.1)
+    gone = observed_course(before, [SeenOpponent(5.0, 0.0, 0.0)], MODEL)
+    assert gone.heading == 0.4
+    assert gone.error == pytest.approx(0.1 + 4.0 * TURN)
+
+
+def test_all_headings_within_an_error_are_tried() -> None:
+    course = Course(0.0, 0.3)
+    assert tried_headings(course, 0.1, 0.1) == [0.3]
+    tried = tried_headings(course, 0.6, 0.1)
+    assert min(tried) == pytest.approx(-0.3)
+    assert max(tried) == pytest.approx(0.9)
+    assert np.diff(tried).max() <= 0.25

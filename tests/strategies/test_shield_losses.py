@@ -4,7 +4,7 @@ What is charged is computed here, by the formulas of that page.
 """
 
 from dataclasses import dataclass, replace
-from math import asin, atan2, cos, hypot, pi, sin
+from math import asin, atan2, ceil, cos, hypot, pi, sin
 from typing import Any
 
 import numpy as np
@@ -13,7 +13,10 @@ import pytest
 from stepaside.core.poses import Array, Pose, wrap_angle
 from stepaside.planning import Direction
 from stepaside.strategies import StandStill
+from stepaside.strategies.body_departure import BodyDeparture
 from stepaside.strategies.knowledge import STAND, Intent, Knowledge, Limits
+from stepaside.strategies.observed_course import Course
+from stepaside.strategies.opponent_track import SeenOpponent
 from stepaside.strategies.shield import ShieldedStrategy, ShieldMemory
 from stepaside.strategies.shield_settings import ShieldSettings
 from stepaside.strategies.velocity_set import (
@@ -29,6 +32,7 @@ LEGS = VelocitySet(
     (-0.5, 0.6), (-0.1, 0.3), (-0.9, 0.4), AxisValues(0.2, 0.4, 0.1), tube=0.25
 )
 PERSON = ShieldSettings(True, 0.03, 0.5, 0.3)
+BODY = BodyDeparture(0.2, 0.05, 0.004, 0.001)
 HALT = STEP + 1.0  # until a walking robot stands and decides again, in [s]
 
 
@@ -38,24 +42,40 @@ def coarse(monkeypatch: pytest.MonkeyPatch) -> None:
 
 
 def heading_error(person: ShieldSettings, window: float) -> float:
-    """Return b: the turn in a window, and both ends of its chord."""
-    turned = (window + 0.02) * person.speed / person.turning_radius
-    return turned + asin(4.0 * person.sighting_error / person.speed / window)
+    """Return b: of the best chord that decisions a window [s] apart show."""
+    error, apart = person.sighting_error, person.speed * (window + 0.02)
+    radius = person.turning_radius
+    for _ in range(3):
+        best = max(0.002, 2.0 * (error * radius) ** 0.5)
+        taken = best / person.speed / window + 1.0
+        error = person.sighting_error + 0.5 * lost(taken)
+    best = 2.0 * (error * radius) ** 0.5
+    apart += 2.0 * error + best / 8.0
+    short = max(2.0 * error, best - 0.5 * apart)
+    return max(
+        asin(2.0 * error / chord) + asin((0.5 * chord + error) / radius)
+        for chord in (short, short + apart)
+    )
+
+
+def lost(decisions: float) -> float:
+    """Return what the odometry of the body does not know, in [m]."""
+    return BODY.loss + BODY.drift * max(0.0, decisions - 1.0)
 
 
 def walk_loss(person: ShieldSettings, period: float) -> float:
     """Return epsilon of the paper's walk, in [m]."""
-    lost = 0.01 * period / STEP if person.loss is None else person.loss
-    return lost + person.speed * heading_error(person, STEP) * period
+    return lost(period / STEP) if person.loss is None else person.loss
 
 
 def walk_required(person: ShieldSettings, period: float) -> float:
     """Return r of the paper's walk, in [m]."""
+    assert person.contact is not None
     return (
         person.contact
         + person.sighting_error
         + walk_loss(person, period)
-        + (0.5 * STRIDE + 0.03)
+        + BODY.tube
         + person.speed * person.sighting_delay
     )
 
@@ -75,13 +95,14 @@ def test_required_distance_of_the_papers_walk(
     changes: dict[str, Any],
 ) -> None:
     person = replace(PERSON, **changes)
-    shield = ShieldedStrategy(StandStill(), person)
+    shield = ShieldedStrategy(StandStill(), person, BODY)
     model = shield.model_for(Knowledge(0.0, 0.0, 3.0, WALK))
     game = model.game()
     assert game.loss == pytest.approx(walk_loss(person, game.period))
     assert game.jump == pytest.approx(2.0 * person.sighting_error)
     assert game.person_speed == person.speed
     assert game.person_turn == person.speed / person.turning_radius
+    assert game.heading_error == pytest.approx(heading_error(person, STEP))
     required = walk_required(person, game.period)
     assert model.required == pytest.approx(required)
     assert model.response == pytest.approx(2.0 * STEP)
@@ -89,21 +110,20 @@ def test_required_distance_of_the_papers_walk(
 
 def test_required_distance_of_learned_legs() -> None:
     person = replace(PERSON, sighting_delay=0.4, sighting_error=1e-4)
-    shield, limits = ShieldedStrategy(StandStill(), person), WALK
     models = [
-        shield.model_for(
-            Knowledge(0.0, 0.0, 3.0, replace(limits, velocities=legs))
+        ShieldedStrategy(StandStill(), person, body).model_for(
+            Knowledge(0.0, 0.0, 3.0, replace(WALK, velocities=legs))
         )
-        for legs in (
-            LEGS,
-            LEGS._replace(tube=0.0),
-            LEGS._replace(tube=0.0, lags=AxisValues(0.2, 0.7, 0.1)),
+        for legs, body in (
+            (LEGS, BODY),
+            (LEGS._replace(tube=0.0), None),
+            (LEGS._replace(tube=0.0, lags=AxisValues(0.2, 0.7, 0.1)), None),
         )
     ]
-    epsilon = 0.08 + person.speed * heading_error(person, 0.08) * 0.48
+    epsilon = 0.24 * 0.6 * 0.48 + lost(6)
     assert models[0].game().loss == pytest.approx(epsilon)
     assert models[0].game().period == 0.48
-    required = 0.3 + 1e-4 + epsilon + 0.25 + person.speed * 0.4
+    required = 0.3 + 1e-4 + epsilon + BODY.tube + person.speed * 0.42
     assert models[0].required == pytest.approx(required)
     # A body is its lag behind: by 0.3 s more at 0.6 m/s.
     more = models[2].required - models[1].required
@@ -113,7 +133,7 @@ def test_required_distance_of_learned_legs() -> None:
 def test_motions_are_those_that_both_sides_of_the_legs_deliver() -> None:
     """Legs hold a velocity over the floor while they turn."""
     limits = replace(WALK, velocities=LEGS)
-    shield = ShieldedStrategy(StandStill(), PERSON)
+    shield = ShieldedStrategy(StandStill(), PERSON, BODY)
     model = shield.model_for(Knowledge(0.0, 0.0, 3.0, limits))
     motions = model.game().motions
     fastest = 0.0
@@ -154,36 +174,6 @@ def test_template_of_lagging_legs_is_where_they_come_to_rest() -> None:
     assert body < -0.2
 
 
-@pytest.mark.parametrize("side", [-1.0, 1.0])
-def test_heading_is_off_by_the_errors_of_both_ends_of_a_chord(
-    side: float,
-) -> None:
-    """Of a slow person, whose chord is short."""
-    person = ShieldSettings(True, 1.0, 1000.0, 0.3, sighting_error=0.02)
-    strategy, walked = ShieldedStrategy(StandStill(), person), 0.1
-    memory = strategy.begin()
-    for i, error in enumerate((-0.02, 0.02)):
-        x, y = 2.0 - walked * i, side * error
-        known = Knowledge(0.5 * i, atan2(y, x), hypot(x, y), WALK)
-        _, memory = strategy.decide(known, memory)
-    assert memory.course is not None
-    off = abs(wrap_angle(memory.course.heading - pi))
-    assert off == pytest.approx(atan2(0.04, walked))
-    assert memory.course.error >= off
-
-
-def test_window_of_a_heading_is_between_sightings() -> None:
-    """Decisions are a window apart, but the second sighting is old."""
-    strategy = ShieldedStrategy(StandStill(), PERSON)
-    for age, known in ((0.0, True), (0.3, False)):
-        memory = strategy.begin()
-        first = Knowledge(0.0, 0.0, 3.0, WALK)
-        second = Knowledge(0.5, 0.0, 2.99, WALK, age=age)
-        for knowledge in (first, second):
-            _, memory = strategy.decide(knowledge, memory)
-        assert memory.guarded == known
-
-
 @dataclass(frozen=True)
 class Walking:
     """Evader that always decides the same.
@@ -207,7 +197,7 @@ class Walking:
 
 
 def decides(
-    intent: Intent, pose: Array, *, moving: bool, stood: int
+    intent: Intent, pose: Array, *, moving: bool, error: float
 ) -> tuple[bool, ShieldTable]:
     """Return whether a decision stands, and the table.
 
@@ -215,23 +205,20 @@ def decides(
         intent: Decision of the strategy.
         pose: Pose of the robot in the frame of the person.
         moving: Whether it walks.
-        stood: Windows for which the person has stood.
+        error: How far the heading of the person may be off, in [rad].
     """
-    strategy = ShieldedStrategy(Walking(intent), PERSON)
-    memory: ShieldMemory = strategy.begin()
+    strategy = ShieldedStrategy(Walking(intent), PERSON, BODY)
     turned = Pose(0.3, -0.2, 0.7)  # of the person in the map
     own = turned.compose(Pose(*pose.tolist()))
-    for i in range(-1, stood + 1):
-        walked = PERSON.speed * STEP * min(i, 0)
-        x = turned.x + walked * cos(turned.theta)
-        y = turned.y + walked * sin(turned.theta)
-        bearing = wrap_angle(atan2(y - own.y, x - own.x) - own.theta)
-        away = hypot(x - own.x, y - own.y)
-        known = Knowledge(
-            STEP * (i + 1), bearing, away, WALK, pose_in_map=own,
-            moving=moving,
-        )  # fmt: skip
-        decided, memory = strategy.decide(known, memory)
+    memory: ShieldMemory = strategy.begin()._replace(
+        rows=(SeenOpponent(1.0, turned.x, turned.y),),
+        course=Course(1.0, turned.theta, error, error),
+        time=1.0,
+    )
+    bearing = wrap_angle(atan2(turned.y - own.y, turned.x - own.x) - own.theta)
+    away = hypot(turned.x - own.x, turned.y - own.y)
+    known = Knowledge(1.0, bearing, away, WALK, pose_in_map=own, moving=moving)
+    decided, _ = strategy.decide(known, memory)
     return decided == intent, strategy.model_for(known).table()
 
 
@@ -280,41 +267,35 @@ def guaranteed(
 
 
 def turned_to(pose: Array, spread: float) -> Array:
-    """Return a pose for three headings of the person. Shape (3, 3)."""
+    """Return a pose for headings of the person. Shape (n, 3)."""
     x, y, theta = pose
+    count = ceil(spread / 0.25)
     rows = []
-    for heading in (-spread, 0.0, spread):
+    for heading in np.linspace(-spread, spread, 2 * count + 1):
         c, s = cos(heading), sin(heading)
         rows.append((c * x + s * y, c * y - s * x, theta - heading))
     return np.array(rows)
 
 
-def uncertain(stood: int, unseen: float = 0.0) -> float:
-    """Return how far the heading may be off, in [rad].
-
-    Args:
-        stood: Windows for which the person has stood.
-        unseen: Time in which nothing is decided, in [s].
-    """
-    if not stood and not unseen:
-        return 0.0  # what is known of it is charged by the loss
-    turned = PERSON.speed / PERSON.turning_radius * (STEP * stood + unseen)
-    return heading_error(PERSON, STEP) + turned
+KNOWN = heading_error(PERSON, STEP)
+UNSEEN = PERSON.speed / PERSON.turning_radius * HALT
 
 
-@pytest.mark.parametrize("stood", [0, 5])
+@pytest.mark.parametrize("error", [KNOWN, KNOWN + 0.6])
 @pytest.mark.parametrize("moving", [False, True])
 @pytest.mark.parametrize("intent", [STAND, Intent(2.0, 0.8)])
 def test_decision_stands_where_the_required_distance_stays_guaranteed(
-    intent: Intent, moving: bool, stood: int
+    intent: Intent, moving: bool, error: float
 ) -> None:
     """Against all headings that the person can have."""
-    halts = moving and not intent.walks
-    spread = uncertain(stood, HALT if halts else 0.0)
+    # What is known of a heading is charged by the walks of the game.
+    spread = 0.0 if error == KNOWN else error
+    if moving and not intent.walks:
+        spread = error + UNSEEN
     random, counts = np.random.default_rng(7), [0, 0]
     required = walk_required(PERSON, 2.0)
     for pose in random.uniform([-0.8, -0.9, -pi], [1.2, 0.9, pi], (150, 3)):
-        stands, table = decides(intent, pose, moving=moving, stood=stood)
+        stands, table = decides(intent, pose, moving=moving, error=error)
         poses = turned_to(pose, spread)
         value = guaranteed(table, intent, poses, moving=moving)
         if abs(value - required) > 0.002:
@@ -323,21 +304,15 @@ def test_decision_stands_where_the_required_distance_stays_guaranteed(
     assert min(counts) > 10
 
 
-def test_no_halt_where_only_a_person_who_does_not_turn_unseen_is_evaded() -> (
-    None
-):
-    random, required = np.random.default_rng(9), walk_required(PERSON, 2.0)
-    _, table = decides(STAND, np.array([2.0, 0.0, 0.0]), moving=True, stood=0)
-    spread, refused = uncertain(0, HALT), 0
-    for pose in random.uniform([0.3, 0.3, -pi], [0.9, 0.6, pi], (600, 3)):
-        seen, turned = (
-            guaranteed(table, STAND, turned_to(pose, each), moving=True)
-            for each in (0.0, spread)
-        )
-        if seen > required > turned + 0.001:
-            assert not decides(STAND, pose, moving=True, stood=0)[0]
-            refused += 1
-    assert refused > 2
+def test_walks_beside_the_heading_that_is_known_are_charged() -> None:
+    """A person reaches a side that its heading does not show."""
+    _, table = decides(
+        STAND, np.array([2.0, 0.0, 0.0]), moving=True, error=KNOWN
+    )
+    ends = table.game.walks(2.0)[:, -1, :2]
+    beside = np.abs(np.arctan2(ends[:, 1], ends[:, 0]))[ends[:, 0] > 0.01]
+    turned = PERSON.speed / PERSON.turning_radius * 2.0
+    assert beside.max() == pytest.approx(KNOWN + 0.5 * turned)
 
 
 @pytest.mark.parametrize(
@@ -352,7 +327,7 @@ def test_robot_must_start_earlier_by_the_way_of_the_person_meanwhile(
     for value in (least, greatest):
         changes: dict[str, Any] = {name: value}
         person = replace(PERSON, **changes)
-        strategy = ShieldedStrategy(StandStill(), person)
+        strategy = ShieldedStrategy(StandStill(), person, BODY)
         for away in np.arange(1.2, 0.3, -0.01):
             memory = strategy.begin()
             for i in (-1, 0):

@@ -1,5 +1,6 @@
 """``stepaside robot``: show, describe, check or tune a robot."""
 
+from contextlib import suppress
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -176,8 +177,9 @@ def check(
     """Check whether the robot in FOLDER can play.
 
     Checks the description, then simulates walks forward, backward and
-    turning, in open loop and with feedback. The exit status is 1 if a check
-    fails.
+    turning, in open loop and with feedback. Then it walks at random, to
+    measure how far its body departs from its template, and writes that beside
+    the description. The exit status is 1 if a check fails.
     """
     from ..core.worker_pool import worker_pool
     from ..fitting.robot_verification import check_robot
@@ -189,11 +191,21 @@ def check(
         ProgressLine("check", unit="walks") as bar,
     ):
         report = check_robot(description, executor, bar.show)
+    if report.departure is not None:
+        from ..games.player_settings import settings_from_description
+        from ..robots.departures import store_departure
+
+        gait = settings_from_description(description).gait
+        with suppress(OSError):  # of a package that is not writable
+            store_departure(description, gait, report.departure)
     if as_json:
         print_json({"robot": description.name} | report.to_json())
     else:
         found = report.findings
         print_table([(f.name, f"{f.verdict:<4}  {f.value}") for f in found])
+        if report.departure is not None:
+            echo("")
+            print_table(result_rows(report.to_json()["departure_m"]))
         hints = [f"{f.name}: {f.hint}" for f in found if f.hint]
         passed = "all checks passed: the robot can play"
         end = passed if report.passes else "the robot cannot play yet"

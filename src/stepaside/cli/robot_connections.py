@@ -16,7 +16,6 @@ from ..locomotion.control_settings import (
 from ..perception.camera_model import CameraModel
 from ..sim.camera_settings import ColourSettings
 from ..strategies import Strategy, load_strategy
-from ..strategies.registry import shielded
 from .settings import CONTROL, GIVEN
 from .terminal import echo
 
@@ -111,7 +110,9 @@ def open_loop(
 
 def _strategy_of(settings: PlaySettings) -> Strategy:
     strategy = load_strategy(settings.strategy, settings.evasion)
-    return shielded(strategy, settings.shield)
+    from ..games.shields import shielded
+
+    return shielded(strategy, settings)
 
 
 def _open_joints(

@@ -58,6 +58,15 @@ class ControlScheme:
         )
         self.sighting: Sighting | None = None
         self.decisions.templates.note(0.0, locomotion.pose)
+        tracks_body = getattr(strategy, "tracks_body", False)
+        tracks = locomotion.maneuvers
+        if tracks and tracks_body and surroundings is None:
+            from .body_odometry import BodyOdometry
+
+            self.decisions.body = BodyOdometry(tracks)
+        # Learned legs know their pose a tick late: so be the sightings.
+        self._holds_back = tracks is None and tracks_body
+        self._seen: Sighting | None = None
         self._delayed = locomotion.heading_delay > 0.0
         self._coasted: float | None = None  # since the last update, until [s]
 
@@ -76,10 +85,19 @@ class ControlScheme:
                 self._coasted + walk.pose_delay, walk.pose
             )
             self._coasted = None
-        decisions.headings.note(now + walk.heading_delay, walk.torso_heading)
-        self.sighting = self.senses.see(measurement, walk.step, walk.tilt)
+        if not self._holds_back:
+            heading = walk.torso_heading
+            decisions.headings.note(now + walk.heading_delay, heading)
+        if decisions.body is not None:
+            decisions.body.note(measurement)
+        seen = self.senses.see(measurement, walk.step, walk.tilt)
+        if self._holds_back:
+            seen, self._seen = self._seen, seen
+        self.sighting = seen
         decisions.note_players(self.senses.in_sight)
         targets = walk.update(measurement, self)
+        if self._holds_back:
+            decisions.headings.note(now, walk.torso_heading)
         decisions.templates.note(now + walk.pose_delay, walk.pose)
         if walk.phase is not Phase.FALLEN:
             self.senses.aim(targets)

@@ -2,6 +2,7 @@
 
 from dataclasses import replace
 from math import atan2, cos, hypot, pi, sin
+from typing import TYPE_CHECKING
 
 from ..core.history import History
 from ..core.poses import ALL_AROUND, Pose, Sector
@@ -22,6 +23,9 @@ from ..strategies.strategy import Strategy
 from ..strategies.velocity_set import VelocitySet
 from .sight_sources import PlayersInSight
 
+if TYPE_CHECKING:
+    from .body_odometry import BodyOdometry
+
 MEMORY = 2.0  # how long past states are stored, in [s]
 RECENT = 1.0  # age up to which the own pose at a sighting is known, in [s]
 
@@ -41,6 +45,7 @@ class StrategyRunner(DecisionMaker):
         self._surroundings = surroundings or Surroundings()
         self.headings: History[float] = History(MEMORY)  # [rad]
         self.templates: History[Pose] = History(MEMORY)
+        self.body: BodyOdometry | None = None  # of who tracks its body
         self._spacing = gait.foot_spacing
         self._target_id = 0
         self._in_sight: tuple[Sighting, ...] = ()
@@ -89,6 +94,8 @@ class StrategyRunner(DecisionMaker):
         known = self._knowledge(now, sighting, moving=moving)
         if moving and stands is not None:
             begins = pose_beside_foot(*stands, self._spacing)
+            if self.body is not None:
+                begins = self.body.place(begins)
             begins = self._surroundings.pose_odometry_in_map.compose(begins)
             known = replace(known, step_start_in_map=begins)
         return self.evaluate(known)
@@ -106,18 +113,19 @@ class StrategyRunner(DecisionMaker):
             # A different person: its motion is unknown.
             self._target_id = sighting.target_id
             self.reset_rates()
-        template, sight = self._sight_of(sighting)
+        template, sight, distance = self._sight_of(sighting)
         if now - sighting.time > RECENT and sighting.identity is not None:
             x, y = self._position_of(sighting)
-            template = self.templates.at(now)
+            template = self._template_at(now)
             sight = atan2(y - template.y, x - template.x)
             distance = hypot(y - template.y, x - template.x)
-            sighting = sighting._replace(distance=distance)
         several = self._in_sight if len(self._in_sight) > 1 else ()
         return self.observe(
             now,
             template,
-            sighting._replace(bearing=sight - template.theta),
+            sighting._replace(
+                bearing=sight - template.theta, distance=distance
+            ),
             pose_odometry_in_map=self._surroundings.pose_odometry_in_map,
             moving=moving,
             obstacles=self._surroundings.solids,
@@ -144,23 +152,34 @@ class StrategyRunner(DecisionMaker):
             sighting.spread,
         )
 
-    def _sight_of(self, sighting: Sighting) -> tuple[Pose, float]:
-        """Return own pose and direction of a sighting, in odometry.
+    def _sight_of(self, sighting: Sighting) -> tuple[Pose, float, float]:
+        """Return own pose, and direction and distance of a sighting from it.
 
-        They are kept for a recognised player from its sighting on, since the
-        history of own poses is short and a hidden player may not be sighted
-        for long.
+        In odometry. They are kept for a recognised player from its sighting
+        on, since the history of own poses is short and a hidden player may
+        not be sighted for long.
         """
-        template = self.templates.at(sighting.time)
-        sight = self.headings.at(sighting.time) + sighting.bearing
+        template = self._template_at(sighting.time)
+        if self.body is None:
+            sight = self.headings.at(sighting.time) + sighting.bearing
+            distance = sighting.distance
+        else:
+            x, y = self.body.position_of(sighting)
+            sight = atan2(y - template.y, x - template.x)
+            distance = hypot(y - template.y, x - template.x)
         if sighting.identity is not None:
             name = sighting.identity.name
             known = self._sightings.get(name)
             if known is None or known[0] != sighting.time:
-                self._sightings[name] = (
-                    sighting.time, template, sight, sighting.distance
-                )  # fmt: skip
-        return template, sight
+                known = sighting.time, template, sight, distance
+                self._sightings[name] = known
+        return template, sight, distance
+
+    def _template_at(self, time: float) -> Pose:
+        """Return the pose of the template at a time, in odometry."""
+        if self.body is None:
+            return self.templates.at(time)
+        return self.body.template_at(time)
 
     def _position_of(self, sighting: Sighting) -> tuple[float, float]:
         """Return the position of a recognised player in odometry, in [m]."""

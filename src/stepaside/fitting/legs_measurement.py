@@ -3,7 +3,7 @@
 from collections.abc import Callable
 from concurrent.futures import Executor
 from dataclasses import replace
-from math import hypot, isfinite, nan
+from math import nan
 from typing import NamedTuple
 
 import mujoco
@@ -25,11 +25,15 @@ from ..locomotion.policy.velocity_response import (
 from ..planning import GaitSettings
 from ..robots.description import RobotDescription
 from ..sim.body_settings import BodySettings, at_tick
+from ..sim.outline_measurement import reach_of, solid_geoms
 from ..sim.physics_settings import PhysicsSettings
 from ..sim.world import World
-from ..strategies.shield import TemplatePoint
+from ..strategies.body_departure import BodyDeparture
+from ..strategies.shield import LEGS_INTERVAL, TemplatePoint
 from ..strategies.velocity_set import STILL, BodyVelocity
+from .departure_measurement import EVERY, DepartureRecord, combined
 
+SETTLED = 1.0  # until a body rests on its feet after its begin, in [s]
 STANDING = 1.5  # before the command, in [s]: the gyro is calibrated in 1 s
 SETTLING = 3.0  # from the command to a steady walk, in [s]
 STEADY = 6.0  # over which the velocity is averaged, in [s]
@@ -69,9 +73,11 @@ class LegsMotion(NamedTuple):
 
     poses: Array  # of the reference point in the world (n + 1, 3)
     estimates: Array  # of the leg odometry (n + 1, 3)
+    torsos: list[tuple[float, float]]  # midway between the hips, likewise
     wanted: list[BodyVelocity]
     tick: float  # [s]
     fell_at: float | None  # [s]
+    reach: float  # around the torso of all of the body; 0 if not asked for
 
 
 class LegsMeasurement(NamedTuple):
@@ -96,6 +102,8 @@ def _walk(
     trial: LegsTrial,
     wanted_at: Callable[[float], BodyVelocity],
     duration: float,
+    *,
+    reaches: bool = False,
 ) -> LegsMotion:
     """Walk alone in a world from the default posture of the policy."""
     description = trial.description
@@ -116,19 +124,26 @@ def _walk(
     truth = setup.true_state_in(world)
     robot = setup._replace(truth=truth).place(world, legs)
     mujoco.mj_forward(world.model, world.data)
-    poses, estimates, wanted = [], [], []
+    poses, estimates, torsos, wanted, reach = [], [], [], [], 0.0
+    root = world.model.body(f"robot/{description.torso}").rootid[0]
+    geoms = solid_geoms(world.model, int(root))
     while True:
         x, y = truth.position_reference_in_world
         poses.append((x, y, truth.heading_in_world))
-        estimates.append(legs.pose)
+        torsos.append(truth.position_torso_in_world)
+        if reaches and world.ticks % EVERY == 0:
+            found = reach_of(world.model, world.data, geoms, torsos[-1])
+            reach = max(reach, found)
         fell_at = world.time if truth.has_fallen else None
         if fell_at is not None or world.time >= duration:
+            estimates.append(legs.pose)
             break
         wanted.append(wanted_at(world.time))
         robot.write(legs.update(robot.read(), wanted[-1]))
+        estimates.append(legs.pose)
         world.step()
-    rows = np.array(poses), np.array(estimates)
-    return LegsMotion(*rows, wanted, physics.tick, fell_at)
+    rows = np.array(poses), np.array(estimates), torsos
+    return LegsMotion(*rows, wanted, physics.tick, fell_at, reach)
 
 
 def run_trial(trial: LegsTrial) -> LegsTrialResult:
@@ -147,11 +162,11 @@ def run_trial(trial: LegsTrial) -> LegsTrialResult:
     return result._replace(odometry=estimated.delivered[:2])
 
 
-def run_tracking_walk(trial: LegsTrial) -> float:
-    """Walk at random velocities; return the tube of the body.
+def run_tracking_walk(trial: LegsTrial) -> BodyDeparture | None:
+    """Walk at random velocities; return the departure of the body.
 
-    Greatest distance of the body from its template point, see
-    :mod:`stepaside.strategies.shield`, in [m]; NaN after a fall.
+    That from its template point, see :mod:`stepaside.strategies.shield`; None
+    after a fall.
     """
     assert trial.response is not None
     legs = trial.response.velocities
@@ -169,18 +184,28 @@ def run_tracking_walk(trial: LegsTrial) -> float:
             )
         return present
 
-    motion = _walk(trial, wanted_at, TRACKING_WALK)
+    motion = _walk(trial, wanted_at, TRACKING_WALK, reaches=True)
     if motion.fell_at is not None:
-        return nan
-    lag, tube = max(legs.lags[:2]), 0.0
-    (x, y, theta), *after = motion.poses.tolist()
-    template = TemplatePoint((x, y))
-    for wanted, (x, y, heading) in zip(motion.wanted, after, strict=True):
-        u, v, _ = Pose(0.0, 0.0, theta).compose(Pose(*wanted[:2], 0.0))
-        template = template.advance((u, v), (x, y), lag, motion.tick)
-        u, v = template.position
-        tube, theta = max(tube, hypot(x - u, y - v)), heading
-    return tube
+        return None
+    record, every = DepartureRecord(), round(LEGS_INTERVAL / motion.tick)
+    record.reach = motion.reach
+    first = round(SETTLED / motion.tick)
+    before = motion.estimates[first].tolist()
+    template, command = TemplatePoint((before[0], before[1])), (0.0, 0.0)
+    for i in range(first, len(motion.wanted)):
+        now, wanted = i * motion.tick, motion.wanted[i]
+        body, late = (Pose(*motion.estimates[j].tolist()) for j in (i, i - 1))
+        if (i - first) % every == 0:
+            if i > first:  # its pose is known a tick late
+                template = template.advance(
+                    command, late[:2], legs, LEGS_INTERVAL
+                )
+            turned = Pose(0.0, 0.0, body.theta)
+            command = turned.compose(Pose(*wanted[:2], 0.0))[:2]
+            record.decide(now, Pose(*template.position, 0.0), moving=True)
+        true = Pose(*motion.poses[i].tolist())
+        record.note(now, true, body, motion.torsos[i])
+    return record.departure()
 
 
 def _evaluate(
@@ -249,19 +274,20 @@ def measure_legs(
     ratio = _odometry_ratio(results)
     response = VelocityResponse(forward, lateral, turn, odometry_ratio=ratio)
     tracking = base._replace(response=response)
-    tubes: list[float] = []
-    for tube in executor.map(
+    departures: list[BodyDeparture | None] = []
+    for departure in executor.map(
         run_tracking_walk,
         [tracking._replace(seed=seed + i) for i in range(TRACKING_WALKS)],
     ):
-        tubes.append(tube)
-        report(len(results) + len(tubes), walks)
-    upright = [tube for tube in tubes if isfinite(tube)]
+        departures.append(departure)
+        report(len(results) + len(departures), walks)
+    upright = [each for each in departures if each is not None]
     falls = sum(result.fell_at is not None for result in results)
+    worst = combined(upright)
     return LegsMeasurement(
         results,
-        replace(response, tube=max(upright, default=0.0)),
-        falls + len(tubes) - len(upright),
+        replace(response, **worst._asdict()) if worst else response,
+        falls + len(departures) - len(upright),
     )
 
 

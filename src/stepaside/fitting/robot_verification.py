@@ -21,6 +21,8 @@ from ..robots.description import FILE, REMEDY, RobotDescription
 from ..robots.forward_kinematics import ForwardKinematics
 from ..robots.leg_kinematics import LegKinematics
 from ..robots.tree_compiler import compile_tree
+from ..strategies.body_departure import BodyDeparture
+from .departure_measurement import SEEDS, combined, walk_departure
 from .gait_feasibility import TICK, step_loads
 
 CYCLES = 8  # gait cycles of a walk after its first step
@@ -167,6 +169,8 @@ class VerificationReport(NamedTuple):
     # walk trials, open loop and with feedback; empty if the robot cannot stand
     walks: list[WalkTrialResult]
     feedback: bool  # whether the description uses feedback
+    # of the body from its template; None if it was not measured, or fell
+    departure: BodyDeparture | None = None
 
     @property
     def passes(self) -> bool:
@@ -180,6 +184,7 @@ class VerificationReport(NamedTuple):
             "feedback": self.feedback,
             "findings": [finding._asdict() for finding in self.findings],
             "walks": [walk.to_json() for walk in self.walks],
+            "departure_m": self.departure and self.departure._asdict(),
         }
 
 
@@ -195,10 +200,18 @@ def check_robot(
     if any(finding.verdict == "fail" for finding in found):
         return VerificationReport(found, walks, feedback)
     paths = [(path, fed) for fed in (False, True) for path in PATHS]
-    same = [description] * len(paths)
+    same, total = [description] * len(paths), len(paths) + len(SEEDS)
     for result in executor.map(walk_trial, same, *zip(*paths, strict=True)):
         walks.append(result)
-        report(len(walks), len(paths))
+        report(len(walks), total)
+    own = settings_from_description(description)
+    departures: list[BodyDeparture | None] = []
+    for departure in executor.map(
+        walk_departure,
+        *([description] * len(SEEDS), [own] * len(SEEDS), SEEDS),
+    ):
+        departures.append(departure)
+        report(len(walks) + len(departures), total)
     for described in (True, False):
         fed = feedback is described
         own = [each for each in walks if each.feedback is fed]
@@ -207,7 +220,7 @@ def check_robot(
     if not feedback and fed_back.verdict == "pass" and open_loop.hint:
         hint = f"set {FEEDBACK}; or {open_loop.hint}"
         found[-2] = open_loop._replace(hint=hint)
-    return VerificationReport(found, walks, feedback)
+    return VerificationReport(found, walks, feedback, combined(departures))
 
 
 def check_requirements(

@@ -11,7 +11,7 @@ from ..core.player_identity import Role
 from ..core.poses import Pose
 from ..sim.person_settings import RADIUS
 from ..strategies.knowledge import limits_of
-from ..strategies.registry import load_strategy, shielded
+from ..strategies.registry import load_strategy
 from ..strategies.strategy import Strategy
 from ..strategies.velocity_set import VelocitySet
 from .floor_world import (
@@ -153,4 +153,8 @@ def strategy_of(
             clearance=contact + COMFORT,
             body_radius=player.radius + MARGIN,
         )
-    return shielded(strategy, player.shield)
+    if not player.shield.enabled:
+        return strategy
+    from .shields import shielded
+
+    return shielded(strategy, player)

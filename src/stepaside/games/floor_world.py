@@ -245,7 +245,7 @@ class FloorPoint(FloorMotion):
     ) -> None:
         """Begin standing, to be integrated in steps, in [s]."""
         assert agent.limits.velocities is not None
-        self._agent, self._legs = agent, agent.limits.velocities
+        self.agent, self._legs = agent, agent.limits.velocities
         self.pose = pose
         self._gait, self._step, self._decides_at = gait, step, 0.0
         self._command = self._actual = STILL
@@ -264,9 +264,9 @@ class FloorPoint(FloorMotion):
         from ..locomotion.policy.policy_legs import decision_interval
 
         moving = self._command != STILL
-        known = self._agent.look(now, seen, moving=moving)
+        known = self.agent.look(now, seen, moving=moving)
         assert known is not None
-        intent, strategy = self._agent.evaluate(known), self._agent.strategy
+        intent, strategy = self.agent.evaluate(known), self.agent.strategy
         request = MotionRequest(intent, strategy.direction, strategy.saturated)
         self._command = self._legs.nearest(
             template_velocity(request, self._gait)

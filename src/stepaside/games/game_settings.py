@@ -331,6 +331,13 @@ class GameSettings:
             )
             for own in self.players
         )
+        if any(own.shield.enabled for own in players):
+            from .shields import with_contact
+
+            players = tuple(
+                with_contact(own, self.sensed_opponents(own))
+                for own in players
+            )
         return replace(self, players=players)
 
     @property

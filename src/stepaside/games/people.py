@@ -164,6 +164,10 @@ class FloorPlayer(Player):
         self._body = made(world, own.name, motion.pose)
         self.truth = self._body.truth
 
+    def follow(self, motion: FloorMotion) -> None:
+        """Move as another motion from now on."""
+        self._motion = motion
+
     def tick(self) -> None:
         """Advance the motion by one tick."""
         world, motion = self._body.world, self._motion

@@ -86,11 +86,15 @@ class RobotSetup(NamedTuple):
         )
 
     def place(
-        self, world: World, standing: "LegKinematics | PolicyLegs"
+        self,
+        world: World,
+        standing: "LegKinematics | PolicyLegs",
+        tracks: bool = False,
     ) -> SimulatedRobot:
         """Place it in the posture of kinematics, or on learned legs.
 
-        Learned legs drive it by the torques of their policy.
+        Learned legs drive it by the torques of their policy. An IMU integrates
+        between ticks where control ``tracks`` the body.
         """
         gains = None
         posture: LegKinematics | InitialPosture
@@ -109,7 +113,7 @@ class RobotSetup(NamedTuple):
             self.start,
             self.body,
             generator=named_generator(self.seed, f"sensors/{own.name}"),
-            integrates_imu=gains is not None or bool(own.control.feedback),
+            integrates_imu=bool(gains or own.control.feedback or tracks),
             sights=self.sights,
             eyes=self.eyes,
             truth=self.truth or self.true_state_in(world),
@@ -143,7 +147,8 @@ def place_robot(
             clearance=known,
             forward=source.forward,
         )
-        robot = setup.place(world, walk.kinematics)
+        tracks = getattr(strategy, "tracks_body", False)
+        robot = setup.place(world, walk.kinematics, tracks)
     if strategy is None:
         from .velocity_walker import VelocityWalker
 

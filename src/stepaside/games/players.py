@@ -79,7 +79,8 @@ class RobotPlayer(Player):
         self.walk = scheme.locomotion
         self.maneuvers = self.walk.maneuvers
         # Exact sightings are read when a decision is due.
-        self._coasts = robot.sees_exactly
+        tracks = scheme.decisions.body is not None
+        self._coasts = robot.sees_exactly and not tracks
         self._feels = scheme.locomotion.feels or not self._coasts
 
     @property

@@ -17,7 +17,6 @@ from .. import strategies
 from ..core.errors import ConfigurationError, StepAsideError, nearest_hint
 from ..planning import Direction
 from .evasion import Evasion
-from .shield_settings import ShieldSettings
 from .strategy import Strategy
 
 STRATEGIES: Mapping[str, tuple[str, Mapping[str, Any]]] = {
@@ -143,13 +142,6 @@ def load_strategy(
     validate_strategy(made, name)
     strategy: Strategy = made
     return strategy
-
-
-def shielded(strategy: Strategy, settings: ShieldSettings) -> Strategy:
-    """Return a strategy, within a shield if the settings enable one."""
-    if not settings.enabled:
-        return strategy
-    return strategies.ShieldedStrategy(strategy, settings)
 
 
 def file_of(name: str) -> Path | None:

@@ -4,15 +4,15 @@ What is required of each state, and the proof, are in docs/shield.md.
 """
 
 import logging
-from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import lru_cache
-from math import asin, atan2, ceil, cos, hypot, inf, pi, sin, tau
+from math import ceil, cos, hypot, inf, log2, pi, sin, tau
 from typing import Any, NamedTuple
 
 import numpy as np
 
 from ..core.poses import Array, Pose, rotate, wrap_angle
+from ..core.progress import ProgressLine
 from ..planning import Direction
 from ..theory.value import (
     ShieldGame,
@@ -21,32 +21,45 @@ from ..theory.value import (
     sub_poses,
 )
 from ..theory.value.table import cached
+from .body_departure import BodyDeparture
 from .decision_maker import evaluate_strategy
 from .knowledge import ON_THE_SPOT, STAND, Intent, Knowledge, Limits
-from .opponent_track import OpponentTrack, SeenOpponent
+from .observed_course import (
+    ChordModel,
+    Course,
+    observed_course,
+    tried_headings,
+)
+from .opponent_track import SeenOpponent
 from .shield_settings import ShieldSettings
 from .strategy import Strategy
-from .velocity_set import BodyVelocity, greatest_velocity, response_share
+from .velocity_set import (
+    BodyVelocity,
+    VelocitySet,
+    greatest_velocity,
+    response_share,
+)
 
 LOG = logging.getLogger(__name__)
 
 CELLS = 10  # of the grid of the table in the required distance
+COARSE, FEW = 4, 12  # cells and headings for the greatest speed of a person
+HEADINGS = 24  # of the table
+LEAST_SPEED = 0.02  # of a person that is tried, in [m/s]
+SPEED_STEP = 1.1  # from one speed to the next
 CELLS_PER_PERIOD = 6  # passed by the opponent while a motion is held
 TURNS = (-1.0, -0.5, 0.0, 0.5, 1.0)  # of a unicycle's step, of the largest
-WALK_LOSS = 0.01  # of the paper's walk per step, in [m]; see docs/shield.md
 SETTLING = 1.0  # of the paper's walk after its last step, in [s]
-SWAY = 0.03  # of a body on the paper's legs, in [m]
 LEGS_PERIOD = 0.48  # of the motions of legs: several cells of the grid, [s]
-# Per period, in [m]; with it a G1 with 29 joints has a tube of 0.28 m.
-LEGS_LOSS = 0.08
+# Speed at which the template point of legs follows the body, of the greatest
+# speed of the legs; a G1 with 29 joints then has a tube of 0.26 m.
+PULL = 0.24
 LEGS_INTERVAL = 0.08  # between decisions on a body velocity, in [s]
 LEGS_DIRECTIONS = 16
-UNMEASURED = 0.2  # tube of legs beyond their lag, if not measured, in [m]
+UNMEASURED = BodyDeparture(0.4, 0.2, 0.01, 0.005)
+PERSON_REACH = 0.32  # of an adult, arms and feet in motion included, in [m]
 SIGHTING_INTERVAL = 0.02  # by which a chord may be longer than a window, [s]
-TRACE = 4.0  # windows for which positions of the opponent are kept
 KEEPING = 0.005  # value of the last choice before others, in [m]
-LEAST_MOTION = 0.002  # between two sightings that show a heading, in [m]
-SPACING = 0.25  # of the headings of an opponent who stands, in [rad]
 
 Vector = tuple[float, float]
 
@@ -60,13 +73,13 @@ class ShieldModel(NamedTuple):
     saturated: bool  # whether it turns by (6)
     window: float  # between decisions, over which headings are measured [s]
     period: float  # for which a substituted motion is held [s]
-    lag: float  # by which the body follows its commands [s]
     response: float  # from the decision to start until the robot moves [s]
     halting: float  # in which a robot that halts takes no decision [s]
-    heading_error: float  # greatest error of the opponent's heading [rad]
-    # departure of robot and observed person per period [m]
-    displacement: float
+    chords: ChordModel  # of the heading of the opponent
+    displacement: float  # departure of robot and sightings per period [m]
     required: float  # least distance of the observed states [m]
+    contact: float  # distance between centres that counts as contact [m]
+    departure: BodyDeparture | None  # of the body, if it was measured
 
     def twist(self, intent: Intent) -> tuple[BodyVelocity, float]:
         """Return velocity and duration that an intent commits to."""
@@ -132,11 +145,22 @@ class ShieldModel(NamedTuple):
             self.period,
             loss=self.displacement,
             jump=2.0 * settings.sighting_error,
+            heading_error=self.chords.bound,
         )
 
     def table(self) -> ShieldTable:
         """Return the table of the game, solved once and kept."""
         return _table(self)
+
+    def against(self, settings: ShieldSettings) -> "ShieldModel":
+        """Return the model of the same robot against another person."""
+        return shield_model(
+            self.limits,
+            settings,
+            self.direction,
+            saturated=self.saturated,
+            departure=self.departure,
+        )
 
     def certifies(self, table: ShieldTable) -> bool:
         """Return whether any state is certified by a table of the model."""
@@ -154,52 +178,113 @@ def shield_model(
     direction: Direction = Direction.BACKWARD,
     *,
     saturated: bool = False,
+    departure: BodyDeparture | None = None,
 ) -> ShieldModel:
-    """Return the model of a robot, with what docs/shield.md charges."""
+    """Return the model of a robot, with what docs/shield.md charges.
+
+    A departure is that of its body, if it was measured.
+    """
     legs, step, speed = limits.velocities, limits.step_duration, settings.speed
+    body = departure or UNMEASURED
+    contact, radius = settings.contact, settings.turning_radius
+    if contact is None:
+        contact = body.reach + PERSON_REACH
     if legs is None:
         longest = min(
-            CELLS_PER_PERIOD * settings.contact / CELLS / speed,
-            0.5 * settings.turning_radius / speed,
+            CELLS_PER_PERIOD * contact / CELLS / speed,
+            0.5 * radius / speed,
             step / largest_turn(limits, saturated=saturated),  # by a radian
         )
         steps = max(1, round(longest / step))
-        window, period, lag = step, steps * step, 0.0
-        response, halting = 2.0 * step, step + SETTLING
-        loss = WALK_LOSS * steps
-        # It is half a stride behind the begin of its next step.
-        tube = SWAY + 0.5 * limits.stride
+        window, period = step, steps * step
+        response, halting, loss = 2.0 * step, step + SETTLING, 0.0
     else:
         window, period = LEGS_INTERVAL, LEGS_PERIOD
-        lag = max(0.0, *legs.lags[:2])
-        response, halting, loss = 0.0, 0.0, LEGS_LOSS
-        fastest = max(*map(abs, legs.forward))
-        tube = legs.tube or UNMEASURED + lag * fastest
+        response, halting, loss = 0.0, 0.0, pull_of(legs) * period
+        if departure is None:
+            fastest = max(*map(abs, legs.forward))
+            tube = legs.tube or body.tube + lag_of(legs) * fastest
+            body = body._replace(tube=tube)
+    loss += body.loss_in(period / window)
     if settings.loss is not None:
         loss = settings.loss
     if settings.response is not None:
         response = settings.response
-    # Within a window the opponent turns, and both ends of a chord are
-    # displaced; a chord of half the greatest length is reckoned with.
-    turned = speed / settings.turning_radius * (window + SIGHTING_INTERVAL)
-    hidden = min(1.0, 2.0 * settings.sighting_error / (0.5 * speed * window))
-    heading_error = min(turned + asin(hidden), pi)
-    displacement = loss + speed * period * heading_error
-    required = settings.contact + settings.sighting_error + displacement
-    required += tube + speed * settings.sighting_delay
+    interval, error = window + SIGHTING_INTERVAL, settings.sighting_error
+    chords = ChordModel(error, speed, radius, interval)
+    for _ in range(3):  # the longer a chord takes, the more is unknown
+        taken = chords.best / speed / window + 1.0
+        unknown = error + 0.5 * body.loss_in(taken)
+        chords = chords._replace(error=unknown)
+    required = contact + error + loss + body.tube
+    age = settings.sighting_delay
+    if legs is not None:  # legs know where they are a tick late
+        age += SIGHTING_INTERVAL
+    required += speed * age
     return ShieldModel(
-        *(limits, settings, direction, saturated, window, period, lag),
-        *(response, halting, heading_error, displacement, required),
+        *(limits, settings, direction, saturated, window, period),
+        *(response, halting),
+        chords,
+        *(loss, required, contact),
+        departure,
     )
 
 
 @lru_cache(maxsize=8)
 def _table(model: ShieldModel) -> ShieldTable:
     """Load or solve the table of a model; warn if it certifies nothing."""
+    table, person = _solved(model, CELLS, HEADINGS), model.settings
+    if not model.certifies(table):
+        LOG.warning(
+            "shield: no state is certified against a person at %g m/s with a "
+            "turning radius of %g m, contact at %.3g m; the shield changes "
+            "nothing. %s",
+            person.speed, person.turning_radius, model.contact,
+            _words_of(greatest_speed(model)),
+        )  # fmt: skip
+    return table
+
+
+def _words_of(speed: float) -> str:
+    """Return in words against whom this gait can be certified."""
+    if speed == 0.0:
+        return f"Nor is any against one at {LEAST_SPEED:g} m/s"
+    return f"The greatest speed against which some are is {speed:.2g} m/s"
+
+
+def greatest_speed(model: ShieldModel) -> float:
+    """Return the greatest speed of a person that is certified against, [m/s].
+
+    To a tenth, by tables of fewer cells; 0 if even a slow one is not. What is
+    found is kept.
+    """
+    step, person = SPEED_STEP, model.settings
+    speeds = [LEAST_SPEED * step**i for i in range(99)]
+    speeds = [speed for speed in speeds if speed < person.speed]
+    low, high = -1, len(speeds)  # numbers of one that is and one that is not
+    with ProgressLine("greatest speed", unit="tables") as bar:
+        total, done = ceil(log2(high + 1.0)), 0
+        while high - low > 1:
+            middle = (low + high) // 2
+            slower = replace(person, speed=speeds[middle])
+            other = model.against(slower)
+            if other.certifies(_solved(other, COARSE, FEW)):
+                low = middle
+            else:
+                high = middle
+            done += 1
+            bar.show(done, max(total, done))
+    return speeds[low] if low >= 0 else 0.0
+
+
+def _solved(model: ShieldModel, cells: int, headings: int) -> ShieldTable:
+    """Return the table of a model, solved once and kept."""
     game, person = model.game(), model.settings
     key = (
-        CELLS, person.speed, person.turning_radius, game.period, game.loss,
-        game.jump, model.required, model.response, game.motions.tobytes(),
+        cells, *(headings,) * (headings != HEADINGS),
+        person.speed, person.turning_radius, game.period, game.loss,
+        game.jump, game.heading_error, model.required, model.response,
+        game.motions.tobytes(),
     )  # fmt: skip
     arrays = cached(
         "shield",
@@ -209,68 +294,11 @@ def _table(model: ShieldModel) -> ShieldTable:
             model.required,
             response=model.response,
             wait=LEGS_INTERVAL,
-            cells=CELLS,
+            cells=cells,
+            headings=headings,
         ).arrays(),
     )
-    table = ShieldTable.from_arrays(game, arrays)
-    if not model.certifies(table):
-        LOG.warning(
-            "shield: no state is certified against a person at %g m/s with a "
-            "turning radius of %g m, contact at %g m; the shield changes "
-            "nothing",
-            person.speed, person.turning_radius, person.contact,
-        )  # fmt: skip
-    return table
-
-
-class Course(NamedTuple):
-    """Heading of an opponent, and how far it may be off."""
-
-    time: float  # time of the last sighting [s]
-    heading: float  # heading in the map [rad]
-    error: float  # greatest error of the heading [rad]
-
-
-def observed_course(
-    before: Course | None,
-    seen: Sequence[SeenOpponent],
-    window: float,
-    person: tuple[float, float],
-    known: float,
-) -> Course | None:
-    """Return the heading of an opponent after its last sighting.
-
-    The chord between two positions, at least a window [s] apart, is off by at
-    most the turn between them, and by the errors of both. The heading follows
-    it no faster than the opponent turns (docs/shield.md).
-
-    The person is given by its greatest turning rate [rad/s] and the error of a
-    position [m]; errors of a heading up to a bound [rad] count as known. None
-    before a window has passed for the first time.
-    """
-    turn, sighting_error = person
-    last = seen[-1]
-    turned = turn * max(0.0, last.time - before.time) if before else 0.0
-    before_it = last.time - window + 1e-6
-    earlier = [row for row in seen if row.time <= before_it]
-    if not earlier:
-        return before and Course(
-            last.time, before.heading, min(pi, before.error + turned)
-        )
-    time, x, y, _ = earlier[-1]
-    chord = hypot(last.x - x, last.y - y)
-    error, hidden = pi, 2.0 * sighting_error
-    if chord > max(LEAST_MOTION, hidden):
-        error = min(pi, turn * (last.time - time) + asin(hidden / chord))
-    error = max(error, known)
-    direction = atan2(last.y - y, last.x - x)
-    if before is None or error < before.error:
-        return Course(last.time, direction, error)
-    if error > before.error + turned:  # the chord shows less than is known
-        return Course(last.time, before.heading, before.error + turned)
-    off = wrap_angle(direction - before.heading)
-    heading = before.heading + min(max(off, -turned), turned)
-    return Course(last.time, heading, error)
+    return ShieldTable.from_arrays(game, arrays)
 
 
 class TemplatePoint(NamedTuple):
@@ -286,18 +314,33 @@ class TemplatePoint(NamedTuple):
     drift: Vector = (0.0, 0.0)  # of the body by its lag [m/s]
 
     def advance(
-        self, command: Vector, body: Vector, lag: float, duration: float
+        self,
+        command: Vector,
+        body: Vector,
+        legs: VelocitySet,
+        duration: float,
     ) -> "TemplatePoint":
         """Return the point a duration [s] later, at a place of the body."""
+        lag = lag_of(legs)
         (u, v), share = self.drift, response_share(duration, lag)
         drift = u + share * (command[0] - u), v + share * (command[1] - v)
         x = self.position[0] + duration * command[0]
         y = self.position[1] + duration * command[1]
         dx = body[0] + lag * drift[0] - x
         dy = body[1] + lag * drift[1] - y
-        most = LEGS_LOSS * duration / LEGS_PERIOD
+        most = pull_of(legs) * duration
         share = min(1.0, most / max(hypot(dx, dy), 1e-12))
         return TemplatePoint((x + share * dx, y + share * dy), drift)
+
+
+def pull_of(legs: VelocitySet) -> float:
+    """Return the speed at which the template point follows, in [m/s]."""
+    return PULL * max(map(abs, legs.forward))
+
+
+def lag_of(legs: VelocitySet) -> float:
+    """Return the lag by which the body follows its commands, in [s]."""
+    return max(0.0, *legs.lags[:2])
 
 
 class HeldMotion(NamedTuple):
@@ -312,13 +355,14 @@ class ShieldMemory(NamedTuple):
     """Memory of a shield."""
 
     inner: Any  # memory of the strategy
-    track: OpponentTrack | None = None  # positions of the opponent
-    course: Course | None = None  # None until a window has passed
+    rows: tuple[SeenOpponent, ...] = ()  # positions of the opponent
+    course: Course | None = None  # None before the first sighting
     held: HeldMotion | None = None
     time: float = 0.0  # of the last decision [s]
     template: TemplatePoint | None = None  # of legs
     command: Vector = (0.0, 0.0)  # over the floor [m/s]
     guarded: bool = False  # whether contact was excluded at the last decision
+    stands_until: float = 0.0  # time up to which standing is safe [s]
 
 
 @dataclass(frozen=True, slots=True)
@@ -333,6 +377,8 @@ class ShieldedStrategy:
 
     strategy: Strategy
     shield: ShieldSettings
+    departure: BodyDeparture | None = None  # of the body; None: not measured
+    tracks_body: bool = True  # where it sways is known to the odometry
 
     @property
     def direction(self) -> Direction:
@@ -355,36 +401,29 @@ class ShieldedStrategy:
         intent, inner = evaluate_strategy(
             self.strategy, knowledge, memory.inner
         )
-        model, person, now = (
-            self.model_for(knowledge),
-            self.shield,
-            knowledge.time,
-        )
+        now, moves = knowledge.time, knowledge.moving or intent.walks
+        if not moves and now < memory.stands_until - 1e-6:
+            return intent, memory._replace(inner=inner)
+        model = self.model_for(knowledge)
         own = knowledge.step_start_in_map or knowledge.pose_in_map
         body, template = knowledge.pose_in_map[:2], memory.template
         if template is None:
             template = TemplatePoint(body)
         else:
             passed = max(0.0, now - memory.time)
-            template = template.advance(
-                memory.command, body, model.lag, passed
-            )
+            legs = model.limits.velocities
+            if legs is not None:
+                template = template.advance(memory.command, body, legs, passed)
         if model.limits.velocities is not None:
             own = Pose(*template.position, own.theta)
-        # No decision is taken while the robot halts.
-        span = TRACE + model.halting / model.window
-        track = memory.track or OpponentTrack(model.window, span, 0.0)
-        track = track.note(now - knowledge.age, knowledge.position_in_map)
-        course = observed_course(
-            memory.course,
-            track.rows,
-            model.window,
-            (person.speed / person.turning_radius, person.sighting_error),
-            model.heading_error,
-        )
+        seen = SeenOpponent(now - knowledge.age, *knowledge.position_in_map)
+        rows = model.chords.note(memory.rows, seen)
+        course = memory.course
+        if rows is not memory.rows:
+            course = observed_course(course, rows, model.chords)
         memory = memory._replace(
             inner=inner,
-            track=track,
+            rows=rows,
             course=course,
             template=template,
             time=now,
@@ -392,12 +431,14 @@ class ShieldedStrategy:
         intent, memory = self._filter(
             intent, model, own, memory, moving=knowledge.moving
         )
-        command = (0.0, 0.0)
+        command, until = (0.0, 0.0), 0.0
+        if not (knowledge.moving or intent.walks) and memory.guarded:
+            until = now + LEGS_INTERVAL
         if intent.walks:
             (ahead, left, _), _ = model.twist(intent)
             u, v = rotate(ahead, left, own.theta).tolist()
             command = u, v
-        return intent, memory._replace(command=command)
+        return intent, memory._replace(command=command, stands_until=until)
 
     def model_for(self, knowledge: Knowledge) -> ShieldModel:
         """Return the model of the robot that decides."""
@@ -406,6 +447,7 @@ class ShieldedStrategy:
             self.shield,
             self.direction,
             saturated=self.saturated,
+            departure=self.departure,
         )
 
     def _filter(
@@ -417,13 +459,39 @@ class ShieldedStrategy:
         *,
         moving: bool,
     ) -> tuple[Intent, ShieldMemory]:
-        """Return the intent, or that of a motion in its place."""
-        table, required, now = model.table(), model.required, memory.time
-        course, track = memory.course, memory.track
-        if course is None or track is None or not model.certifies(table):
-            # Unknown as yet; or contact can be forced from everywhere.
+        """Return the intent, or that of a motion in its place.
+
+        What is safe even if the opponent has turned on the spot comes before
+        what is safe if it has not.
+        """
+        table, course, known = model.table(), memory.course, model.chords.bound
+        if course is None or not model.certifies(table):
+            # Contact can be forced from everywhere.
             return intent, memory._replace(held=None, guarded=False)
-        seen, known = track.rows[-1], model.heading_error
+        found = intent, memory
+        spreads = [course.spread, course.error]
+        for spread in spreads if spreads[0] > spreads[1] else spreads[1:]:
+            tried = course._replace(error=spread)
+            found = self._choose(
+                intent, model, own, memory, tried, moving=moving
+            )
+            if found[1].guarded or spread <= known:
+                break
+        return found
+
+    def _choose(
+        self,
+        intent: Intent,
+        model: ShieldModel,
+        own: Pose,
+        memory: ShieldMemory,
+        course: Course,
+        *,
+        moving: bool,
+    ) -> tuple[Intent, ShieldMemory]:
+        """Return the same against all headings within an error."""
+        table, required, now = model.table(), model.required, memory.time
+        seen, known = memory.rows[-1], model.chords.bound
         poses = relative_poses(own, seen, course, known)
         if intent.walks:
             follow = table.outcomes if moving else table.start_outcomes
@@ -445,13 +513,16 @@ class ShieldedStrategy:
             value = float(table.standing_value(poses).min())
         if value >= required:
             return intent, memory._replace(held=None, guarded=True)
-        held, guarded = memory.held, memory.guarded
+        held, guarded = memory.held, False
         if held is not None and held.until == inf:
             # The first step has begun when it was decided, or later; or the
             # robot has not started.
             until = now + model.period - model.window
             held = held._replace(until=until) if moving else None
-        if held is None or now > held.until - 1e-6:
+        if held is not None and now <= held.until - 1e-6:
+            # What was found when it began holds until it ends.
+            guarded = memory.guarded
+        else:
             found = table.best_starts(poses)
             if moving:
                 found = table.outcomes(poses, table.game.motions, model.period)
@@ -479,10 +550,8 @@ def relative_poses(
 
     Several headings of the opponent count if its error is above a bound.
     """
-    rows, error = [], course.error
-    count = ceil(error / SPACING) if error > known + 1e-9 else 0
-    for i in range(-count, count + 1):
-        heading = course.heading + error * i / max(count, 1)
+    rows = []
+    for heading in tried_headings(course, course.error, known):
         opponent = Pose(seen.x, seen.y, heading)
         x, y, turned = opponent.inverse().compose(own)
         rows.append((x, y, wrap_angle(turned)))

@@ -30,10 +30,11 @@ class ShieldSettings(CheckedSettings, prefix="shield."):
         Range(1e-2, 1000.0, "m", "beyond, hardly a turn"),
         needs=("shield.enabled", ""),
     )
-    contact: float = setting(
-        0.45,
+    contact: float | None = setting(
+        None,
         "Distance between centres that counts as contact",
-        Range(0.05, 5.0, "m", "of two bodies"),
+        Range(0.05, 5.0, "m", "of two bodies", also=(None,)),
+        default_text="of both outlines",
         needs=("shield.enabled", ""),
     )
     sighting_error: float = setting(

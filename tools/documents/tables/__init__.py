@@ -31,7 +31,7 @@ TABLES: dict[str, Callable[..., str]] = {
     "certified": many_duels.certified,
     "certified-starts": unicycles.certified_starts,
     "chauffeur": bounds.chauffeur,
-    "shield-maps": bounds.shield_maps,
+    "shield-duels": bounds.shield_duels,
     "evading-opponents": room_evaders.opponents,
     "opponent-ladder": room_evaders.ladder,
     "doors": games_of_many.doors,

@@ -58,42 +58,44 @@ def chauffeur(result: Result) -> str:
     return table(head, rows)
 
 
-def shield_maps(result: Result) -> str:
-    """Count contacts of games from certified starts, and from others."""
+AT_ONCE = 1.5  # from which a start is certified, in [s]
+
+
+def shield_duels(result: Result) -> str:
+    """Count contacts of duels with a shield, of templates and of bodies."""
     head = (
         "robot",
         "person [m/s], radius [m]",
-        "contact [m]",
-        "required [m]",
-        "start ahead, aside [m]",
-        "starts",
-        "games",
+        "of",
+        "duels",
+        "certified",
+        "at once",
         "contacts",
-        "closest [m]",
+        "certified [m]",
+        "least [m]",
     )
     rows = []
-    for name, found in result["maps"].items():
-        for starts in ("certified", "outside"):
-            kinds = found[starts].values()
-            games = sum(kind["games"] for kind in kinds)
-            if not games:
-                continue
-            contacts = sum(kind["contacts"] for kind in kinds)
-            rows.append(
-                (
-                    name,
-                    f"{number(found['person_speed_m_s'], 2)}, "
-                    f"{number(found['turning_radius_m'], 1)}",
-                    number(found["contact_m"], 2),
-                    number(found["required_m"], 2),
-                    f"{number(found['start_ahead_m'], 2)}, "
-                    f"{number(found['start_aside_m'], 2)}"
-                    if found["winnable"]
-                    else "no start certified",
-                    starts,
-                    str(games),
-                    counted(contacts, games),
-                    number(min(kind["closest_m"] for kind in kinds), 2),
-                )
+    for found in result["rows"]:
+        duels, contact = found["duels"], found["contact_m"]
+        certified = [d for d in duels if d["certified_s"] is not None]
+        counted_ones = [d for d in certified if d["within"]]
+        contacts = sum(
+            d["outcome"] == "contact" or d["least_m"] < contact
+            for d in counted_ones
+        )
+        at_once = sum(d["certified_s"] < AT_ONCE for d in certified)
+        rows.append(
+            (
+                found["robot"],
+                f"{number(found['person_speed_m_s'], 2)}, "
+                f"{number(found['turning_radius_m'], 1)}",
+                found["level"],
+                str(len(duels)),
+                str(len(certified)),
+                str(at_once),
+                counted(contacts, len(counted_ones)),
+                number(contact, 2),
+                number(min(d["least_m"] for d in counted_ones), 2),
             )
+        )
     return table(head, rows)

@@ -17,6 +17,7 @@ from ...core.errors import PolicyError, check_within
 from ...core.poses import Array
 from ...core.ranges import Range
 from ...core.setting import REQUIRED, check_settings, setting
+from ...strategies.body_departure import BodyDeparture
 from ...strategies.velocity_set import (
     STILL,
     AxisValues,
@@ -129,6 +130,22 @@ class VelocityResponse:
         "it was not measured",
         Range(0.0, LARGEST, "m", NONE),
     )
+    reach: float = setting(
+        0.0,
+        "Radius around the torso that contains the walking body {unit}; 0 "
+        "likewise",
+        Range(0.0, LARGEST, "m", NONE),
+    )
+    loss: float = setting(
+        0.0,
+        "Greatest error of the leg odometry between two decisions",
+        Range(0.0, LARGEST, "m", NONE),
+    )
+    drift: float = setting(
+        0.0,
+        "By which it grows with each further decision",
+        Range(0.0, LARGEST, "m", NONE),
+    )
     odometry_ratio: tuple[float, float] = setting(
         (1.0, 1.0),
         "True motion by that of the leg odometry, ahead and to the side",
@@ -219,6 +236,13 @@ class VelocityResponse:
             *(invert, velocity, *self.tables),
             *(np.zeros(3), np.zeros((3, 3)), command),
         )
+
+    @property
+    def departure(self) -> BodyDeparture | None:
+        """Departure of the body from its template; None if not measured."""
+        if self.reach == 0.0:
+            return None
+        return BodyDeparture(self.reach, self.tube, self.loss, self.drift)
 
     @cached_property
     def velocities(self) -> VelocitySet:

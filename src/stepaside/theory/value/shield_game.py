@@ -11,7 +11,7 @@ along the edges that no single motion can jump over. See docs/shield.md.
 from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cached_property, partial
-from math import ceil, pi, tau
+from math import ceil, cos, pi, sin, tau
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -32,7 +32,8 @@ from .table import (
     sub_poses,
 )
 
-TURNS = 11  # of a person who walks at full speed
+TURNS = 7  # of a person who walks at full speed
+OBLIQUE_TURNS = 3  # of one who walks beside the heading that is known
 SLOW_TURNS = 3  # of one who walks at half speed, or turns on the spot
 SEGMENTS = 2  # of a response, between which the person changes its walk
 CELLS = 10  # in the required distance
@@ -62,6 +63,9 @@ class ShieldGame:
     loss: float = 0.0
     # Radius of a further disturbance at each decision, in [m].
     jump: float = 0.0
+    # Greatest angle between the walk of the person and the heading by which
+    # it is known, in [rad].
+    heading_error: float = 0.0
 
     @property
     def person_turn(self) -> float:
@@ -95,12 +99,19 @@ class ShieldGame:
         They are poses in the initial frame, for a duration in [s]. Shape (n,
         PARTS, 3).
         """
-        most = self.person_turn
+        most, speed = self.person_turn, self.person_speed
         twists = [
-            (share * self.person_speed, 0.0, rate)
+            (share * speed, 0.0, rate)
             for share, count in ((1.0, TURNS), (0.5, SLOW_TURNS), (0.0, 3))
             for rate in np.linspace(-most, most, count)
         ]
+        for off in (-self.heading_error, self.heading_error):
+            ahead, left = speed * cos(off), speed * sin(off)
+            twists += [
+                (ahead, left, rate)
+                for rate in np.linspace(-most, most, OBLIQUE_TURNS)
+                if off
+            ]
         return sub_poses(twists, duration)
 
     def sag(self, duration: float) -> float:
