@@ -39,6 +39,8 @@ HALT = STEP + 1.0  # until a walking robot stands and decides again, in [s]
 @pytest.fixture(autouse=True)
 def coarse(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr("stepaside.strategies.shield.CELLS", 5)
+    # Whom else it could evade is not asked.
+    monkeypatch.setattr("stepaside.strategies.shield.LEAST_SPEED", 9.0)
 
 
 def heading_error(person: ShieldSettings, window: float) -> float:
@@ -61,6 +63,10 @@ def heading_error(person: ShieldSettings, window: float) -> float:
 def lost(decisions: float) -> float:
     """Return what the odometry of the body does not know, in [m]."""
     return BODY.loss + BODY.drift * max(0.0, decisions - 1.0)
+
+
+KNOWN = heading_error(PERSON, STEP)
+UNSEEN = PERSON.speed / PERSON.turning_radius * HALT
 
 
 def walk_loss(person: ShieldSettings, period: float) -> float:
@@ -199,7 +205,7 @@ class Walking:
 def decides(
     intent: Intent, pose: Array, *, moving: bool, error: float
 ) -> tuple[bool, ShieldTable]:
-    """Return whether a decision stands, and the table.
+    """Return whether a decision stands as a safe one, and the table.
 
     Args:
         intent: Decision of the strategy.
@@ -218,8 +224,10 @@ def decides(
     bearing = wrap_angle(atan2(turned.y - own.y, turned.x - own.x) - own.theta)
     away = hypot(turned.x - own.x, turned.y - own.y)
     known = Knowledge(1.0, bearing, away, WALK, pose_in_map=own, moving=moving)
-    decided, _ = strategy.decide(known, memory)
-    return decided == intent, strategy.model_for(known).table()
+    decided, memory = strategy.decide(known, memory)
+    return decided == intent and memory.guarded, strategy.model_for(
+        known
+    ).table()
 
 
 def after_walks(pose: Array, duration: float) -> tuple[Array, float]:
@@ -229,6 +237,11 @@ def after_walks(pose: Array, duration: float) -> tuple[Array, float]:
         (share * PERSON.speed, 0.0, rate)
         for share in (0.0, 0.5, 1.0)
         for rate in (-most, -0.5 * most, 0.0, 0.5 * most, most)
+    ]
+    twists += [  # beside the heading by which it is known
+        (PERSON.speed * cos(off), PERSON.speed * sin(off), rate)
+        for off in (-KNOWN, KNOWN)
+        for rate in (-most, 0.0, most)
     ]
     walks = sub_poses(twists, duration)
     x, y = pose[0] - walks[:, :, 0], pose[1] - walks[:, :, 1]
@@ -275,10 +288,6 @@ def turned_to(pose: Array, spread: float) -> Array:
         c, s = cos(heading), sin(heading)
         rows.append((c * x + s * y, c * y - s * x, theta - heading))
     return np.array(rows)
-
-
-KNOWN = heading_error(PERSON, STEP)
-UNSEEN = PERSON.speed / PERSON.turning_radius * HALT
 
 
 @pytest.mark.parametrize("error", [KNOWN, KNOWN + 0.6])
@@ -328,12 +337,14 @@ def test_robot_must_start_earlier_by_the_way_of_the_person_meanwhile(
         changes: dict[str, Any] = {name: value}
         person = replace(PERSON, **changes)
         strategy = ShieldedStrategy(StandStill(), person, BODY)
-        for away in np.arange(1.2, 0.3, -0.01):
-            memory = strategy.begin()
-            for i in (-1, 0):
-                distance = away - person.speed * STEP * i
-                known = Knowledge(STEP * (i + 1), 0.0, distance, WALK)
-                intent, memory = strategy.decide(known, memory)
+        for away in np.arange(1.2, 0.3, -0.01).tolist():
+            memory = strategy.begin()._replace(
+                rows=(SeenOpponent(1.0, 0.0, 0.0),),
+                course=Course(1.0, 0.0, KNOWN, KNOWN),
+            )
+            own = Pose(away, 0.0, pi)
+            known = Knowledge(1.0, 0.0, away, WALK, pose_in_map=own)
+            intent, _ = strategy.decide(known, memory)
             if intent.walks:
                 break
         begins.append(away)

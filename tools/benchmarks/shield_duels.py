@@ -164,7 +164,7 @@ class ShieldDuel:
         else:
             given = {"evader": inner}
             velocities = None if legs is None else legs.velocities
-            world = floor_of(settings, given, PERIOD, velocities)
+            world = floor_of(settings, given, velocities=velocities)
             game = GameInPlay(world, rules_of(settings))
             person, agent = None, world.motions["evader"].agent
         if self.kind:

@@ -1,18 +1,39 @@
 """Odometry of a body that walks by planned steps, its sway included."""
 
 from math import cos, sin
+from typing import TYPE_CHECKING
 
 from ..core.history import History
 from ..core.poses import Pose
+from ..locomotion.locomotion import Surroundings
 from ..locomotion.maneuver_walk import ManeuverWalk
 from ..perception.attitude import AttitudeFilter
 from ..perception.measurement import RobotState, Sighting
+from .strategy_runner import StrategyRunner
+
+if TYPE_CHECKING:
+    from ..locomotion.policy.policy_legs import PolicyWalk
 
 MEMORY = 2.0  # how long past poses are stored, in [s]
 CORRECTION = 0.5  # of the vertical by the accelerometer, in [1/s]
 
 
-class BodyOdometry:
+class BodyTracker:
+    """Learned legs, which know their pose a tick late: so be sightings."""
+
+    _before: Sighting | None = None
+    _time = 0.0
+
+    def note(
+        self, measured: RobotState, seen: Sighting | None
+    ) -> Sighting | None:
+        """Return what was seen a tick ago, as the pose that is known is."""
+        late, self._before = self._before, seen
+        tick, self._time = measured.time - self._time, measured.time
+        return late and late._replace(time=late.time + tick)
+
+
+class BodyOdometry(BodyTracker):
     """Pose of a body by its planned CoM and its gyro.
 
     The plan knows how the reference point sways about the template, and the
@@ -44,12 +65,17 @@ class BodyOdometry:
         )
         self._plans.note(time, (planned, walk.pose))
 
-    def note(self, measured: RobotState) -> None:
-        """Move on by the plan of the last tick, and by the gyro."""
+    def note(
+        self, measured: RobotState, seen: Sighting | None
+    ) -> Sighting | None:
+        """Move on by the plan of the last tick, and by the gyro.
+
+        Returns what is seen, as it is.
+        """
         now, attitude = measured.time, self._attitude
         tick, self._time = now - self._time, now
         if tick <= 0.0:
-            return
+            return seen
         self._note_plan(now - tick + self._walk.pose_delay)
         attitude.update(
             measured.gyro, measured.accelerometer, (0.0, 0.0), tick
@@ -64,6 +90,7 @@ class BodyOdometry:
             self.pose.x + c * x - s * y, self.pose.y + s * x + c * y, heading
         )
         self._bodies.note(now, self.pose)
+        return seen
 
     def place(self, planned: Pose) -> Pose:
         """Return where a pose of the plan is in this odometry, now."""
@@ -82,3 +109,16 @@ class BodyOdometry:
             body.x + sighting.distance * cos(sight),
             body.y + sighting.distance * sin(sight),
         )
+
+
+def track_body(
+    decisions: StrategyRunner,
+    walk: "ManeuverWalk | PolicyWalk",
+    surroundings: Surroundings | None,
+) -> BodyTracker | None:
+    """Let decisions know where a body is; None in a known room."""
+    if walk.maneuvers is None:
+        return BodyTracker()
+    if surroundings is None:
+        decisions.body = BodyOdometry(walk.maneuvers)
+    return decisions.body

@@ -24,6 +24,7 @@ if TYPE_CHECKING:
     from ..locomotion.guard import ClearanceSetup
     from ..locomotion.policy.policy_legs import PolicyWalk
     from ..robots.forward_kinematics import ForwardKinematics
+    from .body_odometry import BodyTracker
 
 
 class ControlScheme:
@@ -58,15 +59,11 @@ class ControlScheme:
         )
         self.sighting: Sighting | None = None
         self.decisions.templates.note(0.0, locomotion.pose)
-        tracks_body = getattr(strategy, "tracks_body", False)
-        tracks = locomotion.maneuvers
-        if tracks and tracks_body and surroundings is None:
-            from .body_odometry import BodyOdometry
+        self._body: BodyTracker | None = None
+        if getattr(strategy, "tracks_body", False):
+            from .body_odometry import track_body
 
-            self.decisions.body = BodyOdometry(tracks)
-        # Learned legs know their pose a tick late: so be the sightings.
-        self._holds_back = tracks is None and tracks_body
-        self._seen: Sighting | None = None
+            self._body = track_body(self.decisions, locomotion, surroundings)
         self._delayed = locomotion.heading_delay > 0.0
         self._coasted: float | None = None  # since the last update, until [s]
 
@@ -85,19 +82,13 @@ class ControlScheme:
                 self._coasted + walk.pose_delay, walk.pose
             )
             self._coasted = None
-        if not self._holds_back:
-            heading = walk.torso_heading
-            decisions.headings.note(now + walk.heading_delay, heading)
-        if decisions.body is not None:
-            decisions.body.note(measurement)
+        decisions.headings.note(now + walk.heading_delay, walk.torso_heading)
         seen = self.senses.see(measurement, walk.step, walk.tilt)
-        if self._holds_back:
-            seen, self._seen = self._seen, seen
+        if self._body is not None:
+            seen = self._body.note(measurement, seen)
         self.sighting = seen
         decisions.note_players(self.senses.in_sight)
         targets = walk.update(measurement, self)
-        if self._holds_back:
-            decisions.headings.note(now, walk.torso_heading)
         decisions.templates.note(now + walk.pose_delay, walk.pose)
         if walk.phase is not Phase.FALLEN:
             self.senses.aim(targets)

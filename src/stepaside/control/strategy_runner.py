@@ -155,9 +155,8 @@ class StrategyRunner(DecisionMaker):
     def _sight_of(self, sighting: Sighting) -> tuple[Pose, float, float]:
         """Return own pose, and direction and distance of a sighting from it.
 
-        In odometry. They are kept for a recognised player from its sighting
-        on, since the history of own poses is short and a hidden player may
-        not be sighted for long.
+        In odometry. They are kept for a recognised player: the history of own
+        poses is short, and a hidden player may not be sighted for long.
         """
         template = self._template_at(sighting.time)
         if self.body is None:

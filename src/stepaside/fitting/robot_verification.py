@@ -204,11 +204,11 @@ def check_robot(
     for result in executor.map(walk_trial, same, *zip(*paths, strict=True)):
         walks.append(result)
         report(len(walks), total)
-    own = settings_from_description(description)
+    settings = settings_from_description(description)
     departures: list[BodyDeparture | None] = []
     for departure in executor.map(
         walk_departure,
-        *([description] * len(SEEDS), [own] * len(SEEDS), SEEDS),
+        *([description] * len(SEEDS), [settings] * len(SEEDS), SEEDS),
     ):
         departures.append(departure)
         report(len(walks) + len(departures), total)

@@ -153,8 +153,8 @@ def strategy_of(
             clearance=contact + COMFORT,
             body_radius=player.radius + MARGIN,
         )
-    if not player.shield.enabled:
-        return strategy
-    from .shields import shielded
+    if player.shield.enabled:
+        from .shields import shielded
 
-    return shielded(strategy, player)
+        strategy = shielded(strategy, player)
+    return strategy

@@ -332,12 +332,9 @@ class GameSettings:
             for own in self.players
         )
         if any(own.shield.enabled for own in players):
-            from .shields import with_contact
+            from .shields import with_contacts
 
-            players = tuple(
-                with_contact(own, self.sensed_opponents(own))
-                for own in players
-            )
+            players = with_contacts(self, players)
         return replace(self, players=players)
 
     @property

@@ -69,6 +69,7 @@ class RobotSetup(NamedTuple):
     eyes: "SensorSuite | Lidar | None" = None
     # Knowledge of the room; who knows the room also knows its pose in it.
     clearance: "ClearanceSetup | None" = None
+    tracks: bool = False  # whether control tracks the body by its IMU
 
     @property
     def start(self) -> Pose:
@@ -86,15 +87,11 @@ class RobotSetup(NamedTuple):
         )
 
     def place(
-        self,
-        world: World,
-        standing: "LegKinematics | PolicyLegs",
-        tracks: bool = False,
+        self, world: World, standing: "LegKinematics | PolicyLegs"
     ) -> SimulatedRobot:
         """Place it in the posture of kinematics, or on learned legs.
 
-        Learned legs drive it by the torques of their policy. An IMU integrates
-        between ticks where control ``tracks`` the body.
+        Learned legs drive it by the torques of their policy.
         """
         gains = None
         posture: LegKinematics | InitialPosture
@@ -113,7 +110,7 @@ class RobotSetup(NamedTuple):
             self.start,
             self.body,
             generator=named_generator(self.seed, f"sensors/{own.name}"),
-            integrates_imu=bool(gains or own.control.feedback or tracks),
+            integrates_imu=bool(gains or own.control.feedback or self.tracks),
             sights=self.sights,
             eyes=self.eyes,
             truth=self.truth or self.true_state_in(world),
@@ -148,7 +145,7 @@ def place_robot(
             forward=source.forward,
         )
         tracks = getattr(strategy, "tracks_body", False)
-        robot = setup.place(world, walk.kinematics, tracks)
+        robot = setup._replace(tracks=tracks).place(world, walk.kinematics)
     if strategy is None:
         from .velocity_walker import VelocityWalker
 

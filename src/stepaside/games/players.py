@@ -79,8 +79,7 @@ class RobotPlayer(Player):
         self.walk = scheme.locomotion
         self.maneuvers = self.walk.maneuvers
         # Exact sightings are read when a decision is due.
-        tracks = scheme.decisions.body is not None
-        self._coasts = robot.sees_exactly and not tracks
+        self._coasts = robot.sees_exactly and not scheme.decisions.body
         self._feels = scheme.locomotion.feels or not self._coasts
 
     @property

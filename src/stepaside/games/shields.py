@@ -3,6 +3,7 @@
 from collections.abc import Iterable
 from dataclasses import replace
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from ..robots.departures import load_departure
 from ..robots.description import load_robot
@@ -10,6 +11,9 @@ from ..strategies.body_departure import BodyDeparture
 from ..strategies.shield import PERSON_REACH, ShieldedStrategy
 from ..strategies.strategy import Strategy
 from .player_settings import PlayerSettings, RobotSettings
+
+if TYPE_CHECKING:
+    from .game_settings import GameSettings
 
 
 def shielded(strategy: Strategy, own: RobotSettings) -> Strategy:
@@ -30,18 +34,21 @@ def departure_of(own: RobotSettings) -> BodyDeparture | None:
     return None if response is None else response.departure
 
 
-def with_contact(
-    own: PlayerSettings, opponents: Iterable[PlayerSettings]
-) -> PlayerSettings:
-    """Return a player whose shield has a contact distance.
+def with_contacts(
+    settings: "GameSettings", players: Iterable[PlayerSettings]
+) -> tuple[PlayerSettings, ...]:
+    """Return players whose shields have a contact distance.
 
     By default it is the sum of the reaches of the outlines of both bodies.
     """
-    if not own.shield.enabled or own.shield.contact is not None:
-        return own
-    others = [reach_of(each) for each in opponents]
-    contact = reach_of(own) + max(others, default=PERSON_REACH)
-    return replace(own, shield=replace(own.shield, contact=contact))
+    found = []
+    for own in players:
+        if own.shield.enabled and own.shield.contact is None:
+            others = map(reach_of, settings.sensed_opponents(own))
+            contact = reach_of(own) + max(others, default=PERSON_REACH)
+            own = replace(own, shield=replace(own.shield, contact=contact))
+        found.append(own)
+    return tuple(found)
 
 
 def reach_of(own: PlayerSettings) -> float:
