@@ -96,7 +96,7 @@ class BodyOdometry(BodyTracker):
         """Return where a pose of the plan is in this odometry, now."""
         return self.pose.compose(self._planned.inverse().compose(planned))
 
-    def template_at(self, time: float) -> Pose:
+    def at(self, time: float) -> Pose:
         """Return the pose of the template at a time, in [s]."""
         body, (planned, template) = self._bodies.at(time), self._plans.at(time)
         return body.compose(planned.inverse().compose(template))

@@ -116,7 +116,7 @@ class StrategyRunner(DecisionMaker):
         template, sight, distance = self._sight_of(sighting)
         if now - sighting.time > RECENT and sighting.identity is not None:
             x, y = self._position_of(sighting)
-            template = self._template_at(now)
+            template = (self.body or self.templates).at(now)
             sight = atan2(y - template.y, x - template.x)
             distance = hypot(y - template.y, x - template.x)
         several = self._in_sight if len(self._in_sight) > 1 else ()
@@ -158,7 +158,7 @@ class StrategyRunner(DecisionMaker):
         In odometry. They are kept for a recognised player: the history of own
         poses is short, and a hidden player may not be sighted for long.
         """
-        template = self._template_at(sighting.time)
+        template = (self.body or self.templates).at(sighting.time)
         if self.body is None:
             sight = self.headings.at(sighting.time) + sighting.bearing
             distance = sighting.distance
@@ -173,12 +173,6 @@ class StrategyRunner(DecisionMaker):
                 known = sighting.time, template, sight, distance
                 self._sightings[name] = known
         return template, sight, distance
-
-    def _template_at(self, time: float) -> Pose:
-        """Return the pose of the template at a time, in odometry."""
-        if self.body is None:
-            return self.templates.at(time)
-        return self.body.template_at(time)
 
     def _position_of(self, sighting: Sighting) -> tuple[float, float]:
         """Return the position of a recognised player in odometry, in [m]."""

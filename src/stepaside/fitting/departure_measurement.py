@@ -158,7 +158,7 @@ def walk_departure(
             if steps.known:
                 known = steps.known.pop()
                 begins, now = known.step_start_in_map, world.time
-                begins = begins or body.template_at(now)
+                begins = begins or body.at(now)
                 record.decide(now, begins, moving=known.moving)
             if world.ticks % EVERY == 0:
                 reach = reach_of(world.model, world.data, geoms, torso)
