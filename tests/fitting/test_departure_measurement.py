@@ -18,8 +18,8 @@ from stepaside.fitting.departure_measurement import (
 )
 from stepaside.games.game_settings import duel
 from stepaside.games.player_settings import settings_from_description
+from stepaside.locomotion.departures import load_departure, store_departure
 from stepaside.planning.gait_settings import PRESETS
-from stepaside.robots.departures import load_departure, store_departure
 from stepaside.robots.description import load_robot
 from stepaside.sim.outline_measurement import reach_of, solid_geoms
 from stepaside.sim.person_body import (

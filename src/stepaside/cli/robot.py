@@ -193,7 +193,7 @@ def check(
         report = check_robot(description, executor, bar.show)
     if report.departure is not None:
         from ..games.player_settings import settings_from_description
-        from ..robots.departures import store_departure
+        from ..locomotion.departures import store_departure
 
         gait = settings_from_description(description).gait
         with suppress(OSError):  # of a package that is not writable

@@ -9,7 +9,6 @@ from ..locomotion.locomotion import Surroundings
 from ..locomotion.maneuver_walk import ManeuverWalk
 from ..perception.attitude import AttitudeFilter
 from ..perception.measurement import RobotState, Sighting
-from .strategy_runner import StrategyRunner
 
 if TYPE_CHECKING:
     from ..locomotion.policy.policy_legs import PolicyWalk
@@ -21,6 +20,7 @@ CORRECTION = 0.5  # of the vertical by the accelerometer, in [1/s]
 class BodyTracker:
     """Learned legs, which know their pose a tick late: so be sightings."""
 
+    odometry: "BodyOdometry | None" = None
     _before: Sighting | None = None
     _time = 0.0
 
@@ -31,6 +31,16 @@ class BodyTracker:
         late, self._before = self._before, seen
         tick, self._time = measured.time - self._time, measured.time
         return late and late._replace(time=late.time + tick)
+
+
+class Untracked(BodyTracker):
+    """Body in a known room, which is told where it is."""
+
+    def note(
+        self, measured: RobotState, seen: Sighting | None
+    ) -> Sighting | None:
+        """Return what is seen."""
+        return seen
 
 
 class BodyOdometry(BodyTracker):
@@ -46,7 +56,7 @@ class BodyOdometry(BodyTracker):
 
     def __init__(self, walk: ManeuverWalk) -> None:
         """Begin at the pose of a standing walk."""
-        self._walk, self._time = walk, 0.0
+        self._walk, self._time, self.odometry = walk, 0.0, self
         self._attitude = AttitudeFilter(CORRECTION, 0.0, calibration=0.0)
         self._plans: History[tuple[Pose, Pose]] = History(MEMORY)
         self._bodies: History[Pose] = History(MEMORY)
@@ -112,13 +122,11 @@ class BodyOdometry(BodyTracker):
 
 
 def track_body(
-    decisions: StrategyRunner,
-    walk: "ManeuverWalk | PolicyWalk",
-    surroundings: Surroundings | None,
-) -> BodyTracker | None:
-    """Let decisions know where a body is; None in a known room."""
+    walk: "ManeuverWalk | PolicyWalk", surroundings: Surroundings | None
+) -> BodyTracker:
+    """Return what tells where a body is; not its sway in a known room."""
     if walk.maneuvers is None:
         return BodyTracker()
     if surroundings is None:
-        decisions.body = BodyOdometry(walk.maneuvers)
-    return decisions.body
+        return BodyOdometry(walk.maneuvers)
+    return Untracked()

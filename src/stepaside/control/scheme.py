@@ -63,7 +63,8 @@ class ControlScheme:
         if getattr(strategy, "tracks_body", False):
             from .body_odometry import track_body
 
-            self._body = track_body(self.decisions, locomotion, surroundings)
+            self._body = body = track_body(locomotion, surroundings)
+            self.decisions.body = body.odometry
         self._delayed = locomotion.heading_delay > 0.0
         self._coasted: float | None = None  # since the last update, until [s]
 

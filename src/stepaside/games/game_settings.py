@@ -334,7 +334,7 @@ class GameSettings:
         if any(own.shield.enabled for own in players):
             from .shields import with_contacts
 
-            players = with_contacts(self, players)
+            players = with_contacts(players, self.sensed_opponents)
         return replace(self, players=players)
 
     @property

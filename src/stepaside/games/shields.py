@@ -1,19 +1,15 @@
 """Shields of the robots of a game, with what is known of all bodies."""
 
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 from dataclasses import replace
 from pathlib import Path
-from typing import TYPE_CHECKING
 
-from ..robots.departures import load_departure
+from ..locomotion.departures import load_departure
 from ..robots.description import load_robot
 from ..strategies.body_departure import BodyDeparture
 from ..strategies.shield import PERSON_REACH, ShieldedStrategy
 from ..strategies.strategy import Strategy
 from .player_settings import PlayerSettings, RobotSettings
-
-if TYPE_CHECKING:
-    from .game_settings import GameSettings
 
 
 def shielded(strategy: Strategy, own: RobotSettings) -> Strategy:
@@ -35,7 +31,8 @@ def departure_of(own: RobotSettings) -> BodyDeparture | None:
 
 
 def with_contacts(
-    settings: "GameSettings", players: Iterable[PlayerSettings]
+    players: Iterable[PlayerSettings],
+    opponents_of: Callable[[PlayerSettings], Iterable[PlayerSettings]],
 ) -> tuple[PlayerSettings, ...]:
     """Return players whose shields have a contact distance.
 
@@ -44,7 +41,7 @@ def with_contacts(
     found = []
     for own in players:
         if own.shield.enabled and own.shield.contact is None:
-            others = map(reach_of, settings.sensed_opponents(own))
+            others = map(reach_of, opponents_of(own))
             contact = reach_of(own) + max(others, default=PERSON_REACH)
             own = replace(own, shield=replace(own.shield, contact=contact))
         found.append(own)

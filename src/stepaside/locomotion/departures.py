@@ -9,8 +9,8 @@ from ..core.atomic_output import atomic_draft
 from ..core.entries import load_entries
 from ..core.errors import ModelError
 from ..planning import GaitSettings
+from ..robots.description import RobotDescription
 from ..strategies.body_departure import BodyDeparture
-from .description import RobotDescription
 
 FILE = "departures.toml"
 DIGITS = 4  # of a stored value, in [m]
