@@ -13,7 +13,7 @@ from stepaside.studies.results_version import RESULTS
 from stepaside.studies.study import run_study
 from stepaside.studies.study_design import load_study
 
-VERSION = "2026.2"  # that the values below belong to
+VERSION = "2026.3"  # that the values below belong to
 GAMES: dict[str, tuple[str, str, list[float]]] = {
     "duel": (
         "min_distance_m",

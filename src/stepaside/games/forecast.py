@@ -8,8 +8,6 @@ import numpy as np
 
 from ..core.poses import Array
 from ..planning import GaitSettings
-from ..robots.description import load_robot
-from ..strategies.registry import OBJECT
 from ..theory.unicycle.circles import Circle, find_circle
 from .floor_games import floor_of, play_floor
 from .game import GameRules
@@ -21,7 +19,6 @@ from .trajectory import angle_between, distance_between, whole_cycles
 
 MAX_DURATION = 600.0  # of a game of templates, in [s]
 STEP = 0.05  # between its samples, in [s]
-SHORT = 0.01  # between decisions of a person, in [s]
 DISTANCE_BAND = 0.05  # relative to the distance on the circle
 ORIENTATION_BAND = 5.0  # around the orientation on the circle, in [deg]
 LEAST_TIME = 5.0  # on the circle at the end, in [s]
@@ -140,7 +137,9 @@ def forecast(settings: GameSettings) -> TheorySummary:
             relative_orientation_deg=degrees(circle.headings_apart_rad),
         )
     if settings.pursuer.body != "robot":
-        return replace(found, min_distance_m=_approach_of_person(settings))
+        from .people import approach_of_person
+
+        return replace(found, min_distance_m=approach_of_person(settings))
     if not settings.is_of_the_paper or settings.evader.pose is None:
         return found
     least = settings.start.least
@@ -170,27 +169,6 @@ def forecast(settings: GameSettings) -> TheorySummary:
         circle_since_s=since,
         min_distance_m=closest,
     )
-
-
-def _approach_of_person(settings: GameSettings) -> float | None:
-    """Return the closest approach of a person to the evader's template [m].
-
-    None where the template is no model of the game.
-    """
-    own, velocities = settings.evader, None
-    if own.strategy.startswith(OBJECT):
-        return None
-    if own.legs.network:
-        from ..locomotion.policy.policy_legs import load_legs
-
-        robot, tick = load_robot(own.robot), settings.physics.tick
-        velocities = load_legs(own.legs, robot, tick=tick).velocities
-    elif not settings.is_of_the_paper:
-        return None
-    world = floor_of(settings, period=SHORT, velocities=velocities)
-    rules = GameRules(settings.duration, identities=settings.identities)
-    game, _ = play_floor(world, rules)
-    return game.closest[EVADER, PURSUER]
 
 
 def evaluate_duel(run: Run, triggered: float | None) -> dict[str, Any]:
