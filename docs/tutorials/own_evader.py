@@ -56,7 +56,7 @@ print(f"closest approach {own.summary.min_distance_m:.3f} m")
 import matplotlib.pyplot as plt
 
 figure, axes = plt.subplots(figsize=(6, 4))
-axes.plot(*own.pursuer.torso[:, :2].T, color="#c8321f", label="pursuer")
+axes.plot(*own.pursuer.torso[:, :2].T, color="#b92b19", label="pursuer")
 axes.plot(*own.evader.torso[:, :2].T, color="#1f5fbf", label="evader")
 for track, marker in ((own.pursuer, "s"), (own.evader, "o")):
     axes.plot(*track.torso[-1, :2], marker, color="0.2")

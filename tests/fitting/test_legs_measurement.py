@@ -22,6 +22,7 @@ from stepaside.fitting.legs_measurement import (
 from stepaside.games.player_settings import settings_from_description
 from stepaside.robots.description import RobotDescription, load_robot
 from stepaside.sim.body_settings import BodySettings
+from stepaside.strategies.body_departure import BodyDeparture
 from stepaside.strategies.velocity_set import STILL, BodyVelocity
 
 # Delivered velocity by commanded one.
@@ -39,11 +40,11 @@ class FormulaExecutor(Executor):
         fn: Callable[..., Any],
         trials: Iterable[LegsTrial],
         **_: Any,
-    ) -> Iterator[LegsTrialResult | float]:
+    ) -> Iterator[LegsTrialResult | BodyDeparture]:
         """Deliver velocities that are linear in the command."""
         for trial in trials:
             if fn is run_tracking_walk:
-                yield 0.1 * trial.seed
+                yield BodyDeparture(0.4, 0.1 * trial.seed, 0.01, 0.002)
                 continue
             delivered = BodyVelocity(*(GAINS @ np.array(trial.command)))
             fell = 2.0 if self._falls(trial.command) else None

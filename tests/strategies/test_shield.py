@@ -70,6 +70,19 @@ def test_motion_of_a_start_is_held_for_a_period_from_its_first_step() -> None:
     assert len(numbers) == 4 and len(set(numbers)) == 1
 
 
+def test_certificate_begins_when_the_heading_of_the_person_is_known() -> None:
+    """Until then no motion need be safe against all headings at once."""
+    strategy = ShieldedStrategy(StandStill(), PERSON, BODY)
+    memory, certified = strategy.begin(), []
+    for i in range(12):
+        knowledge = known(0.5 * i, 4.0 - 0.5 * SPEED * i)
+        _, memory = strategy.decide(knowledge, memory)
+        certified.append(memory.certified)
+        assert memory.guarded
+    assert not certified[0] and certified[-1]
+    assert certified == sorted(certified)
+
+
 def test_contact_that_no_motion_excludes_is_not_guarded() -> None:
     strategy = ShieldedStrategy(StandStill(), PERSON, BODY)
     memory = strategy.begin()

@@ -9,8 +9,9 @@ robot) and the speed of the person add a robot on learned legs::
         --robot g1 --network g1.onnx --contract "" --speed 0.4
 
 A start is certified from the first instant on at which the shield excludes
-contact. The track of each person is compared with its bounds afterwards.
-After Ctrl-C the same command continues.
+contact and knows the heading of the person. The track of each person is
+compared with its greatest speed and turning rate afterwards. After Ctrl-C the
+same command continues.
 
 Writes ``docs/results/shield-duels.json`` for docs/shield.md.
 """
@@ -179,7 +180,7 @@ class ShieldDuel:
         while game.ended is None:
             game.tick()
             track.append((world.time, *world.states()["pursuer"]))
-            if certified is None and agent.memory.guarded:
+            if certified is None and agent.memory.certified:
                 certified = world.time
             if certified is not None:
                 least = min(least, world.apart("pursuer", "evader"))

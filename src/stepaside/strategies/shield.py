@@ -361,7 +361,9 @@ class ShieldMemory(NamedTuple):
     time: float = 0.0  # of the last decision [s]
     template: TemplatePoint | None = None  # of legs
     command: Vector = (0.0, 0.0)  # over the floor [m/s]
-    guarded: bool = False  # whether contact was excluded at the last decision
+    # whether, at the last decision, some motion was safe against each heading
+    guarded: bool = False
+    certified: bool = False  # the same, with the heading known
     stands_until: float = 0.0  # time up to which standing is safe [s]
 
 
@@ -438,7 +440,11 @@ class ShieldedStrategy:
             (ahead, left, _), _ = model.twist(intent)
             u, v = rotate(ahead, left, own.theta).tolist()
             command = u, v
-        return intent, memory._replace(command=command, stands_until=until)
+        known = course is not None and course.error <= model.chords.bound
+        certified = memory.guarded and known
+        return intent, memory._replace(
+            command=command, stands_until=until, certified=certified
+        )
 
     def model_for(self, knowledge: Knowledge) -> ShieldModel:
         """Return the model of the robot that decides."""

@@ -58,9 +58,6 @@ def chauffeur(result: Result) -> str:
     return table(head, rows)
 
 
-AT_ONCE = 1.5  # from which a start is certified, in [s]
-
-
 def shield_duels(result: Result) -> str:
     """Count contacts of duels with a shield, of templates and of bodies."""
     head = (
@@ -69,7 +66,7 @@ def shield_duels(result: Result) -> str:
         "of",
         "duels",
         "certified",
-        "at once",
+        "after [s]",
         "contacts",
         "certified [m]",
         "least [m]",
@@ -83,7 +80,7 @@ def shield_duels(result: Result) -> str:
             d["outcome"] == "contact" or d["least_m"] < contact
             for d in counted_ones
         )
-        at_once = sum(d["certified_s"] < AT_ONCE for d in certified)
+        begins = sorted(d["certified_s"] for d in certified)
         rows.append(
             (
                 found["robot"],
@@ -92,7 +89,7 @@ def shield_duels(result: Result) -> str:
                 found["level"],
                 str(len(duels)),
                 str(len(certified)),
-                str(at_once),
+                number(begins[len(begins) // 2], 1),
                 counted(contacts, len(counted_ones)),
                 number(contact, 2),
                 number(min(d["least_m"] for d in counted_ones), 2),
