@@ -137,7 +137,7 @@ def forecast(settings: GameSettings) -> TheorySummary:
             relative_orientation_deg=degrees(circle.headings_apart_rad),
         )
     if settings.pursuer.body != "robot":
-        from .people import approach_of_person
+        from .person_forecast import approach_of_person
 
         return replace(found, min_distance_m=approach_of_person(settings))
     if not settings.is_of_the_paper or settings.evader.pose is None:

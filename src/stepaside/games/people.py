@@ -8,26 +8,22 @@ import numpy as np
 
 from ..core.errors import ConfigurationError
 from ..core.poses import Pose
-from ..robots.description import load_robot
 from ..sim.crowd_motion import CrowdMotion, Neighbour
 from ..sim.ground_truth import FloorTruth
 from ..sim.person_body import PersonBody, pose_template
 from ..sim.person_motion import PersonMotion
 from ..sim.person_settings import RADIUS
 from ..sim.world import World
-from ..strategies.registry import OBJECT
-from .floor_games import floor_of, play_floor
 from .floor_world import AT_ONCE, PERIOD, FloorMotion, Seen
-from .game import GameInPlay, GameRules, Outcome
+from .game import GameInPlay, Outcome
 from .game_settings import GameSettings
-from .player_settings import EVADER, PURSUER, PlayerSettings
+from .player_settings import PlayerSettings
 from .players import Player
 from .run import Run
 from .summary import CrowdSummary
 from .trajectory import distance_between
 
 INTRUSIONS = (0.45, 1.2)  # of crowd navigation: intimate and personal, [m]
-SHORT = 0.01  # between decisions of one person, in [s]
 MARKER_HEIGHT = 0.27  # that stands for the CoM of a marker, in [m]
 MARKER_REACH = 0.1  # of a marker, which touches nothing, in [m]
 
@@ -182,27 +178,6 @@ class FloorPlayer(Player):
             motion.decide(motion.due, seen)
         motion.advance(until)
         self._body.move(motion.pose)
-
-
-def approach_of_person(settings: GameSettings) -> float | None:
-    """Return the closest approach of a person to the evader's template [m].
-
-    None where the template is no model of the game.
-    """
-    own, velocities = settings.evader, None
-    if own.strategy.startswith(OBJECT):
-        return None
-    if own.legs.network:
-        from ..locomotion.policy.policy_legs import load_legs
-
-        robot, tick = load_robot(own.robot), settings.physics.tick
-        velocities = load_legs(own.legs, robot, tick=tick).velocities
-    elif not settings.is_of_the_paper:
-        return None
-    world = floor_of(settings, period=SHORT, velocities=velocities)
-    rules = GameRules(settings.duration, identities=settings.identities)
-    game, _ = play_floor(world, rules)
-    return game.closest[EVADER, PURSUER]
 
 
 def crowds_of(run: Run, game: GameInPlay) -> dict[str, CrowdSummary]:
