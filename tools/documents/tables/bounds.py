@@ -72,7 +72,9 @@ def shield_duels(result: Result) -> str:
         "least [m]",
     )
     rows = []
-    for found in result["rows"]:
+    robots = [found["robot"] for found in result["rows"]]
+    by_robot = sorted(result["rows"], key=lambda x: robots.index(x["robot"]))
+    for found in by_robot:
         duels, contact = found["duels"], found["contact_m"]
         certified = [d for d in duels if d["certified_s"] is not None]
         counted_ones = [d for d in certified if d["within"]]
