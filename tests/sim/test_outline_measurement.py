@@ -15,6 +15,7 @@ from stepaside.robots.description import load_robot
 from stepaside.sim.outline_measurement import (
     extents,
     measure_outline,
+    reach_of,
     solid_geoms,
 )
 
@@ -23,7 +24,7 @@ ANGLES = np.arange(64) * (2.0 * np.pi / 64)
 AROUND = np.stack([np.cos(ANGLES), np.sin(ANGLES)], axis=-1)
 
 
-def reach_of(duel: RecordedGame, name: str) -> Array:
+def reach_along(duel: RecordedGame, name: str) -> Array:
     """How far all that can collide reaches, along 64 ways."""
     model, data = duel.in_physics.model, duel.in_physics.data
     most = np.full(len(AROUND), -np.inf)
@@ -85,6 +86,18 @@ def test_shapes_reach_as_far_as_their_surfaces() -> None:
             assert far - half - gap == pytest.approx(reach, abs=1e-4)
 
 
+def test_circle_around_a_body_contains_an_arm_to_its_side() -> None:
+    """A level capsule, 0.2 m long with its caps, begins 0.3 m away."""
+    model = mujoco.MjModel.from_xml_string(
+        "<mujoco><worldbody><body><geom type='capsule' size='0.02' "
+        "fromto='1 -0.32 0.5 1 -0.48 0.5'/></body></worldbody></mujoco>"
+    )
+    data = mujoco.MjData(model)
+    mujoco.mj_forward(model, data)
+    found = reach_of(model, data, np.array([0]), (1.0, 0.0))
+    assert 0.5 <= found < 0.5 * 1.001
+
+
 def test_a_walking_body_stays_within_its_outline_by_the_margin() -> None:
     """All shapes, of two NAOs in physics, against what was planned."""
     settings = make_duel(
@@ -115,5 +128,7 @@ def test_a_walking_body_stays_within_its_outline_by_the_margin() -> None:
             at = Pose(x, y, truth.heading_in_world)
             odometry = at.compose(Pose(*body.com[:2], body.heading).inverse())
             planned = (odometry.transform_points(corners) @ AROUND.T).max(0)
-            beyond.append(float((reach_of(duel, player.name) - planned).max()))
+            beyond.append(
+                float((reach_along(duel, player.name) - planned).max())
+            )
     assert max(beyond) < settings.map.margin
