@@ -48,7 +48,7 @@ class BodyOdometry(BodyTracker):
 
     The plan knows how the reference point sways about the template, and the
     gyro how the body turns, with feet that slip. What both leave out of the
-    position is measured (:mod:`..fitting.body_departure`).
+    position is measured (:mod:`..fitting.departure_measurement`).
 
     Attributes:
         pose: Reference point and heading of the body at the last tick.
