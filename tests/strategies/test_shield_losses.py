@@ -1,4 +1,4 @@
-"""Test that the shield charges each loss of docs/shield.md.
+"""Test that the shield charges each loss of docs/shield-proof.md.
 
 What is charged is computed here, by the formulas of that page.
 """
@@ -261,7 +261,7 @@ def after_walks(pose: Array, duration: float) -> tuple[Array, float]:
 def guaranteed(
     table: ShieldTable, intent: Intent, poses: Array, *, moving: bool
 ) -> float:
-    """Return what a decision leaves guaranteed, by docs/shield.md, in [m]."""
+    """Return what a decision leaves guaranteed, by docs/shield-proof.md."""
     if intent.walks:
         turn = 0.08 * intent.heading
         twist = (-STRIDE * intent.speed_factor / STEP, 0.0, turn / STEP)

@@ -141,7 +141,7 @@ def displaced(poses: Array, radius: float) -> Array:
 
 
 def test_values_hold_against_every_walk_and_displacement() -> None:
-    """Equations (1) and (2) of docs/shield.md, and its rule of halts.
+    """Equations (1) and (2) of docs/shield-proof.md, and its rule of halts.
 
     Values between nodes are interpolated.
     """

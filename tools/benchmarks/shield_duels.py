@@ -13,7 +13,7 @@ contact and knows the heading of the person. The track of each person is
 compared with its greatest speed and turning rate afterwards. After Ctrl-C the
 same command continues.
 
-Writes ``docs/results/shield-duels.json`` for docs/shield.md.
+Writes ``docs/results/shield-duels.json`` for docs/results/shield.md.
 """
 
 from dataclasses import dataclass

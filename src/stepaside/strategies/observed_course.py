@@ -1,4 +1,4 @@
-"""Heading of an opponent from where it was sighted; see docs/shield.md."""
+"""Heading of an opponent from its sightings; see docs/shield-proof.md."""
 
 from collections.abc import Sequence
 from math import asin, atan2, ceil, hypot, pi, sqrt
@@ -102,7 +102,7 @@ def observed_course(
     """Return the heading of an opponent after its last sighting.
 
     It follows the chord that is worth most, no faster than the opponent turns
-    (docs/shield.md). Errors up to the bound of the model count as known.
+    (docs/shield-proof.md). Errors up to the bound of the model count as known.
     """
     last, known = rows[-1], model.bound
     before = before or Course(last.time)

@@ -1,6 +1,6 @@
 """Shield: a least-restrictive filter around the strategy of a robot.
 
-What is required of each state, and the proof, are in docs/shield.md.
+What is required of each state, and the proof, are in docs/shield-proof.md.
 """
 
 import logging
@@ -180,7 +180,7 @@ def shield_model(
     saturated: bool = False,
     departure: BodyDeparture | None = None,
 ) -> ShieldModel:
-    """Return the model of a robot, with what docs/shield.md charges.
+    """Return the model of a robot, with what docs/shield-proof.md charges.
 
     A departure is that of its body, if it was measured.
     """
@@ -374,7 +374,7 @@ class ShieldedStrategy:
     A decision stands if no person within the bounds of the settings can come
     within contact while it is carried out, and if the robot can prevent
     contact for ever afterwards; else the motion is taken that guarantees the
-    largest distance. Assumptions and proof are in docs/shield.md.
+    largest distance. Assumptions and proof are in docs/shield-proof.md.
     """
 
     strategy: Strategy

@@ -37,7 +37,6 @@ TABLES: dict[str, Callable[..., str]] = {
     "doors": games_of_many.doors,
     "environments": learning.environments,
     "fast-walks": walking.fast_walks,
-    "headlines": benchmark.headlines,
     "humanoids": humanoids.reached,
     "legs-people": legs_encounters.people,
     "outcomes": many_duels.outcomes,

@@ -3,7 +3,7 @@
 from collections.abc import Mapping
 from typing import Any
 
-from .markdown import number, table
+from .markdown import table
 
 ROWS = {
     "replan_5_steps_us": ("replan of 5 steps", "us", "<= 50"),
@@ -80,43 +80,5 @@ def all_rows(result: Mapping[str, Any]) -> str:
             (what, f"{figures[key]:.3g}", unit, asked)
             for key, (what, unit, asked) in ROWS.items()
             if key in figures
-        ],
-    )
-
-
-def headlines(result: Mapping[str, Any]) -> str:
-    """Return the values that the README shows."""
-    figures = result["figures"]
-    tick, pushed = (
-        number(1e-3 * figures[key], 2)
-        for key in ("mpc_tick_us", "mpc_tick_pushed_us")
-    )
-    drake = figures.get("drake_over_plan")
-    return table(
-        ("what", "measured"),
-        [
-            ("replan of 5 steps", f"{figures['replan_5_steps_us']:.0f} µs"),
-            (
-                ROWS["plan_20_steps_with_samples_us"][0],
-                f"{figures['plan_20_steps_with_samples_us']:.0f} µs",
-            ),
-            (
-                "Drake's `ZmpPlanner` on the same ZMP, over our whole plan "
-                "of 20 steps",
-                number(drake, 1),
-            ),
-            (
-                "control tick of one robot",
-                f"{figures['control_tick_us']:.0f} µs",
-            ),
-            (
-                "tick of the MPC, horizon of two steps",
-                f"{tick} ms, {pushed} ms after a push",
-            ),
-            ("whole duel", f"{figures['real_time_factor']:.1f} × real time"),
-            (
-                "cost of the duel over bare `mj_step` of the same motion",
-                number(figures["duel_over_bare_physics"], 2),
-            ),
         ],
     )

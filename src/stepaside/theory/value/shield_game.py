@@ -5,7 +5,7 @@ the left). At each decision the robot commits to a motion for a period; the
 person then walks at any speed up to :math:`V` and turns at any rate up to
 :math:`V / R`; and at the end the state is displaced by up to a disturbance.
 Outside the grid the value is just above the required one, if it is in a layer
-along the edges that no single motion can jump over. See docs/shield.md.
+along the edges that no single motion can jump over. See docs/shield-proof.md.
 """
 
 from collections.abc import Mapping
