@@ -104,6 +104,9 @@ BAD = [
     ("theory plan --role evader", "missing option --bearing"),
     ("theory plan --bearing 1", "missing option --role"),
     ("view --set scene.walls=0.5", "walls must lie in"),
+    ("run unicyles", "unicyles.*did you mean unicycles"),
+    ("thery", "the command must be one of.*did you mean theory"),
+    ("study tournament --by sed --workers 1", "by or value.*sed"),
     ("robot pepper", "robot must be one of nao.*pepper"),
 ]
 
@@ -119,6 +122,20 @@ def test_bad_input_is_refused_in_one_line(
     assert len(lines) == 1
     assert re.search(message, lines[0]), lines[0]
     assert not list(tmp_path.iterdir())
+
+
+@pytest.mark.parametrize("path", ["rooms/opne.toml", "roms/open.toml"])
+def test_a_misspelt_path_is_refused_with_the_nearest(
+    path: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "rooms").mkdir()
+    (tmp_path / "rooms" / "open.toml").touch()
+    result = run("run", "room", path)
+    assert result.exit_code == 2
+    assert re.search(
+        f"no file {path}; did you mean (open.toml|rooms)", result.stderr
+    )
 
 
 @pytest.mark.parametrize(

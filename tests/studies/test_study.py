@@ -3,6 +3,7 @@
 import os
 import signal
 import sqlite3
+import sys
 from collections.abc import Callable
 from concurrent.futures import Executor, Future, ThreadPoolExecutor
 from contextlib import closing
@@ -22,6 +23,7 @@ from stepaside.studies.study import (
     open_executor,
     run_study,
 )
+from stepaside.studies.study_design import make_study
 from stepaside.studies.tabulation import Record
 
 FILE = "squares.sqlite"
@@ -162,6 +164,30 @@ def test_a_data_frame_has_a_row_for_each_case() -> None:
     pytest.importorskip("polars")
     frame = run_study(study_of()).to_frame()
     assert frame["square"].to_list() == EXPECTED
+
+
+def test_a_missing_library_of_frames_is_named(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    monkeypatch.setitem(sys.modules, "pandas", None)
+    with pytest.raises(ModuleNotFoundError, match="pip install pandas"):
+        run_study(study_of()).to_frame("pandas")
+
+
+def measured(near: float, seed: int) -> Record:
+    return {"closest_m": 0.2 + near + 0.1 * seed, "fell": seed == 2}
+
+
+def test_a_study_prints_as_its_table_with_even_digits() -> None:
+    axes = {"near": [0.0, 10.0], "seed": range(3)}
+    names = ["closest_m", "fell"]
+    run = run_study(make_study(measured, grid=axes, values=names))
+    assert repr(run) == "StudyRun('study', 6 of 6 cases)"
+    assert str(run).splitlines() == [
+        "near  games  closest [m]         fell",
+        "0         3   0.30 ±0.25  33 % (6-79)",
+        "10        3  10.30 ±0.25  33 % (6-79)",
+    ]
 
 
 # --- executors ---------------------------------------------------------------

@@ -158,7 +158,7 @@ def test_a_preset_is_changed_by_words() -> None:
     ("word", "words"),
     [
         ("duration", "PATH=VALUE"),
-        ("method=mcp", "method must be of open-loop, measured, mpc"),
+        ("method=mpc,mcp", "method must be one of .*mpc.*did you mean mpc"),
         ("durations=3", "unknown entry durations"),
     ],
 )

@@ -4,12 +4,13 @@ import re
 import sys
 from collections.abc import Mapping
 from importlib import import_module
+from pathlib import Path
 from typing import Any, NoReturn
 
 import click
 
 from .. import __version__
-from ..core.errors import StepAsideError, nearest_hint
+from ..core.errors import StepAsideError, check_choice, nearest_hint
 from ..core.extras import install_hint
 from ..core.signal_handling import interrupted_status, interruptible
 
@@ -59,6 +60,9 @@ class LazyGroup(click.Group):
         """Insert the default command unless a command is named."""
         names = (*self._lazy, *self.get_help_option_names(ctx))
         if self._default and args and args[0] not in names:
+            hint = nearest_hint(args[0], self._lazy)
+            if hint and not Path(args[0]).exists():
+                ctx.fail(f"no command or file {args[0]!r}{hint}")
             args = [self._default, *args]
         return super().parse_args(ctx, args)
 
@@ -71,9 +75,7 @@ class LazyGroup(click.Group):
     ) -> click.Command | None:
         """Import and return one command, or None if it does not exist."""
         if cmd_name not in self._lazy:
-            if hint := nearest_hint(cmd_name, self._lazy):
-                ctx.fail(f"no command {cmd_name!r}{hint}")
-            return None
+            check_choice(cmd_name, self._lazy, "the command")
         module = import_module(f"stepaside.cli.{self._modules[cmd_name]}")
         command: click.Command = getattr(module, cmd_name)
         return command

@@ -1,5 +1,6 @@
 """Options that several commands share."""
 
+import os
 import re
 from collections.abc import Callable
 from functools import partial
@@ -9,7 +10,7 @@ from typing import Any
 import click
 
 from ..core.atomic_output import FIGURES, check_file
-from ..core.errors import StepAsideError
+from ..core.errors import StepAsideError, nearest_hint
 
 
 class TextType(click.ParamType[Any]):
@@ -30,6 +31,35 @@ class TextType(click.ParamType[Any]):
             return self._parse(value) if isinstance(value, str) else value
         except StepAsideError as error:
             self.fail(str(error), param, ctx)
+
+
+class ExistingPath(click.Path):
+    """Type of an existing file or folder."""
+
+    def __init__(self, **values: Any) -> None:
+        """Require that it exists."""
+        super().__init__(exists=True, path_type=Path, **values)
+
+    def convert(
+        self,
+        value: Any,
+        param: click.Parameter | None,
+        ctx: click.Context | None,
+    ) -> Any:
+        """Check a path; name what is nearest to the part that is missing."""
+        missing = Path(value)
+        if missing.name and not missing.exists():
+            while not missing.parent.is_dir():
+                missing = missing.parent
+            names = os.listdir(missing.parent)
+            hint = nearest_hint(missing.name, names)
+            self.fail(f"there is no {self.name} {value}{hint}", param, ctx)
+        return super().convert(value, param, ctx)
+
+
+EXISTING = ExistingPath()
+EXISTING_FILE = ExistingPath(dir_okay=False)
+EXISTING_FOLDER = ExistingPath(file_okay=False)
 
 
 def output_file(option: str, *suffixes: str) -> TextType:
@@ -61,10 +91,7 @@ folder_option = partial(
     type=click.Path(file_okay=False, path_type=Path),
     help="Run folder; a new one in runs/ by default, none with --json.",
 )
-file_argument = partial(
-    click.argument,
-    type=click.Path(exists=True, dir_okay=False, path_type=Path),
-)
+file_argument = partial(click.argument, type=EXISTING_FILE)
 seed_option = partial(
     click.option,
     "--seed",

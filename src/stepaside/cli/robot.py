@@ -11,6 +11,8 @@ from ..core.errors import StepAsideError
 from ..core.progress import ProgressLine
 from .main import LazyGroup
 from .options import (
+    EXISTING_FILE,
+    EXISTING_FOLDER,
     figure_option,
     folder_option,
     workers_option,
@@ -99,9 +101,7 @@ def show(name: str, mjcf: bool, stores: bool, as_json: bool) -> None:
 
 
 @click.command("init")
-@click.argument(
-    "model", type=click.Path(exists=True, dir_okay=False, path_type=Path)
-)
+@click.argument("model", type=EXISTING_FILE)
 @folder_option(
     help="Folder for the description; a new folder with the name of the "
     "model by default."
@@ -109,7 +109,7 @@ def show(name: str, mjcf: bool, stores: bool, as_json: bool) -> None:
 @click.option(
     "--meshes",
     multiple=True,
-    type=click.Path(exists=True, file_okay=False, path_type=Path),
+    type=EXISTING_FOLDER,
     help="Folder with mesh files; repeatable. The folder of the model by "
     "default.",
 )
@@ -219,9 +219,7 @@ def check(
 
 
 @click.command("tune")
-@click.argument(
-    "folder", type=click.Path(exists=True, file_okay=False, path_type=Path)
-)
+@click.argument("folder", type=EXISTING_FOLDER)
 @workers_option
 @executor_option
 @json_option

@@ -17,6 +17,7 @@ from ..games.unicycle_settings import UnicycleSettings
 from ..report.result_labels import CIRCLES, label_of
 from .main import LazyGroup
 from .options import (
+    EXISTING_FILE,
     figure_option,
     file_argument,
     folder_option,
@@ -24,7 +25,7 @@ from .options import (
     seed_option,
 )
 from .run_output import finish_run, play_with_bar, run_folder
-from .settings import FILE, refuse_settings, takes_settings
+from .settings import refuse_settings, takes_settings
 from .tables import (
     format_value,
     plain,
@@ -60,7 +61,7 @@ NAMED_OF_GAME = ("seed", "duration", "level")
 @takes_settings(
     NAMED_OF_GAME,
     GameSettings,
-    config=click.argument("config", metavar="FILE", type=FILE),
+    config=click.argument("config", metavar="FILE", type=EXISTING_FILE),
 )
 @folder_option()
 @json_option
@@ -207,7 +208,8 @@ def _print_unicycles(result: dict[str, Any]) -> None:
         rows.append(("ended on", f"the {name} circle"))
     certified = result.get("certified_m")
     if certified is not None:
-        rows.append(("certified distance", f">= {certified:.6g} m"))
+        text = format_value("certified_m", certified)
+        rows.append(("certified distance", f">= {text}"))
     ends = ("captured", "end_time_s", "closest_distance_m")
     print_table([*rows, *table_rows(result, ends)])
 

@@ -31,6 +31,7 @@ from ..games.game_settings import (
 )
 from ..games.player_settings import PlayerSettings, nested, settings_of
 from ..games.settings_reader import load_settings
+from .options import EXISTING_FILE
 from .terminal import write_result
 
 lists_option = click.option(
@@ -39,10 +40,9 @@ lists_option = click.option(
     is_flag=True,
     help="Print all settings with meaning, unit and range, and end.",
 )
-FILE = click.Path(exists=True, dir_okay=False, path_type=Path)
 config_option = click.option(
     "--config",
-    type=FILE,
+    type=EXISTING_FILE,
     help="File of settings (TOML); options override it.",
 )
 set_option = click.option(
@@ -227,7 +227,7 @@ def changes_of(
             near = similar_paths(entries, path)
             hint = f"; did you mean {' or '.join(near)}?" if near else ""
             raise click.UsageError(
-                f"unknown setting {path}{hint}; --settings lists all"
+                f"unknown setting {path}; --settings lists all{hint}"
             )
         entry = entries[path]
         value = _value(text, entry)

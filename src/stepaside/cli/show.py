@@ -19,7 +19,7 @@ from ..core.errors import ConfigurationError, OutputError, visible
 from ..core.progress import ProgressLine
 from ..report.film_settings import FilmSettings
 from ..report.result_labels import label_of
-from .options import browser_option
+from .options import EXISTING, browser_option
 from .settings import GIVEN, refuse_settings, takes_settings
 from .tables import format_value, print_columns, print_run
 from .terminal import (
@@ -58,7 +58,7 @@ OF_WALKS = ("speed_m_s", "speed_ratio", "yaw_ratio", "tilt_max_deg")
     "runs",
     nargs=-1,
     required=True,
-    type=click.Path(exists=True, path_type=Path),
+    type=EXISTING,
 )
 @click.option(
     "-o",

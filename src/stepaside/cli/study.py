@@ -6,16 +6,16 @@ from typing import Any
 import click
 
 from ..core.atomic_output import check_file
-from ..report.result_labels import in_unit, label_of
+from ..report.study_table import study_table
 from .options import (
+    EXISTING_FILE,
     TextType,
     figure_option,
     shard_option,
     workers_option,
 )
 from .study_output import executor_option, finish_study, run_stored
-from .tables import print_columns, print_table
-from .terminal import json_option, print_json, write_result
+from .terminal import echo, json_option, print_json, write_result
 
 SUFFIX = ".sqlite"
 
@@ -32,7 +32,7 @@ def _records(text: str) -> Path:
     "parts",
     nargs=-1,
     metavar="[PART]...",
-    type=click.Path(exists=True, dir_okay=False, path_type=Path),
+    type=EXISTING_FILE,
 )
 @click.option(
     "--set",
@@ -99,56 +99,19 @@ def study(
     if shows:
         write_result(preset_file(source).read_text("utf-8"))
         return
-    made = load_study(source, sets)
+    made = load_study(source, sets, by=by, values=values)
     if parts:
         if output is None:
             raise click.UsageError("files of shards require --output")
         merge_results(parts, output)
     run = run_stored(made, output, **campaign)
-    rows = run.table(by, values) if run.finished else []
+    rows = run.table() if run.finished else []
     if as_json:
         print_json({"planned": run.total, "done": run.finished, "rows": rows})
     else:
-        _print(rows, by or made.by, values or made.values)
+        echo(study_table(rows, made.by, made.values))
     if figure is not None and run.completed:
         from ..report.study_figures import draw_study
 
-        draw_study(rows, by or made.by, str(figure))
+        draw_study(rows, made.by, str(figure))
     finish_study(run, "games")
-
-
-def _print(
-    rows: list[dict[str, Any]], by: tuple[str, ...], values: tuple[str, ...]
-) -> None:
-    """Print a row for each group: shares and means with 95 % intervals."""
-    lines = [
-        [
-            *(_text(row[name]) for name in by),
-            str(row["number"]),
-            *(_cell(name, row[name]) for name in values),
-        ]
-        for row in rows
-    ]
-    heads = (*by, "games", *(label_of(name, unit=True) for name in values))
-    if len(rows) > 1:
-        print_columns(heads, lines, left=range(len(by)))
-        return
-    for line in lines:  # a single row reads better as a list
-        print_table(list(zip(heads, line, strict=True)))
-
-
-def _text(value: Any) -> str:
-    return f"{value:g}" if isinstance(value, float) else str(value)
-
-
-def _cell(name: str, found: Any) -> str:
-    """Return the statistics of a value as text, in the unit of its name."""
-    if found is None:
-        return "-"
-    if "mean" in found:
-        mean, half = (in_unit(name, found[key]) for key in ("mean", "half"))
-        return f"{mean:.4g}" + (f" ±{half:.2g}" if half else "")
-    if "share" in found:
-        low, high = 100 * found["low"], 100 * found["high"]
-        return f"{100 * found['share']:.0f} % ({low:.0f}-{high:.0f})"
-    return ", ".join(f"{each['count']} {text}" for text, each in found.items())

@@ -6,6 +6,7 @@ from math import isfinite
 from typing import TYPE_CHECKING, Any
 
 from ..report.result_labels import in_unit, label_of, unit_of
+from ..report.study_table import align_columns
 from .terminal import echo
 
 if TYPE_CHECKING:
@@ -59,10 +60,17 @@ def format_value(name: str, value: Any, digits: int = 6) -> str:
         text = ", ".join(f"{one} by {other}" for one, other in value.items())
         return text or "none"
     elif isinstance(value, int | float):
-        text = f"{in_unit(name, value):.{digits}g}"
+        text = _significant(in_unit(name, value), digits)
     else:
         return str(value)
     return f"{text} {unit}".strip()
+
+
+def _significant(value: float, digits: int) -> str:
+    """Return a number with that many digits; an integer and 0 as they are."""
+    if isinstance(value, int) or not value:
+        return f"{value:.0f}"
+    return f"{value:#.{digits}g}".removesuffix(".")
 
 
 def table_rows(
@@ -119,18 +127,9 @@ def print_columns(
     *,
     left: Container[int],
 ) -> None:
-    """Print one line per row, below a header, in aligned columns.
-
-    The columns in ``left`` are aligned to the left.
-    """
-    table = [heads, *rows]
-    widths = [max(map(len, column)) for column in zip(*table, strict=True)]
-    for line in table:
-        cells = [
-            cell.ljust(width) if k in left else cell.rjust(width)
-            for k, (cell, width) in enumerate(zip(line, widths, strict=True))
-        ]
-        echo("  ".join(cells).rstrip())
+    """Print one line per row, below a header, in aligned columns."""
+    for line in align_columns(heads, rows, left=left):
+        echo(line)
 
 
 def print_table(rows: Sequence[tuple[str, str]]) -> None:

@@ -373,10 +373,10 @@ def plan(settings: PlanSettings, figure: Path | None, as_json: bool) -> None:
     from ..planning import ManeuverPlanner, TemplateDrive
 
     role, bearing, gait = settings.role, settings.bearing, settings.gait
-    for name, value in (("--role", role), ("--bearing", bearing)):
-        if value is None:
-            raise click.UsageError(f"missing option {name}")
-    assert role is not None and bearing is not None  # for the type checker
+    if role is None:
+        raise click.UsageError("missing option --role: pursuer or evader")
+    if bearing is None:
+        raise click.UsageError("missing option --bearing: like 60deg")
     maneuver = ManeuverPlanner(gait).plan(
         bearing,
         ROLES[role],

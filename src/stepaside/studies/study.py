@@ -14,7 +14,7 @@ from concurrent.futures import (
     wait,
 )
 from contextlib import ExitStack, closing, contextmanager
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from importlib import import_module
 from math import ceil
 from pathlib import Path
@@ -30,6 +30,7 @@ from ..core.errors import (
     as_path,
 )
 from ..core.progress import ProgressLine
+from ..report.study_table import study_table
 from .results_version import RESULTS, library_versions
 from .tabulation import Record, tabulate, to_frame
 
@@ -70,9 +71,9 @@ class Study(Generic[C]):
     """
 
     name: str
-    cases: Sequence[C]
-    measure: Callable[[C], Record]
-    key_of: Callable[[C], str]
+    cases: Sequence[C] = field(repr=False)
+    measure: Callable[[C], Record] = field(repr=False)
+    key_of: Callable[[C], str] = field(repr=False)
     by: tuple[str, ...] = ()
     values: tuple[str, ...] = ()
 
@@ -186,6 +187,18 @@ class StudyRun(Generic[C]):
         """
         names = tuple(by) or self.study.by, tuple(values) or self.study.values
         return tabulate(self.records(), *names)
+
+    def __repr__(self) -> str:
+        """Name the study, and tell how much of it is finished."""
+        done = f"{self.finished} of {self.total} cases"
+        return f"StudyRun({self.study.name!r}, {done})"
+
+    def __str__(self) -> str:
+        """Return the table of the study as text."""
+        by, values = self.study.by, self.study.values
+        if not self.finished or not values:
+            return repr(self)
+        return study_table(self.table(), by, values)
 
     def to_frame(self, library: str = "polars") -> Any:
         """Return the records as a data frame of polars, or of pandas."""

@@ -76,6 +76,7 @@ class _Design(NamedTuple):
     game: str | Callable[..., Record]
     settings: Mapping[str, Any]
     variants: Mapping[str, Mapping[Any, Mapping[str, Any]]]
+    shown: tuple[str, ...]  # values of the table
 
     def settings_of(self, case: Case) -> Any:
         """Return the settings of a case."""
@@ -92,9 +93,13 @@ class _Design(NamedTuple):
     def measure(self, case: Case) -> Record:
         """Play the game of a case; return its record."""
         settings = self.settings_of(case)
-        if isinstance(self.game, str):
-            return {**case, **GAMES[self.game].play(settings)}
-        return {**case, **self.game(**settings)}
+        if not isinstance(self.game, str):
+            return {**case, **self.game(**settings)}
+        record = {**case, **GAMES[self.game].play(settings)}
+        for name in self.shown:
+            if "." not in name:  # those with dots depend on the players
+                check_choice(name, record, "by or value")
+        return record
 
     def fingerprint(self, axes: Sequence[tuple[str, Sequence[Any]]]) -> str:
         """Return a hash of what all share and of the strategy files."""
@@ -155,11 +160,12 @@ def make_study(
             f"got {number}"
         )
     varied = tuple(by) or tuple(each for each in every[0] if each != SEED)
-    design = _Design(game, shared, variants)
     if isinstance(game, str):
         check_choice(game, GAMES, "game")
-        _check(design, every)
         values = tuple(values) or GAMES[game].values
+    design = _Design(game, shared, variants, (*varied, *values))
+    if isinstance(game, str):
+        _check(design, every)
     own_of = cache(lambda: design.fingerprint(axes))
     return Study(
         name,
@@ -184,7 +190,13 @@ class StudyFile:
     values: tuple[str, ...] = ()
 
 
-def load_study(file: AnyPath, sets: Sequence[str] = ()) -> Study[Case]:
+def load_study(
+    file: AnyPath,
+    sets: Sequence[str] = (),
+    *,
+    by: Sequence[str] = (),
+    values: Sequence[str] = (),
+) -> Study[Case]:
     """Return the study of a file or of a preset.
 
     A file has ``game``; ``settings`` that all cases share; ``grid``, a table
@@ -199,6 +211,9 @@ def load_study(file: AnyPath, sets: Sequence[str] = ()) -> Study[Case]:
         sets: Changes like ``duration=60``, ``evader=robust,look-ahead`` or
             ``seed=0:10``: the setting at a path, its values, or the variants
             of an axis, which may have wildcards.
+        by: Values that tell the rows of the table apart; by default those
+            of the file.
+        values: Values of the table, likewise.
 
     Raises:
         ConfigurationError: If the file is not TOML, or an entry is unknown,
@@ -225,6 +240,7 @@ def load_study(file: AnyPath, sets: Sequence[str] = ()) -> Study[Case]:
         _set(made, text)
     for axis, each in made.grid.items():
         made.grid[axis] = _values(axis, each, file)
+    made.by, made.values = tuple(by) or made.by, tuple(values) or made.values
     return make_study(**vars(made), name=file.stem)
 
 
@@ -246,15 +262,12 @@ def _set(made: StudyFile, text: str) -> None:
     named = made.variants.get(path)
     if named is not None:
         patterns = value if isinstance(value, list) else [value]
-        chosen = {
-            name: changes
-            for name, changes in named.items()
-            if any(fnmatchcase(name, str(each)) for each in patterns)
-        }
-        if not chosen:
-            raise ConfigurationError(
-                f"{path} must be of {', '.join(named)}, got {word!r:.60}"
-            )
+        chosen = dict[str, Any]()
+        for each in map(str, patterns):
+            found = [name for name in named if fnmatchcase(name, each)]
+            if not found:
+                check_choice(each, named, path)
+            chosen |= {name: named[name] for name in found}
         made.variants[path] = chosen
     elif isinstance(value, list | dict) or RANGE.fullmatch(word):
         made.settings.pop(path, None)

@@ -2,13 +2,14 @@
 
 import json
 from collections.abc import Iterable, Mapping, Sequence
+from importlib import import_module
 from math import sqrt
 from typing import Any
 
 import numpy as np
 from scipy.special import stdtrit
 
-from ..core.errors import ConfigurationError, check_choice
+from ..core.errors import check_choice
 
 Record = dict[str, Any]
 """Measured values of one case by name, as values for JSON."""
@@ -125,7 +126,17 @@ def to_frame(
 
     Raises:
         ConfigurationError: If the library is neither.
+        ModuleNotFoundError: If it is not installed.
     """
+    check_choice(library, ("polars", "pandas"), "library")
+    try:
+        frames = import_module(library)
+    except ModuleNotFoundError as error:
+        raise ModuleNotFoundError(
+            f"to_frame({library!r}) needs {library}, which is not installed: "
+            f"pip install {library}; the other of polars and pandas will do",
+            name=error.name,
+        ) from error
     rows = [
         {
             name: json.dumps(value) if isinstance(value, list) else value
@@ -134,13 +145,5 @@ def to_frame(
         for record in records
     ]
     if library == "pandas":
-        import pandas
-
-        return pandas.DataFrame(rows)
-    if library != "polars":
-        raise ConfigurationError(
-            f"library must be polars or pandas, got {library!r:.40}"
-        )
-    import polars
-
-    return polars.DataFrame(rows, infer_schema_length=None, strict=False)
+        return frames.DataFrame(rows)
+    return frames.DataFrame(rows, infer_schema_length=None, strict=False)

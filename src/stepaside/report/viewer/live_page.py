@@ -21,7 +21,7 @@ from .live_session import LiveSession
 from .page_server import open_server, show_notice
 from .scene_bodies import SceneBodies
 from .settings_panel import SettingsPanel
-from .status_panel import Plots, camera_picture, page_text
+from .status_panel import Plots, camera_picture, names_text, page_text
 from .viewer_cameras import CAMERAS, ViewerCameras
 
 LOG = logging.getLogger(__name__)
@@ -64,6 +64,7 @@ class Page:
         self._layers = SceneLayers(scene)
         self._viewers = ViewerCameras(self.server)
         _add_floor(scene)
+        self._names = gui.add_html("")
         self._add_bodies()
         play, settings_tab, layers = self._arrange()
         self._status = gui.add_markdown("starting")
@@ -80,7 +81,6 @@ class Page:
         with layers:
             for layer, described in LAYERS.items():
                 self._add_layer(layer, described.meaning)
-            gui.add_markdown("Pursuers: red. Evaders: blue. Others: grey.")
         self._publisher = threading.Thread(target=self._publish, daemon=True)
 
     def _arrange(self) -> list[Any]:
@@ -111,6 +111,7 @@ class Page:
             self.server.scene, world.model, world.data, names
         )
         self._shown = self._stage()
+        self._names.content = names_text(self.session.colours)
 
     def _stage(self) -> tuple[Any, ...]:
         """Return what decides which bodies a game has."""

@@ -1,5 +1,7 @@
 """Status of a live game: its state as text, plots over time, camera images."""
 
+from collections.abc import Mapping
+from html import escape
 from math import degrees, tan
 from typing import TYPE_CHECKING
 
@@ -21,10 +23,7 @@ if TYPE_CHECKING:  # vision is an extra of its own
 PADDING = (12, 12, 0, 0)  # for the last tick labels, in [pixels]
 LAST = 1e6  # order of elements below all others
 LIGHT = PALETTES["light"]
-COLOURS = {
-    "Distance [m]": LIGHT.pursuer,
-    "Angle between the headings [deg]": LIGHT.evader,
-}
+TITLES = ("Distance [m]", "Angle between the headings [deg]")
 WIDTH = 240  # of a picture at least, approximately, in [pixels]
 FOUND = (30, 190, 70)  # red, green and blue of detections
 
@@ -35,6 +34,15 @@ def phase_of(player: Player) -> Phase:
         return Phase.FALLEN
     walk = player.maneuvers
     return Phase.WALKING if walk is None else walk.phase
+
+
+def names_text(colours: Mapping[str, str]) -> str:
+    """Return the names of players in their colours, in HTML."""
+    names = "  ".join(
+        f'<b style="color: {colour}">{escape(name)}</b>'
+        for name, colour in colours.items()
+    )
+    return f'<div style="padding: 0.4em 0.8em 0">{names}</div>'
 
 
 def page_text(session: LiveSession) -> str:
@@ -91,7 +99,7 @@ class Plots:
         if len(rows) < 2:
             return
         theory = session.theory or (None, None, None)
-        for column, title in enumerate(COLOURS, 1):
+        for column, title in enumerate(TITLES, 1):
             # uPlot cannot draw NaN.
             data = tuple(rows[np.isfinite(rows[:, column])][:, [0, column]].T)
             level = theory[column]
@@ -113,7 +121,7 @@ class Plots:
         """Add a plot: times, values, and the theory's value if it is known."""
         series = (
             uplot.Series(label="time [s]"),
-            uplot.Series(label=title, stroke=COLOURS[title], width=2),
+            uplot.Series(label=title, stroke=LIGHT.mean, width=2),
             uplot.Series(label="theory", stroke=LIGHT.theory, dash=(5, 5)),
         )
         return self._gui.add_uplot(
