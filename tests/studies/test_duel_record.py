@@ -34,7 +34,10 @@ def test_only_a_certified_start_has_a_certified_distance() -> None:
     facing = StartSettings(0.75, 0.0, 0.0)
     blind = StartSettings(0.75, 3.0, 3.0)
     settings = duel(duration=0.1, start=facing)
-    assert 0.3 < play_duel(settings)["certified_m"] < 0.75
+    record = play_duel(settings)
+    assert 0.3 < record["certified_m"] < 0.75
+    over = record["evading_min_distance_m"] - record["certified_m"]
+    assert record["nearer_than_certified"] is (over < 0.0)
     for changes in (
         {"start": blind},
         {"evasion": Evasion(saturated=True)},
@@ -42,6 +45,7 @@ def test_only_a_certified_start_has_a_certified_distance() -> None:
     ):
         record = play_duel(settings.changed(**changes))
         assert record["certified_m"] is None
+        assert record["nearer_than_certified"] is None
 
 
 CHILD = """

@@ -76,6 +76,7 @@ def play_push(trial: PushTrial) -> Record:
         "limit_n_s": limit,
         "bound_n_s": bound,
         "of_bound": limit / bound,
+        "above_bound": limit > bound,
         "walks": tried,
     }
 

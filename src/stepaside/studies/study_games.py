@@ -31,14 +31,17 @@ def play_duel(settings: GameSettings) -> Record:
     """Play one duel and return its record: what it came to, by flat names."""
     run = run_game(settings).uninterrupted()
     since, (closest, certified) = run.summary.converged_at_s, _evasion(run)
-    both = closest is not None and certified is not None
+    over = None
+    if closest is not None and certified is not None:
+        over = closest - certified
     return flat(run.results()) | {
         "on_circle": since is not None,
         "on_circle_in_time": since is not None
         and since < BEFORE * run.settings.duration,
         "evading_min_distance_m": closest,
         "certified_m": certified,
-        "over_certificate_m": closest - certified if both else None,
+        "over_certificate_m": over,
+        "nearer_than_certified": None if over is None else bool(over < 0),
     }
 
 
