@@ -416,9 +416,7 @@ def main(floor: str, updates: int) -> None:
         room=ROOMS[floor],
         any_heading=is_open,
         duration=82.0,
-        duel=duel(
-            capture=0.02 if is_open else 0.35, pursuers_pass=not is_open
-        ),
+        duel=duel(capture=0.02 if is_open else 0.35),
         first_arena=1000,  # those before are for the rating
         action="discrete",
         full_state=True,

@@ -1,22 +1,25 @@
 """Play one duel, and one in a room, at every level from every door.
 
-The doors are Python, a game file, a tournament and the environment of both
-players, whose actions are those of the strategies::
+The doors are Python, a game file, a tournament, the environment of both
+players, whose actions are those of the strategies, and the compiled games
+against the pursuer. In the room the pursuer goes around obstacles::
 
     PYTHONPATH=src:tools/benchmarks python tests/doors.py
 """
 
 from dataclasses import asdict, replace
+from math import atan2
 from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import Any
 
 from stepaside.arena import Room, RoomRecipe, generate_room
 from stepaside.core.poses import Pose
-from stepaside.envs import ParallelDuel
+from stepaside.envs import ParallelDuel, VectorDuel
 from stepaside.games import GameSettings, duel, run_game
 from stepaside.games.settings_reader import dump_configuration, load_game
-from stepaside.strategies import load_strategy
+from stepaside.strategies import Knowledge, load_strategy
+from stepaside.strategies.knowledge import limits_of
 from stepaside.studies.tournament import (
     PairingSettings,
     play_track,
@@ -28,7 +31,7 @@ LEVELS = ("steps", "unicycle", "physics")
 DURATION = 110 * 0.547  # of a duel, whole steps, in [s]
 STRATEGIES = {"pursuer": "pursuit", "evader": "evasion(safety_radius=100)"}
 STARTS = RelativeStart(1.0, 0.3, -0.2).poses()
-RECIPE, SEED = RoomRecipe(discs=3), 3  # of the room
+RECIPE, SEED = RoomRecipe(discs=3), 105  # of the room
 
 Row = dict[str, Any]
 
@@ -92,22 +95,50 @@ def from_tournament(level: str, *, room: bool) -> Row:
     }
 
 
-def from_environment(level: str, *, room: bool) -> Row:
-    """Play an episode; a decision is the action of its knowledge."""
+def environment_of(level: str, *, room: bool) -> dict[str, Any]:
+    """Return the settings of an environment of the duel."""
     game = settings_of(level, room=room)
     plan = game.room
     if level != "physics" and plan is None:
         plan = Room(starts=STARTS)
-    env = ParallelDuel(
-        level=level,
-        duration=DURATION,
-        room=plan,
-        arenas=1,
-        duel=replace(game, room=None),
-    )
+    duel = replace(game, room=None)
+    found = {"level": level, "duration": DURATION, "room": plan}
+    return found | {"arenas": 1, "duel": duel}
+
+
+def from_many(level: str, *, room: bool) -> Row | None:
+    """Play one of the compiled games, which are not played in physics."""
+    if level == "physics":
+        return None
+    settings = environment_of(level, room=room)
+    name = STRATEGIES["pursuer"]
+    env = VectorDuel(role="evader", opponent=name, **settings)
+    given, over, time = env.settings, [False], 0.0
+    gait, mind = given.duel.evader.gait, load_strategy(STRATEGIES["evader"])
+    limits, memory = limits_of(gait), mind.begin()
+    seen, _ = env.reset(seed=0)
+    while not any(over):
+        away, cosine, sine = map(float, seen[0, :3])
+        known = Knowledge(time, atan2(sine, cosine), away, limits)
+        intent, memory = mind.decide(known, memory)
+        action = [[intent.heading, intent.speed_factor]]
+        seen, _, touched, late, info = env.step(action)
+        over, time = touched | late, time + given.period
+    unit = gait.speed / gait.gain
+    return {
+        "outcome": "touched" if touched[0] else "completed",
+        "time_s": time,
+        "distance_m": float(info["final_obs"][0, 0]) * unit,
+        "closest_m": float(info["final_info"]["closest_m"][0]),
+    }
+
+
+def from_environment(level: str, *, room: bool) -> Row:
+    """Play an episode; a decision is the action of its knowledge."""
+    env = ParallelDuel(**environment_of(level, room=room))
     minds = {name: load_strategy(n) for name, n in STRATEGIES.items()}
     memories = {name: mind.begin() for name, mind in minds.items()}
-    _, infos = env.reset(seed=game.seed)
+    _, infos = env.reset(seed=env.settings.duel.seed)
     while env.agents:
         actions = {}
         for name, mind in minds.items():
@@ -132,6 +163,7 @@ DOORS = {
     "game file": from_file,
     "tournament": from_tournament,
     "environment": from_environment,
+    "many games": from_many,
 }
 
 
@@ -142,10 +174,11 @@ def main() -> None:
 
     output = ask(__doc__, "doors.json").parse_args().output
     rows = [
-        {"level": level, "door": door, "room": room, **play(level, room=room)}
+        {"level": level, "door": door, "room": room, **found}
         for room in (False, True)
         for level in LEVELS
         for door, play in DOORS.items()
+        if (found := play(level, room=room))
     ]
     head = header({"duration_s": DURATION, "recipe": asdict(RECIPE)})
     write_result(output, head, rows=rows)

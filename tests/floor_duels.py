@@ -22,18 +22,9 @@ def play_steps(
     room: Room | None = None,
     **changes: Any,
 ) -> StrategyTrack:
-    """Play a number of steps of two NAO.
-
-    Pursuers pass through obstacles unless it is changed, like other settings
-    of a duel.
-    """
+    """Play a number of steps of two NAO, with changed settings of a duel."""
     game = duel(
-        **{
-            "level": "steps",
-            "duration": steps * STEP,
-            "pursuers_pass": True,
-            **changes,
-        }
+        **{"level": "steps", "duration": steps * STEP, **changes},
     )
     game = replace(game, room=room).started_at(starts)
     return record_steps(game, {"pursuer": pursuer, "evader": evader})

@@ -136,8 +136,6 @@ def test_a_law_that_the_kernel_does_not_know_is_refused() -> None:
     ):
         with pytest.raises(ConfigurationError, match=word):
             VectorDuel(role="evader", level="steps", duel=make_duel(**changes))
-    with pytest.raises(ConfigurationError, match="pursuers_pass must be true"):
-        VectorDuel(role="evader", duel=make_duel(), **ROOM)
 
 
 def test_contact_with_an_obstacle_counts_as_no_distance() -> None:

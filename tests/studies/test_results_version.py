@@ -30,9 +30,8 @@ OF_THE_MACHINE = ("real_time_factor", "median_us", "p99_us")
 STUDIES: dict[str, tuple[str, str, list[float]]] = {
     "tournament": (
         "closest_m",
-        'seed = "1:4"\n[settings]\nduration = 41.025\npursuers_pass = true\n'
-        "room.discs = 3",
-        [0.747292303, 0.781406943, 0.46711146],
+        'seed = "1:4"\n[settings]\nduration = 41.025\nroom.discs = 3',
+        [0.761491795, 0.781406943, 0.46711146],
     ),
     "unicycles": (
         "distance_m",

@@ -18,7 +18,7 @@ from stepaside.studies.tournament import (
 )
 from stepaside.theory.value import two_cars as tables
 
-SHORT = TOURNAMENT.changed(duration=40 * STEP, seed=3, pursuers_pass=True)
+SHORT = TOURNAMENT.changed(duration=40 * STEP, seed=3)
 SETTINGS = PairingSettings(SHORT, room=RoomRecipe(discs=1))
 
 
@@ -61,11 +61,10 @@ def test_the_circle_of_a_gain_balances_both_players(ratio: float) -> None:
 
 def test_sharp_and_herding_capture_a_survivor_of_the_papers_pursuer() -> None:
     """In rooms of 3 m, look-ahead: each survives pure, few the others."""
-    game = TOURNAMENT.changed(pursuers_pass=True)
     survived = {
         pursuer: [
             play_track(
-                PairingSettings(game.changed(pursuer=pursuer, seed=seed))
+                PairingSettings(TOURNAMENT.changed(pursuer=pursuer, seed=seed))
             ).outcome
             for seed in range(1000, 1004)
         ].count(Outcome.COMPLETED)

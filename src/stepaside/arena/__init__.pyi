@@ -17,4 +17,5 @@ from .shapes import Disc as Disc
 from .shapes import MovingBox as MovingBox
 from .shapes import Polygon as Polygon
 from .shapes import hull as hull
+from .shortest_path import course_around as course_around
 from .shortest_path import first_waypoint as first_waypoint

@@ -77,6 +77,27 @@ def clearance_at(
     return nearest
 
 
+@compiled
+def touches(
+    packed: PackedObstacles, x: float, y: float, radius: float
+) -> bool:
+    """Return whether a disc at a point touches an obstacle."""
+    return clearance_at(packed, x, y, radius) < radius
+
+
+@compiled
+def stop_at(
+    packed: PackedObstacles, start: Any, end: Any, radius: float
+) -> tuple[float, float]:
+    """Return where a disc is that moves to a point: it touches no obstacle.
+
+    It stays where it is if it would.
+    """
+    if touches(packed, end[0], end[1], radius):
+        return start[0], start[1]
+    return end[0], end[1]
+
+
 @inlined
 def from_segment(
     x: float, y: float, u: float, v: float, dx: float, dy: float
@@ -105,6 +126,11 @@ def segment_clearance(
     least: float = from_segment(x, y, u, v, dx, dy) - radius
     if firsts[k] == firsts[k + 1] or least > enough:
         return least
+    for i in range(firsts[k], firsts[k + 1]):
+        height = edges[i, 0] * u + edges[i, 1] * v - edges[i, 2]
+        height += min(edges[i, 0] * dx + edges[i, 1] * dy, 0.0)
+        if height > enough:
+            return float(height)
     least = hull_clearance(packed, k, u, v, inf)
     least = hull_clearance(packed, k, end[0], end[1], least)
     enters, leaves = 0.0, 1.0

@@ -114,7 +114,7 @@ def check_within(
     rule: str = "lie in [{:g}, {:g}]",
 ) -> None:
     """Raise ``error`` unless ``low <= value <= high``."""
-    number = as_number(value)
+    number = value if type(value) is float else as_number(value)
     if number is None or not low <= number <= high:
         told = f"{name} must {rule.format(low, high)} [{unit}]"
         raise error(f"{told}, got {shown(value)}")

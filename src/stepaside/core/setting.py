@@ -219,9 +219,9 @@ class EntryReader:
         if hint is float and type(value) is float and range:  # most often
             if range.low < value <= range.high:
                 return value
-        origin, args = get_origin(hint), get_args(hint)
-        if hint is Any:
+        if hint is Any or (type(value) is hint and is_dataclass(value)):
             return value
+        origin, args = get_origin(hint), get_args(hint)
         if isinstance(value, str):
             value = described.meant(value)
             if described.presets is not None and isinstance(value, str):

@@ -11,6 +11,7 @@ from gymnasium.vector.utils import batch_space
 from numpy.typing import NDArray
 
 from ..arena.obstacles import ObstacleSet
+from ..arena.shortest_path import path_corners
 from ..core.errors import (
     ConfigurationError,
     PlanError,
@@ -24,7 +25,7 @@ from ..games.player_settings import PLAYERS
 from ..strategies.evasion import Evasion
 from ..strategies.knowledge import limits_of
 from ..strategies.learned import LearnedStrategy
-from ..strategies.pursuit import Pursuit
+from ..strategies.pursuit import FREE_STRIDES, Pursuit
 from ..strategies.registry import load_strategy
 from ..strategies.strategy import StandStill, Strategy
 from .environment_settings import (
@@ -152,11 +153,6 @@ def rules_of(settings: EnvironmentSettings) -> BatchRules:
         raise ConfigurationError(
             "gaits of duel must be equal, without outer_stride, for many games"
         )
-    if settings.room is not None and not game.pursuers_pass:
-        raise ConfigurationError(
-            "duel.pursuers_pass must be true in rooms of many games, whose "
-            "pursuers know no obstacles"
-        )
     return BatchRules(
         limits.stride / parts,
         limits.share,
@@ -165,7 +161,7 @@ def rules_of(settings: EnvironmentSettings) -> BatchRules:
         limits.speed,
         limits.gain,
         game.capture,
-        own.radius + MARGIN,
+        (game.pursuer.radius + MARGIN, own.radius + MARGIN),
         round(game.duration / settings.period),
         # Of strategies.opponent_track, in decisions.
         floor(2.25 * parts + 1e-9),
@@ -173,12 +169,16 @@ def rules_of(settings: EnvironmentSettings) -> BatchRules:
     )
 
 
-def law_of(strategy: Strategy) -> BatchLaw:
-    """Return the law of a strategy as numbers, if the kernel knows it."""
+def law_of(strategy: Strategy, stride: float) -> BatchLaw:
+    """Return the law of a strategy as numbers, if the kernel knows it.
+
+    Strides are in [m].
+    """
     if isinstance(strategy, Pursuit):
         more = strategy.pull, strategy.lead, strategy.noise, strategy.waiting
         if not any(more):
-            return BatchLaw(strategy.gain)
+            ahead = FREE_STRIDES * stride
+            return BatchLaw(strategy.gain, strategy.body_radius, ahead)
     if type(strategy) is Evasion and strategy.trigger != "time":
         return BatchLaw(
             angle=strategy.angle,
@@ -193,6 +193,18 @@ def law_of(strategy: Strategy) -> BatchLaw:
         "pursuit of any gain, sharp, stand or FILE.onnx, got a "
         f"{type(strategy).__name__}; others play in vectorization_mode "
         "'sync' or 'async'"
+    )
+
+
+def pack_rooms(rooms: Sequence[ObstacleSet], radius: float) -> RoomBatch:
+    """Return the obstacles of rooms, and corners that a radius [m] keeps."""
+    whole = ObstacleSet(tuple(solid for room in rooms for solid in room))
+    corners = [path_corners(room, radius) for room in rooms]
+    firsts, first_corners = (
+        np.cumsum([0, *map(len, each)]) for each in (rooms, corners)
+    )
+    return RoomBatch(
+        whole.packed, firsts, np.concatenate(corners), first_corners
     )
 
 
@@ -254,15 +266,14 @@ class VectorDuel(VectorEnv[Row, Any, Any]):
         self._opponent = (
             strategy
             if isinstance(strategy, LearnedStrategy)
-            else law_of(strategy)
+            else law_of(strategy, given.duel.evader.gait.stride)
         )
         self._saturated = np.zeros(2, np.bool_)
         self._saturated[self._other] = strategy.saturated
         rooms, starts = given.draw_arenas()
-        solids = [room.solid_set.shapes for room in rooms]
-        whole = ObstacleSet(tuple(s for shapes in solids for s in shapes))
-        firsts = np.cumsum([0, *map(len, solids)])
-        self._rooms = RoomBatch(whole.packed, firsts)
+        law = self._opponent
+        reach = law.radius if isinstance(law, BatchLaw) else 0.0
+        self._rooms = pack_rooms([room.solid_set for room in rooms], reach)
         x, y, heading = np.moveaxis(np.array(starts, np.float64), -1, 0)
         axes = x, y, np.cos(heading), np.sin(heading)
         self._starts = np.stack(axes, axis=-1)
@@ -341,7 +352,8 @@ class VectorDuel(VectorEnv[Row, Any, Any]):
             seen = self._seen(self._other, opponent.contract.terms)
             others[:] = opponent.intents(seen)
         else:
-            decide_by_law(state, self._other, opponent, rules, others)
+            rooms, other = self._rooms, self._other
+            decide_by_law(state, other, opponent, rooms, rules, others)
         advance_games(
             state, self._intents, self._saturated, self._rooms, rules
         )

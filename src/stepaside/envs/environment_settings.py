@@ -45,7 +45,7 @@ SEEDS = 2**31
 # Arenas between one episode and the next of the same seed: a prime that
 # divides no usual number of arenas, so that all of them come.
 STRIDE = 7919
-DUEL = make_duel(pursuers_pass=True)
+DUEL = make_duel()
 LOW, HIGH = (-pi, 0.0), (pi, 1.0)  # of a continuous action
 
 

@@ -10,9 +10,16 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from ..arena.obstacles import PackedObstacles, hull_clearance
-from ..core.compilation import compiled, copy_values, inlined
+from ..arena.obstacles import (
+    PackedObstacles,
+    clearance_at,
+    stop_at,
+    touches,
+)
+from ..arena.shortest_path import find_course
+from ..core.compilation import compiled_loop, copy_values, inlined
 from ..core.poses import Array
+from ..strategies.knowledge import MAX_HEADING
 from ..strategies.learned import (
     CLEAREST,
     FARTHEST,
@@ -45,7 +52,8 @@ class BatchState(NamedTuple):
     # of two: unit vector to the evader, and distance [m]. (n, history, 3).
     sights: Array
     decisions: NDArray[np.int64]  # so far. Shape (n,).
-    sides: NDArray[np.int64]  # of an evader; 0 unless it evades. (n, 2).
+    # Of evasion, or of a detour; 0 without. Shape (n, 2).
+    sides: NDArray[np.int64]
     walking: NDArray[np.bool_]  # by the last intent. Shape (n, 2).
     closest: Array  # so far [m]; 0 after contact with an obstacle. (n,).
     rooms: NDArray[np.int64]  # index of the room. Shape (n,).
@@ -62,7 +70,7 @@ class BatchRules(NamedTuple):
     speed: float  # of the template [m/s]
     gain: float  # of the steering [1/s]
     capture: float  # distance [m]
-    body_radius: float  # clearance below which the evader touches [m]
+    radii: tuple[float, float]  # of the bodies of pursuer and evader [m]
     limit: int  # decisions until a game ends
     lag: int  # decisions over which rates are differences
     least_lag: int  # over which they are known
@@ -72,6 +80,8 @@ class BatchLaw(NamedTuple):
     """Law of a player, as numbers."""
 
     ratio: float = 0.0  # gain of a pursuer over that of its gait; 0 evades
+    radius: float = 0.0  # that it keeps from obstacles [m]
+    ahead: float = 0.0  # way on which it foresees them [m]
     angle: float = 0.0  # of evasion [rad]
     safety_radius: float = 0.0  # where evasion begins [m]
     release: float = 0.0  # where it ends [m]
@@ -83,17 +93,24 @@ class RoomBatch(NamedTuple):
 
     packed: PackedObstacles
     firsts: NDArray[np.int64]  # of each room, and their number. (rooms + 1,).
+    corners: Array  # of paths around obstacles [m]. (n, 2).
+    first_corners: NDArray[np.int64]  # likewise. (rooms + 1,).
 
 
 @inlined
-def room_clearance(
-    rooms: RoomBatch, room: int, x: float, y: float, enough: float
-) -> float:
-    """Return the clearance of a point in one of the rooms, in [m]."""
-    nearest = enough
-    for k in range(rooms.firsts[room], rooms.firsts[room + 1]):
-        nearest = hull_clearance(rooms.packed, k, x, y, nearest)
-    return nearest
+def has_obstacles(rooms: RoomBatch, room: int) -> bool:
+    """Return whether one of the rooms has obstacles."""
+    return bool(rooms.firsts[room] < rooms.firsts[room + 1])
+
+
+@inlined
+def obstacles_of(rooms: RoomBatch, room: int) -> PackedObstacles:
+    """Return the obstacles of one of the rooms."""
+    first, end = rooms.firsts[room], rooms.firsts[room + 1]
+    packed = rooms.packed
+    return PackedObstacles(
+        packed.circles[first:end], packed.firsts[first : end + 1], packed.edges
+    )
 
 
 @inlined
@@ -110,7 +127,7 @@ def record_sight(state: BatchState, i: int) -> float:
     return distance
 
 
-@compiled
+@compiled_loop
 def start_games(state: BatchState, games: Any, starts: Any) -> None:
     """Begin the games with some indices, at poses of shape (m, 2, 4)."""
     for n in range(len(games)):
@@ -123,9 +140,14 @@ def start_games(state: BatchState, games: Any, starts: Any) -> None:
         state.closest[i] = record_sight(state, i)
 
 
-@compiled
+@compiled_loop
 def decide_by_law(
-    state: BatchState, player: int, law: BatchLaw, rules: BatchRules, out: Any
+    state: BatchState,
+    player: int,
+    law: BatchLaw,
+    rooms: RoomBatch,
+    rules: BatchRules,
+    out: Any,
 ) -> None:
     """Decide for player 0 or 1 of all games by the paper's law.
 
@@ -139,10 +161,26 @@ def decide_by_law(
         dy = pose[1 - player, 1] - pose[player, 1]
         c, s = pose[player, 2], pose[player, 3]
         bearing = atan2(c * dy - s * dx, c * dx + s * dy)
+        side, bends = state.sides[i, player], False
         if law.ratio:
-            out[i, 0] = min(max(ratio * bearing, -pi), pi)
+            room = state.rooms[i]
+            if has_obstacles(rooms, room):
+                first, end = rooms.first_corners[room : room + 2]
+                bearing, state.sides[i, player], bends = find_course(
+                    obstacles_of(rooms, room),
+                    rooms.corners[first:end],
+                    (pose[player, 0], pose[player, 1], c, s),
+                    (pose[1 - player, 0], pose[1 - player, 1]),
+                    law.radius,
+                    side,
+                    law.ahead,
+                )
+            if bends:
+                heading = bearing / rules.share
+                out[i, 0] = min(max(heading, -MAX_HEADING), MAX_HEADING)
+            else:
+                out[i, 0] = min(max(ratio * bearing, -pi), pi)
             continue
-        side = state.sides[i, player]
         distance = (dx * dx + dy * dy) ** 0.5
         if not is_evading(side != 0, distance, law.safety_radius, law.release):
             state.sides[i, player] = 0
@@ -153,7 +191,7 @@ def decide_by_law(
         out[i, 0] = evasion_heading(bearing, side, law.angle)
 
 
-@compiled
+@compiled_loop
 def advance_games(
     state: BatchState,
     intents: Any,
@@ -166,8 +204,8 @@ def advance_games(
     ``intents`` are heading [rad] and speed factor of pursuer and evader,
     shape (n, 2, 2); ``saturated`` tells who turns by (6), shape (2,).
     """
-    radius = rules.body_radius
     for i in range(len(intents)):
+        room = state.rooms[i]
         for p in range(2):
             heading, speed = intents[i, p, 0], intents[i, p, 1]
             state.walking[i, p] = speed > 0.0
@@ -179,13 +217,19 @@ def advance_games(
                 turn = rules.share * heading
             way = rules.stride * (speed if p == 0 else -speed)
             pose = state.poses[i, p]
-            pose[0], pose[1], pose[2], pose[3] = walk_arc(
+            x, y, pose[2], pose[3] = walk_arc(
                 pose[0], pose[1], pose[2], pose[3], way, turn / rules.parts
             )
+            if p == 0 and has_obstacles(rooms, room):
+                known = obstacles_of(rooms, room)
+                x, y = stop_at(known, pose, (x, y), rules.radii[0])
+            pose[0], pose[1] = x, y
         state.decisions[i] += 1
-        distance, room = record_sight(state, i), state.rooms[i]
+        distance = record_sight(state, i)
         x, y = state.poses[i, 1, 0], state.poses[i, 1, 1]
-        if room_clearance(rooms, room, x, y, radius) < radius:
+        if has_obstacles(rooms, room) and touches(
+            obstacles_of(rooms, room), x, y, rules.radii[1]
+        ):
             state.ended[i], state.closest[i] = True, 0.0
             continue
         state.closest[i] = min(state.closest[i], distance)
@@ -228,16 +272,16 @@ def clearances_around(
     pose: Any, rooms: RoomBatch, room: int, rules: BatchRules, out: Any
 ) -> None:
     """Fill in the term "clearances" of a player at a pose."""
-    unit = rules.speed / rules.gain
+    unit, packed = rules.speed / rules.gain, obstacles_of(rooms, room)
     for k in range(len(RING_POINTS)):
         u, v = unit * RING_POINTS[k, 0], unit * RING_POINTS[k, 1]
         x = pose[0] + pose[2] * u - pose[3] * v
         y = pose[1] + pose[3] * u + pose[2] * v
-        clear = room_clearance(rooms, room, x, y, CLEAREST * unit) / unit
+        clear = clearance_at(packed, x, y, CLEAREST * unit) / unit
         out[k] = max(clear, -CLEAREST)
 
 
-@compiled
+@compiled_loop
 def observe_games(
     state: BatchState,
     player: int,
@@ -248,7 +292,7 @@ def observe_games(
 ) -> None:
     """Compute the observations of a player in all games, shape (n, width).
 
-    Player 0 is the pursuer, which knows no obstacles; ``terms`` are codes.
+    Player 0 is the pursuer; ``terms`` are codes.
     """
     unit = rules.speed / rules.gain
     toward = 1.0 if player == 0 else -1.0
@@ -276,12 +320,9 @@ def observe_games(
             elif code == 4:
                 out[i, at] = 1.0 if state.walking[i, player] else 0.0
             elif code == 5:
-                if player == 0:
-                    out[i, at : at + len(RING_POINTS)] = CLEAREST
-                else:
-                    clearances_around(
-                        own, rooms, state.rooms[i], rules, out[i, at:]
-                    )
+                clearances_around(
+                    own, rooms, state.rooms[i], rules, out[i, at:]
+                )
                 at += len(RING_POINTS) - 1
             elif code == 6:
                 out[i, at] = -opponent[2] * dx - opponent[3] * dy

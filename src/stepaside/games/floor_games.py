@@ -103,16 +103,13 @@ def motion_of(
     physics = settings.level == "physics"
     assert pose is not None
     if own.decides:
-        passes = own.role == Role.PURSUER and settings.pursuers_pass
         agent = FloorAgent(
             strategy_of(own, given=given),
             limits_of(own.gait, velocities),
             own.identity,
             list(settings.identities.values()),
             target=own.target,
-            obstacles=solids
-            if settings.knows_room and not passes
-            else NO_OBSTACLES,
+            obstacles=solids if settings.knows_room else NO_OBSTACLES,
         )
         if velocities is not None and own.body == "robot":
             return FloorPoint(agent, pose, own.gait, period)
@@ -122,10 +119,8 @@ def motion_of(
             parts=PARTS.get(settings.level, 1),
             delay=own.gait.start_support if physics else 0.0,
             alert=period if physics else None,
-            walls=solids
-            if own.role == Role.PURSUER and not passes
-            else NO_OBSTACLES,
-            radius=own.radius + MARGIN,
+            walls=solids if own.role == Role.PURSUER else NO_OBSTACLES,
+            radius=0.0 if solids is NO_OBSTACLES else own.radius + MARGIN,
         )
     from .people import walk_of
 

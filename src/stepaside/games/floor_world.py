@@ -11,11 +11,10 @@ from time import thread_time
 import numpy as np
 
 from ..arena import NO_OBSTACLES, ObstacleSet
-from ..arena.obstacles import clearance_at
+from ..arena.obstacles import stop_at, touches
 from ..core.player_identity import PlayerIdentity
 from ..core.poses import Array, Pose, wrap_angle
 from ..locomotion.locomotion import MotionRequest, template_velocity
-from ..perception.measurement import Sighting
 from ..planning import Direction, GaitSettings
 from ..strategies.decision_maker import (
     DecisionMaker,
@@ -87,7 +86,7 @@ class FloorAgent(DecisionMaker):
     ) -> Knowledge | None:
         """Return the knowledge at a time, in [s]; None without others."""
         own = seen[self.identity.name]
-        known = tuple(self._other(who, now, own, seen) for who in self._ids)
+        known = tuple([self._other(who, now, own, seen) for who in self._ids])
         if not known:
             return None
         self._before, opponent = (now, seen), known[0]
@@ -102,13 +101,22 @@ class FloorAgent(DecisionMaker):
                 self._present = present
                 self.reset_rates()
             opponent = next(o for o in known if o.identity.name == present)
-        return self.observe(
+        x, y, _ = seen[opponent.identity.name]
+        self._track = track = self._track.note(now, (x, y), own)
+        turning, closing = track.sight_rates
+        return Knowledge(
             now,
+            opponent.bearing,
+            opponent.distance,
+            self.limits,
+            turning,
+            closing,
+            0.0,
             own,
-            Sighting(now, opponent.bearing, opponent.distance),
-            moving=moving,
-            obstacles=self.obstacles,
-            velocity=opponent.velocity,
+            moving,
+            self.obstacles,
+            opponent.velocity,
+            identity=self.identity,
             others=known,
         )
 
@@ -159,14 +167,14 @@ class FloorWalk(FloorMotion):
             alert: Time between decisions while it stands, in [s]; by default
                 that of walking.
             walls: Obstacles that stop it.
-            radius: Least distance from them, in [m].
+            radius: Of its body, in [m].
         """
         self.agent, self.pose = agent, pose
         self.is_walking = False
         self.decision_times: list[float] = []
         self._parts, self._delay = parts, delay
         self._alert = alert or agent.limits.step_duration / parts
-        self._walls, self._radius = walls, radius
+        self._walls, self.radius = walls, radius
         self._known: tuple[float, Knowledge | None] = (-inf, None)
         self._since = 0.0  # time of the pose, or of the begin of its motion
         self._left = (0.0, 0.0)  # way [m] and turn [rad] until the decision
@@ -206,32 +214,34 @@ class FloorWalk(FloorMotion):
 
     def pose_at(self, time: float) -> Pose:
         """Return the pose at a time before the next decision, in [s]."""
-        share = self._share_at(time)
-        if share <= 0.0:
+        if not self.is_walking or time <= self._since:
             return self.pose
+        return self._pose_after(self._share_at(time))
+
+    def _pose_after(self, share: float) -> Pose:
+        """Return the pose after a share of the motion until the decision."""
         way, turn = self._left
         pose = self.pose.along_arc(share * way, share * turn)
-        walls = self._walls
-        if walls is not NO_OBSTACLES and not self.is_clear(pose, walls):
-            return Pose(self.pose.x, self.pose.y, pose.theta)
-        return pose
+        if self._walls is NO_OBSTACLES:
+            return pose
+        start, end, radius = self.pose[:2], pose[:2], self.radius
+        x, y = stop_at(self._walls.packed, start, end, radius)
+        return Pose(x, y, pose.theta)
 
     def advance(self, until: float) -> None:
         """Move to a time, in [s]."""
         if not self.is_walking or until <= self._since:
             return
-        left = 1.0 - self._share_at(until)
-        self.pose, self._since = self.pose_at(until), until
-        self._left = left * self._left[0], left * self._left[1]
+        share = self._share_at(until)
+        self.pose, self._since = self._pose_after(share), until
+        self._left = (
+            (1.0 - share) * self._left[0],
+            (1.0 - share) * self._left[1],
+        )
 
     def _share_at(self, time: float) -> float:
         """Return the share of the motion until the decision at a time."""
         return (time - self._since) / (self.due - self._since)
-
-    def is_clear(self, pose: Pose, walls: ObstacleSet) -> bool:
-        """Return whether the body is clear of obstacles at a pose."""
-        radius = self._radius
-        return clearance_at(walls.packed, pose.x, pose.y, radius) >= radius
 
 
 class FloorPoint(FloorMotion):
@@ -351,7 +361,7 @@ class FloorWorld:
         return tuple(
             name
             for name, own in self._bodies.items()
-            if not own.is_clear(own.pose, self._obstacles)
+            if touches(self._obstacles.packed, *own.pose[:2], own.radius)
         )
 
     def close(self) -> None:

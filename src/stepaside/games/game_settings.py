@@ -130,12 +130,6 @@ class GameSettings:
         "Distance between opponents that ends a game without bodies",
         Range(1e-6, 100.0, "m", AT_MOST),
     )
-    pursuers_pass: bool = setting(
-        False,
-        "Pursuers without bodies pass through walls and obstacles, and know "
-        "none",
-        needs=("room", ""),
-    )
     start: StartSettings = setting(
         StartSettings(near=0.8, far=2.0), "Initial poses that are drawn"
     )
@@ -251,7 +245,9 @@ class GameSettings:
     @property
     def solids(self) -> ObstacleSet:
         """Obstacles of the room, walls included."""
-        return self.room.solid_set if self.room else NO_OBSTACLES
+        if self.room is None or not self.room.solids:
+            return NO_OBSTACLES
+        return self.room.solid_set
 
     def player(self, name: str) -> PlayerSettings:
         """Return the settings of the player with a name."""

@@ -39,8 +39,8 @@ class OpponentTrack(NamedTuple):
         # The newest is replaced if it is too close to the one before.
         if len(rows) > 1 and rows[-1].time - rows[-2].time < near:
             rows.pop()
-        seen = SeenOpponent(time, *position, own)
-        return self._replace(rows=(*rows, seen))
+        rows.append(SeenOpponent(time, *position, own))
+        return OpponentTrack(self.step, self.span, self.spacing, tuple(rows))
 
     @property
     def velocity(self) -> tuple[float, float] | None:
@@ -84,9 +84,11 @@ class OpponentTrack(NamedTuple):
 
         In [rad/s] and [m/s], over the last gait cycle; None while unknown.
         """
-        now = self.rows[-1]
+        was = now = self.rows[-1]
         begin = now.time - CYCLE * self.step - 1e-9
-        was = next(row for row in self.rows if row.time >= begin)
+        for was in self.rows:
+            if was.time >= begin:
+                break
         passed = now.time - was.time
         if passed <= LEAST * self.step:
             return None, None

@@ -4,8 +4,6 @@ from dataclasses import dataclass, replace
 from math import atan2, cos, hypot, inf, pi, sin
 from typing import ClassVar, NamedTuple
 
-import numpy as np
-
 from .. import arena
 from ..arena import BODY_RADIUS
 from ..core.poses import wrap_angle
@@ -18,7 +16,6 @@ from .knowledge import BODY, STAND, Intent, Knowledge, Limits
 from .opponent_track import OpponentTrack, track_of_steps
 
 FREE_STRIDES = 3.0  # straight ahead that allow turning by (2)
-DETOUR = 1e-3  # angle between target and evader that is a detour, [rad]
 NEAR = 1e-6  # distance from the centre at which it has no bearing, in [m]
 
 
@@ -99,15 +96,12 @@ class Pursuit(CheckedSettings):
         seen, side = knowledge, 0
         if self.lead or self.pull or self.noise:
             seen = self._aimed(knowledge, memory.track)
-        bearing = seen.bearing
+        bearing, bends = seen.bearing, False
         if seen.knows_obstacles:
-            bearing = self.path_bearing(seen, memory.side)
-            aside = wrap_angle(bearing - seen.bearing)
-            if abs(aside) > DETOUR:
-                side = 1 if aside > 0.0 else -1
+            bearing, side, bends = self.course(seen, memory.side)
         if side != memory.side:
             memory = memory._replace(side=side)
-        if side or self._is_blocked(seen):
+        if bends:
             # By (2) it would turn too slowly and walk into the obstacle.
             return Intent(seen.limits.correcting_heading(bearing)), memory
         return Intent(self._heading(bearing, seen.limits)), memory
@@ -153,22 +147,15 @@ class Pursuit(CheckedSettings):
         ratio = min(self.gain, max(1.0, 1.0 / limits.share))
         return min(max(ratio * laws.pursuit_heading(bearing), -pi), pi)
 
-    def _is_blocked(self, knowledge: Knowledge) -> bool:
-        """Return whether the next straight steps violate the clearance."""
-        if not knowledge.knows_obstacles:
-            return False
-        x, y, theta = knowledge.pose_in_map
-        ahead = FREE_STRIDES * knowledge.limits.stride
-        path = [(x, y), (x + ahead * cos(theta), y + ahead * sin(theta))]
-        now, after = knowledge.obstacles_in_map.clearances(np.array(path))
-        nearer = after < np.minimum(self.body_radius, now - 1e-9)
-        return bool(nearer.any())
-
-    def path_bearing(self, knowledge: Knowledge, side: int = 0) -> float:
-        """Return the bearing of the first vertex of the path, in [rad]."""
-        x, y, theta = knowledge.pose_in_map
-        place, solids = knowledge.position_in_map, knowledge.obstacles_in_map
-        radius = self.body_radius
-        first = arena.first_waypoint(solids, (x, y), place, radius, side)
-        u, v = first or place
-        return wrap_angle(atan2(v - y, u - x) - theta)
+    def course(
+        self, knowledge: Knowledge, side: int = 0
+    ) -> tuple[float, int, bool]:
+        """Return bearing [rad] and side of the path, and whether it bends."""
+        return arena.course_around(
+            knowledge.obstacles_in_map,
+            knowledge.pose_in_map,
+            knowledge.position_in_map,
+            self.body_radius,
+            side,
+            FREE_STRIDES * knowledge.limits.stride,
+        )

@@ -290,7 +290,7 @@ class GoalWalk(Pursuit):
         velocities, bearing = knowledge.limits.velocities, aimed.bearing
         if velocities is not None:
             if knowledge.obstacles_in_map:
-                bearing = self.path_bearing(aimed)
+                bearing = self.course(aimed)[0]
             return self._clear_velocity(knowledge, bearing, velocities), memory
         if knowledge.others:
             intent = self._clear_heading(knowledge, intent.heading)

@@ -448,9 +448,7 @@ GAMES_PER_SEED = 5  # of each evader in each setting
 GAME = duel(level="steps", duration=164.1, pursuer=PURSUIT, evader=AHEAD)
 PAIRINGS = {
     "open": PairingSettings(GAME, "open"),
-    "room": PairingSettings(
-        replace(GAME, pursuers_pass=True), room=RoomRecipe(discs=3)
-    ),
+    "room": PairingSettings(GAME, room=RoomRecipe(discs=3)),
 }
 
 Tracks = tuple[StrategyTrack, ...]

@@ -42,10 +42,12 @@ def doors(result: Result) -> str:
             own[door] += f"; `{row['outcome']}` {row['time_s']:.2f}"
         else:
             own[door] = f"{row['closest_m']:.3f}, {row['distance_m']:.3f}"
-    heads = ("level", *next(iter(cells.values())))
-    return table(
-        heads, [(f"`{level}`", *own.values()) for level, own in cells.items()]
-    )
+    doors = list(next(iter(cells.values())))
+    rows = [
+        (f"`{level}`", *(own.get(door, "") for door in doors))
+        for level, own in cells.items()
+    ]
+    return table(("level", *doors), rows)
 
 
 def crowds(*results: Result) -> str:
