@@ -1,28 +1,36 @@
 """Printed tables: labels with units, never raw keys; progress lines."""
 
+import json
+import os
 import re
 from pathlib import Path
+from typing import Any, BinaryIO
 
 import pytest
 from click.testing import CliRunner, Result
+from matplotlib.figure import Figure
 
 from stepaside.cli.main import main
 from stepaside.core import progress
 from stepaside.games import game
 
+from conftest import BLANK  # isort: skip
+from drawn_figure import content_of  # isort: skip
+from flows.calls import EXAMPLES  # isort: skip
+
 pytestmark = pytest.mark.usefixtures("blank_figures", "inline_workers")
 
 DUEL = "duel --duration 1"
 TABLES = [
-    DUEL,
-    "run walk --duration 20",
-    "theory plan --role evader --bearing 0.3",
-    "run unicycles --speed 0.1 --gain 0.2",
-    "duel --set level=steps --set pursuer.strategy=lead --duration 2",
-    "theory circle --speed 0.1 --gain 0.2 --starts 2",
+    f"{DUEL} --set level=steps --set pursuer.strategy=lead --distance 0.7",
+    "run walk --duration 4 --push 0.2@1.5:90deg",
+    "theory plan --role evader --bearing 0.3 --figure FIGURE",
+    "theory plan --role pursuer --bearing 1.2 --gait fast --figure FIGURE",
+    "run unicycles --speed 0.1 --gain 0.2 --figure FIGURE",
+    "theory circle --speed 0.1 --gain 0.2 --starts 2 --figure FIGURE",
     "theory circle --set evader_gain=0.3 --set sample_time=0.1 --starts 1",
-    "theory map --grid 3 --set distances=2 --set duration=5",
-    "theory bound --grid 16 --set horizon=0.1",
+    "theory map --grid 3 --set distances=2 --set duration=5 --figure FIGURE",
+    "theory bound --grid 16 --set horizon=0.1 --figure FIGURE",
     "theory bound --grid 16 --set horizon=0.1 --against any",
     "theory bound --against person --evader-speed 0.6 --grid 16",
     pytest.param(
@@ -30,9 +38,13 @@ TABLES = [
         "--set evader=evasion --workers 1",
         marks=pytest.mark.slow,
     ),
-    "run room --discs 2 --doors 1",
+    "run room --discs 2 --doors 1 --figure FIGURE",
+    "run EXAMPLES/teams.toml --set level=steps --duration 9",
     "robot nao",
 ]
+# Depend on the machine, and on folders.
+LEFT_OUT = r"real time factor +\S+|(median|p99) \S+ us|solver time .*|\S*/\S*"
+STORED = Path(__file__).parents[1] / "data" / "commands.json"
 
 
 # Commands that show their progress.
@@ -63,12 +75,46 @@ def progress_lines(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(game, "REPORT_PERIOD", 0.0)
 
 
+def as_token(text: str) -> str | float:
+    """Return a word, or the number that it is."""
+    try:
+        return float(text.rstrip(",:;)").lstrip("("))
+    except ValueError:
+        return text
+
+
 @pytest.mark.parametrize("words", TABLES)
-def test_tables_show_no_raw_keys(words: str, progress_lines: None) -> None:
-    shown = shown_by(words)
-    table = re.sub(r"\S*/\S*", "", shown.stdout)  # paths are no keys
+def test_a_command_prints_and_draws_what_is_stored(
+    words: str, progress_lines: None, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Store what is meant: STORE=1 pytest tests/cli/test_tables.py."""
+    figures: list[Figure] = []
+
+    def save(figure: Figure, file: BinaryIO, **_: Any) -> None:
+        figures.append(figure)
+        file.write(BLANK)
+
+    monkeypatch.setattr(Figure, "savefig", save)
+    command = words.replace("EXAMPLES", str(EXAMPLES))
+    shown = shown_by(command.replace("FIGURE", "figure.png"))
+    table = re.sub(LEFT_OUT, "", shown.stdout)
     assert not re.findall(r"\b[a-z]+_\w+", table), shown.stdout
     assert not re.findall(r"\b(?:True|False|None)\b", table), shown.stdout
+    found = [as_token(text) for text in table.split()]
+    for figure in figures:
+        found += content_of(figure)
+    stored = json.loads(STORED.read_text()) if STORED.exists() else {}
+    if "STORE" in os.environ:
+        stored[words] = [
+            float(f"{x:.6g}") if isinstance(x, float) else x for x in found
+        ]
+        lines = (
+            f"{json.dumps(k)}: {json.dumps(v)}" for k, v in stored.items()
+        )
+        STORED.write_text("{\n" + ",\n".join(lines) + "\n}\n")
+    for one, other in zip(found, stored[words], strict=True):
+        near = pytest.approx(other, rel=2e-3, abs=1e-4)
+        assert one == (near if isinstance(other, float) else other)
 
 
 @pytest.mark.parametrize("words", ["run walk --duration 9", DUEL])

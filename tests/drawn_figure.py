@@ -1,0 +1,62 @@
+"""What a figure shows, as texts and numbers."""
+
+from collections.abc import Iterator
+from typing import Any
+
+import numpy as np
+from matplotlib.colors import to_hex
+from matplotlib.figure import Figure
+
+
+def content_of(figure: Figure) -> Iterator[Any]:
+    """Yield labels, and the colours and means of all that is drawn."""
+    for axes in figure.axes:
+        yield from ("axes", axes.get_title(), axes.get_xlabel())
+        yield from (axes.get_ylabel(), str(axes.get_aspect()))
+        yield str(axes.xaxis_inverted() or axes.yaxis_inverted())
+        for line in axes.lines:
+            yield from ("line", _label(line), _colour(line.get_color()))
+            yield str(line.get_linestyle())
+            yield from _mean(line.get_xydata())
+        for each in axes.collections:
+            yield from ("collection", _label(each))
+            yield from map(_colour, each.get_facecolor()[:2])
+            yield from map(_colour, each.get_edgecolor()[:2])
+            yield from _mean(each.get_offsets())
+            for path in each.get_paths()[:2]:
+                yield from _mean(path.vertices)
+        for patch in axes.patches:
+            yield from ("patch", _label(patch))
+            yield _colour(patch.get_facecolor())
+            yield _colour(patch.get_edgecolor())
+            path = patch.get_patch_transform().transform_path(patch.get_path())
+            yield from _mean(path.vertices)
+        for image in axes.images:
+            values: Any = np.ma.filled(np.ma.asarray(image.get_array()), 0.0)
+            yield from ("image", *map(float, image.get_extent()))
+            rows, columns = (np.arange(n) / n for n in values.shape[:2])
+            yield from (rows @ values.mean(axis=1)).ravel().tolist()
+            yield from (columns @ values.mean(axis=0)).ravel().tolist()
+        for text in axes.texts:
+            yield from (text.get_text(), *map(float, text.get_position()))
+        legend = axes.get_legend()
+        if legend is not None:
+            yield from (each.get_text() for each in legend.get_texts())
+
+
+def _label(artist: Any) -> str:
+    label = str(artist.get_label())
+    return "" if label.startswith("_") else label
+
+
+def _colour(colour: Any) -> str:
+    return str(to_hex(colour, keep_alpha=True))
+
+
+def _mean(points: Any) -> list[float]:
+    """Return the number of points, their mean and the last one."""
+    rows: Any = np.ma.filled(np.ma.asarray(points, dtype=float), 0.0)
+    rows = np.nan_to_num(rows)
+    if not len(rows):
+        return [0.0]
+    return [float(len(rows)), *rows.mean(axis=0), *rows[-1]]
