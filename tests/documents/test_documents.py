@@ -4,6 +4,7 @@ import re
 from pathlib import Path
 
 import pytest
+from campaigns import STUDIES
 
 from tools.documents.blocks import BLOCK
 from tools.documents.document import complaints, documents
@@ -136,26 +137,12 @@ def test_every_file_that_text_or_code_names_exists() -> None:
             assert (ROOT / path).exists(), f"{name_of(file)} names {path}"
 
 
-# Commands that `stepaside study` has replaced since a result was made.
-REPLACED = (
-    *("games", "rate", "robustness"),
-    "tools/benchmarks/camera_people.py",
-    "tools/benchmarks/duels.py",
-    "tools/benchmarks/fast_gait_people.py",
-    "tools/benchmarks/opponent_ladder.py",
-    "tools/benchmarks/room_evaders.py",
-    "tools/benchmarks/walk_survival.py",
-)
-
-
 @pytest.mark.parametrize("name", STORE.names())
 def test_a_result_names_the_command_that_makes_it_again(name: str) -> None:
     result = STORE.result(name)
     program, *words = result["command"].split()
     assert not any(word.startswith("/") for word in words), result["command"]
     assert result["libraries"] and result["settings"]
-    if words[0] in REPLACED:
-        return
     if program == "python" and words[0] == "-m":
         module = ROOT / words[1].replace(".", "/")
         files = (module / "__main__.py", module.with_suffix(".py"))
@@ -169,6 +156,13 @@ def test_a_result_names_the_command_that_makes_it_again(name: str) -> None:
         from stepaside.cli.main import COMMANDS
 
         assert program == "stepaside" and words[0] in COMMANDS
+
+
+@pytest.mark.parametrize("name", sorted({*STUDIES} & {*STORE.names()}))
+def test_a_study_was_measured_by_the_command_of_today(name: str) -> None:
+    result = STORE.result(name)
+    assert result["command"].endswith(f" {STUDIES[name].words}")
+    assert result.get("done") == result.get("planned")
 
 
 def test_every_place_to_change_exists() -> None:

@@ -1,13 +1,11 @@
 """Parallel jobs that can be interrupted and continued."""
 
 import sys
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Mapping
 from functools import partial
 from hashlib import sha256
 from pathlib import Path
 from typing import Any, TypeVar
-
-import numpy as np
 
 from stepaside.studies.study import Study, StudyRun, run_study
 
@@ -91,16 +89,3 @@ def finished(output: Path) -> None:
 def part_of(output: Path) -> Path:
     """Return the file of the records."""
     return output.with_suffix(".sqlite")
-
-
-def spread(values: Sequence[float | None]) -> dict[str, float | int | None]:
-    """Return minimum, mean and maximum of the values that are not None."""
-    found = [value for value in values if value is not None]
-    if not found:
-        return {"number": 0, "least": None, "mean": None, "greatest": None}
-    return {
-        "number": len(found),
-        "least": min(found),
-        "mean": float(np.mean(found)),
-        "greatest": max(found),
-    }

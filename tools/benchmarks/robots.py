@@ -7,10 +7,8 @@ path below the given folders; missing models keep their former row::
 """
 
 import json
-import os
 from pathlib import Path
 from tempfile import TemporaryDirectory
-from time import monotonic
 from typing import Any, NamedTuple
 
 from benchmark_options import ask
@@ -21,8 +19,14 @@ from stepaside.fitting.description_writer import write_description
 from stepaside.games.game_settings import duel, read_game
 from stepaside.games.recorded_game import run_game
 from stepaside.robots.description import FILE
+from stepaside.studies.results_version import RESULTS
 
 SEED, DURATION = 7, 120.0
+KEPT = (
+    *("outcome", "message", "duration_s", "distance_m"),
+    *("relative_orientation_deg", "min_distance_m", "converged_at_s"),
+    *("theory", "players"),
+)
 
 
 class Humanoid(NamedTuple):
@@ -206,7 +210,6 @@ def find(humanoid: Humanoid, folders: list[Path]) -> Path | None:
 
 def measure(humanoid: Humanoid, model: Path) -> dict[str, Any]:
     """Derive a description, run a duel of two, and return the results."""
-    begun = monotonic()
     with TemporaryDirectory() as made:
         folder = Path(made)
         derived = derive(model, folder, [])
@@ -233,14 +236,8 @@ def measure(humanoid: Humanoid, model: Path) -> dict[str, Any]:
             "speed_limits": len(asked["speed_limits"]),
         },
         "omitted_meshes": facts["omitted_meshes"],
-        "reference_plans": [],
-        "summary": {
-            key: value
-            for key, value in told.items()
-            if key not in ("planning", "real_time_factor", "touched")
-        },
-        "wall_s": monotonic() - begun,
-        "load": os.getloadavg()[0],
+        "results": RESULTS,
+        "summary": {key: told[key] for key in KEPT},
     }
 
 

@@ -1,6 +1,6 @@
 """Worlds and rules of games on the floor, from the settings of a game."""
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Mapping
 from dataclasses import replace
 from types import MappingProxyType
 
@@ -12,7 +12,7 @@ from ..core.poses import Pose
 from ..sim.person_settings import RADIUS
 from ..strategies.knowledge import limits_of
 from ..strategies.registry import load_strategy
-from ..strategies.strategy import BodyStrategy, Strategy
+from ..strategies.strategy import Strategy
 from ..strategies.velocity_set import VelocitySet
 from .floor_world import (
     PARTS,
@@ -104,9 +104,7 @@ def motion_of(
     assert pose is not None
     if own.decides:
         agent = FloorAgent(
-            strategy_of(
-                own, given=given, opponents=settings.sensed_opponents(own)
-            ),
+            strategy_of(own, given=given),
             limits_of(own.gait, velocities),
             own.identity,
             list(settings.identities.values()),
@@ -133,12 +131,10 @@ def strategy_of(
     player: PlayerSettings,
     map_in_world: Pose = ORIGIN,
     given: Strategy | None = None,
-    opponents: Iterable[PlayerSettings] = (),
 ) -> Strategy:
     """Return the strategy of a player, or a given one, with its shield.
 
-    It knows places in a map, whose pose in the world is given. A shield
-    reckons with the bodies of opponents.
+    It knows places in a map, whose pose in the world is given.
     """
     strategy = load_strategy(given or player.strategy, player.evasion)
     if player.goal and isinstance(strategy, strategies.GoalWalk):
@@ -152,8 +148,8 @@ def strategy_of(
             clearance=contact + COMFORT,
             body_radius=player.radius + MARGIN,
         )
-    if player.shield.enabled or isinstance(strategy, BodyStrategy):
+    if player.shield.enabled:
         from .shields import shielded
 
-        strategy = shielded(strategy, player, opponents)
+        strategy = shielded(strategy, player)
     return strategy

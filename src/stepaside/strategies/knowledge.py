@@ -4,7 +4,10 @@ from dataclasses import dataclass, replace
 from math import atan2, cos, hypot, pi, sin
 
 from ..arena import NO_OBSTACLES, ObstacleSet
-from ..core.errors import check_bearing, check_within
+from ..core.errors import (
+    check_bearing,
+    check_within,
+)
 from ..core.player_identity import PlayerIdentity
 from ..core.poses import ALL_AROUND, Pose, Sector, wrap_angle
 from ..core.ranges import Range
@@ -148,13 +151,17 @@ class Knowledge:
     def opponents(self) -> tuple[OtherPlayer, ...]:
         """The others that have an opposing role."""
         own = self.identity
-        return tuple(o for o in self.others if own and own.opposes(o.identity))
+        if own is None:
+            return ()
+        return tuple(o for o in self.others if own.opposes(o.identity))
 
     @property
     def teammates(self) -> tuple[OtherPlayer, ...]:
         """The others of the own team."""
         own = self.identity
-        return tuple(o for o in self.others if own and own.is_with(o.identity))
+        if own is None:
+            return ()
+        return tuple(o for o in self.others if own.is_with(o.identity))
 
     def about(self, other: OtherPlayer) -> "Knowledge":
         """Return the same knowledge with another player as the opponent."""

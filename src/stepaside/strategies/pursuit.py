@@ -114,8 +114,9 @@ class Pursuit(CheckedSettings):
         if course is not None:
             ahead = course - knowledge.pose_in_map.theta
             reach, (x, y) = self.lead * knowledge.distance, knowledge.position
-            knowledge = knowledge.towards(
-                x + reach * cos(ahead), y + reach * sin(ahead)
+            x, y = x + reach * cos(ahead), y + reach * sin(ahead)
+            knowledge = replace(
+                knowledge, bearing=atan2(y, x), distance=hypot(x, y)
             )
         x, y, theta = knowledge.pose_in_map
         inward = hypot(x, y)

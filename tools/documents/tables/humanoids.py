@@ -12,6 +12,7 @@ HEAD = (
     "radii",
     "angle [deg]",
     "closest [m]",
+    "version",
 )
 
 
@@ -26,9 +27,10 @@ def _reached(row: Mapping[str, Any]) -> tuple[str, ...]:
     outcome = summary["outcome"]
     if outcome != "completed":
         outcome += f" at {summary['duration_s']:.0f} s"
-    evader = _by(summary["evader"]["radius_m"], theory["radius_m"])
-    other = theory.get("radius_pursuer_m") or theory["radius_m"]
-    pursuer = _by(summary["pursuer"]["radius_m"], other)
+    players = summary["players"]
+    evader = _by(players["evader"]["radius_m"], theory["radius_m"])
+    other = theory["radius_pursuer_m"]
+    pursuer = _by(players["pursuer"]["radius_m"], other)
     angle = summary["relative_orientation_deg"]
     apart = theory["relative_orientation_deg"]
     return (
@@ -38,6 +40,7 @@ def _reached(row: Mapping[str, Any]) -> tuple[str, ...]:
         f"{pursuer}, {evader}",
         f"{number(angle, 1)} ({number(apart, 1)})",
         number(summary["min_distance_m"], 2),
+        row["results"] or "earlier",
     )
 
 

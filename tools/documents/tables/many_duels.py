@@ -1,91 +1,83 @@
-"""Studies of many duels: outcomes, values with intervals, certificates."""
+"""Printed output, values of many duels beside theory, and walks."""
 
 from collections.abc import Mapping
 from typing import Any
 
-from .duels import words_of
-from .markdown import interval, number, table
+from .markdown import counted, interval, number, table
 
 Result = Mapping[str, Any]
-KINDS = {
-    "duels-ideal": "ideal",
-    "duels-hardware": "hardware-like",
-    "duels-cameras": "ideal, with cameras",
+VALUES = {  # of duels: label, decimals, and value of theory
+    "players.pursuer.radius_m": ("pursuer radius [m]", 3, "radius_m"),
+    "players.evader.radius_m": ("evader radius [m]", 3, "radius_m"),
+    "distance_m": ("distance [m]", 3, "distance_m"),
+    "relative_orientation_deg": (
+        *("between headings [deg]", 1, "relative_orientation_deg"),
+    ),
+    "converged_at_s": ("on the circle since [s]", 1, ""),
+    "min_distance_m": ("closest approach [m]", 3, ""),
+    "triggered_at_distance_m": ("evasion begins at [m]", 3, ""),
+    "planning.min_zmp_margin_m": ("ZMP margin [m]", 4, ""),
 }
 
 
-def outcomes(results: Mapping[str, Result]) -> str:
-    """List rates of outcomes of each kind of duel, with 95 % intervals."""
-    head = (
-        *("body", "seeds", "duels", "played to the end"),
-        *("on the circle for the last 5 s", "before the last third"),
-    )
-    rows = []
-    for name, words in KINDS.items():
-        if name not in results:
-            continue
-        result = results[name]
-        summary, seeds = result["summary"], result["settings"]["seeds"]
-        rows.append(
-            (
-                words,
-                f"{seeds[0]}:{seeds[1]}",
-                str(summary["duels"]),
-                _share(summary["outcomes"]["completed"]),
-                _share(summary["on_the_circle"]),
-                _share(summary["on_the_circle_in_time"]),
-            )
-        )
-    return table(head, rows)
+def printed(result: Result) -> str:
+    """Return the printed output of a command, as a code fence."""
+    return f"```\n{result['printed'].rstrip()}\n```"
 
 
 def spreads(result: Result) -> str:
-    """List values of one kind of duel: mean, interval, range, worst."""
+    """List values of duels of one kind: mean, its interval, and range."""
     head = ("what", "theory", "mean", "95 % of it", "least", "greatest")
-    rows = []
-    for key, row in result["summary"]["figures"].items():
-        words, digits = words_of(key)
-        rows.append(
+    (row,) = result["rows"]
+    lines = []
+    for key, (words, digits, theory) in VALUES.items():
+        found = row[key]
+        expected = row[f"theory.{theory}"]["mean"] if theory else None
+        mean, half = found["mean"], found["half"]
+        lines.append(
             (
                 words,
-                number(row["theory"], digits),
-                number(row["mean"], digits),
-                interval(row["mean_low"], row["mean_high"], digits),
-                number(row["least"], digits),
-                f"{number(row['greatest'], digits)}",
+                number(expected, digits),
+                number(mean, digits),
+                interval(mean - half, mean + half, digits),
+                number(found["min"], digits),
+                number(found["max"], digits),
             )
         )
-    return table(head, rows)
+    return table(head, lines)
 
 
-def certified(results: Mapping[str, Result]) -> str:
-    """Compare closest approaches with the template's certificate."""
+def fast_walks(*results: Result) -> str:
+    """List falls, speed and turning with the fast gait, by body and way."""
+    lines = []
+    for result in results:
+        for way, backward in (("forward", False), ("backward", True)):
+            rows = [
+                row
+                for row in result["rows"]
+                if ("backward" in row["walker.strategy"]) is backward
+            ]
+            number_of = sum(row["number"] for row in rows)
+            survived = sum(row["survived"]["count"] for row in rows)
+            ends = []
+            for key in ("speed_m_s", "speed_ratio", "yaw_ratio"):
+                found = [row[f"walking.{key}"] for row in rows]
+                ends.append(
+                    interval(
+                        min(each["min"] for each in found if each),
+                        max(each["max"] for each in found if each),
+                    )
+                )
+            lines.append(
+                (
+                    f"{result['settings']['label']}, {way}",
+                    str(number_of),
+                    counted(number_of - survived, number_of),
+                    *ends,
+                )
+            )
     head = (
-        "body",
-        "starts certified",
-        "nearer than certified",
-        "median excess [m]",
-        "least excess [m]",
-        "its seed",
+        *("walks of the fast gait", "n", "falls", "speed [m/s]"),
+        *("speed / planned", "turning / planned"),
     )
-    rows = []
-    for name, words in KINDS.items():
-        if name not in results:
-            continue
-        row = results[name]["summary"]["certificate"]
-        rows.append(
-            (
-                words,
-                _share(row["certified"]),
-                _share(row["nearer_than_certified"]),
-                number(row["median_excess_m"]),
-                number(row["least_excess_m"]),
-                str(row["worst_seed"]),
-            )
-        )
-    return table(head, rows)
-
-
-def _share(found: Mapping[str, Any]) -> str:
-    ends = 100.0 * found["low"], 100.0 * found["high"]
-    return f"{found['number']} of {found['of']} ({interval(*ends, 1)} %)"
+    return table(head, lines)
