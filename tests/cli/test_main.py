@@ -3,6 +3,7 @@
 import json
 import re
 import tomllib
+from concurrent.futures import BrokenExecutor
 from math import inf
 from pathlib import Path
 from typing import Any
@@ -12,6 +13,7 @@ import pytest
 from click.testing import CliRunner, Result
 
 from stepaside.cli.main import COMMANDS, main
+from stepaside.core.errors import PlanError
 
 pytestmark = pytest.mark.usefixtures("blank_figures")
 
@@ -122,6 +124,30 @@ def test_bad_input_is_refused_in_one_line(
     assert len(lines) == 1
     assert re.search(message, lines[0]), lines[0]
     assert not list(tmp_path.iterdir())
+
+
+ERRORS = [
+    (PlanError("speed must"), 2, "stepaside: speed must"),
+    (ModuleNotFoundError("", name="daqp"), 2, "stepaside[mpc]"),
+    (OSError(13, "Permission denied", "a.toml"), 2, "a.toml: permission"),
+    (OSError("broken pipe of links"), 2, "stepaside: broken pipe of links"),
+    (BrokenExecutor(), 2, "a worker process was killed"),
+    (KeyboardInterrupt(), 130, "interrupted; partial output discarded"),
+]
+
+
+@pytest.mark.parametrize(("error", "status", "words"), ERRORS)
+def test_each_expected_error_is_one_line_with_its_status(
+    error: BaseException, status: int, words: str
+) -> None:
+    def fail(*_: Any, **__: Any) -> None:
+        raise error
+
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr("click.Group.main", fail)
+        result = run("doctor")
+    (line,) = result.stderr.strip().splitlines()
+    assert words in line and result.exit_code == status and not result.stdout
 
 
 @pytest.mark.parametrize("path", ["rooms/opne.toml", "roms/open.toml"])

@@ -8,12 +8,16 @@ Files, commands and Python rely on them. After a change that is meant::
 from collections.abc import Iterable
 from dataclasses import is_dataclass
 from importlib import import_module
+from math import inf, nan
 from pathlib import Path
 from pkgutil import walk_packages
 from typing import Any, cast
 
+import pytest
+
 import stepaside
-from stepaside.core.setting import descriptions_of, entries_of
+from stepaside.core.errors import StepAsideError
+from stepaside.core.setting import REQUIRED, descriptions_of, entries_of
 
 STORED = Path(__file__).parents[1] / "data" / "settings.txt"
 LEFT_OUT = ("__main__", "stable_baselines")  # runs, needs more
@@ -61,10 +65,38 @@ def all_lines(paths: Iterable[str]) -> list[str]:
     return lines
 
 
+OF_DESCRIPTIONS = ("Contract", "Description", "Mount", "YawCoupling")
+STORED_LINES = STORED.read_text("utf-8").splitlines()
+PATHS = {x.partition(":")[0].rpartition(".")[0] for x in STORED_LINES}
+
+
 def test_settings_have_the_stored_defaults_and_ranges() -> None:
-    stored = STORED.read_text("utf-8").splitlines()
-    paths = {line.partition(":")[0].rpartition(".")[0] for line in stored}
-    assert all_lines(paths) == stored
+    assert all_lines(PATHS) == STORED_LINES
+
+
+@pytest.mark.parametrize(
+    "path", sorted(x for x in PATHS if not x.endswith(OF_DESCRIPTIONS))
+)
+def test_values_out_of_range_are_refused_by_the_name_of_their_setting(
+    path: str,
+) -> None:
+    module, _, name = path.partition(" ")
+    kind: Any = getattr(import_module(module), name)
+    described, entries = descriptions_of(kind), entries_of(kind)
+    rest = {
+        name: each.described.names[0] if each.described.names else 1.0
+        for name, each in entries.items()
+        if each.default is REQUIRED and "." not in name
+    }
+    for field, each in described.items():
+        default = entries[field].default if field in entries else ()
+        known, plain = each.range, (int, float, type(None), type(REQUIRED))
+        if known is None or not isinstance(default, plain):
+            continue
+        for value in (nan, known.low - 1.0, known.high + 1.0):
+            if value not in known.also and value not in (-inf, inf):
+                with pytest.raises(StepAsideError, match=field):
+                    kind(**rest | {field: value})
 
 
 if __name__ == "__main__":

@@ -108,6 +108,9 @@ def test_a_served_robot_follows_stamped_commands_sideways_too(
     assert scene.server.connected and not scene.server.refused
     odometry = scene.read("/nao/odom", "nav_msgs/msg/Odometry")
     linear, angular = odometry.twist.twist.linear, odometry.twist.twist.angular
+    assert odometry.header.frame_id == "nao/odom"
+    variances = odometry.pose.covariance[::7]
+    assert min(variances) > 0.0 and max(variances[2:5]) < min(variances[:2])
     assert (linear.x, linear.y, angular.z) == (0.05, -0.02, 0.1)
     scene.commands.clear()
     until(lambda: scene.round() == REST and not scene.server.connected)
@@ -115,10 +118,16 @@ def test_a_served_robot_follows_stamped_commands_sideways_too(
 
 def test_time_frames_and_joints_are_published(scene: Scene) -> None:
     scene.walker.pose = Pose(1.0, -2.0, 2.5)
+    torso = (0.02, 0.1, 0.3), (0.1, -0.2, 0.0)
+    scene.walker.torso = lambda: torso  # type: ignore[assignment]
     tf = scene.read("/tf", "tf2_msgs/msg/TFMessage")
-    (transform,) = tf.transforms
+    transform, base = tf.transforms
     assert transform.header.frame_id == "nao/odom"
     assert transform.child_frame_id == "nao/base_footprint"
+    assert base.header.frame_id == "nao/base_footprint"
+    place, tilt = base.transform.translation, base.transform.rotation
+    assert (place.x, place.y, place.z) == torso[0]
+    assert (tilt.x > 0.0, tilt.y < 0.0) == (True, True)
     move, turn = transform.transform.translation, transform.transform.rotation
     assert (move.x, move.y) == (1.0, -2.0)
     assert 2.0 * np.arctan2(turn.z, turn.w) == pytest.approx(2.5)

@@ -187,6 +187,8 @@ def test_steps_need_an_episode() -> None:
     with pytest.raises(PlanError, match="reset the environment first"):
         games.step(np.tile(BACK, (2, 1)))
     assert len(games.reset(seed=[0, None])[0]) == 2
+    with pytest.raises(PlanError, match="there must be 2 seeds, got 3"):
+        games.reset(seed=[0, 1, 2])
     with pytest.raises(PlanError, match="there must be 2 actions, got 3"):
         games.step(np.tile(BACK, (3, 1)))
     env = ParallelDuel(**SHORT)

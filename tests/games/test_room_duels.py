@@ -53,8 +53,9 @@ def test_obstacles_in_the_world_are_those_of_the_room() -> None:
 
 def test_a_room_excludes_other_starts_and_a_map_of_people() -> None:
     room = replace(FULL, starts=STARTS)
-    with pytest.raises(ConfigurationError, match="start.distance must be"):
-        RecordedGame(placed(room, start=StartSettings(distance=1.0)))
+    for name in ("distance", "pursuer_offset", "evader_offset"):
+        with pytest.raises(ConfigurationError, match=f"start.{name} must be"):
+            RecordedGame(placed(room, start=StartSettings(**{name: 1.0})))
     with pytest.raises(ConfigurationError, match="there are no people"):
         placed(
             room,

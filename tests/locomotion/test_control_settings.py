@@ -10,20 +10,12 @@ from stepaside.locomotion.control_settings import (
     OPEN_LOOP,
     STABILISED,
     ControlSettings,
-    MpcSettings,
-    StabiliserSettings,
 )
 
 
 @pytest.mark.parametrize(
     ("kind", "values", "words"),
     [
-        (StabiliserSettings, {"ankle": -0.1}, "ankle"),
-        (StabiliserSettings, {"reach_outward": float("nan")}, "reach_outward"),
-        (StabiliserSettings, {"feedback": 1.0}, r"feedback must .*\(1, 100\]"),
-        (MpcSettings, {"steps": 0}, "mpc.steps"),
-        (MpcSettings, {"samples": 1}, "mpc.samples"),
-        (MpcSettings, {"pull": 0.0}, "mpc.pull"),
         (ControlSettings, {"method": "guess"}, "closed-form, measured"),
         (ControlSettings, {"feedback": 1}, "true or false, got 1"),
     ],

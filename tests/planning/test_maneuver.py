@@ -181,13 +181,7 @@ def test_halt_ends_at_rest_with_the_feet_abreast() -> None:
 @pytest.mark.parametrize(
     ("name", "value"),
     [
-        ("speed", 0.0),
-        ("single_support", -0.1),
-        ("com_height", float("nan")),
-        ("stride", float("inf")),
         ("foot_spacing", 0.05),
-        ("horizon", 1),
-        ("step_height", -0.01),
         ("zmp_forward", 0.2),
     ],
 )

@@ -17,7 +17,7 @@ from stepaside.strategies import (
     StandStill,
 )
 from stepaside.strategies.body_departure import BodyDeparture
-from stepaside.strategies.shield import TemplatePoint
+from stepaside.strategies.shield import TemplatePoint, shield_model
 from stepaside.strategies.velocity_set import VelocitySet
 
 LIMITS = Limits(0.1, 0.2, 0.04, 0.5)  # 0.08 m/s of gait time
@@ -187,6 +187,14 @@ def test_template_point_follows_a_displaced_body_slowly(
     point = TemplatePoint((0.0, 0.0))
     moved = point.advance((0.2, 0.0), (0.0, 5.0), LEGS, duration)
     assert moved.position[1] == pytest.approx(0.24 * 0.7 * duration, rel=0.01)
+
+
+def test_legs_choose_among_motions_to_all_sides_alike() -> None:
+    limits = replace(LIMITS, velocities=LEGS)
+    choices = shield_model(limits, PERSON, departure=BODY).choices()
+    for mirrored in choices * [1.0, -1.0, -1.0]:
+        assert np.abs(choices - mirrored).max(axis=1).min() < 1e-9
+    assert choices[:, 0].min() < -0.5 and choices[:, 0].max() > 0.6
 
 
 def test_person_is_known_after_a_halt_in_which_nothing_is_decided() -> None:
