@@ -20,6 +20,7 @@ from stepaside.strategies import (
     GoalWalk,
     LookAhead,
     Pursuit,
+    Walk,
     load_strategy,
 )
 from stepaside.strategies.registry import check_strategy_name, file_of
@@ -272,3 +273,21 @@ def test_a_file_is_read_as_it_is_now(
         with pytest.raises(ConfigurationError, match=wrong):
             load_strategy(f"{path}:Timid")
     assert list(tmp_path.iterdir()) == [path]
+
+
+def test_a_file_does_not_play_with_the_helper_of_another_folder(
+    tmp_path: Path,
+) -> None:
+    names = []
+    for turned in ("0.3", "0.9"):
+        folder = tmp_path / turned
+        folder.mkdir()
+        (folder / "angle_of_both.py").write_text(f"ANGLE = {turned}")
+        (folder / "own.py").write_text(
+            "import angle_of_both\nfrom stepaside.strategies import Walk\n"
+            "def own():\n    return Walk(angle_of_both.ANGLE)"
+        )
+        names.append(f"{folder / 'own.py'}:own")
+    assert load_strategy(names[0]) == Walk(0.3) == load_strategy(names[0])
+    with pytest.raises(ConfigurationError, match="imports angle_of_both from"):
+        load_strategy(names[1])

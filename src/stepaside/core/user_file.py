@@ -17,6 +17,7 @@ FILE_AND_NAME = re.compile(r"(?P<file>.+\.py):(?P<name>[^:]*)", re.DOTALL)
 # import what a pickle names.
 __path__: list[str] = []
 _DOT = "%2E"
+_IMPORT = re.compile(r"^\s*(?:import|from)\s+(\w+)", re.MULTILINE)
 
 
 class _Loader(SourceFileLoader):
@@ -63,6 +64,7 @@ def load_user_file(path: str, where: str) -> ModuleType:
         raise ConfigurationError(f"{where}: there is no file {file}")
     module = f"{__name__}.{file.as_posix().replace('.', _DOT)}"
     before = sys.modules.pop(module, None)
+    _check_helpers(file, where)
     try:
         return import_module(module)
     except FAILURES as error:
@@ -71,3 +73,19 @@ def load_user_file(path: str, where: str) -> ModuleType:
         raise ConfigurationError(
             f"{where}: the file fails to run: {type(error).__name__}: {error}"
         ) from error
+
+
+def _check_helpers(file: Path, where: str) -> None:
+    """Check that no module beside a file has the name of another one.
+
+    Python would give the file the module that was imported first.
+    """
+    text = file.read_text(encoding="utf-8", errors="replace")
+    for name in set(_IMPORT.findall(text)):
+        beside = file.with_name(f"{name}.py")
+        loaded = getattr(sys.modules.get(name), "__file__", None)
+        if loaded and beside.is_file() and not beside.samefile(loaded):
+            raise ConfigurationError(
+                f"{where}: it imports {name} from {beside}, but {loaded} has "
+                "that name, too: give one of them another"
+            )
