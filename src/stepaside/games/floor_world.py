@@ -200,10 +200,10 @@ class FloorWalk(FloorMotion):
         if not self.is_walking:
             self._since += self._delay
         self.is_walking, self.due = True, self._since + duration
-        strategy = self.agent.strategy
-        turn, most = limits.share * intent.heading, pi * limits.share
+        strategy, share = self.agent.strategy, limits.share
+        turn, most = share * intent.heading, pi * share
         if strategy.saturated:  # rate of (6), up to the bearing
-            turn, most = intent.heading, limits.share
+            turn, most = intent.heading, share
         turn = min(max(turn, -most), most)
         way = intent.speed_factor
         if limits.outer_stride is not None:
@@ -232,12 +232,9 @@ class FloorWalk(FloorMotion):
         """Move to a time, in [s]."""
         if not self.is_walking or until <= self._since:
             return
-        share = self._share_at(until)
+        share, (way, turn) = self._share_at(until), self._left
         self.pose, self._since = self._pose_after(share), until
-        self._left = (
-            (1.0 - share) * self._left[0],
-            (1.0 - share) * self._left[1],
-        )
+        self._left = (1.0 - share) * way, (1.0 - share) * turn
 
     def _share_at(self, time: float) -> float:
         """Return the share of the motion until the decision at a time."""

@@ -107,7 +107,9 @@ class DecisionMaker:
 
     def evaluate(self, knowledge: Knowledge) -> Intent:
         """Decide and store the memory."""
-        intent, self.memory = self.preview(knowledge)
+        intent, self.memory = evaluate_strategy(
+            self.strategy, knowledge, self.memory
+        )
         return intent
 
 

@@ -1,13 +1,10 @@
 """Input and output of a decision: knowledge and intent of a player."""
 
 from dataclasses import dataclass, replace
-from math import atan2, cos, hypot, pi, sin
+from math import atan2, cos, hypot, pi, sin, tau
 
 from ..arena import NO_OBSTACLES, ObstacleSet
-from ..core.errors import (
-    check_bearing,
-    check_within,
-)
+from ..core.errors import check_within
 from ..core.player_identity import PlayerIdentity
 from ..core.poses import ALL_AROUND, Pose, Sector, wrap_angle
 from ..core.ranges import Range
@@ -126,7 +123,7 @@ class Knowledge:
 
     def __post_init__(self) -> None:
         """Check the bearing."""
-        check_bearing(self.bearing, "bearing")
+        check_within(self.bearing, -tau, tau, "bearing", "rad")
 
     @property
     def position(self) -> tuple[float, float]:
@@ -208,7 +205,7 @@ class Intent:
 
     def __post_init__(self) -> None:
         """Validate the intent."""
-        check_bearing(self.heading, "heading")
+        check_within(self.heading, -tau, tau, "heading", "rad")
         check_within(self.speed_factor, 0.0, 1.0, "speed_factor", "1")
         if self.velocity is not None:
             for name, value in self.velocity._asdict().items():

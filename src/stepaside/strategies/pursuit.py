@@ -91,7 +91,8 @@ class Pursuit(CheckedSettings):
         if self.lead:
             track = track_of_steps(memory.track, knowledge)
             memory = memory._replace(track=track)
-        if knowledge.time % (self.walking + self.waiting) >= self.walking:
+        cycle = self.walking + self.waiting
+        if self.waiting and knowledge.time % cycle >= self.walking:
             return STAND, memory
         seen, side = knowledge, 0
         if self.lead or self.pull or self.noise:
