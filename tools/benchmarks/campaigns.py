@@ -30,7 +30,7 @@ CIRCLE = (
     "--value players.evader.sight.distance_error_median_m"
 )
 AIMED = "--set 'person=straight,0.3 m*'"
-SEEN = f"{AIMED} --set bearing=-45,0,45,180 --set seed=1:3 --by bearing"
+SEEN = f"{AIMED} --set bearing=-45,0,45,180 --set seed=1:2 --by bearing"
 PASSED = "--set person=passing --set bearing=-45,0,45 --by person"
 AROUND = "--set bearing=0,30,60,90,120,150,180,-150,-120,-90,-60,-30"
 LEGS = f"--set speed=0.5,1.0,1.4,1.8 {AROUND}"
@@ -68,13 +68,13 @@ STUDIES = {
     ),
     "duels-cameras": Campaign(
         "ideal, with cameras",
-        f"duels --set senses=cameras --set seed=0:6 {CIRCLE}",
+        f"duels --set senses=cameras --set seed=0:2 {CIRCLE}",
     ),
     "duels-degraded": Campaign(
         "degraded cameras",
         "duels --set senses=cameras --set cameras.drop_frames=0.3 --set "
         "cameras.added_latency=0.1 --set scene.things=clutter --set "
-        f"seed=0:2 {CIRCLE}",
+        f"seed=0:1 {CIRCLE}",
     ),
     "fast-walks-ideal": Campaign(
         "ideal", f"{FILES}/fast-walks.toml --set seed=1:2"
@@ -153,7 +153,7 @@ STUDIES = {
         f"people {G1} --set evader.strategy=wary --set drawn=true --set "
         "speed=1.0 --set bearing=0 --set person=straight,halting,turning,"
         "backing,regular,impassive,surprised,curious,scared,threatening "
-        "--set seed=0:6 --by person",
+        "--set seed=0:3 --by person",
     ),
     "crowd-legs": Campaign(
         "G1 on learned legs, physics",
@@ -165,7 +165,7 @@ STUDIES = {
     ),
     "crowd-steps": Campaign(
         "NAO, template at `steps`",
-        f"examples/crowd.toml --set level=steps --set seed=0:50 {CROWD}",
+        f"examples/crowd.toml --set level=steps --set seed=0:10 {CROWD}",
     ),
     "teams": Campaign(
         "", f"examples/teams.toml {TEAMS},team-evasion --set seed=0:10"
@@ -185,11 +185,13 @@ STUDIES = {
     ),
     "evaders": Campaign("", f"{FILES}/evaders.toml"),
     "robust": Campaign(
-        "", f"{FILES}/evaders.toml --set evader=robust --set seed=3000:3004"
+        "",
+        f"{FILES}/evaders.toml --set evader=robust --set "
+        "'pursuer=pursuit,sharp,herding,noisy' --set seed=3000:3003",
     ),
     "rating": Campaign(
         "",
-        "rating --set 'evader=look-ahead,robust,optimal,"
+        "rating --set 'evader=look-ahead,optimal,"
         "evasion(safety_radius=100),"
         "evasion(saturated=true,safety_radius=100),"
         "evasion(angle=45deg,safety_radius=100)' --set seed=0:6 "

@@ -3,7 +3,7 @@
 from collections.abc import Mapping
 from typing import Any
 
-from .markdown import interval, number, table
+from .markdown import NONE, interval, number, table
 
 Result = Mapping[str, Any]
 
@@ -20,11 +20,9 @@ def survivals(*results: Result) -> str:
         cells.setdefault(pursuer, {})[column] = text
         circle = row["circle_m"]
         circles[pursuer] = number(circle and circle["mean"], 3)
-    head = ("pursuer", "circle [m]", *next(iter(cells.values())))
-    return table(
-        head,
-        [
-            (pursuer, circles[pursuer], *own.values())
-            for pursuer, own in cells.items()
-        ],
-    )
+    columns = dict.fromkeys(name for own in cells.values() for name in own)
+    rows = [
+        (pursuer, circles[pursuer], *(own.get(c, NONE) for c in columns))
+        for pursuer, own in cells.items()
+    ]
+    return table(("pursuer", "circle [m]", *columns), rows)
