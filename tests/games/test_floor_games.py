@@ -14,6 +14,7 @@ from stepaside.arena import Disc, Room, RoomRecipe, generate_room
 from stepaside.core.poses import Pose
 from stepaside.games import GameSettings, Outcome, duel, run_game
 from stepaside.games.game_settings import read_game
+from stepaside.strategies import Pursuit
 from tools.documents.store import ROOT
 
 LEVELS = ("steps", "unicycle")
@@ -82,12 +83,15 @@ def test_capture_ends_a_game_from_every_door(level: str) -> None:
         assert reached <= red[0] < reached + 0.04
 
 
-def test_a_pursuer_goes_around_a_disc() -> None:
+@pytest.mark.parametrize("radius", [0.2, 0.05])
+def test_a_pursuer_goes_around_a_disc(radius: float) -> None:
+    """By its own radius, whatever its strategy keeps."""
     room = Room(obstacles=(Disc(0.0, 0.0, 0.3),))
     settings = duel(level="steps", evader="stand")
     starts = Pose(-1.0, 0.1, 0.0), Pose(1.0, 0.0, 0.0)
     settings = replace(settings, room=replace(room, starts=starts))
-    run = run_game(settings)
+    own = {"pursuer": Pursuit(body_radius=radius)}
+    run = run_game(settings, strategies=own)
     assert run.outcome is Outcome.CAPTURED
     nearest = room.clearance(run.pursuer.unicycle[:, :2]).min()
     assert 0.2 - 1e-9 <= nearest < 0.4

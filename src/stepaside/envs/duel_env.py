@@ -19,7 +19,7 @@ from ..core.errors import (
     check_within,
     shown,
 )
-from ..games.floor_games import MARGIN
+from ..games.floor_games import MARGIN, with_body_radius
 from ..games.floor_world import PARTS
 from ..games.player_settings import PLAYERS
 from ..strategies.evasion import Evasion
@@ -263,6 +263,7 @@ class VectorDuel(VectorEnv[Row, Any, Any]):
         self._own, self._other = (0, 1) if role == "pursuer" else (1, 0)
         self._rules = rules = rules_of(given)
         (strategy,) = load_opponent(opponent, role).values()
+        strategy = with_body_radius(strategy, rules.radii[self._other])
         self._opponent = (
             strategy
             if isinstance(strategy, LearnedStrategy)

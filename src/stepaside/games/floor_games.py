@@ -1,7 +1,7 @@
 """Worlds and rules of games on the floor, from the settings of a game."""
 
 from collections.abc import Mapping
-from dataclasses import replace
+from dataclasses import is_dataclass, replace
 from types import MappingProxyType
 
 from .. import strategies
@@ -103,8 +103,12 @@ def motion_of(
     physics = settings.level == "physics"
     assert pose is not None
     if own.decides:
+        strategy, radius = strategy_of(own, given=given), 0.0
+        if solids is not NO_OBSTACLES:
+            radius = own.radius + MARGIN
+            strategy = with_body_radius(strategy, radius)
         agent = FloorAgent(
-            strategy_of(own, given=given),
+            strategy,
             limits_of(own.gait, velocities),
             own.identity,
             list(settings.identities.values()),
@@ -120,7 +124,7 @@ def motion_of(
             delay=own.gait.start_support if physics else 0.0,
             alert=period if physics else None,
             walls=solids if own.role == Role.PURSUER else NO_OBSTACLES,
-            radius=0.0 if solids is NO_OBSTACLES else own.radius + MARGIN,
+            radius=radius,
         )
     from .people import walk_of
 
@@ -153,3 +157,16 @@ def strategy_of(
 
         strategy = shielded(strategy, player)
     return strategy
+
+
+def with_body_radius(strategy: Strategy, radius: float) -> Strategy:
+    """Return a strategy whose body radius is at least one, in [m].
+
+    One without an attribute ``body_radius`` is returned unchanged.
+    """
+    if not is_dataclass(strategy):
+        return strategy
+    if getattr(strategy, "body_radius", radius) >= radius:
+        return strategy
+    enlarged: Strategy = replace(strategy, body_radius=radius)
+    return enlarged

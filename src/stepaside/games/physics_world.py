@@ -1,7 +1,7 @@
 """World of a game in physics, with its players."""
 
 from collections.abc import Mapping
-from dataclasses import is_dataclass, replace
+from dataclasses import replace
 from functools import partial
 from math import inf
 from types import MappingProxyType
@@ -34,7 +34,7 @@ from ..sim.push import pushes_by_robot
 from ..sim.simulated_robot import SimulatedRobot
 from ..sim.world import World
 from ..strategies import Strategy
-from .floor_games import motion_of, strategy_of
+from .floor_games import motion_of, strategy_of, with_body_radius
 from .game import Outcome
 from .game_furnishing import colours_of_players, furnish_game
 from .game_settings import GameSettings
@@ -150,26 +150,12 @@ def place_robot(
         from .velocity_walker import VelocityWalker
 
         return VelocityWalker(robot, walk, setup.start, setup.description)
-    strategy = with_body_radius(strategy, setup)
+    if known is not None:
+        strategy = with_body_radius(strategy, known.radius(own.gait))
     scheme = ControlScheme(
         strategy, walk, source, known and known.surroundings
     )
     return RobotPlayer(robot, scheme, setup.start)
-
-
-def with_body_radius(strategy: Strategy, setup: RobotSetup) -> Strategy:
-    """Return a strategy whose body radius is at least that of the robot.
-
-    One without an attribute ``body_radius`` is returned unchanged.
-    """
-    known = setup.clearance
-    if known is None or not is_dataclass(strategy):
-        return strategy
-    radius = known.radius(setup.own.gait)
-    if getattr(strategy, "body_radius", radius) >= radius:
-        return strategy
-    enlarged: Strategy = replace(strategy, body_radius=radius)
-    return enlarged
 
 
 class PhysicsWorld(World):
