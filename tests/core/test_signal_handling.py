@@ -11,7 +11,7 @@ from stepaside.core.signal_handling import (
 )
 from stepaside.games.game import Outcome
 from stepaside.games.game_settings import walk
-from stepaside.games.players import Player
+from stepaside.games.players import RobotPlayer
 from stepaside.games.recorded_game import run_game
 
 SIGNALS = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
@@ -63,16 +63,16 @@ def test_an_interrupted_record_has_complete_samples(
     times: int, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """Ctrl-C arrives once or twice within a sample."""
-    sample = Player.sample
+    sample = RobotPlayer.sample
     count = iter(range(100))
 
-    def sample_and_interrupt(player: Player, *, closely: bool) -> Any:
+    def sample_and_interrupt(player: RobotPlayer, *, closely: bool) -> Any:
         if next(count) == 5:
             for _ in range(times):
                 signal.raise_signal(signal.SIGINT)
         return sample(player, closely=closely)
 
-    monkeypatch.setattr(Player, "sample", sample_and_interrupt)
+    monkeypatch.setattr(RobotPlayer, "sample", sample_and_interrupt)
     run = run_game(walk(duration=0.5))
     assert run.outcome is Outcome.INTERRUPTED and 3 < len(run.times) < 9
     lengths = {

@@ -109,7 +109,7 @@ def test_contact_ends_a_duel_and_names_who_touched(
     words = "evader and pursuer touched at 0.00 s"
     assert touching(monkeypatch, 0.6, *both) == (Outcome.CONTACT, words)
     room = SceneSettings(things=[RoomObject("red box", 3.0, 0.0)])
-    assert touching(monkeypatch, 0.9, "evader", "thing 0", scene=room) == (
+    assert touching(monkeypatch, 0.6, "evader", "thing 0", scene=room) == (
         Outcome.CONTACT,
         "evader and thing 0 touched at 0.00 s",
     )

@@ -82,7 +82,7 @@ class Walked:
                 (
                     evader.torso_in_world,
                     evader.place_in_world,
-                    evader.robot.posture,
+                    evader.robot.motion()["qpos"].copy(),
                 )
             )
             self.others.append(

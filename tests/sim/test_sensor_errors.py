@@ -16,23 +16,24 @@ FORCE = np.array([1.0, 2.0, 9.0])
 
 
 def errors_of(seed: int = 1, **effects: Any) -> SensorErrors:
-    return SensorErrors(BodySettings(**effects), named_generator(seed, "s"))
+    generator = named_generator(seed, "s")
+    return SensorErrors(BodySettings(**effects), generator, 2)
 
 
 def imu(
     sensors: SensorErrors, gyro: Array, force: Array
 ) -> tuple[Array, Array]:
     """Return the readings of gyro and accelerometer."""
-    turn, specific_force, _, _ = sensors.readings(
-        gyro, force, gyro, np.zeros(8)
-    )
+    sensors.exact[:9] = *gyro, *force, *gyro
+    _, turn, specific_force, latest, _ = sensors.readings()
+    np.testing.assert_allclose(latest, turn, atol=1e-12)
     return turn, specific_force
 
 
 def feet(sensors: SensorErrors, forces: Array) -> Array:
     """Return the readings of the foot sensors."""
-    zero = np.zeros(3)
-    return sensors.readings(zero, zero, zero, forces)[3]
+    sensors.exact[9:17] = forces
+    return sensors.readings()[4]
 
 
 @pytest.mark.parametrize(

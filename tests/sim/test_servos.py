@@ -130,7 +130,7 @@ def test_targets_take_effect_in_order_after_the_delay(delay: int) -> None:
 @pytest.mark.parametrize("side", [1.0, -1.0])
 def test_backlash_subtracts_half_its_width_from_the_error(side: float) -> None:
     """Within it no torque, beyond it the rest; a joint without has none."""
-    servos, _, data = realistic(play=(0.04, 0.0))
+    servos, _, data = realistic(play=(0.04, 0.0), efficiency=0.9)
     data.qpos[QPOS] = [0.5, -0.5]
     for off, seen in ((0.019, 0.0), (0.021, 0.001), (0.05, 0.03)):
         servos.reset(data.qpos[QPOS] + side * off)

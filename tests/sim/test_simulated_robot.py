@@ -75,10 +75,10 @@ def test_a_robot_starts_at_its_odometry_frame() -> None:
     wanted = scheme.walk.kinematics.posture
     assert robot.qpos_slice.stop - robot.qpos_slice.start == wanted.size
     np.testing.assert_array_equal(data.qpos[robot.qpos_slice][7:], wanted[7:])
-    kept = robot.posture
+    kept = robot.motion()["qpos"].copy()
     np.testing.assert_array_equal(kept, data.qpos[robot.qpos_slice])
     data.qpos[robot.qpos_slice][7] += 1.0
-    assert robot.posture[7] == kept[7] + 1.0  # a copy, of its instant
+    assert robot.motion()["qpos"][7] == kept[7] + 1.0
     data.qpos[robot.qpos_slice][7] = kept[7]
     measured = robot.read()
     np.testing.assert_allclose(

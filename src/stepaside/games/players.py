@@ -2,15 +2,12 @@
 
 from typing import TYPE_CHECKING, Any
 
-import numpy as np
-
 from ..control.scheme import ControlScheme
 from ..core.errors import PolicyError
 from ..core.poses import Pose
 from ..locomotion.locomotion import Phase
 from ..locomotion.maneuver_walk import ManeuverWalk
-from ..planning import Foot
-from ..sim.ground_truth import GroundTruth, TrueStance
+from ..sim.ground_truth import GroundTruth
 from ..sim.simulated_robot import SimulatedRobot
 
 if TYPE_CHECKING:
@@ -53,7 +50,7 @@ class Player:
         """
 
     def sample(self, *, closely: bool) -> dict[str, Any]:
-        """Return its present motion, by name in a trajectory.
+        """Return its present motion, by name of what is recorded.
 
         Closely with all that is measured of it. References of centers are in
         its odometry.
@@ -91,7 +88,7 @@ class RobotPlayer(Player):
         """Read the sensors, decide, and send joint targets."""
         robot, scheme = self.robot, self.scheme
         now, targets = robot.world.time, None
-        if self._coasts:
+        if not self._feels:
             targets = scheme.coast(now)
         if targets is None:
             sees = not self._coasts or scheme.locomotion.decides(now)
@@ -121,48 +118,12 @@ class RobotPlayer(Player):
     def sample(self, *, closely: bool) -> dict[str, Any]:
         """Return its present motion, closely with all its signals."""
         robot, walk = self.robot, self.maneuvers
-        found = super().sample(closely=closely)
-        found |= {"zmp": robot.measured_zmp(), "qpos": robot.posture}
+        found: dict[str, Any] = robot.motion()
         if walk is not None:
             x, y, u, v = walk.planned_centers
             found |= {"com_reference": (x, y), "zmp_reference": (u, v)}
         if not closely:
             return found
-        stance = robot.stance
-        found |= robot.signals(self.scheme.joint_targets) | {
-            "velocity": stance.velocity,
-            "tilt": stance.tilt,
-            "phase": (list(Phase).index(self.scheme.phase),),
-        }
-        return found if walk is None else found | self._walk(walk, stance)
+        from .close_samples import close_samples
 
-    def _in_world(self, x: float, y: float) -> tuple[float, float]:
-        """Return a point of odometry in the world, in [m]."""
-        return self.frame.compose(Pose(x, y, 0.0))[:2]
-
-    def _walk(self, walk: ManeuverWalk, stance: TrueStance) -> dict[str, Any]:
-        """Return foot states, references and estimates in the world."""
-        frame, state = self.frame, walk.balance.state
-        step = walk.step(self.robot.world.time)
-        foot = step.swing.other
-        estimate: tuple[float, ...] = (np.nan,) * 8
-        if state is not None:
-            turned = Pose(0.0, 0.0, frame.theta)
-            estimate = (
-                *self._in_world(*state.com),
-                *turned.compose(Pose(*state.velocity, 0.0))[:2],
-                *self._in_world(*state.zmp),
-                *state.tilt,
-            )
-        (x, y, _), (u, v) = self.truth.position_com_in_world, stance.velocity
-        eta = walk.gait.eta
-        single = step.walking and step.remaining > 0.0
-        return {
-            "sole": stance.left_sole
-            if foot is Foot.LEFT
-            else stance.right_sole,
-            "support": (foot.value, single, *frame.compose(step.support)),
-            "heading_reference": (walk.balance.planned_heading + frame.theta,),
-            "estimate": estimate,
-            "dcm": (x + u / eta, y + v / eta),
-        }
+        return found | close_samples(robot, self.scheme, self.frame)

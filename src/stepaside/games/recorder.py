@@ -84,6 +84,8 @@ class PlayerRecord:
         rows = np.array(self._values).reshape(-1, ends[-1])[:count]
         parts = np.split(rows, ends[:-1], axis=1)
         arrays = dict(zip(self._widths, parts, strict=True))
+        if isinstance(self._player, RobotPlayer):
+            arrays = self._player.robot.trajectory(arrays)
         for name in ("place", "torso"):
             arrays[name][:, 2] = np.unwrap(arrays[name][:, 2])
         if "qpos" in arrays:

@@ -1,11 +1,13 @@
-"""Errors of sensors and masses of a body, like those of real ones."""
+"""Errors of sensors, servos and masses of a body, as of real ones."""
 
 from collections import deque
-from collections.abc import Iterator
+from collections.abc import Callable
 from math import atan2, sqrt
+from typing import NamedTuple
 
 import mujoco
 import numpy as np
+from numpy.typing import NDArray
 
 from ..core.compilation import bound, compiled
 from ..core.poses import Array
@@ -20,14 +22,15 @@ def integrate_motion(
     place: Array,
     gravity: Array,
     last: Array,
+    mount: Array,
     means: Array,
     now: float,
 ) -> None:
     """Set mean rate, mean specific force and rate; see :class:`StrapdownImu`.
 
-    ``means`` (3, 3) are in the frame of the torso. ``last`` are time,
-    quaternion, axes and velocity of the IMU of the last call, with a negative
-    time before the first.
+    ``means`` (3, 3) are in the frame of the IMU, whose axes in the torso are
+    the columns of ``mount``. ``last`` are time, quaternion, axes and velocity
+    of the IMU of the last call, with a negative time before the first.
     """
     w, x, y, z = quaternion[0], quaternion[1], quaternion[2], quaternion[3]
     axes = np.empty((3, 3))
@@ -65,6 +68,11 @@ def integrate_motion(
             means[1, k] += (change - gravity[i]) * between
             last[5 + 3 * i + k] = axes[i, k]
         last[14 + i] = own
+    for i in range(3):
+        x_mean, y_mean, z_mean = means[i, 0], means[i, 1], means[i, 2]
+        for k in range(3):
+            means[i, k] = x_mean * mount[0, k] + y_mean * mount[1, k]
+            means[i, k] += z_mean * mount[2, k]
     last[0], last[1], last[2], last[3], last[4] = now, w, x, y, z
 
 
@@ -76,53 +84,89 @@ class StrapdownImu:
     """
 
     def __init__(
-        self, model: mujoco.MjModel, data: mujoco.MjData, root: int, site: int
+        self,
+        model: mujoco.MjModel,
+        data: mujoco.MjData,
+        root: int,
+        site: int,
+        means: Array | None = None,
     ) -> None:
+        """Measure at a site of a body; means (3, 3) are set if given."""
         joint = model.body_jntadr[root]
         at, dof = model.jnt_qposadr[joint], model.jnt_dofadr[joint]
-        self._data, self._means = data, np.zeros((3, 3))
+        self._data = data
+        self._means = np.zeros((3, 3)) if means is None else means
         mount = np.zeros(9)
         mujoco.mju_quat2Mat(mount, model.site_quat[site])
-        self._mount = mount.reshape(3, 3)
         last = np.zeros(17)
         last[0] = -1.0
         self._integrate = bound(
             integrate_motion,
             *(data.qpos[at + 3 : at + 7], data.qvel[dof : dof + 3]),
             *(data.qvel[dof + 3 : dof + 6], model.site_pos[site].copy()),
-            *(model.opt.gravity.copy(), last, self._means),
+            *(model.opt.gravity.copy(), last, mount.reshape(3, 3)),
+            self._means,
             more=(0.0,),
         )
 
-    def read(self) -> tuple[Array, Array, Array]:
-        """Return mean rate and specific force since the last call, and rate.
+    def read(self) -> Array:
+        """Set mean rate and specific force since the last call, and rate.
 
-        They are in the frame of the IMU, in [rad/s] and [m/s^2].
+        They are in the frame of the IMU, in [rad/s] and [m/s^2]. Shape (3, 3).
         """
         self._integrate(self._data.time)
-        mean, force, latest = self._means.dot(self._mount)
-        return mean, force, latest
+        return self._means
 
 
 BLOCK = 64  # readings whose noise is drawn together
+FORCES, ANGLES = 9, 17  # where these begin in a reading
+
+
+@compiled
+def add_errors(
+    exact: Array,
+    noise: Array,
+    bias: Array,
+    gains: Array,
+    step: float,
+    found: Array,
+    row: int,
+) -> None:
+    """Set a reading with errors; see :class:`SensorErrors`."""
+    for i in range(6):
+        found[i] = exact[i] + bias[i] + noise[row, i]
+    for i in range(3):
+        found[6 + i] = exact[6 + i] + found[i] - exact[i]
+    for i in range(8):
+        force = exact[FORCES + i] * gains[i] + noise[row, 6 + i]
+        found[FORCES + i] = max(force, 0.0)
+    for i in range(ANGLES, exact.shape[0]):
+        found[i] = exact[i]
+        if step > 0.0:
+            found[i] = np.rint(exact[i] / step) * step
 
 
 class SensorErrors:
-    """Noise, bias, resolution and delay of the sensors of one robot."""
+    """Noise, bias, resolution and delay of the sensors of one robot.
+
+    Attributes:
+        exact: What is measured: mean rate and specific force since the last
+            reading, rate, foot forces, joint angles. Shape (17 + joints,).
+    """
 
     def __init__(
         self,
         body: BodySettings,
         generator: np.random.Generator,
+        joints: int,
         *,
         force_unit: float = 1.0,
     ) -> None:
         self._body = body
         self._generator = generator
         # Of gyro, then accelerometer.
-        self._imu_bias = np.repeat(
-            (body.gyro_bias, body.accelerometer_bias), 3
-        ) * generator.uniform(-1, 1, 6)
+        bias = np.repeat((body.gyro_bias, body.accelerometer_bias), 3)
+        bias *= generator.uniform(-1, 1, 6)
         self._deviations = np.repeat(
             (
                 body.gyro_noise,
@@ -132,22 +176,16 @@ class SensorErrors:
             (3, 3, 8),
         )
         # Noise of coming readings; drawn together as if one by one.
-        self._noise: Iterator[Array] = iter(())
-        self._gains = 1.0 + body.force_gain_error * generator.uniform(-1, 1, 8)
+        self._noise, self._row = np.zeros((BLOCK, 14)), BLOCK
+        gains = 1.0 + body.force_gain_error * generator.uniform(-1, 1, 8)
         self._last: tuple[float, Array] | None = None
-        self._imu: deque[tuple[Array, Array, Array]] = deque(
-            maxlen=body.imu_delay_cycles + 1
+        self._imu: deque[Array] = deque(maxlen=body.imu_delay_cycles + 1)
+        self.exact = np.zeros(ANGLES + joints)
+        self._add = bound(
+            *(add_errors, self.exact, self._noise, bias, gains),
+            body.encoder_step,
+            more=(self.exact, 0),
         )
-
-    def encoders(self, angles: Array) -> Array:
-        """Return quantised joint angles, in [rad]. Shape (joints,)."""
-        step = self._body.encoder_step
-        if step == 0.0:
-            return angles
-        steps = angles / step
-        np.rint(steps, out=steps)
-        steps *= step
-        return steps
 
     def velocities(self, exact: Array, angles: Array, now: float) -> Array:
         """Return velocities [rad/s] as the change of the quantised angles."""
@@ -157,23 +195,91 @@ class SensorErrors:
         changed: Array = (angles - last[1]) / (now - last[0])
         return changed
 
-    def readings(
-        self, gyro: Array, force: Array, latest: Array, foot_forces: Array
-    ) -> tuple[Array, Array, Array, Array]:
-        """Return rate, specific force, latest rate, foot forces, all noisy."""
-        noise = next(self._noise, None)
-        if noise is None:
+    def readings(self) -> tuple[Array, Array, Array, Array, Array]:
+        """Return angles, rate, specific force, latest rate, foot forces."""
+        if self._row == BLOCK:
             drawn = self._generator.standard_normal((BLOCK, 14))
-            self._noise = iter(drawn * self._deviations)
-            noise = next(self._noise)
-        readings = np.concatenate((gyro, force))
-        readings += self._imu_bias
-        readings += noise[:6]
-        latest = latest + readings[:3] - gyro
-        self._imu.append((readings[:3], readings[3:], latest))
-        noisy = foot_forces * self._gains
-        noisy += noise[6:]
-        return *self._imu[0], np.maximum(noisy, 0.0, out=noisy)
+            self._noise[:], self._row = drawn * self._deviations, 0
+        found = np.empty(self.exact.size)
+        self._add(found, self._row)
+        self._row += 1
+        self._imu.append(found[:FORCES])
+        late = self._imu[0]
+        return (
+            *(found[ANGLES:], late[:3], late[3:6], late[6:]),
+            found[FORCES:ANGLES],
+        )
+
+
+@compiled
+def servo_step(
+    qpos: Array,
+    qvel: Array,
+    angles: NDArray[np.int64],
+    rates: NDArray[np.int64],
+    table: Array,
+    sent: Array,
+    limits: Array,
+    period: float,
+    cycle: float,
+) -> None:
+    """Set control and torque limits of all :class:`.Servos` of a world."""
+    for j in range(angles.shape[0]):
+        if angles[j] < 0:
+            continue
+        table[6, j] = min(table[6, j] + period, cycle)
+        share = table[6, j] / cycle
+        change, lead, half = table[1, j], table[2, j], table[3, j]
+        angle, stall = qpos[angles[j]], table[4, j]
+        error = table[0, j] + change * share - angle
+        error -= min(max(error, -half), half)
+        sent[j] = error + angle + lead * change
+        loss = table[5, j] * qvel[rates[j]]
+        limits[j, 1] = min(max(stall - loss, 0.0), stall)
+        limits[j, 0] = max(min(-stall - loss, 0.0), -stall)
+
+
+class ServoTable(NamedTuple):
+    """Servos of all robots in a world, for one step of its physics."""
+
+    # index of each actuator's joint in qpos, -1 if it is not driven, and of
+    # its velocity, (actuators,)
+    angles: NDArray[np.int64]
+    rates: NDArray[np.int64]
+    # target, its change in a cycle, lead, half of the backlash, stall torque,
+    # its decrease with speed, and time since the target, (7, actuators)
+    table: Array
+
+    @classmethod
+    def of(cls, model: mujoco.MjModel) -> "ServoTable":
+        """Return a table without servos."""
+        count = model.nu
+        angles, rates = np.full((2, count), -1, dtype=np.int64)
+        return cls(angles, rates, np.zeros((7, count)))
+
+    def drive(
+        self, model: mujoco.MjModel, actuators: np.ndarray, driven: slice
+    ) -> Array:
+        """Drive consecutive actuators; return their rows, (7, count)."""
+        joints = model.actuator_trnid[actuators, 0]
+        self.angles[driven] = model.jnt_qposadr[joints]
+        self.rates[driven] = model.jnt_dofadr[joints]
+        rows: Array = self.table[:, driven]
+        return rows
+
+    def step(
+        self, model: mujoco.MjModel, data: mujoco.MjData, cycle: float
+    ) -> Callable[[float], None]:
+        """Return the function to be called before each step of the physics.
+
+        The cycle is the control period, in [s].
+        """
+        run = bound(
+            *(servo_step, data.qpos, data.qvel, *self),
+            *(data.ctrl, model.actuator_forcerange),
+            *(model.opt.timestep, cycle),
+        )
+        return lambda time: run()
 
 
 def perturb_masses(

@@ -91,6 +91,19 @@ class TrueRobotState:
         axes = self.axes_torso_in_world
         return atan2(axes.item(3), axes.item(0))
 
+    def places(self, com: Array, origin: Array, axes: Array) -> list[Array]:
+        """Return reference points and torsos, with headings, of samples.
+
+        They are samples of the three arrays. Shapes (n, 3).
+        """
+        heading = np.arctan2(axes[:, 3], axes[:, 0])
+        ahead = np.stack([np.cos(heading), np.sin(heading)], axis=1)
+        points = (
+            com[:, :2] - self._com_forward * ahead,
+            origin[:, :2] + self._hips_forward * axes[:, [0, 3]],
+        )
+        return [np.column_stack([point, heading]) for point in points]
+
     @property
     def has_fallen(self) -> bool:
         """Whether the torso leans by more than 45 degrees."""

@@ -1,11 +1,10 @@
 """Position servos of a body."""
 
 from collections import deque
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 
 import mujoco
 import numpy as np
-from numpy.typing import NDArray
 
 from ..core.compilation import bound, compiled
 from ..core.poses import Array
@@ -45,35 +44,6 @@ def take_targets(
         sent[j] = target[j] + change[j] + lead[j] * change[j]
 
 
-@compiled
-def servo_step(
-    qpos: Array,
-    qvel: Array,
-    angles: NDArray[np.int64],
-    rates: NDArray[np.int64],
-    change: Array,
-    target: Array,
-    lead: Array,
-    half: Array,
-    stall: Array,
-    slope: Array,
-    clock: Array,
-    sent: Array,
-    limits: Array,
-) -> None:
-    """Set control and torque limits of :class:`Servos`."""
-    clock[0] = min(clock[0] + clock[1], clock[2])
-    share = clock[0] / clock[2]
-    for j in range(target.shape[0]):
-        angle = qpos[angles[j]]
-        error = target[j] + change[j] * share - angle
-        error -= min(max(error, -half[j]), half[j])
-        sent[j] = error + angle + lead[j] * change[j]
-        loss = slope[j] * qvel[rates[j]]
-        limits[j, 1] = min(max(stall[j] - loss, 0.0), stall[j])
-        limits[j, 0] = max(min(-stall[j] - loss, 0.0), -stall[j])
-
-
 class Servos:
     """Position servos, with delay, backlash and torque that falls with speed.
 
@@ -94,20 +64,36 @@ class Servos:
         backlash: Array | float = 0.0,
         *,
         feedforward: bool = True,
+        others: "Servos | None" = None,
     ) -> None:
-        """Drive consecutive actuators with limits [rad/s] and a cycle [s]."""
+        """Drive consecutive actuators with limits [rad/s] and a cycle [s].
+
+        With errors, the step of the last robot is that of all ``others``.
+        """
         count = actuators.size
         model.actuator_gainprm[actuators, 0] *= body.servo_gain
         model.actuator_biasprm[actuators, 1] *= body.servo_gain
         driven = slice(int(actuators[0]), int(actuators[-1]) + 1)
         self._sent: Array = data.ctrl[driven]  # a view
+        self.ideal = body == IDEAL or body.has_ideal_servos
+        rows: Iterable[Array] = np.zeros((7, count))
+        if not self.ideal:
+            from .body_errors import ServoTable
+
+            self.table: ServoTable = (
+                others.table if others else ServoTable.of(model)
+            )
+            rows = self.table.drive(model, actuators, driven)
+            self.before_step = self.table.step(model, data, cycle)
+        self._target, self._change, self.lead, half, *more = rows
+        self._stall, self._slope, self._clock = more
         gains = model.actuator_gainprm[actuators, 0]
-        self.lead = -model.actuator_biasprm[actuators, 2] / gains / cycle
-        self.reach = speed_limits * cycle
-        if not feedforward:
-            self.lead = np.zeros(count)
-            self.reach = np.full(count, np.inf)
-        self._target, self._change = np.zeros(count), np.zeros(count)
+        self.reach = np.full(count, np.inf)
+        if feedforward:
+            damping = -model.actuator_biasprm[actuators, 2]
+            self.lead[:] = damping / gains / cycle
+            self.reach = speed_limits * cycle
+        half[:] = 0.5 * backlash
         self._wanted = np.zeros(count)
         self._take = bound(
             *(take_targets, self._wanted, self._target, self._change),
@@ -116,23 +102,10 @@ class Servos:
         self._range = model.actuator_forcerange[driven]
         self._full = self._range[:, 1] * (body.efficiency * body.stiffness)
         self._no_load = speed_limits if body.torque_speed else np.inf
-        self._stall, self._slope = np.zeros(count), np.zeros(count)
         # Before the backlash, which is of the present angle: MuJoCo would
         # delay both, and with 1 degree a joint is up to 2.6 mrad elsewhere.
         self._pending: deque[Array] = deque()
         self._delay = body.delay_cycles
-        # Time since the targets, period of the physics, control period.
-        self._clock = np.array([0.0, model.opt.timestep, cycle])
-        joints = model.actuator_trnid[actuators, 0]
-        self._step = bound(
-            *(servo_step, data.qpos, data.qvel),
-            model.jnt_qposadr[joints].astype(np.int64),
-            model.jnt_dofadr[joints].astype(np.int64),
-            *(self._change, self._target, self.lead),
-            *(np.full(count, 0.5 * backlash), self._stall, self._slope),
-            *(self._clock, self._sent, self._range),
-        )
-        self.ideal = body == IDEAL or body.has_ideal_servos
         if not self.ideal:
             self.soften(np.ones(count))
 
@@ -153,8 +126,4 @@ class Servos:
         self._pending.append(targets)
         self._wanted[:] = self._pending.popleft()
         self._take()
-        self._clock[0] = 0.0
-
-    def before_step(self, time: float) -> None:
-        """Set control and torque limits for one step of a body with errors."""
-        self._step()
+        self._clock.fill(0.0)

@@ -30,6 +30,17 @@ if TYPE_CHECKING:
     from .sensor_suite import SensorSuite
 
 
+def centers_of_pressure(forces: Array, corners: Array) -> Array:
+    """Return the centres (..., 2) of forces (..., 8) at corners (..., 8, 3).
+
+    NaN where there is no force.
+    """
+    total = forces.sum(axis=-1, keepdims=True)
+    weighted = (forces[..., None] * corners[..., :2]).sum(axis=-2)
+    pressed = total > 0.0
+    return np.where(pressed, weighted / np.where(pressed, total, 1.0), nan)
+
+
 class SimulatedRobot:
     """Robot in a world, with its sensors and servos."""
 
@@ -76,9 +87,10 @@ class SimulatedRobot:
             *(self.tick, body),
             body.backlash * np.array([n in description.legs for n in names]),
             feedforward=gains is None,
+            others=world.servos,
         )
         if not self.servos.ideal:
-            world.before_step.append(self.servos.before_step)
+            world.servos = self.servos
         self.servos.reset(kinematics.joint_targets)
         self._find_sensors(description)
         root = model.body(f"{name}/{description.torso}")
@@ -100,13 +112,15 @@ class SimulatedRobot:
             return
         from .body_errors import SensorErrors, StrapdownImu
 
-        if body.has_sensor_errors:
-            unit = description.game.force_unit
-            self._errors = SensorErrors(body, generator, force_unit=unit)
+        unit = description.game.force_unit
+        self._errors = errors = SensorErrors(
+            body, generator, len(names), force_unit=unit
+        )
         gyro = model.sensor(f"{name}/{description.sensors.gyro}").id
         site = int(model.sensor_objid[gyro])
         if integrates_imu and model.site_bodyid[site] == root.id:
-            self._imu = StrapdownImu(model, data, root.id, site)
+            means = errors.exact[:9].reshape(3, 3)
+            self._imu = StrapdownImu(model, data, root.id, site, means)
 
     def _find_sensors(self, description: RobotDescription) -> None:
         """Find the sensors of the model."""
@@ -146,31 +160,31 @@ class SimulatedRobot:
             return RobotState(
                 now, *(EMPTY,) * 4, first, percepts, place, players=seen
             )
-        data = self.world.data
+        data, sensors = self.world.data, self.world.sensordata
         angles = data.qpos[self._qpos]
+        forces = sensors[self._force_addresses]
         velocities = latest = None
         if self._dofs is not None:
             velocities = data.qvel[self._dofs]
-        if self._imu is not None:
-            gyro, specific_force, latest = self._imu.read()
+        if (errors := self._errors) is None:
+            gyro = sensors[self._gyro].copy()
+            force = sensors[self._accelerometer].copy()
         else:
-            gyro = data.sensordata[self._gyro].copy()
-            specific_force = data.sensordata[self._accelerometer].copy()
-        forces = data.sensordata[self._force_addresses]
-        if self._errors is not None:
-            angles = self._errors.encoders(angles)
+            errors.exact[9:17], errors.exact[17:] = forces, angles
+            if self._imu is None:
+                errors.exact[:3] = errors.exact[6:9] = sensors[self._gyro]
+                errors.exact[3:6] = sensors[self._accelerometer]
+            else:
+                self._imu.read()
+            angles, gyro, force, now_turns, forces = errors.readings()
+            latest = None if self._imu is None else now_turns
             if velocities is not None:
-                velocities = self._errors.velocities(velocities, angles, now)
-            present = gyro if latest is None else latest
-            gyro, specific_force, noisy, forces = self._errors.readings(
-                gyro, specific_force, present, forces
-            )
-            latest = None if latest is None else noisy
+                velocities = errors.velocities(velocities, angles, now)
         return RobotState(
             now,
             angles,
             gyro,
-            specific_force,
+            force,
             forces,
             first,
             percepts,
@@ -238,26 +252,36 @@ class SimulatedRobot:
         self.world.advance()
 
     @property
-    def posture(self) -> Array:
-        """Copy of qpos: torso position, quaternion, joint angles."""
-        posture: Array = self.world.data.qpos[self.qpos_slice].copy()
-        return posture
-
-    @property
     def foot_forces(self) -> Array:
         """Exact forces of the left foot, then of the right one, in [N]."""
-        forces: Array = self.world.data.sensordata[self._force_addresses]
+        forces: Array = self.world.sensordata[self._force_addresses]
         return forces
 
-    def measured_zmp(self) -> tuple[float, float]:
+    def measured_zmp(self) -> Array:
         """Return the centre of pressure in the world, [m]; NaN in flight."""
-        forces = self.foot_forces
-        total = sum(forces.tolist())
-        if not total > 0.0:
-            return nan, nan
         corners = self.world.data.site_xpos[self._corner_sites]
-        x, y, _ = forces.dot(corners).tolist()
-        return x / total, y / total
+        return centers_of_pressure(self.foot_forces, corners)
+
+    def motion(self) -> dict[str, Array]:
+        """Return what :meth:`trajectory` computes a motion from, now."""
+        truth, data = self.truth, self.world.data
+        return {
+            "com": truth.position_com_in_world,
+            "origin": truth.origin_torso_in_world,
+            "axes": truth.axes_torso_in_world,
+            "forces": self.foot_forces,
+            "corners": data.site_xpos[self._corner_sites],
+            "qpos": data.qpos[self.qpos_slice],
+        }
+
+    def trajectory(self, samples: dict[str, Array]) -> dict[str, Array]:
+        """Return samples of :meth:`motion` by name in a trajectory."""
+        raw = ("com", "origin", "axes", "forces", "corners")
+        com, origin, axes, forces, corners = map(samples.pop, raw)
+        place, torso = self.truth.places(com, origin, axes)
+        zmp = centers_of_pressure(forces, corners.reshape(-1, 8, 3))
+        found = {"com": com.copy(), "place": place, "torso": torso, "zmp": zmp}
+        return samples | found
 
     def signals(self, joint_targets: Array) -> dict[str, Array]:
         """Return exact sensors and efforts, by name in a record.
@@ -274,8 +298,8 @@ class SimulatedRobot:
             "joint_velocity": velocity[6:],
             "joint_effort": effort[6:],
             "joint_targets": targets,
-            "gyro": data.sensordata[self._gyro],
-            "accelerometer": data.sensordata[self._accelerometer],
+            "gyro": self.world.sensordata[self._gyro],
+            "accelerometer": self.world.sensordata[self._accelerometer],
             "foot_forces": self.foot_forces,
         }
 

@@ -3,6 +3,7 @@
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from itertools import combinations
 from math import cos, sin
+from typing import TYPE_CHECKING
 
 import mujoco
 import numpy as np
@@ -18,7 +19,11 @@ from .body_settings import BodySettings
 from .floor import add_floor, tilt_gravity
 from .physics_settings import PhysicsSettings
 
+if TYPE_CHECKING:
+    from .servos import Servos
+
 NO_SENSORS = int(mujoco.mjtDisableBit.mjDSBL_SENSOR)
+SENSORS = mujoco.mj_sensorPos, mujoco.mj_sensorVel, mujoco.mj_sensorAcc
 CONTACT_BITS = 0x7FFFFFFF  # of MuJoCo's contact masks, without the sign
 COLOURS: Mapping[str, Colour] = {
     "pursuer": (0.80, 0.16, 0.14, 1.0),
@@ -132,6 +137,9 @@ class World:
         )
         self.data = mujoco.MjData(self.model)
         self.before_step: list[Callable[[float], None]] = []
+        self.servos: Servos | None = None  # with errors, of the last robot
+        # Velocities before the last physics step, whose sensors may lack.
+        self._last_qvel, self._lacks_sensors = self.data.qvel.copy(), False
         self.ticks, self.time = 0, 0.0  # simulated time [s]
         self._waiting = self._robots = len(robots)
         roots = [
@@ -155,15 +163,39 @@ class World:
             self.step()
 
     def step(self) -> None:
-        """Advance by one control tick, whose last step computes sensors."""
+        """Advance by one control tick."""
         model, data, last = self.model, self.data, self._steps - 1
-        for step in range(self._steps):
-            for call in self.before_step:
+        calls = [*self.before_step]
+        if self.servos is not None:
+            calls.append(self.servos.before_step)
+        model.opt.disableflags = NO_SENSORS
+        if last and not calls:
+            mujoco.mj_step(model, data, nstep=last)
+        for step in range(0 if calls else last, last + 1):
+            for call in calls:
                 call(self.time + step * self.physics.time_step)
-            model.opt.disableflags = 0 if step == last else NO_SENSORS
+            if step == last:
+                self._last_qvel[:] = data.qvel
             mujoco.mj_step(model, data)
+        model.opt.disableflags, self._lacks_sensors = 0, True
         self.ticks += 1
         self.time = self.ticks * self.physics.tick
+
+    @property
+    def sensordata(self) -> NDArray[np.float64]:
+        """Sensors of the last physics step, computed when first read.
+
+        MuJoCo computes them within a step, from the velocities at its begin.
+        """
+        model, data = self.model, self.data
+        if self._lacks_sensors:
+            self._lacks_sensors, now = False, data.qvel.copy()
+            data.qvel[:] = self._last_qvel
+            for compute in SENSORS:
+                compute(model, data)
+            data.qvel[:] = now
+        found: NDArray[np.float64] = data.sensordata
+        return found
 
     def robots_touch(self) -> bool:
         """Return whether robots touch each other or an object."""

@@ -93,7 +93,9 @@ class LiveHistory(GameObserver):
             if np.isfinite(zmp[0]):
                 self._trace("ZMP trace", player.name, zmp)
 
-    def _trace(self, layer: str, name: str, point: tuple[float, ...]) -> None:
+    def _trace(
+        self, layer: str, name: str, point: Array | tuple[float, ...]
+    ) -> None:
         new = deque[Array](maxlen=MAX_TRACE)
         self.traces.setdefault((layer, name), new).append(np.array(point))
 
