@@ -5,6 +5,7 @@ from math import atan2, copysign, hypot, radians
 from typing import NamedTuple
 
 from ..core.poses import Array, wrap_angle
+from ..robots.robot_tree import BodySize
 from .track import TALL
 
 FOLLOW_SPEED = 3.0  # of the head while it follows, in [rad/s]
@@ -33,7 +34,7 @@ class GazeTarget(NamedTuple):
     """Target of the gaze."""
 
     bearing: float  # direction from the heading of the torso [rad]
-    distance: float  # distance from the torso [m]
+    distance: float  # distance from the camera [m]
     height: float  # observed height [m]
     camera_height: float  # height of the own camera [m]
 
@@ -110,7 +111,7 @@ class HeadControl:
         self,
         coupling: Array,
         tick: float,
-        robot_height: float,
+        size: BodySize,
         *,
         glances: Glances | None = None,
         scan: RoomScan | None = None,
@@ -122,7 +123,7 @@ class HeadControl:
         """
         self._glances, self._scan = glances, scan
         self._started = scan is None
-        self._robot_height = robot_height
+        self._size = size
         self._yaws, self._low, self._high = coupling.tolist()
         self.reach: float = self._yaws[-1]
         self._tick = tick
@@ -138,16 +139,22 @@ class HeadControl:
         bearing = wrap_angle(bearing)
         # A scan after losing it starts on its side.
         self._side = 1.0 if bearing >= self.yaw else -1.0
-        # Nearby not all fits in the image: the head matters most.
-        tall = height > TALL
-        top = PERSON_TOP if tall else self._robot_height
-        elevation_top = atan2(top - height_camera, max(distance - 0.06, 0.1))
-        middle = ROBOT_MIDDLE * self._robot_height
-        pitch = min(
-            atan2(height_camera - middle, distance),
-            HALF_VIEW - elevation_top,
-        )
-        pitch = max(pitch, -MAX_UPWARD) if tall else pitch
+        nearest = max(distance - 0.06, 0.1)
+        if height > TALL:
+            # Nearby not all fits in the image: the head matters most.
+            middle = ROBOT_MIDDLE * self._size.height
+            elevation_top = atan2(PERSON_TOP - height_camera, nearest)
+            pitch = min(
+                atan2(height_camera - middle, distance),
+                HALF_VIEW - elevation_top,
+            )
+            pitch = max(pitch, -MAX_UPWARD)
+        else:
+            # The lower end of the trim matters most: it gives the distance.
+            low, high = self._size.trim
+            below = atan2(height_camera - low, nearest)
+            above = atan2(high - height_camera, nearest)
+            pitch = max(0.5 * (below - above), below - HALF_VIEW)
         self._turn(bearing, pitch, FOLLOW_SPEED)
 
     def search(self, *, stay: bool = False) -> None:

@@ -44,9 +44,10 @@ def observe_trim(
     """Return the observation of a robot from its trim in an image.
 
     The distance follows from the height of the trim when all of it is in
-    view, roughly from its width when the robot is too near for that, and
-    from the track otherwise. So near that an image edge may hide a part
-    without cutting a patch, the middle of the visible trim is not the axis.
+    view, from its lower end if only that is, roughly from its width when the
+    robot is too near for that, and from the track otherwise. So near that an
+    image edge may hide a part without cutting a patch, the middle of the
+    visible trim is not the axis.
     """
     middle = 0.5 * (found.top + found.bottom)
     x, y, _ = camera.ray(image.camera, found.column, middle).tolist()
@@ -70,6 +71,10 @@ def observe_trim(
         distance = _distance_of_track(tracks, image.time, bearing, camera)
         if distance <= MIN_DISTANCE:
             along = 0.1
+    if found.cut_below:
+        distance = min(
+            distance, _distance_by_end(image, found, camera, appearance)
+        )
     aside = 0.005 if not found.cut_aside else 0.06
     across = 0.003 + max(aside, 0.5 * abs(hidden)) * distance
     return Observation(
@@ -90,15 +95,29 @@ def _distance_by_height(
     appearance: Appearance,
 ) -> float | None:
     """Return the distance by the height of trim; None if a part is hidden."""
-    whole = not (found.cut_above or found.cut_below)
-    if not whole or found.confidence < MIN_CONFIDENCE:
+    if found.cut_below or found.confidence < MIN_CONFIDENCE:
         return None
+    if found.cut_above:
+        return _distance_by_end(image, found, camera, appearance)
     return range_of_trim(
         camera.ray(image.camera, found.column, found.top),
         camera.ray(image.camera, found.column, found.bottom),
         float(camera.position_in_odometry[2]),
         appearance,
     )
+
+
+def _distance_by_end(
+    image: ColourImage,
+    found: ColourDetection,
+    camera: CameraPose,
+    appearance: Appearance,
+) -> float:
+    """Return the distance by the lowest trim in view; at most, if cut."""
+    x, y, z = camera.ray(image.camera, found.column, found.bottom).tolist()
+    below = float(camera.position_in_odometry[2]) - appearance.bottom
+    slope = max(-z / hypot(x, y), below / TRIM_FARTHEST)
+    return TRIM_FORWARD + below / slope
 
 
 def _hidden_angle(

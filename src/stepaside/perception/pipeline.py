@@ -198,9 +198,10 @@ class Perception:
         chosen = self.selection.look(main, now, x, y)
         if chosen is not None:
             seen = self.selection.sighting(chosen, now, pose)
-            camera = camera_pose(body, self.top).position_in_odometry
+            u, v, up = camera_pose(body, self.top).position_in_odometry
+            away = chosen.distance_from(float(u), float(v), now)
             self.gaze_target = GazeTarget(
-                seen.bearing, seen.distance, chosen.height, float(camera[2])
+                seen.bearing, away, chosen.height, float(up)
             )
         if main is not None:
             self.sighting = self.selection.sighting(main, now, pose)
@@ -359,7 +360,7 @@ def build_perception(
         detector,
         selection,
         HeadControl(
-            *(head.pitch_limits, tick, size.height), glances=glances, scan=scan
+            *(head.pitch_limits, tick, size), glances=glances, scan=scan
         ),
         head.top,
         head.depth_cameras,
@@ -376,6 +377,6 @@ def build_posed_perception(
 ) -> Perception:
     """Build the perception of a robot that gives the poses of its camera."""
     at_head = Mount((0.0, 0.0, 0.0))
-    gaze = HeadControl(coupling, tick, NAO_SIZE.height)
+    gaze = HeadControl(coupling, tick, NAO_SIZE)
     selection = TargetSelection(Tracker(PERSON_MOTION))
     return Perception(detector, selection, gaze, at_head, [at_head])
