@@ -8,7 +8,7 @@ period ends; at other ticks only the head moves.
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field, replace
-from functools import cache
+from functools import partial
 
 from ..core.history import History
 from ..core.poses import Array, Pose, Sector, wrap_angle
@@ -143,11 +143,10 @@ class Perception:
     ) -> Sighting | None:
         """Return the latest sighting of the opponent after a tick, if any."""
         assert self.kinematics is not None
-        place, time = self.kinematics.pose, measurement.time
-        given = measurement.joint_positions, pose_support_in_odometry
-        self.poses.note(
-            time, cache(lambda: place(time, *given, left_supports, tilt))
-        )
+        pose, time = self.kinematics.pose, measurement.time
+        foot = pose_support_in_odometry, left_supports
+        joints = measurement.joint_positions
+        self.poses.note(time, partial(pose, time, joints, *foot, tilt))
         return self._process(time, measurement.percepts)
 
     def see_from(

@@ -82,6 +82,7 @@ def period_of(rate: float, tick: float) -> float:
 
 
 VISIBLE = np.array([1, 1, 1, 0, 0, 0], dtype=np.uint8)  # geom groups
+HIDDEN = 5  # geom group that no sensor shows
 # MuJoCo drops a plane whose origin is beyond the cutoff: a floor would vanish
 # before robots far from the origin of the world.
 UNLIMITED = 1e10  # cutoff, in [m]
@@ -110,6 +111,11 @@ class RayCaster:
         self._body, self._mount = model.body(body).id, mount
         lengths = np.linalg.norm(rays, axis=1)
         self._rays = rays / lengths[:, None]
+        # Greatest slopes of rays of a camera, sideways and up, by which it
+        # sees no geom beyond; a lidar looks all around.
+        ahead = np.maximum(rays[:, :1], 0.0)
+        with np.errstate(divide="ignore"):
+            self._edges = np.abs(rays[:, 1:] / ahead).max(axis=0)
         self.along = 1.0 / lengths
         self.geoms = np.zeros(len(rays), dtype=np.int32)
         self.distances = np.zeros(len(rays))
@@ -123,11 +129,27 @@ class RayCaster:
         self.origin = data.xpos[body] + axes @ self._mount.position_in_body
         turned = axes @ self._mount.axes_in_body
         self.directions = self._rays @ turned.T
+        hidden = self._hidden(turned)
+        groups = model.geom_group
+        shown = groups[hidden]
+        groups[hidden] = HIDDEN
         mujoco.mj_multiRay(
             *(model, data, self.origin, self.directions.reshape(-1)),
             *(VISIBLE, True, body, self.geoms, self.distances),
             *(self.normals.reshape(-1), len(self.directions), cutoff),
         )
+        groups[hidden] = shown
+
+    def _hidden(self, turned: Array) -> Array:
+        """Return the geoms whose bounding spheres no ray can meet."""
+        reach = self._model.geom_rbound
+        if not np.isfinite(self._edges).all():
+            return np.zeros(0, dtype=int)
+        offsets = (self._data.geom_xpos - self.origin) @ turned
+        aside = np.abs(offsets[:, 1:]) - self._edges * offsets[:, :1]
+        beyond = aside > reach[:, None] * np.hypot(1.0, self._edges)
+        # A plane has no bounding sphere.
+        return np.flatnonzero(beyond.any(axis=1) & (reach > 0.0))
 
     @property
     def slants(self) -> Array:
