@@ -11,16 +11,16 @@ from stepaside.perception.gaze import (
     MAX_UPWARD,
     MAX_YAW,
     PERSON_TOP,
-    ROBOT_MIDDLE,
     GazeTarget,
     Glances,
     HeadControl,
 )
 from stepaside.robots.description import load_robot
 from stepaside.robots.head import load_head
+from stepaside.robots.robot_tree import NAO_SIZE
 
 TICK = 0.004
-CAMERA_HEIGHT, ROBOT = 0.5, 0.5725  # of a NAO, in [m]
+CAMERA_HEIGHT = 0.5  # of a NAO, in [m]
 COUPLING = load_head(load_robot("nao")).pitch_limits
 
 
@@ -38,18 +38,18 @@ def within(gaze: HeadControl) -> bool:
 
 
 def test_it_reaches_what_it_follows() -> None:
-    gaze = HeadControl(COUPLING, TICK, ROBOT)
+    gaze = HeadControl(COUPLING, TICK, NAO_SIZE)
     for _ in range(250):
         gaze.follow(at(radians(-45.0), 0.9))
     assert degrees(gaze.yaw) == pytest.approx(-45.0, abs=0.1)
-    assert degrees(gaze.pitch) == pytest.approx(11.3, abs=0.2)
+    assert degrees(gaze.pitch) == pytest.approx(12.8, abs=0.2)
     assert not gaze.searching
 
 
 @pytest.mark.parametrize("bearing", [-170.0, -100.0, 0.0, 88.0, 150.0])
 def test_it_keeps_to_ranges_and_speed(bearing: float) -> None:
     """Close by it would nod beyond what the shells allow at that yaw."""
-    gaze = HeadControl(COUPLING, TICK, ROBOT)
+    gaze = HeadControl(COUPLING, TICK, NAO_SIZE)
     for _ in range(500):
         yaw, pitch = gaze.yaw, gaze.pitch
         gaze.follow(at(radians(bearing), 0.2))
@@ -61,7 +61,7 @@ def test_it_keeps_to_ranges_and_speed(bearing: float) -> None:
 
 
 def test_a_search_looks_everywhere_it_can() -> None:
-    gaze = HeadControl(COUPLING, TICK, ROBOT)
+    gaze = HeadControl(COUPLING, TICK, NAO_SIZE)
     seen = []
     for _ in range(round(8.0 / TICK)):
         gaze.search()
@@ -73,30 +73,28 @@ def test_a_search_looks_everywhere_it_can() -> None:
 
 
 def settled(bearing: float, distance: float) -> HeadControl:
-    gaze = HeadControl(COUPLING, TICK, ROBOT)
+    gaze = HeadControl(COUPLING, TICK, NAO_SIZE)
     for _ in range(500):
         gaze.follow(at(bearing, distance))
     return gaze
 
 
-def test_it_looks_at_the_middle_of_a_body_and_keeps_the_crown_in_view() -> (
-    None
-):
-    for distance in (1.0, 1.5, 3.0):
-        gaze = settled(0.2, distance)
-        assert gaze.pitch == pytest.approx(
-            atan2(0.5 - ROBOT_MIDDLE * 0.5725, distance)
-        )
-    # What trim there is stands 0.06 m nearer, and never nearer than 0.1 m.
-    for distance, away in ((0.36, 0.3), (0.17, 0.11), (0.12, 0.1)):
-        crown = atan2(0.5725 - 0.5, away)
-        near = settled(0.2, distance)
-        assert near.pitch == pytest.approx(radians(20.0) - crown)
+def test_it_holds_the_trim_of_a_robot_in_view() -> None:
+    """All of it from 0.65 m on; nearer, where the knees are at least."""
+    low, high = NAO_SIZE.trim
+    for distance in (0.5, 0.55, 0.65, 1.0, 3.0):
+        pitch = degrees(settled(0.2, distance).pitch)
+        away = distance - 0.06  # trim stands in front of the axis
+        below = degrees(atan2(CAMERA_HEIGHT - low, away)) - pitch
+        above = degrees(atan2(high - CAMERA_HEIGHT, away)) + pitch
+        assert below < 20.01
+        assert (above < 23.8) == (distance > 0.6)
+        assert distance < 1.0 or above == pytest.approx(below)
 
 
 def pitch_at(distance: float, height: float) -> float:
     """Pitch towards something after a second, in [deg]."""
-    gaze = HeadControl(COUPLING, TICK, ROBOT)
+    gaze = HeadControl(COUPLING, TICK, NAO_SIZE)
     for _ in range(250):
         gaze.follow(at(0.0, distance, height))
     return degrees(gaze.pitch)
@@ -106,7 +104,6 @@ def test_it_looks_up_as_a_tall_person_comes_near() -> None:
     """To the hips, which join two legs; the floor stays in view, too."""
     pitches = [pitch_at(away, 1.5) for away in (3.0, 2.0, 1.0, 0.6, 0.4)]
     assert pitches == sorted(pitches, reverse=True)
-    assert pitches[0] == pytest.approx(pitch_at(3.0, 0.0), abs=1e-9)
     assert pitches[-1] == pytest.approx(-degrees(MAX_UPWARD))
     # From 1 m the hips are in the upper half of the view of 40 degrees.
     hips = degrees(atan2(PERSON_TOP - CAMERA_HEIGHT, 0.94))

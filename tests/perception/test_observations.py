@@ -1,5 +1,6 @@
 """Test the way from what an image shows to a place in odometry."""
 
+from dataclasses import replace
 from math import atan2, cos, hypot, pi, radians, sin, tan
 from typing import Any
 
@@ -118,10 +119,22 @@ def test_trim_that_is_whole_tells_bearing_and_distance(
     assert seen.across == pytest.approx(0.003 + 0.005 * away)
 
 
+def test_the_lower_end_of_trim_tells_how_far_a_robot_is_at_most() -> None:
+    """So near that the image shows only one end, or the middle."""
+    above = trim(0.5, YAW, cut_above=True, top=0.0)
+    seen = observe(above)
+    assert seen.ranged
+    assert distance_of(seen) == pytest.approx(0.5, rel=0.04)  # aslant
+    both = observe(replace(above, cut_below=True))
+    assert not both.ranged
+    wide = replace(above, cut_below=True, left=110.0, right=150.0)
+    assert distance_of(observe(wide)) == pytest.approx(distance_of(seen))
+
+
 @pytest.mark.parametrize("bearing", [YAW, pi - 0.05, -pi + 0.05])
 def test_memory_is_of_what_was_in_that_direction(bearing: float) -> None:
     """Within 20 degrees, also over the half turn."""
-    found = trim(1.5, bearing, cut_above=True)
+    found = trim(1.5, bearing, confidence=0.5)
     there = observe(found).bearing
     for off, known in ((19.0, True), (-19.0, True), (21.0, False)):
         seen = observe(found, track(0.9, there + radians(off)))

@@ -13,6 +13,7 @@ from stepaside.perception.gaze import (
     HeadControl,
     RoomScan,
 )
+from stepaside.robots.robot_tree import NAO_SIZE
 from synthetic_cameras import HEAD
 
 TICK = 0.02
@@ -26,7 +27,7 @@ def looked(
 ) -> tuple[float, Array, RoomScan]:
     """Return the duration of a scan, in [s], and the directions."""
     gaze, around = (
-        HeadControl(HEAD.pitch_limits, TICK, 0.5725),
+        HeadControl(HEAD.pitch_limits, TICK, NAO_SIZE),
         RoomScan(behind=behind),
     )
     now, heading, turned = 0.0, 0.0, []
@@ -71,7 +72,7 @@ def test_a_scan_times_out_without_a_turn() -> None:
 
 def test_a_robot_that_is_ready_scans_on_until_the_start() -> None:
     scan = RoomScan(behind=False)
-    head = HeadControl(HEAD.pitch_limits, TICK, 0.5725, scan=scan)
+    head = HeadControl(HEAD.pitch_limits, TICK, NAO_SIZE, scan=scan)
     assert head.scans and not head.is_ready
     for tick in range(round(3.0 / TICK)):
         head.move(tick * TICK, 0.0, None)

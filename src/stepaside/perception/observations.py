@@ -117,7 +117,7 @@ def _distance_by_end(
     x, y, z = camera.ray(image.camera, found.column, found.bottom).tolist()
     below = float(camera.position_in_odometry[2]) - appearance.bottom
     slope = max(-z / hypot(x, y), below / TRIM_FARTHEST)
-    return TRIM_FORWARD + below / slope
+    return float(TRIM_FORWARD + below / slope)
 
 
 def _hidden_angle(

@@ -7,6 +7,7 @@ from typing import Generic, TypeVar
 
 import mujoco
 import numpy as np
+from numpy.typing import NDArray
 
 from ..core.poses import Array
 from ..core.random_streams import named_generator
@@ -140,11 +141,11 @@ class RayCaster:
         )
         groups[hidden] = shown
 
-    def _hidden(self, turned: Array) -> Array:
+    def _hidden(self, turned: Array) -> NDArray[np.intp]:
         """Return the geoms whose bounding spheres no ray can meet."""
         reach = self._model.geom_rbound
         if not np.isfinite(self._edges).all():
-            return np.zeros(0, dtype=int)
+            return np.zeros(0, dtype=np.intp)
         offsets = (self._data.geom_xpos - self.origin) @ turned
         aside = np.abs(offsets[:, 1:]) - self._edges * offsets[:, :1]
         beyond = aside > reach[:, None] * np.hypot(1.0, self._edges)
