@@ -91,6 +91,8 @@ class FakeWalker:
 class SimulatedUnicycle:
     """Simulated unicycle for servers."""
 
+    ready = True
+
     def __init__(self) -> None:
         self.time = 0.0
         self.pose = Pose(0.0, 0.0, 0.0)

@@ -138,6 +138,22 @@ def test_time_frames_and_joints_are_published(scene: Scene) -> None:
     assert seconds(clock.clock) % REPORTS == pytest.approx(0, abs=1e-9)
 
 
+def test_a_commanded_robot_is_silent_until_it_can_walk(scene: Scene) -> None:
+    """Its pose stays while it calibrates, which a client takes for frozen."""
+    readers = [scene.other.reader("/nao/odom", "nav_msgs/msg/Odometry")]
+    until(lambda: (scene.round(), take_messages(readers[0]))[1])
+    assert scene.obeys(twist(0.05))
+    scene.walker.ready = False
+    take_messages(readers[0])
+    begun = scene.walker.time
+    while scene.walker.time < begun + 5.0 * REPORTS:
+        scene.round()
+    assert not take_messages(readers[0])
+    scene.walker.ready = True
+    assert until(lambda: (scene.round(), take_messages(readers[0]))[1])
+    readers.clear()
+
+
 def test_a_late_reader_receives_the_description() -> None:
     scene = Scene(urdf="<robot/>")
     scene.round()

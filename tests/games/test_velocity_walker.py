@@ -8,6 +8,7 @@ import pytest
 
 from stepaside.core.poses import Pose, wrap_angle
 from stepaside.drivers.robot import REST
+from stepaside.drivers.watchdog import STUCK
 from stepaside.games.game_settings import GameSettings, StartSettings, duel
 from stepaside.games.player_settings import PLAYERS
 from stepaside.games.recorded_game import RecordedGame
@@ -71,6 +72,18 @@ def test_a_robot_walks_at_its_command_and_rests_on_command(
         assert way == pytest.approx(6 * STEP * abs(forward), rel=0.1)
         assert state.pose.x * forward > 0.0
         assert robot.velocity == REST
+
+
+def test_a_ready_robot_moves_before_a_watchdog_takes_it_for_frozen() -> None:
+    game, players = commanded_robots(SETTINGS)
+    world, robot = game.in_physics, players[0]
+    robot.command(BodyVelocity(0.06, 0.0, 0.1))
+    stands, ready_at = robot.state().pose, 0.0
+    while robot.state().pose == stands:
+        ready_at = ready_at if robot.ready else world.time
+        robot.tick()
+        world.step()
+    assert 0.9 < ready_at < world.time < ready_at + STUCK
 
 
 def test_odometry_is_where_the_robot_is(

@@ -50,6 +50,10 @@ class WalkingRobot(Protocol):
     def velocity(self) -> BodyVelocity:
         """Velocity that it follows."""
 
+    @property
+    def ready(self) -> bool:
+        """Whether it can walk."""
+
     def state(self) -> RobotState:
         """Return pose in odometry, joints, sighting and newest image."""
 
@@ -214,9 +218,14 @@ class Ros2Server:
         self._ticks = 0
 
     def speak(self) -> None:
-        """Publish a report, if one is due at this tick."""
+        """Publish a report, if one is due at this tick.
+
+        A client that commands a robot waits until the robot can walk: it would
+        take odometry that does not change for frozen.
+        """
         self.hear()
-        if self._ticks % self._every == 0:
+        waits = self.connected and not self._robot.ready
+        if self._ticks % self._every == 0 and not waits:
             self._state = self._robot.state()
             self._publish(self._state)
             self.answered, self._polls = False, 0

@@ -127,6 +127,12 @@ class VelocityWalker(RobotPlayer):
         """Velocity that it follows."""
         return self._strategy.velocity
 
+    @property
+    def ready(self) -> bool:
+        """Whether it can walk; with feedback it calibrates its gyro first."""
+        maneuvers = self.scheme.locomotion.maneuvers
+        return maneuvers is None or maneuvers.balance.ready
+
     def tick(self) -> None:
         """Walk at the commanded velocity."""
         self.robot.write(self.scheme.update(self.measure()))
