@@ -176,6 +176,17 @@ def test_an_invalid_model_is_refused_in_one_line(tmp_path: Path) -> None:
     assert result.stderr.count("\n") == 1
 
 
+def test_a_joint_whose_range_lets_no_robot_stand_is_named(
+    tmp_path: Path,
+) -> None:
+    model = stranger.mjcf(tmp_path)
+    text = model.read_text().replace('range="-1.0 1.0"', 'range="0.1 0.9"')
+    model.write_text(text)
+    said = CliRunner().invoke(main, ["robot", "init", str(model)]).stderr
+    assert "reaches no height" in said and said.count("\n") == 1
+    assert "'near_tip' at 0.10 rad (0.10 to 0.90)" in said
+
+
 def test_equal_shapes_walk_alike() -> None:
     """Lengths go with the CoM's height, times with the root of it."""
     sole = (-0.05, 0.1, 0.04, 0.04)

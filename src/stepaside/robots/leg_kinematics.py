@@ -27,6 +27,7 @@ __all__ = ["ROWS", "BodyReference", "LegKinematics"]
 STAND_STEP = 0.3  # joint motion per iteration while standing, in [rad]
 ITERATIONS = 60  # of a standing posture
 TOLERANCE = 1e-4  # residual at which a posture counts as reached
+AT_LIMIT = 1e-3  # from the end of its range at which a joint is stopped, [rad]
 GREATEST_ERROR = 0.5  # residual that is refused, in [m] or [rad]
 ROWS = (
     *(f"left foot {c}" for c in ("x", "y", "z", "roll", "pitch", "yaw")),
@@ -50,6 +51,10 @@ class LegStates(NamedTuple):
     def torso_headings(self) -> list[float]:
         """:attr:`LegKinematics.torso_heading` after each tick, in [rad]."""
         return [remainder(x, tau) for x in self.rows[1:, -2].tolist()]
+
+
+def _reaches(residuals: Array) -> bool:
+    return float(np.abs(residuals).max()) < TOLERANCE
 
 
 class LegKinematics:
@@ -160,7 +165,7 @@ class LegKinematics:
             ReachError: If the legs cannot reach it; names the worst row.
         """
         state, self.error[:] = self._posture_of(reference)
-        if state is None:
+        if not _reaches(self.error):
             worst = int(np.argmax(np.abs(self.error)))
             least, greatest = self.com_heights(reference)
             heights = f"{least:.3f} m to {greatest:.3f} m"
@@ -170,11 +175,25 @@ class LegKinematics:
                 heights = f"at most {greatest:.3f} m"
             raise ReachError(
                 f"{self.description.name} cannot reach {ROWS[worst]} with a "
-                f"CoM height of {reference.com[2]:g} m; "
-                f"it reaches {heights} in this stance"
+                f"CoM height of {reference.com[2]:g} m; it reaches {heights} "
+                f"in this stance{self._stopped(state)}"
             )
         self.state = state
         return self.joint_targets
+
+    def _stopped(self, state: Array) -> str:
+        """Name the joints that the limits of their ranges stop in a state."""
+        ends = self._stand_limits[:, :2]
+        names = [
+            f"{name!r} at {angle:.2f} rad ({low:.2f} to {high:.2f})"
+            for name, angle, (low, high) in zip(
+                self.free, state, ends.tolist(), strict=False
+            )
+            if min(angle - low, high - angle) < AT_LIMIT
+        ]
+        if not names:
+            return ""
+        return f"; at the end of its range: {', '.join(names)}"
 
     def com_heights(self, reference: BodyReference) -> tuple[float, float]:
         """Return least and greatest CoM height [m] over the feet, or zeros."""
@@ -184,17 +203,14 @@ class LegKinematics:
         com, soles, axes = np.empty(3), np.empty((2, 3)), np.empty((2, 3, 3))
         place_frames(self.links, self._standing, com, soles, axes)
         return search_heights(
-            lambda z: (
-                self._posture_of(reference._replace(com=(x, y, z)))[0]
-                is not None
+            lambda z: _reaches(
+                self._posture_of(reference._replace(com=(x, y, z)))[1]
             ),
             float(com[2] - soles[:, 2].max()),
         )
 
-    def _posture_of(
-        self, reference: BodyReference
-    ) -> tuple[Array | None, Array]:
-        """Return state, None if out of reach, and residuals of a posture."""
+    def _posture_of(self, reference: BodyReference) -> tuple[Array, Array]:
+        """Return the state and the residuals of a posture."""
         n, lean = len(self.free), self.description.lean
         states, errors = np.zeros((2, n + STATE)), np.empty_like(self.error)
         states[1, :n] = self._standing
@@ -207,9 +223,9 @@ class LegKinematics:
                 *(False, np.inf),
                 *(row, states, errors),
             )
-            if float(np.abs(errors).max()) < TOLERANCE:
-                return states[1], errors
-        return None, errors
+            if _reaches(errors):
+                break
+        return states[1], errors
 
     def track(self, reference: BodyReference) -> Array:
         """Track a reference by one step from the last posture; return targets.
