@@ -80,14 +80,19 @@ def settled(bearing: float, distance: float) -> HeadControl:
 
 
 def test_it_holds_the_trim_of_a_robot_in_view() -> None:
-    """All of it from 0.65 m on; nearer, where the knees are at least."""
+    """All of it from 0.65 m on; nearer, first the knees, then the shoulders.
+
+    Half of NAO's view is 23.8 degrees.
+    """
     low, high = NAO_SIZE.trim
-    for distance in (0.5, 0.55, 0.65, 1.0, 3.0):
+    for distance in (0.4, 0.55, 0.65, 1.0, 3.0):
         pitch = degrees(settled(0.2, distance).pitch)
         away = distance - 0.06  # trim stands in front of the axis
         below = degrees(atan2(CAMERA_HEIGHT - low, away)) - pitch
         above = degrees(atan2(high - CAMERA_HEIGHT, away)) + pitch
-        assert below < 20.01
+        shoulders = degrees(atan2(0.46 - CAMERA_HEIGHT, away)) + pitch
+        assert shoulders < 23.8
+        assert (below < 23.8) == (distance > 0.5)
         assert (above < 23.8) == (distance > 0.6)
         assert distance < 1.0 or above == pytest.approx(below)
 

@@ -150,11 +150,13 @@ class HeadControl:
             )
             pitch = max(pitch, -MAX_UPWARD)
         else:
-            # The lower end of the trim matters most: it gives the distance.
+            # The lower end of the trim gives the distance, but only with the
+            # shoulders in view, too, is its middle that of the body.
             low, high = self._size.trim
             below = atan2(height_camera - low, nearest)
             above = atan2(high - height_camera, nearest)
-            pitch = max(0.5 * (below - above), below - HALF_VIEW)
+            lowest = min(below - HALF_VIEW, HALF_VIEW)
+            pitch = max(0.5 * (below - above), lowest)
         self._turn(bearing, pitch, FOLLOW_SPEED)
 
     def search(self, *, stay: bool = False) -> None:
