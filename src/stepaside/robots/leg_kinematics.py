@@ -27,7 +27,6 @@ __all__ = ["ROWS", "BodyReference", "LegKinematics"]
 STAND_STEP = 0.3  # joint motion per iteration while standing, in [rad]
 ITERATIONS = 60  # of a standing posture
 TOLERANCE = 1e-4  # residual at which a posture counts as reached
-AT_LIMIT = 1e-3  # from the end of its range at which a joint is stopped, [rad]
 GREATEST_ERROR = 0.5  # residual that is refused, in [m] or [rad]
 ROWS = (
     *(f"left foot {c}" for c in ("x", "y", "z", "roll", "pitch", "yaw")),
@@ -166,6 +165,8 @@ class LegKinematics:
         """
         state, self.error[:] = self._posture_of(reference)
         if not _reaches(self.error):
+            from .com_heights import stopped_joints
+
             worst = int(np.argmax(np.abs(self.error)))
             least, greatest = self.com_heights(reference)
             heights = f"{least:.3f} m to {greatest:.3f} m"
@@ -176,24 +177,11 @@ class LegKinematics:
             raise ReachError(
                 f"{self.description.name} cannot reach {ROWS[worst]} with a "
                 f"CoM height of {reference.com[2]:g} m; it reaches {heights} "
-                f"in this stance{self._stopped(state)}"
+                "in this stance"
+                + stopped_joints(self.free, state, self._stand_limits)
             )
         self.state = state
         return self.joint_targets
-
-    def _stopped(self, state: Array) -> str:
-        """Name the joints that the limits of their ranges stop in a state."""
-        ends = self._stand_limits[:, :2]
-        names = [
-            f"{name!r} at {angle:.2f} rad ({low:.2f} to {high:.2f})"
-            for name, angle, (low, high) in zip(
-                self.free, state, ends.tolist(), strict=False
-            )
-            if min(angle - low, high - angle) < AT_LIMIT
-        ]
-        if not names:
-            return ""
-        return f"; at the end of its range: {', '.join(names)}"
 
     def com_heights(self, reference: BodyReference) -> tuple[float, float]:
         """Return least and greatest CoM height [m] over the feet, or zeros."""
