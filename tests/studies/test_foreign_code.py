@@ -100,6 +100,7 @@ def test_what_a_strategy_prints_is_not_among_json(tmp_path: Path) -> None:
         assert f"noise{kind}" in found.stderr
 
 
+@pytest.mark.slow
 def test_what_workers_print_is_not_among_json(tmp_path: Path) -> None:
     name = strategy(tmp_path, decide="print('noise', flush=True)")
     words = ["study", "tournament", "--workers", "2", "--json"]

@@ -229,6 +229,7 @@ def test_a_lost_worker_ends_the_study_and_the_next_run_completes_it(
     assert run.reused >= 1 and squares(run) == EXPECTED
 
 
+@pytest.mark.slow
 def test_dask_replaces_a_killed_worker(tmp_path: Path) -> None:
     pytest.importorskip("distributed")
     study = study_of(measure=partial(kill_at_first, str(tmp_path)))
