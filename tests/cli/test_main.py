@@ -93,7 +93,6 @@ BAD = [
     ("duel --set evasion.angle=200deg", "angle must lie in.*rad.*3.49"),
     ("duel --set evasion.angle=up", "angle.*up"),
     ("duel --set start.pursuer_offset=inf", "pursuer_offset.*inf"),
-    ("duel --set sight.delay=3", "delay must lie in.*3"),
     (
         "duel --set evasion.release_distance=0.5",
         "release_distance must exceed.*0.5",
@@ -105,7 +104,6 @@ BAD = [
     ("theory plan --role pursuer --bearing 1 --steps 0", "steps.*0"),
     ("theory plan --role evader", "missing option --bearing"),
     ("theory plan --bearing 1", "missing option --role"),
-    ("view --set scene.walls=0.5", "walls must lie in"),
     ("run unicyles", "unicyles.*did you mean unicycles"),
     ("thery", "the command must be one of.*did you mean theory"),
     ("study tournament --by sed --workers 1", "by or value.*sed"),
@@ -172,12 +170,10 @@ def test_a_misspelt_path_is_refused_with_the_nearest(
             "[gait]\nspeeed = 0.1",
             r"unknown entry gait\.speeed; did you mean gait.speed",
         ),
-        ("[gait]\nspeed = -0.1", "speed must lie in .*m/s.*-0.1"),
         (
             "[gait]\nspeed = 'fast'",
             r"gait.speed must lie in .* \[m/s\], got 'fast'",
         ),
-        ("[gait]\nspeed = nan", "speed must lie in.*nan"),
         ("[gait]\ncom_height = 0.28", "0.28 m; it reaches at most 0.2"),
         ("[physics]\ntick = 0.005", "whole multiple.*0.005"),
         ("seed = ", "Invalid value"),

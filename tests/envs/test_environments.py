@@ -182,6 +182,29 @@ def test_images_show_the_game() -> None:
     assert (env.render() != first).any()
 
 
+STORED = [
+    [69.2525, 0.0, 69.0764, 0.0],
+    [211.356, 0.782422, 258.774, 0.0],
+    [136.394, 0.0, 137.763, -0.281059],
+]
+"""Of each variant and role: sums of observations and rewards."""
+
+
+@pytest.mark.parametrize("number", range(3))
+def test_episodes_turn_out_as_stored(number: int) -> None:
+    found = []
+    for role in ("pursuer", "evader"):
+        env = DuelEnv(role, any_heading=number != 1, **VARIANTS[number])
+        rows, rewards = [env.reset(seed=4)[0]], [0.0]
+        for step in range(12):
+            action = step % 7 if number == 1 else BACK * (0.1 * step)
+            row, reward, *_ = env.step(action)
+            rows.append(row)
+            rewards.append(float(reward))
+        found += [float(np.abs(rows).sum()), sum(rewards)]
+    assert found == pytest.approx(STORED[number], rel=1e-4)
+
+
 def test_steps_need_an_episode() -> None:
     games = VectorDuel(2, role="evader", **SHORT)
     with pytest.raises(PlanError, match="reset the environment first"):
