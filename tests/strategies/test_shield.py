@@ -101,9 +101,10 @@ def test_person_beyond_every_robot_changes_nothing(
     """
     monkeypatch.setattr("stepaside.strategies.shield.SPEED_STEP", 2.0)
     faster = replace(PERSON, speed=1.4, turning_radius=0.5)
-    strategy = ShieldedStrategy(StandStill(), faster, BODY)
+    strategy = ShieldedStrategy(StandStill(), faster)
     assert not any(intent.walks for intent in approach(strategy, 1.2))
-    (said,) = caplog.messages
+    assumed, said = caplog.messages
+    assert "departs from its template, 0.2 m" in assumed
     assert "no state is certified against a person at 1.4 m/s" in said
     assert "The greatest speed against which some are is 0.04 m/s" in said
 

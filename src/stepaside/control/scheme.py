@@ -16,7 +16,7 @@ from ..perception.measurement import RobotState, Sighting
 from ..planning import Foot, GaitSettings
 from ..robots.description import RobotDescription
 from ..robots.leg_kinematics import LegKinematics
-from ..strategies.strategy import Strategy
+from ..strategies.strategy import BodyStrategy, Strategy
 from .sight_sources import MeasuredSight, SightSource
 from .strategy_runner import StrategyRunner
 
@@ -60,7 +60,7 @@ class ControlScheme:
         self.sighting: Sighting | None = None
         self.decisions.templates.note(0.0, locomotion.pose)
         self._body: BodyTracker | None = None
-        if getattr(strategy, "tracks_body", False):
+        if isinstance(strategy, BodyStrategy):
             from .body_odometry import track_body
 
             self._body = body = track_body(locomotion, surroundings)

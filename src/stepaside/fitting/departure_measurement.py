@@ -19,6 +19,7 @@ from ..robots.description import RobotDescription
 from ..sim.outline_measurement import reach_of, solid_geoms
 from ..strategies.body_departure import BodyDeparture
 from ..strategies.knowledge import ON_THE_SPOT, STAND, Intent, Knowledge
+from ..strategies.strategy import BodyStrategy
 
 DURATION = 60.0  # of a walk, in [s]
 SEEDS = 1, 2, 3
@@ -92,20 +93,18 @@ class DepartureRecord:
 
 
 @dataclass(frozen=True)
-class RandomSteps:
+class RandomSteps(BodyStrategy):
     """Strategy that walks at random.
 
     Attributes:
         seed: Seed of its intents.
         known: What it knew at its last decision, if at all.
-        tracks_body: Whether its odometry knows the sway of the body.
     """
 
     seed: int
     known: list[Knowledge] = field(default_factory=list)
     direction: Direction = Direction.BACKWARD
     saturated: bool = False
-    tracks_body: bool = True
 
     def begin(self) -> tuple[int, Intent]:
         """Return how many decisions an intent is still held, and it."""

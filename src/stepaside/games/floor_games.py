@@ -1,6 +1,6 @@
 """Worlds and rules of games on the floor, from the settings of a game."""
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import is_dataclass, replace
 from types import MappingProxyType
 
@@ -12,7 +12,7 @@ from ..core.poses import Pose
 from ..sim.person_settings import RADIUS
 from ..strategies.knowledge import limits_of
 from ..strategies.registry import load_strategy
-from ..strategies.strategy import Strategy
+from ..strategies.strategy import BodyStrategy, Strategy
 from ..strategies.velocity_set import VelocitySet
 from .floor_world import (
     PARTS,
@@ -103,7 +103,8 @@ def motion_of(
     physics = settings.level == "physics"
     assert pose is not None
     if own.decides:
-        strategy, radius = strategy_of(own, given=given), 0.0
+        opponents, radius = settings.sensed_opponents(own), 0.0
+        strategy = strategy_of(own, given=given, opponents=opponents)
         if solids is not NO_OBSTACLES:
             radius = own.radius + MARGIN
             strategy = with_body_radius(strategy, radius)
@@ -135,10 +136,12 @@ def strategy_of(
     player: PlayerSettings,
     map_in_world: Pose = ORIGIN,
     given: Strategy | None = None,
+    opponents: Iterable[PlayerSettings] = (),
 ) -> Strategy:
     """Return the strategy of a player, or a given one, with its shield.
 
-    It knows places in a map, whose pose in the world is given.
+    It knows places in a map, whose pose in the world is given. A shield
+    reckons with the bodies of opponents.
     """
     strategy = load_strategy(given or player.strategy, player.evasion)
     if player.goal and isinstance(strategy, strategies.GoalWalk):
@@ -152,10 +155,10 @@ def strategy_of(
             clearance=contact + COMFORT,
             body_radius=player.radius + MARGIN,
         )
-    if player.shield.enabled:
+    if player.shield.enabled or isinstance(strategy, BodyStrategy):
         from .shields import shielded
 
-        strategy = shielded(strategy, player)
+        strategy = shielded(strategy, player, opponents)
     return strategy
 
 

@@ -318,6 +318,15 @@ class FloorWorld:
             }
         )
 
+    @property
+    def strategies(self) -> dict[str, Strategy]:
+        """Strategies of the players that decide, by name."""
+        return {
+            name: own.agent.strategy
+            for name, own in self.motions.items()
+            if isinstance(own, FloorWalk | FloorPoint)
+        }
+
     def states(self) -> dict[str, Pose]:
         """Return the pose of each player in the world, by name."""
         return self._seen

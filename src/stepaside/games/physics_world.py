@@ -34,7 +34,7 @@ from ..sim.physics_settings import PhysicsSettings
 from ..sim.push import pushes_by_robot
 from ..sim.simulated_robot import SimulatedRobot
 from ..sim.world import World
-from ..strategies import Strategy
+from ..strategies.strategy import BodyStrategy, Strategy
 from .floor_games import motion_of, strategy_of, with_body_radius
 from .game import Outcome
 from .game_furnishing import colours_of_players, furnish_game
@@ -145,7 +145,7 @@ def place_robot(
             clearance=known,
             forward=source.forward,
         )
-        tracks = getattr(strategy, "tracks_body", False)
+        tracks = isinstance(strategy, BodyStrategy)
         robot = setup._replace(tracks=tracks).place(world, walk.kinematics)
     if strategy is None:
         from .velocity_walker import VelocityWalker
@@ -164,6 +164,7 @@ class PhysicsWorld(World):
 
     Attributes:
         players: The players, in the order of the settings.
+        strategies: Of the robots that decide, by name.
         started_at: Time at which the game began, in [s]: all players were
             ready, for example had scanned the room; None before.
         first_moves: Time at which a player first moved in the game, in [s],
@@ -194,9 +195,12 @@ class PhysicsWorld(World):
         self._settings, self._remote = settings, remote
         self._setups = _setups_of(settings, descriptions)
         physics = _physics_of(settings, self._setups)
-        self._strategies = {
+        self.strategies = {
             own.name: strategy_of(
-                own, self._map_in_world(own), strategies.get(own.name)
+                own,
+                self._map_in_world(own),
+                strategies.get(own.name),
+                settings.sensed_opponents(own),
             )
             for own in settings.players
             if own.body == "robot" and own.name not in remote
@@ -328,9 +332,9 @@ class PhysicsWorld(World):
             self._settings,
             self._setups[seeing[0].name].description,
             {
-                own.name: self._strategies[own.name].direction
+                own.name: self.strategies[own.name].direction
                 for own in seeing
-                if own.name in self._strategies
+                if own.name in self.strategies
             },
             tick=tick,
         )
@@ -356,7 +360,7 @@ class PhysicsWorld(World):
             setup = self._with_room(setup)
         if not served or own.senses == "cameras" or self._remote[own.name]:
             setup = self._with_senses(setup)
-        return place_robot(self, setup, self._strategies.get(own.name))
+        return place_robot(self, setup, self.strategies.get(own.name))
 
     def _with_room(self, setup: RobotSetup) -> RobotSetup:
         """Return the setup of a robot with its knowledge of the room."""

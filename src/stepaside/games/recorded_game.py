@@ -7,8 +7,8 @@ from types import MappingProxyType
 from typing import TYPE_CHECKING, Any
 
 from ..robots.description import RobotDescription
-from ..strategies import Strategy
 from ..strategies.registry import describe_strategy
+from ..strategies.strategy import BodyStrategy, Strategy
 from .evaluation import measure
 from .floor_games import floor_of, rules_of
 from .floor_world import PERIOD, FloorRecorder, FloorWorld
@@ -33,6 +33,7 @@ class RecordedGame(GameInPlay):
 
     Attributes:
         settings: Its settings, with nothing left open.
+        strategies: Of the players that decide, by name.
         recorder: Recorder of the trajectories.
         sights: Evaluation of the sightings of robots with cameras, by name.
     """
@@ -94,6 +95,7 @@ class RecordedGame(GameInPlay):
         else:
             world = floor_of(settings, strategies)
             self.recorder = FloorRecorder(world, PERIOD)
+        self.strategies = world.strategies
         kept = (self.recorder, *self.sights.values()) if recorded else ()
         rules = rules_of(settings)
         super().__init__(
@@ -127,6 +129,11 @@ class RecordedGame(GameInPlay):
             from .people import crowds_of
 
             crowds = crowds_of(run, self)
+        played, notes = self.strategies, list[str]()
+        if any(isinstance(own, BodyStrategy) for own in played.values()):
+            from .shields import notes_of
+
+            notes = notes_of(played)
         players = {
             own.name: replace(
                 summary.players[own.name],
@@ -144,6 +151,7 @@ class RecordedGame(GameInPlay):
             touched=list(self.touched),
             fallen=list(self.fallen),
             players=players,
+            notes=notes,
             **(self._in_physics(run) if settings.level == "physics" else {}),
             **(
                 evaluate_duel(run, self._triggered(run))

@@ -1,22 +1,46 @@
 """Shields of the robots of a game, with what is known of all bodies."""
 
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import replace
 from pathlib import Path
 
 from ..locomotion.departures import load_departure
 from ..robots.description import load_robot
 from ..strategies.body_departure import BodyDeparture
-from ..strategies.shield import PERSON_REACH, ShieldedStrategy
+from ..strategies.shield import ASSUMES, PERSON_REACH, ShieldedStrategy
+from ..strategies.shield_settings import ShieldSettings
 from ..strategies.strategy import Strategy
 from .player_settings import PlayerSettings, RobotSettings
 
 
-def shielded(strategy: Strategy, own: RobotSettings) -> Strategy:
-    """Return a strategy, within a shield if the settings enable one."""
-    if not own.shield.enabled:
-        return strategy
-    return ShieldedStrategy(strategy, own.shield, departure_of(own))
+def shielded(
+    strategy: Strategy,
+    own: RobotSettings,
+    opponents: Iterable[PlayerSettings] = (),
+) -> Strategy:
+    """Return a strategy, within a shield if the settings enable one.
+
+    A strategy that has a shield, as an object or from a file, keeps that one;
+    what it does not say of the bodies is filled in alike.
+    """
+    if not isinstance(strategy, ShieldedStrategy):
+        if not own.shield.enabled:
+            return strategy
+        strategy = ShieldedStrategy(strategy, own.shield)
+    shield = strategy.shield
+    departure = strategy.departure or departure_of(own)
+    if isinstance(own, PlayerSettings):
+        shield = with_contact(shield, own, opponents)
+    return replace(strategy, shield=shield, departure=departure)
+
+
+def notes_of(strategies: Mapping[str, Strategy]) -> list[str]:
+    """Return what shields assume of the bodies of a game, by player."""
+    return [
+        f"{name}: {ASSUMES}"
+        for name, own in strategies.items()
+        if isinstance(own, ShieldedStrategy) and own.departure is None
+    ]
 
 
 def departure_of(own: RobotSettings) -> BodyDeparture | None:
@@ -34,18 +58,28 @@ def with_contacts(
     players: Iterable[PlayerSettings],
     opponents_of: Callable[[PlayerSettings], Iterable[PlayerSettings]],
 ) -> tuple[PlayerSettings, ...]:
-    """Return players whose shields have a contact distance.
+    """Return players whose shields have a contact distance."""
+    return tuple(
+        replace(own, shield=with_contact(own.shield, own, opponents_of(own)))
+        if own.shield.enabled
+        else own
+        for own in players
+    )
+
+
+def with_contact(
+    shield: ShieldSettings,
+    own: PlayerSettings,
+    opponents: Iterable[PlayerSettings],
+) -> ShieldSettings:
+    """Return the settings of a shield with a contact distance.
 
     By default it is the sum of the reaches of the outlines of both bodies.
     """
-    found = []
-    for own in players:
-        if own.shield.enabled and own.shield.contact is None:
-            others = map(reach_of, opponents_of(own))
-            contact = reach_of(own) + max(others, default=PERSON_REACH)
-            own = replace(own, shield=replace(own.shield, contact=contact))
-        found.append(own)
-    return tuple(found)
+    if shield.contact is not None:
+        return shield
+    others = max(map(reach_of, opponents), default=PERSON_REACH)
+    return replace(shield, contact=reach_of(own) + others)
 
 
 def reach_of(own: PlayerSettings) -> float:

@@ -11,6 +11,7 @@ from ..core.user_file import load_user_file
 from ..planning import Direction
 from .decision_maker import evaluate_strategy
 from .knowledge import Knowledge, Limits
+from .shield import ShieldedStrategy
 
 LIMITS = Limits(0.1, 0.2, 0.04, 0.547)  # of trial decisions
 
@@ -65,7 +66,12 @@ def trial_knowledge() -> Iterator[Knowledge]:
 
 
 def validate_strategy(candidate: Any, name: str) -> None:
-    """Check by trial decisions that an object behaves as a strategy."""
+    """Check by trial decisions that an object behaves as a strategy.
+
+    Within a shield, whose decisions need a table, that is its strategy.
+    """
+    if isinstance(candidate, ShieldedStrategy):
+        candidate = candidate.strategy
 
     def refuse(rule: str, got: object) -> ConfigurationError:
         text = " ".join(str(got).split())

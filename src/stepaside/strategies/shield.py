@@ -32,7 +32,7 @@ from .observed_course import (
 )
 from .opponent_track import SeenOpponent
 from .shield_settings import ShieldSettings
-from .strategy import Strategy
+from .strategy import BodyStrategy, Strategy
 from .velocity_set import (
     BodyVelocity,
     VelocitySet,
@@ -57,6 +57,11 @@ PULL = 0.24
 LEGS_INTERVAL = 0.08  # between decisions on a body velocity, in [s]
 LEGS_DIRECTIONS = 16
 UNMEASURED = BodyDeparture(0.4, 0.2, 0.01, 0.005)
+ASSUMES = (
+    "the shield assumes how far the body departs from its template, "
+    f"{UNMEASURED.tube:g} m and {UNMEASURED.loss:g} m per decision: that is "
+    "not measured for its gait or its learned legs"
+)
 PERSON_REACH = 0.32  # of an adult, arms and feet in motion included, in [m]
 SIGHTING_INTERVAL = 0.02  # by which a chord may be longer than a window, [s]
 KEEPING = 0.005  # value of the last choice before others, in [m]
@@ -232,7 +237,9 @@ def shield_model(
 
 @lru_cache(maxsize=8)
 def _table(model: ShieldModel) -> ShieldTable:
-    """Load or solve the table of a model; warn if it certifies nothing."""
+    """Load or solve the table of a model; warn of what it does not hold."""
+    if model.departure is None:
+        LOG.warning(ASSUMES)
     table, person = _solved(model, CELLS, HEADINGS), model.settings
     if not model.certifies(table):
         LOG.warning(
@@ -368,7 +375,7 @@ class ShieldMemory(NamedTuple):
 
 
 @dataclass(frozen=True, slots=True)
-class ShieldedStrategy:
+class ShieldedStrategy(BodyStrategy):
     """Any strategy, of which unsafe decisions are replaced.
 
     A decision stands if no person within the bounds of the settings can come
@@ -380,7 +387,6 @@ class ShieldedStrategy:
     strategy: Strategy
     shield: ShieldSettings
     departure: BodyDeparture | None = None  # of the body; None: not measured
-    tracks_body: bool = True  # where it sways is known to the odometry
 
     @property
     def direction(self) -> Direction:

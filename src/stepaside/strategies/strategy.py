@@ -35,6 +35,15 @@ class Strategy(Protocol):
         """
 
 
+class BodyStrategy:
+    """Base of strategies that decide by where the body is, sway included.
+
+    The odometry of their robot adds up its gyro, too (docs/shield.md).
+    """
+
+    __slots__ = ()
+
+
 class BackwardStrategy:
     """Base of evaders that drive backward, eq. (3), and turn by (8)."""
 
