@@ -148,17 +148,13 @@ class Knowledge:
     def opponents(self) -> tuple[OtherPlayer, ...]:
         """The others that have an opposing role."""
         own = self.identity
-        if own is None:
-            return ()
-        return tuple(o for o in self.others if own.opposes(o.identity))
+        return tuple(o for o in self.others if own and own.opposes(o.identity))
 
     @property
     def teammates(self) -> tuple[OtherPlayer, ...]:
         """The others of the own team."""
         own = self.identity
-        if own is None:
-            return ()
-        return tuple(o for o in self.others if own.is_with(o.identity))
+        return tuple(o for o in self.others if own and own.is_with(o.identity))
 
     def about(self, other: OtherPlayer) -> "Knowledge":
         """Return the same knowledge with another player as the opponent."""

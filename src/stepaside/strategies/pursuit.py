@@ -115,9 +115,8 @@ class Pursuit(CheckedSettings):
         if course is not None:
             ahead = course - knowledge.pose_in_map.theta
             reach, (x, y) = self.lead * knowledge.distance, knowledge.position
-            x, y = x + reach * cos(ahead), y + reach * sin(ahead)
-            knowledge = replace(
-                knowledge, bearing=atan2(y, x), distance=hypot(x, y)
+            knowledge = knowledge.towards(
+                x + reach * cos(ahead), y + reach * sin(ahead)
             )
         x, y, theta = knowledge.pose_in_map
         inward = hypot(x, y)

@@ -4,7 +4,13 @@ import json
 import sqlite3
 import weakref
 from array import array
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import (
+    Callable,
+    Iterable,
+    Iterator,
+    Mapping,
+    Sequence,
+)
 from concurrent.futures import (
     FIRST_COMPLETED,
     BrokenExecutor,
@@ -16,6 +22,7 @@ from concurrent.futures import (
 from contextlib import ExitStack, closing, contextmanager
 from dataclasses import dataclass, field
 from importlib import import_module
+from itertools import repeat
 from math import ceil
 from pathlib import Path
 from time import perf_counter
@@ -37,7 +44,7 @@ from .tabulation import Record, tabulate, to_frame
 C = TypeVar("C")
 MOST_CASES = 10_000_000  # of a study; they take 9 bytes each
 BLOCK_TIME = 0.5  # aimed at for a block of cases, in [s]
-LARGEST_BLOCK = 1000  # cases
+LARGEST_BLOCK = 10_000  # cases
 GROWTH = 4  # largest ratio of the sizes of successive blocks
 WINDOW = 4  # blocks submitted at a time, for each worker
 BUSY = 60.0  # time in which another process must finish writing, in [s]
@@ -211,23 +218,19 @@ class StudyRun(Generic[C]):
         path = as_path(file, "file")
         draw_study(self.table(values=[value]), self.study.by, path)
 
-    def add(self, numbers: Iterable[int], block: _BlockResult) -> None:
-        """Store the records of a block: all, or none if it raises."""
+    def add(self, cases: Mapping[int, C], block: _BlockResult) -> None:
+        """Store the records of numbered cases: all, or none if it raises."""
         if block.results != RESULTS:
             raise CampaignError(
                 "workers must have the results version of this process, got "
                 f"{block.results} there and {RESULTS} here; their records "
                 "are not used"
             )
-        cases, key_of = self.study.cases, self.study.key_of
-        stored = self.file is not None
-        rows = [
-            (
-                key_of(cases[number]) if stored else str(number),
-                *(RESULTS, number, block.libraries, text),
-            )
-            for number, text in zip(numbers, block.records, strict=False)
-        ]
+        keys = map(self.study.key_of, cases.values())
+        if self.file is None:
+            keys = map(str, cases)
+        same = repeat(RESULTS), cases, repeat(block.libraries)
+        rows = zip(keys, *same, block.records, strict=False)
         names = [c for c in block.columns if c not in self._columns]
         with _using(self.file), self._base:
             self._base.executemany(
@@ -236,7 +239,7 @@ class StudyRun(Generic[C]):
             if names:
                 self._columns |= dict.fromkeys(names)
                 _make_table(self._base, self._columns)
-        self.finished += len(rows)
+        self.finished += len(block.records)
 
 
 def merge_results(parts: Iterable[AnyPath], file: AnyPath) -> int:
@@ -427,20 +430,22 @@ def _measure(
     workers = 0
     if not isinstance(executor, InlineExecutor):
         workers = getattr(executor, "_max_workers", UNKNOWN_WORKERS)
-    flying: dict[Future[_BlockResult], list[int]] = {}
+    flying: dict[Future[_BlockResult], dict[int, C]] = {}
     try:
         while True:
             while len(flying) < max(1, WINDOW * workers):
                 left = len(missing) - taken
                 share = ceil(left / (2 * max(workers, 1)))
                 most = max(1, min(size, share))
-                numbers = missing[taken : taken + most].tolist()
+                numbers = missing[taken : taken + most]
                 if not numbers:
                     break
                 taken += len(numbers)
-                cases = [study.cases[number] for number in numbers]
-                future = executor.submit(measure_block, study.measure, cases)
-                flying[future] = numbers
+                cases = {number: study.cases[number] for number in numbers}
+                future = executor.submit(
+                    measure_block, study.measure, list(cases.values())
+                )
+                flying[future] = cases
             if not flying:
                 return
             for future in wait(flying, return_when=FIRST_COMPLETED).done:
@@ -456,11 +461,11 @@ def _measure(
     except BaseException as error:
         pools.cancel_pending(executor, flying)
         if not isinstance(error, OutputError | CampaignError):
-            for future, numbers in flying.items():
+            for future, cases in flying.items():
                 if future.done() and not (
                     future.cancelled() or future.exception()
                 ):
-                    run.add(numbers, future.result())
+                    run.add(cases, future.result())
         raise
 
 
