@@ -105,7 +105,13 @@ class SimulatedRobot:
         self._torso = root.id
         self.pusher: PushApplier | None = None
         self.truth = truth or TrueRobotState(model, data, root.name)
-        self._knows_pose = knows_pose
+        self._knows_pose, self._sites = knows_pose, data.site_xpos
+        self._motion = {  # views
+            "com": self.truth.position_com_in_world,
+            "origin": self.truth.origin_torso_in_world,
+            "axes": self.truth.axes_torso_in_world,
+            "qpos": data.qpos[self.qpos_slice],
+        }
         self._errors: SensorErrors | None = None
         self._imu: StrapdownImu | None = None
         if generator is None or body == IDEAL and not integrates_imu:
@@ -264,15 +270,8 @@ class SimulatedRobot:
 
     def motion(self) -> dict[str, Array]:
         """Return what :meth:`trajectory` computes a motion from, now."""
-        truth, data = self.truth, self.world.data
-        return {
-            "com": truth.position_com_in_world,
-            "origin": truth.origin_torso_in_world,
-            "axes": truth.axes_torso_in_world,
-            "forces": self.foot_forces,
-            "corners": data.site_xpos[self._corner_sites],
-            "qpos": data.qpos[self.qpos_slice],
-        }
+        corners = self._sites[self._corner_sites]
+        return self._motion | {"forces": self.foot_forces, "corners": corners}
 
     def trajectory(self, samples: dict[str, Array]) -> dict[str, Array]:
         """Return samples of :meth:`motion` by name in a trajectory."""

@@ -140,6 +140,7 @@ class World:
         self.servos: Servos | None = None  # with errors, of the last robot
         # Velocities before the last physics step, whose sensors may lack.
         self._last_qvel, self._lacks_sensors = self.data.qvel.copy(), False
+        self._qvel, self._option = self.data.qvel, self.model.opt  # views
         self.ticks, self.time = 0, 0.0  # simulated time [s]
         self._waiting = self._robots = len(robots)
         roots = [
@@ -168,16 +169,16 @@ class World:
         calls = [*self.before_step]
         if self.servos is not None:
             calls.append(self.servos.before_step)
-        model.opt.disableflags = NO_SENSORS
+        self._option.disableflags = NO_SENSORS
         if last and not calls:
             mujoco.mj_step(model, data, nstep=last)
         for step in range(0 if calls else last, last + 1):
             for call in calls:
                 call(self.time + step * self.physics.time_step)
             if step == last:
-                self._last_qvel[:] = data.qvel
+                self._last_qvel[:] = self._qvel
             mujoco.mj_step(model, data)
-        model.opt.disableflags, self._lacks_sensors = 0, True
+        self._option.disableflags, self._lacks_sensors = 0, True
         self.ticks += 1
         self.time = self.ticks * self.physics.tick
 
@@ -189,11 +190,11 @@ class World:
         """
         model, data = self.model, self.data
         if self._lacks_sensors:
-            self._lacks_sensors, now = False, data.qvel.copy()
-            data.qvel[:] = self._last_qvel
+            self._lacks_sensors, now = False, self._qvel.copy()
+            self._qvel[:] = self._last_qvel
             for compute in SENSORS:
                 compute(model, data)
-            data.qvel[:] = now
+            self._qvel[:] = now
         found: NDArray[np.float64] = data.sensordata
         return found
 

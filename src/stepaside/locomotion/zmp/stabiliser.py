@@ -411,7 +411,7 @@ class StrideLearning:
         self._gait, self._gain = gait, gain
         bound = STRIDE_BOUND * gait.com_height
         self._bounds = np.array([bound, bound, MAX_TURN])
-        self._aims = {foot: np.zeros(3) for foot in Foot}
+        self._aims = dict.fromkeys(Foot, [0.0, 0.0, 0.0])
 
     def learn(self, posture: MeasuredPosture, step: CurrentStep) -> None:
         """Update from the posture at the end of a step."""
@@ -425,8 +425,9 @@ class StrideLearning:
         u, v, theta = step.support.inverse().compose(step.landing)
         missed = wrap_angle(theta - atan2(turn[1, 0], turn[0, 0]))
         short = self._gain * np.array([u - x, v - y, missed])
-        aim = self._aims[step.swing] + short
-        self._aims[step.swing] = np.clip(aim, -self._bounds, self._bounds)
+        aim = np.add(self._aims[step.swing], short)
+        aim = np.clip(aim, -self._bounds, self._bounds)
+        self._aims[step.swing] = aim.tolist()
 
     def aimed(self, body: BodyReference, step: CurrentStep) -> BodyReference:
         """Return a reference with the corrected target of the swing foot."""
@@ -437,9 +438,9 @@ class StrideLearning:
             gait = self._gait if step.plan is None else step.plan.gait
             stood = -step.remaining / gait.double_support
             share = 1.0 - swing_progress(stood)
-        x, y, theta = (share * self._aims[step.swing]).tolist()
-        x, y = step.from_support(x, y)
-        return moved_swing(body, step.swing, x, y, theta)
+        x, y, theta = self._aims[step.swing]
+        x, y = step.from_support(share * x, share * y)
+        return moved_swing(body, step.swing, x, y, share * theta)
 
 
 def build_stabiliser(
