@@ -2,12 +2,14 @@
 
 import subprocess
 import sys
+from pathlib import Path
 
 import click
 import pytest
 from click.testing import CliRunner
 
 from stepaside.cli.main import all_commands, main
+from stepaside.cli.options import output_file
 
 SCREEN = 50  # lines
 MOST = 16  # options, with --set, --config, --settings, --output and --json
@@ -16,6 +18,13 @@ MOST = 16  # options, with --set, --config, --settings, --output and --json
 def options_of(name: str) -> list[click.Option]:
     params = all_commands()[name].params
     return [param for param in params if isinstance(param, click.Option)]
+
+
+def test_an_output_without_suffix_gets_the_first_one(tmp_path: Path) -> None:
+    kind = output_file("figure", ".png", ".svg")
+    for name, written in (("a", "a.png"), ("b.svg", "b.svg")):
+        found = kind.convert(str(tmp_path / name), None, None)
+        assert found == tmp_path / written
 
 
 @pytest.mark.parametrize("name", all_commands())

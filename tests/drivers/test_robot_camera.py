@@ -259,7 +259,8 @@ def test_a_film_stands_for_a_camera(tmp_path: Path) -> None:
     for _ in range(30):
         writer.write(cv2.cvtColor(HALVES, cv2.COLOR_RGB2BGR))
     writer.release()
-    camera = VideoCamera(film, MODEL, latency=0.03)
+    wide = CameraModel(320, 120, 272.0, 136.0)  # twice as fine across
+    camera = VideoCamera(film, wide, latency=0.03)
     for _ in range(30):
         began = monotonic()
         image = camera.image()

@@ -205,6 +205,19 @@ def test_episodes_turn_out_as_stored(number: int) -> None:
     assert found == pytest.approx(STORED[number], rel=1e-4)
 
 
+def test_an_episode_after_others_is_that_of_a_new_environment() -> None:
+    games = VectorDuel(2, role="evader", level="unicycle", **SHORT)
+    found = []
+    for steps in (3, 200, 3):
+        games.reset(seed=[3, 4])
+        for _ in range(steps):
+            row = games.step(np.tile(BACK, (2, 1)))
+        found.append(row)
+    np.testing.assert_array_equal(found[0][0], found[2][0])
+    for before, after in zip(found[0][1:4], found[2][1:4], strict=True):
+        np.testing.assert_array_equal(before, after)
+
+
 def test_steps_need_an_episode() -> None:
     games = VectorDuel(2, role="evader", **SHORT)
     with pytest.raises(PlanError, match="reset the environment first"):

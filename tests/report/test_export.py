@@ -141,6 +141,16 @@ def test_every_link_is_where_mujoco_puts_it(
         np.testing.assert_allclose(found[:, 3], sole.xpos, atol=2e-6)
 
 
+def test_the_joints_of_a_described_robot_join_its_links(bag: Bag) -> None:
+    ((_, description),) = bag.topics["/evader/robot_description"]
+    robot = fromstring(description.data)
+    links = {f"{link.get('name')}" for link in robot.iter("link")}
+    ends = [f"{end.get('link')}" for end in robot.iter("child")]
+    assert {f"{end.get('link')}" for end in robot.iter("parent")} <= links
+    assert set(ends) < links <= set(poses_in_map(bag, 0))
+    assert len(ends) == len(links) - 1 and all("evader/" in x for x in links)
+
+
 def test_joint_states_have_names_velocities_and_efforts(
     bag: Bag, run: Run
 ) -> None:

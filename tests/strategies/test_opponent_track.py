@@ -20,9 +20,10 @@ OWN = Pose(1.0, -2.0, 0.3)
 def sighted(
     track: OpponentTrack, time: float, sight: float, distance: float
 ) -> OpponentTrack:
-    """Add a sighting in a direction of the floor."""
-    x, y = OWN.x + distance * cos(sight), OWN.y + distance * sin(sight)
-    return track.note(time, (x, y), OWN)
+    """Add a sighting in a direction of the floor, of a robot that walks."""
+    own = Pose(OWN.x + 0.2 * time, OWN.y - 0.1 * time, OWN.theta)
+    x, y = own.x + distance * cos(sight), own.y + distance * sin(sight)
+    return track.note(time, (x, y), own)
 
 
 @pytest.mark.parametrize("every", [0.004, 0.1, STEP])
