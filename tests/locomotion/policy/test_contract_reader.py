@@ -243,6 +243,8 @@ def test_a_joint_that_the_robot_lacks_is_named(tmp_path: Path) -> None:
         ({"history": 0}, r"history must be an integer in \[1, .* got 0"),
         ({"history_order": "row"}, "history_order must be one of term, frame"),
         ({"period": -0.02}, r"period must lie in \(0, .* \[s\]"),
+        ({"period": 5.0}, r"period must lie in \(0, 0.1\] .* got 5"),
+        ({"default_posture": 40.0}, r"posture 1 must .* \[rad\] .* got 40"),
         (
             {"clock": {"period": 0.0}},
             r"clock.period must lie in \(0, .* \[s\]",

@@ -266,6 +266,25 @@ def test_an_action_is_found_by_its_name(tmp_path: Path) -> None:
     np.testing.assert_array_equal(action, [1.0, 2.0, 3.0])
 
 
+def test_outputs_that_are_alike_are_told_by_the_name_only(
+    tmp_path: Path,
+) -> None:
+    onnx = pytest.importorskip("onnx")
+    file = write_policy(tmp_path / "a.onnx", np.eye(3), np.zeros(3))
+    model = onnx.load(file)
+    for name in ("mean", "mode"):
+        node = onnx.helper.make_node("Neg", ["obs"], [name])
+        model.graph.node.append(node)
+    del model.graph.output[:]
+    real = onnx.TensorProto.FLOAT
+    for name in ("mean", "mode"):
+        out = onnx.helper.make_tensor_value_info(name, real, [1, 3])
+        model.graph.output.append(out)
+    onnx.save(model, file)
+    with pytest.raises(PolicyError, match=r"named action, got mean \[1, 3\]"):
+        PolicyNetwork(file)
+
+
 def test_a_file_that_is_no_network_is_refused(tmp_path: Path) -> None:
     path = tmp_path / "a.onnx"
     path.write_text("no network")

@@ -111,7 +111,9 @@ class PolicyContract:
         REQUIRED, "Terms of the observation, in order"
     )
     default_posture: tuple[float, ...] = setting(
-        REQUIRED, "Joint angles at action zero [rad]"
+        REQUIRED,
+        "Joint angles at action zero",
+        Range(-3.2, 3.2, "rad", "half a turn; more may be in degrees"),
     )
     stiffness: tuple[float, ...] = setting(
         REQUIRED,
@@ -150,7 +152,7 @@ class PolicyContract:
         "Whether the input holds the history term by term or frame by frame",
     )
     period: float = setting(
-        0.02, "Control period", Range(0.0, 10.0, "s", "above zero", above=True)
+        0.02, "Control period", Range(0.0, 0.1, "s", "above zero", above=True)
     )
     clock: PhaseClock | None = setting(
         None, "Clock of the gait; None if the policy observes none"

@@ -205,7 +205,14 @@ def _pair_ports(
             f"legs: {path} must have an observation and an action beside its "
             "recurrent states"
         )
-    pairs = [(rest[0], free[0])]
+    action = free[0]
+    alike = [str(out) for out in free if out.shape == action.shape]
+    if len(alike) > 1 and "action" not in action.name.lower():
+        raise PolicyError(
+            f"legs: one output of {path} must be named action, got "
+            + ", ".join(alike)
+        )
+    pairs = [(rest[0], action)]
     for given in rest[1:]:
         fits = [out for out in free[1:] if _fit(given, out)]
         if len(fits) != 1:
