@@ -28,7 +28,7 @@ TABLES: dict[str, Callable[..., str]] = studies.TABLES | {
     "environments": learning.environments,
     "fast-walks": many_duels.fast_walks,
     "humanoids": humanoids.reached,
-    "policy-tracking": policies.tracking,
+    "policy-hardware": policies.on_hardware,
     "printed": many_duels.printed,
     "settings": settings.settings,
     "settings-of-commands": settings.settings_of_commands,
