@@ -184,8 +184,7 @@ def _measure(bags: tuple[Path, ...], frames: tuple[str, ...]) -> Any:
         raise click.UsageError(f"one bag at a time, got {len(bags)}")
     if not frames:
         raise click.UsageError(
-            f"{bags[0].name} is a bag: give each player as --frame NAME=FRAME "
-            "or NAME=/TOPIC, like pursuer=/odom; a wrong one names those there"
+            f"{bags[0].name} is a bag: give each player as --frame NAME=FRAME"
         )
     return import_experiment(bags[0], frames)
 

@@ -29,6 +29,7 @@ TABLES: dict[str, Callable[..., str]] = studies.TABLES | {
     "fast-walks": many_duels.fast_walks,
     "humanoids": humanoids.reached,
     "policy-hardware": policies.on_hardware,
+    "policy-tracking": policies.tracking,
     "printed": many_duels.printed,
     "settings": settings.settings,
     "settings-of-commands": settings.settings_of_commands,
