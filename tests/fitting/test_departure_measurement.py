@@ -16,7 +16,6 @@ from stepaside.fitting.departure_measurement import (
     DepartureRecord,
     walk_departure,
 )
-from stepaside.games.game_settings import duel
 from stepaside.games.player_settings import settings_from_description
 from stepaside.locomotion.departures import load_departure, store_departure
 from stepaside.planning.gait_settings import PRESETS
@@ -67,19 +66,6 @@ def test_stored_departure_holds_for_a_walk_that_it_was_not_measured_in(
     # And it is not far from what is needed.
     assert found.reach > stored.reach - 0.02
     assert found.tube > 0.6 * stored.tube
-
-
-def test_contact_is_the_sum_of_both_outlines() -> None:
-    """Two NAOs touch at up to 0.374 m, one and a person later."""
-    shield = {"enabled": True, "speed": 0.06, "turning_radius": 6.0}
-    stored = load_departure(NAO, OWN.gait)
-    assert stored is not None
-    for body, other in (("robot", stored.reach), ("person", PERSON_REACH)):
-        settings = duel(pursuer={"body": body}, evader={"shield": shield})
-        contact = settings.resolved().player("evader").shield.contact
-        assert contact == pytest.approx(stored.reach + other)
-        given = settings.changed(evader={"shield": shield | {"contact": 0.6}})
-        assert given.resolved().player("evader").shield.contact == 0.6
 
 
 def test_reach_of_a_person_contains_all_its_parts() -> None:

@@ -24,6 +24,8 @@ def test_contact_is_what_both_bodies_reach() -> None:
         own = settings.resolved().player("evader")
         assert reach_of(own) > 0.16
         found[body] = own.shield.contact
+    given = settings.changed(evader={"shield": {"contact": 0.6}})
+    assert given.resolved().player("evader").shield.contact == 0.6
     reach = reach_of(own)
     assert found == pytest.approx(
         {"person": reach + PERSON, "robot": 2.0 * reach}

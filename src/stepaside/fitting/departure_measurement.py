@@ -14,12 +14,11 @@ from ..games.physics_world import PhysicsWorld
 from ..games.player_settings import WALKER, RobotSettings
 from ..games.players import RobotPlayer
 from ..locomotion.control_settings import LegsSettings
-from ..planning import Direction
 from ..robots.description import RobotDescription
 from ..sim.outline_measurement import reach_of, solid_geoms
 from ..strategies.body_departure import BodyDeparture
 from ..strategies.knowledge import ON_THE_SPOT, STAND, Intent, Knowledge
-from ..strategies.strategy import BodyStrategy
+from ..strategies.strategy import BackwardStrategy, BodyStrategy
 
 DURATION = 60.0  # of a walk, in [s]
 SEEDS = 1, 2, 3
@@ -93,18 +92,12 @@ class DepartureRecord:
 
 
 @dataclass(frozen=True)
-class RandomSteps(BodyStrategy):
-    """Strategy that walks at random.
-
-    Attributes:
-        seed: Seed of its intents.
-        known: What it knew at its last decision, if at all.
-    """
+class RandomSteps(BackwardStrategy, BodyStrategy):
+    """Strategy that walks at random."""
 
     seed: int
+    # what it knew at its last decision, if at all
     known: list[Knowledge] = field(default_factory=list)
-    direction: Direction = Direction.BACKWARD
-    saturated: bool = False
 
     def begin(self) -> tuple[int, Intent]:
         """Return how many decisions an intent is still held, and it."""

@@ -140,8 +140,7 @@ def strategy_of(
 ) -> Strategy:
     """Return the strategy of a player, or a given one, with its shield.
 
-    It knows places in a map, whose pose in the world is given. A shield
-    reckons with the bodies of opponents.
+    It knows places in a map, whose pose in the world is given.
     """
     strategy = load_strategy(given or player.strategy, player.evasion)
     if player.goal and isinstance(strategy, strategies.GoalWalk):

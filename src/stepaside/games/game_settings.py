@@ -328,9 +328,10 @@ class GameSettings:
             for own in self.players
         )
         if any(own.shield.enabled for own in players):
-            from .shields import with_contacts
+            from .shields import with_contact
 
-            players = with_contacts(players, self.sensed_opponents)
+            opponents_of = self.sensed_opponents
+            players = tuple(with_contact(p, opponents_of(p)) for p in players)
         return replace(self, players=players)
 
     @property

@@ -35,7 +35,7 @@ from ..sim.push import pushes_by_robot
 from ..sim.simulated_robot import SimulatedRobot
 from ..sim.world import World
 from ..strategies.strategy import BodyStrategy, Strategy
-from .floor_games import motion_of, strategy_of, with_body_radius
+from .floor_games import ORIGIN, motion_of, strategy_of, with_body_radius
 from .game import Outcome
 from .game_furnishing import colours_of_players, furnish_game
 from .game_settings import GameSettings
@@ -52,9 +52,6 @@ if TYPE_CHECKING:
     from ..sim.ranging import Lidar
     from ..sim.sensor_suite import SensorSuite
     from .camera_senses import CameraSenses, SightEvaluator
-
-
-ORIGIN = Pose(0.0, 0.0, 0.0)
 
 
 class RobotSetup(NamedTuple):

@@ -1,6 +1,6 @@
 """Shields of the robots of a game, with what is known of all bodies."""
 
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import replace
 from pathlib import Path
 
@@ -8,7 +8,6 @@ from ..locomotion.departures import load_departure
 from ..robots.description import load_robot
 from ..strategies.body_departure import BodyDeparture
 from ..strategies.shield import ASSUMES, PERSON_REACH, ShieldedStrategy
-from ..strategies.shield_settings import ShieldSettings
 from ..strategies.strategy import Strategy
 from .player_settings import PlayerSettings, RobotSettings
 
@@ -27,11 +26,11 @@ def shielded(
         if not own.shield.enabled:
             return strategy
         strategy = ShieldedStrategy(strategy, own.shield)
-    shield = strategy.shield
-    departure = strategy.departure or departure_of(own)
+    own = replace(own, shield=replace(strategy.shield, enabled=True))
     if isinstance(own, PlayerSettings):
-        shield = with_contact(shield, own, opponents)
-    return replace(strategy, shield=shield, departure=departure)
+        own = with_contact(own, opponents)
+    departure = strategy.departure or departure_of(own)
+    return replace(strategy, shield=own.shield, departure=departure)
 
 
 def notes_of(strategies: Mapping[str, Strategy]) -> list[str]:
@@ -54,32 +53,18 @@ def departure_of(own: RobotSettings) -> BodyDeparture | None:
     return None if response is None else response.departure
 
 
-def with_contacts(
-    players: Iterable[PlayerSettings],
-    opponents_of: Callable[[PlayerSettings], Iterable[PlayerSettings]],
-) -> tuple[PlayerSettings, ...]:
-    """Return players whose shields have a contact distance."""
-    return tuple(
-        replace(own, shield=with_contact(own.shield, own, opponents_of(own)))
-        if own.shield.enabled
-        else own
-        for own in players
-    )
-
-
 def with_contact(
-    shield: ShieldSettings,
-    own: PlayerSettings,
-    opponents: Iterable[PlayerSettings],
-) -> ShieldSettings:
-    """Return the settings of a shield with a contact distance.
+    own: PlayerSettings, opponents: Iterable[PlayerSettings]
+) -> PlayerSettings:
+    """Return a player whose shield, if enabled, has a contact distance.
 
     By default it is the sum of the reaches of the outlines of both bodies.
     """
-    if shield.contact is not None:
-        return shield
+    if own.shield.contact is not None or not own.shield.enabled:
+        return own
     others = max(map(reach_of, opponents), default=PERSON_REACH)
-    return replace(shield, contact=reach_of(own) + others)
+    contact = reach_of(own) + others
+    return replace(own, shield=replace(own.shield, contact=contact))
 
 
 def reach_of(own: PlayerSettings) -> float:

@@ -10,10 +10,9 @@ from ..core.player_identity import PlayerIdentity
 from ..core.poses import Pose, wrap_angle
 from ..perception.measurement import Sighting
 from .knowledge import Intent, Knowledge, Limits, OtherPlayer
-from .opponent_track import OpponentTrack
+from .opponent_track import ORIGIN, OpponentTrack
 from .strategy import Strategy, unicycle_intent
 
-ORIGIN = Pose(0.0, 0.0, 0.0)
 NEARER = 0.9  # relative distance from which another opponent is taken
 
 

@@ -12,7 +12,7 @@ from ..core.ranges import SEEDS, Range
 from ..core.setting import CheckedSettings, setting
 from ..planning import Direction
 from ..theory import laws
-from .knowledge import BODY, STAND, Intent, Knowledge, Limits
+from .knowledge import BODY, STAND, Intent, Knowledge
 from .opponent_track import OpponentTrack, track_of_steps
 
 FREE_STRIDES = 3.0  # straight ahead that allow turning by (2)
@@ -105,7 +105,10 @@ class Pursuit(CheckedSettings):
         if bends:
             # By (2) it would turn too slowly and walk into the obstacle.
             return Intent(seen.limits.correcting_heading(bearing)), memory
-        return Intent(self._heading(bearing, seen.limits)), memory
+        # A step turns by a fraction of it, which depends on the gait.
+        ratio = min(self.gain, max(1.0, 1.0 / seen.limits.share))
+        heading = ratio * laws.pursuit_heading(bearing)
+        return Intent(min(max(heading, -pi), pi)), memory
 
     def _aimed(
         self, knowledge: Knowledge, track: OpponentTrack | None
@@ -138,14 +141,6 @@ class Pursuit(CheckedSettings):
             bearing = wrap_angle(knowledge.bearing + error)
             knowledge = replace(knowledge, bearing=bearing)
         return knowledge
-
-    def _heading(self, bearing: float, limits: Limits) -> float:
-        """Return the desired heading of eq. (2) at the own gain, in [rad].
-
-        A step turns by a fraction of it, which depends on the gait.
-        """
-        ratio = min(self.gain, max(1.0, 1.0 / limits.share))
-        return min(max(ratio * laws.pursuit_heading(bearing), -pi), pi)
 
     def course(
         self, knowledge: Knowledge, side: int = 0

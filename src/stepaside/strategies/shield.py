@@ -157,16 +157,6 @@ class ShieldModel(NamedTuple):
         """Return the table of the game, solved once and kept."""
         return _table(self)
 
-    def against(self, settings: ShieldSettings) -> "ShieldModel":
-        """Return the model of the same robot against another person."""
-        return shield_model(
-            self.limits,
-            settings,
-            self.direction,
-            saturated=self.saturated,
-            departure=self.departure,
-        )
-
     def certifies(self, table: ShieldTable) -> bool:
         """Return whether any state is certified by a table of the model."""
         return table.outside >= self.required
@@ -242,21 +232,17 @@ def _table(model: ShieldModel) -> ShieldTable:
         LOG.warning(ASSUMES)
     table, person = _solved(model, CELLS, HEADINGS), model.settings
     if not model.certifies(table):
+        speed = greatest_speed(model)
+        least = f"Nor is any against one at {LEAST_SPEED:g} m/s"
+        most = f"The greatest speed against which some are is {speed:.2g} m/s"
         LOG.warning(
             "shield: no state is certified against a person at %g m/s with a "
             "turning radius of %g m, contact at %.3g m; the shield changes "
             "nothing. %s",
             person.speed, person.turning_radius, model.contact,
-            _words_of(greatest_speed(model)),
+            most if speed else least,
         )  # fmt: skip
     return table
-
-
-def _words_of(speed: float) -> str:
-    """Return in words against whom this gait can be certified."""
-    if speed == 0.0:
-        return f"Nor is any against one at {LEAST_SPEED:g} m/s"
-    return f"The greatest speed against which some are is {speed:.2g} m/s"
 
 
 def greatest_speed(model: ShieldModel) -> float:
@@ -273,8 +259,13 @@ def greatest_speed(model: ShieldModel) -> float:
         total, done = ceil(log2(high + 1.0)), 0
         while high - low > 1:
             middle = (low + high) // 2
-            slower = replace(person, speed=speeds[middle])
-            other = model.against(slower)
+            other = shield_model(
+                model.limits,
+                replace(person, speed=speeds[middle]),
+                model.direction,
+                saturated=model.saturated,
+                departure=model.departure,
+            )
             if other.certifies(_solved(other, COARSE, FEW)):
                 low = middle
             else:
