@@ -153,7 +153,6 @@ def test_the_imu_measures_in_the_torso(player: str, table: Table) -> None:
             assert np.std(pair[0]) == pytest.approx(np.std(pair[1]), rel=0.3)
 
 
-@pytest.mark.xfail(strict=True, reason="the first sample of the IMU is 0")
 def test_the_first_sample_of_the_imu_is_gravity(table: Table) -> None:
     force = table.columns["evader/accelerometer/z_m_s2"]
     assert force[0] == pytest.approx(GRAVITY, abs=0.5)

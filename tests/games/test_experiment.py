@@ -191,6 +191,7 @@ def test_invalid_poses_are_left_out(tmp_path: Path) -> None:
     bag = write_bag(tmp_path / "invalid", entries)
     run = import_experiment(bag, ("pursuer=/a", "evader=/b"))
     assert run.summary.distance_m == pytest.approx(2**0.5, rel=1e-3)
+    assert run.summary.notes == ["evader has 2 invalid poses; left out"]
     times: Array = run.times
     expected = [on_circle(t, 1.0, 0.0) for t in times.tolist()]
     np.testing.assert_allclose(run.pursuer.torso, expected, atol=1e-6)

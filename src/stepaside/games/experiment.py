@@ -81,11 +81,17 @@ def import_experiment(bag: Path, words: tuple[str, ...]) -> Run:
             not in one frame, or not at common times.
         ModuleNotFoundError: If rosbags is not installed.
     """
-    worlds, tables = _read_bag(bag, _parse_sources(words))
+    worlds, rows = _read_bag(bag, _parse_sources(words))
+    tables, notes = {}, []
+    for player, found in rows.items():
+        valid = found[np.isfinite(found).all(axis=1)]
+        if invalid := len(found) - len(valid):
+            notes.append(f"{player} has {invalid} invalid poses; left out")
+        tables[player] = _table(player, valid, len(found))
     if len({*worlds.values()}) > 1:
-        found = ", ".join(f"{p} in {w}" for p, w in worlds.items())
+        listed = ", ".join(f"{p} in {w}" for p, w in worlds.items())
         raise ConfigurationError(
-            f"poses of all players must be in one frame, got {found}"
+            f"poses of all players must be in one frame, got {listed}"
         )
     first = next(iter(tables.values()))[:, 0]
     begin = max(table[0, 0] for table in tables.values())
@@ -99,7 +105,7 @@ def import_experiment(bag: Path, words: tuple[str, ...]) -> Run:
                 for p, table in tables.items()
             )
         )
-    tracks, notes = {}, []
+    tracks = {}
     for player, table in tables.items():
         x, y, z, heading = (
             np.interp(times, table[:, 0], column) for column in table.T[1:]
@@ -130,9 +136,8 @@ def _read_bag(
 ) -> tuple[dict[str, str], dict[str, Array]]:
     """Return the frame of each player's poses, and the poses.
 
-    Sources are frames, or topics that begin with a slash. Columns are time
-    [s], x, y, z [m] and heading [rad]. Times are those of the headers; where
-    no header of a player has one, those of recording.
+    Sources are frames, or topics that begin with a slash. Columns are the
+    times of header and recording [s], x, y, z [m] and heading [rad].
     """
     from rosbags.highlevel import AnyReader
     from rosbags.typesys import Stores, get_typestore
@@ -154,7 +159,7 @@ def _read_bag(
                 f"poses of {player} must all be in one frame, got "
                 f"{_listed(sorted(found))}"
             )
-    tables = {player: _table(player, found) for player, found in rows.items()}
+    tables = {player: np.array(found) for player, found in rows.items()}
     return {player: found.pop() for player, found in worlds.items()}, tables
 
 
@@ -261,11 +266,11 @@ def _matrix(position: Any, rotation: Any) -> Array:
     return matrix
 
 
-def _table(player: str, rows: list[tuple[float, ...]]) -> Array:
-    """Return the valid poses of one player, in the order of their times."""
-    table = np.array(rows)
-    table = table[np.isfinite(table).all(axis=1)]
-    # Without stamps, the times of recording must do.
+def _table(player: str, table: Array, count: int) -> Array:
+    """Return the valid poses of one player, in the order of their times.
+
+    Of so many poses. Without stamps, the times of recording must do.
+    """
     table = np.delete(table, 1 if table[:, 0].any() else 0, axis=1)
     back = np.maximum.accumulate(table[:, 0]) - table[:, 0]
     if (back > SHUFFLED).any():
@@ -278,7 +283,7 @@ def _table(player: str, rows: list[tuple[float, ...]]) -> Array:
     if len(table) < 2:
         raise ConfigurationError(
             f"poses of {player} must be finite with a rotation that is not "
-            f"zero at 2 times at least, got {len(table)} of {len(rows)}"
+            f"zero at 2 times at least, got {len(table)} of {count}"
         )
     table[:, 4] = np.unwrap(table[:, 4])
     return table

@@ -292,13 +292,17 @@ class SimulatedRobot:
         targets = np.full(end - start, nan)
         targets[self._qpos - start] = joint_targets
         velocity, effort = data.qvel[dofs], data.qfrc_actuator[dofs]
+        force = self.world.sensordata[self._accelerometer]
+        if data.time == 0.0:  # the soles do not press on the floor yet
+            axes = data.xmat[self._torso].reshape(3, 3)
+            force = -(self.world.model.opt.gravity @ axes)
         return {
             "torso_velocity": velocity[:6],
             "joint_velocity": velocity[6:],
             "joint_effort": effort[6:],
             "joint_targets": targets,
             "gyro": self.world.sensordata[self._gyro],
-            "accelerometer": self.world.sensordata[self._accelerometer],
+            "accelerometer": force,
             "foot_forces": self.foot_forces,
         }
 
