@@ -259,6 +259,8 @@ def their_robot(python: str, kind: str) -> Iterator[dict[str, Any]]:
 class Walker:
     """Robot to be served: it stands, and its camera shows a pattern."""
 
+    ready = True
+
     def __init__(self) -> None:
         """Begin at a time and a place."""
         self.time, self.velocity = 3.0, REST
