@@ -52,6 +52,7 @@ def test_no_bound_is_given_where_the_certificate_does_not_hold() -> None:
     assert (bound[np.isfinite(bound)] > 0.0).all()
 
 
+@pytest.mark.slow
 def test_sharpened_bound_certifies_more_than_the_plain_one() -> None:
     starts = random_starts(LATCHED, 500)
     sharp = certified(LATCHED, starts)
