@@ -103,14 +103,12 @@ class FloorAgent(DecisionMaker):
             opponent = next(o for o in known if o.identity.name == present)
         x, y, _ = seen[opponent.identity.name]
         self._track = track = self._track.note(now, (x, y), own)
-        turning, closing = track.sight_rates
         return Knowledge(
             now,
             opponent.bearing,
             opponent.distance,
             self.limits,
-            turning,
-            closing,
+            *track.sight_rates,
             0.0,
             own,
             moving,
