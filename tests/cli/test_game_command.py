@@ -7,7 +7,6 @@ import pytest
 from click.testing import CliRunner, Result
 
 from stepaside.cli.main import main
-from stepaside.games.run_archive import load_run
 
 pytestmark = pytest.mark.usefixtures("blank_figures")
 
@@ -39,19 +38,6 @@ def file(tmp_path: Path) -> Path:
 
 def run(*arguments: str | Path) -> Result:
     return CliRunner().invoke(main, ["run", "game", *map(str, arguments)])
-
-
-def test_a_game_prints_players_and_pairs_and_writes_a_folder(
-    file: Path, tmp_path: Path
-) -> None:
-    folder = tmp_path / "out"
-    done = run(file, "--seed", "3", "--duration", "2", "--output", folder)
-    assert done.exit_code == 0, done.output
-    for text in ("red - ruby", "ruby - blue", "closest", "path"):
-        assert text in done.output
-    loaded = load_run(folder, "game")
-    assert loaded.settings.seed == 3 and loaded.duration == 2.0
-    assert (folder / "game.png").is_file()
 
 
 def test_json_holds_every_result_and_repeats(file: Path) -> None:

@@ -101,27 +101,6 @@ def test_map_names_the_worst_start() -> None:
     assert again["closest_distance_m"] == pytest.approx(low, abs=1e-6)
 
 
-@pytest.mark.parametrize("command", [circle, unicycles, map_command])
-@pytest.mark.parametrize(
-    ("words", "got"),
-    [
-        ("--speed 0", "got 0"),
-        ("--gain nan", "nan"),
-        ("--angle 200deg", "3.49"),
-        ("--angle north", "'north'"),
-        ("--law hard", "'hard'"),
-        ("--set hysteresis=2", "got 2"),
-    ],
-)
-def test_bad_input_is_one_line_and_status_2(
-    command: Any, words: str, got: str
-) -> None:
-    result = run(command, words + " --json")
-    assert result.exit_code == 2
-    assert result.stdout == ""
-    assert got in result.stderr.splitlines()[-1]
-
-
 def test_figure_that_cannot_be_written_is_refused_first(
     tmp_path: Path,
 ) -> None:

@@ -14,10 +14,6 @@ DOCS = ROOT / "docs"
 BOM = b"\xef\xbb\xbf"
 
 
-def pages() -> str:
-    return "\n".join(p.read_text("utf-8") for p in sorted(DOCS.glob("*.md")))
-
-
 @pytest.mark.parametrize("number", [SIGHUP, SIGTERM, SIGINT])
 def test_the_status_of_a_command_is_that_of_its_signal(
     number: int, tmp_path: Path
@@ -88,14 +84,6 @@ def test_the_first_page_installs_what_its_commands_need() -> None:
 def test_the_reference_has_environments_and_games(name: str) -> None:
     text = (DOCS / "api.md").read_text("utf-8")
     assert re.search(rf"^\.\. auto\w+:: .*\b{name}$", text, re.MULTILINE)
-
-
-def test_a_page_says_how_a_network_gets_its_metadata() -> None:
-    assert ".metadata()" in pages()
-
-
-def test_a_page_says_how_stable_baselines_learns() -> None:
-    assert "stable_baselines3" in pages()
 
 
 def test_the_recipe_for_ros_2_publishes_the_pose_of_the_other() -> None:
