@@ -133,14 +133,8 @@ def test_a_sensor_that_fails_stops_the_walk_by_name(
     assert said in play.until(SafetyState.STOPPING, 200)
 
 
-@pytest.mark.parametrize(
-    "fault",
-    [
-        "of another unit",
-        pytest.param("without forces", marks=pytest.mark.slow),
-        pytest.param("not a number", marks=pytest.mark.slow),
-    ],
-)
+@pytest.mark.slow
+@pytest.mark.parametrize("fault", ENDS)
 def test_reports_that_cannot_be_used_end_the_session_by_name(
     fault: str, play: Play
 ) -> None:

@@ -21,20 +21,10 @@ from stepaside.report.scene import RunScene
 from stepaside.sim.person_settings import PersonSettings
 
 CHROMIUM = shutil.which("chromium") or shutil.which("chromium-browser")
-
-
 ARTEFACTS = Path(__file__).parent.parent / "artefacts"
-
-
 WAIT = 200_000  # more than a browser on a busy machine ever takes, in [ms]
-
-
 OPTIONS = ["--no-sandbox", "--enable-unsafe-swiftshader"]
-
-
 PAUSE = 100  # between two frames of a page that does not look, in [ms]
-
-
 LIDS = """{
 globalThis.looking = false;
 globalThis.draws = 0;
@@ -58,8 +48,6 @@ for (const kind of [WebGLRenderingContext, WebGL2RenderingContext])
       };
     }
 }""".replace("@@PAUSE@@", str(PAUSE))
-
-
 FRAMES = """() => new Promise((told) => requestAnimationFrame(
   () => requestAnimationFrame(told)))"""
 
@@ -133,12 +121,6 @@ def until(page: Any, condition: Any) -> None:
             return
         page.wait_for_timeout(20)
     raise AssertionError("it did not happen")
-
-
-def press(page: Any, label: str) -> None:
-    """Press a button, wherever it lies."""
-    button = page.get_by_role("button", name=label, exact=True).first
-    button.dispatch_event("click")
 
 
 pytestmark = [
@@ -297,21 +279,3 @@ def test_nothing_in_a_run_folder_runs_in_its_page(
     assert page.locator("script").count() == 3
     assert page.evaluate("window.ran") is None
     assert wrong == []
-
-
-def test_a_page_s_policy_lets_nothing_else_run(
-    flat: tuple[Any, list[str]], run: Path, tmp_path: Path
-) -> None:
-    """Even what would get past the writing does nothing."""
-    file = tmp_path / "run.html"
-    write_page(load_run(run), file)
-    text = file.read_text(encoding="utf-8")
-    extra = "<script>ran=1</script><img src='x:' onerror='ran=2'>"
-    file.write_text(text.replace("<h1>", extra + "<h1>"), encoding="utf-8")
-    page, wrong = flat
-    page.goto(file.as_uri())
-    page.wait_for_timeout(200)
-    assert page.inner_text("#clock") == "0.0 s"
-    assert page.evaluate("window.ran") is None
-    assert any("Content Security Policy" in told for told in wrong)
-    wrong.clear()
