@@ -79,7 +79,7 @@ class OpponentTrack(NamedTuple):
         return way + 0.5 * wrap_angle(way - earlier)
 
     @property
-    def sight_rates(self) -> tuple[float, float] | tuple[None, None]:
+    def sight_rates(self) -> tuple[float | None, float | None]:
         """Turning rate of the line of sight, and decrease of its length.
 
         In [rad/s] and [m/s], over the last gait cycle; None while unknown.
