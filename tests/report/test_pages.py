@@ -279,3 +279,21 @@ def test_nothing_in_a_run_folder_runs_in_its_page(
     assert page.locator("script").count() == 3
     assert page.evaluate("window.ran") is None
     assert wrong == []
+
+
+def test_a_page_s_policy_lets_nothing_else_run(
+    flat: tuple[Any, list[str]], run: Path, tmp_path: Path
+) -> None:
+    """Even what would get past the writing does nothing."""
+    file = tmp_path / "run.html"
+    write_page(load_run(run), file)
+    text = file.read_text(encoding="utf-8")
+    extra = "<script>ran=1</script><img src='x:' onerror='ran=2'>"
+    file.write_text(text.replace("<h1>", extra + "<h1>"), encoding="utf-8")
+    page, wrong = flat
+    page.goto(file.as_uri())
+    page.wait_for_timeout(200)
+    assert page.inner_text("#clock") == "0.0 s"
+    assert page.evaluate("window.ran") is None
+    assert any("Content Security Policy" in told for told in wrong)
+    wrong.clear()
