@@ -90,7 +90,11 @@ BAD = [
     ("duel --duration -3", "duration must lie.*-3"),
     ("duel --seed -1", "seed.*-1"),
     ("duel --distance 0.1", "distance must lie in.*m.*0.1"),
-    ("duel --set evasion.angle=200deg", "angle must lie in.*rad.*3.49"),
+    (
+        "duel --set evasion.angle=200deg",
+        "angle must lie in .*180. .deg., got 200deg",
+    ),
+    ("duel --level steps", "no such option --level; use --set level="),
     ("duel --set evasion.angle=up", "angle.*up"),
     ("duel --set start.pursuer_offset=inf", "pursuer_offset.*inf"),
     (

@@ -71,7 +71,7 @@ def test_a_default_duel_is_expected_on_the_circle(seed: int) -> None:
     assert found.min_distance_m is not None and found.min_distance_m > 0.4
     soon = told(duel(seed=seed, duration=8.0))
     assert soon.expected == "later" and soon.circle_since_s is None
-    assert soon.words == "the circle, after 8 s"
+    assert soon.words == "the circle, not within 8 s"
 
 
 @pytest.mark.parametrize(

@@ -217,9 +217,11 @@ def test_names_and_arguments_are_refused_by_rule(
     ("name", "message"),
     [
         (
-            "Timid(far=1)",
-            r"Timid\(far=1\) must make a strategy, got TypeError",
+            "Timid(factr=1)",
+            r"Timid must have arguments of factor, direction, "
+            "saturated, got 'factr'; did you mean factor",
         ),
+        ("Timid(factor=no)", "factor of type float, got 'no'"),
         ("Mute", r"must return \(Intent, memory\), got TypeError"),
         ("Moody", "the same knowledge and memory must give the same intent"),
         ("Broken", "must return .*, got ZeroDivisionError"),

@@ -12,6 +12,7 @@ import click
 from .. import __version__
 from ..core.errors import StepAsideError, check_choice, nearest_hint
 from ..core.extras import install_hint
+from ..core.setting import similar_paths
 from ..core.signal_handling import interrupted_status, interruptible
 
 COMMANDS = {
@@ -93,6 +94,8 @@ class LazyGroup(click.Group):
         with interruptible():  # it knows the signal until it ends
             try:
                 status = super().main(*args, **extra)
+            except click.NoSuchOption as error:
+                _refuse(_no_option(error))
             except click.ClickException as error:
                 _refuse(error.format_message())
             except StepAsideError as error:
@@ -139,6 +142,21 @@ def _errors_of_executors() -> type[Exception]:
     from concurrent.futures import BrokenExecutor
 
     return BrokenExecutor
+
+
+def _no_option(error: click.NoSuchOption) -> str:
+    """Return the message; that of a setting without an option names it."""
+    command = error.ctx.command if error.ctx else None
+    entries = getattr(command and command.callback, "entries", ())
+    name = error.option_name.lstrip("-").replace("-", "_")
+    found = [
+        f"--set {path}=VALUE"
+        for path in similar_paths(entries, name)
+        if path.rpartition(".")[2] == name
+    ]
+    if not found:
+        return error.format_message()
+    return f"no such option {error.option_name}; use {' or '.join(found)}"
 
 
 def _refuse(message: str) -> NoReturn:

@@ -113,6 +113,7 @@ def takes_settings(
                 return write_result(commented(settings))
             return function(settings=settings, **values)
 
+        command.__dict__["entries"] = entries  # for hints
         result: Callable[..., Any] = command
         for option in (lists_option, config, set_option):
             result = option(result)

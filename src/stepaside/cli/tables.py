@@ -194,6 +194,8 @@ def _missing_circle(summary: "Summary") -> str:
         return "not expected"
     if summary.triggered_at_s is None:
         return "not reached: the evader was never triggered"
+    if theory.expected == "later":
+        return "not reached, nor expected in this time"
     if theory.circle_since_s is not None:
         since = f"{theory.circle_since_s:.0f} s"
         return f"not reached: the template reaches it at {since}"

@@ -161,7 +161,7 @@ def forecast(settings: GameSettings) -> TheorySummary:
     elif not circle.exists:
         expected, words = "no circle", found.words or ""
     elif since is None:
-        expected, words = "later", f"the circle, after {duration:.0f} s"
+        expected, words = "later", f"the circle, not within {duration:.0f} s"
     return replace(
         found,
         expected=expected,

@@ -1,4 +1,4 @@
-"""Colours of pages in the light and the dark theme."""
+"""Colours of pages and figures in the light and the dark theme."""
 
 from collections.abc import Iterable, Mapping
 from itertools import cycle

@@ -1,18 +1,32 @@
 """Strategies of users: made from their files, and tried."""
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import is_dataclass, replace
+from inspect import signature
 from math import pi
 from pathlib import Path
 from typing import Any
 
-from ..core.errors import FAILURES, ConfigurationError, StrategyError, shown
+from ..core.errors import (
+    FAILURES,
+    ConfigurationError,
+    StrategyError,
+    as_number,
+    nearest_hint,
+    shown,
+)
 from ..core.user_file import load_user_file
 from ..planning import Direction
 from .decision_maker import evaluate_strategy
 from .knowledge import Knowledge, Limits
 from .shield import ShieldedStrategy
 
+# Annotations whose values are checked, and by what.
+SCALARS: Mapping[str, Callable[[Any], bool]] = {
+    "float": lambda value: as_number(value) is not None,
+    "int": lambda value: as_number(value, whole=True) is not None,
+    "bool": lambda value: isinstance(value, bool),
+}
 LIMITS = Limits(0.1, 0.2, 0.04, 0.547)  # of trial decisions
 
 
@@ -44,6 +58,7 @@ def create_strategy(
             f"{where}: must be a strategy, or a class or function that makes "
             f"one, got {shown(thing)}"
         )
+    _check_arguments(thing, given, f"{where}: {name}")
     try:
         return replace(thing, **given) if is_made else thing(**given)
     except FAILURES as error:
@@ -52,6 +67,29 @@ def create_strategy(
             f"{where}: {name}({listed}) must make a strategy, got "
             f"{type(error).__name__}: {error}"
         ) from error
+
+
+def _check_arguments(thing: Any, given: Mapping[str, Any], what: str) -> None:
+    """Check names, and values where a number or truth value is annotated."""
+    try:
+        known = signature(thing if callable(thing) else type(thing)).parameters
+    except ValueError:  # of code without a signature
+        return
+    if any(each.kind is each.VAR_KEYWORD for each in known.values()):
+        return
+    for key, value in given.items():
+        if key not in known:
+            raise ConfigurationError(
+                f"{what} must have arguments of "
+                f"{', '.join(known) or 'none'}, got {key!r}"
+                f"{nearest_hint(key, known)}"
+            )
+        kind = known[key].annotation
+        kind = getattr(kind, "__name__", kind)
+        if kind in SCALARS and not SCALARS[kind](value):
+            raise ConfigurationError(
+                f"{what} must have {key} of type {kind}, got {value!r}"
+            )
 
 
 def trial_knowledge() -> Iterator[Knowledge]:

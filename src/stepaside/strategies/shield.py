@@ -20,6 +20,7 @@ from ..theory.value import (
     solve_shield,
     sub_poses,
 )
+from ..theory.value.shield_game import CELLS, HEADINGS
 from ..theory.value.table import cached
 from .body_departure import BodyDeparture
 from .decision_maker import evaluate_strategy
@@ -42,9 +43,7 @@ from .velocity_set import (
 
 LOG = logging.getLogger(__name__)
 
-CELLS = 10  # of the grid of the table in the required distance
 COARSE, FEW = 4, 12  # cells and headings for the greatest speed of a person
-HEADINGS = 24  # of the table
 LEAST_SPEED = 0.02  # of a person that is tried, in [m/s]
 SPEED_STEP = 1.1  # from one speed to the next
 CELLS_PER_PERIOD = 6  # passed by the opponent while a motion is held
