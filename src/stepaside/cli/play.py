@@ -118,6 +118,7 @@ def play(
                 "a robot with velocity commands, or a JointRobot with paced "
                 "= False",
             )
+    loop = None
     try:
         with ExitStack() as stack:
             line = StatusLine(sys.stderr)
@@ -135,6 +136,10 @@ def play(
             ended = _run(loop, observers, settings.duration)
             if kept is not None:
                 kept.ended = ended
+    except KeyboardInterrupt:
+        end = "had not begun" if loop is None else "is closed"
+        echo(f"stepaside: the session with the robot {end}", err=True)
+        raise
     except SessionLost as error:
         raise click.ClickException(str(error)) from error
 

@@ -31,6 +31,11 @@ class Range(NamedTuple):
         kind = "be an integer" if self.whole else "lie"
         return f"{kind} in {self.text} [{self.unit}]"
 
+    def scaled(self, factor: float, unit: str) -> "Range":
+        """Return the range in another unit."""
+        low, high = self.low * factor, self.high * factor
+        return self._replace(low=low, high=high, unit=unit)
+
     def holds(self, value: object) -> bool:
         """Return whether a value is permitted."""
         number = as_number(value, whole=self.whole)

@@ -224,9 +224,12 @@ class EntryReader:
         origin, args = get_origin(hint), get_args(hint)
         if isinstance(value, str):
             text, value = value, described.meant(value)
-            unit = text[-3:]
-            if range and unit in ANGLES and not isinstance(value, str):
-                return self._read_angle(value, path, range, text, unit)
+            factor = ANGLES.get(text[-3:])
+            if range and factor and type(value) is float:
+                if not range.holds(value):
+                    rule = range.scaled(1.0 / factor, text[-3:]).rule
+                    self.problems.append(f"{path} must {rule}, got {text}")
+                return value
             if described.presets is not None and isinstance(value, str):
                 return self._note_choice(path, described.presets, value)
         if origin in (Union, UnionType):
@@ -391,17 +394,6 @@ class EntryReader:
         if "\0" in str(value):  # not valid in a file name
             return self._note(path, "have no null character", value)
         return value
-
-    def _read_angle(
-        self, value: float, path: str, range: Range, text: str, unit: str
-    ) -> float | None:
-        """Return an angle; the rule for others is in the unit of the text."""
-        if range.holds(value):
-            return value
-        low, high = (x / ANGLES[unit] for x in (range.low, range.high))
-        rule = range._replace(low=low, high=high, unit=unit).rule
-        self.problems.append(f"{path} must {rule}, got {text}")
-        return None
 
     def _read_number(
         self, value: Any, kind: Any, path: str, range: Range | None
