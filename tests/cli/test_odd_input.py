@@ -12,7 +12,8 @@ from click.testing import CliRunner
 from hypothesis import HealthCheck, assume, given, settings
 from hypothesis import strategies as st
 
-from stepaside.cli.main import all_commands, main
+from stepaside.cli.command_list import all_commands
+from stepaside.cli.main import main
 
 # They wait for clients, browsers or robots, or play long games.
 WAITING = {"serve", "play", "view"}

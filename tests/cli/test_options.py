@@ -8,7 +8,8 @@ import click
 import pytest
 from click.testing import CliRunner
 
-from stepaside.cli.main import all_commands, main
+from stepaside.cli.command_list import all_commands
+from stepaside.cli.main import main
 from stepaside.cli.options import output_file
 
 SCREEN = 50  # lines
@@ -94,7 +95,7 @@ def test_commands_are_declared_without_heavy_imports() -> None:
     """MuJoCo, SciPy and Matplotlib are imported on use."""
     code = """if True:
         import sys
-        from stepaside.cli.main import all_commands
+        from stepaside.cli.command_list import all_commands
         all_commands()
         bad = {"mujoco", "scipy", "matplotlib"} & set(sys.modules)
         assert not bad, bad

@@ -7,7 +7,7 @@ from signal import SIG_IGN, SIGHUP, SIGINT, SIGTERM, getsignal
 import pytest
 
 from expected.asking import GAME, command, own_evader
-from stepaside.cli.main import all_commands
+from stepaside.cli.command_list import all_commands
 
 ROOT = Path(__file__).parents[2]
 DOCS = ROOT / "docs"

@@ -10,7 +10,7 @@ import matplotlib.backends.backend_agg  # noqa: E402, F401
 from matplotlib.figure import Figure  # noqa: E402
 
 import stepaside  # noqa: E402
-from stepaside.cli.main import all_commands  # noqa: E402
+from stepaside.cli.command_list import all_commands  # noqa: E402
 from stepaside.core.compilation import load_numba  # noqa: E402
 
 all_commands()

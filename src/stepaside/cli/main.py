@@ -12,7 +12,6 @@ import click
 from .. import __version__
 from ..core.errors import StepAsideError, check_choice, nearest_hint
 from ..core.extras import install_hint
-from ..core.setting import similar_paths
 from ..core.signal_handling import interrupted_status, interruptible
 
 COMMANDS = {
@@ -95,7 +94,9 @@ class LazyGroup(click.Group):
             try:
                 status = super().main(*args, **extra)
             except click.NoSuchOption as error:
-                _refuse(_no_option(error))
+                from .options import tell_no_option
+
+                _refuse(tell_no_option(error))
             except click.ClickException as error:
                 _refuse(error.format_message())
             except StepAsideError as error:
@@ -119,44 +120,11 @@ class LazyGroup(click.Group):
         sys.exit(status if isinstance(status, int) else 0)
 
 
-def all_commands() -> dict[str, click.Command]:
-    """Return every command by its full name, like ``robot check``."""
-    commands: dict[str, click.Command] = {}
-    queue: list[tuple[str, click.Group]] = [("", main)]
-    while queue:
-        prefix, group = queue.pop(0)
-        context = click.Context(group)
-        for name in group.list_commands(context):
-            command = group.get_command(context, name)
-            assert command is not None
-            full_name = f"{prefix} {name}".strip()
-            if isinstance(command, click.Group):
-                queue.append((full_name, command))
-            else:
-                commands[full_name] = command
-    return commands
-
-
 def _errors_of_executors() -> type[Exception]:
     """Return the error of a lost worker; its module is imported late."""
     from concurrent.futures import BrokenExecutor
 
     return BrokenExecutor
-
-
-def _no_option(error: click.NoSuchOption) -> str:
-    """Return the message; that of a setting without an option names it."""
-    command = error.ctx.command if error.ctx else None
-    entries = getattr(command and command.callback, "entries", ())
-    name = error.option_name.lstrip("-").replace("-", "_")
-    found = [
-        f"--set {path}=VALUE"
-        for path in similar_paths(entries, name)
-        if path.rpartition(".")[2] == name
-    ]
-    if not found:
-        return error.format_message()
-    return f"no such option {error.option_name}; use {' or '.join(found)}"
 
 
 def _refuse(message: str) -> NoReturn:

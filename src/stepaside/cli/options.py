@@ -11,6 +11,7 @@ import click
 
 from ..core.atomic_output import FIGURES, check_file
 from ..core.errors import StepAsideError, nearest_hint
+from ..core.setting import similar_paths
 
 
 class TextType(click.ParamType[Any]):
@@ -128,3 +129,18 @@ shard_option = click.option(
     default=(1, 1),
     help="Run every N-th case only, from the I-th.",
 )
+
+
+def tell_no_option(error: click.NoSuchOption) -> str:
+    """Return the message; that of a setting without an option names it."""
+    command = error.ctx.command if error.ctx else None
+    entries = getattr(command and command.callback, "entries", ())
+    name = error.option_name.lstrip("-").replace("-", "_")
+    found = [
+        f"--set {path}=VALUE"
+        for path in similar_paths(entries, name)
+        if path.rpartition(".")[2] == name
+    ]
+    if not found:
+        return error.format_message()
+    return f"no such option {error.option_name}; use {' or '.join(found)}"
