@@ -123,6 +123,8 @@ def test_bad_input_is_refused_in_one_line(
     result = run(*line.split())
     assert result.exit_code == 2
     lines = result.stderr.strip().splitlines()
+    if "compiling" in lines[0]:  # the first game ever on a machine
+        del lines[0]
     assert len(lines) == 1
     assert re.search(message, lines[0]), lines[0]
     assert not list(tmp_path.iterdir())
