@@ -254,11 +254,22 @@ def test_silence_for_100_ms_ends_the_session() -> None:
     assert passed == pytest.approx(0.1 + 0.5, abs=0.03)
 
 
-def test_a_simulator_may_pause_for_seconds() -> None:
+def test_a_simulator_may_pause_for_any_time(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
     game = Game(FakeSession(paced=False))
     game.play(10)
-    game.session.now += 9.0
+    session, waits = game.session, iter([False] * 5 + [True])
+    listen = session.listen
+
+    def paused(patience: float) -> Any:
+        session.silent = not next(waits, True)
+        return listen(patience)
+
+    monkeypatch.setattr(session, "listen", paused)
+    began = session.now
     assert game.play(1).state is SafetyState.REACHING
+    assert session.now - began > 49.0
 
 
 @pytest.mark.parametrize(

@@ -24,7 +24,7 @@ from .robot_session import RobotSession
 from .safety import FrozenMeter, Safety, SafetyState, safety_inputs
 
 SETTLING = 1.0  # of learned legs that were told to stand, in [s]
-PATIENCE = 10.0  # for the first report, or of a simulator, in [s]
+PATIENCE = 10.0  # for the first report, or a valid one of a simulator, in [s]
 SILENCE = 0.1  # without a valid report before the session is lost, in [s]
 OLDEST = 0.5  # age of a sighting that counts as none, in [s]
 # In which a robot that is not commanded is controlled all the same.
@@ -315,9 +315,10 @@ class JointLoop:
         """Return the newest valid report, and the time since the last [s].
 
         Reports count by their times: there is one in each tick, the first at
-        or after its time.
+        or after its time. A simulator may pause for any time.
         """
-        patient = self.report is None or not self._robot.paced
+        pauses = self.report is not None and not self._robot.paced
+        patient = self.report is None or pauses
         limit = PATIENCE if patient else SILENCE
         deadline = max(self._heard + limit, self._clock())
         refused, refusal = self.refused, ""
@@ -336,6 +337,9 @@ class JointLoop:
             if now >= deadline:
                 waited = now - self._heard
                 if self.refused == refused:
+                    if pauses:
+                        deadline = now + PATIENCE
+                        continue
                     raise SessionLost(self._session.silence(waited))
                 raise SessionLost(
                     f"no valid report for {waited:.3f} s, {self.refused} "

@@ -3,7 +3,6 @@
 from collections.abc import Mapping
 from dataclasses import replace
 from functools import partial
-from itertools import combinations
 from math import inf
 from types import MappingProxyType
 from typing import TYPE_CHECKING, NamedTuple
@@ -253,10 +252,6 @@ class PhysicsWorld(World):
         self.started_at: float | None = None
         self.first_moves: dict[str, float] = {}
         self._resting = [*self.players]
-        # Robots alone cannot touch beyond their reaches; objects always may.
-        self._robots_alone: list[tuple[GroundTruth, GroundTruth]] | None = None
-        if self._owner_of_geom.max() <= len(self._setups):
-            self._robots_alone = [*combinations(truths.values(), 2)]
 
     def player(self, name: str) -> Player:
         """Return the player with a name.
@@ -306,11 +301,7 @@ class PhysicsWorld(World):
 
     def touching(self) -> tuple[str, ...]:
         """Return the names of bodies in contact, after the first step."""
-        near = self._robots_alone is None or any(
-            torsos_apart(one, other) < one.reach + other.reach
-            for one, other in self._robots_alone
-        )
-        touches = self.ticks and near and self.robots_touch()
+        touches = self.ticks and self.robots_touch()
         return super().touching() if touches else ()
 
     def close(self) -> None:

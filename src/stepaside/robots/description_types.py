@@ -39,10 +39,7 @@ class SensorNames(CheckedSettings, error=ModelError, prefix="sensors."):
 
 @dataclass(frozen=True, slots=True)
 class ReferencePoint(CheckedSettings, error=ModelError, prefix="place."):
-    """Reference point of the torso, and reach of the body around it.
-
-    Robots farther apart than the sum of their reaches cannot touch.
-    """
+    """Reference point of the torso, and reach of the body around it."""
 
     forward: float = setting(
         0.0,
