@@ -1,6 +1,5 @@
 """Test how a duel begins, is evaluated and ends."""
 
-from dataclasses import replace
 from math import pi
 from typing import Any
 
@@ -11,12 +10,8 @@ import pytest
 from stepaside.games.game import Outcome
 from stepaside.games.game_settings import StartSettings
 from stepaside.games.game_settings import duel as make_duel
-from stepaside.games.game_starts import with_starts
-from stepaside.games.physics_world import PhysicsWorld
 from stepaside.games.players import RobotPlayer
 from stepaside.games.recorded_game import RecordedGame, run_game
-from stepaside.robots.description import load_robot
-from stepaside.robots.description_types import ReferencePoint
 from stepaside.sim.camera_settings import RoomObject, SceneSettings
 from stepaside.sim.ground_truth import torsos_apart
 from stepaside.sim.world import World
@@ -95,31 +90,13 @@ def test_a_fall_ends_a_duel_and_is_reported(
 
 
 def touching(
-    monkeypatch: pytest.MonkeyPatch,
-    distance: float,
-    *names: str,
-    **changes: Any,
+    monkeypatch: pytest.MonkeyPatch, *names: str, **changes: Any
 ) -> tuple[Any, str]:
-    """Return outcome and message with bodies in contact at a distance."""
-    duel = begun(start=StartSettings(distance, 0.0, 0.0), **changes)
+    """Return outcome and message with bodies in contact, however far."""
+    duel = begun(**changes)
     monkeypatch.setattr(World, "robots_touch", lambda world: True)
     monkeypatch.setattr(World, "touching", lambda world: names)
     return duel.tick(), duel.message
-
-
-def test_robots_touch_farther_apart_than_a_reach_that_is_too_small() -> None:
-    short = replace(load_robot("nao"), place=ReferencePoint(reach=0.05))
-    settings = with_starts(make_duel(start=StartSettings(0.45, 0.0, 0.0)))
-    both = dict.fromkeys(("pursuer", "evader"), short)
-    world = PhysicsWorld(settings, descriptions=both)
-    world.step()
-    assert not world.touching()
-    for name in both:  # arms stretched forward
-        for side in "LR":
-            joint = world.data.joint(f"{name}/{side}ShoulderPitch")
-            joint.qpos[0] = 0.0
-    mujoco.mj_forward(world.model, world.data)
-    assert world.touching() == ("evader", "pursuer")
 
 
 def test_contact_ends_a_duel_and_names_who_touched(
@@ -127,13 +104,13 @@ def test_contact_ends_a_duel_and_names_who_touched(
 ) -> None:
     both = ("evader", "pursuer")
     words = "evader and pursuer touched at 0.00 s"
-    assert touching(monkeypatch, 0.6, *both) == (Outcome.CONTACT, words)
+    assert touching(monkeypatch, *both) == (Outcome.CONTACT, words)
     room = SceneSettings(things=[RoomObject("red box", 3.0, 0.0)])
-    assert touching(monkeypatch, 0.6, "evader", "thing 0", scene=room) == (
+    assert touching(monkeypatch, "evader", "thing 0", scene=room) == (
         Outcome.CONTACT,
         "evader and thing 0 touched at 0.00 s",
     )
-    assert touching(monkeypatch, 0.6, *both, pursuer={"body": "person"}) == (
+    assert touching(monkeypatch, *both, pursuer={"body": "person"}) == (
         Outcome.CONTACT,
         words,
     )
