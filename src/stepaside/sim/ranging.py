@@ -115,7 +115,7 @@ class RayCaster:
         # Greatest slopes of rays of a camera, sideways and up, by which it
         # sees no geom beyond; a lidar looks all around.
         ahead = np.maximum(rays[:, :1], 0.0)
-        with np.errstate(divide="ignore"):
+        with np.errstate(divide="ignore", invalid="ignore"):
             self._edges = np.abs(rays[:, 1:] / ahead).max(axis=0)
         self.along = 1.0 / lengths
         self.geoms = np.zeros(len(rays), dtype=np.int32)

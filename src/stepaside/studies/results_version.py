@@ -5,7 +5,7 @@ from importlib.metadata import version
 
 from .. import __version__
 
-RESULTS = "2026.4"
+RESULTS = "2026.5"
 """Results version that each stored record carries.
 
 A record counts only under the version that it was made with. The test
