@@ -125,7 +125,7 @@ TABLES = {
     ),
     "people-seen": of_columns(
         Column("sight, body, speed", LABEL),
-        Column("from [°]", "bearing"),
+        Column("from [°]", "bearing", 0),
         *(N, TOUCHED, FELL, CLOSEST, MEAN, BEGUN),
     ),
     "people-reactions": of_columns(
