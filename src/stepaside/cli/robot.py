@@ -205,8 +205,8 @@ def check(
         print_table([(f.name, f"{f.verdict:<4}  {f.value}") for f in found])
         if report.departure is not None:
             echo("")
-            found = report.to_json()["departure_m"]
-            print_table(result_rows({"departure_m": found}))
+            departure = report.to_json()["departure_m"]
+            print_table(result_rows({"departure_m": departure}))
         hints = [f"{f.name}: {f.hint}" for f in found if f.hint]
         passed = "all checks passed: the robot can play"
         end = passed if report.passes else "the robot cannot play yet"
