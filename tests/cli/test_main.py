@@ -14,8 +14,14 @@ from click.testing import CliRunner, Result
 
 from stepaside.cli.main import COMMANDS, main
 from stepaside.core.errors import PlanError
+from stepaside.fitting.robot_verification import (
+    RequirementCheck,
+    VerificationReport,
+)
+from stepaside.strategies.body_departure import BodyDeparture
 
 pytestmark = pytest.mark.usefixtures("blank_figures")
+STORED = "locomotion.departures.store_departure"
 
 
 def run(*arguments: str) -> Result:
@@ -122,9 +128,8 @@ def test_bad_input_is_refused_in_one_line(
     monkeypatch.chdir(tmp_path)
     result = run(*line.split())
     assert result.exit_code == 2
-    lines = result.stderr.strip().splitlines()
-    if "compiling" in lines[0]:  # the first game ever on a machine
-        del lines[0]
+    said = result.stderr.strip().splitlines()
+    lines = [line for line in said if "compiling" not in line]
     assert len(lines) == 1
     assert re.search(message, lines[0]), lines[0]
     assert not list(tmp_path.iterdir())
@@ -227,3 +232,14 @@ def test_zero_is_a_given_value() -> None:
     )
     assert found["seed"] == 0
     assert found["theory"]["radius_m"] is None
+
+
+def test_a_check_prints_the_departure_of_the_body(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    found = RequirementCheck("masses", "pass", "5 kg", "weigh it")
+    report = VerificationReport([found], [], False, BodyDeparture(*[0.25] * 4))
+    for name in ("fitting.robot_verification.check_robot", STORED):
+        monkeypatch.setattr(f"stepaside.{name}", lambda *_: report)
+    told = run("robot", "check", "nao").stdout
+    assert "tube   0.2500 m" in told and "masses: weigh it" in told
