@@ -13,6 +13,7 @@ from stepaside.games.game_settings import duel, read_game
 from stepaside.sim.body_settings import BODIES
 from stepaside.studies import tournament
 from stepaside.studies.study_design import PRESETS
+from stepaside.theory.value import table
 from stepaside.theory.value.two_cars import pursuit_bound
 
 
@@ -20,7 +21,8 @@ from stepaside.theory.value.two_cars import pursuit_bound
 def coarse_table(tmp_path_factory: pytest.TempPathFactory) -> Iterator[None]:
     """The bound is solved on few cells."""
     with pytest.MonkeyPatch.context() as patch:
-        patch.setenv("XDG_CACHE_HOME", str(tmp_path_factory.mktemp("cache")))
+        cache = tmp_path_factory.mktemp("cache")
+        patch.setattr(table, "cache_folder", lambda: cache)
         patch.setattr(tournament, "CELLS", 16)
         pursuit_bound.cache_clear()
         yield
@@ -173,17 +175,16 @@ def test_an_unknown_study_is_refused_with_those_that_exist() -> None:
 
 
 def test_a_tournament_is_stored_as_a_table(tmp_path: Path) -> None:
-    changes = ["evader=optimal,evasion", "seed=0:2", "duration=5.47"]
+    changes = ["evader=look-ahead,evasion", "seed=0:2", "duration=5.47"]
     file = tmp_path / "games.sqlite"
     run = sa.run_study(sa.load_study("tournament", changes), file)
-    (optimal, evasion) = run.table()
-    assert optimal["survived"] == evasion["survived"]
-    assert optimal["of_bound"]["mean"] > 0.0
-    with sqlite3.connect(file) as table:
-        rows = table.execute("SELECT evader, seed, survived FROM results")
+    (ahead, evasion) = run.table()
+    assert ahead["survived"] == evasion["survived"]
+    assert ahead["of_bound"]["mean"] > 0.0
+    with sqlite3.connect(file) as results:
+        rows = results.execute("SELECT evader, seed, survived FROM results")
         assert rows.fetchall() == [
-            ("optimal", 0, 1),
-            ("optimal", 1, 1),
-            ("evasion", 0, 1),
-            ("evasion", 1, 1),
+            (evader, seed, 1)
+            for evader in ("look-ahead", "evasion")
+            for seed in (0, 1)
         ]

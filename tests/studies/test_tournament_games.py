@@ -16,6 +16,7 @@ from stepaside.studies.tournament import (
     play_pairing,
     play_track,
 )
+from stepaside.theory.value import table
 from stepaside.theory.value import two_cars as tables
 
 SHORT = TOURNAMENT.changed(duration=40 * STEP, seed=3)
@@ -26,7 +27,8 @@ SETTINGS = PairingSettings(SHORT, room=RoomRecipe(discs=1))
 def coarse_table(tmp_path_factory: pytest.TempPathFactory) -> Any:
     """The bound is solved on few cells, and cached for this test only."""
     patch = pytest.MonkeyPatch()
-    patch.setenv("XDG_CACHE_HOME", str(tmp_path_factory.mktemp("cache")))
+    folder = tmp_path_factory.mktemp("cache")
+    patch.setattr(table, "cache_folder", lambda: folder)
     patch.setattr(studied, "CELLS", 16)
     tables.pursuit_bound.cache_clear()
     yield
