@@ -1,6 +1,8 @@
 """``stepaside duel``: a duel of two humanoids in physics."""
 
+from collections.abc import Callable
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import click
 
@@ -10,6 +12,10 @@ from .options import folder_option
 from .run_output import finish_run, play_with_bar, run_folder
 from .settings import takes_settings
 from .terminal import echo, json_option
+
+if TYPE_CHECKING:
+    from ..games.game import Progress
+    from ..games.run import Run
 
 NAMED = (
     *("seed", "duration", "robot", "gait", "body"),
@@ -29,19 +35,28 @@ def duel(settings: GameSettings, output: Path | None, as_json: bool) -> None:
     theory, and writes a run folder with the configuration, the trajectories
     and a figure.
     """
-    from ..games.recorded_game import run_game
-
     folder = run_folder(output, as_json, f"duel-seed{settings.seed}")
-    _warn_of_expected_end(settings)
-    run = play_with_bar(settings, run_game)
+    run = play_with_bar(settings, _play)
     finish_run(run, folder, as_json)
+
+
+def _play(
+    settings: GameSettings, report: "Callable[[Progress], None]"
+) -> "Run":
+    """Play a duel; what it refuses is said before the expected end."""
+    from ..games.game import play
+    from ..games.recorded_game import RecordedGame
+
+    game = RecordedGame(settings)
+    _warn_of_expected_end(game.settings)
+    play(game, report=report)
+    return game.run()
 
 
 def _warn_of_expected_end(settings: GameSettings) -> None:
     """Print a warning if two robots are not expected to reach a circle."""
     from ..games.forecast import forecast
-    from ..games.game_starts import with_starts
 
-    end = forecast(with_starts(settings))
+    end = forecast(settings)
     if end.expected in ("contact", "no circle"):
         echo(f"stepaside: expected outcome: {end.words}", err=True)

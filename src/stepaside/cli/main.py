@@ -57,7 +57,13 @@ class LazyGroup(click.Group):
         self._modules |= modules or {}
 
     def parse_args(self, ctx: click.Context, args: list[str]) -> list[str]:
-        """Insert the default command unless a command is named."""
+        """Insert the default command unless a command is named.
+
+        Without any word, print the help.
+        """
+        if not args and not ctx.resilient_parsing:
+            click.echo(ctx.get_help())
+            ctx.exit()
         names = (*self._lazy, *self.get_help_option_names(ctx))
         if self._default and args and args[0] not in names:
             hint = nearest_hint(args[0], self._lazy)
@@ -135,10 +141,7 @@ def _refuse(message: str) -> NoReturn:
     sys.exit(2)
 
 
-@click.group(cls=LazyGroup, lazy=COMMANDS, invoke_without_command=True)
+@click.group(cls=LazyGroup, lazy=COMMANDS)
 @click.version_option(__version__)
-@click.pass_context
-def main(context: click.Context) -> None:
+def main() -> None:
     """Real-time pursuit and evasion for humanoid robots."""
-    if context.invoked_subcommand is None:
-        click.echo(context.get_help())

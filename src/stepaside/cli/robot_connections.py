@@ -63,10 +63,6 @@ def robot_maker(settings: PlaySettings) -> "Callable[[], Any]":
     from ..drivers.robot_loader import RobotRequest, find_robot
 
     name, _, address = settings.address.partition(":")
-    if settings.address.startswith(ROS2) and not settings.network:
-        from ..drivers.ros2_dds import LOCAL
-
-        echo(f"stepaside: {LOCAL}", err=True)
     colour = settings.cameras.colour
     make = find_robot(
         name,
@@ -90,6 +86,10 @@ def robot_maker(settings: PlaySettings) -> "Callable[[], Any]":
             f"the address must begin with {LOLA}, {NAOQI}, {ROS2} or "
             f"{RCSS}, or be FILE.py:CLASS, got {settings.address!r}"
         )
+    if settings.address.startswith(ROS2) and not settings.network:
+        from ..drivers.ros2_dds import LOCAL
+
+        echo(f"stepaside: {LOCAL}", err=True)
     return make
 
 

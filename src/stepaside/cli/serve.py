@@ -7,6 +7,7 @@ from pathlib import Path
 
 import click
 
+from ..core.ranges import positive
 from ..games.game_settings import GameSettings
 from ..games.game_settings import duel as make_duel
 from ..games.player_settings import PLAYERS
@@ -52,7 +53,7 @@ NAMED = ("seed", "duration", "robot", "start.distance")
 )
 @click.option(
     "--wait",
-    type=click.FloatRange(1e-9, 1e9),
+    type=float,
     default=60.0,
     show_default=True,
     help="Maximum time to wait until all clients are ready [s].",
@@ -76,6 +77,16 @@ def serve(
     starts when every served robot has a client that commands it.
     """
     namespaces = _namespaces(ros2)
+    positive("s").check(wait, "wait")
+    if settings.level != "physics":
+        raise click.UsageError(
+            f"level must be physics, got {settings.level!r}"
+        )
+    for name in namespaces:
+        if name not in settings.robots:
+            raise click.UsageError(
+                f"--ros2 must name robots, got {name}, a person"
+            )
     folder = run_folder(output, as_json, None)
     from ..games.served_duel import serve_duel
 

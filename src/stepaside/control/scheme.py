@@ -11,6 +11,7 @@ from ..locomotion.locomotion import (
     Surroundings,
 )
 from ..locomotion.maneuver_walk import ManeuverWalk
+from ..locomotion.step_reach import SHORT, check_steps
 from ..locomotion.zmp.open_loop import LoadFeedforward, OpenLoop
 from ..perception.measurement import RobotState, Sighting
 from ..planning import Foot, GaitSettings
@@ -175,7 +176,7 @@ def build_walk(
     are the kinematics of the measured body, built if not given.
 
     Raises:
-        ReachError: If the standing posture of the gait is out of reach.
+        ReachError: If the stance or the steps of the gait are out of reach.
     """
     legs = LegKinematics(description, tick=tick)
     loads = None
@@ -192,6 +193,9 @@ def build_walk(
             forward=forward,
         )
     guard = None if clearance is None else clearance.guard(gait, control)
-    return ManeuverWalk(
+    walk = ManeuverWalk(
         gait, legs, balance, tick=tick, delay=delay, guard=guard
     )
+    if max(gait.stride, gait.step_height) > SHORT * gait.com_height:
+        check_steps(legs, gait)
+    return walk

@@ -150,11 +150,6 @@ def serve_duel(
     from ..drivers.ros2_server import Ros2Server, WorldClock
     from ..robots.urdf_writer import urdf_of
 
-    for name in namespaces:
-        if name not in settings.robots:
-            raise ConfigurationError(
-                f"a served player must be a robot, got {name}"
-            )
     game = RecordedGame(
         settings, remote=dict.fromkeys(namespaces, ideal_sight)
     )

@@ -55,7 +55,7 @@ def markdown_page(
 def _cells(row: Mapping[str, Any]) -> tuple[str, ...]:
     """Return the cells of a claim in Markdown."""
     measured = _number(row["measured"])
-    if row["runs"] > 1:
+    if row["runs"] > 2:  # the spread of two is their difference
         ends = (_number(row[end], 4) for end in ("least", "greatest"))
         spread = _number(row["spread"], 2)
         measured += f" ± {spread} ({' to '.join(ends)})"

@@ -114,7 +114,8 @@ def draw_study(rows: Rows, by: Sequence[str], path: AnyPath) -> None:
     size = max(5.4, 0.09 * len(names)), 3.0  # names stand side by side
     sizes = {row["number"] for row in rows}
     games = "-".join(f"{n}" for n in sorted({min(sizes), max(sizes)}))
-    title = f"95 % intervals over {games} games" if max(sizes) > 1 else ""
+    has_bars = any(any(ends) for x in lines.values() for _, _, *ends in x)
+    title = f"95 % intervals over {games} games" if has_bars else ""
     draw_curves({title: curves}, x, y, path, size=size)
 
 
@@ -125,7 +126,8 @@ def _point(
     if (found := row[name]) is None:
         return None
     if "mean" in found:
-        mean, half = (in_unit(name, found[key]) for key in ("mean", "half"))
+        mean, half = found["mean"], found["half"] or 0.0
+        mean, half = in_unit(name, mean), in_unit(name, half)
         return mean, half, half
     if text:
         none = 3.8415 / (row["number"] + 3.8415)  # Wilson's, for no record

@@ -80,9 +80,11 @@ def _cell(name: str, found: Any, decimals: int) -> str:
     if found is None:
         return "-"
     if "mean" in found:
-        mean, half = (in_unit(name, found[key]) for key in ("mean", "half"))
+        mean, half = in_unit(name, found["mean"]), found["half"]
         text = f"{mean:.{decimals}f}"
-        return text + (f" ±{half:.{decimals}f}" if half else "")
+        if half:
+            text += f" ±{in_unit(name, half):.{decimals}f}"
+        return text
     if "share" in found:
         low, high = 100 * found["low"], 100 * found["high"]
         return f"{100 * found['share']:.0f} % ({low:.0f}-{high:.0f})"

@@ -163,7 +163,7 @@ class LegKinematics:
         Raises:
             ReachError: If the legs cannot reach it; names the worst row.
         """
-        state, self.error[:] = self._posture_of(reference)
+        state, self.error[:] = self.posture_of(reference)
         if not _reaches(self.error):
             from .com_heights import stopped_joints
 
@@ -192,12 +192,12 @@ class LegKinematics:
         place_frames(self.links, self._standing, com, soles, axes)
         return search_heights(
             lambda z: _reaches(
-                self._posture_of(reference._replace(com=(x, y, z)))[1]
+                self.posture_of(reference._replace(com=(x, y, z)))[1]
             ),
             float(com[2] - soles[:, 2].max()),
         )
 
-    def _posture_of(self, reference: BodyReference) -> tuple[Array, Array]:
+    def posture_of(self, reference: BodyReference) -> tuple[Array, Array]:
         """Return the state and the residuals of a posture."""
         n, lean = len(self.free), self.description.lean
         states, errors = np.zeros((2, n + STATE)), np.empty_like(self.error)

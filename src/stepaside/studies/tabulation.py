@@ -14,6 +14,8 @@ from ..core.errors import check_choice
 Record = dict[str, Any]
 """Measured values of one case by name, as values for JSON."""
 NORMAL = 1.959964  # standard deviations of a 95 % interval
+# Values for an interval of their mean: that of two is 12.7 standard errors.
+LEAST_SPREAD = 3
 
 
 def tabulate(
@@ -27,10 +29,11 @@ def tabulate(
         One row for each group, in the order of its first record: the values
         of ``by``; ``number``, that of its records; and for each value a
         dictionary. Of a number: ``number`` of records that have the value,
-        ``mean``, ``half``, half of its 95 % interval by Student's t, least
-        ``min``, ``median`` and greatest ``max``. Of a truth value: ``count``,
-        ``share`` and its 95 % interval ``low`` to ``high`` after Wilson. Of
-        a text: these for each text that occurs. None without any value.
+        ``mean``, ``half``, half of its 95 % interval by Student's t (None
+        below three values), ``min``, ``median`` and ``max``. Of a truth
+        value: ``count``, ``share`` and its 95 % interval ``low`` to ``high``
+        after Wilson. Of a text: these for each text that occurs. None
+        without any value.
 
     Raises:
         ConfigurationError: If no record has one of the values.
@@ -76,10 +79,10 @@ def share_of(count: int, number: int) -> Record:
 def mean_of(values: Sequence[float]) -> Record:
     """Return the mean of values, with half of its 95 % interval.
 
-    It is by Student's t, and 0 for a single value.
+    It is by Student's t, and None below three values, which tell no spread.
     """
-    each, n, half = np.asarray(values, dtype=np.float64), len(values), 0.0
-    if n > 1:
+    each, n, half = np.asarray(values, dtype=np.float64), len(values), None
+    if n >= LEAST_SPREAD:
         half = float(stdtrit(n - 1, 0.975) * each.std(ddof=1) / sqrt(n))
     return {
         "number": n,

@@ -3,6 +3,8 @@
 from collections.abc import Callable, Mapping
 from typing import Any, NamedTuple
 
+from stepaside.studies.tabulation import LEAST_SPREAD
+
 from .markdown import NONE, counted, interval, number, table
 
 Result = Mapping[str, Any]
@@ -40,9 +42,11 @@ class Column(NamedTuple):
             return counted(count, row["number"])
         value = found[which] if which else found
         if isinstance(value, dict):
-            if "half" in value:
-                mean, half = value["mean"], value["half"]
-                return f"{mean:.{self.digits}f} ± {half:.{self.digits}f}"
+            if "mean" in value:
+                text = f"{value['mean']:.{self.digits}f}"
+                if value["number"] >= LEAST_SPREAD:
+                    text += f" ± {value['half']:.{self.digits}f}"
+                return text
             ends = interval(100 * value["low"], 100 * value["high"], 0)
             return f"{value['count']} ({ends} %)"
         if isinstance(value, float):
