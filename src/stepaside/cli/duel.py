@@ -1,8 +1,7 @@
 """``stepaside duel``: a duel of two humanoids in physics."""
 
-from collections.abc import Callable
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import Any
 
 import click
 
@@ -12,10 +11,6 @@ from .options import folder_option
 from .run_output import finish_run, play_with_bar, run_folder
 from .settings import takes_settings
 from .terminal import echo, json_option
-
-if TYPE_CHECKING:
-    from ..games.game import Progress
-    from ..games.run import Run
 
 NAMED = (
     *("seed", "duration", "robot", "gait", "body"),
@@ -35,22 +30,18 @@ def duel(settings: GameSettings, output: Path | None, as_json: bool) -> None:
     theory, and writes a run folder with the configuration, the trajectories
     and a figure.
     """
-    folder = run_folder(output, as_json, f"duel-seed{settings.seed}")
-    run = play_with_bar(settings, _play)
-    finish_run(run, folder, as_json)
-
-
-def _play(
-    settings: GameSettings, report: "Callable[[Progress], None]"
-) -> "Run":
-    """Play a duel; what it refuses is said before the expected end."""
     from ..games.game import play
     from ..games.recorded_game import RecordedGame
 
-    game = RecordedGame(settings)
-    _warn_of_expected_end(game.settings)
-    play(game, report=report)
-    return game.run()
+    def play_warned(settings: GameSettings, report: Any) -> Any:
+        game = RecordedGame(settings)  # what it refuses is said first
+        _warn_of_expected_end(game.settings)
+        play(game, report=report)
+        return game.run()
+
+    folder = run_folder(output, as_json, f"duel-seed{settings.seed}")
+    run = play_with_bar(settings, play_warned)
+    finish_run(run, folder, as_json)
 
 
 def _warn_of_expected_end(settings: GameSettings) -> None:

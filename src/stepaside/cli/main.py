@@ -57,10 +57,7 @@ class LazyGroup(click.Group):
         self._modules |= modules or {}
 
     def parse_args(self, ctx: click.Context, args: list[str]) -> list[str]:
-        """Insert the default command unless a command is named.
-
-        Without any word, print the help.
-        """
+        """Insert the default command if none is named; help, if nothing."""
         if not args and not ctx.resilient_parsing:
             click.echo(ctx.get_help())
             ctx.exit()
