@@ -36,6 +36,7 @@ from .text_escaping import for_figure
 STEPS = 6.0  # last steps whose balance is shown
 BEFORE, AFTER = 1.0, 4.0  # time shown before and after a push, in [s]
 MAX_SAMPLES = 1500  # of a curve of clearance, approximately
+COLUMNS = 5  # of the legend of many players
 MOST_CURVES = 10  # of distances between pairs; beyond, the nearest of each
 RUNS = ("#222222", *LIGHT.others)  # colours of compared runs
 PERSONAL, SOCIAL = 0.45, 1.2  # limits of personal and social space, in [m]
@@ -45,8 +46,12 @@ Draw = Callable[[Any], None]
 def draw_run(run: Run, file: AnyPath) -> None:
     """Write the figure of a game of any kind, in the format of the suffix."""
     rows, heights, drawn = _layout_of(run)
-    many = len(run.players) > 2
-    lines = 2 + len(run.players) // 2 if many else 0
+    number = len(run.players)
+    many = number > 2
+    curves = number * (number - 1) // 2
+    if curves > MOST_CURVES:
+        curves = len(run.deciding or run.players)
+    lines = -(-(number + curves) // COLUMNS) if many else 0
     figure, axes = panels(
         rows,
         11.0,
@@ -57,9 +62,8 @@ def draw_run(run: Run, file: AnyPath) -> None:
     )
     paths = axes["p"]
     draw_paths(paths, run)
-    if lines:
+    if many:
         paths.set_title(paths.get_title(), pad=6)
-        _legend_under(paths)
     else:
         legend_above(paths, paths.get_title(), 2)
     if "0" in axes:
@@ -68,6 +72,8 @@ def draw_run(run: Run, file: AnyPath) -> None:
         draw_snapshots([axes[letter] for letter in "0123"], run, times)
     for letter, draw in drawn.items():
         draw(axes[letter])
+    if many:
+        legend_below(figure, [paths, axes["d"]], ncols=COLUMNS)
     save(figure, file)
 
 
@@ -127,11 +133,6 @@ def _layout_of(run: Run) -> tuple[list[str], list[float], dict[str, Draw]]:
         rows = [*rows, "bbcc" if letters == "bc" else "bbbb"]
         heights = [*heights, 1.4]
     return rows, heights, drawn | below
-
-
-def _legend_under(axes: Any) -> None:
-    """Add a legend of many curves under a panel."""
-    axes.legend(loc="upper center", bbox_to_anchor=(0.5, -0.14), ncols=2)
 
 
 def _draw_measure(run: Run, axes: Any, *, angle: bool) -> None:
@@ -262,7 +263,11 @@ def _draw_clearance(run: Run, room: Room, axes: Any) -> None:
     axes.set(xlabel="time [s]", ylabel="clearance [m]")
     axes.set_ylim(bottom=min(0.0, axes.get_ylim()[0]))
     axes.margins(x=0.0)
-    legend_above(axes, "distance to the nearest wall or obstacle", 5)
+    title = "distance to the nearest wall or obstacle"
+    if len(run.players) > 2:  # named below the figure
+        axes.set_title(title)
+    else:
+        legend_above(axes, title, 5)
 
 
 def _draw_distances(run: Run, axes: Any) -> None:
@@ -291,7 +296,6 @@ def _draw_distances(run: Run, axes: Any) -> None:
     axes.set_ylim(bottom=0.0)
     axes.margins(x=0.0)
     axes.set_title("distances, mean over a gait cycle; cross: closest")
-    _legend_under(axes)
 
 
 def _curves_of(run: Run) -> list[tuple[str, str, str, Array]]:
@@ -360,10 +364,12 @@ def draw_runs(runs: Sequence[Run], file: AnyPath) -> None:
     the headings, with theory dotted; of walks, tilt and speed.
 
     Args:
-        runs: The runs; each has its own colour and line style.
+        runs: The runs; each has its own line style, and its own colour if
+            they are no plays, whose colours are those of the players.
         file: Figure to write; its suffix gives the format.
     """
     walks = all(len(run.players) == 1 for run in runs)
+    plays = all(run.game == "play" for run in runs)
     turned = any(run.has_orientation for run in runs)
     rows = ["pd", "pa"] if turned or walks else ["pd"]
     heights = [1.9] * len(rows) if len(rows) > 1 else [3.6]
@@ -371,9 +377,13 @@ def draw_runs(runs: Sequence[Run], file: AnyPath) -> None:
     figure, axes = panels(rows, 9.5, heights, legend=lines)
     for number, run in enumerate(runs):
         line, colour = LINES[number % len(LINES)], RUNS[number % len(RUNS)]
-        look: dict[str, Any] = {"color": colour, "ls": line, "lw": 1.1}
-        for track in run.tracks.values():
-            axes["p"].plot(*track.torso[:, :2].T, **look)
+        colours = dict.fromkeys(run.tracks, colour)
+        if plays:
+            colours = colours_of(run)
+            colour = colours[run.settings.role]
+        look: dict[str, Any] = {"ls": line, "lw": 1.1}
+        for name, track in run.tracks.items():
+            axes["p"].plot(*track.torso[:, :2].T, color=colours[name], **look)
             draw_pushes(axes["p"], track.pushes)
         values = (
             _walk_measures(run)
@@ -387,11 +397,13 @@ def draw_runs(runs: Sequence[Run], file: AnyPath) -> None:
         for key, each, level in zip("da", values, levels, strict=True):
             if key in axes:
                 label = for_figure(run.name)
+                look["color"] = colour
                 axes[key].plot(run.times, each, label=label, **look)
                 if level is not None:
                     axes[key].axhline(level, color=colour, ls=":", lw=0.8)
     axes["p"].set_aspect("equal", adjustable="datalim")
-    axes["p"].set(title="paths of the torsos", xlabel="x [m]", ylabel="y [m]")
+    title = "paths of the torsos" + ", each in its odometry" * plays
+    axes["p"].set(title=title, xlabel="x [m]", ylabel="y [m]")
     labels = ("distance [m]", "angle between headings [deg]")
     if walks:
         labels = ("tilt [deg]", "speed [m/s]")
