@@ -134,20 +134,22 @@ STUDIES = {
         f"people {G1} --set person=straight {LEGS} --by speed",
     ),
     "people-legs-lidar": Campaign(
-        "T1, lidar",
+        "T1, Booster Gym, lidar",
         f"people {T1} --set senses=lidar --set person=straight --set "
         f"speed=1.0,1.8 {AROUND} --by speed",
     ),
     "people-legs-cameras": Campaign(
-        "T1, cameras",
-        f"people {T1} --set senses=cameras --set person=straight --set "
-        f"speed=0.5 {AROUND} --by speed",
+        "T1, B-Human, cameras",
+        "people --set robot=t1 --set legs.network=T1.onnx --set "
+        "legs.contract=bhuman_t1 --set senses=cameras --set person=straight "
+        f"--set speed=0.5 {AROUND} --by speed",
     ),
     "people-legs-passing": Campaign(
         "G1",
         f"people {G1} --set person=passing --set speed=1.0 {AROUND} "
         "--by person",
     ),
+    "chasers": Campaign("G1", f"{FILES}/chasers.toml"),
     "people-drawn": Campaign(
         "G1",
         f"people {G1} --set evader.strategy=wary --set drawn=true --set "
@@ -179,7 +181,6 @@ STUDIES = {
     "rooms-pursuers": Campaign(
         "",
         f"{FILES}/rooms.toml --set recipe.discs=0 --set duration=60 --set "
-        "room=0:6 --set "
         "pursuer.strategy=sharp,herding,noisy --set "
         "evader.strategy=look-ahead,robust",
     ),

@@ -146,6 +146,13 @@ TABLES = {
         Column("closest [m]", "min_distance_m/range"),
         Column("theory [m]", "theory.min_distance_m/range"),
     ),
+    "chases": of_columns(
+        Column("turning radius [m]", "person.turning_radius", 1),
+        Column("chases", "number"),
+        Column("fell", "outcome/fall"),
+        Column("closest [m]", "min_distance_m/min"),
+        Column("median [m]", "min_distance_m/median"),
+    ),
     "crowds": of_columns(
         Column("robot", LABEL),
         Column("games", "number"),
