@@ -16,7 +16,11 @@ from typing import Any
 from stepaside.arena import Room, RoomRecipe, generate_room
 from stepaside.core.poses import Pose
 from stepaside.envs import ParallelDuel, VectorDuel
-from stepaside.games import GameSettings, duel, run_game
+from stepaside.games import GameSettings, duel
+from stepaside.games.game import play
+from stepaside.games.game_starts import with_starts
+from stepaside.games.players import RobotPlayer
+from stepaside.games.recorded_game import RecordedGame
 from stepaside.games.settings_reader import dump_configuration, load_game
 from stepaside.strategies import Knowledge, load_strategy
 from stepaside.strategies.knowledge import limits_of
@@ -51,29 +55,29 @@ def settings_of(level: str, *, room: bool) -> GameSettings:
 
 def from_python(level: str, *, room: bool) -> Row:
     """Play the settings."""
-    return row_of(run_game(settings_of(level, room=room)))
+    return row_of(settings_of(level, room=room))
 
 
 def from_file(level: str, *, room: bool) -> Row:
     """Play a game file of two players."""
     game = settings_of(level, room=room)
-    starts = game.room.starts if game.room else STARTS
-    assert starts is not None
-    game = replace(game.started_at(starts), game="game")
+    game = replace(with_starts(game), game="game")
     with TemporaryDirectory() as folder:
         file = Path(folder) / "game.toml"
         file.write_text(dump_configuration(game))
-        return row_of(run_game(load_game(file)))
+        return row_of(load_game(file))
 
 
-def row_of(run: Any) -> Row:
+def row_of(settings: GameSettings) -> Row:
     """Return outcome, end [s], last distance and closest approach [m]."""
-    distance = run.distance
+    game = RecordedGame(settings)
+    play(game)
+    run = game.run()
     return {
         "outcome": run.outcome.value,
         "time_s": run.duration,
-        "distance_m": float(distance[-1]),
-        "closest_m": float(distance.min()),
+        "distance_m": float(run.distance[-1]),
+        "closest_m": game.closest["evader", "pursuer"],
     }
 
 
@@ -134,18 +138,27 @@ def from_many(level: str, *, room: bool) -> Row | None:
 
 
 def from_environment(level: str, *, room: bool) -> Row:
-    """Play an episode; a decision is the action of its knowledge."""
+    """Play an episode by the decisions of the strategies of a game."""
     env = ParallelDuel(**environment_of(level, room=room))
-    minds = {name: load_strategy(n) for name, n in STRATEGIES.items()}
+    game = RecordedGame(settings_of(level, room=room))
+    minds = dict(game.strategies)
+    if level == "physics":
+        for player in game.in_physics.players:
+            assert isinstance(player, RobotPlayer)
+            minds[player.name] = player.scheme.decisions.strategy
     memories = {name: mind.begin() for name, mind in minds.items()}
     _, infos = env.reset(seed=env.settings.duel.seed)
+    actions: dict[str, tuple[float, float]] = {}
+    last: dict[str, Knowledge] = {}
     while env.agents:
-        actions = {}
         for name, mind in minds.items():
             known = env.known(name)
             assert known is not None
+            if known is last.get(name):
+                continue  # it does not decide
             intent, memories[name] = mind.decide(known, memories[name])
             actions[name] = (intent.heading, intent.speed_factor)
+            last[name] = known
         *_, infos = env.step(actions)
     info, world = infos["evader"], env.game.world
     poses: dict[str, Pose] = dict(world.states())

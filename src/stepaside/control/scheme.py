@@ -67,16 +67,15 @@ class ControlScheme:
             self._body = body = track_body(locomotion, surroundings)
             self.decisions.body = body.odometry
         self._delayed = locomotion.heading_delay > 0.0
+        self._taken: RobotState | None = None  # last measurement
         self._coasted: float | None = None  # since the last update, until [s]
 
-    def update(self, measurement: RobotState) -> Array:
-        """Return the joint targets of one control tick, in [rad].
-
-        Raises:
-            ReachError: If the legs cannot follow the reference.
-            StrategyError: If the strategy returns no intent.
-        """
-        walk, decisions = self.locomotion, self.decisions
+    def sense(self, measurement: RobotState) -> None:
+        """Take the measurement of a control tick, unless it was taken."""
+        if measurement is self._taken:
+            return
+        self._taken, walk = measurement, self.locomotion
+        decisions = self.decisions
         now = measurement.time
         if self._coasted is not None:
             # Only the last of the poses in between can be asked for.
@@ -90,8 +89,19 @@ class ControlScheme:
             seen = self._body.note(measurement, seen)
         self.sighting = seen
         decisions.note_players(self.senses.in_sight)
+        walk.note(measurement)
+
+    def update(self, measurement: RobotState) -> Array:
+        """Return the joint targets of one control tick, in [rad].
+
+        Raises:
+            ReachError: If the legs cannot follow the reference.
+            StrategyError: If the strategy returns no intent.
+        """
+        self.sense(measurement)
+        walk, now = self.locomotion, measurement.time
         targets = walk.update(measurement, self)
-        decisions.templates.note(now + walk.pose_delay, walk.pose)
+        self.decisions.templates.note(now + walk.pose_delay, walk.pose)
         if walk.phase is not Phase.FALLEN:
             self.senses.aim(targets)
         return targets

@@ -10,7 +10,11 @@ from ..locomotion.locomotion import Surroundings
 from ..perception.measurement import Sighting
 from ..planning import Foot, GaitSettings
 from ..planning.path import pose_beside_foot
-from ..strategies.decision_maker import DecisionMaker, turned
+from ..strategies.decision_maker import (
+    DecisionMaker,
+    evaluate_strategy,
+    turned,
+)
 from ..strategies.knowledge import (
     ON_THE_SPOT,
     Intent,
@@ -67,8 +71,8 @@ class StrategyRunner(DecisionMaker):
         """
         if sighting is None:
             return turning != 0.0
-        known = self._knowledge(now, sighting, moving=False)
-        intent, memory = self.preview(known)
+        known = self.knowledge(now, sighting, moving=False)
+        intent, memory = evaluate_strategy(self.strategy, known, self.memory)
         if not intent.walks:
             self.memory = memory
         # A new track does not yet determine the opponent's path.
@@ -86,24 +90,26 @@ class StrategyRunner(DecisionMaker):
         """Evaluate the strategy and store its memory.
 
         Without a sighting the robot turns on the spot for a scan: 1 left, -1
-        right. ``stands`` is the foot that has just landed, in odometry; None
-        if the next step begins at the present pose.
+        right.
         """
         if sighting is None:
             return Intent(turning * pi, ON_THE_SPOT)
-        known = self._knowledge(now, sighting, moving=moving)
-        if moving and stands is not None:
-            begins = pose_beside_foot(*stands, self._spacing)
-            if self.body is not None:
-                begins = self.body.place(begins)
-            begins = self._surroundings.pose_odometry_in_map.compose(begins)
-            known = replace(known, step_start_in_map=begins)
-        return self.evaluate(known)
+        return self.evaluate(
+            self.knowledge(now, sighting, stands, moving=moving)
+        )
 
-    def _knowledge(
-        self, now: float, sighting: Sighting, *, moving: bool
+    def knowledge(
+        self,
+        now: float,
+        sighting: Sighting,
+        stands: tuple[Pose, Foot] | None = None,
+        *,
+        moving: bool,
     ) -> Knowledge:
         """Build the knowledge, in the template frame at the sighting's time.
+
+        ``stands`` is the foot that has just landed, in odometry; None if the
+        next step begins at the present pose.
 
         Line of sight and heading refer to the same instant. The landed foot
         would not do: it corresponds to a body half a step ahead, and the
@@ -120,7 +126,7 @@ class StrategyRunner(DecisionMaker):
             sight = atan2(y - template.y, x - template.x)
             distance = hypot(y - template.y, x - template.x)
         several = self._in_sight if len(self._in_sight) > 1 else ()
-        return self.observe(
+        known = self.observe(
             now,
             template,
             sighting._replace(
@@ -132,6 +138,13 @@ class StrategyRunner(DecisionMaker):
             map_error=self._surroundings.map_error,
             others=tuple(self._other(now, template, each) for each in several),
         )
+        if not moving or stands is None:
+            return known
+        begins = pose_beside_foot(*stands, self._spacing)
+        if self.body is not None:
+            begins = self.body.place(begins)
+        begins = self._surroundings.pose_odometry_in_map.compose(begins)
+        return replace(known, step_start_in_map=begins)
 
     def _other(
         self, now: float, template: Pose, sighting: Sighting

@@ -1,7 +1,7 @@
 """PettingZoo environments: of a duel, and of any number of players."""
 
 from abc import abstractmethod
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import replace
 from math import cos, inf, sin
 from typing import Any, ClassVar
@@ -19,15 +19,20 @@ from ..core.errors import (
     PlanError,
     StrategyError,
     check_choice,
-    check_within,
 )
 from ..games.floor_games import floor_of, rules_of
 from ..games.floor_world import FloorWorld
 from ..games.game import GameInPlay, Outcome
 from ..games.game_settings import GameSettings
+from ..games.people import FloorPlayer
+from ..games.physics_world import PhysicsWorld
 from ..games.player_settings import PLAYERS
+from ..games.players import RobotPlayer
 from ..games.recorded_game import RecordedGame
 from ..games.settings_reader import load_game
+from ..locomotion.locomotion import Phase
+from ..locomotion.maneuver_walk import RETRY_PERIOD, ManeuverWalk
+from ..planning import Foot
 from ..strategies.knowledge import STAND, Intent, Knowledge, OtherPlayer
 from ..strategies.learned import (
     FARTHEST,
@@ -67,7 +72,6 @@ class HeldIntent:
     def __init__(self, role: str) -> None:
         self.direction = direction_of(role)
         self.intent = STAND
-        self.known: Knowledge | None = None  # at the last decision
 
     def begin(self) -> None:
         """Return no memory."""
@@ -75,16 +79,52 @@ class HeldIntent:
     def decide(
         self, knowledge: Knowledge, memory: None
     ) -> tuple[Intent, None]:
-        """Store the knowledge and return the intent."""
-        self.known = knowledge
+        """Return the intent."""
         return self.intent, None
 
 
-class ParallelGames(ParallelEnv[str, Row, Any]):
-    """Players of a game act at the same time; a step lasts a period.
+def look_in_physics(
+    world: PhysicsWorld, name: str, learners: Collection[str]
+) -> Knowledge | None:
+    """Return the knowledge of a learner for a decision that is due.
 
-    A robot in physics decides when a foot has landed, by the action that it
-    was given last; its observation is that of its last decision.
+    People before it move first, as they do when all act.
+    """
+    for player in world.players:
+        if isinstance(player, FloorPlayer):
+            if player.name == name:
+                return player.look()
+            if player.name not in learners:
+                player.tick()
+        elif player.name == name:
+            break
+    robot = world.player(name)
+    assert isinstance(robot, RobotPlayer)
+    scheme, walk, now = robot.scheme, robot.scheme.locomotion, world.time
+    stands = walk.phase is Phase.STANDING
+    if not walk.decides(now) or walk.phase in (Phase.HALTING, Phase.FALLEN):
+        return None
+    scheme.sense(robot.measure())
+    seen, ready = scheme.sighting, True
+    if isinstance(walk, ManeuverWalk):
+        step, ready = walk.step(now), walk.balance.ready
+        foot = step.landing, step.swing
+        if walk.plan is not None:  # the step ended before this tick
+            now = walk.plan_started + walk.plan.schedule.first_step_duration
+    else:
+        foot = walk.support, Foot.LEFT
+    if seen is None or (stands and not (seen.settled and ready)):
+        return None
+    return scheme.decisions.knowledge(now, seen, foot, moving=not stands)
+
+
+class ParallelGames(ParallelEnv[str, Row, Any]):
+    """Players of a game act at the same time.
+
+    A step lasts until the next decision of a learner that walks: when a foot
+    has landed, at level "unicycle" an eighth of a step. Who stands decides
+    then, too; while all stand, a step lasts a period. The observation of a
+    player is that for its decision, and its action decides.
 
     The reward of an evader is the change of its closest approach so far, in
     units of v/k, zero or negative; contact with an obstacle counts as a
@@ -103,7 +143,7 @@ class ParallelGames(ParallelEnv[str, Row, Any]):
         "render_fps": 10,
         "is_parallelizable": True,
     }
-    period: float  # of a step [s]
+    period: float  # of a step while all stand [s]
     patience: float  # for the first decisions in physics [s]
 
     def __init__(
@@ -170,16 +210,12 @@ class ParallelGames(ParallelEnv[str, Row, Any]):
         self._held = {n: HeldIntent(role) for n, role in self._roles.items()}
         self._game, self._room = self.begin(self._seed, self._held)
         game = self.game
-        for own in self._held.values():
-            own.known = None  # decisions of its validation
-        if not isinstance(game.world, FloorWorld):
-            while not (
-                game.ended
-                or game.world.time > self.patience
-                or all(own.known for own in self._held.values())
-            ):
-                game.tick()
-        self._until = game.world.time  # end of the present step
+        self._known = self._due()
+        while len(self._known) < len(self._held) and not (
+            game.ended or game.world.time > self.patience
+        ):
+            game.tick()
+            self._known |= self._due()
         self.agents = list(self.possible_agents)
         return self._look()
 
@@ -191,11 +227,45 @@ class ParallelGames(ParallelEnv[str, Row, Any]):
         return self._game
 
     def known(self, name: str) -> Knowledge | None:
-        """Return what a controlled player knows; None before it sees."""
+        """Return the knowledge of a player for its decision.
+
+        None before it sees.
+        """
+        world = self.game.world
+        if isinstance(world, FloorWorld) and name not in self._held:
+            return world.knowledge(name)
+        return self._known.get(name)
+
+    def _walks(self, name: str) -> bool:
+        """Return whether a player walks."""
         world = self.game.world
         if isinstance(world, FloorWorld):
-            return world.knowledge(name)
-        return self._held[name].known
+            return world.motions[name].is_walking
+        assert isinstance(world, PhysicsWorld)
+        return world.player(name).is_moving
+
+    def _due(self) -> dict[str, Knowledge]:
+        """Return what learners know for decisions that are due."""
+        game, found = self.game, {}
+        for name in self._held:
+            if isinstance(game.world, FloorWorld):
+                due = game.ended or game.world.is_due(name)
+                known = game.world.knowledge(name) if due else None
+            else:
+                assert isinstance(game.world, PhysicsWorld)
+                known = look_in_physics(game.world, name, self._held)
+            if known is not None:
+                found[name] = known
+        return found
+
+    def _asks(self, name: str, known: Knowledge) -> bool:
+        """Return whether a step ends for a decision that is due.
+
+        It does for one that walks, or has been kept from starting.
+        """
+        passed = known.time - self._known[name].time
+        kept = passed > RETRY_PERIOD - 1e-9 and self._held[name].intent.walks
+        return known.moving or kept
 
     def step(
         self, actions: Mapping[str, Any]
@@ -206,7 +276,7 @@ class ParallelGames(ParallelEnv[str, Row, Any]):
         dict[str, bool],
         dict[str, dict[str, Any]],
     ]:
-        """Play one period, by the action of each agent.
+        """Play until the next decision, by the action of each agent.
 
         Raises:
             PlanError: If an action is missing or invalid, or no episode on.
@@ -225,9 +295,17 @@ class ParallelGames(ParallelEnv[str, Row, Any]):
                 Intent(heading, speed) if speed > 0.0 else STAND
             )
         before = self.closest()
-        self._until += self.period
-        while not game.ended and game.world.time < self._until - 1e-9:
-            game.tick(self._until)
+        begun, over = game.world.time, False
+        while not (over or game.ended):
+            game.tick(begun + self.period)
+            late, due = (
+                game.world.time - begun > self.period - 1e-9,
+                self._due(),
+            )
+            over = any(self._asks(*each) for each in due.items()) or (
+                late and not any(map(self._walks, names))
+            )
+        self._known |= due
         gains = {n: now - before[n] for n, now in self.closest().items()}
         taken = -sum(gains.values()) / len(gains)  # by each pursuer
         if game.ended:
@@ -410,7 +488,6 @@ class ParallelGame(ParallelGames):
 
     Attributes:
         settings: Settings of the game.
-        period: Duration of a step, in [s].
     """
 
     patience = 1.0
@@ -420,7 +497,6 @@ class ParallelGame(ParallelGames):
         game: GameSettings | AnyPath,
         *,
         learners: Sequence[str] | None = None,
-        period: float | None = None,
         action: str = "continuous",
         headings: int = HEADINGS,
         render_mode: str | None = None,
@@ -428,16 +504,12 @@ class ParallelGame(ParallelGames):
         """Build the environment of a game or of a game file.
 
         By default all robots and unicycles that are pursuers or evaders
-        learn, and the period [s] is the step duration of the slowest gait.
-        Actions are those of :class:`.EnvironmentSettings`.
+        learn. Actions are those of :class:`.EnvironmentSettings`.
         """
         self.settings = given = (
             game if isinstance(game, GameSettings) else load_game(game)
         )
-        self.period = given.gait.step_duration if period is None else period
-        check_within(
-            self.period, 0.02, 60.0, "period", "s", ConfigurationError
-        )
+        self.period = given.gait.step_duration
         choice = EnvironmentSettings(action=action, headings=headings)
         self._terms: tuple[str, ...] = ("moving",)
         if given.room is not None:

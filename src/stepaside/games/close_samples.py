@@ -1,10 +1,12 @@
 """Signals of a robot that only close records have."""
 
+from collections.abc import Iterator
 from typing import Any
 
 import numpy as np
 
 from ..control.scheme import ControlScheme
+from ..core.entries import to_entries
 from ..core.poses import Pose
 from ..locomotion.locomotion import Phase
 from ..locomotion.maneuver_walk import ManeuverWalk
@@ -54,3 +56,18 @@ def _walk(
         "estimate": estimate,
         "dcm": (x + u / eta, y + v / eta),
     }
+
+
+def strategy_numbers(scheme: ControlScheme) -> Iterator[tuple[str, float]]:
+    """Yield name and value of the numbers of a strategy."""
+    walk = scheme.locomotion.maneuvers
+    sighting, memory = scheme.sighting, scheme.decisions.memory
+    if sighting is not None:
+        yield "sighting_bearing_rad", sighting.bearing
+        yield "sighting_distance_m", sighting.distance
+    if walk is not None and walk.plan is not None:
+        yield "desired_heading_rad", walk.plan.bearing
+    entries = to_entries(memory)
+    for name, value in entries.items() if isinstance(entries, dict) else ():
+        if isinstance(value, bool | int | float):
+            yield f"memory_{name}", float(value)

@@ -41,6 +41,7 @@ class FloorMotion:
 
     pose: Pose  # present
     due = 0.0  # time of its next decision
+    is_walking = True
 
     def decide(self, now: float, seen: Seen) -> None:
         """Decide at a time how to move until the next decision."""
@@ -334,6 +335,10 @@ class FloorWorld:
         motion = self.motions[name]
         assert isinstance(motion, FloorWalk)
         return motion.look(self.time, self._seen)
+
+    def is_due(self, name: str) -> bool:
+        """Return whether a player decides now."""
+        return self.motions[name].due <= self.time + AT_ONCE
 
     def decide(self) -> None:
         """Let the players decide that are due, all from the same state."""

@@ -9,8 +9,6 @@ from ..sim.camera_settings import SceneSettings
 from ..sim.world import COLOURS
 from .game_settings import GameSettings
 
-WALL_MARGIN = 1.0  # smallest distance of a start from the walls, in [m]
-WALL_DISTANCE = 3.5  # from a start to walls moved for it: camera range, [m]
 BASE: dict[Role, Rgb] = {
     Role.PURSUER: (0.80, 0.16, 0.14),
     Role.EVADER: (0.10, 0.36, 0.75),
@@ -52,13 +50,16 @@ def furnish_game(
         p for p in settings.sensing_by("cameras") if p.name not in templates
     ]
     if seeing:
-        from ..sim.camera_scene import add_scene
+        from ..sim.camera_scene import add_scene, wall_distance
 
+        starts, walls = [p.start for p in settings.players], 0.0
+        if is_duel:
+            walls = wall_distance(settings.scene.walls, starts)
         add_scene(
             spec,
             settings.scene if is_duel else SceneSettings(),
             seeing[0].robot,
-            walls=_wall_distance(settings) if is_duel else 0.0,
+            walls=walls,
             wearers=[p.name for p in seeing],
         )
     for player in settings.players:
@@ -72,17 +73,3 @@ def furnish_game(
             add_person(spec, player.name, shirt=shirt, solid=solid)
         else:
             add_template(spec, player.name, colour)
-
-
-def _wall_distance(settings: GameSettings) -> float:
-    """Return the distance of the walls from the origin, in [m].
-
-    A player that began outside the walls would pass through one, undetected
-    until then. If a start is not well inside, the walls are moved beyond the
-    range of a depth camera at that start.
-    """
-    walls = settings.scene.walls
-    reach = max(abs(c) for own in settings.players for c in own.start[:2])
-    if not walls or reach + WALL_MARGIN <= walls:
-        return walls
-    return reach + WALL_DISTANCE

@@ -14,7 +14,8 @@ from ..sim.person_body import PersonBody, pose_template
 from ..sim.person_motion import PersonMotion
 from ..sim.person_settings import RADIUS
 from ..sim.world import World
-from .floor_world import AT_ONCE, PERIOD, FloorMotion, Seen
+from ..strategies.knowledge import Knowledge
+from .floor_world import AT_ONCE, PERIOD, FloorMotion, FloorWalk, Seen
 from .game import GameInPlay, Outcome
 from .game_settings import GameSettings
 from .player_settings import PlayerSettings
@@ -168,16 +169,37 @@ class FloorPlayer(Player):
         """Move as another motion from now on."""
         self._motion = motion
 
+    @property
+    def is_moving(self) -> bool:
+        """Whether it walks."""
+        return self._motion.is_walking
+
     def tick(self) -> None:
         """Advance the motion by one tick."""
-        world, motion = self._body.world, self._motion
-        until = world.time + world.physics.tick
-        while motion.due < until - AT_ONCE:
-            motion.advance(motion.due)
-            seen = {**self._seen(), self.name: motion.pose}
+        motion = self._motion
+        while (seen := self._seen_if_due()) is not None:
             motion.decide(motion.due, seen)
-        motion.advance(until)
+        motion.advance(self._until)
         self._body.move(motion.pose)
+
+    def look(self) -> Knowledge | None:
+        """Return the knowledge for a decision in this tick; None without."""
+        motion, seen = self._motion, self._seen_if_due()
+        assert isinstance(motion, FloorWalk)
+        return None if seen is None else motion.look(motion.due, seen)
+
+    @property
+    def _until(self) -> float:
+        """End of this tick, in [s]."""
+        return self._body.world.time + self._body.world.physics.tick
+
+    def _seen_if_due(self) -> Seen | None:
+        """Move to a decision in this tick; return what is seen then."""
+        motion = self._motion
+        if motion.due >= self._until - AT_ONCE:
+            return None
+        motion.advance(motion.due)
+        return {**self._seen(), self.name: motion.pose}
 
 
 def crowds_of(run: Run, game: GameInPlay) -> dict[str, CrowdSummary]:

@@ -7,6 +7,7 @@ from ..core.errors import PolicyError
 from ..core.poses import Pose
 from ..locomotion.locomotion import Phase
 from ..locomotion.maneuver_walk import ManeuverWalk
+from ..perception.measurement import RobotState
 from ..sim.ground_truth import GroundTruth
 from ..sim.simulated_robot import SimulatedRobot
 
@@ -78,6 +79,7 @@ class RobotPlayer(Player):
         # Exact sightings are read when a decision is due.
         self._coasts = robot.sees_exactly and not scheme.decisions.body
         self._feels = scheme.locomotion.feels or not self._coasts
+        self._measured: tuple[int, RobotState] | None = None
 
     @property
     def perception(self) -> "Perception | None":
@@ -92,8 +94,16 @@ class RobotPlayer(Player):
             targets = scheme.coast(now)
         if targets is None:
             sees = not self._coasts or scheme.locomotion.decides(now)
-            targets = scheme.update(robot.read(sees=sees, feels=self._feels))
+            targets = scheme.update(self.measure(sees=sees))
         robot.write(targets)
+
+    def measure(self, *, sees: bool = True) -> RobotState:
+        """Return the measurement of this tick; noise is drawn once."""
+        ticks = self.robot.world.ticks
+        if self._measured is None or self._measured[0] != ticks:
+            read = self.robot.read(sees=sees, feels=self._feels)
+            self._measured = ticks, read
+        return self._measured[1]
 
     @property
     def is_moving(self) -> bool:

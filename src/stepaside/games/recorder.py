@@ -1,12 +1,10 @@
 """Recorder of a game in physics: one trajectory per player."""
 
 from array import array
-from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ..core.entries import to_entries
 from ..core.poses import Array, Pose
 from ..locomotion.locomotion import StepStarted
 from ..perception.images import ColourImage, DepthImage
@@ -48,7 +46,9 @@ class PlayerRecord:
             else:
                 self._values.extend(own)
         if self._closely and isinstance(player, RobotPlayer):
-            self._numbers.append(dict(strategy_numbers(player)))
+            from .close_samples import strategy_numbers
+
+            self._numbers.append(dict(strategy_numbers(player.scheme)))
 
     def act(self, now: float) -> None:
         """Record the step that begins at this tick, and its images."""
@@ -194,18 +194,3 @@ class Recorder(GameObserver):
             median_us=median,
             p99_us=late,
         )
-
-
-def strategy_numbers(player: RobotPlayer) -> Iterator[tuple[str, float]]:
-    """Yield name and value of the numbers of a player's strategy."""
-    scheme, walk = player.scheme, player.maneuvers
-    sighting, memory = scheme.sighting, scheme.decisions.memory
-    if sighting is not None:
-        yield "sighting_bearing_rad", sighting.bearing
-        yield "sighting_distance_m", sighting.distance
-    if walk is not None and walk.plan is not None:
-        yield "desired_heading_rad", walk.plan.bearing
-    entries = to_entries(memory)
-    for name, value in entries.items() if isinstance(entries, dict) else ():
-        if isinstance(value, bool | int | float):
-            yield f"memory_{name}", float(value)

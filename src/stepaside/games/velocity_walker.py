@@ -105,7 +105,7 @@ class VelocityWalker(RobotPlayer):
         scheme.decisions.headings.note(0.0, walk.torso_heading)
         self._forward = ForwardKinematics(description)
         self._image: ColourImage | None = None
-        self._measured: tuple[int, RobotState] | None = None
+        self._feels = True
         self._ignores_lateral = False
 
     def command(self, velocity: BodyVelocity) -> None:
@@ -137,15 +137,9 @@ class VelocityWalker(RobotPlayer):
         """Walk at the commanded velocity."""
         self.robot.write(self.scheme.update(self.measure()))
 
-    def measure(self) -> RobotState:
-        """Return the measurement of this tick, and keep its last image.
-
-        Noise is drawn once.
-        """
-        ticks = self.robot.world.ticks
-        if self._measured is None or self._measured[0] != ticks:
-            self._measured = ticks, self.robot.read()
-        measured = self._measured[1]
+    def measure(self, *, sees: bool = True) -> RobotState:
+        """Return the measurement of this tick, and keep its last image."""
+        measured = super().measure(sees=sees)
         for percept in measured.percepts:
             if isinstance(percept, ColourImage):
                 self._image = percept

@@ -131,7 +131,9 @@ class ManeuverWalk:
 
     def decides(self, now: float) -> bool:
         """Return whether a decision is due at a tick, at a time in [s]."""
-        return self.plan is None or now >= self._plan_ends - 1e-9
+        if self.plan is None:
+            return now >= self._blocked_until
+        return now >= self._plan_ends - 1e-9
 
     def coast(self, now: float) -> Array | None:
         """Run a control tick that needs neither measurement nor decision.
@@ -147,6 +149,13 @@ class ManeuverWalk:
         self.begun, self._index, self.joint_targets = None, index, targets
         return targets
 
+    def note(self, measurement: RobotState) -> None:
+        """Update the known obstacles, before a decision."""
+        if self.guard is not None:
+            body = self.reference
+            planned = Pose(*body.com[:2], body.heading)
+            self.guard.note(measurement, planned)
+
     def update(
         self, measurement: RobotState, decisions: IntentSource
     ) -> Array:
@@ -155,10 +164,6 @@ class ManeuverWalk:
         if self.phase is Phase.FALLEN:
             return self.joint_targets
         now = measurement.time
-        if self.guard is not None:
-            body = self.reference
-            planned = Pose(*body.com[:2], body.heading)
-            self.guard.note(measurement, planned)
         if self.plan is None:
             self._wait(now, decisions)
         elif self.decides(now):
@@ -181,7 +186,7 @@ class ManeuverWalk:
 
     def _wait(self, now: float, decisions: IntentSource) -> None:
         """Stand until the player requests motion."""
-        if not self.balance.ready or now < self._blocked_until:
+        if not (self.balance.ready and self.decides(now)):
             return
         if not decisions.starts(now):
             return

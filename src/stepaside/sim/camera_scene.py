@@ -1,6 +1,6 @@
 """Walls, objects and cameras of a game whose robots see images."""
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 
 import mujoco
 import numpy as np
@@ -13,6 +13,8 @@ from .solid_geoms import add_geom
 
 HIDDEN = 3  # geom group that only the cameras of robots render
 HALF_WALL_HEIGHT = 1.2  # in [m]
+WALL_MARGIN = 1.0  # smallest distance of a start from the walls, in [m]
+WALL_DISTANCE = 3.5  # from a start to walls moved for it: camera range, [m]
 SIDES = ((1, 0), (-1, 0), (0, 1), (0, -1))
 TONES = ((0.78, 0.76, 0.72), (0.70, 0.74, 0.74))
 BOXES = {
@@ -108,3 +110,16 @@ def _add_thing(body: mujoco.MjsBody, kind: str) -> None:
         return
     for place, size in FIGURE:
         add_geom(body, "ELLIPSOID", size, WHITE, at=place)
+
+
+def wall_distance(walls: float, starts: Iterable[Sequence[float]]) -> float:
+    """Return the distance of the walls from the origin, in [m].
+
+    A player that began outside the walls would pass through one, undetected
+    until then. If a start is not well inside, the walls are moved beyond the
+    range of a depth camera at that start.
+    """
+    reach = max(abs(c) for start in starts for c in start[:2])
+    if not walls or reach + WALL_MARGIN <= walls:
+        return walls
+    return reach + WALL_DISTANCE

@@ -100,10 +100,6 @@ class DecisionMaker:
             others=others,
         )
 
-    def preview(self, knowledge: Knowledge) -> tuple[Intent, Any]:
-        """Return the decision and its memory, without storing the memory."""
-        return evaluate_strategy(self.strategy, knowledge, self.memory)
-
     def evaluate(self, knowledge: Knowledge) -> Intent:
         """Decide and store the memory."""
         intent, self.memory = evaluate_strategy(

@@ -340,7 +340,7 @@ class PolicyWalk:
         return resting_step(support, side.other)
 
     @property
-    def _support(self) -> Pose:
+    def support(self) -> Pose:
         """Left foot of a robot that stands at the present pose."""
         half = 0.5 * self.gait.foot_spacing
         return self.legs.pose.compose(Pose(0.0, half, 0.0))
@@ -354,14 +354,17 @@ class PolicyWalk:
     def coast(self, now: float) -> None:
         """Return None: every tick needs a measurement."""
 
+    def note(self, measurement: RobotState) -> None:
+        """Update the known obstacles, before a decision."""
+        if self._guard is not None:
+            self._guard.note(measurement, self.pose)
+
     def update(
         self, measurement: RobotState, decisions: IntentSource
     ) -> Array:
         """Return the joint targets of a tick, in [rad]; decide if due."""
         now = measurement.time
         stands = self.phase is Phase.STANDING
-        if self._guard is not None:
-            self._guard.note(measurement, self.pose)
         if self.decides(now) and (not stands or decisions.starts(now)):
             self._decide(now, decisions)
         return self.legs.update(measurement, self._velocity)
@@ -369,9 +372,7 @@ class PolicyWalk:
     def _decide(self, now: float, decisions: IntentSource) -> None:
         """Request a decision, and follow it until the next one."""
         moving = self.phase is not Phase.STANDING
-        request = decisions.decide(
-            now, self._support, Foot.LEFT, moving=moving
-        )
+        request = decisions.decide(now, self.support, Foot.LEFT, moving=moving)
         self._velocity, interval = STILL, self.gait.step_duration
         if request is not None:
             self._velocity = template_velocity(request, self.gait)
