@@ -179,6 +179,7 @@ TABLES = {
         Column("map", "map.source"),
         Column("duels", "number"),
         Column("nothing touched", "outcome/completed"),
+        Column("captured", "captured_at_s/number"),
         Column("contact", "outcome/contact"),
         Column("fell", "outcome/fall"),
         Column("time played [s]", "duration_s/mean", 0),
