@@ -1,7 +1,5 @@
 """Printed tables: labels with units, never raw keys; progress lines."""
 
-import json
-import os
 import re
 from pathlib import Path
 from typing import Any, BinaryIO
@@ -17,6 +15,7 @@ from stepaside.games import game
 from conftest import BLANK  # isort: skip
 from drawn_figure import content_of  # isort: skip
 from flows.calls import EXAMPLES  # isort: skip
+from stored_values import compare_stored  # isort: skip
 
 pytestmark = pytest.mark.usefixtures("blank_figures", "inline_workers")
 
@@ -44,7 +43,6 @@ TABLES = [
 ]
 # Depend on the machine, and on folders.
 LEFT_OUT = r"real time factor +\S+|(median|p99) \S+ us|solver time .*|\S*/\S*"
-STORED = Path(__file__).parents[1] / "data" / "commands.json"
 
 
 # Commands that show their progress.
@@ -103,18 +101,7 @@ def test_a_command_prints_and_draws_what_is_stored(
     found = [as_token(text) for text in table.split()]
     for figure in figures:
         found += content_of(figure)
-    stored = json.loads(STORED.read_text()) if STORED.exists() else {}
-    if "STORE" in os.environ:
-        stored[words] = [
-            float(f"{x:.6g}") if isinstance(x, float) else x for x in found
-        ]
-        lines = (
-            f"{json.dumps(k)}: {json.dumps(v)}" for k, v in stored.items()
-        )
-        STORED.write_text("{\n" + ",\n".join(lines) + "\n}\n")
-    for one, other in zip(found, stored[words], strict=True):
-        near = pytest.approx(other, rel=2e-3, abs=1e-4)
-        assert one == (near if isinstance(other, float) else other)
+    compare_stored("commands.json", words, found)
 
 
 @pytest.mark.parametrize("words", ["run walk --duration 9", DUEL])

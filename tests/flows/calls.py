@@ -576,18 +576,26 @@ def draw_saved_run(run: Path, figure: Path) -> Path:
     return figure
 
 
-def serve_page(
-    folder: Path, seed: int, distance: float
-) -> subprocess.Popen[str]:
-    """Start the live page of a duel, paused, with hands for its controls."""
-    hands = Path(__file__).with_name("page_hands.py")
-    words = ["view", "--no-run", "--no-open", "--seed", seed]
-    words += ["--distance", distance, "--port", 8200 + os.getpid() % 1000]
-    return subprocess.Popen(
-        [sys.executable, str(hands), *map(str, words)],
-        stdin=subprocess.PIPE,
-        stdout=subprocess.PIPE,
-        stderr=subprocess.PIPE,
-        text=True,
-        cwd=folder,
-    )
+def open_page(settings: Any) -> Any:
+    """Serve the live page of a game, paused."""
+    from stepaside.report.viewer.live_page import Page
+
+    return Page(settings, port=8200 + os.getpid() % 1000)
+
+
+def games_of_pages() -> dict[str, Any]:
+    """Return a game of each kind that a live page plays, by name."""
+    from stepaside.report.viewer.settings_panel import presets_of
+
+    start = sa.StartSettings(1.2, 0.4, 0.1)
+    players = [
+        {"name": "red", "count": 2, "role": "pursuer", "strategy": "pincer"},
+        {"name": "blue", "role": "evader", "strategy": "team-evasion"},
+        {"name": "guest", "body": "person", "goal": [2.0, 0.0]},
+        {"name": "car", "role": "pursuer", "body": "unicycle"},
+    ]
+    return {
+        **presets_of(sa.duel(seed=7, start=start)),
+        "walk": sa.walk(0.3, seed=4, body="hardware"),
+        "players": sa.duel(game="game", seed=3, players=players),
+    }

@@ -1,216 +1,236 @@
-"""The live page, by its controls on a real server; no browser."""
+"""The live page, by viser's handles on a real server; no browser.
 
-import json
+What the server sends to browsers is stored in ``tests/data/pages.json``.
+"""
+
+import os
 import re
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
+from dataclasses import replace
 from math import pi
 from pathlib import Path
-from time import sleep
 from typing import Any
 
 import numpy as np
 import pytest
+from click.testing import CliRunner
 
-from flows.calls import load_run, serve_page
-from flows.running import Running, until
+from flows.calls import games_of_pages, load_run, open_page
+from flows.running import until
+from stepaside.cli.main import main
+from stored_values import compare_stored, content_of
 
-pytest.importorskip("viser")
+viser = pytest.importorskip("viser")
+pytestmark = pytest.mark.usefixtures("blank_figures")
 
-SEED, BEGAN = 7, 1.2  # [m] between the players
+LEFT_OUT = (
+    "Theme",
+    "SetSceneNodeVis",
+    "BackgroundImage",
+    "GuiSetPanel",
+    "GuiPanel",
+)
+MANY = ("Mesh", "Frame", "SetPosition", "SetOrientation")
+GAMES = games_of_pages()
+del GAMES["duel"]  # like that of the start
+QUEUE = viser.infra.WebsockServer.queue_message
 
 
-class Page:
-    """A page that is served, and what a viewer does on it."""
+class LivePage:
+    """A page that is served, paused, and what a viewer does on it."""
 
-    def __init__(self, folder: Path, *words: object) -> None:
-        self.folder = folder
-        process = serve_page(folder, SEED, BEGAN)
-        self.running = Running(process)
-        self.running.until_said("serving at")
+    def __init__(self, settings: Any, messages: list[Any]) -> None:
+        self._messages = messages
+        self.page = open_page(settings)
+        self.session, self.gui = self.page.session, self.page.server.gui
 
-    def _ask(self, *words: object) -> Any:
-        process, lines = self.running.process, self.running.out
-        assert process.stdin is not None
-        before = len(lines)
-        process.stdin.write(json.dumps(words) + "\n")
-        process.stdin.flush()
-        until(lambda: len(lines) > before)
-        return json.loads(lines[before])
-
-    def press(self, control: str, value: object = True) -> None:
-        """Press a button, or choose or enter a value."""
-        self._ask(control, value)
-
-    def options(self, control: str) -> list[str]:
-        """Values that a choice offers."""
-        found: list[str] = self._ask(control)[1]
+    def control(self, name: str) -> Any:
+        """Control with a label, or of the setting with a path."""
+        controls = self.gui._gui_input_handle_from_uuid.values()
+        (found,) = [
+            each
+            for each in controls
+            if name in (each.label, str(each.hint).partition(": ")[0])
+        ]
         return found
 
-    def value(self, control: str) -> Any:
-        """Present value of a control."""
-        return self._ask(control)[0]
-
-    @property
-    def texts(self) -> str:
-        """All texts of the page."""
-        return "\n\n".join(self._ask(""))
-
-    @property
-    def time(self) -> float:
-        """Simulated time that the page shows, in [s]."""
-        (found,) = re.findall(r"([\d.]+) s simulated", self.texts)
-        return float(found)
+    def press(self, name: str, value: Any = True) -> None:
+        """Press a button, or choose or enter a value."""
+        self.control(name).value = value
+        self.session.call(lambda: None)
 
     def play(self, duration: float) -> None:
-        """Start, wait until so much time has passed, and pause."""
-        end = self.time + duration
-        self.press("Start")
-        until(lambda: self.time >= end)
-        self.press("Start")
-        until(self._is_still)
+        """Let simulated time pass, step by step, and show what comes."""
+        for _ in range(round(10.0 * duration)):
+            self.press("Game", "step")
+        self.page.refresh()
 
-    def _is_still(self) -> bool:
-        """Whether the page, which tells the time now and then, knows it."""
-        before = self.time
-        sleep(0.5)
-        return self.time == before
+    def sent(self) -> list[Any]:
+        """Messages to browsers since the last call."""
+        found, self._messages[:] = self._messages[:], []
+        return found
 
-    def save(self, group: str = "Game") -> Any:
+    def save(self) -> Any:
         """Save the game so far, and read it."""
-        before = set(self.folder.glob("runs/*"))
-        self.press(group, "save")
-        (made,) = until(lambda: set(self.folder.glob("runs/*")) - before)
+        before = set(Path.cwd().glob("runs/*"))
+        self.press("Game", "save")
+        (made,) = set(Path.cwd().glob("runs/*")) - before
         return load_run(made)
 
-
-@pytest.fixture(scope="module")
-def page(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Page]:
-    made = Page(tmp_path_factory.mktemp("page"))
-    made.press("Speed", "4")
-    yield made
-    assert made.running.interrupt() == 0, made.running.said
-    made.running.close()
+    def show_plots(self) -> None:
+        """Show plots and camera images, as a page does now and then."""
+        self.page._plots.show(self.session)
+        self.page._show_cameras()
 
 
 @pytest.fixture
-def fresh(page: Page) -> Page:
-    """The duel that the page was started with, at its beginning."""
-    page.press("Preset", page.options("Preset")[-1])
-    page.press("Preset", "as started")
-    until(lambda: page.time == 0.0)
-    return page
+def opened(
+    monkeypatch: pytest.MonkeyPatch, tmp_path: Path
+) -> Iterator[Callable[[Any], LivePage]]:
+    """Function that opens the page of a game."""
+    messages: list[Any] = []
+
+    def record(server: Any, message: Any) -> None:
+        messages.append(message)
+        QUEUE(server, message)
+
+    monkeypatch.setattr(viser.infra.WebsockServer, "queue_message", record)
+    monkeypatch.chdir(tmp_path)
+    made: list[LivePage] = []
+
+    def opens(settings: Any) -> LivePage:
+        made.append(LivePage(settings, messages))
+        return made[-1]
+
+    yield opens
+    for each in made:
+        each.page.start()
+        each.page.close()
 
 
-def test_a_duel_starts_pauses_and_goes_on_step_by_step(fresh: Page) -> None:
-    fresh.play(1.0)
-    paused = fresh.save().times[-1]
-    for _ in range(5):
-        fresh.press("Game", "step")
-    until(lambda: fresh.time > paused + 0.4)
-    run = fresh.save()
-    assert run.times[-1] - paused == pytest.approx(0.5, abs=0.021)
-    assert run.settings.seed == SEED
-    assert run.distance[0] == pytest.approx(BEGAN, abs=1e-3)
+def told(messages: list[Any], *, brief: bool = True) -> Iterator[Any]:
+    """Yield what a page is told, by kind: texts, and sums of all numbers."""
+    kinds: dict[str, list[Any]] = {}
+    for message in messages:
+        kind = type(message).__name__.removesuffix("Message")
+        if not kind.startswith(LEFT_OUT):
+            kinds.setdefault(kind, []).append(message)
+    for kind, found in kinds.items():
+        values = [*content_of(found)]
+        texts = " ".join(x for x in values if isinstance(x, str))
+        texts = re.sub(r"[0-9a-f]{8}-[-0-9a-f]+", "", texts)
+        numbers = np.array([x for x in values if isinstance(x, float)])
+        phase = np.arange(len(numbers))
+        short = brief or kind in MANY
+        yield f"{kind} {len(found)} {len(texts) if short else texts}"
+        for weights in (np.cos(phase), np.sin(phase)):
+            yield float(numbers @ weights)
 
 
-def test_a_push_has_its_size_and_direction(fresh: Page) -> None:
-    fresh.play(0.5)
-    fresh.press("Robot", "evader")
-    fresh.press("Impulse [N s]", 0.7)
-    fresh.press("Direction", "left")
-    fresh.press("Push")
-    fresh.play(1.0)
-    run = fresh.save()
-    assert run.tracks["pursuer"].pushes is None
-    (push,) = run.tracks["evader"].pushes
-    row = int(np.searchsorted(run.times, push[0]))
-    heading = run.tracks["evader"].torso[row, 2] + 0.5 * pi
-    left = np.array([np.cos(heading), np.sin(heading)])
-    np.testing.assert_allclose(push[-2:], 0.7 * left, atol=0.02)
-    com = run.tracks["evader"].com[:, :2]
-    way = (com[row : row + 25] - com[row]) @ left  # within half a second
-    assert way.max() > 0.001 > -2.0 * way.min()
-
-
-@pytest.mark.parametrize(("way", "sign"), [("left", 1.0), ("right", -1.0)])
-def test_a_driven_robot_turns_and_halts_as_it_is_told(
-    way: str, sign: float, fresh: Page
+@pytest.mark.parametrize("kind", GAMES)
+def test_a_game_is_shown_pushed_driven_saved_and_reset(
+    kind: str, opened: Callable[[Any], LivePage]
 ) -> None:
-    fresh.play(2.0)
-    fresh.press("Turn", way)
-    fresh.play(4.0)
-    assert f"Driven by hand**: the pursuer walks to the {way}" in fresh.texts
-    driven = fresh.save()
-    heading = driven.tracks["pursuer"].torso[:, 2]
-    assert sign * (heading[-1] - heading[0]) > 0.2
-    fresh.press("Walk", "halt")
-    fresh.play(2.0)
-    assert "Driven by hand**: the pursuer halts" in fresh.texts
-    fresh.press("Stop driving")
-    assert "Not driven: the pursuer follows its own" in fresh.texts
-    fresh.play(3.0)
-    path = fresh.save().tracks["pursuer"].torso
-    rest, released = len(heading) + 75, len(heading) + 100
-    assert np.ptp(path[rest:released, :2], axis=0).max() < 0.01
-    assert sign * (path[-1, 2] - path[released, 2]) < -0.05  # back, and on
+    page, whole = opened(GAMES[kind]), kind == "as started"
+    session = page.session
+    shown = [*told(page.sent(), brief=not whole)]
+    page.play(1.0)
+    page.show_plots()
+    shown += [*told(page.sent(), brief=False)]
 
+    robot = [p.name for p in session.played.players if p.body == "robot"][-1]
+    page.press("Robot", robot)
+    page.press("Impulse [N s]", 0.4)
+    page.press("Direction", "right")
+    page.press("Push")
+    page.play(0.5)
+    driver = page.control("Driven robot").value
+    page.press("Turn", "left")
+    page.play(3.0 if whole else 0.5)
+    page.press("Walk", "halt")
+    page.play(1.5 if whole else 0.2)
+    page.show_plots()
+    shown += [*told(page.sent(), brief=False)]
+    page.press("Stop driving")
 
-@pytest.mark.parametrize(
-    "preset",
-    [
-        "as started",
-        "duel",
-        "room",
-        "person",
-        "cameras",
-    ],
-)
-def test_reset_begins_again_in_every_preset(preset: str, page: Page) -> None:
-    if preset not in page.options("Preset"):
-        pytest.skip("cv2 is not installed")
-    page.press("Preset", page.options("Preset")[preset == "as started"])
-    page.press("Preset", preset)
-    until(lambda: page.time == 0.0)
-    page.play(0.1)
-    seed = int(page.value("seed")) + 1
-    page.press("seed", seed)
-    page.press("Game", "reset")
-    until(lambda: page.time == 0.0)
-    page.play(0.1)
     run = page.save()
-    assert run.settings.seed == seed
-    assert run.times[-1] < 5.0
+    assert run.settings.seed == GAMES[kind].seed
+    (push,) = run.tracks[robot].pushes
+    row = int(np.searchsorted(run.times, push[0]))
+    heading = run.tracks[robot].torso[row, 2] - 0.5 * pi
+    right = np.array([np.cos(heading), np.sin(heading)])
+    np.testing.assert_allclose(push[-2:], 0.4 * right, atol=0.02)
+    others = [t.pushes for n, t in run.tracks.items() if n != robot]
+    assert all(each is None or len(each) == 0 for each in others)
+    if whole:
+        path = run.tracks[driver].torso
+        assert path[-1, 2] > path[row, 2] + 0.1
+        assert np.ptp(path[-10:, :2], axis=0).max() < 0.01
 
-
-def test_a_reset_keeps_the_strategy_of_a_preset(page: Page) -> None:
-    page.press("Preset", "duel")
-    page.play(0.1)
-    page.press("Preset", "room")
-    until(lambda: page.time == 0.0)
-    page.play(0.1)
+    page.press("seed", 9)
     page.press("Game", "reset")
-    until(lambda: page.time == 0.0)
-    page.play(0.1)
-    assert page.save().settings.evader.strategy == "look-ahead"
+    assert session.world.time == 0.0 and not session.driven
+    assert session.settings == replace(GAMES[kind], seed=9)
+    page.page.refresh()
+    compare_stored("pages.json", kind, shown + [*told(page.sent())])
 
 
-def test_a_preset_shows_its_seed_and_start(fresh: Page) -> None:
-    """A reset after it plays the same duel."""
-    fresh.press("seed", SEED + 5)
-    fresh.press("Game", "reset")
-    until(lambda: fresh.time == 0.0)
-    fresh.press("Preset", "duel")
-    until(lambda: fresh.time == 0.0)
-    fresh.play(0.1)
-    first = fresh.save()
-    fresh.press("Game", "reset")
-    until(lambda: fresh.time == 0.0)
-    fresh.play(0.1)
-    again = fresh.save()
-    assert first.settings.seed == again.settings.seed == SEED
-    assert first.distance[0] == pytest.approx(again.distance[0], abs=1e-3)
+def test_a_preset_begins_with_its_settings_in_the_controls(
+    opened: Callable[[Any], LivePage],
+) -> None:
+    page = opened(GAMES["as started"])
+    presets = page.control("Preset")
+    for name in presets.options[::-1]:
+        page.press("Preset", name)
+        page.page.refresh()
+        settings = page.session.settings
+        assert settings == {**GAMES, "duel": settings}[name]
+        (evader,) = [p for p in settings.players if p.name == "evader"]
+        assert page.control("players.1.strategy").value == evader.strategy
+        distance = settings.start.distance
+        shown = page.control("start.distance").value
+        assert str(shown) == str("" if distance is None else distance)
+        assert page.session.world.time == 0.0
+        page.press("Game", "reset")
+        assert page.session.settings == settings
 
 
-def test_every_preset_is_tested(page: Page) -> None:
-    known = {"as started", "duel", "room", "person", "cameras"}
-    assert set(page.options("Preset")) <= known
+def test_a_page_starts_and_pauses_and_steps_only_a_paused_game(
+    opened: Callable[[Any], LivePage],
+) -> None:
+    page = opened(GAMES["walk"])
+    session = page.session
+    page.press("Speed", "as fast as possible")
+    page.press("Start")
+    until(lambda: session.world.time > 0.5)
+    page.page.refresh()
+    page.press("Pause")
+    page.page.refresh()
+    time = session.world.time
+    page.press("Game", "step")
+    assert session.world.time == pytest.approx(time + 0.1, abs=0.01)
+    page.press("Start")
+    session.running = False
+
+
+@pytest.mark.parametrize("opens", [True, False])
+def test_the_command_serves_a_page_until_it_is_interrupted(
+    opens: bool, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    shown: list[str] = []
+
+    def interrupted(_: float) -> None:
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr("webbrowser.open", shown.append)
+    monkeypatch.setattr("stepaside.cli.view.sleep", interrupted)
+    file = tmp_path / "walk.toml"
+    file.write_text('game = "walk"\n')
+    port = 8200 + os.getpid() % 1000
+    words = ["view", str(file), "--port", str(port)] + ["--no-open"][opens:]
+    done = CliRunner().invoke(main, words)
+    assert done.exit_code == 0, done.output
+    (address,) = re.findall(r"serving at (\S+); press", done.output)
+    assert address.startswith("http://127.0.0.1:")
+    assert shown == [address][: int(opens)]
+    assert "saved runs remain" in done.stderr

@@ -2,8 +2,6 @@
 
 from collections.abc import Iterator
 from math import inf
-from types import SimpleNamespace
-from typing import Any
 
 import numpy as np
 import pytest
@@ -19,7 +17,6 @@ from stepaside.games.game_settings import (  # noqa: E402
     StartSettings,
     duel,
 )
-from stepaside.perception.images import ColourImage  # noqa: E402
 from stepaside.report.scene import wall_corners  # noqa: E402
 from stepaside.report.viewer.live_overlays import (  # noqa: E402
     live_overlays,
@@ -128,15 +125,3 @@ def test_an_invalid_reset_leaves_the_game_alone(session: LiveSession) -> None:
     assert session.game is game and session.settings is settings
     session.reset()
     assert session.world.time == 0.0 and session.generation == 2
-
-
-def image(azimuths: tuple[float, ...], *, depth: bool = False) -> Any:
-    camera = SimpleNamespace(width=80, height=60, focal_x=60.0)
-    if depth:
-        depths = np.zeros((60, 80))
-        depths[:, 20:40], depths[:, 40:60], depths[:, 60:] = 1.0, 2.0, 9.0
-        shown: Any = SimpleNamespace(camera=camera, depths=depths, far=4.0)
-    else:
-        pixels = np.full((60, 80, 3), 7, dtype=np.uint8)
-        shown = ColourImage(0.0, camera, pixels)  # type: ignore[arg-type]
-    return SimpleNamespace(image=shown, azimuths=azimuths)

@@ -1,4 +1,4 @@
-"""The pages in a real browser; pictures are kept in ``artefacts``."""
+"""Written and live pages in a real browser; pictures go to ``artefacts``."""
 
 import json
 import shutil
@@ -14,6 +14,7 @@ from click.testing import CliRunner
 from injection_strings import HOSTILE
 from stepaside.cli.main import main
 from stepaside.core.errors import visible
+from stepaside.games.game_settings import duel
 from stepaside.games.run_archive import load_run
 from stepaside.games.settings_reader import dump_configuration
 from stepaside.report.replay_page import write_page
@@ -297,3 +298,83 @@ def test_a_page_s_policy_lets_nothing_else_run(
     assert page.evaluate("window.ran") is None
     assert any("Content Security Policy" in told for told in wrong)
     wrong.clear()
+
+
+@pytest.fixture(scope="module")
+def live(browser: Any) -> Iterator[tuple[Any, Any]]:
+    """The live page of a duel, and a tab that shows it."""
+    pytest.importorskip("viser")
+    from stepaside.report.viewer.live_page import Page
+
+    served = Page(duel(seed=3), port=8731)
+    served.start()
+    page = open_page(browser)
+    page.goto(f"http://127.0.0.1:{served.server.get_port()}")
+    page.get_by_text("0.0 s simulated").first.wait_for()
+    yield served.session, page
+    page.close()
+    served.close()
+
+
+def press(page: Any, label: str) -> None:
+    """Press a button, wherever it lies."""
+    button = page.get_by_role("button", name=label, exact=True).first
+    button.dispatch_event("click")
+
+
+def open_tab(page: Any, name: str, inside: Any) -> None:
+    """Open a tab; a click is lost while the page draws its panel anew."""
+    tab = page.get_by_role("tab", name=name).first
+
+    def is_open() -> bool:
+        tab.click(force=True)
+        return bool(inside.is_visible())
+
+    until(page, is_open)
+
+
+def test_a_live_game_starts_and_pauses(live: tuple[Any, Any]) -> None:
+    session, page = live
+    press(page, "Start")
+    page.get_by_text("walking: pursuer").first.wait_for()
+    press(page, "Pause")
+    until(page, lambda: not session.running)
+    page.get_by_role("button", name="Start", exact=True).first.wait_for()
+    told = page.get_by_text("s simulated").first.inner_text()
+    assert f"{session.world.time:.1f} s simulated" in told
+    keep_picture(page, "live.png")
+
+
+def test_a_changed_setting_acts_at_the_reset(live: tuple[Any, Any]) -> None:
+    session, page = live
+    field = page.get_by_label("seed").first
+    open_tab(page, "Settings", field)
+    field.fill("11")
+    field.press("Enter")
+
+    def is_reset() -> bool:
+        """A reset before the value arrives begins another duel."""
+        press(page, "reset")
+        return bool(session.settings.seed == 11)
+
+    until(page, is_reset)
+    assert session.world.time == 0.0
+    page.get_by_text("0.0 s simulated").first.wait_for()
+
+
+@pytest.mark.usefixtures("blank_figures")
+def test_a_pushed_run_is_saved(
+    live: tuple[Any, Any], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    session, page = live
+    monkeypatch.chdir(tmp_path)
+    open_tab(page, "Play", page.get_by_text("Impulse").first)
+    press(page, "Push")
+    page.get_by_text("pushed the pursuer left by 0.5 N s").first.wait_for()
+    press(page, "step")
+    until(page, lambda: len(session.game.recorder.times) > 3)
+    press(page, "save")
+    page.get_by_text("stepaside show runs/live-seed").first.wait_for()
+    (saved,) = tmp_path.glob("runs/*")
+    pushes = load_run(saved).tracks["pursuer"].pushes
+    assert pushes is not None and len(pushes) == 1

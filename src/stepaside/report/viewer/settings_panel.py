@@ -80,7 +80,7 @@ class Leaf(NamedTuple):
         Raises:
             ValueError: If a text is not a number.
         """
-        if shown == self.shown:
+        if shown in (self.shown, str(self.shown)):
             return self.value
         if self.described.range is None:
             return shown

@@ -1,0 +1,61 @@
+"""Texts and numbers that a test stores in ``tests/data`` and compares.
+
+Store what is meant: ``STORE=1 pytest tests/...``.
+"""
+
+import json
+import os
+from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import fields, is_dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+DATA = Path(__file__).parent / "data"
+
+
+def compare_stored(file: str, key: str, found: Iterable[str | float]) -> None:
+    """Compare texts and numbers with those that a file has under a key."""
+    path, values = DATA / file, list(found)
+    stored = json.loads(path.read_text("utf-8")) if path.exists() else {}
+    if "STORE" in os.environ:
+        stored[key] = [
+            float(f"{x:.6g}") if isinstance(x, float) else x for x in values
+        ]
+        lines = (
+            f"{json.dumps(k)}: {json.dumps(v)}" for k, v in stored.items()
+        )
+        path.write_text("{\n" + ",\n".join(lines) + "\n}\n", "utf-8")
+    both = zip(values, stored[key], strict=False)
+    for number, (one, other) in enumerate(both):
+        near = pytest.approx(other, rel=2e-3, abs=1e-4)
+        around = values[max(0, number - 6) : number + 2]
+        assert one == (near if isinstance(other, float) else other), around
+    assert len(values) == len(stored[key])
+
+
+def content_of(value: Any) -> Iterator[str | float]:
+    """Yield the texts and numbers in a value; of arrays three rows."""
+    if is_dataclass(value):
+        for field in fields(value):
+            if not field.name.endswith(("uuid", "container_id")):
+                yield from content_of(getattr(value, field.name))
+    elif isinstance(value, Mapping):
+        for name, each in value.items():
+            yield str(name)
+            yield from content_of(each)
+    elif isinstance(value, np.ndarray) and value.dtype.kind in "fiub":
+        yield from map(float, value.shape)
+        rows = np.nan_to_num(value.reshape(len(value), -1).astype(float))
+        if len(rows):
+            for row in (rows[0], rows[-1], rows.mean(axis=0)):
+                yield from row[:8].tolist()
+    elif isinstance(value, tuple | list):
+        for each in value:
+            yield from content_of(each)
+    elif isinstance(value, int | float) and not isinstance(value, bool):
+        yield float(value)
+    elif not isinstance(value, bytes):
+        yield str(value)
