@@ -5,14 +5,20 @@ Store what is meant: ``STORE=1 pytest tests/...``.
 
 import json
 import os
+import re
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import fields, is_dataclass
+from math import isfinite
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
 
+OF_THE_MACHINE = (
+    r"real time factor +\S+|(median|p99) \S+ us|solver time .*|\S*/\S*"
+)
+LONG = 300  # of a text that is cut, in characters
 DATA = Path(__file__).parent / "data"
 
 
@@ -36,6 +42,15 @@ def compare_stored(file: str, key: str, found: Iterable[str | float]) -> None:
     assert len(values) == len(stored[key])
 
 
+def words_of(text: str) -> Iterator[str | float]:
+    """Yield words and numbers of a printed text, but times and folders."""
+    for word in re.sub(OF_THE_MACHINE, "", text).split():
+        try:
+            yield float(word.rstrip(",:;)").lstrip("("))
+        except ValueError:
+            yield word
+
+
 def content_of(value: Any) -> Iterator[str | float]:
     """Yield the texts and numbers in a value; of arrays three rows."""
     if is_dataclass(value):
@@ -48,14 +63,25 @@ def content_of(value: Any) -> Iterator[str | float]:
             yield from content_of(each)
     elif isinstance(value, np.ndarray) and value.dtype.kind in "fiub":
         yield from map(float, value.shape)
-        rows = np.nan_to_num(value.reshape(len(value), -1).astype(float))
-        if len(rows):
+        if value.size:
+            rows = np.nan_to_num(np.atleast_1d(value).astype(float))
+            rows = rows.reshape(len(rows), -1)
             for row in (rows[0], rows[-1], rows.mean(axis=0)):
                 yield from row[:8].tolist()
     elif isinstance(value, tuple | list):
         for each in value:
             yield from content_of(each)
     elif isinstance(value, int | float) and not isinstance(value, bool):
-        yield float(value)
+        yield float(value) if isfinite(value) else str(value)
     elif not isinstance(value, bytes):
         yield str(value)
+
+
+def summed(value: Any) -> Iterator[str | float]:
+    """Yield the texts in a value, and two sums of all its numbers."""
+    values = [*content_of(value)]
+    numbers = np.array([x for x in values if isinstance(x, float)])
+    phase = np.arange(len(numbers))
+    text = " ".join(x for x in values if isinstance(x, str))
+    yield text if len(text) < LONG else f"{text[:LONG]} {len(text)}"
+    yield from (float(numbers @ np.cos(phase)), float(numbers @ np.sin(phase)))

@@ -15,7 +15,7 @@ from stepaside.games import game
 from conftest import BLANK  # isort: skip
 from drawn_figure import content_of  # isort: skip
 from flows.calls import EXAMPLES  # isort: skip
-from stored_values import compare_stored  # isort: skip
+from stored_values import compare_stored, words_of  # isort: skip
 
 pytestmark = pytest.mark.usefixtures("blank_figures", "inline_workers")
 
@@ -41,10 +41,6 @@ TABLES = [
     "run EXAMPLES/teams.toml --set level=steps --duration 9",
     "robot nao",
 ]
-# Depend on the machine, and on folders.
-LEFT_OUT = r"real time factor +\S+|(median|p99) \S+ us|solver time .*|\S*/\S*"
-
-
 # Commands that show their progress.
 LONG = ("duel", "walk", "circle", "map", "bound")
 
@@ -73,14 +69,6 @@ def progress_lines(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(game, "REPORT_PERIOD", 0.0)
 
 
-def as_token(text: str) -> str | float:
-    """Return a word, or the number that it is."""
-    try:
-        return float(text.rstrip(",:;)").lstrip("("))
-    except ValueError:
-        return text
-
-
 @pytest.mark.parametrize("words", TABLES)
 def test_a_command_prints_and_draws_what_is_stored(
     words: str, progress_lines: None, monkeypatch: pytest.MonkeyPatch
@@ -95,10 +83,10 @@ def test_a_command_prints_and_draws_what_is_stored(
     monkeypatch.setattr(Figure, "savefig", save)
     command = words.replace("EXAMPLES", str(EXAMPLES))
     shown = shown_by(command.replace("FIGURE", "figure.png"))
-    table = re.sub(LEFT_OUT, "", shown.stdout)
+    table = re.sub(r"\S*/\S*", "", shown.stdout)
     assert not re.findall(r"\b[a-z]+_\w+", table), shown.stdout
     assert not re.findall(r"\b(?:True|False|None)\b", table), shown.stdout
-    found = [as_token(text) for text in table.split()]
+    found = [*words_of(table)]
     for figure in figures:
         found += content_of(figure)
     compare_stored("commands.json", words, found)

@@ -3,21 +3,18 @@
 import json
 from pathlib import Path
 from typing import Any, NamedTuple
-from xml.etree.ElementTree import fromstring
 
 import mujoco
 import numpy as np
 import pytest
 from click.testing import CliRunner
 
-from stepaside.arena import Disc, Room
 from stepaside.cli.main import main
 from stepaside.core.poses import Array
 from stepaside.games.game_settings import StartSettings, duel
 from stepaside.games.recorded_game import run_game
 from stepaside.games.run import Run
 from stepaside.games.run_archive import load_run, write_run_files
-from stepaside.report.export.room_model import RoomModel
 from stepaside.robots.description import load_robot
 
 
@@ -141,32 +138,6 @@ def test_every_link_is_where_mujoco_puts_it(
         np.testing.assert_allclose(found[:, 3], sole.xpos, atol=2e-6)
 
 
-def test_the_joints_of_a_described_robot_join_its_links(bag: Bag) -> None:
-    ((_, description),) = bag.topics["/evader/robot_description"]
-    robot = fromstring(description.data)
-    links = {f"{link.get('name')}" for link in robot.iter("link")}
-    ends = [f"{end.get('link')}" for end in robot.iter("child")]
-    assert {f"{end.get('link')}" for end in robot.iter("parent")} <= links
-    assert set(ends) < links <= set(poses_in_map(bag, 0))
-    assert len(ends) == len(links) - 1 and all("evader/" in x for x in links)
-
-
-def test_joint_states_have_names_velocities_and_efforts(
-    bag: Bag, run: Run
-) -> None:
-    states = [m for _, m in bag.topics["/evader/joint_states"]]
-    assert len(states) == len(run.times)
-    state, model = states[60], load_robot("nao").compile()
-    track = run.evader.qpos
-    assert track is not None
-    column = model.joint("LKneePitch").qposadr[0]
-    number = list(state.name).index("LKneePitch")
-    assert state.position[number] == track[60, column]
-    rate = (track[61, column] - track[59, column]) / 0.04
-    assert state.velocity[number] == pytest.approx(rate, abs=0.3)
-    assert len(state.effort) == len(state.name) == 24
-
-
 def test_the_zmp_follows_from_the_wrenches_of_the_soles(
     bag: Bag, run: Run
 ) -> None:
@@ -184,36 +155,6 @@ def test_the_zmp_follows_from_the_wrenches_of_the_soles(
             force += up
             moment += up * pose[:2, 3] + (pose[:3, :3] @ local)[:2]
         np.testing.assert_allclose(moment / force, zmp[index], atol=2e-3)
-
-
-def test_the_room_travels_with_the_bag(tmp_path: Path) -> None:
-    """A disc stands still in its frame; a person moves."""
-    pytest.importorskip("rosbags", reason="rosbags is not installed")
-    room = Room(obstacles=(Disc(0.6, 1.4, 0.1),))
-    run = run_game(duel(duration=1.0, pursuer={"body": "person"}, room=room))
-    model = RoomModel(run)
-    links = fromstring(model.urdf).findall("link")
-    discs = [
-        (link.get("name"), visual)
-        for link in links
-        for visual in link.findall("visual")
-        if (own := visual.find("geometry/cylinder")) is not None
-        and own.get("radius") == "0.1"
-    ]
-    assert discs and set(model.frames) == {
-        link.get("name") for link in links[1:]
-    }
-    name, visual = discs[0]
-    number = model.frames.index(str(name))
-    origin = visual.find("origin")
-    assert origin is not None
-    offset = [float(x) for x in str(origin.get("xyz")).split()[:2]]
-    place = model.positions[0, number, :2] + offset
-    np.testing.assert_allclose(place, [0.6, 1.4], atol=1e-6)
-    assert not model.moves[number] and model.moves.any()
-    np.testing.assert_allclose(
-        np.linalg.norm(model.quaternions, axis=2), 1.0, atol=1e-9
-    )
 
 
 def test_without_a_repeated_game_channels_are_absent_and_said_to_be(

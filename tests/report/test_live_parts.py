@@ -18,14 +18,7 @@ from stepaside.games.game_settings import (  # noqa: E402
     duel,
 )
 from stepaside.report.scene import wall_corners  # noqa: E402
-from stepaside.report.viewer.live_overlays import (  # noqa: E402
-    live_overlays,
-    places_of,
-)
 from stepaside.report.viewer.live_session import LiveSession  # noqa: E402
-from stepaside.report.viewer.status_panel import (  # noqa: E402
-    page_text,
-)
 from stepaside.report.viewer.viewer_cameras import overview  # noqa: E402
 
 FOV = 1.309  # [rad]
@@ -92,29 +85,6 @@ def passed(session: LiveSession, duration: float) -> None:
     """Let simulated time pass."""
     session.step(duration)
     session.call(lambda: None)
-
-
-def test_the_circle_of_theory_goes_through_both_players(
-    session: LiveSession,
-) -> None:
-    passed(session, 0.1)
-    assert session.names == ("pursuer", "evader")
-    assert "**standing**: evader" in page_text(session)
-    drawn = {own.layer for own in live_overlays(session)}
-    assert "theoretical circle" not in drawn  # the evader stands
-    passed(session, 6.0)
-    overlays = {own.layer: own for own in live_overlays(session)}
-    places, theory = places_of(session), session.theory
-    assert theory is not None
-    assert f"a circle with distance {theory[1]:.2f} m" in page_text(session)
-    session.driven = "pursuer"
-    assert "no theory applies" in page_text(session)
-    session.driven = ""
-    ring = overlays["theoretical circle"].segments[:, 0]
-    middle = ring.mean(axis=0)
-    for place in places.values():
-        away = np.hypot(*(place - middle))
-        assert away == pytest.approx(theory[0], rel=1e-3)
 
 
 def test_an_invalid_reset_leaves_the_game_alone(session: LiveSession) -> None:

@@ -8,12 +8,7 @@ from stepaside.games.recorded_game import run_game
 from stepaside.games.run import Run
 from stepaside.locomotion.control_settings import ControlSettings
 from stepaside.report.overlays import (
-    PUSH_LENGTH,
-    PUSH_SHOWN,
     footsteps_in,
-    overlays_of,
-    push_arrows,
-    safety_ring,
 )
 from stepaside.report.scene import RunScene
 from stepaside.sim.body_settings import BODIES
@@ -25,41 +20,6 @@ PUSHES = np.array([[2.0, 0.1, 0.5, -0.5, 0.3, 0.4]])
 def run() -> Run:
     start = StartSettings(0.7, 0.0, 0.3)
     return run_game(duel(seed=3, duration=3.0, start=start))
-
-
-def test_an_arrow_is_shown_for_a_second_along_its_push() -> None:
-    arrow = push_arrows("a", PUSHES)
-    for now, count in ((1.99, 0), (2.0, 3), (2.9, 3), (2.0 + PUSH_SHOWN, 0)):
-        assert len(arrow.shown(now, {})) == count
-    (start, tip), *barbs = arrow.shown(2.5, {})[..., :2]
-    np.testing.assert_allclose(tip, PUSHES[0, 2:4])
-    np.testing.assert_allclose(tip - start, PUSH_LENGTH * PUSHES[0, 4:])
-    for one, other in barbs:
-        own = one + other - tip  # the end that is not the tip
-        assert (own - tip) @ (start - tip) > 0.0
-
-
-def test_the_ring_of_a_safety_radius_has_it() -> None:
-    ring = safety_ring("a", 0.7)
-    away = np.hypot(ring.segments[..., 0], ring.segments[..., 1])
-    np.testing.assert_allclose(away, 0.7)
-    assert ring.follows == ("a",)
-
-
-def test_a_path_grows_and_forgets_what_is_older_than_the_trail(
-    run: Run,
-) -> None:
-    (path,) = (
-        each
-        for each in overlays_of(run)
-        if (each.layer, each.owner) == ("CoM trace", "evader")
-    )
-    shown = path.shown(1.0, {}, trail=0.5)
-    since, now = run.index_at(0.5), run.index_at(1.0)
-    com = run.evader.com[since : now + 1, :2]
-    np.testing.assert_allclose(shown[:, 0, :2], com[:-1])
-    np.testing.assert_allclose(shown[:, 1, :2], com[1:])
-    assert len(path.shown(1e3, {})) == len(run.times) - 1
 
 
 def test_footsteps_of_a_run_are_where_the_soles_landed() -> None:

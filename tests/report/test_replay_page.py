@@ -15,9 +15,7 @@ from stepaside.core.poses import Array
 from stepaside.games.game_settings import StartSettings, duel
 from stepaside.games.recorded_game import run_game
 from stepaside.games.run import Run
-from stepaside.games.trajectory import Trajectory, whole_cycles
-from stepaside.report.film_captions import describe_state
-from stepaside.report.overlays import circle_of, overlays_of
+from stepaside.games.trajectory import Trajectory
 from stepaside.report.replay_page import write_page
 from stepaside.report.scene import RunScene
 from stepaside.report.visual_geoms import visual_geoms_of
@@ -87,65 +85,3 @@ def moved(track: Trajectory, away: float) -> Trajectory:
     qpos = np.array(track.qpos, dtype=np.float64)
     qpos[:, 0] += away
     return replace(track, qpos=qpos)
-
-
-def test_a_page_tells_what_the_run_tells(tmp_path: Path) -> None:
-    run = made()
-    shown = content(run, tmp_path)
-    chosen = [*range(0, 101, 2), 101]
-    said = [shown["messages"][number] for number in shown["message_index"]]
-    assert said == [describe_state(run, index) for index in chosen]
-    assert len(set(said)) == 4 == len(shown["messages"])
-    cycle = 2.0 * run.settings.gait.step_duration
-    for key, values, size in (
-        ("distance", run.distance, 5e-4),
-        ("angle", run.orientation, 0.05),
-    ):
-        means = whole_cycles(values, run.times, cycle)[chosen]
-        told = np.array(shown["means"][key], dtype=float)
-        np.testing.assert_allclose(told, means, atol=size + 1e-9)
-        assert np.isnan(told[[0, -1]]).all() and np.isfinite(told[25])
-        np.testing.assert_allclose(
-            shown[key], values[chosen], atol=size + 1e-9
-        )
-    assert run.theory is not None and circle_of(run) is not None
-    assert shown["theory"] == list(run.theory)
-    assert shown["safety"] == 0.8
-    both = np.concatenate(
-        [track.torso[:, :2] for track in run.tracks.values()]
-    )
-    middle = 0.5 * (both.min(axis=0) + both.max(axis=0))
-    np.testing.assert_allclose(shown["center"], middle, atol=6e-4)
-    size = np.hypot(*(both.max(axis=0) - both.min(axis=0)))
-    assert shown["camera_distance"] == pytest.approx(1.4 + 1.05 * size)
-    stage = RunScene(run)
-    for robot, name in zip(
-        shown["players"], ("pursuer", "evader"), strict=True
-    ):
-        assert robot["name"] == name
-        assert stage.model.body(robot["torso"]).name == f"{name}/torso"
-    for told, own in zip(shown["overlays"], overlays_of(run, 2), strict=True):
-        assert told["layer"] == own.layer and told["label"] == own.label
-        ends = np.frombuffer(b64decode(told["segments"]), dtype="<f4")
-        np.testing.assert_allclose(ends, own.segments.ravel(), atol=1e-5)
-
-
-def test_a_page_of_a_person_has_its_way_but_no_footsteps(
-    tmp_path: Path,
-) -> None:
-    settings = duel(
-        duration=0.1,
-        pursuer={"body": "person"},
-        start=StartSettings(2.5, 0.0, 0.0),
-    )
-    run = replace(run_game(settings), name="a </b> run")
-    shown = content(run, tmp_path)
-    person, robot = shown["players"]
-    assert (person["name"], robot["name"]) == ("pursuer", "evader")
-    model = RunScene(run).model
-    assert model.body(person["torso"]).name == "pursuer/trunk"
-    assert model.body(robot["torso"]).name == "evader/torso"
-    bodies = {part["body"] for part in shown["parts"]}
-    assert {person["torso"], robot["torso"]} <= bodies & set(shown["bodies"])
-    # Heights over the torso: a person's trunk is a body on the floor.
-    assert person["label_height"] + 1.0 > robot["label_height"] > 0.1

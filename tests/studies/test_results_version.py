@@ -4,11 +4,10 @@ Short games of ``tests/data/games.toml`` that use most settings, strategies
 and sensors, and studies of games without bodies. A change in the last bits is
 none; if a value changes by more, raise ``RESULTS`` and store the new values::
 
-    PYTHONPATH=src python tests/studies/test_results_version.py
+    PYTHONPATH=src:tests python tests/studies/test_results_version.py
 """
 
 import json
-import tomllib
 from dataclasses import asdict
 from pathlib import Path
 from typing import Any
@@ -16,14 +15,13 @@ from typing import Any
 import numpy as np
 import pytest
 
-from stepaside.games import run_game
-from stepaside.games.game_settings import read_game
 from stepaside.studies.results_version import RESULTS
 from stepaside.studies.study import run_study
 from stepaside.studies.study_design import load_study
+from stored_games import GAMES, run_of
+from stored_values import DATA
 
-DATA = Path(__file__).parents[1] / "data"
-GAMES = tomllib.loads((DATA / "games.toml").read_text())
+pytestmark = pytest.mark.xdist_group("stored-games")
 STORED = DATA / "games.json"  # with the version that the values belong to
 COLUMNS = 12  # of an array that are stored
 OF_THE_MACHINE = ("real_time_factor", "median_us", "p99_us")
@@ -45,7 +43,7 @@ STUDIES: dict[str, tuple[str, str, list[float]]] = {
 
 def play(game: str) -> dict[str, list[float]]:
     """Return the numbers of the summary, and mean columns of the tracks."""
-    run = run_game(read_game(GAMES[game], game))
+    run = run_of(game)
     found = {"duration": [run.duration]} | dict(leaves(asdict(run.summary)))
     for name, values in run.arrays().items():
         rows = np.nan_to_num(values.astype(np.float64), nan=-1.0)
