@@ -130,19 +130,6 @@ def test_transforms_and_urdf_agree_in_programs_of_others(
         np.testing.assert_allclose(ours, theirs, atol=1e-4)
 
 
-@pytest.mark.slow
-def test_images_travel_with_their_calibration(folder: Path) -> None:
-    cv2 = pytest.importorskip("cv2", reason="OpenCV is not installed")
-    bag = bag_of(folder)
-    images = bag["/evader/camera/image_raw/compressed"]
-    infos = bag["/evader/camera/camera_info"]
-    assert len(images) == len(infos) > 20
-    data = np.frombuffer(images[-1].data, np.uint8)
-    height, width = cv2.imdecode(data, cv2.IMREAD_COLOR).shape[:2]
-    assert (infos[-1].height, infos[-1].width) == (height, width)
-    assert images[-1].header.frame_id == "evader/camera_optical_frame"
-
-
 DRAWN = {
     "/evader/com": "InstancePoses3D:translations",
     "/evader/zmp": "InstancePoses3D:translations",

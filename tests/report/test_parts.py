@@ -2,11 +2,9 @@
 
 import mujoco
 import numpy as np
-import pytest
 
 from stepaside.report import replay_page
 from stepaside.report.visual_geoms import (
-    label_over,
     visual_geoms_of,
 )
 
@@ -58,19 +56,6 @@ def test_geoms_keep_their_shape_pose_and_colour() -> None:
     np.testing.assert_allclose(vertices[order], expected, atol=1e-6)
     values = mesh.to_json()
     assert len(values["vertices"]) == len(values["faces"]) == 4
-
-
-def test_a_label_stands_over_the_highest_point_of_a_player() -> None:
-    model = mujoco.MjModel.from_xml_string(
-        '<mujoco><worldbody><body name="a/trunk" pos="0 0 1">'
-        '<geom size="0.2"/><body name="a/head" pos="0 0 0.3">'
-        '<geom size="0.1"/></body></body><body name="b/trunk" pos="0 0 9">'
-        '<geom size="1"/></body></worldbody></mujoco>'
-    )
-    data = mujoco.MjData(model)
-    mujoco.mj_kinematics(model, data)
-    body, height = label_over(model, data, "a")
-    assert body == 1 and height == pytest.approx(0.44)
 
 
 def test_three_js_has_its_licence_and_nothing_else_is_included() -> None:
