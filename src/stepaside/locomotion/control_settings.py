@@ -9,7 +9,7 @@ from ..core.setting import CheckedSettings, setting
 Method = Literal["closed-form", "measured", "mpc"]
 METHODS: tuple[str, ...] = get_args(Method)
 MAPS = ("given", "seen", "none")
-UNSEEN = ("free", "taken")
+UNKNOWN = ("free", "occupied")
 SIZE = "about a hundred foot lengths"
 TICKS = "a faster rate acts within one tick"
 
@@ -215,9 +215,9 @@ class MapSettings(CheckedSettings, prefix="map."):
         "Clearance that a body keeps from known obstacles",
         Range(0.0, 1.0, "m", "a larger margin leaves no free floor"),
     )
-    unseen: str = setting(
-        "taken",
+    unknown: str = setting(
+        "occupied",
         "State of map cells that have not been observed",
-        names=UNSEEN,
+        names=UNKNOWN,
         needs=("map.source", "seen"),
     )

@@ -50,7 +50,17 @@ LABELS = {
     "sliding": "evader slides at zero error",
     "unsettled_share": "games not settled",
     "barrier_error_m": "mean error of the barrier",
+    "barrier_error_95_m": "95 % of these errors, at most",
+    "barrier_error_worst_m": "greatest of these errors",
+    "goal_at_s": "goal reached at",
     "grid_error_m": "mean difference to a grid of half the cells",
+    "grid_error_95_m": "95 % of these differences, at most",
+    "grid_error_worst_m": "greatest of these differences",
+    "intimate_s": "time within 0.45 m",
+    "lost_s": "time without a sighting",
+    "misled_s": "time with a wrong bearing",
+    "of_bound": "ratio to the bound",
+    "personal_s": "time within 1.2 m",
 }
 CIRCLES = {1: "main", -1: "reversed"}
 """Names of the circles of a game of unicycles, by their direction."""

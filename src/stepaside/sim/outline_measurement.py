@@ -164,7 +164,7 @@ def clearance_in(
     if known.source == "seen":
         assert floor is not None
         surroundings = MappedRoom(
-            floor, unknown_is_free=known.unseen == "free"
+            floor, unknown_is_free=known.unknown == "free"
         )
     outline = measure_outline(description, gait)
     return ClearanceSetup(surroundings, outline, known.margin)
