@@ -96,7 +96,7 @@ release: setup
 
 # Real ROS 2 nodes against our topics, on the loopback interface; their wheels
 # are for Python 3.12. Humble has none: its middleware runs without ROS, with a
-# wheel for Python 3.10. What lacks its Python is not checked.
+# wheel for Python 3.10. Those whose Python is missing are skipped.
 PYTHON312 ?= $(call works,3.12)
 PYTHON310 ?= $(call works,3.10)
 ROS2 ?= $(if $(PYTHON312),jazzy kilted) $(if $(PYTHON310),humble)
