@@ -1,5 +1,6 @@
 """Test moving boxes: motion, files, simulation, map and replay."""
 
+from dataclasses import replace
 from math import hypot
 from typing import Any
 
@@ -13,6 +14,7 @@ from stepaside.arena import (
 )
 from stepaside.core.errors import ConfigurationError
 from stepaside.core.poses import Pose
+from stepaside.games import duel
 from stepaside.locomotion.guard import AHEAD, KnownRoom
 from stepaside.perception.measurement import RobotState
 from stepaside.robots.leg_kinematics import BodyReference
@@ -60,6 +62,8 @@ def test_swept_floor_contains_the_box_at_all_times(
 def test_box_stays_between_the_walls_and_off_the_initial_poses() -> None:
     with pytest.raises(ConfigurationError, match="between the walls"):
         Room(3.0, 3.0, moving=(MovingBox(0, 0, 0.2, 0.2, (1.6, 0)),))
+    with pytest.raises(ConfigurationError, match="room.moving must be empty"):
+        replace(duel(level="steps"), room=ROOM)
     assert ROOM.starts is not None
     check_initial_poses(ROOM, ROOM.starts)
     on_it = Pose(0.2, -0.7, 0.0), ROOM.starts[1]

@@ -138,18 +138,6 @@ def test_a_law_that_the_kernel_does_not_know_is_refused() -> None:
             VectorDuel(role="evader", level="steps", duel=make_duel(**changes))
 
 
-def test_contact_with_an_obstacle_counts_as_no_distance() -> None:
-    env = DuelEnv("evader", level="steps", room=RoomRecipe(), arenas=4)
-    start = env.reset(seed=0)[1]["distance_m"]
-    ended, total = False, 0.0
-    while not ended:
-        _, reward, ended, late, info = env.step(BACK)
-        total += reward
-        assert not late
-    assert info["outcome"] == "touched" and info["closest_m"] == 0.0
-    assert 0.5 * total == pytest.approx(-start)
-
-
 def test_any_strategy_is_an_opponent() -> None:
     env = DuelEnv("pursuer", opponent=LookAhead(), level="steps", **SHORT)
     env.reset(seed=1)

@@ -21,6 +21,13 @@ def copy_of_nao(folder: Path, **changes: str) -> Path:
     return folder
 
 
+def test_a_changed_description_is_read_again(tmp_path: Path) -> None:
+    folder = copy_of_nao(tmp_path)
+    load_robot(folder).standing.clear()
+    assert load_robot(folder).standing == NAO.standing
+    assert load_robot(copy_of_nao(folder, NAO="Ann")).name == "Ann"
+
+
 def test_another_robot_is_a_folder(tmp_path: Path) -> None:
     """Longer legs and another name, and it stands."""
     from stepaside.robots.leg_kinematics import BodyReference, LegKinematics

@@ -37,7 +37,7 @@ from stepaside.strategies import Intent
 class Timid:
     """Backs off at half the speed."""
 
-    factor: float = 0.5
+    factor: float | None = 0.5
     direction: Direction = Direction.BACKWARD
     saturated: bool = False
 
@@ -221,7 +221,10 @@ def test_names_and_arguments_are_refused_by_rule(
             r"Timid must have arguments of factor, direction, "
             "saturated, got 'factr'; did you mean factor",
         ),
-        ("Timid(factor=no)", "factor of type float, got 'no'"),
+        (
+            "Timid(factor=no)",
+            "Timid: factor must be a finite number, got 'no'",
+        ),
         ("Mute", r"must return \(Intent, memory\), got TypeError"),
         ("Moody", "the same knowledge and memory must give the same intent"),
         ("Broken", "must return .*, got ZeroDivisionError"),

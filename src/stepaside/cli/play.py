@@ -137,8 +137,10 @@ def play(
             if kept is not None:
                 kept.ended = ended
     except KeyboardInterrupt:
-        end = "had not begun" if loop is None else "is closed"
-        echo(f"stepaside: the session with the robot {end}", err=True)
+        end = "the session with the robot is closed"
+        if loop is None:
+            end = f"interrupted while connecting to {address}"
+        echo(f"stepaside: {end}", err=True)
         raise
     except SessionLost as error:
         raise click.ClickException(str(error)) from error

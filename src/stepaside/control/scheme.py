@@ -74,9 +74,8 @@ class ControlScheme:
         """Take the measurement of a control tick, unless it was taken."""
         if measurement is self._taken:
             return
-        self._taken, walk = measurement, self.locomotion
-        decisions = self.decisions
-        now = measurement.time
+        self._taken, now = measurement, measurement.time
+        walk, decisions = self.locomotion, self.decisions
         if self._coasted is not None:
             # Only the last of the poses in between can be asked for.
             decisions.templates.note(

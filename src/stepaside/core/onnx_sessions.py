@@ -1,11 +1,28 @@
 """Sessions of ONNX Runtime on one thread."""
 
+from functools import lru_cache
+from glob import escape
 from pathlib import Path
 from typing import Any
 
 from .entries import check_regular
 from .errors import PolicyError
 from .extras import install_hint
+
+
+def open_network(path: Path) -> Any:
+    """Return the session of an ONNX file: the same until a file changes.
+
+    Its weights may lie in files beside it, named like it.
+    """
+    beside = sorted(path.parent.glob(f"{escape(path.stem)}*"))
+    stats = [file.stat() for file in beside]
+    return _open(str(path), *((s.st_mtime_ns, s.st_size) for s in stats))
+
+
+@lru_cache(maxsize=8)
+def _open(path: str, *marks: tuple[int, int]) -> Any:
+    return open_session(path)
 
 
 def open_session(network: str | bytes) -> Any:

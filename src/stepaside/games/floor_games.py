@@ -71,7 +71,11 @@ def floor_of(
             for own in settings.players
         },
         settings.solids,
-        [p.name for p in settings.players if p.role != Role.PURSUER],
+        [
+            p.name
+            for p in settings.players
+            if p.role != Role.PURSUER and settings.solids is not NO_OBSTACLES
+        ],
     )
 
 

@@ -307,15 +307,11 @@ class FloorWorld:
         self.acting = ""
         self._seen = {name: own.pose for name, own in self.motions.items()}
         self._obstacles = obstacles
-        self._bodies = (
-            {}
-            if obstacles is NO_OBSTACLES
-            else {
-                name: own
-                for name, own in self.motions.items()
-                if name in bodies and isinstance(own, FloorWalk)
-            }
-        )
+        self._bodies = {
+            name: own
+            for name, own in self.motions.items()
+            if name in bodies and isinstance(own, FloorWalk)
+        }
 
     @property
     def strategies(self) -> dict[str, Strategy]:

@@ -207,6 +207,11 @@ class GameSettings:
                     "push time must be less than the duration, "
                     f"{self.duration:g} [s], got {push.time:g}"
                 )
+        if self.room and self.room.moving and self.level != "physics":
+            raise ConfigurationError(
+                "room.moving must be empty without physics, got "
+                f"{len(self.room.moving)} moving boxes"
+            )
         check_senses(self)
         tick, step = self.physics.tick, self.physics.time_step
         if tick < 0.5 * step or abs(tick / step - round(tick / step)) > 1e-9:

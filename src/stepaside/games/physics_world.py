@@ -160,6 +160,7 @@ class PhysicsWorld(World):
 
     Attributes:
         players: The players, in the order of the settings.
+        renderer: Of colour images; empty without cameras.
         strategies: Of the robots that decide, by name.
         started_at: Time at which the game began, in [s]: all players were
             ready, for example had scanned the room; None before.
@@ -201,7 +202,8 @@ class PhysicsWorld(World):
             for own in settings.players
             if own.body == "robot" and own.name not in remote
         }
-        self._senses = self._camera_senses(physics.tick)
+        self._senses = senses = self._camera_senses(physics.tick)
+        self.renderer = "" if senses is None else senses.renderer
         super().__init__(
             {name: own.description for name, own in self._setups.items()},
             physics,
@@ -254,11 +256,7 @@ class PhysicsWorld(World):
         self._resting = [*self.players]
 
     def player(self, name: str) -> Player:
-        """Return the player with a name.
-
-        Raises:
-            KeyError: If there is none.
-        """
+        """Return the player with a name."""
         return {player.name: player for player in self.players}[name]
 
     def states(self) -> dict[str, Pose]:
@@ -427,11 +425,6 @@ class PhysicsWorld(World):
             if (evaluator := senses.evaluator_of(*seen)) is not None:
                 found[own.name] = evaluator
         return found
-
-    @property
-    def renderer(self) -> str:
-        """Name of the renderer of colour images; empty without cameras."""
-        return "" if self._senses is None else self._senses.renderer
 
 
 def _setups_of(

@@ -3,8 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Collection, Iterable
+from copy import deepcopy
 from dataclasses import dataclass
+from functools import lru_cache
 from importlib.resources import files
+from os import R_OK, access
 from os.path import normpath
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -187,6 +190,8 @@ class RobotDescription:
 
     def compile(self, colour: Colour | None = None) -> mujoco.MjModel:
         """Compile the model and check it against the description."""
+        from .model_reader import motors_of
+
         try:
             model = self.spec(colour).compile()
         except ValueError as error:
@@ -197,29 +202,9 @@ class RobotDescription:
             {model.body(i).name for i in range(model.nbody)},
             {model.site(i).name for i in range(model.nsite)},
             {model.joint(i).name for i in range(model.njnt)},
-            self._motors(model),
+            motors_of(model, self.name, REMEDY),
         )
         return model
-
-    def _motors(self, model: mujoco.MjModel) -> set[str]:
-        """Return the names of the joints that have an actuator."""
-        import mujoco
-
-        motors: set[str] = set()
-        for i in range(model.nu):
-            if model.actuator_trntype[i] != mujoco.mjtTrn.mjTRN_JOINT:
-                raise ModelError(
-                    f"actuator {model.actuator(i).name!r} of {self.name} "
-                    f"must move a joint; {REMEDY}"
-                )
-            joint = model.joint(model.actuator_trnid[i, 0]).name
-            if joint in motors:
-                raise ModelError(
-                    f"joint {joint!r} of {self.name} must have one actuator, "
-                    f"got several; {REMEDY}"
-                )
-            motors.add(joint)
-        return motors
 
     def check(
         self,
@@ -273,6 +258,14 @@ def load_robot(robot: AnyPath) -> RobotDescription:
             f"with a {FILE} (stepaside robot init MODEL writes one), got "
             f"{str(robot)!r}"
         )
+    file = folder / FILE
+    content = file.read_bytes() if access(file, R_OK) else b""
+    return deepcopy(_read(folder, content))  # its tables are mutable
+
+
+@lru_cache(maxsize=16)
+def _read(folder: Path, content: bytes) -> RobotDescription:
+    """Read a description; the content of its file says whether it changed."""
     file = folder / FILE
     entries = load_entries(file, ModelError)
     if "folder" in entries:

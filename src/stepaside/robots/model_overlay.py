@@ -5,6 +5,8 @@ foot frames. Its environment, its own actuators and meshes that cannot be
 found are removed, and impossible inertias are repaired.
 """
 
+from collections.abc import Iterator
+from os.path import isfile, join
 from pathlib import Path
 from typing import Any
 
@@ -273,6 +275,7 @@ def _resolve_meshes(
         for file in sorted(folder.rglob("*")):
             by_name.setdefault(file.name, file)
     mesh_folder = path.parent / spec.meshdir
+    above = [str(folder) for folder in path.resolve().parents]
     missing: list[str] = []
     for mesh in list(spec.meshes):
         if not mesh.file:
@@ -281,10 +284,10 @@ def _resolve_meshes(
         candidates = (
             mesh_folder / file,
             path.parent / file,
-            *_in_ros_package(path, mesh.file),
+            *_in_ros_package(above, mesh.file),
             by_name.get(file.name, mesh_folder / file.name),
         )
-        found = next((p for p in candidates if p.is_file()), None)
+        found = next((Path(p) for p in candidates if isfile(p)), None)
         shown = mesh.name or file.stem
         shapes = [geom for geom in spec.geoms if geom.meshname == shown]
         if found is None or not _is_readable(found):
@@ -299,16 +302,13 @@ def _resolve_meshes(
     return missing
 
 
-def _in_ros_package(path: Path, file: str) -> list[Path]:
-    """Return the candidates of a ``package://`` file around a model."""
-    if not file.startswith(PACKAGE):
-        return []
-    package, _, rest = file.removeprefix(PACKAGE).partition("/")
-    return [
-        candidate
-        for folder in path.resolve().parents
-        for candidate in (folder / package / rest, folder / rest)
-    ]
+def _in_ros_package(above: list[str], file: str) -> Iterator[str]:
+    """Yield the candidates of a ``package://`` file in folders above."""
+    if file.startswith(PACKAGE):
+        package, _, rest = file.removeprefix(PACKAGE).partition("/")
+        for folder in above:
+            yield join(folder, package, rest)
+            yield join(folder, rest)
 
 
 def _is_readable(file: Path) -> bool:

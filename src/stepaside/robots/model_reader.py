@@ -27,3 +27,22 @@ def read_model(path: Path) -> mujoco.MjSpec:
         return read_outdated(path, failed)
     except ValueError as error:
         raise ModelError(f"{path} is not a MuJoCo model: {error}") from error
+
+
+def motors_of(model: mujoco.MjModel, name: str, remedy: str) -> set[str]:
+    """Return the names of the joints of a robot that have an actuator."""
+    motors: set[str] = set()
+    for i in range(model.nu):
+        if model.actuator_trntype[i] != mujoco.mjtTrn.mjTRN_JOINT:
+            raise ModelError(
+                f"actuator {model.actuator(i).name!r} of {name} must move a "
+                f"joint; {remedy}"
+            )
+        joint = model.joint(model.actuator_trnid[i, 0]).name
+        if joint in motors:
+            raise ModelError(
+                f"joint {joint!r} of {name} must have one actuator, got "
+                f"several; {remedy}"
+            )
+        motors.add(joint)
+    return motors

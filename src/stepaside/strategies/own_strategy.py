@@ -1,32 +1,28 @@
 """Strategies of users: made from their files, and tried."""
 
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import is_dataclass, replace
 from inspect import signature
 from math import pi
 from pathlib import Path
-from typing import Any
+from types import NoneType
+from typing import Any, get_args
 
 from ..core.errors import (
     FAILURES,
     ConfigurationError,
     StrategyError,
-    as_number,
     nearest_hint,
     shown,
 )
+from ..core.setting import EntryReader
 from ..core.user_file import load_user_file
 from ..planning import Direction
 from .decision_maker import evaluate_strategy
 from .knowledge import Knowledge, Limits
 from .shield import ShieldedStrategy
 
-# Annotations whose values are checked, and by what.
-SCALARS: Mapping[str, Callable[[Any], bool]] = {
-    "float": lambda value: as_number(value) is not None,
-    "int": lambda value: as_number(value, whole=True) is not None,
-    "bool": lambda value: isinstance(value, bool),
-}
+SCALARS = {float, int, bool, NoneType}  # annotations that are checked
 LIMITS = Limits(0.1, 0.2, 0.04, 0.547)  # of trial decisions
 
 
@@ -71,10 +67,14 @@ def create_strategy(
 
 def _check_arguments(thing: Any, given: Mapping[str, Any], what: str) -> None:
     """Check names, and values where a number or truth value is annotated."""
+    made = thing if callable(thing) else type(thing)
     try:
-        known = signature(thing if callable(thing) else type(thing)).parameters
+        known = signature(made, eval_str=True).parameters
     except ValueError:  # of code without a signature
         return
+    except FAILURES:  # a type that is imported for checks alone
+        known = signature(made).parameters
+    reader = EntryReader()
     if any(each.kind is each.VAR_KEYWORD for each in known.values()):
         return
     for key, value in given.items():
@@ -85,11 +85,10 @@ def _check_arguments(thing: Any, given: Mapping[str, Any], what: str) -> None:
                 f"{nearest_hint(key, known)}"
             )
         kind = known[key].annotation
-        kind = getattr(kind, "__name__", kind)
-        if kind in SCALARS and not SCALARS[kind](value):
-            raise ConfigurationError(
-                f"{what} must have {key} of type {kind}, got {value!r}"
-            )
+        if {*(get_args(kind) or (kind,))} <= SCALARS:
+            reader.read(value, kind, key)
+    if reader.problems:
+        raise ConfigurationError(f"{what}: {reader.text}")
 
 
 def trial_knowledge() -> Iterator[Knowledge]:

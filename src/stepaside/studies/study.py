@@ -416,7 +416,8 @@ def run_study(
                 raise
             raise CampaignError(
                 f"a worker was lost while measuring {study.name} "
-                f"({type(error).__name__}), possibly out of memory; "
+                f"({type(error).__name__}): out of memory, or the script "
+                'starts it outside `if __name__ == "__main__":`; '
                 f"{run.finished} of {run.total} results are saved"
             ) from error
     return run

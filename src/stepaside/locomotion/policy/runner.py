@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from ...core.compilation import bound, compiled
 from ...core.errors import PolicyError
-from ...core.onnx_sessions import check_readable, open_session
+from ...core.onnx_sessions import check_readable, open_network
 from ...core.poses import Array
 from .contract import PolicyContract
 
@@ -64,7 +64,7 @@ class PolicyNetwork:
         except PolicyError as error:
             raise PolicyError(f"legs: {error}") from error
         try:
-            self._session = open_session(str(path))
+            self._session = open_network(path)
         except PolicyError as error:
             raise PolicyError(
                 f"legs: {path} is not an ONNX network: {error}"

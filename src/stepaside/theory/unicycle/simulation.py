@@ -169,7 +169,7 @@ def simulate(
     start: RelativeStart,
     duration: float,
     *,
-    side: int | None = None,
+    side: int = 0,
     capture_distance: float = 1e-6,
 ) -> PlayedGame:
     """Simulate one game.
@@ -178,7 +178,7 @@ def simulate(
         game: Parameters of the game.
         start: Initial relative coordinates.
         duration: Time after which the game ends, in [s].
-        side: Initial side, +1 or -1; the one behind the evader if None.
+        side: Initial side, +1 or -1; 0 for the one behind the evader.
         capture_distance: Distance at which the game ends, in [m].
 
     Raises:
@@ -186,11 +186,11 @@ def simulate(
     """
     from . import relative_motion as motion  # imports Numba
 
-    step = _checked_step(game, duration, None, capture_distance, side or 0)
+    step = _checked_step(game, duration, None, capture_distance, side)
     rules = motion.rules_of(game, capture_distance)
     circles = circles_of(game)
     played = np.zeros(motion.COLUMNS)
-    motion.begin(played, start.wrapped(), side or 0, rules)
+    motion.begin(played, start.wrapped(), side, rules)
     record, parts = np.empty((ROWS, motion.COLUMNS)), []
     while played[0] < duration and played[motion.CAPTURED] < 0.0:
         count = motion.play_on(

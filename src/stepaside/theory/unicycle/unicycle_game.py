@@ -94,4 +94,4 @@ class Unicycles:
 def check_side(side: int) -> None:
     """Raise :class:`PlanError` unless a side is -1, 1, or 0 for none."""
     if side not in (-1, 0, 1):
-        raise PlanError(f"side must be -1 or 1, got {shown(side)}")
+        raise PlanError(f"side must be -1, 0 or 1, got {shown(side)}")
