@@ -92,6 +92,7 @@ def test_a_pursuer_turns_to_the_opponent_and_rests_at_the_end(
     assert run.outcome is Outcome.COMPLETED
 
 
+@pytest.mark.slow
 def test_a_robot_that_sees_nothing_is_woken_up_and_stands(
     robot: Services,
 ) -> None:
@@ -102,6 +103,7 @@ def test_a_robot_that_sees_nothing_is_woken_up_and_stands(
     assert not any(any(move) for move in robot.moves)
 
 
+@pytest.mark.slow
 def test_a_robot_whose_controller_is_killed_is_stopped(
     robot: Services, seeing: str
 ) -> None:
@@ -113,6 +115,7 @@ def test_a_robot_whose_controller_is_killed_is_stopped(
     assert robot.calls[-1] == "stopMove"
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("name", "value"), [(FALLEN, 1), (BUTTON, 1.0)])
 def test_a_fall_and_the_chest_button_stop_the_robot(
     robot: Services, seeing: str, name: str, value: float

@@ -117,6 +117,7 @@ def test_it_stops_when_its_network_fails_and_walks_on_afterwards(
     assert not walker.moves()
 
 
+@pytest.mark.slow
 def test_a_robot_with_a_camera_walks_while_it_sees_its_opponent(
     start: Callable[..., Any],
 ) -> None:

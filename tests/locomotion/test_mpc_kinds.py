@@ -53,6 +53,7 @@ def test_a_shift_is_back_within_a_second(
     assert np.hypot(*shifts.T).max() < 1.5 * size
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("kind", KINDS)
 def test_the_zmp_never_leaves_the_feet_however_hard_it_is_used(
     kind: str,

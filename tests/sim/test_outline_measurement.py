@@ -98,6 +98,7 @@ def test_circle_around_a_body_contains_an_arm_to_its_side() -> None:
     assert 0.5 <= found < 0.5 * 1.001
 
 
+@pytest.mark.slow
 def test_a_walking_body_stays_within_its_outline_by_the_margin() -> None:
     """All shapes, of two NAOs in physics, against what was planned."""
     settings = make_duel(
