@@ -92,7 +92,7 @@ def test_duel_writes_a_run_folder_that_repeats_it(tmp_path: Path) -> None:
 
 
 BAD = [
-    ("duel --room -3", "room must be an integer.*-3"),
+    ("duel --room -3", "seed of a random room must.*-3"),
     ("serve --ros2 evader=/a --wait nan", "wait must lie.*nan"),
     ("serve --ros2 evader=/a --set level=steps", "level must be physics"),
     ("duel --duration nan", "duration.*must.*nan"),

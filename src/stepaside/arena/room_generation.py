@@ -11,6 +11,7 @@ from ..core.entries import to_entries
 from ..core.errors import ConfigurationError
 from ..core.poses import Array, Pose
 from ..core.random_streams import named_generator
+from ..core.ranges import SEEDS
 from .obstacles import Obstacle, clearance_between
 from .room import BODY_RADIUS, FARTHEST, NEAREST, SIDES, Door, Room, RoomRecipe
 from .shapes import Box, Disc, Polygon
@@ -72,6 +73,7 @@ TURN_CLEARANCE = 0.16
 
 def generate_room(recipe: RoomRecipe, seed: int) -> Room:
     """Draw a random room of obstacles that do not overlap, with poses."""
+    SEEDS.check(seed, "seed of a random room")
     random = named_generator(seed, "room")
     doors: list[Door] = []
     while len(doors) < recipe.doors:

@@ -30,24 +30,18 @@ def duel(settings: GameSettings, output: Path | None, as_json: bool) -> None:
     theory, and writes a run folder with the configuration, the trajectories
     and a figure.
     """
+    from ..games.forecast import forecast
     from ..games.game import play
     from ..games.recorded_game import RecordedGame
 
     def play_warned(settings: GameSettings, report: Any) -> Any:
         game = RecordedGame(settings)  # what it refuses is said first
-        _warn_of_expected_end(game.settings)
+        end = forecast(game.settings)
+        if end.expected in ("contact", "no circle"):
+            echo(f"stepaside: expected outcome: {end.words}", err=True)
         play(game, report=report)
         return game.run()
 
     folder = run_folder(output, as_json, f"duel-seed{settings.seed}")
     run = play_with_bar(settings, play_warned)
     finish_run(run, folder, as_json)
-
-
-def _warn_of_expected_end(settings: GameSettings) -> None:
-    """Print a warning if two robots are not expected to reach a circle."""
-    from ..games.forecast import forecast
-
-    end = forecast(settings)
-    if end.expected in ("contact", "no circle"):
-        echo(f"stepaside: expected outcome: {end.words}", err=True)

@@ -129,7 +129,7 @@ def _entries_of(kind: Any) -> Mapping[str, Entry]:
     if not isinstance(kind, GameSettings):
         return entries_of(kind)
     game, own = entries_of(GameSettings), entries_of(PlayerSettings)
-    common = {k: v for k, v in own.items() if _head(k) in OF_ALL}
+    common = {k: v for k, v in own.items() if k.split(".")[0] in OF_ALL}
     found = {k: v for k, v in game.items() if k != "players"} | common
     for name in kind.names:
         if name not in NOT_PLAYERS:
@@ -178,10 +178,6 @@ def _default(entry: Entry) -> str:
 
 def _argument(path: str) -> str:
     return f"option_{path.replace('.', '_')}"
-
-
-def _head(path: str) -> str:
-    return path.partition(".")[0]
 
 
 def _is_list(entry: Entry) -> bool:
@@ -324,12 +320,13 @@ def _refuse_unused(
     """Refuse settings that have no effect with the others."""
     players = getattr(settings, "players", ())
     for own in given:
-        holders = [p for p in players if p.name == _head(own)] or players
+        first = own.split(".")[0]
+        holders = [p for p in players if p.name == first] or players
         for path, needed in _needs(own, entries):
             owners = [
                 each
                 for each in (settings, *holders)
-                if hasattr(each, _head(path))
+                if hasattr(each, path.split(".")[0])
             ]
             values = [attrgetter(path)(each) for each in owners]
             met = [
@@ -337,7 +334,7 @@ def _refuse_unused(
                 for value in values
             ]
             if values and not any(met):
-                if own not in (path, f"{_head(own)}.{path}"):
+                if own not in (path, f"{first}.{path}"):
                     raise click.UsageError(
                         f"{own} requires {path} {needed}".rstrip()
                         + (f", got {values[-1]}" if needed else "")
