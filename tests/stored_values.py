@@ -22,7 +22,9 @@ LONG = 300  # of a text that is cut, in characters
 DATA = Path(__file__).parent / "data"
 
 
-def compare_stored(file: str, key: str, found: Iterable[str | float]) -> None:
+def compare_stored(
+    file: str, key: str, found: Iterable[str | float], rel: float = 2e-3
+) -> None:
     """Compare texts and numbers with those that a file has under a key."""
     path, values = DATA / file, list(found)
     stored = json.loads(path.read_text("utf-8")) if path.exists() else {}
@@ -36,7 +38,7 @@ def compare_stored(file: str, key: str, found: Iterable[str | float]) -> None:
         path.write_text("{\n" + ",\n".join(lines) + "\n}\n", "utf-8")
     both = zip(values, stored[key], strict=False)
     for number, (one, other) in enumerate(both):
-        near = pytest.approx(other, rel=2e-3, abs=1e-4)
+        near = pytest.approx(other, rel=rel, abs=1e-4)
         around = values[max(0, number - 6) : number + 2]
         assert one == (near if isinstance(other, float) else other), around
     assert len(values) == len(stored[key])
@@ -64,7 +66,8 @@ def content_of(value: Any) -> Iterator[str | float]:
     elif isinstance(value, np.ndarray) and value.dtype.kind in "fiub":
         yield from map(float, value.shape)
         if value.size:
-            rows = np.nan_to_num(np.atleast_1d(value).astype(float))
+            rows = np.atleast_1d(value).astype(float)
+            rows[~np.isfinite(rows)] = -1.0
             rows = rows.reshape(len(rows), -1)
             for row in (rows[0], rows[-1], rows.mean(axis=0)):
                 yield from row[:8].tolist()
@@ -78,9 +81,13 @@ def content_of(value: Any) -> Iterator[str | float]:
 
 
 def summed(value: Any) -> Iterator[str | float]:
-    """Yield the texts in a value, and two sums of all its numbers."""
+    """Yield the texts in a value, and two sums of all its numbers.
+
+    Large numbers, like times in [ns], count by their logarithms.
+    """
     values = [*content_of(value)]
     numbers = np.array([x for x in values if isinstance(x, float)])
+    numbers = np.arcsinh(numbers)
     phase = np.arange(len(numbers))
     text = " ".join(x for x in values if isinstance(x, str))
     yield text if len(text) < LONG else f"{text[:LONG]} {len(text)}"

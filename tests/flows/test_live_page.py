@@ -6,9 +6,11 @@ What the server sends to browsers is stored in ``tests/data/pages.json``.
 import os
 import re
 from collections.abc import Callable, Iterator
+from contextlib import nullcontext
 from dataclasses import replace
 from math import pi
 from pathlib import Path
+from types import SimpleNamespace
 from typing import Any
 
 import numpy as np
@@ -36,6 +38,23 @@ del GAMES["duel"]  # like that of the start
 QUEUE = viser.infra.WebsockServer.queue_message
 
 
+class Viewer:
+    """A browser that sees a page: its camera, and what it is told."""
+
+    client_id = 5
+
+    def __init__(self) -> None:
+        self.camera = SimpleNamespace(
+            position=np.zeros(3), look_at=np.zeros(3), aspect=1.5, fov=0.8
+        )
+        self.notices: list[str] = []
+        self.atomic = nullcontext
+
+    def add_notification(self, title: str, text: str, **_: Any) -> None:
+        """Keep a notice."""
+        self.notices.append(f"{title}: {text}")
+
+
 class LivePage:
     """A page that is served, paused, and what a viewer does on it."""
 
@@ -43,6 +62,8 @@ class LivePage:
         self._messages = messages
         self.page = open_page(settings)
         self.session, self.gui = self.page.session, self.page.server.gui
+        self.viewer = Viewer()
+        self.page.server.get_clients = lambda: {5: self.viewer}
 
     def control(self, name: str) -> Any:
         """Control with a label, or of the setting with a path."""
@@ -64,6 +85,15 @@ class LivePage:
         for _ in range(round(10.0 * duration)):
             self.press("Game", "step")
         self.page.refresh()
+
+    def trigger(self, key: str) -> None:
+        """Press a key, by its name or what it does."""
+        commands = self.gui._command_handle_from_uuid.values()
+        for each in commands:
+            if key in (each.label, each.hotkey):
+                for call in each._impl.trigger_cb:
+                    call(SimpleNamespace(client=self.viewer))
+        self.session.call(lambda: None)
 
     def sent(self) -> list[Any]:
         """Messages to browsers since the last call."""
@@ -154,6 +184,12 @@ def test_a_game_is_shown_pushed_driven_saved_and_reset(
     page.press("Stop driving")
 
     run = page.save()
+    shown += page.viewer.notices
+    for key in "1234":
+        page.trigger(key)
+        page.page.refresh()
+        camera = page.viewer.camera
+        shown += map(float, [*camera.position, *camera.look_at])
     assert run.settings.seed == GAMES[kind].seed
     (push,) = run.tracks[robot].pushes
     row = int(np.searchsorted(run.times, push[0]))
@@ -172,7 +208,8 @@ def test_a_game_is_shown_pushed_driven_saved_and_reset(
     assert session.world.time == 0.0 and not session.driven
     assert session.settings == replace(GAMES[kind], seed=9)
     page.page.refresh()
-    compare_stored("pages.json", kind, shown + [*told(page.sent())])
+    shown += told(page.sent())
+    compare_stored("pages.json", kind, shown, 1e-4)
 
 
 def test_a_preset_begins_with_its_settings_in_the_controls(
@@ -210,7 +247,31 @@ def test_a_page_starts_and_pauses_and_steps_only_a_paused_game(
     page.press("Game", "step")
     assert session.world.time == pytest.approx(time + 0.1, abs=0.01)
     page.press("Start")
-    session.running = False
+    page.trigger("space")
+    assert not session.running
+
+
+def test_keys_do_what_buttons_do(opened: Callable[[Any], LivePage]) -> None:
+    page = opened(GAMES["as started"])
+    session = page.session
+    for key in "NNN":
+        page.trigger(key)
+    assert session.world.time == pytest.approx(0.3, abs=0.02)
+    for key, words in {
+        "arrowleft": "walks to the left",
+        "arrowright": "walks to the right",
+        "arrowup": "walks straight ahead",
+        "H": "halts",
+        "G": "walks straight ahead",
+    }.items():
+        page.sent()
+        page.trigger(key)
+        (text,) = [m.updates for m in page.sent() if hasattr(m, "updates")][:1]
+        assert words in str(text), key
+    page.trigger("S")
+    assert "stepaside show runs/live-seed7" in page.viewer.notices[-1]
+    page.trigger("R")
+    assert session.world.time == 0.0 and not session.driven
 
 
 @pytest.mark.parametrize("opens", [True, False])

@@ -110,4 +110,4 @@ def test_signals_are_those_that_are_stored(name: str) -> None:
     for topic, messages in topics.items():
         found += [topic, float(len(messages))]
         found += summed([messages[0], messages[len(messages) // 2]])
-    compare_stored("reports.json", f"signals of {name}", found)
+    compare_stored("reports.json", f"signals of {name}", found, 1e-4)
