@@ -38,7 +38,7 @@ def compare_stored(
         path.write_text("{\n" + ",\n".join(lines) + "\n}\n", "utf-8")
     both = zip(values, stored[key], strict=False)
     for number, (one, other) in enumerate(both):
-        near = pytest.approx(other, rel=rel, abs=1e-4)
+        near = pytest.approx(other, rel=rel, abs=0.01 * rel)
         around = values[max(0, number - 6) : number + 2]
         assert one == (near if isinstance(other, float) else other), around
     assert len(values) == len(stored[key])
