@@ -40,8 +40,6 @@ TABLES = [
     "--set duration=9 --workers 1 --figure FIGURE",
     "study people --set speed=0.6 --set bearing=0 --set seed=1 --set "
     "person=scared --workers 1",
-    "reproduce --runs 0 --workers 1 --output out",
-    "run EXAMPLES/cyclic-pursuit.toml --set duration=9",
     "run EXAMPLES/two-pursuers.toml --set level=steps --set duration=9",
     "run EXAMPLES/crowd.toml --set level=steps --set duration=5",
     "run room --discs 2 --doors 1 --figure FIGURE",
