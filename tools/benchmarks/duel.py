@@ -97,9 +97,9 @@ def _play(
     ticks = round(duration / duel.in_physics.physics.tick)
     start = process_time()
     for _ in range(ticks):
-        duel.tick()
-        if duel.ended is not None:
+        if duel.ended is not None:  # by its last tick it may have
             raise SystemExit("the duel ended early")
+        duel.tick()
         commands.append(data.ctrl.copy())
     return process_time() - start, commands
 
