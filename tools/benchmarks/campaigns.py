@@ -20,15 +20,6 @@ from benchmark_options import RESULTS
 from result_files import header, write_result
 
 FILES = "tools/results"  # studies that are no presets
-CIRCLE = (
-    "--value outcome --value on_circle --value on_circle_in_time "
-    "--value distance_m --value over_certificate_m "
-    "--value nearer_than_certified --value sight.detection_rate "
-    "--value sight.false_detections "
-    "--value players.pursuer.sight.bearing_error_median_deg "
-    "--value players.evader.sight.bearing_error_median_deg "
-    "--value players.evader.sight.distance_error_median_m"
-)
 AIMED = "--set 'person=straight,0.3 m*'"
 SEEN = f"{AIMED} --set bearing=-45,0,45,180 --set seed=1:2 --by bearing"
 PASSED = "--set person=passing --set bearing=-45,0,45 --by person"
@@ -67,14 +58,12 @@ STUDIES = {
         "hardware-like", "duels --set body=hardware --set seed=0:16"
     ),
     "duels-cameras": Campaign(
-        "ideal, with cameras",
-        f"duels --set senses=cameras --set seed=0:2 {CIRCLE}",
+        "ideal, with cameras", f"{FILES}/camera-duels.toml"
     ),
     "duels-degraded": Campaign(
         "degraded cameras",
-        "duels --set senses=cameras --set cameras.drop_frames=0.3 --set "
-        "cameras.added_latency=0.1 --set scene.things=clutter --set "
-        f"seed=0:1 {CIRCLE}",
+        f"{FILES}/camera-duels.toml --set cameras.drop_frames=0.3 --set "
+        "cameras.added_latency=0.1 --set scene.things=clutter --set seed=0:1",
     ),
     "fast-walks-ideal": Campaign(
         "ideal", f"{FILES}/fast-walks.toml --set seed=1:2"
