@@ -203,7 +203,7 @@ def test_command_prints_rows_and_writes_the_page(
 ) -> None:
     result = reproduce("--json")
     assert result.exit_code == 0, result.stderr
-    rows = json.loads(result.stdout)
+    rows = json.loads(result.stdout)["rows"]
     assert len(rows) == len(load_claims()["path"])
     for row in rows:
         assert row["measured"] is not None

@@ -82,7 +82,7 @@ def reproduce(
         return
     rows = claim_rows(run)
     if as_json:
-        print_json(rows)
+        print_json({"rows": rows})
     else:
         for row in rows:
             echo(f"  {row['verdict']:<6} {row['section']:<13} {row['claim']}")
