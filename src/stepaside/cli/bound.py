@@ -191,6 +191,13 @@ def bound(
         print_json(plain(result))
         return
     shown = {k: v for k, v in result.items() if k not in ("game", "grid")}
-    print_table(result_rows(plain(shown)))
+    rows = result_rows(plain(shown))
+    print_table([(_label(name), text) for name, text in rows])
     if result.get("avoidable") is False:
         echo("  no start is safe: the person can always make contact")
+
+
+def _label(name: str) -> str:
+    """Return the label of an error: of most, or of the greatest one."""
+    name = name.replace("error 95", "error, 95 % below")
+    return name.replace("error worst", "error, greatest")
