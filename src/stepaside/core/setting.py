@@ -427,10 +427,10 @@ def check_settings(
     Names in messages have the prefix, like ``person.``.
     """
     reader, kind = EntryReader(), cast(Any, type(settings))
-    for name, (hint, described, _) in _entries(kind).items():
-        if described is _PLAIN:
-            continue
+    for name, (hint, described, default) in _entries(kind).items():
         value = getattr(settings, name)
+        if described is _PLAIN or value is default:  # which is valid
+            continue
         read = reader.read(value, hint, f"{prefix}{name}", described)
         if read is not value and not reader.problems:
             object.__setattr__(settings, name, read)

@@ -142,7 +142,7 @@ class FloorWalk(FloorMotion):
     It follows the arc of its last decision for a step, or a part of it.
 
     Attributes:
-        decision_times: Processor time of each decision, in [s].
+        decision_times: Of the processor, in [s], noted if it is a list.
     """
 
     def __init__(
@@ -156,25 +156,20 @@ class FloorWalk(FloorMotion):
         walls: ObstacleSet = NO_OBSTACLES,
         radius: float = 0.0,
     ) -> None:
-        """Begin standing.
+        """Begin standing; it decides so many times, ``parts``, in a step.
 
-        Args:
-            agent: Its strategy.
-            pose: Initial pose.
-            parts: Decisions per step.
-            delay: Time from the decision to start to the motion, in [s].
-            alert: Time between decisions while it stands, in [s]; by default
-                that of walking.
-            walls: Obstacles that stop it.
-            radius: Of its body, in [m].
+        A start is delayed, in [s]. ``alert`` is the time between decisions
+        while it stands, in [s], by default as it walks. Walls stop a body of
+        a radius, in [m].
         """
         self.agent, self.pose = agent, pose
         self.is_walking = False
-        self.decision_times: list[float] = []
+        self.decision_times: list[float] | None = None
         self._parts, self._delay = parts, delay
         self._alert = alert or agent.limits.step_duration / parts
         self._walls, self.radius = walls, radius
         self._known: tuple[float, Knowledge | None] = (-inf, None)
+        self._share = agent.limits.share  # of a turn in a step
         self._since = 0.0  # time of the pose, or of the begin of its motion
         self._left = (0.0, 0.0)  # way [m] and turn [rad] until the decision
 
@@ -187,10 +182,12 @@ class FloorWalk(FloorMotion):
 
     def decide(self, now: float, seen: Seen) -> None:
         """Decide, and follow the intent until the next decision."""
-        begun = thread_time()
+        noted = self.decision_times
+        begun = 0.0 if noted is None else thread_time()
         known = self.look(now, seen)
         intent = None if known is None else self.agent.evaluate(known)
-        self.decision_times.append(thread_time() - begun)
+        if noted is not None:
+            noted.append(thread_time() - begun)
         limits, parts = self.agent.limits, self._parts
         duration, self._since = limits.step_duration / parts, now
         if intent is None or not intent.walks:
@@ -199,7 +196,7 @@ class FloorWalk(FloorMotion):
         if not self.is_walking:
             self._since += self._delay
         self.is_walking, self.due = True, self._since + duration
-        strategy, share = self.agent.strategy, limits.share
+        strategy, share = self.agent.strategy, self._share
         turn, most = share * intent.heading, pi * share
         if strategy.saturated:  # rate of (6), up to the bearing
             turn, most = intent.heading, share
@@ -364,9 +361,11 @@ class FloorWorld:
     def touching(self) -> tuple[str, ...]:
         """Return the names of the players at an obstacle."""
         return tuple(
-            name
-            for name, own in self._bodies.items()
-            if touches(self._obstacles.packed, *own.pose[:2], own.radius)
+            [
+                name
+                for name, own in self._bodies.items()
+                if touches(self._obstacles.packed, *own.pose[:2], own.radius)
+            ]
         )
 
     def close(self) -> None:

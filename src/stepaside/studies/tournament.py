@@ -1,6 +1,6 @@
 """Games of a tournament: an evader against a pursuer, without physics."""
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from math import inf, isfinite, pi
 from types import MappingProxyType
@@ -131,17 +131,25 @@ def record_steps(
 
     Strategies as objects replace those of the settings, by player.
     """
-    world = floor_of(game, strategies)
-    return track_of(*play_floor(world, rules_of(game)), game.room)
+    world, times = floor_of(game, strategies), list[float]()
+    evades = world.motions["evader"]
+    assert isinstance(evades, FloorWalk)
+    evades.decision_times = times
+    return track_of(*play_floor(world, rules_of(game)), game.room, times)
 
 
 def track_of(
-    game: GameInPlay, recorder: FloorRecorder, room: Room | None = None
+    game: GameInPlay,
+    recorder: FloorRecorder,
+    room: Room | None = None,
+    times: Sequence[float] = (),
 ) -> StrategyTrack:
-    """Return the record of a finished game of pursuer and evader."""
+    """Return the record of a finished game of pursuer and evader.
+
+    Times of decisions of the evader are in [s].
+    """
     assert game.outcome is not None
-    poses, evades = recorder.poses(), recorder.world.motions["evader"]
-    times = evades.decision_times if isinstance(evades, FloorWalk) else []
+    poses = recorder.poses()
     return StrategyTrack(
         game.outcome,
         recorder.times,
