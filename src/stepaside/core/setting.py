@@ -241,7 +241,7 @@ class EntryReader:
             return self._note_choice(path, names, value)
         if isinstance(value, Mapping) and hasattr(hint, "from_entries"):
             return self._read_by(hint.from_entries, value, path)
-        if isinstance(value, str | float) and hasattr(hint, "from_text"):
+        if isinstance(value, str | int | float) and hasattr(hint, "from_text"):
             return self._read_by(hint.from_text, str(value), path)
         if is_dataclass(hint) or hasattr(hint, "_fields"):
             return self.read_table(value, hint, path, base)
