@@ -12,7 +12,6 @@ from stepaside.cli.main import main
 from stepaside.core import progress
 from stepaside.games import game
 
-from conftest import BLANK  # isort: skip
 from drawn_figure import content_of  # isort: skip
 from flows.calls import EXAMPLES  # isort: skip
 from stored_values import compare_stored, words_of  # isort: skip
@@ -83,7 +82,7 @@ def test_a_command_prints_and_draws_what_is_stored(
 
     def save(figure: Figure, file: BinaryIO, **_: Any) -> None:
         figures.append(figure)
-        file.write(BLANK)
+        file.write(b"figure")
 
     monkeypatch.setattr(Figure, "savefig", save)
     command = words.replace("EXAMPLES", str(EXAMPLES))

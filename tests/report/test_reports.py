@@ -4,25 +4,38 @@ Games are those of ``tests/data/games.toml``, values in ``reports.json``.
 """
 
 from collections.abc import Iterator
+from functools import partial
 from pathlib import Path
 from typing import Any
 
+import mujoco
 import numpy as np
 import pytest
 from matplotlib.figure import Figure
 
 import drawn_figure
 from stepaside.cli.tables import print_run
+from stepaside.locomotion.policy.velocity_response import (
+    AxisResponse,
+    VelocityResponse,
+)
 from stepaside.report import replay_page
 from stepaside.report.export import bag_recording
 from stepaside.report.export.bag_messages import MessageFactory
 from stepaside.report.export.recording import Recording, recording_of
 from stepaside.report.export.signal_tables import tables_of
+from stepaside.report.figure_style import colours_of
+from stepaside.report.film import add_layers
 from stepaside.report.film_camera import FilmCamera
-from stepaside.report.film_captions import describe_state
+from stepaside.report.film_captions import caption, describe_state
 from stepaside.report.film_settings import VIEWS
 from stepaside.report.overlays import overlays_of
+from stepaside.report.robot_figure import draw_robot
 from stepaside.report.run_figure import draw_run, draw_runs
+from stepaside.report.scene import RunScene
+from stepaside.report.study_figures import draw_response
+from stepaside.robots.description import load_robot
+from stepaside.strategies.velocity_set import BodyVelocity
 from stored_games import run_of
 from stored_values import compare_stored, content_of, summed, words_of
 
@@ -111,3 +124,52 @@ def test_signals_are_those_that_are_stored(name: str) -> None:
         found += [topic, float(len(messages))]
         found += summed([messages[0], messages[len(messages) // 2]])
     compare_stored("reports.json", f"signals of {name}", found, 1e-4)
+
+
+def response() -> VelocityResponse:
+    """Legs that deliver less than commanded, and drift aside."""
+    axes = [
+        AxisResponse(
+            commands=(-0.4, 0.0, 0.5, 0.9),
+            delivered=tuple(
+                BodyVelocity(*np.roll([c * scale, 0.1 * c, 0.05], number))
+                for c in (-0.4, 0.0, 0.5, 0.9)
+            ),
+            lag=0.1 * number,
+        )
+        for number, scale in enumerate((0.8, 0.6, 0.9))
+    ]
+    return VelocityResponse(*axes)
+
+
+@pytest.mark.parametrize("name", ["robot", "response"])
+def test_other_figures_are_those_that_are_stored(
+    name: str, figures: list[Figure], tmp_path: Path
+) -> None:
+    file = tmp_path / "figure.png"
+    if name == "robot":
+        draw_robot(load_robot("nao"), file)
+    else:
+        draw_response(response(), file)
+    compare_stored("reports.json", name, shown_by(figures))
+
+
+def test_a_picture_of_a_film_is_captioned_as_stored() -> None:
+    """Lines are bars of the scene; the image is that of its text."""
+    run = run_of("walk-pushed")
+    scene = mujoco.MjvScene(RunScene(run).model, 1000)
+    index = run.index_at(1.8)
+    places = {n: track.torso[index] for n, track in run.tracks.items()}
+    add_layers(scene, overlays_of(run, 9), 1.8, places, colours_of(run))
+    found = [float(scene.ngeom)]
+    for bar in scene.geoms[: scene.ngeom]:
+        found += [*summed([bar.pos, bar.mat, bar.size, bar.rgba])][1:]
+    image = np.full((240, 426, 3), 90, dtype=np.uint8)
+    labels = [("walker", np.array([0.0, 0.0, 0.5]), "#1f5fbf")]
+    view = FilmCamera(run, "follow", 40.0, 1.5).view(index)
+    project = partial(view.project, fovy=40.0)
+    shown = caption(image, run, index, labels, project, 0.5).astype(float)
+    for axis in (0, 1):
+        for part in np.array_split(shown, 8, axis=axis):
+            found += part.mean(axis=(0, 1)).tolist()
+    compare_stored("reports.json", "film", found)

@@ -9,7 +9,8 @@ import pytest
 from floor_duels import STEP, play_steps
 from sampled_unicycles import play_sampled
 from stepaside.core.poses import wrap_angle
-from stepaside.games import Outcome
+from stepaside.games import Outcome, duel, run_game
+from stepaside.games.game_settings import StartSettings
 from stepaside.strategies import (
     Evasion,
     Pursuit,
@@ -90,14 +91,28 @@ def test_one_that_stands_is_captured_and_the_game_ends() -> None:
     assert play(capture=2.6).times.tolist() == [0.0]
 
 
-def test_a_mirrored_game_is_the_mirror_image() -> None:
-    games = [
-        play(start=RelativeStart(2.5, sign * 0.3, sign * -0.2))
-        for sign in (1.0, -1.0)
-    ]
-    mirror = np.array([1.0, -1.0, -1.0])
+MIRRORED = [
+    ("pursuit", "evasion"),
+    ("lead", "matador"),
+    ("sharp", "evasion"),
+    ("stop-and-wait", "wary"),
+    ("herding", "look-ahead"),
+    ("pursuit", "step-aside"),
+]
+
+
+@pytest.mark.parametrize(("pursuer", "evader"), MIRRORED)
+@pytest.mark.parametrize("level", ["unicycle", "steps"])
+def test_a_mirrored_game_is_the_mirror_image(
+    pursuer: str, evader: str, level: str
+) -> None:
+    games = []
+    for sign in (1.0, -1.0):
+        start = StartSettings(0.9, 0.3 * sign, -0.2 * sign)
+        settings = {"pursuer": pursuer, "evader": evader, "level": level}
+        games.append(run_game(duel(duration=8.0, start=start, **settings)))
     for name in ("pursuer", "evader"):
-        left, right = (getattr(game, name) for game in games)
-        turned = left * mirror - right
+        left, right = (game.tracks[name].torso for game in games)
+        turned = left * (1.0, -1.0, -1.0) - right
         turned[:, 2] = np.remainder(turned[:, 2] + pi, 2.0 * pi) - pi
-        np.testing.assert_allclose(turned, 0.0, atol=1e-9)
+        np.testing.assert_allclose(turned, 0.0, atol=1e-6)
