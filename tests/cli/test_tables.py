@@ -19,6 +19,10 @@ from stored_values import compare_stored, words_of  # isort: skip
 pytestmark = pytest.mark.usefixtures("blank_figures", "inline_workers")
 
 DUEL = "duel --duration 1"
+FAST = (
+    "--set pursuer_speed=2 --set evader_speed=1 --set pursuer_gain=1 "
+    "--set evader_gain=4"
+)
 TABLES = [
     f"{DUEL} --set level=steps --set pursuer.strategy=lead --distance 0.7",
     "run walk --duration 4 --push 0.2@1.5:90deg",
@@ -27,6 +31,15 @@ TABLES = [
     "run unicycles --speed 0.1 --gain 0.2 --figure FIGURE",
     "theory circle --speed 0.1 --gain 0.2 --starts 2 --figure FIGURE",
     "theory circle --set evader_gain=0.3 --set sample_time=0.1 --starts 1",
+    "theory circle --angle 0",
+    "theory circle --speed 1 --gain 0.5 --set sample_time=0.4 --set delay=0.2",
+    "theory circle --set delay=5 --starts 1",
+    f"theory circle {FAST} --set side_rule=latched --starts 1",
+    "run unicycles --speed 1 --gain 1 --distance 1.57 --aim 0.31 "
+    "--bearing=-1.05",
+    "run unicycles --speed 1 --gain 1 --distance 1.57 --aim 0.31 "
+    "--bearing 2.5 --law saturated --angle 0.3",
+    f"theory map {FAST} --grid 3 --set distances=1 --figure FIGURE",
     "theory map --grid 3 --set distances=2 --set duration=5 --figure FIGURE",
     "theory bound --grid 16 --set horizon=0.1 --figure FIGURE",
     "theory bound --grid 16 --set horizon=0.1 --against any",

@@ -114,6 +114,7 @@ def test_late_sightings_leave_the_circle_as_it_is() -> None:
     np.testing.assert_allclose(off(late=0.3), 0.0, atol=1e-3)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     "gait",
     [

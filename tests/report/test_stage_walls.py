@@ -1,8 +1,5 @@
 """Walls hide no robot from outside, and labels are above their players."""
 
-from types import SimpleNamespace
-from typing import Any
-
 import mujoco
 import numpy as np
 import pytest
@@ -11,21 +8,6 @@ from stepaside.arena import Door, Room
 from stepaside.core.poses import Array
 from stepaside.report.visual_geoms import VisualGeom, visual_geoms_of
 from stepaside.sim.room_furnishing import add_solids
-
-
-class Scene:
-    """Scene of a page that keeps what is added, by name."""
-
-    def __init__(self) -> None:
-        self.items: dict[str, Any] = {}
-
-    def add(self, name: str, *_: Any, **values: Any) -> Any:
-        """Add something."""
-        self.items[name] = SimpleNamespace(**values)
-        return self.items[name]
-
-    add_frame = add_mesh_simple = add_label = add
-
 
 SHAPES = [(3.0, 3.0), (2.0, 8.0), (9.0, 1.5)]
 DOORS = (Door("east", 0.2, 0.6), Door("south", -0.3, 0.7))

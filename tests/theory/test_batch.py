@@ -127,7 +127,13 @@ def test_settled_time_is_the_last_arrival_at_the_circle() -> None:
     assert np.abs((after[:3] - target) / scale).max() < 0.02
 
 
-@pytest.mark.parametrize("game", GAMES)
+@pytest.mark.parametrize(
+    "game",
+    [
+        *GAMES[:2],
+        *(pytest.param(g, marks=pytest.mark.slow) for g in GAMES[2:]),
+    ],
+)
 def test_the_default_step_has_the_outcomes_of_a_tenth(
     game: Unicycles,
 ) -> None:

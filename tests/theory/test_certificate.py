@@ -32,7 +32,13 @@ def certified(game: Unicycles, starts: np.ndarray) -> np.ndarray:
     return np.array(found, dtype=np.float64)
 
 
-@pytest.mark.parametrize("game", [ASIDE, LATCHED, WIDE])
+@pytest.mark.parametrize(
+    "game",
+    [
+        WIDE,
+        *(pytest.param(g, marks=pytest.mark.slow) for g in (ASIDE, LATCHED)),
+    ],
+)
 def test_no_game_comes_closer_than_certified(game: Unicycles) -> None:
     starts = random_starts(game, 350, 2.0)
     bound = certified(game, starts)

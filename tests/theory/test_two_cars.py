@@ -30,6 +30,7 @@ from stepaside.theory.value.two_cars import (
 Array = NDArray[np.float64]
 PURSUIT = CarGame(1.0, 1.0, pursuer_gain=1.0)
 CARS = CarGame(1.0, 1.0, pursuer_turn=1.0)
+SLOW = pytest.mark.slow
 
 
 @cache
@@ -42,7 +43,9 @@ def cars(cells: int = 30) -> ValueTable:
     return solve_cars(CARS, 6.0, cells)
 
 
-@pytest.mark.parametrize("capture", [0.5, 1.0, 2.0])
+@pytest.mark.parametrize(
+    "capture", [0.5, *(pytest.param(x, marks=SLOW) for x in (1.0, 2.0))]
+)
 def test_the_barrier_is_that_of_the_closed_form(capture: float) -> None:
     """Every piece, both halves: a few hundredths of a cell of 0.12 radii.
 
