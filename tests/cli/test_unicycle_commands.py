@@ -11,8 +11,6 @@ from stepaside.cli.main import main
 from stepaside.cli.run import unicycles
 from stepaside.cli.theory import circle
 from stepaside.cli.theory import map as map_command
-from stepaside.theory.unicycle import start_maps
-from stepaside.theory.unicycle.start_maps import random_starts
 
 COMPARED = (
     "radius_pursuer_m",
@@ -76,15 +74,3 @@ def test_figure_that_cannot_be_written_is_refused_first(
         result = run(unicycles, f"--figure {tmp_path / name}")
         assert result.exit_code == 2 and "--figure" in result.stderr
     assert not list(tmp_path.iterdir())
-
-
-def test_starts_are_drawn_by_the_seed(monkeypatch: pytest.MonkeyPatch) -> None:
-    seeds: list[int] = []
-
-    def noted(game: Any, count: int, *, seed: int) -> Any:
-        seeds.append(seed)
-        return random_starts(game, count, seed=seed)
-
-    monkeypatch.setattr(start_maps, "random_starts", noted)
-    loads(circle, "--speed 0.1 --gain 0.2 --starts 2 --set seed=7")
-    assert seeds == [7]

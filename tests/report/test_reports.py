@@ -139,7 +139,8 @@ def response() -> VelocityResponse:
         )
         for number, scale in enumerate((0.8, 0.6, 0.9))
     ]
-    return VelocityResponse(*axes)
+    forward, lateral, turn = axes
+    return VelocityResponse(forward, lateral, turn)
 
 
 @pytest.mark.parametrize("name", ["robot", "response"])
@@ -161,7 +162,7 @@ def test_a_picture_of_a_film_is_captioned_as_stored() -> None:
     index = run.index_at(1.8)
     places = {n: track.torso[index] for n, track in run.tracks.items()}
     add_layers(scene, overlays_of(run, 9), 1.8, places, colours_of(run))
-    found = [float(scene.ngeom)]
+    found: list[str | float] = [float(scene.ngeom)]
     for bar in scene.geoms[: scene.ngeom]:
         found += [*summed([bar.pos, bar.mat, bar.size, bar.rgba])][1:]
     image = np.full((240, 426, 3), 90, dtype=np.uint8)
