@@ -16,7 +16,8 @@ def content_of(figure: Figure) -> Iterator[Any]:
         yield str(axes.xaxis_inverted() or axes.yaxis_inverted())
         for line in axes.lines:
             yield from ("line", _label(line), _colour(line.get_color()))
-            yield str(line.get_linestyle())
+            yield f"{line.get_linestyle()} {line.get_marker()}"
+            yield float(line.get_linewidth())
             yield from _mean(line.get_xydata())
         for each in axes.collections:
             yield from ("collection", _label(each))
@@ -39,9 +40,12 @@ def content_of(figure: Figure) -> Iterator[Any]:
             yield from (columns @ values.mean(axis=0)).ravel().tolist()
         for text in axes.texts:
             yield from (text.get_text(), *map(float, text.get_position()))
+            yield f"{_colour(text.get_color())} {text.get_ha()}"
         legend = axes.get_legend()
         if legend is not None:
             yield from (each.get_text() for each in legend.get_texts())
+            frame = legend.get_frame()
+            yield f"{frame.get_visible()} {_colour(frame.get_facecolor())}"
 
 
 def _label(artist: Any) -> str:

@@ -36,6 +36,12 @@ def test_an_extra_that_lacks_a_module_is_told_with_the_command(
     assert done.exit_code == 0
     assert "no daqp: pip install 'stepaside[mpc]'" in done.output
     assert done.output.count("pip install") == 1
+    heads = [x for x in done.output.splitlines() if x[:1] not in ("", " ")]
+    assert [x.split()[0] for x in heads] == [
+        "stepaside",
+        "extras",
+        "graphics:",
+    ]
 
 
 def test_a_missing_library_is_an_error(

@@ -50,6 +50,9 @@ TABLES = [
     "survived --value closest_m --workers 1 --figure FIGURE",
     "study EXAMPLES/teams.toml --set pursuers=pursuit,pincer --set seed=0:3 "
     "--set duration=9 --workers 1 --figure FIGURE",
+    "study duels --set seed=1:3 --set level=steps --set duration=40 --set "
+    "evader.evasion.angle=1.2 --value over_certificate_m --value on_circle "
+    "--value triggered_at_distance_m --by seed --workers 1",
     "study people --set speed=0.6 --set bearing=0 --set seed=1 --set "
     "person=scared --workers 1",
     "run EXAMPLES/two-pursuers.toml --set level=steps --set duration=9",
