@@ -1,25 +1,13 @@
 """What lies over a scene: laws of its lines."""
 
 import numpy as np
-import pytest
 
 from stepaside.games.game_settings import StartSettings, duel
 from stepaside.games.recorded_game import run_game
-from stepaside.games.run import Run
 from stepaside.locomotion.control_settings import ControlSettings
-from stepaside.report.overlays import (
-    footsteps_in,
-)
+from stepaside.report.overlays import footsteps_in
 from stepaside.report.scene import RunScene
 from stepaside.sim.body_settings import BODIES
-
-PUSHES = np.array([[2.0, 0.1, 0.5, -0.5, 0.3, 0.4]])
-
-
-@pytest.fixture(scope="module")
-def run() -> Run:
-    start = StartSettings(0.7, 0.0, 0.3)
-    return run_game(duel(seed=3, duration=3.0, start=start))
 
 
 def test_footsteps_of_a_run_are_where_the_soles_landed() -> None:
