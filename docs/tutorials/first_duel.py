@@ -5,8 +5,8 @@
 # evader; the evader (blue) walks backwards across the line of sight. You play
 # one game, read its result, look at its figure, and change the start.
 #
-# You need an installed stepaside (`pip install .` in the repository). From a
-# shell, the same game is `stepaside duel --seed 7`.
+# You need an installed stepaside (`pip install . jupyter` in the repository).
+# From a shell, the same game is `stepaside duel --seed 7`.
 #
 # ## Play
 #
