@@ -16,7 +16,10 @@ class Services:
     """All services; while silent, it does not say where the robot is."""
 
     def __init__(self) -> None:
-        self.silent = self.frozen = self.watched = False
+        self.silent = self.frozen = False
+        self.watched: tuple[Any, ...] = ()
+        self.head: tuple[Any, ...] = ()
+        self.stands = True
         self.velocity = REST
         self.moves: list[tuple[float, float, float]] = []
         self.calls: list[str] = []
@@ -45,7 +48,14 @@ class Services:
 
     def goToPosture(self, name: str, speed: float) -> bool:
         """Take a posture, at once."""
-        return True
+        assert name == "StandInit" and 0.39 < speed < 0.41
+        return self.stands
+
+    def setAngles(
+        self, names: list[str], angles: list[float], speed: float
+    ) -> None:
+        """Turn the head."""
+        self.head = names, [round(a, 6) for a in angles], round(speed, 6)
 
     def getPosition(self, name: str, frame: int, sensors: bool) -> list[float]:
         """Return place [m] and roll, pitch and yaw [rad] of the camera."""
@@ -67,9 +77,9 @@ class Services:
         """Return values of sensors; None for unknown names."""
         return [self.values.get(name) for name in names]
 
-    def subscribeCamera(self, *_: Any) -> str:
+    def subscribeCamera(self, *how: Any) -> str:
         """Return a handle."""
-        self.watched = True
+        self.watched = how
         return "one"
 
     def releaseImage(self, handle: str) -> bool:
@@ -85,7 +95,7 @@ class Services:
 
     def unsubscribe(self, handle: str) -> None:
         """Take a handle back."""
-        self.watched = False
+        self.watched = ()
 
 
 def serve() -> tuple[Any, Services]:

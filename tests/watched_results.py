@@ -20,12 +20,14 @@ from contextlib import contextmanager
 from dataclasses import fields, is_dataclass
 from enum import Enum
 from functools import cache, wraps
+from hashlib import sha256
 from pathlib import Path
 from types import FunctionType, ModuleType
 from typing import Any
 
 import numpy as np
 import pytest
+from click.testing import CliRunner, Result
 
 from stepaside.core.errors import StepAsideError
 
@@ -35,6 +37,7 @@ WHOLE = 16  # numbers that are stored as they are
 PARTS = 12  # of more numbers
 LONGEST = 400  # text that is stored as it is
 PLACES = re.compile(r"(?:[\w.~-]*/)+|\btmp\w{8}\b")  # folders of files
+NUMBERS = re.compile(r"-?\d+\.\d+(?:e-?\d+)?")
 # Times that a computer takes.
 UNSTORED = "MpcResult.time", "StepStarted.planning_time"
 # Folders whose tests are compared, and files in them that depend on time.
@@ -68,7 +71,7 @@ class Results:
         numbers = self._numbers.setdefault(name, [])
         numbers += [leaf for leaf in leaves if isinstance(leaf, float)]
         words = [leaf for leaf in leaves if isinstance(leaf, str)]
-        text = PLACES.sub("", ", ".join(words))[:LONGEST]
+        text = _abridged(PLACES.sub("", ", ".join(words)))
         texts = self._texts.setdefault(name, [])
         if texts[-2:-1] == [text]:
             texts[-1] += 1
@@ -81,6 +84,13 @@ class Results:
             name: [_moments(numbers), self._texts[name]]
             for name, numbers in self._numbers.items()
         }
+
+
+def _abridged(text: str) -> str:
+    """Return a text; the end of a long one as a digest, numbers rounded."""
+    rest = NUMBERS.sub(lambda found: f"{float(found[0]):.3g}", text[LONGEST:])
+    end = f" {sha256(rest.encode()).hexdigest()[:8]}" if rest else ""
+    return text[:LONGEST] + end
 
 
 def _leaves(value: Any, depth: int = 0) -> Iterator[str | float]:
@@ -96,6 +106,9 @@ def _leaves(value: Any, depth: int = 0) -> Iterator[str | float]:
     elif isinstance(value, np.ndarray):
         if value.dtype.kind in "fiub":
             yield from np.ravel(value).astype(np.float64).tolist()
+    elif isinstance(value, Result):  # of a command
+        yield float(value.exit_code)
+        yield value.output
     elif isinstance(value, BaseException):
         yield type(value).__name__
         if isinstance(value, StepAsideError):
@@ -165,7 +178,7 @@ def _of_package(value: Any) -> bool:
 @cache
 def _changes(folder: str) -> list[tuple[Any, str, Any]]:
     """Return what is replaced for the tests of a folder: owner, name, new."""
-    found: list[tuple[Any, str, Any]] = []
+    found = [(CliRunner, "invoke", _noting(CliRunner.invoke, "invoke"))]
     for module in list(sys.modules.values()):
         file = str(getattr(module, "__file__", ""))
         if file.startswith(str(TESTS)) and file != __file__:
@@ -230,9 +243,9 @@ def noted(item: pytest.Item) -> Iterator[None]:
 
 def _compare(found: dict[str, Any], folder: str, name: str) -> None:
     file = STORED / f"{folder}.json"
-    if "STORE" in os.environ and found:
+    if "STORE" in os.environ:
         known = json.loads(file.read_text()) if file.exists() else {}
-        known[name] = found
+        known |= {name: found} if found else {}
         rows = [f"{json.dumps(k)}: {json.dumps(known[k])}" for k in known]
         file.write_text("{\n" + ",\n".join(sorted(rows)) + "\n}\n")
         return

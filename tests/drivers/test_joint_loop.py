@@ -1,6 +1,7 @@
 """Test the joint loop: states, limits, refusals and its log."""
 
 from math import degrees, inf, nan
+from types import SimpleNamespace
 from typing import Any
 
 import numpy as np
@@ -17,7 +18,12 @@ from joint_fakes import (
     status,
     walking,
 )
-from stepaside.core.errors import ConfigurationError, ReachError, StrategyError
+from stepaside.core.errors import (
+    ConfigurationError,
+    ModelError,
+    ReachError,
+    StrategyError,
+)
 from stepaside.drivers.joint_motion import (
     HOT,
     MIN_STIFFNESS,
@@ -27,6 +33,7 @@ from stepaside.drivers.joint_motion import (
 )
 from stepaside.drivers.method_thread import SessionLost
 from stepaside.drivers.safety import SafetyState
+from stepaside.drivers.scheme_factory import policy_gains
 from stepaside.locomotion.locomotion import Phase
 from stepaside.perception.images import LidarScan
 from stepaside.perception.measurement import Sighting
@@ -398,6 +405,20 @@ def test_a_robot_rests_in_its_crouch_before_it_goes_limp() -> None:
     assert game.schemes[1].decisions.strategy is STRATEGY
 
 
+def test_learned_legs_settle_before_a_robot_rests() -> None:
+    """A second after they were told to stand, where steps end at once."""
+    game = walking()
+    game.schemes[0].maneuvers = None
+    game.press()
+    game.play(1)
+    ticks = 1
+    while game.state is SafetyState.STOPPING:
+        game.play(1)
+        ticks += 1
+    assert ticks * TICK == pytest.approx(1.0, abs=3 * TICK)
+    assert game.reason == "stopped: chest button"
+
+
 def test_a_robot_that_was_lifted_stands_and_walks_anew_by_the_button() -> None:
     game = walking()
     game.session.changes["foot_forces"] = np.zeros(8)
@@ -472,6 +493,18 @@ class Described(FakeRobot):
 
     joints = load_tree(load_robot("nao")).motors[::-1]  # type: ignore[assignment]
     gains = dict.fromkeys(joints, (50.0, 1.0))  # noqa: RUF012
+
+
+def test_gains_of_a_policy_replace_those_of_its_joints() -> None:
+    policy: Any = SimpleNamespace(
+        joints=("neck", "hip"), stiffness=(7.0, 8.0), damping=(0.7, 0.8)
+    )
+    stiffness, damping = policy_gains(policy, MOTORS)
+    assert stiffness.tolist() == [8.0, 80.0, 7.0]
+    assert damping.tolist() == [0.8, 2.0, 0.7]
+    assert MOTORS.stiffness[0] == 100.0
+    with pytest.raises(ModelError, match="'hip' has no motor"):
+        policy_gains(policy, MOTORS._replace(names=("neck", "knee", "arm")))
 
 
 def test_motors_have_the_ranges_of_the_model_and_gains() -> None:

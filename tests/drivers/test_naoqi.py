@@ -1,11 +1,11 @@
 """Drive a robot by velocities over NAOqi, against services of ``qi``."""
 
-import os
-import signal
+import re
 import subprocess
 import sys
 from collections.abc import Iterator
 from pathlib import Path
+from time import monotonic
 
 import pytest
 
@@ -15,6 +15,12 @@ import qi  # noqa: E402
 from flows.running import Running, until  # noqa: E402
 from naoqi_peer import BUTTON, FALLEN, Services, serve  # noqa: E402
 from stepaside import Outcome, load_run  # noqa: E402
+from stepaside.core.errors import ConfigurationError  # noqa: E402
+from stepaside.drivers import naoqi  # noqa: E402
+from stepaside.drivers.method_thread import SessionLost  # noqa: E402
+from stepaside.drivers.robot_loader import RobotRequest  # noqa: E402
+from stepaside.perception.camera_model import CameraModel  # noqa: E402
+from stepaside.perception.measurement import RobotState  # noqa: E402
 
 pytestmark = pytest.mark.xdist_group("naoqi")
 
@@ -92,43 +98,6 @@ def test_a_pursuer_turns_to_the_opponent_and_rests_at_the_end(
     assert run.outcome is Outcome.COMPLETED
 
 
-@pytest.mark.slow
-def test_a_robot_that_sees_nothing_is_woken_up_and_stands(
-    robot: Services,
-) -> None:
-    player = Running(play(f"naoqi:{robot.url}"))
-    player.until_said("opponent not detected")
-    assert player.interrupt() == 0
-    assert (robot.calls[0], robot.calls[-1]) == ("wakeUp", "rest")
-    assert not any(any(move) for move in robot.moves)
-
-
-@pytest.mark.slow
-def test_a_robot_whose_controller_is_killed_is_stopped(
-    robot: Services, seeing: str
-) -> None:
-    player = play(seeing)
-    until(lambda: robot.moves)
-    os.kill(player.pid, signal.SIGKILL)
-    player.wait()
-    until(lambda: not any(robot.velocity))
-    assert robot.calls[-1] == "stopMove"
-
-
-@pytest.mark.slow
-@pytest.mark.parametrize(("name", "value"), [(FALLEN, 1), (BUTTON, 1.0)])
-def test_a_fall_and_the_chest_button_stop_the_robot(
-    robot: Services, seeing: str, name: str, value: float
-) -> None:
-    player = play(seeing)
-    until(lambda: robot.moves)
-    robot.values[name] = value
-    until(lambda: robot.velocity == (0.0, 0.0, 0.0))
-    player.send_signal(signal.SIGINT)
-    ended(player)
-    assert robot.calls[-1] == "rest"
-
-
 def test_a_silent_robot_is_stopped_and_named(
     robot: Services, seeing: str
 ) -> None:
@@ -143,37 +112,109 @@ def test_a_silent_robot_is_stopped_and_named(
     assert player.interrupt() == 0
 
 
-LOOK = """
-import sys, time
-from stepaside.drivers.naoqi import make_robot
-from stepaside.drivers.robot_loader import RobotRequest
-from stepaside.perception.camera_model import CameraModel
-camera = CameraModel(4, 2, 3.0, 3.0)
-robot = make_robot(RobotRequest(sys.argv[1], camera=camera, latency=0.05))()
-robot.open()
-image = robot.image()
-assert 0.05 <= time.monotonic() - image.time < 2.0
-print(image.pixels.tolist(), tuple(image.mount), image.focal_x)
-print(robot.image() is None)
-robot.close()
-"""
+@pytest.fixture
+def driver(
+    robot: Services, monkeypatch: pytest.MonkeyPatch
+) -> Iterator[naoqi.NaoqiRobot]:
+    """Our side, in the process of the services and their application."""
+    monkeypatch.setattr(naoqi, "_application", lambda: None)
+    camera = CameraModel(4, 2, 3.0, 3.0)
+    request = RobotRequest(robot.url, camera=camera, latency=0.05)
+    made = naoqi.make_robot(request)()
+    made.open()
+    yield made
+    made.close()
+
+
+def reported(driver: naoqi.NaoqiRobot, hindrance: str) -> RobotState:
+    """Wait for a report with a hindrance."""
+    found: RobotState = until(
+        lambda: (r := driver.listen()) and r.hindrance == hindrance and r
+    )
+    return found
+
+
+def test_a_robot_is_woken_up_commanded_and_rests(
+    robot: Services, driver: naoqi.NaoqiRobot
+) -> None:
+    driver.prepare()
+    first = reported(driver, "")
+    assert robot.calls == ["wakeUp"] and first.pose == (0.0, 0.0, 0.0)
+    for _ in range(3):  # sent again only after a while
+        driver.command(0.1, -0.05, 0.2)
+        driver._moving.answered(1.0)  # type: ignore[union-attr]
+    assert robot.moves == [(0.1, -0.05, 0.2)]
+
+    def repeated() -> bool:
+        driver.command(0.1, -0.05, 0.2)
+        return len(robot.moves) > 1
+
+    until(repeated)
+    later = until(lambda: (r := reported(driver, "")).pose.x > 0.02 and r)
+    assert later.pose.y < -0.005 and later.time > first.time
+    driver.look(0.3, -0.1)
+    assert robot.head == (["HeadYaw", "HeadPitch"], [0.3, -0.1], 0.3)
+    driver.stop()
+    driver.stop()  # once is enough
+    assert robot.calls == ["wakeUp", "stopMove"]
+    driver.close()
+    assert robot.calls[-1] == "rest"
+    driver.open()
+
+
+def test_the_button_pauses_and_a_fallen_robot_waits_for_it(
+    robot: Services, driver: naoqi.NaoqiRobot
+) -> None:
+    driver.prepare()
+    reported(driver, "")
+    for hindrance in ("chest button", ""):
+        robot.values[BUTTON] = 1.0
+        reported(driver, "chest button")
+        robot.values[BUTTON] = 0.0
+        reported(driver, hindrance)
+    robot.values[FALLEN] = 1
+    reported(driver, "has fallen")
+    robot.values[FALLEN] = 0
+    reported(driver, "has fallen: the chest button makes it stand up")
+    robot.values[BUTTON] = 1.0
+    reported(driver, "has fallen: the chest button makes it stand up")
+    assert robot.calls == ["wakeUp"]
+    robot.values[BUTTON], robot.stands = 0.0, False
+    reported(driver, "could not stand up: the chest button makes it stand up")
+    assert robot.calls == ["wakeUp", "wakeUp"]
 
 
 @pytest.mark.parametrize("frozen", [False, True])
 def test_images_of_the_camera_are_rgb_and_new(
-    robot: Services, frozen: bool
+    robot: Services, driver: naoqi.NaoqiRobot, frozen: bool
 ) -> None:
     robot.frozen = frozen
-    done = subprocess.run(
-        [sys.executable, "-c", LOOK, robot.url],
-        capture_output=True,
-        text=True,
-        timeout=60.0,
-        check=True,
-    )
-    image, repeated = done.stdout.splitlines()
-    assert image == (
-        "[[[255, 0, 0], [0, 0, 255]]] (0.05, 0.0, 0.5, 0.2, 0.1, 0.0) 1.5"
-    )
-    assert repeated == str(frozen)
-    assert not done.stderr and not robot.watched
+    image = driver.image()
+    assert image is not None and 0.05 <= monotonic() - image.time < 2.0
+    assert image.pixels.tolist() == [[[255, 0, 0], [0, 0, 255]]]
+    assert image.mount == (0.05, 0.0, 0.5, 0.2, 0.1, 0.0)
+    assert (image.focal_x, image.focal_y) == (1.5, 1.5)
+    assert robot.watched == ("stepaside", 0, 0, 11, 15)
+    assert (driver.image() is None) == frozen
+
+
+@pytest.mark.parametrize(
+    ("address", "said"),
+    [
+        ("tcp://", "robot must be naoqi:tcp://HOST:PORT, got 'naoqi:tcp://'"),
+        ("h:70000", "got 'naoqi:h:70000'"),
+        ("h:0", "got 'naoqi:h:0'"),
+        ("a b", "got 'naoqi:a b'"),
+    ],
+)
+def test_an_invalid_address_is_refused(address: str, said: str) -> None:
+    with pytest.raises(ConfigurationError, match=re.escape(said)):
+        naoqi.make_robot(RobotRequest(address))
+
+
+def test_a_robot_that_is_not_there_is_named(
+    driver: naoqi.NaoqiRobot,
+) -> None:
+    made = naoqi.make_robot(RobotRequest("tcp://127.0.0.1:1"))()
+    with pytest.raises(SessionLost, match=r"tcp://127\.0\.0\.1:1"):
+        made.open()

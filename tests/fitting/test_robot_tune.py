@@ -1,5 +1,6 @@
 """Test checks of a stranger, and the search for a better way to walk."""
 
+import re
 import shutil
 from pathlib import Path
 
@@ -7,10 +8,12 @@ import pytest
 from click.testing import CliRunner
 
 import stepaside.fitting.gait_search as tuning
+import stepaside.fitting.robot_verification as verification
 import vendor_humanoid as stranger
 from stepaside.cli.main import main
 from stepaside.fitting.derivation import derive
 from stepaside.fitting.description_writer import (
+    rewrite_description,
     write_description,
 )
 from stepaside.fitting.gait_search import Candidate, search_gait
@@ -25,7 +28,7 @@ from stepaside.robots.description import (
     RobotDescription,
     load_robot,
 )
-from stepaside.studies.study import InlineExecutor
+from stepaside.strategies.body_departure import BodyDeparture
 
 
 @pytest.fixture(scope="module")
@@ -117,19 +120,87 @@ def test_a_search_escapes_from_falls(
     assert len(walks) < 45  # most fall in their first walk
 
 
-def test_the_command_does_not_change_a_steady_robot(
-    own: RobotDescription, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+@pytest.mark.usefixtures("inline_workers")
+@pytest.mark.parametrize("off", [0.1, 0.9])
+def test_a_gait_that_is_steady_or_best_is_not_changed(
+    off: float,
+    own: RobotDescription,
+    tmp_path: Path,
+    monkeypatch: pytest.MonkeyPatch,
 ) -> None:
     folder = shutil.copytree(own.folder, tmp_path / "own")
     before = (folder / FILE).read_bytes()
     monkeypatch.setattr(
-        "stepaside.core.worker_pool.worker_pool",
-        lambda workers: InlineExecutor(),
-    )
-    monkeypatch.setattr(
-        tuning, "walk_trial", lambda _, path, __: walked(path, 0.1)
+        tuning, "walk_trial", lambda _, path, __: walked(path, off)
     )
     result = CliRunner().invoke(main, ["robot", "tune", str(folder)])
     assert result.exit_code == 0, result.output
     assert "description is unchanged" in result.stdout
     assert (folder / FILE).read_bytes() == before
+
+
+@pytest.mark.usefixtures("inline_workers")
+def test_a_better_gait_is_written_with_what_it_was(
+    own: RobotDescription, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Again by the next search, which begins from there."""
+    folder = shutil.copytree(own.folder, tmp_path / "own")
+    stride = float(own.gait["stride"])
+
+    def walk(
+        robot: RobotDescription, path: TrialPath, feedback: bool
+    ) -> WalkTrialResult:
+        off = 0.8 if float(robot.gait["stride"]) > 0.9 * stride else 0.3
+        found = walked(path, off - 0.2 * (robot.lean > 0.05))
+        return found if feedback else found._replace(completed=False)
+
+    monkeypatch.setattr(tuning, "walk_trial", walk)
+    for options in ([], ["--json"]):
+        result = CliRunner().invoke(
+            main, ["robot", "tune", str(folder), *options]
+        )
+        assert result.exit_code == 0, result.output
+        text = (folder / FILE).read_text(encoding="utf-8")
+        assert text.count("# Tuned by") == 1
+        assert f"# tuned, was {stride}" in text
+        rewrite_description(text, load_robot(folder), ["anew"])
+    assert load_robot(folder).control["feedback"] is True
+    assert load_robot(folder).lean > 0.05
+
+
+DEPARTURE = BodyDeparture(0.4, 0.02, 0.03, 0.004)
+
+
+@pytest.mark.usefixtures("inline_workers")
+@pytest.mark.parametrize("options", [[], ["--json"]])
+@pytest.mark.parametrize("kind", ["accurate", "steady", "fed", "falls", "not"])
+def test_a_check_prints_what_it_finds(
+    kind: str,
+    options: list[str],
+    own: RobotDescription,
+    tmp_path: Path,
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    folder = shutil.copytree(own.folder, tmp_path / "own")
+    if kind == "not":
+        text = (folder / FILE).read_text(encoding="utf-8")
+        tall = re.sub(r"com_height = \S+", "com_height = 0.9", text)
+        (folder / FILE).write_text(tall, encoding="utf-8")
+    off = {"accurate": 0.2, "steady": 0.6}.get(kind, 1.3)
+
+    def walk(
+        _: RobotDescription, path: TrialPath, feedback: bool
+    ) -> WalkTrialResult:
+        falls = kind == "falls" and path.backward
+        steady = kind == "fed" and feedback
+        found = walked(path, 0.1 if steady else off, falls=falls)
+        return found._replace(feedback=feedback)
+
+    monkeypatch.setattr(verification, "walk_trial", walk)
+    monkeypatch.setattr(verification, "walk_departure", lambda *_: DEPARTURE)
+    result = CliRunner().invoke(
+        main, ["robot", "check", str(folder), *options]
+    )
+    passes = kind in ("accurate", "steady")
+    assert result.exit_code == (0 if passes else 1), result.output
+    assert ("0.02" in result.output) == (kind != "not")
