@@ -40,7 +40,8 @@ def content_of(figure: Figure) -> Iterator[Any]:
             yield from (columns @ values.mean(axis=0)).ravel().tolist()
         for text in axes.texts:
             yield from (text.get_text(), *map(float, text.get_position()))
-            yield f"{_colour(text.get_color())} {text.get_horizontalalignment()}"
+            beside = text.get_horizontalalignment()
+            yield f"{_colour(text.get_color())} {beside}"
         legend = axes.get_legend()
         if legend is not None:
             yield from (each.get_text() for each in legend.get_texts())
