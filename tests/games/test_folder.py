@@ -106,6 +106,19 @@ def test_a_run_is_read_as_written(tmp_path: Path, run: Run) -> None:
     check_same(load_run(folder_of(tmp_path, run)), run)
 
 
+def test_a_network_keeps_its_name_and_its_weights(tmp_path: Path) -> None:
+    """The measured response of legs is found by the name."""
+    network, weights = tmp_path / "net.onnx", tmp_path / "net.onnx.data"
+    network.touch()
+    weights.touch()
+    run = RUNS["robots"]
+    settings = run.settings.changed(legs={"network": str(network)})
+    folder = folder_of(tmp_path, replace(run, settings=settings))
+    kept = Path(load_run(folder).settings.pursuer.legs.network)
+    assert kept.name == "net.onnx" and kept.is_relative_to(folder)
+    assert kept.with_name("net.onnx.data").is_file()
+
+
 @pytest.mark.parametrize("number", [4, 6, 0, -1, 5.0, "5", True, None, [5]])
 def test_an_unknown_format_is_refused_by_its_number(
     tmp_path: Path, number: Any

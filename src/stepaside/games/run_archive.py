@@ -85,14 +85,17 @@ def _keep_robots(entries: Any, folder: Path) -> None:
         if value in ("", *known_robots()) or not source.exists():
             return value
         if source not in kept:
-            kept[source] = f"{ROBOTS}/{len(kept) + 1}-{source.name}"
+            # A measured response is named like its network.
+            kept[source] = f"{ROBOTS}/{len(kept) + 1}/{source.name}"
             target = folder / kept[source]
-            target.parent.mkdir(exist_ok=True)
+            target.parent.mkdir(parents=True)
             if source.is_dir():
                 copytree(source, target, symlinks=False)
                 _find_model(source, target)
             else:
                 copy(source, target)
+                if (weights := Path(f"{source}.data")).exists():
+                    copy(weights, target.parent)
         return kept[source]
 
     replace_files(entries, keep)
