@@ -77,8 +77,17 @@ def all_rows(result: Mapping[str, Any]) -> str:
     return table(
         ("what", "measured", "unit", "limit"),
         [
-            (what, f"{figures[key]:.3g}", unit, asked)
+            (what, f"{figures[key]:.3g}", unit, _limit(asked, figures[key]))
             for key, (what, unit, asked) in ROWS.items()
             if key in figures
         ],
     )
+
+
+def _limit(asked: str, value: float) -> str:
+    """Return a limit, and whether a value misses it."""
+    if not asked:
+        return ""
+    sign, limit = asked.split()
+    met = value <= float(limit) if sign == "<=" else value >= float(limit)
+    return asked if met else f"{asked}: missed"
