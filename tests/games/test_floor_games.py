@@ -72,7 +72,7 @@ def test_capture_ends_a_game_from_every_door(level: str) -> None:
         entries = {"level": level, "players": players, "capture": capture}
         run = run_game(read_game(entries, "game"))
         assert run.outcome is Outcome.CAPTURED
-        assert run.message.startswith("red captured blue at")
+        assert run.message.startswith("red captured blue by")
         reached = 1.0 - capture
         red = run.tracks["red"].unicycle[-1]
         assert reached <= red[0] < reached + 0.04

@@ -25,7 +25,7 @@ UNUSED_BY_CHECK = (
 )
 TIME_IS_UP = "played long enough"
 INTERRUPTED = "interrupted"
-SILENCE = 3.0  # of the check before its guardian stops the robot, in [s]
+CHECK_SILENCE = 3.0  # of the check before its guardian stops the robot, in [s]
 WALKS = (
     "the robot will turn and walk for about 20 s, at most at half of its "
     "limits: let it hang, or give it room; Ctrl-C stops it"
@@ -239,7 +239,7 @@ def _check_adapter(settings: PlaySettings, *, as_json: bool) -> None:
     if not dry_run:
         echo(f"stepaside: {warning}", err=True)
         if robot.paced:
-            guardian = fork_guardian(make, robot, SILENCE)
+            guardian = fork_guardian(make, robot, CHECK_SILENCE)
     check = RobotCheck(robot, motors, note, dry_run=dry_run, guardian=guardian)
     try:
         check.run()

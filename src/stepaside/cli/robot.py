@@ -163,7 +163,9 @@ def init(
     if failed is not None:
         raise failed
     if not as_json:
-        echo(f"\nwrote {file}; next: stepaside robot check {folder}")
+        asked = any(facts["missing_values"].values())
+        first = "replace the values marked ASK, then " if asked else ""
+        echo(f"\nwrote {file}; next: {first}stepaside robot check {folder}")
 
 
 @click.command("check")

@@ -335,9 +335,11 @@ def _refuse_unused(
             ]
             if values and not any(met):
                 if own not in (path, f"{first}.{path}"):
+                    got = f", got {values[-1]}" if needed else ""
+                    if ".py:" in got:
+                        got += "; a user strategy takes arguments as NAME(...)"
                     raise click.UsageError(
-                        f"{own} requires {path} {needed}".rstrip()
-                        + (f", got {values[-1]}" if needed else "")
+                        f"{own} requires {path} {needed}".rstrip() + got
                     )
 
 

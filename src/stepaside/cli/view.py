@@ -55,16 +55,16 @@ def view(
     from ..report.viewer.live_page import Page
     from ..report.viewer.page_server import address_of
 
-    page: Any = Page(settings, port=port)
-    with closing(page):
-        page.session.running = run
-        page.start()
-        address = address_of(page.server)
-        echo(f"serving at {address}; press Ctrl-C to stop")
-        if opens:
-            webbrowser.open(address)
-        try:
+    try:
+        page: Any = Page(settings, port=port)
+        with closing(page):
+            page.session.running = run
+            page.start()
+            address = address_of(page.server)
+            echo(f"serving at {address}; press Ctrl-C to stop")
+            if opens:
+                webbrowser.open(address)
             while True:
                 sleep(1.0)
-        except KeyboardInterrupt:
-            echo("stepaside: stopped; saved runs remain", err=True)
+    except KeyboardInterrupt:
+        echo("stepaside: stopped; saved runs remain", err=True)

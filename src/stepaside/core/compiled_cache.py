@@ -5,6 +5,7 @@ import sys
 from contextlib import suppress
 from functools import cache
 from hashlib import sha256
+from multiprocessing import parent_process
 from pathlib import Path
 from tempfile import TemporaryFile
 from types import CodeType, FunctionType, ModuleType
@@ -126,4 +127,5 @@ def _keeps() -> bool:
 
 @cache
 def _tell_once(what: str) -> None:
-    print(what, file=sys.stderr, flush=True)
+    if parent_process() is None:  # workers would repeat it
+        print(what, file=sys.stderr, flush=True)

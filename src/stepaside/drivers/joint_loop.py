@@ -25,7 +25,7 @@ from .safety import FrozenMeter, Safety, SafetyState, safety_inputs
 
 SETTLING = 1.0  # of learned legs that were told to stand, in [s]
 PATIENCE = 10.0  # for the first report, or a valid one of a simulator, in [s]
-SILENCE = 0.1  # without a valid report before the session is lost, in [s]
+REPORT_SILENCE = 0.1  # without a valid one until the session is lost, in [s]
 OLDEST = 0.5  # age of a sighting that counts as none, in [s]
 # In which a robot that is not commanded is controlled all the same.
 DRY_STATES = SafetyState.REACHING, SafetyState.READY, SafetyState.WALKING
@@ -238,7 +238,7 @@ class JointLoop:
         if is_first:
             self._motion.share = share  # of who held the robot before
             self._motion.targets = report.joint_positions
-        elif gap > SILENCE and self._robot.paced:
+        elif gap > REPORT_SILENCE and self._robot.paced:
             self._safety.fail(f"no report was read for {gap:.2f} s",
                               self._time)  # fmt: skip
             if report.status is not None:
@@ -319,7 +319,7 @@ class JointLoop:
         """
         pauses = self.report is not None and not self._robot.paced
         patient = self.report is None or pauses
-        limit = PATIENCE if patient else SILENCE
+        limit = PATIENCE if patient else REPORT_SILENCE
         deadline = max(self._heard + limit, self._clock())
         refused, refusal = self.refused, ""
         while True:

@@ -27,7 +27,7 @@ if TYPE_CHECKING:
 SIZES = 8, 4096  # of an image, in [px]
 OLDEST = 0.5  # age of an image that is not used, in [s]
 LEAD = 0.1  # by which its time may be ahead of the reports', in [s]
-SILENCE = 0.5  # without an image before the robot must stand, in [s]
+IMAGE_SILENCE = 0.5  # without an image before the robot must stand, in [s]
 HIGHEST = 4.0  # plausible height of a camera, in [m]
 PATIENCE = 0.1  # of a camera without images, in [s]
 MEMORY = 1.0  # how long poses are stored, to place images in time, in [s]
@@ -94,7 +94,7 @@ class RobotCamera:
         """Reason to stand: no valid image for a while; empty otherwise."""
         since = self._began if self._newest is None else self._newest
         silent = self._methods.clock() - since
-        if self._newest is not None and silent < SILENCE:
+        if self._newest is not None and silent < IMAGE_SILENCE:
             return ""
         if self._fault:
             return f"image(): {self._fault}"

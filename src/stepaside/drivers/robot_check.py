@@ -12,7 +12,7 @@ from ..core.poses import Array
 from ..perception.measurement import RobotState
 from ..strategies.velocity_set import BodyVelocity
 from .guardian_process import Guardian, halting_method
-from .joint_loop import SILENCE as JOINT_SILENCE
+from .joint_loop import REPORT_SILENCE
 from .joint_motion import Motors
 from .method_thread import (
     BLOCKED,
@@ -32,7 +32,7 @@ from .robot_reports import (
 )
 from .robot_session import POLL, PREPARE_TIMEOUT
 from .velocity_loop import PERIOD
-from .watchdog import OLDEST, SILENCE
+from .watchdog import ODOMETRY_SILENCE, OLDEST
 
 CLOCK_RATIOS = (0.9, 1.1)  # the robot's clock over this computer's
 LOW, HIGH = 0.3, 2.0  # measured over commanded motion that is plausible
@@ -194,7 +194,7 @@ class RobotCheck:
             elif command is not None:
                 self._pause(0.5 * self._robot.tick)
         silent = not found and self._motors is not None and self._has_moved
-        if silent and duration > JOINT_SILENCE:
+        if silent and duration > REPORT_SILENCE:
             raise SessionLost(f"{name} returned no new report")
         return found
 
@@ -260,7 +260,7 @@ class RobotCheck:
 
     def _check_walker(self) -> None:
         standing = self._collect(STANDING)
-        if not self._check_reports(standing, SILENCE):
+        if not self._check_reports(standing, ODOMETRY_SILENCE):
             return
         self._check_pose(standing)
         self._check_sighting(standing)
@@ -372,7 +372,7 @@ class RobotCheck:
 
     def _check_joints(self) -> None:
         still = self._collect(STANDING)
-        if not self._check_reports(still, JOINT_SILENCE):
+        if not self._check_reports(still, REPORT_SILENCE):
             return
         tick, rate = self._robot.tick, self.findings[-2].value or 0.0
         text = f"{rate:.0f} reports per second for {1.0 / tick:.0f} ticks"
@@ -398,7 +398,7 @@ class RobotCheck:
             self._check_gyro()
         if not self._dry_run:
             self._call("release")
-        self._check_durations(JOINT_SILENCE)
+        self._check_durations(REPORT_SILENCE)
 
     def _held(
         self, duration: float, targets: Callable[[float], Array]
@@ -553,7 +553,7 @@ class RobotCheck:
         tilts = np.array([report.tilt for report in self._swung])
         gyros = np.array([report.gyro for report in self._swung])[:, :2]
         steps = np.diff(times)
-        known = (steps > 0.0) & (steps < JOINT_SILENCE)
+        known = (steps > 0.0) & (steps < REPORT_SILENCE)
         rates = np.diff(tilts, axis=0)[known] / steps[known, None]
         gyros = 0.5 * (gyros[1:] + gyros[:-1])[known]
         for axis, name in enumerate(("gyro x", "gyro y")):

@@ -30,7 +30,7 @@ from .ros2_dds import (
 )
 
 REPORTS = 0.048  # from one report to the next, in [s]
-SILENCE = 0.5  # without a command before the robot stops, in [s]
+COMMAND_SILENCE = 0.5  # without a command before the robot stops, in [s]
 REPEAT = 400  # polls for an answer in lock step before a report is repeated
 HANDLES = 1 << 64  # CycloneDDS has handles as signed and unsigned numbers
 # Errors of the odometry after a minute of walking, as standard deviations:
@@ -258,7 +258,7 @@ class Ros2Server:
     def act(self) -> None:
         """Command the robot for one tick."""
         self._silent += 1
-        if self._silent * self._tick > SILENCE and not self._lock_step:
+        if self._silent * self._tick > COMMAND_SILENCE and not self._lock_step:
             self._velocity = REST
         self._robot.command(self._velocity)
 

@@ -3,7 +3,7 @@
 from ..perception.measurement import RobotState, Sighting
 from .robot_reports import LEAD, ClockMeter, pose_fault, sighting_fault
 
-SILENCE = 0.25  # longest time without odometry, in [s]
+ODOMETRY_SILENCE = 0.25  # longest time without odometry, in [s]
 OLDEST = 0.5  # greatest age of the newest sighting, in [s]
 STUCK = 1.5  # exactly the same pose while the robot is to move, in [s]
 WARM_UP = 3  # consecutive valid reports before the robot may move
@@ -66,7 +66,7 @@ class Watchdog:
 
     def _note_silence(self, silent: float) -> None:
         self.silent = silent
-        if self._paced and silent > SILENCE:
+        if self._paced and silent > ODOMETRY_SILENCE:
             self._good, self._last = 0, None
             if (newest := self._newest) is not None:
                 self._verdict = f"no {self._source} for {silent:.2f} s"

@@ -238,7 +238,7 @@ class GameInPlay:
             return Ended(world.contact, message, names)
         if rules.capture and caught is not None:
             evader, pursuer = caught
-            message = f"{pursuer} captured {evader} at {now:.2f} s"
+            message = f"{pursuer} captured {evader} by {now:.2f} s"
             return Ended(Outcome.CAPTURED, message, caught)
         if rules.goals and self._all_arrived():
             message = f"all goals reached at {now:.2f} s"
