@@ -28,13 +28,16 @@ from typing import Any
 import numpy as np
 import pytest
 from click.testing import CliRunner, Result
+from numpy.typing import ArrayLike
 
 from stepaside.core.errors import StepAsideError
 
 TESTS = Path(__file__).parent
+BELOW = str(TESTS)
 STORED = TESTS / "data" / "results"
 WHOLE = 16  # numbers that are stored as they are
 PARTS = 12  # of more numbers
+IMAGE = 3000  # numbers of an array of which moments are noted
 LONGEST = 400  # text that is stored as it is
 PLACES = re.compile(r"(?:[\w.~-]*/)+|\btmp\w{8}\b")  # folders of files
 NUMBERS = re.compile(r"-?\d+\.\d+(?:e-?\d+)?")
@@ -105,7 +108,8 @@ def _leaves(value: Any, depth: int = 0) -> Iterator[str | float]:
         yield float(np.real(value))
     elif isinstance(value, np.ndarray):
         if value.dtype.kind in "fiub":
-            yield from np.ravel(value).astype(np.float64).tolist()
+            flat = np.ravel(value).astype(np.float64)
+            yield from _moments(flat) if flat.size > IMAGE else flat.tolist()
     elif isinstance(value, Result):  # of a command
         yield float(value.exit_code)
         yield value.output
@@ -133,7 +137,7 @@ def _parts(value: Any) -> Iterator[tuple[Any, Any]]:
         yield from zip(names, value, strict=True)
 
 
-def _moments(numbers: list[float]) -> list[float]:
+def _moments(numbers: ArrayLike) -> list[float]:
     """Return numbers, or of many their count, range and moments of parts."""
     known = np.nan_to_num(numbers, nan=-9.0, posinf=9e3, neginf=-9e3)
     if known.size > WHOLE:
@@ -154,7 +158,7 @@ def _noting(inner: Callable[..., Any], name: str) -> Callable[..., Any]:
     @wraps(inner)
     def call(*arguments: Any, **named: Any) -> Any:
         caller = sys._getframe(1).f_code.co_filename
-        if not _results or not caller.startswith(str(TESTS)):
+        if not _results or not caller.startswith(BELOW):
             return inner(*arguments, **named)
         results = _results[-1]
         try:
