@@ -3,7 +3,7 @@
 import json
 import re
 import tomllib
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping
 from dataclasses import asdict
 from pathlib import Path
 from textwrap import fill
@@ -11,7 +11,6 @@ from typing import Any
 
 from ..robots.description import RobotDescription
 from ..robots.description_types import NO_OVERLAY
-from ..robots.model_overlay import MESH_SUFFIXES
 from .derivation import DerivedDescription
 from .motor_data import SATURATION_ANGLE, followers_of
 
@@ -64,7 +63,11 @@ def _words(derived: DerivedDescription) -> dict[str, str]:
     load = 100.0 * derived.loads.usual
     return {
         "robot": own.name,
-        "meshes": " ".join(_mesh_remarks(missing)),
+        "meshes": f"Geoms are removed of {len(missing)} mesh files, like "
+        f"{missing[0]}: missing ones (--meshes names folders), others than "
+        "binary .stl, .obj or .msh (convert them)."
+        if missing
+        else "",
         "coupled": ", ".join(sorted(followers_of(analysis.model))) or "none",
         "speeds": f"{ASK} no-load speeds{joints}, in [rad/s]."
         if derived.assumed_speeds
@@ -87,25 +90,6 @@ def _words(derived: DerivedDescription) -> dict[str, str]:
         else "",
         "torques": f"{ASK} torque limits of {torques}." if torques else "",
     }
-
-
-def _mesh_remarks(removed: Sequence[str]) -> Iterator[str]:
-    """Yield what happened to mesh files that were removed, and what to do."""
-    kinds = ", ".join(MESH_SUFFIXES)
-    readable = [f for f in removed if f.lower().endswith(MESH_SUFFIXES)]
-    other = [file for file in removed if file not in readable]
-    if readable:
-        yield (
-            f"Mesh files that are missing or not binary: {len(readable)}, "
-            f"like {readable[0]}. Their geoms are removed; "
-            "--meshes names folders."
-        )
-    if other:
-        yield (
-            f"Mesh files in a format that MuJoCo does not read: {len(other)}, "
-            f"like {other[0]}. Their geoms are removed; convert them to one "
-            f"of {kinds}."
-        )
 
 
 def _servos(own: RobotDescription) -> dict[str, dict[str, float]]:
